@@ -138,11 +138,11 @@ fn refusal(arguments: &[String], kibibytes: u64) -> Option<String> {
     let mut limited = Command::new("/bin/sh");
     limited.args(["-c", &format!("ulimit -v {kibibytes}; exec \"$@\""), "sh", ASPERITY]).args(arguments);
     let output = limited.stdout(Stdio::null()).stderr(Stdio::piped()).output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
     match output.status.code() {
         Some(0) => None,
-        Some(1) => Some(said),
-        _ => panic!("{arguments:?} in {kibibytes} KiB: {:?}\n{said}", output.status),
+        Some(1) => Some(message),
+        _ => panic!("{arguments:?} in {kibibytes} KiB: {:?}\n{message}", output.status),
     }
 }
 
@@ -161,8 +161,8 @@ fn a_scene_that_does_not_fit_is_refused_and_never_an_abort() {
         let mut refused = 0;
         let mut limit = LITTLE;
         // Up to a sufficient limit, in steps too small for an unseen request.
-        while let Some(said) = refusal(&arguments, limit) {
-            assert!(said.contains("not enough memory") && said.lines().count() == 1, "{said}");
+        while let Some(message) = refusal(&arguments, limit) {
+            assert!(message.contains("not enough memory") && message.lines().count() == 1, "{message}");
             refused += 1;
             limit += 20_000;
             if limit > 1_000_000 {

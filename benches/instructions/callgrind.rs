@@ -66,11 +66,11 @@ pub fn profile(arguments: &[&str], environment: &[(&str, &str)]) -> Profile {
         .envs(environment.iter().copied())
         .output()
         .expect("valgrind");
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "valgrind: {said}");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "valgrind: {message}");
     let text = String::from_utf8_lossy(&std::fs::read(file).expect("a profile")).into_owned();
     let profile = Profile::parse(&text);
     let stated = text.lines().find_map(|line| line.strip_prefix("totals: ")?.trim().parse().ok());
-    assert_eq!(Some(profile.total()), stated, "all that was counted is read");
+    assert_eq!(Some(profile.total()), stated, "all counts are read");
     profile
 }

@@ -29,12 +29,15 @@ fn comments(text: &str) -> Vec<&str> {
 #[test]
 fn an_unknown_field_is_pointed_at() {
     assert!(Document::parse(&with_line(""), "scene.ron").is_ok());
-    let said = message(&with_line("ruoghness: None,"));
-    assert!(said.starts_with("scene.ron:3:5: ruoghness: no such field; did you mean roughness?"), "{said}");
-    let said = message(&with_line("numerics: (point: 64),"));
+    let refusal = message(&with_line("ruoghness: None,"));
     assert!(
-        said.starts_with("scene.ron:3:16: numerics.point: no such field; did you mean points?"),
-        "{said}"
+        refusal.starts_with("scene.ron:3:5: ruoghness: no such field; did you mean roughness?"),
+        "{refusal}"
+    );
+    let refusal = message(&with_line("numerics: (point: 64),"));
+    assert!(
+        refusal.starts_with("scene.ron:3:16: numerics.point: no such field; did you mean points?"),
+        "{refusal}"
     );
 }
 
@@ -47,22 +50,22 @@ fn numbers_that_are_none_are_refused() {
             format!("loading: [ToForce({value})],"),
             format!("numerics: (solver: Stepwise(step: {value})),"),
         ] {
-            let said = message(&with_line(&line));
-            assert!(said.contains("scene.ron:3:") && said.contains(": allowed: "), "{line}: {said}");
+            let refusal = message(&with_line(&line));
+            assert!(refusal.contains("scene.ron:3:") && refusal.contains(": allowed: "), "{line}: {refusal}");
         }
     }
 }
 
 #[test]
 fn a_scene_that_asks_for_too_much_is_refused_at_once() {
-    for (line, said) in [
+    for (line, expected) in [
         ("numerics: (points: 268435457),", "numerics.points = 268435457: allowed: a whole number from 1 to"),
         ("numerics: (points: 18446744073709551615),", "numerics.points = 18446744073709551615: allowed"),
         ("numerics: (points: 18446744073709551616),", "numerics.points = 18446744073709551616: allowed"),
         ("numerics: (samples: 1000001),", "numerics.samples = 1000001: allowed: a whole number from 2 to"),
     ] {
         let all = message(&with_line(line));
-        assert!(all.contains(said), "{all}");
+        assert!(all.contains(expected), "{all}");
     }
     let line = format!("loading: [{}],", "ToTouch,".repeat(100_001));
     assert!(

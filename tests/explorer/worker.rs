@@ -347,12 +347,12 @@ fn a_panic_is_told_and_the_next_scene_is_computed() {
             _ => None,
         }));
         let mut generation = 0;
-        for (title, said) in [("\"text\"", "no such spring"), ("\"formatted\"", "no spring 1024")] {
+        for (title, expected) in [("\"text\"", "no such spring"), ("\"formatted\"", "no spring 1024")] {
             generation += 1;
             served.compute(generation, &rough().set("title", title).unwrap());
             let Report::Failed { generation: of, error } = served.answer() else { panic!("not failed") };
             assert_eq!(of, generation);
-            assert!(error.contains("internal error") && error.contains(said), "{error}");
+            assert!(error.contains("internal error") && error.contains(expected), "{error}");
             assert_eq!(error.lines().count(), 1, "{error}");
             generation += 1;
             assert_eq!(served.computed(generation, &rough()).generation, generation);

@@ -43,7 +43,7 @@ fn without_colours_there_is_emphasis_and_no_colour() {
         let coloured: Vec<_> = plain.iter().filter(|one| is_colour(one)).collect();
         assert!(coloured.is_empty(), "{coloured:?}");
         assert!(plain.iter().any(|one| one.contains(&1)), "titles are bold");
-        assert!(plain.iter().any(|one| one.contains(&7)), "what is selected is reversed");
+        assert!(plain.iter().any(|one| one.contains(&7)), "the selected row is reversed");
         // An empty variable counts as unset.
         for (name, value) in [("NO_COLOR", ""), ("COLUMNS", "1")] {
             assert!(shown(name, value).iter().any(|one| is_colour(one)), "{name}={value}");

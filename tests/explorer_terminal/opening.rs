@@ -103,14 +103,14 @@ fn fields_are_overridden_from_the_command_line() {
 #[test]
 fn a_misspelt_scene_is_told_without_taking_the_terminal() {
     within(40, || {
-        for (name, said) in [("jkr-spere", "did you mean jkr-sphere?"), ("none.ron", "none.ron")] {
+        for (name, expected) in [("jkr-spere", "did you mean jkr-sphere?"), ("none.ron", "none.ron")] {
             let home = tempfile::tempdir().unwrap();
             let program = Program::new(ASPERITY).argument(name).env("HOME", home.path().to_str().unwrap());
             let mut terminal = program.start();
             let status = terminal.wait_end();
             assert_eq!(status.exit_code(), 1);
             let screen = terminal.rows().concat();
-            assert!(screen.contains(said), "{screen}");
+            assert!(screen.contains(expected), "{screen}");
             assert!(!terminal.written().contains(&0x1b), "{}", terminal.text());
             assert!(terminal.is_as_before());
         }

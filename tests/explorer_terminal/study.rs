@@ -86,7 +86,7 @@ fn a_folder_without_a_map_says_why() {
         merged(&at("one cell"), &one_cell);
         std::fs::create_dir(at("notes")).unwrap();
         std::fs::create_dir(at("jkr-sphere")).unwrap();
-        for (name, said) in [
+        for (name, expected) in [
             ("begun", "begun: the study has not been merged yet; asperity sweep merge begun does it"),
             (
                 "notes",
@@ -110,7 +110,7 @@ fn a_folder_without_a_map_says_why() {
         ] {
             let message = message(folder.path(), name);
             assert!(
-                message.starts_with(said) || message.ends_with(&format!("{said}\n")),
+                message.starts_with(expected) || message.ends_with(&format!("{expected}\n")),
                 "{name}: {message}"
             );
             assert_eq!(message.lines().count(), 1, "{message}");

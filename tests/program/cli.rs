@@ -160,7 +160,7 @@ fn csv_is_the_curve_of_the_json() {
 #[test]
 fn a_summary_says_what_came_out_and_why() {
     let text = done(&["run", "pressure-sensitive"]);
-    for said in [
+    for expected in [
         "Pressure-sensitive adhesion",
         "16 384",
         "100 µm",
@@ -177,7 +177,7 @@ fn a_summary_says_what_came_out_and_why() {
         "tree nodes",
         "time",
     ] {
-        assert!(text.contains(said), "{said}: {text}");
+        assert!(text.contains(expected), "{expected}: {text}");
     }
     for preset in presets() {
         let text = done(&["run", &preset]);
@@ -223,8 +223,8 @@ fn overrides_reach_the_run() {
 fn errors_of_overrides_state_field_value_and_range() {
     let run = |set: &str| failed(1, &["run", "pressure-sensitive", "--set", set]);
     let message = run("roughness.hurst=1.4");
-    for said in ["roughness.hurst", "1.4", "above 0 and below 1"] {
-        assert!(message.contains(said), "{said}: {message}");
+    for expected in ["roughness.hurst", "1.4", "above 0 and below 1"] {
+        assert!(message.contains(expected), "{expected}: {message}");
     }
     assert!(run("numerics.pionts=64").contains("numerics.points"));
     assert!(run("numerics.points=many").contains("many"));
@@ -606,7 +606,7 @@ fn files_are_not_overwritten_unasked() {
         let arguments = [command, "jkr-sphere", "-o", file];
         assert_eq!(done(&arguments), "");
         let written = fs::read_to_string(&path).unwrap();
-        assert!(rows(&written).next().unwrap().starts_with(header), "the ending .csv says what to write");
+        assert!(rows(&written).next().unwrap().starts_with(header), "the ending .csv selects the table");
         let message = failed(1, &arguments);
         assert!(message.contains(file) && message.contains("--force"), "{message}");
         assert_eq!(fs::read_to_string(&path).unwrap(), written);
@@ -720,8 +720,8 @@ fn wrong_usage_is_exit_code_two() {
 #[test]
 fn a_word_that_is_no_scene_may_be_meant_as_a_command() {
     let message = failed(1, &["rnu"]);
-    for said in ["rnu", "pressure-sensitive", "presets", "asperity --help"] {
-        assert!(message.contains(said), "{said}: {message}");
+    for expected in ["rnu", "pressure-sensitive", "presets", "asperity --help"] {
+        assert!(message.contains(expected), "{expected}: {message}");
     }
 }
 
@@ -771,7 +771,7 @@ fn help_is_for_reading() {
 fn a_demo_into_a_pipe_is_text() {
     within(60, || {
         let text = done(&["demo", "jkr-sphere", "--size", "100x30"]);
-        assert!(!text.contains(['\u{1b}', '\r']), "no terminal is spoken to");
+        assert!(!text.contains(['\u{1b}', '\r']), "no control characters of a terminal");
         let heads: Vec<&str> = text.lines().filter(|line| line.starts_with("== ")).collect();
         assert_eq!(heads.len(), 13, "{heads:?}");
         assert_eq!((heads[0], heads[12]), ("== 0.00 s ==", "== 12.00 s =="));
@@ -959,7 +959,7 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
         then(&words.iter().map(String::as_str).collect::<Vec<_>>());
     };
     let loop_file = path("loop.svg");
-    for (command, file, said) in [
+    for (command, file, expected) in [
         (
             run(&["jkr-sphere"], &["-o", &loop_file]),
             Some(&loop_file),
@@ -978,8 +978,8 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
             let svg = file.map_or(printed, |file| fs::read_to_string(file).unwrap());
             assert!(svg.starts_with("<svg ") && svg.trim_end().ends_with("</svg>"), "{arguments:?}");
             assert!(!svg.contains("NaN") && !svg.contains("inf"), "{arguments:?}");
-            for said in &said {
-                assert!(svg.contains(said), "{arguments:?}: no {said}");
+            for expected in &expected {
+                assert!(svg.contains(expected), "{arguments:?}: no {expected}");
             }
         });
     }
@@ -995,7 +995,7 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
     }
     let before = fs::read_dir(folder.path()).unwrap().count();
     let (picture, other) = (path("a.svg"), path("a.json"));
-    for (command, said) in [
+    for (command, expected) in [
         (
             run(&["jkr-sphere"], &["--format", "json", "-o", &picture]),
             "not an ending of what is written; allowed: .json",
@@ -1020,7 +1020,7 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
     ] {
         with(&command, &|arguments| {
             let message = failed(1, arguments);
-            assert!(message.contains(said), "{arguments:?}: {message}");
+            assert!(message.contains(expected), "{arguments:?}: {message}");
         });
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), before, "nothing is written");
@@ -1041,7 +1041,7 @@ fn every_figure_is_written_as_svg_and_as_png_by_its_extension() {
         (&["cost", "kendall-punch", "--budget", "1s"], &[], "time of a run"),
         (&["surface", &profile, "--unit", "um"], &[], "wave number"),
     ];
-    for (command, more, said) in commands {
+    for (command, more, expected) in commands {
         for ending in ["svg", "png"] {
             let file = path(&format!("{}.{ending}", command[0]));
             // The progress of measurements is on standard error.
@@ -1052,7 +1052,7 @@ fn every_figure_is_written_as_svg_and_as_png_by_its_extension() {
                 assert!(bytes.starts_with(b"\x89PNG") && bytes.ends_with(b"IEND\xaeB`\x82"), "{command:?}");
             } else {
                 let svg = String::from_utf8(bytes).unwrap();
-                assert!(svg.starts_with("<svg ") && svg.contains(said), "{command:?}: {svg}");
+                assert!(svg.starts_with("<svg ") && svg.contains(expected), "{command:?}: {svg}");
             }
         }
     }

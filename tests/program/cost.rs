@@ -188,8 +188,11 @@ fn tolerances_are_kept() {
 
 #[test]
 fn tolerances_out_of_reach_are_refused_with_what_is_in_reach() {
-    let said = failed(1, &["run", "pressure-sensitive", "--tolerance", "1e-13"]);
-    assert!(said.contains("is not reached with at most 2 097 152 springs; what is reached is "), "{said}");
+    let message = failed(1, &["run", "pressure-sensitive", "--tolerance", "1e-13"]);
+    assert!(
+        message.contains("is not reached with at most 2 097 152 springs; what is reached is "),
+        "{message}"
+    );
     let stepwise = ["run", "jkr-sphere", "--set", "numerics.solver=Stepwise(step: 1e-8)"];
     assert!(failed(1, &[&stepwise[..], &["--tolerance", "0.01"]].concat()).contains("Exact"));
     for wrong in ["0", "1", "nan", "much"] {

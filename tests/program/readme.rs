@@ -202,7 +202,7 @@ fn compare(picture: &str, drawn: &str) {
     if updating() {
         std::fs::write(root().join(picture), drawn).unwrap();
     } else {
-        assert!(read(picture) == drawn, "{picture} is not the program's: the README says how to make it");
+        assert!(read(picture) == drawn, "{picture} is not the drawing of the program: see the README");
     }
 }
 

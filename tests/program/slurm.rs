@@ -87,15 +87,15 @@ impl Cluster {
         command.arg(CLUSTER).arg(&home).args(ports).args([munged, slurmctld, slurmd]);
         command.stdin(Stdio::piped()).stdout(Stdio::piped());
         let mut keeper = command.spawn().unwrap();
-        let mut said = BufReader::new(keeper.stdout.take().unwrap());
+        let mut stdout = BufReader::new(keeper.stdout.take().unwrap());
         let mut line = String::new();
-        said.read_line(&mut line).unwrap();
+        stdout.read_line(&mut line).unwrap();
         let cluster = Cluster { keeper, folder };
         if line.trim() == "ready" {
             return Some(cluster);
         }
         let mut rest = String::new();
-        said.read_to_string(&mut rest).unwrap();
+        stdout.read_to_string(&mut rest).unwrap();
         report(&format!("skipped: no cluster can be started here:\n{line}{rest}"));
         None
     }
@@ -121,9 +121,9 @@ impl Cluster {
     fn submit(&self, plan: &Path, folder: &str, options: &[&str]) -> (String, String) {
         let mut submit = self.command(ASPERITY);
         submit.args(["sweep", "submit"]).arg(plan).arg("-o").arg(self.path(folder)).args(options);
-        let said = succeeded(&mut submit);
+        let answer = succeeded(&mut submit);
         let numbers: Vec<_> =
-            said.split(|c: char| !c.is_ascii_digit()).filter(|word| !word.is_empty()).collect();
+            answer.split(|c: char| !c.is_ascii_digit()).filter(|word| !word.is_empty()).collect();
         // job ARRAY: TASKS tasks; job MERGE: …
         (numbers[0].to_owned(), numbers[2].to_owned())
     }
@@ -208,8 +208,8 @@ impl Cluster {
 
 fn succeeded(command: &mut Command) -> String {
     let Output { status, stdout, stderr } = command.output().unwrap();
-    let said = String::from_utf8_lossy(&stderr);
-    assert!(status.success(), "{command:?}: {said}");
+    let message = String::from_utf8_lossy(&stderr);
+    assert!(status.success(), "{command:?}: {message}");
     String::from_utf8(stdout).unwrap()
 }
 
@@ -289,9 +289,9 @@ fn lost_nodes_and_twins_change_no_byte() {
         println!("merged after {:.0} s", started.elapsed().as_secs_f64());
         assert_eq!(cluster.tables("lost"), cluster.tables("serial"));
         // Later records of the lost process are merged as well.
-        let said = succeeded(cluster.command(ASPERITY).args(["sweep", "merge"]).arg(cluster.path("lost")));
-        println!("{said}");
-        assert!(said.contains("records were computed twice, with the same bits"), "{said}");
+        let message = succeeded(cluster.command(ASPERITY).args(["sweep", "merge"]).arg(cluster.path("lost")));
+        println!("{message}");
+        assert!(message.contains("records were computed twice, with the same bits"), "{message}");
         assert_eq!(cluster.tables("lost"), cluster.tables("serial"));
     });
 }
@@ -352,25 +352,25 @@ fn submit_to(folder: &Path, options: &[&str]) -> (Option<i32>, String, String) {
 #[test]
 fn what_slurm_refuses_is_passed_on() {
     let none = stand_ins(&[]);
-    let (code, _, said) = submit_to(none.path(), &["--shards", "4"]);
+    let (code, _, message) = submit_to(none.path(), &["--shards", "4"]);
     assert_eq!(code, Some(1));
-    assert!(said.contains("sbatch: there is no such program here"), "{said}");
-    assert!(said.contains("parallel --joblog shards.log --resume-failed --retries 3"), "{said}");
+    assert!(message.contains("sbatch: there is no such program here"), "{message}");
+    assert!(message.contains("parallel --joblog shards.log --resume-failed --retries 3"), "{message}");
 
     let refusing =
         stand_ins(&[("sbatch", "echo 'sbatch: error: invalid partition specified: x' >&2; exit 1")]);
-    let (code, _, said) = submit_to(refusing.path(), &["--shards", "4", "--", "--partition=x"]);
+    let (code, _, message) = submit_to(refusing.path(), &["--shards", "4", "--", "--partition=x"]);
     assert_eq!(code, Some(1));
-    assert_eq!(said.trim(), "sbatch refuses the array: sbatch: error: invalid partition specified: x");
+    assert_eq!(message.trim(), "sbatch refuses the array: sbatch: error: invalid partition specified: x");
 
     // The array is accepted, the merge is not: then the array is cancelled.
     let sbatch = r#"case "$*" in *--dependency*) echo "no dependencies today" >&2; exit 1 ;; esac; echo 17"#;
     let half = stand_ins(&[("sbatch", sbatch), ("scancel", "echo \"$*\" >cancelled")]);
-    let (code, _, said) = submit_to(half.path(), &["--shards", "4"]);
+    let (code, _, message) = submit_to(half.path(), &["--shards", "4"]);
     assert_eq!(code, Some(1));
     assert!(
-        said.contains("refuses the merge: no dependencies today") && said.contains("17 was cancelled"),
-        "{said}"
+        message.contains("refuses the merge: no dependencies today") && message.contains("17 was cancelled"),
+        "{message}"
     );
     assert_eq!(fs::read_to_string(half.path().join("cancelled")).unwrap().trim(), "17");
 }
@@ -381,12 +381,16 @@ fn arrays_are_no_larger_than_the_cluster_has_them() {
         ("sbatch", "echo \"$*\" >>asked; echo '21;east'"),
         ("scontrol", "echo 'MaxArraySize            = 5'"),
     ]);
-    let (code, _, said) = submit_to(small.path(), &["--shards", "5"]);
+    let (code, _, message) = submit_to(small.path(), &["--shards", "5"]);
     assert_eq!(code, Some(1));
-    assert!(said.contains("arrays of at most 4 tasks") && said.contains("allowed: 1 to 4"), "{said}");
+    assert!(
+        message.contains("arrays of at most 4 tasks") && message.contains("allowed: 1 to 4"),
+        "{message}"
+    );
     assert!(!small.path().join("study").exists());
-    let (code, stdout, said) = submit_to(small.path(), &["--shards", "4", "--at-once", "2", "--", "-p", "x"]);
-    assert_eq!(code, Some(0), "{said}");
+    let (code, stdout, message) =
+        submit_to(small.path(), &["--shards", "4", "--at-once", "2", "--", "-p", "x"]);
+    assert_eq!(code, Some(0), "{message}");
     assert!(stdout.starts_with("job 21: 4 tasks; job 21: the merge after them\n"), "{stdout}");
     let asked = fs::read_to_string(small.path().join("asked")).unwrap();
     let [array, merge] = asked.lines().collect::<Vec<_>>()[..] else { panic!("{asked}") };
@@ -395,11 +399,11 @@ fn arrays_are_no_larger_than_the_cluster_has_them() {
 
     // Without an answer of the cluster, Slurm's own limit holds.
     let silent = stand_ins(&[]);
-    let (code, _, said) = submit_to(silent.path(), &["--shards", "1001", "--dry-run"]);
+    let (code, _, message) = submit_to(silent.path(), &["--shards", "1001", "--dry-run"]);
     assert_eq!(code, Some(1));
-    assert!(said.contains("arrays of at most 1000 tasks"), "{said}");
-    let (_, _, said) = submit_to(silent.path(), &["--shards", "4", "--", "--array=1-9"]);
-    assert!(said.contains("--array=1-9: this is not for sbatch here"), "{said}");
+    assert!(message.contains("arrays of at most 1000 tasks"), "{message}");
+    let (_, _, message) = submit_to(silent.path(), &["--shards", "4", "--", "--array=1-9"]);
+    assert!(message.contains("--array=1-9: this is not for sbatch here"), "{message}");
 }
 
 #[test]
@@ -419,11 +423,11 @@ fn only_known_options_and_no_variables_reach_sbatch() {
         &["--", "x.sh"],
     ] {
         let arguments = [&["--shards", "4", "--"], words].concat();
-        let (code, stdout, said) = submit_to(folder.path(), &arguments);
-        assert_eq!((code, stdout.as_str()), (Some(1), ""), "{words:?}: {said}");
+        let (code, stdout, message) = submit_to(folder.path(), &arguments);
+        assert_eq!((code, stdout.as_str()), (Some(1), ""), "{words:?}: {message}");
         assert!(
-            said.contains("this is not for sbatch here; allowed: --account, --begin,"),
-            "{words:?}: {said}"
+            message.contains("this is not for sbatch here; allowed: --account, --begin,"),
+            "{words:?}: {message}"
         );
     }
     assert!(!folder.path().join("asked").exists() && !folder.path().join("study").exists());
@@ -434,9 +438,9 @@ fn only_known_options_and_no_variables_reach_sbatch() {
         "sweep", "submit", "plan.ron", "-o", "study", "--shards", "4", "--", "-t", "1:00", "--mem=1G",
     ]);
     let output = command.output().unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert!(output.status.success(), "{said}");
-    assert!(said.contains("not passed on to sbatch: SBATCH_ARRAY_INX, SBATCH_QUIET"), "{said}");
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{message}");
+    assert!(message.contains("not passed on to sbatch: SBATCH_ARRAY_INX, SBATCH_QUIET"), "{message}");
     let variables = fs::read_to_string(folder.path().join("variables")).unwrap();
     assert!(variables.contains("SLURM_CONF=kept") && !variables.contains("SBATCH_"), "{variables}");
     let asked = fs::read_to_string(folder.path().join("asked")).unwrap();
@@ -449,28 +453,32 @@ fn an_answer_that_is_no_number_of_a_job_is_an_error() {
     for answer in ["", "Submitted batch job 17", "17;", "+17", "0", "17\\n18", "17 18"] {
         let sbatch = format!("printf '{answer}\\n'");
         let folder = stand_ins(&[("sbatch", &sbatch)]);
-        let (code, stdout, said) = submit_to(folder.path(), &["--shards", "4"]);
-        assert_eq!((code, stdout.as_str()), (Some(1), ""), "{answer:?}: {said}");
+        let (code, stdout, message) = submit_to(folder.path(), &["--shards", "4"]);
+        assert_eq!((code, stdout.as_str()), (Some(1), ""), "{answer:?}: {message}");
         assert!(
-            said.contains("sbatch took the array and did not answer with the number"),
-            "{answer:?}: {said}"
+            message.contains("sbatch took the array and did not answer with the number"),
+            "{answer:?}: {message}"
         );
-        assert!(said.contains("squeue --me lists the array"), "{answer:?}: {said}");
+        assert!(message.contains("squeue --me lists the array"), "{answer:?}: {message}");
     }
     // If the answer for the merge has no number, the array is cancelled.
     let sbatch = r#"case "$*" in *--dependency*) echo what ;; *) echo '17;east' ;; esac"#;
     let folder = stand_ins(&[("sbatch", sbatch), ("scancel", "echo \"$*\" >cancelled")]);
-    let (code, _, said) = submit_to(folder.path(), &["--shards", "4"]);
+    let (code, _, message) = submit_to(folder.path(), &["--shards", "4"]);
     assert_eq!(code, Some(1));
-    assert!(said.contains("no number of a job: what") && said.contains("17 was cancelled"), "{said}");
+    assert!(
+        message.contains("no number of a job: what") && message.contains("17 was cancelled"),
+        "{message}"
+    );
     assert_eq!(fs::read_to_string(folder.path().join("cancelled")).unwrap().trim(), "--clusters=east 17");
 }
 
 #[test]
 fn a_dry_run_tells_and_touches_nothing() {
     let folder = stand_ins(&[("sbatch", "touch submitted; echo 1")]);
-    let (code, stdout, said) = submit_to(folder.path(), &["--shards", "12", "--memory", "2G", "--dry-run"]);
-    assert_eq!((code, said.as_str()), (Some(0), ""));
+    let (code, stdout, message) =
+        submit_to(folder.path(), &["--shards", "12", "--memory", "2G", "--dry-run"]);
+    assert_eq!((code, message.as_str()), (Some(0), ""));
     for expected in [
         "--shard \"$SLURM_ARRAY_TASK_ID/12\"",
         "--memory 2147483648",

@@ -44,7 +44,7 @@ fn a_study_is_drawn_as_map_and_as_section() {
     let error = plot(&[]).unwrap_err();
     assert!(error.starts_with("3 axes are free: roughness.hurst (0.1, "), "{error}");
     assert!(error.trim_end().ends_with("Fix one of them, such as --at preload=0.01"), "{error}");
-    for (arguments, said) in [
+    for (arguments, expected) in [
         (
             vec!["--quantity", "force"],
             "allowed: zero_load_adhesion_share, adhesion_coefficient, adhesion_force",
@@ -60,7 +60,7 @@ fn a_study_is_drawn_as_map_and_as_section() {
         (vec!["--at", "preload"], "allowed: AXIS=VALUE"),
     ] {
         let error = plot(&arguments).unwrap_err();
-        assert!(error.contains(said), "{arguments:?}: {error}");
+        assert!(error.contains(expected), "{arguments:?}: {error}");
     }
 
     let map = plot(&["--at", "preload=0.1", "-o", "-"]).unwrap();

@@ -279,26 +279,26 @@ fn measure(scene: &Arc<Scene>) -> Task {
 }
 
 fn endless() -> (Study, Receiver<Found>, Receiver<&'static str>) {
-    let (says, said) = channel();
+    let (sender, events) = channel();
     let (report, reports) = channel();
-    let endless = StandIn::endless(says, |data, report| {
+    let endless = StandIn::endless(sender, |data, report| {
         let PaneData::Costs(scene, _) = data else { return data };
         report(trying(&scene, "samples: 8"));
         trying(&scene, "too late")
     });
     let study = Study::start(Box::new(endless), move |found| report.send(found).is_ok()).unwrap();
-    (study, reports, said)
+    (study, reports, events)
 }
 
 #[test]
 fn what_is_measured_ends_as_soon_as_something_else_is_asked_for() {
     within(60, || {
-        let (study, reports, said) = endless();
+        let (study, reports, events) = endless();
         let scene = Arc::new(rough().scene().clone());
         let next = || reports.recv_timeout(PATIENCE).expect("a finding");
         for round in 1..=2 {
             study.ask(round, vec![measure(&scene)]);
-            assert_eq!(said.recv_timeout(PATIENCE), Ok("begun"));
+            assert_eq!(events.recv_timeout(PATIENCE), Ok("begun"));
             assert_eq!(next().finding, Finding::Extended(trying(&scene, "samples: 8")));
             // An edit stops it, a tolerance takes its place.
             if round == 1 {
@@ -306,7 +306,7 @@ fn what_is_measured_ends_as_soon_as_something_else_is_asked_for() {
             } else {
                 study.ask(round, vec![Task::Choose(Arc::clone(&scene), 0.1)]);
             }
-            assert_eq!(said.recv_timeout(PATIENCE), Ok("stopped"));
+            assert_eq!(events.recv_timeout(PATIENCE), Ok("stopped"));
         }
         // No message was shown in between.
         let chosen = Finding::Chosen(0.1, Err(ChoiceError::Stepwise));
@@ -320,15 +320,15 @@ fn what_is_measured_ends_as_soon_as_something_else_is_asked_for() {
 #[test]
 fn a_key_held_down_begins_nothing() {
     within(60, || {
-        let (study, reports, said) = endless();
+        let (study, reports, events) = endless();
         let scene = Arc::new(rough().scene().clone());
         for generation in 1..=50 {
             study.ask(generation, vec![measure(&scene)]);
         }
-        assert_eq!(said.recv_timeout(PATIENCE), Ok("begun"));
+        assert_eq!(events.recv_timeout(PATIENCE), Ok("begun"));
         assert_eq!(reports.recv_timeout(PATIENCE).map(|found| found.generation), Ok(50));
-        assert!(said.try_recv().is_err(), "of fifty only the last was begun");
+        assert!(events.try_recv().is_err(), "of fifty only the last was begun");
         study.stop();
-        assert_eq!(said.recv_timeout(PATIENCE), Ok("stopped"));
+        assert_eq!(events.recv_timeout(PATIENCE), Ok("stopped"));
     });
 }

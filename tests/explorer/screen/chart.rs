@@ -155,15 +155,15 @@ fn the_map_says_without_colours_what_it_says_with_them() {
         assert!(driver.text().is_ascii() && driver.text().contains("##"), "{}", driver.text());
         driver.model.appearance.marker = Marker::Braille;
         // Each quantity has a legend of its own, with the scale of the shades, and the regimes as letters.
-        for (quantity, said) in [
+        for (quantity, expected) in [
             (Quantity::ZeroLoadAdhesionShare, "F_a(0)/F_a,max "),
             (Quantity::AdhesionCoefficient, "F_a/F_n "),
         ] {
             driver.press("V");
             assert_eq!(driver.model.chart.quantity, Charted::Quantity(quantity));
-            for said in [said, "···", "███", "i pressure-insensitive", "▁▕ F_a(0) = 0.05 F_a,max"]
+            for expected in [expected, "···", "███", "i pressure-insensitive", "▁▕ F_a(0) = 0.05 F_a,max"]
             {
-                assert!(driver.text().contains(said), "{said}\n{}", driver.text());
+                assert!(driver.text().contains(expected), "{expected}\n{}", driver.text());
             }
         }
         driver.press("V");
@@ -226,18 +226,21 @@ fn the_map_is_exported_as_it_is_seen() {
             )
         );
         let (figure, _) = export("", "map.svg");
-        for said in ["Hurst exponent", "pressure-sensitive", "adhesion coefficient"] {
-            assert!(figure.starts_with("<svg") && figure.contains(said), "{said}");
+        for expected in ["Hurst exponent", "pressure-sensitive", "adhesion coefficient"] {
+            assert!(figure.starts_with("<svg") && figure.contains(expected), "{expected}");
         }
-        let (_, said) = export("", "map.png");
-        assert!(said.starts_with("exported to"), "{said}");
+        let (_, message) = export("", "map.png");
+        assert!(message.starts_with("exported to"), "{message}");
         assert!(std::fs::read(folder.path().join("map.png")).unwrap().starts_with(b"\x89PNG\r\n\x1a\n"));
         let (figure, _) = export("X", "sections.svg");
         assert!(figure.starts_with("<svg") && figure.contains("at κ 8"), "{figure}");
         let (cells, _) = export("", "sections.csv");
         assert_eq!(cells.lines().count(), 1 + COLUMNS + HURSTS - 1);
-        let (nothing, said) = export("", "map.json");
-        assert!(nothing.is_empty() && said.contains("the name must end in .csv, .svg, .png, .txt"), "{said}");
+        let (nothing, message) = export("", "map.json");
+        assert!(
+            nothing.is_empty() && message.contains("the name must end in .csv, .svg, .png, .txt"),
+            "{message}"
+        );
         // The curve, with another pane selected.
         driver.press("Tab Tab E");
         assert!(driver.status().contains("Export to"), "{}", driver.status());
@@ -397,15 +400,15 @@ const PATIENCE: Duration = Duration::from_secs(20);
 #[test]
 fn an_edit_ends_the_computing_of_the_map() {
     within(60, || {
-        let (says, said) = channel();
+        let (sender, events) = channel();
         let (report, reports) = channel();
-        let endless = StandIn::endless(says, |data, report| fill(&[Level::Coarse], data, report));
+        let endless = StandIn::endless(sender, |data, report| fill(&[Level::Coarse], data, report));
         let study = Study::start(Box::new(endless), move |found| report.send(found).is_ok()).unwrap();
         let map = Arc::new(LiveMap::new(Arc::new(Template::of(rough().scene()).unwrap())));
         study.ask(1, vec![Task::Extend { data: PaneData::Map(map), waits: false }]);
-        assert_eq!(said.recv_timeout(PATIENCE), Ok("begun"));
+        assert_eq!(events.recv_timeout(PATIENCE), Ok("begun"));
         study.stop();
-        assert_eq!(said.recv_timeout(PATIENCE), Ok("stopped"));
+        assert_eq!(events.recv_timeout(PATIENCE), Ok("stopped"));
         drop(study);
         let found: Vec<Found> = reports.iter().collect();
         assert_eq!(found.len(), 5, "a finding for each row, and none after the stop");

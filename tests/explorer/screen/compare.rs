@@ -45,8 +45,8 @@ fn ghosts_have_letters_and_say_where_they_differ() {
         driver.press("j");
         driver.enter("10 µN");
         let text = driver.text();
-        for said in ["· H 0.7, κ 8", "· κ 8, leg 1"] {
-            assert!(text.contains(said), "{said}\n{text}");
+        for expected in ["· H 0.7, κ 8", "· κ 8, leg 1"] {
+            assert!(text.contains(expected), "{expected}\n{text}");
         }
         driver.select("loading");
         driver.enter("[ToForce(1.0e-5), ToIndentation(0.0)]");
@@ -167,8 +167,8 @@ fn two_scenes_are_shown_side_by_side() {
             let mut driver = pressed("&");
             driver.resize(size);
             assert_eq!(driver.model.ghosts.len(), 1, "the present scene is the one to compare with");
-            let said = lower_pane(&driver).join("\n");
-            assert!(said.contains("A → this scene: the same scene") && said.contains("ratio 1 "), "{said}");
+            let text = lower_pane(&driver).join("\n");
+            assert!(text.contains("A → this scene: the same scene") && text.contains("ratio 1 "), "{text}");
             driver.press("L");
             let now = driver.model.snapshot.clone().unwrap();
             let before = now.beside.clone().unwrap();
@@ -274,8 +274,8 @@ fn ghosts_have_their_force_and_its_difference_in_colours_of_their_own() {
         assert!(kept[0] < kept[1] && kept[1] < present);
         let three = |value: f64| format_quantity(format!("{value:.2e}").parse().unwrap(), "N");
         for (letter, force) in ["A", "B"].into_iter().zip(kept) {
-            let said = format!("{letter} F_a {} ({}) ·", three(force), three(force - present));
-            assert!(driver.text().contains(&said), "{said}\n{}", driver.text());
+            let expected = format!("{letter} F_a {} ({}) ·", three(force), three(force - present));
+            assert!(driver.text().contains(&expected), "{expected}\n{}", driver.text());
         }
         let screen = driver.screen();
         let colour = |letter: &str| {

@@ -133,15 +133,15 @@ fn on_the_profile_the_crosshair_reads_position_height_and_state() {
                 assert!(near(column.line.0.min(before.line.0), column.line.1.max(before.line.1)));
                 let x = (shown.line.first + spring) as f64 + 0.5;
                 let text = edge(&driver, Pane::Profile);
-                for said in [read(x * shown.line.spacing, 3, "m"), read(height, 3, "m")] {
-                    assert!(text.contains(&said), "{said}\n{text}");
+                for expected in [read(x * shown.line.spacing, 3, "m"), read(height, 3, "m")] {
+                    assert!(text.contains(&expected), "{expected}\n{text}");
                 }
-                let said = match patch {
+                let expected = match patch {
                     None => format!("gap {}", read(level - height, 3, "m")),
                     Some(_) if level > height => format!("stretched {}", read(level - height, 3, "m")),
                     Some(_) => format!("compressed {}", read(height - level, 3, "m")),
                 };
-                assert!(text.contains(&said), "{said}\n{text}");
+                assert!(text.contains(&expected), "{expected}\n{text}");
                 if patch.is_none() {
                     assert!(level >= height, "a free spring does not lie under the body");
                 }

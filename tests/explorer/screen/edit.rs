@@ -159,8 +159,8 @@ fn a_smooth_scene_has_no_line_to_draw_anew() {
         // No other field is marked for that error.
         assert_eq!(driver.model.refused, None);
         let status = Layout::of(&driver.model).status;
-        let said = driver.rows()[usize::from(status.y)].clone();
-        assert!(said.contains("no random line"), "{said}");
+        let row = driver.rows()[usize::from(status.y)].clone();
+        assert!(row.contains("no random line"), "{row}");
     });
 }
 

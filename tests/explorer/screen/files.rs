@@ -55,10 +55,10 @@ fn the_ending_of_a_name_tells_what_is_exported() {
             let mut driver = pressed("");
             assert!(export(&mut driver, Path::new(name)).is_empty(), "{name}");
             assert!(driver.files.is_empty());
-            let said = format!(
+            let expected = format!(
                 "{name}: the name must end in .csv, .npy, .json, .svg, .png, .txt, to export the curve"
             );
-            assert!(driver.status().contains(&said), "{}", driver.status());
+            assert!(driver.status().contains(&expected), "{}", driver.status());
         }
         // The proposed name is that of the scene.
         let mut driver = pressed("");
@@ -180,8 +180,9 @@ fn the_picture_is_sound_and_shows_the_panes_without_the_prompt() {
             let (names, text) = elements(&written);
             assert_eq!(names[0], "svg");
             assert!(names.len() > 20, "{names:?}");
-            for said in ["Asperity: rough-line", "Force F(d)", "Profile z(x)", "Parameters", "Fragments"] {
-                assert!(text.contains(said), "{marker:?}: {said}");
+            for expected in ["Asperity: rough-line", "Force F(d)", "Profile z(x)", "Parameters", "Fragments"]
+            {
+                assert!(text.contains(expected), "{marker:?}: {expected}");
             }
             assert!(!text.contains("Export to") && !text.contains("cancel"), "{marker:?}");
             driver.press("j k");

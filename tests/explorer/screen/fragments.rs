@@ -29,8 +29,8 @@ fn the_close_up_goes_round_all_fragments() {
                 for _ in 0..count {
                     driver.press(key);
                     seen.push(number(&driver));
-                    let said = format!("fragment {} of {count}", number(&driver) + 1);
-                    assert!(driver.text().contains(&said), "{said}: {}", driver.text());
+                    let expected = format!("fragment {} of {count}", number(&driver) + 1);
+                    assert!(driver.text().contains(&expected), "{expected}: {}", driver.text());
                 }
                 assert_eq!(number(&driver), start, "{key}: {seen:?}");
                 seen.sort_unstable();

@@ -82,8 +82,8 @@ fn the_selected_scene_is_seen_before_it_is_opened() {
         assert_eq!(preview.text, smooth().text());
         let force = preview.outcome.as_ref().unwrap().figures.adhesion_force.unwrap();
         let text = driver.text();
-        for said in [format!("F_a {}", format_quantity(force, "N")), "smooth-sphere".to_owned()] {
-            assert!(text.contains(&said), "{said}\n{text}");
+        for expected in [format!("F_a {}", format_quantity(force, "N")), "smooth-sphere".to_owned()] {
+            assert!(text.contains(&expected), "{expected}\n{text}");
         }
         assert_eq!(driver.model.document.scene(), rough().scene(), "looking is not opening");
         // The opened scene has the previewed curve.

@@ -185,8 +185,8 @@ fn the_curve_has_three_views_in_two_units() {
         ];
         for (title, x, y) in views.chunks(2).flatten() {
             let text = curve(&mut driver);
-            for said in [title, x.0.as_str(), y.0.as_str()] {
-                assert!(text.contains(said), "{said}\n{text}");
+            for expected in [title, x.0.as_str(), y.0.as_str()] {
+                assert!(text.contains(expected), "{expected}\n{text}");
             }
             // The highest tick is in the upper half of the axis.
             let number = text.lines().find_map(|row| row.split_once(" ┤")?.0.split_whitespace().last());
@@ -301,11 +301,11 @@ fn marked_forces_are_told_with_their_values() {
         let mut driver = mid_retraction(smooth());
         let text = curve(&mut driver);
         let legs = driver.model.legs();
-        for said in [
+        for expected in [
             format!("▲ preload {}", labelled(legs[0].largest.force)),
             format!("▼ pull-off {}", labelled(legs[1].smallest.force)),
         ] {
-            assert!(text.contains(&said), "{said}\n{text}");
+            assert!(text.contains(&expected), "{expected}\n{text}");
         }
         // The glyphs are on the curve as well.
         for glyph in ['▲', '▼'] {

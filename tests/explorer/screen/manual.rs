@@ -160,10 +160,10 @@ fn a_force_out_of_reach_is_told_and_nothing_is_lost() {
         let before = point(&driver);
         for (typed, unit) in [("-1", "N"), ("-1e6 µN", "µN"), ("-3 mN", "mN")] {
             go(&mut driver, typed);
-            let said = format!("the contact detaches before {typed}; smallest force within reach: -");
+            let expected = format!("the contact detaches before {typed}; smallest force within reach: -");
             let status = driver.status();
-            assert!(status.contains(&said) && status.ends_with(&format!(" {unit}")), "{typed}: {status}");
-            assert_eq!(point(&driver), before, "what is refused moves nothing");
+            assert!(status.contains(&expected) && status.ends_with(&format!(" {unit}")), "{typed}: {status}");
+            assert_eq!(point(&driver), before, "a refused force moves nothing");
         }
         // The named force can be reached, and one smaller in its last digit cannot.
         let status = driver.status();

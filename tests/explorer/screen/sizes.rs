@@ -246,10 +246,10 @@ fn another_way_to_give_the_adhesion_and_another_roughness_can_be_computed() {
                 let before = driver.model.document.scene().roughness.clone();
                 driver.press("Right");
                 let is_changed = driver.model.document.scene().roughness != before;
-                let said = driver.status();
+                let status = driver.status();
                 assert!(
-                    is_up_to_date(&driver.model) && (is_changed || said.starts_with('!')),
-                    "{size:?} {said}"
+                    is_up_to_date(&driver.model) && (is_changed || status.starts_with('!')),
+                    "{size:?} {status}"
                 );
             }
         }
@@ -510,7 +510,7 @@ fn a_digit_on_a_choice_says_how_choices_are_changed() {
                 switches.map(|one| (one.path.clone(), format!("{} is a switch: t changes it", one.name())))
             };
             let (switch, says_of_switch) = switch(&pressed("")).unwrap();
-            for (path, says) in [
+            for (path, expected) in [
                 ("adhesion", "adhesion is a choice: ← → change it"),
                 ("numerics.edges", "edges is a choice: ← → change it"),
                 ("material", "material is no number: Enter types it"),
@@ -527,7 +527,7 @@ fn a_digit_on_a_choice_says_how_choices_are_changed() {
                 driver.press("2");
                 let status = driver.status();
                 let start = status.strip_suffix('…').unwrap_or(&status);
-                assert!(says.starts_with(start) && start.len() > 8, "{size:?} {path}: {status}");
+                assert!(expected.starts_with(start) && start.len() > 8, "{size:?} {path}: {status}");
                 assert_eq!(
                     (driver.model.mode == Mode::Explore, driver.model.document.text()),
                     (true, &*before)

@@ -32,17 +32,17 @@ impl StandIn {
     /// Extends data until stopped, and reports too late; sends a message when it begins to wait and when it has
     /// stopped.
     pub fn endless(
-        says: Sender<&'static str>,
+        sender: Sender<&'static str>,
         mut extend: impl FnMut(PaneData, Reported<'_>) -> PaneData + Send + 'static,
     ) -> Self {
         StandIn::new(move |data, stop, report| {
             let data = extend(data, report);
-            says.send("begun").unwrap();
+            sender.send("begun").unwrap();
             while !stop() {
                 std::thread::yield_now();
             }
             report(data.clone());
-            says.send("stopped").unwrap();
+            sender.send("stopped").unwrap();
             Ok(data)
         })
     }

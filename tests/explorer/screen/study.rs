@@ -314,7 +314,7 @@ fn a_study_is_opened_by_its_path() {
         std::fs::create_dir(folder.path().join("another")).unwrap();
         let mut driver = pressed("");
         let before = driver.model.document.clone();
-        for (name, said) in [
+        for (name, expected) in [
             ("begun", "has not been merged yet; asperity sweep merge"),
             ("another", "this folder is not that of a study"),
             ("nowhere", "nowhere"),
@@ -327,7 +327,7 @@ fn a_study_is_opened_by_its_path() {
             let Some(asperity::explorer::model::Notice::Error(error)) = &driver.model.notice else {
                 panic!()
             };
-            assert!(error.contains(said), "{error}");
+            assert!(error.contains(expected), "{error}");
             assert!(driver.model.chart.study.is_none());
         }
         driver.press("o");

@@ -139,18 +139,18 @@ fn the_smallest_window_says_what_is_true() {
         driver.resize((20, 5));
         let outcome = driver.model.computed.clone().unwrap().outcome.clone();
         let force = format_quantity(outcome.figures.adhesion_force.unwrap(), "N");
-        let said = |driver: &Driver, text: &str| {
+        let assert_shows = |driver: &Driver, text: &str| {
             assert!(driver.text().contains(text), "{text}\n{}", driver.text());
         };
         assert_eq!(driver.status(), format!("F_a {force}"), "and no number that is cut");
-        said(&driver, "◆");
+        assert_shows(&driver, "◆");
         driver.press("Tab");
-        said(&driver, "⣿");
+        assert_shows(&driver, "⣿");
         driver.press("Tab");
-        said(&driver, "›");
+        assert_shows(&driver, "›");
         driver.press("Tab");
         let facts = driver.model.snapshot.as_ref().unwrap().close_up.fragment.unwrap();
-        said(&driver, &format!("fragment {}", facts.number + 1));
+        assert_shows(&driver, &format!("fragment {}", facts.number + 1));
     });
 }
 

@@ -62,9 +62,9 @@ fn two_thousand_shards_are_merged_with_few_open_files() {
     });
     fs::write(folder.path().join("shards/zz.shard"), all).unwrap();
     let output = limited(24, &["sweep", "merge", path]).output().unwrap();
-    let said = String::from_utf8_lossy(&output.stdout);
+    let message = String::from_utf8_lossy(&output.stdout);
     let repeats = format!("{} records were computed twice", plan.records_in_all());
-    assert!(said.contains(&repeats), "{said}{}", String::from_utf8_lossy(&output.stderr));
+    assert!(message.contains(&repeats), "{message}{}", String::from_utf8_lossy(&output.stderr));
     assert_eq!(tables(&folder), whole);
 }
 
@@ -188,6 +188,6 @@ fn tables_that_are_no_links_become_links() {
     // An obstacle in place of a table is not removed.
     fs::remove_file(copy.path().join(RESULTS)).unwrap();
     fs::create_dir(copy.path().join(RESULTS)).unwrap();
-    let said = merge(&copy, false).unwrap_err().to_string();
-    assert!(said.contains("results.csv is in the way"), "{said}");
+    let message = merge(&copy, false).unwrap_err().to_string();
+    assert!(message.contains("results.csv is in the way"), "{message}");
 }

@@ -74,9 +74,9 @@ fn a_file_that_has_changed_is_refused() {
     fs::write(&line, profile(2e-7)).unwrap();
     let found = hash_of(&line);
     let check = |error: StudyError| {
-        let said = error.to_string();
+        let message = error.to_string();
         for part in [line.to_str().unwrap(), &expected, &found, "has changed", "study/plan.ron"] {
-            assert!(said.contains(part), "{part}: {said}");
+            assert!(message.contains(part), "{part}: {message}");
         }
     };
     check(begin(place.path(), &plan).unwrap_err());
@@ -127,8 +127,11 @@ fn shards_of_another_content_are_refused() {
     compute(&other, 1, Shard { number: 2, count: 2 });
     let stray = &shard_files(&other)[0];
     fs::copy(stray, folder.path().join("shards").join(stray.file_name().unwrap())).unwrap();
-    let said = merge(&folder, true).unwrap_err().to_string();
-    assert!(said.contains("computed from another measured file") && said.contains("the plan has"), "{said}");
+    let message = merge(&folder, true).unwrap_err().to_string();
+    assert!(
+        message.contains("computed from another measured file") && message.contains("the plan has"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -141,14 +144,14 @@ fn a_study_that_does_not_say_its_content_is_not_gone_on_with() {
         text.lines().filter(|line| !line.contains("sha256")).map(|line| format!("{line}\n")).collect();
     assert_ne!(old, text);
     fs::write(&file, old).unwrap();
-    let said = begin(place.path(), &plan).unwrap_err().to_string();
-    assert!(said.contains("does not say which content of") && said.contains("line.csv"), "{said}");
+    let message = begin(place.path(), &plan).unwrap_err().to_string();
+    assert!(message.contains("does not say which content of") && message.contains("line.csv"), "{message}");
     // An invalid hash, or a hash without a file, is refused as well.
     let wrong = PLAN.replace("record:", "measured_sha256: \"abc\", record:");
-    let said = Plan::parse(&wrong, "p.ron", &Changes::default()).unwrap_err().to_string();
-    assert!(said.contains("measured_sha256 = \"abc\": allowed: 64 digits"), "{said}");
+    let message = Plan::parse(&wrong, "p.ron", &Changes::default()).unwrap_err().to_string();
+    assert!(message.contains("measured_sha256 = \"abc\": allowed: 64 digits"), "{message}");
     let smooth =
         super::SMALL.replace("lines: 3", &format!("lines: 3, measured_sha256: \"{}\"", "0".repeat(64)));
-    let said = Plan::parse(&smooth, "p.ron", &Changes::default()).unwrap_err().to_string();
-    assert!(said.contains("this scene has no such file"), "{said}");
+    let message = Plan::parse(&smooth, "p.ron", &Changes::default()).unwrap_err().to_string();
+    assert!(message.contains("this scene has no such file"), "{message}");
 }
