@@ -158,7 +158,7 @@ mod measure {
         select(terminal, case.row);
         let (mut echo, mut done) = (Vec::new(), Vec::new());
         for run in 0..runs {
-            // N returns at once: far from it the line is another.
+            // N is set back at once: far from it the line is another.
             let leaves = if case.row == "points" { run % 2 == 0 } else { run < runs / 2 };
             let key = case.keys[usize::from(!leaves)];
             let before = terminal.rows();

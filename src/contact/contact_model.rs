@@ -30,13 +30,13 @@ pub trait ContactModel {
     /// contact, m.
     ///
     /// # Errors
-    /// [`ContactError::OutOfMemory`]; the contact is then as it was.
+    /// [`ContactError::OutOfMemory`]; the contact is then unchanged.
     fn load(&mut self, from: Option<f64>, work: &mut Work) -> Result<f64, ContactError>;
 
     /// Begins an unloading leg from this indentation and returns the smallest one with contact, m.
     ///
     /// # Errors
-    /// [`ContactError::OutOfMemory`]; the contact is then as it was.
+    /// [`ContactError::OutOfMemory`]; the contact is then unchanged.
     fn unload(&mut self, from: f64, work: &mut Work) -> Result<f64, ContactError>;
 
     /// Begins the unloadings from these turning points of the present leg, which is a loading from separation, m, in

@@ -35,8 +35,8 @@ pub struct LegRecord {
     pub leg: Leg,
     /// Direction of the motion.
     pub direction: Direction,
-    /// The curve along the leg: its samples, and the point of the smallest force of an unloading leg.
-    /// At a jump into or out of contact it has the points before and after.
+    /// The curve along the leg: its samples, and the point of the smallest force of an unloading leg. A jump into or
+    /// out of contact has the points before and after.
     pub curve: Vec<CurvePoint>,
     /// Largest force on the leg, exact to rounding (loading legs).
     pub largest: CurvePoint,

@@ -136,8 +136,8 @@ impl<'a> Nonadhesive<'a> {
 
     /// Calls `see` with each spring: its contribution to the contact, its gap and that of the spring before it.
     ///
-    /// A spring adds a fragment, less one for each neighbour that touches earlier; among equals the left one counts
-    /// as the later. Between springs it adds the cells to these neighbours.
+    /// A spring adds a fragment, less one for each neighbour that touches earlier; among equals the left one counts as
+    /// the later. With edges between springs it adds the cells to these neighbours.
     #[inline]
     fn each_spring(&self, mut see: impl FnMut(ContactTotals, f64, f64)) {
         let sub_cell = self.edges == Edges::SubCell;

@@ -330,7 +330,7 @@ impl Target {
     }
 }
 
-/// A curve that halves its density whenever it reaches twice the wanted length.
+/// A curve whose density is halved at twice the wanted length.
 struct Thinned {
     wanted: usize,
     stride: u64,

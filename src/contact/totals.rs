@@ -105,8 +105,7 @@ impl ContactTotals {
         difference + (error + (product_error - low))
     }
 
-    /// Indentation at which these springs carry the compression Σ (d − c_i) = `compression`, m;
-    /// `None` when nothing is in contact.
+    /// Indentation at which these springs carry the compression Σ (d − c_i) = `compression`, m; `None` without contact.
     #[must_use]
     pub fn indentation(&self, compression: f64, scale: &GapScale) -> Option<f64> {
         if self.springs == 0 {

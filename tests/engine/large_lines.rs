@@ -47,7 +47,7 @@ fn a_ramp_is_a_wedge_that_peels_from_one_side() {
     let (slope, work, deepest) = (1.0, 0.01, 0.5);
     let indentation = |a: f64| slope * a - (PI * a * work).sqrt();
     let force = |a: f64| indentation(a) * a - 0.5 * slope * a * a;
-    // dd/da = 0 where it detaches; dF/da = 0 where the force is smallest.
+    // dd/da = 0 at detachment; dF/da = 0 at the smallest force.
     let last = PI * work / (4.0 * slope * slope);
     let smallest = 9.0 * PI * work / (4.0 * slope * slope);
     let rising: Vec<f64> = (0..SPRINGS).map(|i| slope * i as f64 / SPRINGS as f64).collect();

@@ -64,7 +64,7 @@ impl Span {
         Span { gap: ends.max(bottom), first, last }
     }
 
-    /// Springs in it.
+    /// Number of springs.
     #[inline]
     pub fn springs(&self) -> usize {
         self.last + 1 - self.first

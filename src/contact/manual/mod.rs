@@ -27,7 +27,7 @@ use thiserror::Error;
 
 /// A body under manual loading, with either edge model.
 ///
-/// An error leaves the body where it was.
+/// An error leaves the body in place.
 pub trait ManualLoading {
     /// Presses or pulls to this indentation, m.
     ///

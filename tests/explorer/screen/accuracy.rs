@@ -300,7 +300,7 @@ fn what_is_measured_ends_as_soon_as_something_else_is_asked_for() {
             study.ask(round, vec![measure(&scene)]);
             assert_eq!(events.recv_timeout(PATIENCE), Ok("begun"));
             assert_eq!(next().finding, Finding::Extended(trying(&scene, "samples: 8")));
-            // An edit stops it, a tolerance takes its place.
+            // An edit stops the measurement, a tolerance takes its place.
             if round == 1 {
                 study.stop();
             } else {

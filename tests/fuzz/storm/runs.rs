@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 /// Number of scenes computed.
 const RUNS: u32 = 375;
 
-/// Longest run of a scene with this few springs.
+/// Longest time of a scene with this few springs.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Rounding of a sum over the springs, relative to the size of its terms.
