@@ -1,9 +1,9 @@
 //! Number of instructions that the program takes for a scene beyond those of a kernel written by hand for it, counted
 //! by callgrind.
 //!
-//! `cargo bench --bench instructions` prints the table and fails where the program takes more than 2 % more, or
-//! where a scene executes what it does not call for. It needs valgrind and says so where there is none. Without
-//! `--bench`, as `cargo test --benches` starts it, it only shows that program and kernels agree.
+//! `cargo bench --bench instructions` prints the table and fails where the program takes more than 2 % more, or where a
+//! scene executes code of other effects. It needs valgrind and reports its absence. Without `--bench`, as started by
+//! `cargo test --benches`, it only checks that program and kernels agree.
 
 #[path = "instructions/mod.rs"]
 mod instructions;

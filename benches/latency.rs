@@ -1,9 +1,9 @@
-//! How long the explorer takes from a key to the frame that shows what it did, at 2^20 springs, and what
-//! its animation writes. The program itself is measured, in a pseudo-terminal of 120 x 40.
+//! Time of the explorer from a key to the frame with its effect, at 2^20 springs, and bytes written by its animation.
+//! The program itself is measured, in a pseudo-terminal of 120 x 40.
 //!
-//! `cargo bench --bench latency` prints the tables; `-- --quick` repeats each key less often and plays no
-//! loop to its end, `-- --runs 100` repeats each key so often. Without `--bench`, as `cargo test --benches`
-//! starts it, it only shows that it runs, on a small scene.
+//! `cargo bench --bench latency` prints the tables; `-- --quick` repeats each key less often and plays no loop to its
+//! end, `-- --runs 100` sets the number of repetitions. Without `--bench`, as started by `cargo test --benches`, it
+//! only checks that it runs, on a small scene.
 
 #[cfg(unix)]
 #[path = "../tests/common/terminal.rs"]
@@ -28,24 +28,24 @@ mod measure {
     const SPRINGS: &str = "million-springs";
     const SMALL: &str = "pressure-sensitive";
 
-    /// Longest times, in milliseconds: a key is seen to be taken; a change that leaves the line; one that
-    /// makes it anew.
+    /// Longest times, in milliseconds: a visible reaction to a key; a change that keeps the line; one that makes it
+    /// anew.
     const ECHO: f64 = 16.0;
     const EDIT: f64 = 50.0;
     const NEW_LINE: f64 = 150.0;
 
-    /// Time in which nothing comes before the next key: the one before is done with.
+    /// Pause without output after which the next key is sent.
     const QUIET: Duration = Duration::from_millis(120);
 
-    /// A work of adhesion, J/m², that is typed: from the third digit on each character gives another curve.
+    /// A typed work of adhesion, J/m²: from the third digit on each character gives another curve.
     const VALUE: &str = "0.0123456";
 
-    /// What is typed where, and what it may take.
+    /// A measured edit and its longest time.
     struct Case {
         what: &'static str,
-        /// The row of the list it is done in.
+        /// Its row in the list.
         row: &'static str,
-        /// Keys that change it, in turn: the scene walks there and back and seldom meets one it has seen.
+        /// Keys of the edit, in turn: the scene walks there and back and seldom meets an earlier one.
         keys: [&'static str; 2],
         bar: f64,
     }
@@ -112,7 +112,7 @@ mod measure {
         }
     }
 
-    /// The explorer once it has computed a scene, its animation paused.
+    /// The explorer after it has computed a scene, with its animation paused.
     fn opened(scene: &str) -> Terminal {
         let mut terminal = Program::new(ASPERITY).argument(scene).start();
         terminal.wait_for("F_a ");
@@ -121,7 +121,7 @@ mod measure {
         terminal
     }
 
-    /// Times from a key that selects to the frame in which another row is selected, ms.
+    /// Times from a key of selection to the frame with the new selection, ms.
     fn echoes(terminal: &mut Terminal, runs: usize) -> Vec<f64> {
         let mut times = Vec::new();
         for run in 0..runs {
@@ -133,7 +133,7 @@ mod measure {
         times
     }
 
-    /// Times from a digit of a value to the frame that has it, ms, while curves of the values typed so far are computed.
+    /// Times from a digit of a value to the frame with it, ms, while curves of the values typed so far are computed.
     fn digits(terminal: &mut Terminal, runs: usize) -> Vec<f64> {
         select(terminal, "work of adhesion");
         let mut times = Vec::new();
@@ -153,12 +153,12 @@ mod measure {
         times
     }
 
-    /// Times from a key that edits to the first frame after it, and to the one with the new loop, ms.
+    /// Times from a key of an edit to the first frame after it, and to the one with the new loop, ms.
     fn edits(terminal: &mut Terminal, case: &Case, runs: usize) -> (Vec<f64>, Vec<f64>) {
         select(terminal, case.row);
         let (mut echo, mut done) = (Vec::new(), Vec::new());
         for run in 0..runs {
-            // N goes back at once: far from it the line is another.
+            // N is set back at once: far from it the line is another.
             let leaves = if case.row == "points" { run % 2 == 0 } else { run < runs / 2 };
             let key = case.keys[usize::from(!leaves)];
             let before = terminal.rows();
@@ -176,7 +176,7 @@ mod measure {
         (echo, done)
     }
 
-    /// Milliseconds from a key to the end of the first frame that is as it should be.
+    /// Milliseconds from a key to the end of the first frame that satisfies a condition.
     fn time(terminal: &mut Terminal, key: &str, is_there: impl Fn(&[String]) -> bool) -> f64 {
         let start = Instant::now();
         terminal.send(key);
@@ -188,12 +188,12 @@ mod measure {
         1e3 * end.duration_since(start).as_secs_f64()
     }
 
-    /// The row that is selected.
+    /// The selected row.
     fn selected(rows: &[String]) -> Option<String> {
         rows.iter().find(|row| row.contains('›')).cloned()
     }
 
-    /// Whether the screen says that it shows an older loop.
+    /// True if the screen states that it shows an older loop.
     fn is_computing(rows: &[String]) -> bool {
         rows.iter().any(|row| row.contains("computing"))
     }
@@ -219,7 +219,7 @@ mod measure {
         }
     }
 
-    /// The value below which so much of the sorted values lies.
+    /// The value below which this share of the sorted values lies.
     fn quantile(sorted: &[f64], share: f64) -> f64 {
         let place = (share * sorted.len() as f64).ceil() as usize;
         sorted[place.clamp(1, sorted.len()) - 1]

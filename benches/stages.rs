@@ -1,12 +1,11 @@
-//! What each stage of an exact loop costs, and what a whole edit of a scene does: in milliseconds, in
-//! nanoseconds for each spring, and in units of one real Fourier transform of the same length measured in the
-//! same run, which makes runs on different machines comparable.
+//! Cost of each stage of an exact loop, and of a whole edit of a scene: in milliseconds, in nanoseconds for each
+//! spring, and in units of one real Fourier transform of the same length measured in the same run, which makes runs on
+//! different machines comparable.
 //!
-//! `cargo bench --bench stages` prints the table. After `--`: `--quick` stops at 2^16 springs,
-//! `--smallest 20` begins at 2^20, `--largest 18` stops at 2^18, and `--runs 9` repeats each measurement
-//! so often, of which the shortest counts; `--hurst 0.2` and `--kappa 100` take other lines and another adhesion,
-//! with ten times this κ beside it. Without `--bench`, as `cargo test --benches` starts it, it only
-//! shows that it runs.
+//! `cargo bench --bench stages` prints the table. After `--`: `--quick` stops at 2^16 springs, `--smallest 20` begins
+//! at 2^20, `--largest 18` stops at 2^18, and `--runs 9` sets the number of repetitions, of which the shortest counts;
+//! `--hurst 0.2` and `--kappa 100` take other lines and another adhesion, with ten times this κ beside it. Without
+//! `--bench`, as started by `cargo test --benches`, it only checks that it runs.
 
 use asperity::analysis::ideal_adhesion_force;
 use asperity::contact::{
@@ -23,7 +22,7 @@ use std::mem::take;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// A whole loop at this length may cost at most so many transforms, under either κ.
+/// Largest cost of a whole loop at this length, in transforms, under either κ.
 const BAR: (u32, [f64; 2]) = (20, [1.6, 2.6]);
 
 const SAMPLES: usize = 512;
@@ -33,8 +32,8 @@ const LENGTH: f64 = 1.0e-3;
 const EFFECTIVE_MODULUS: f64 = 2.0e6;
 const RMS_HEIGHT: f64 = 5.0e-7;
 const HURST: f64 = 0.7;
-/// Under this, lines as finely rough as these snap into full contact; under ten times as much, part of them
-/// stays free, and springs join and leave a few at a time.
+/// Under this κ, lines as finely rough as these snap into full contact; under ten times as much, part of them stays
+/// free, and springs attach and detach a few at a time.
 const KAPPA: f64 = 2.0;
 /// Both kinds of edges.
 const EDGES: [Edges; 2] = [Edges::Grid, Edges::SubCell];
@@ -102,7 +101,7 @@ impl Options {
     }
 }
 
-/// A rough line, and a scene that has it.
+/// A rough line, and a scene with this line.
 struct Rough {
     spectrum: SelfAffine,
     points: usize,
@@ -175,8 +174,7 @@ struct Timed {
     memory: AdhesiveMemory,
 }
 
-/// Measures all stages in turn, round after round: what else the machine does in the meantime then
-/// meets all of them alike.
+/// Measures all stages in turn, round after round: other load of the machine then affects all of them alike.
 fn measure(rough: &Rough, runs: usize) -> Measured {
     let gaps = &rough.line.gaps;
     let mut transform = Transform::planned(rough.points);
@@ -187,10 +185,10 @@ fn measure(rough: &Rough, runs: usize) -> Measured {
         Measured { transform: never, synthesis: never, next_line: never, fresh_tree: never, loops, edits };
     let mut lines = Lines::default();
     lines.seconds(rough, 0);
-    // The tree's memory is kept from run to run, as the transform's buffers are and as a simulation does.
+    // The memory of the tree is kept from run to run, like the buffers of the transform and as in a simulation.
     let mut tree = ContactTree::default();
     for run in 0..runs {
-        // The unit is a transform whose memory is in the caches as far as it fits.
+        // The unit is a transform with its memory in the caches as far as it fits.
         for _ in 0..2 {
             best.transform = best.transform.min(transform.seconds(gaps));
         }
@@ -215,7 +213,7 @@ fn measure(rough: &Rough, runs: usize) -> Measured {
     best
 }
 
-/// Lines of one seed after the other, in the memory of the one before.
+/// Lines of one seed after the other, each in the memory of the previous one.
 #[derive(Default)]
 struct Lines {
     synthesizer: Synthesizer,
@@ -364,7 +362,7 @@ impl Transform {
     }
 
     fn seconds(&mut self, values: &[f64]) -> f64 {
-        // The transform uses its input up.
+        // The transform destroys its input.
         self.input.copy_from_slice(values);
         let clock = Instant::now();
         self.plan

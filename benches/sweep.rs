@@ -1,9 +1,9 @@
-//! What a parameter study costs: cells that share their line against cells one by one, two jobs against one,
-//! and a great many small cells, all in one run. Costs are also given in real Fourier transforms of as many
-//! points, measured beside.
+//! Cost of a parameter study: cells that share their line against cells one by one, two jobs against one, and a great
+//! many small cells, all in one run. Costs are also given in real Fourier transforms of as many points, measured
+//! beside.
 //!
-//! `cargo bench --bench sweep` prints the figures and fails where a bar is not kept. After `--`: `--quick` takes
-//! fewer lines and cells. Without `--bench`, as `cargo test --benches` starts it, it only shows that it runs.
+//! `cargo bench --bench sweep` prints the figures and fails if a bar is missed. After `--`: `--quick` takes fewer lines
+//! and cells. Without `--bench`, as started by `cargo test --benches`, it only checks that it runs.
 
 use asperity::scene::{Adhesion, Leg, Roughness, Scene};
 use asperity::simulation::Simulation;
@@ -14,11 +14,11 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
-/// Shared cells must be so many times cheaper.
+/// Least ratio of the costs of separate and shared cells.
 const SHARING: f64 = 3.0;
-/// Two jobs must be so many times faster than one.
+/// Least speed-up of two jobs over one.
 const TWO_JOBS: f64 = 1.8;
-/// The study of many small cells is scaled up to so many.
+/// Number of cells to which the study of many small cells is scaled up.
 const MILLION: f64 = 1.0e6;
 
 struct Size {
@@ -82,7 +82,7 @@ fn main() -> ExitCode {
         "the whole of Fig. 5(b), 17 × 33 × 3 cells on 32 lines, two jobs: {:.0} s",
         two.clock / records * 53_856.0
     );
-    // Lines so long have their own two threads here and there, which one job uses as well.
+    // Lines this long have their own two threads here and there, also with one job.
     println!("one job over two: {:.2}", shared.clock / two.clock);
     let shorter = figure(&Size { points: size.points.min(1 << 14), ..size });
     let (one, two) = (best(&|| study(&shorter, 1)), best(&|| study(&shorter, 2)));
@@ -136,8 +136,7 @@ fn small(cells: u64) -> Plan {
     Plan::parse(&text, "small", &Changes::default()).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
-/// What something takes, s: by the clock, and of the processors. The second is nearly the same whatever else the
-/// machine does.
+/// Cost, s: by the clock, and of the processors. The second hardly depends on other load of the machine.
 #[derive(Clone, Copy)]
 struct Cost {
     clock: f64,
@@ -145,7 +144,7 @@ struct Cost {
 }
 
 impl Cost {
-    /// The least of several times, of each by itself.
+    /// The least of several repetitions, of each value separately.
     fn least(repeats: usize, what: &dyn Fn()) -> Cost {
         let mut least = Cost { clock: f64::INFINITY, processor: f64::INFINITY };
         for _ in 0..repeats {
@@ -158,7 +157,7 @@ impl Cost {
     }
 }
 
-/// Time of the processors that this process has taken, s; of the clock where the system does not state it.
+/// Processor time of this process, s; that of the clock if the system does not state it.
 fn processor_time() -> f64 {
     #[cfg(unix)]
     {
@@ -182,8 +181,8 @@ fn study(plan: &Plan, jobs: usize) {
     done.unwrap_or_else(|error| panic!("{error}"));
 }
 
-/// The same cells, each a scene of its own that nothing is kept from, as by a script that runs the program for
-/// each of them, but without the start of a process and what it prints.
+/// The same cells, each a scene of its own without shared results, as by a script that runs the program for each of
+/// them, but without the start of a process and its output.
 fn one_by_one(plan: &Plan) {
     for line in 0..plan.lines {
         for cell in 0..plan.cells() {
@@ -220,7 +219,7 @@ fn transform(points: usize, repeats: usize) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// Most memory this process has had, KiB, where the system states it.
+/// Peak memory of this process, KiB, if the system states it.
 fn peak() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

@@ -1,4 +1,4 @@
-//! Pull-off force of a rough profile against the preload: whether pressing makes bodies stick more.
+//! Pull-off force of a rough profile against the preload: the effect of pressing on adhesion.
 //!
 //! `cargo run --release --example adhesion_against_preload`
 

@@ -1,6 +1,6 @@
 //! The explorer with an engine that panics on the seed 13 and computes without end on the seed 14, or with the argument
-//! `draw` one whose view panics. The tests open it to see that the explorer says so and goes on, shows keys at once
-//! whatever the engine does, or else gives the terminal back.
+//! `draw` one whose view panics. The tests check that the explorer reports this and continues, shows keys at once under
+//! any load of the engine, or else restores the terminal.
 
 use asperity::contact::{ContactError, ContactTree};
 use asperity::explorer::model::Model;
@@ -15,7 +15,7 @@ use std::sync::Arc;
 use std::thread::sleep;
 use std::time::Duration;
 
-/// An engine that panics on the seed 13, takes all the time it is given on the seed 14, and simulates otherwise.
+/// An engine that panics on the seed 13, takes all its time on the seed 14, and simulates otherwise.
 struct Superstitious(Simulation);
 
 impl Engine for Superstitious {

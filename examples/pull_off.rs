@@ -1,4 +1,4 @@
-//! Pull-off force of a sphere with waves of growing height: how fast roughness destroys adhesion.
+//! Pull-off force of a sphere with waves of growing height: the decrease of adhesion with roughness.
 //!
 //! `cargo run --release --example pull_off`
 

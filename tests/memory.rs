@@ -1,4 +1,4 @@
-//! Memory that a run takes: as much as is stated, or a message.
+//! Memory of a run: as stated, or a message.
 #![cfg(target_os = "linux")]
 
 #[path = "common/allocations.rs"]
@@ -20,12 +20,12 @@ const ASPERITY: &str = env!("CARGO_BIN_EXE_asperity");
 /// Held by tests that take much memory in this process.
 static ALONE: Mutex<()> = Mutex::new(());
 
-/// Largest ratio of what is stated to what is taken, and the other way round, beside what the program itself takes
-/// more or less in one build than in another.
+/// Largest ratio of the stated to the used memory, and of the inverse, apart from differences between builds of the
+/// program itself.
 const FACTOR: f64 = 1.5;
 const OF_BUILDS: u64 = 6 << 20;
 
-/// Scenes that take memory for different things.
+/// Scenes that need memory for different purposes.
 const SCENES: [Changed<'static>; 14] = [
     ("jkr-sphere", &[("numerics.samples", "5000")]),
     ("jkr-sphere", &[("numerics.samples", "200000")]),
@@ -67,7 +67,7 @@ fn a_plan_states_the_memory_that_a_run_takes() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// Bounds of the README: bytes for each spring beside those of the program.
+/// Bound of the README: bytes for each spring beside those of the program.
 const PER_SPRING: u64 = 48;
 const OF_PROGRAM: u64 = 10 << 20;
 
@@ -83,7 +83,7 @@ fn a_spring_takes_at_most_48_bytes() {
     }
 }
 
-/// What a simulation keeps after a run, bytes; other tests here hold next to nothing.
+/// Memory kept by a simulation after a run, bytes; other tests here hold next to nothing.
 fn kept_after(simulation: &mut Simulation, document: &Document, before: usize) -> usize {
     simulation.run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
     allocations::held().saturating_sub(before)
@@ -96,19 +96,19 @@ fn memory_of_a_large_scene_is_given_back_when_a_much_smaller_one_is_computed() {
     let mut simulation = Simulation::default();
     let large = open("million-springs").unwrap();
     let small = open("jkr-sphere").unwrap();
-    // Twice: lines of a transform that is used again keep that as well.
+    // Twice: a transform that is used again keeps its lines as well.
     for _ in 0..2 {
         for seed in ["1", "2"] {
             let large = large.set("roughness.seed", seed).unwrap();
             let kept = kept_after(&mut simulation, &large, before);
-            // As `Simulation` states, beside what the other tests hold.
+            // As stated by `Simulation`, beside the memory of other tests.
             let most = (Plan::of(large.scene()).peak_bytes + 20 * (1 << 20)) as usize + (1 << 20);
             assert!(kept > 24 << 20 && kept <= most, "{kept} bytes kept; at most {most}");
         }
         let kept = kept_after(&mut simulation, &small, before);
         assert!(kept <= 4 << 20, "{kept} bytes kept of a scene that takes little");
     }
-    // What is only somewhat smaller finds its memory there.
+    // A slightly smaller scene finds its memory there.
     kept_after(&mut simulation, &large, before);
     let half = large.set("numerics.points", "524288").unwrap();
     assert!(kept_after(&mut simulation, &half, before) > 24 << 20);
@@ -127,22 +127,22 @@ fn a_line_of_a_new_seed_takes_the_memory_and_the_transform_of_the_one_before() {
                 Line::new_in(take(&mut gaps), 1.0, points, None, Some(&heights), 1.0).unwrap()
             });
             gaps = line.gaps;
-            // A plan asks for its table of sines at once.
+            // A plan requests its table of sines at once.
             assert_eq!(largest < 1 << 10, seed > 1, "{points} springs, seed {seed}: {largest} bytes at once");
         }
     }
 }
 
-/// What a run with so much address space says on standard error; `None` where it is done.
+/// Standard error of a run with this address space; `None` if the run succeeds.
 fn refusal(arguments: &[String], kibibytes: u64) -> Option<String> {
     let mut limited = Command::new("/bin/sh");
     limited.args(["-c", &format!("ulimit -v {kibibytes}; exec \"$@\""), "sh", ASPERITY]).args(arguments);
     let output = limited.stdout(Stdio::null()).stderr(Stdio::piped()).output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
     match output.status.code() {
         Some(0) => None,
-        Some(1) => Some(said),
-        _ => panic!("{arguments:?} in {kibibytes} KiB: {:?}\n{said}", output.status),
+        Some(1) => Some(message),
+        _ => panic!("{arguments:?} in {kibibytes} KiB: {:?}\n{message}", output.status),
     }
 }
 
@@ -160,9 +160,9 @@ fn a_scene_that_does_not_fit_is_refused_and_never_an_abort() {
         let arguments = arguments(changed);
         let mut refused = 0;
         let mut limit = LITTLE;
-        // Up to where it fits, in steps between which nothing new can get in the way unseen.
-        while let Some(said) = refusal(&arguments, limit) {
-            assert!(said.contains("not enough memory") && said.lines().count() == 1, "{said}");
+        // Up to a sufficient limit, in steps too small for an unseen request.
+        while let Some(message) = refusal(&arguments, limit) {
+            assert!(message.contains("not enough memory") && message.lines().count() == 1, "{message}");
             refused += 1;
             limit += 20_000;
             if limit > 1_000_000 {
@@ -176,7 +176,7 @@ fn a_scene_that_does_not_fit_is_refused_and_never_an_abort() {
 /// Bound of the documentation: bytes for each spring beside gaps and tree, and for each turning point.
 const REVERSALS_PER_SPRING: usize = 16;
 const REVERSALS_PER_TURN: usize = 256;
-/// What tests hold that run processes meanwhile, bytes.
+/// Memory of tests that run processes meanwhile, bytes.
 const OF_OTHERS: usize = 1 << 17;
 
 #[test]

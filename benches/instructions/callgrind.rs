@@ -1,4 +1,4 @@
-//! Running this very program again under callgrind, and reading what it counted.
+//! Running this program again under callgrind, and reading its counts.
 
 use std::collections::{BTreeMap, HashMap};
 use std::process::{Command, Stdio};
@@ -14,18 +14,18 @@ impl Profile {
         self.lines.values().flat_map(BTreeMap::values).sum()
     }
 
-    /// Returns true where instructions are attributed to lines of this project, which takes line tables.
+    /// True if instructions are attributed to lines of this project, which requires line tables.
     pub fn has_line_tables(&self) -> bool {
         self.lines.keys().any(|file| file.contains("src/simulation/"))
     }
 
-    /// Files as the compiler named them, with the instructions of their lines.
+    /// Files as named by the compiler, with the instructions of their lines.
     pub fn files(&self) -> impl Iterator<Item = (&str, &BTreeMap<u64, u64>)> {
         self.lines.iter().map(|(file, lines)| (file.as_str(), lines))
     }
 
-    /// Reads what callgrind writes without compression. Inlined code is listed under the file of its source
-    /// in (`fi`, `fe`); after `calls` follows what the called function took, which is counted there.
+    /// Reads the uncompressed output of callgrind. Inlined code is listed under the file of its source (`fi`, `fe`);
+    /// after `calls` follows the cost of the called function, which is counted there.
     fn parse(text: &str) -> Profile {
         let mut lines: HashMap<String, BTreeMap<u64, u64>> = HashMap::new();
         let mut file = "";
@@ -47,7 +47,7 @@ impl Profile {
     }
 }
 
-/// Whether valgrind is installed.
+/// True if valgrind is installed.
 pub fn is_there() -> bool {
     let version =
         Command::new("valgrind").arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
@@ -66,11 +66,11 @@ pub fn profile(arguments: &[&str], environment: &[(&str, &str)]) -> Profile {
         .envs(environment.iter().copied())
         .output()
         .expect("valgrind");
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "valgrind: {said}");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "valgrind: {message}");
     let text = String::from_utf8_lossy(&std::fs::read(file).expect("a profile")).into_owned();
     let profile = Profile::parse(&text);
     let stated = text.lines().find_map(|line| line.strip_prefix("totals: ")?.trim().parse().ok());
-    assert_eq!(Some(profile.total()), stated, "all that was counted is read");
+    assert_eq!(Some(profile.total()), stated, "all counts are read");
     profile
 }

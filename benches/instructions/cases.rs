@@ -25,7 +25,7 @@ pub const FORCE: f64 = 1.0e-5;
 /// Samples on each leg.
 pub const SAMPLES: usize = 512;
 
-/// What a scene calls for.
+/// Effects of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Class {
     /// A smooth sphere without adhesion, pressed.
@@ -38,16 +38,16 @@ pub enum Class {
     AdhesiveTouch,
     /// A rough line with adhesion, pressed and pulled off, and beside it touched and pulled off.
     AdhesiveLoop,
-    /// The same, with fragments and the histogram of heights.
+    /// An adhesive loop with fragments and the histogram of heights.
     AdhesiveObserved,
 }
 
 /// A scene whose instructions are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Case {
-    /// What it calls for.
+    /// Its effects.
     pub class: Class,
-    /// Where its fragments end.
+    /// Edge model of its fragments.
     pub edges: Edges,
 }
 
@@ -80,37 +80,37 @@ impl Case {
         edges.into_iter().flat_map(|edges| Class::ALL.map(|class| Case { class, edges })).collect()
     }
 
-    /// Its place among all.
+    /// Index among all cases.
     pub fn index(&self) -> usize {
         Case::all().iter().position(|case| case == self).expect("one of all")
     }
 
-    /// In words.
+    /// Name in words.
     pub fn name(&self) -> String {
         format!("{}, {:?}", self.class.name(), self.edges)
     }
 
-    /// Whether the line is rough.
+    /// True if the line is rough.
     pub fn is_rough(&self) -> bool {
         self.class != Class::SmoothPressed
     }
 
-    /// Whether the surfaces attract each other.
+    /// True with adhesion.
     pub fn is_adhesive(&self) -> bool {
         !matches!(self.class, Class::SmoothPressed | Class::RoughLoop)
     }
 
-    /// Whether a leg goes back.
+    /// True if a leg unloads.
     pub fn goes_back(&self) -> bool {
         !matches!(self.class, Class::SmoothPressed | Class::AdhesivePressed)
     }
 
-    /// Whether fragments and heights are observed.
+    /// True if fragments and heights are observed.
     pub fn is_observed(&self) -> bool {
         self.class == Class::AdhesiveObserved
     }
 
-    /// The scene as it would be read from a file.
+    /// The scene as read from a file.
     pub fn document(&self) -> Document {
         let body = if self.is_rough() {
             format!(

@@ -1,8 +1,8 @@
-//! Effects a scene may call for, and the lines of source that nothing else executes.
+//! Effects of scenes, and the lines of source that only they execute.
 //!
-//! Callgrind attributes instructions to lines, also where a function has been inlined, so what is checked does
-//! not depend on how the compiler cut the program into functions. Each effect is looked for in the scenes that
-//! call for it, too: a check that finds nothing there fails.
+//! Callgrind attributes instructions to lines, also of inlined functions, so the check does not depend on how the
+//! compiler cut the program into functions. Each effect is also searched in the scenes that have it: a check that finds
+//! nothing there fails.
 
 use super::callgrind::Profile;
 use super::cases::Case;
@@ -11,25 +11,25 @@ use std::path::Path;
 
 /// Place of the instructions of an effect.
 pub enum Lines {
-    /// All lines of functions: files of this project, and how each function is declared in it.
+    /// All lines of functions: files of this project, and the declaration of each function.
     Of(&'static [(&'static str, &'static str)]),
-    /// All lines of packages whose folders begin so.
+    /// All lines of packages by the beginnings of their folder names.
     Packages(&'static [&'static str]),
 }
 
-/// Something only some scenes call for.
+/// An effect of some scenes only.
 pub struct Effect {
-    /// In words.
+    /// Name in words.
     pub name: &'static str,
     /// Its place.
     pub lines: Lines,
-    /// Whether a case calls for it.
+    /// True for a case with this effect.
     pub called_for: fn(&Case) -> bool,
-    /// How often the program says it was done.
+    /// Number of its executions as counted by the program.
     pub counted: fn(&Work) -> u64,
 }
 
-/// All that must not run unless a scene calls for it.
+/// All effects that must not run in scenes without them.
 pub const EFFECTS: &[Effect] = &[
     Effect {
         name: "Hess",
@@ -72,7 +72,7 @@ pub const EFFECTS: &[Effect] = &[
 ];
 
 impl Effect {
-    /// Instructions executed for it.
+    /// Instructions executed for the effect.
     pub fn executed(&self, profile: &Profile) -> u64 {
         match self.lines {
             Lines::Packages(packages) => profile

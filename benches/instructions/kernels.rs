@@ -1,5 +1,5 @@
-//! For each case the least that computes it: only the building blocks it needs, one after the other, without a
-//! plan, switches or memory of an earlier run.
+//! The least computation for each case: only the necessary building blocks, one after the other, without a plan,
+//! switches or memory of an earlier run.
 
 use super::cases::{
     Case, Class, EFFECTIVE_MODULUS, FORCE, HURST, LAST_MODE, LENGTH, POINTS, RADIUS, RMS_HEIGHT, SAMPLES,
@@ -20,7 +20,7 @@ const LOOP: [Leg; 2] = [Leg::ToForce(FORCE), Leg::ToSeparation];
 const TOUCH: [Leg; 2] = [Leg::ToTouch, Leg::ToSeparation];
 const PRESS: [Leg; 1] = [Leg::ToForce(FORCE)];
 
-/// What a kernel gives.
+/// Result of a kernel.
 #[derive(Default)]
 pub struct Given {
     pub history: History,
@@ -77,7 +77,7 @@ fn body<'a, E: EdgeModel>(line: &'a Line, tree: &'a ContactTree, edges: E) -> Ex
     exact::adhesive(&line.gaps, tree, edges, FOUNDATION, SAMPLES)
 }
 
-/// A loading under adhesion, with what its case asks for beside the curve.
+/// A loading under adhesion, with the other results of its case beside the curve.
 fn adhesive(case: &Case, mut body: Exact<'_>, legs: &[Leg]) -> Given {
     let mut fragments = Vec::new();
     let history = run(&mut body, legs, |record: &LegRecord, body: &Exact<'_>| {

@@ -15,16 +15,16 @@ use std::fmt::Write;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The program may take so many times the instructions of the kernel.
+/// Largest ratio of the instructions of the program to those of the kernel.
 pub const MOST: f64 = 1.02;
 
 /// Environment variable with the task of the process under callgrind.
 const CHILD: &str = "ASPERITY_INSTRUCTIONS";
 
-/// What a process under callgrind does with the scene of a case once it has read it.
+/// Task of a process under callgrind after it has read the scene of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum What {
-    /// Nothing: what starting and reading take is no part of either count.
+    /// Nothing: starting and reading are part of neither count.
     Nothing,
     /// The program's own simulation.
     Program,
@@ -43,7 +43,7 @@ pub fn program(case: &Case) -> Outcome {
     outcome.expect("a scene that can be computed")
 }
 
-/// Does what the environment asks of a process under callgrind; `false` where it asks for nothing.
+/// Performs the task that the environment sets for a process under callgrind; `false` without a task.
 pub fn run_as_child() -> bool {
     let Ok(asked) = std::env::var(CHILD) else { return false };
     let mut words = asked.split(' ').map(|word| word.parse::<usize>().expect("an index"));
@@ -57,7 +57,7 @@ pub fn run_as_child() -> bool {
     true
 }
 
-/// A kernel that gave something else would be no measure.
+/// Asserts that a kernel has the results of the program: otherwise it is no measure.
 pub fn assert_agree(case: &Case) {
     let (outcome, given) = (program(case), kernels::kernel(case));
     let what = case.name();
@@ -72,7 +72,7 @@ pub fn assert_agree(case: &Case) {
     assert!(outcome.history.legs.iter().all(|leg| leg.curve.iter().any(|point| point.springs > 0)), "{what}");
 }
 
-/// What was counted for one case.
+/// Counts of one case.
 pub struct Report {
     case: Case,
     program: u64,
@@ -126,7 +126,7 @@ impl Report {
         self.profile.has_line_tables()
     }
 
-    /// One line for each thing that is not as it must be.
+    /// One line for each violation.
     pub fn failures(&self) -> Vec<String> {
         let name = self.case.name();
         let mut failures = Vec::new();

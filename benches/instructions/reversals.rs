@@ -43,7 +43,7 @@ enum Part {
 
 const PARTS: [Part; 3] = [Part::Line, Part::Loop, Part::Reversals];
 
-/// Does what the environment asks of a process under callgrind; `false` where it asks for nothing.
+/// Performs the task that the environment sets for a process under callgrind; `false` without a task.
 pub fn run_as_child() -> bool {
     let Ok(asked) = std::env::var(CHILD) else { return false };
     let task: usize = asked.parse().expect("a number");
@@ -88,7 +88,7 @@ fn compute<E: EdgeModel>(gaps: &[f64], edges: E, foundation: Foundation, part: P
     }
 }
 
-/// Counts all bodies: a table, and a line for each that takes too many loops. `arguments` start the process as a child.
+/// Counts all bodies: a table, and a line for each with too many loops. `arguments` start the process as a child.
 pub fn count(arguments: &[&str]) -> (String, Vec<String>) {
     let mut table = format!("{REVERSALS} reversals of {SPRINGS} springs, in loops\n");
     let mut failures = Vec::new();

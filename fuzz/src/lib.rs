@@ -1,7 +1,7 @@
-//! What must hold for whatever is read: properties that panic where they do not hold.
+//! Properties of everything that is read: each panics if violated.
 //!
-//! The targets of cargo-fuzz call them with what it makes up; `tests/fuzz/main.rs` includes this file
-//! and calls them with the seeds, with what was found, and with mutations of both.
+//! The targets of cargo-fuzz call them with generated inputs; `tests/fuzz/main.rs` includes this file and calls them
+//! with the seeds, with the findings, and with mutations of both.
 
 mod overrides;
 mod profile;
@@ -18,10 +18,10 @@ pub use surface::surface;
 use asperity::scene::{Document, Origin, SceneError, SceneErrors, to_ron};
 use std::borrow::Cow;
 
-/// A property of all bytes.
+/// A property of any bytes.
 pub type Property = fn(&[u8]);
 
-/// All targets: the name is that of the file in `fuzz_targets` and of the folders of seeds and corpus.
+/// All targets, with the names of their files in `fuzz_targets` and of their folders of seeds and corpus.
 pub const TARGETS: &[(&str, Property)] = &[
     ("scene", scene),
     ("overrides", overrides),
@@ -30,15 +30,15 @@ pub const TARGETS: &[(&str, Property)] = &[
     ("surface", surface),
 ];
 
-/// Longest line of a message, in characters: names, values and the field's own words, none without end.
+/// Longest line of a message, in characters: names, values and the words of the field, none of them endless.
 const LONGEST_MESSAGE: usize = 2000;
 
-/// What is no UTF-8 is refused where files are read; here it must not waste an input.
+/// Reading a file refuses invalid UTF-8; here it must not waste an input.
 fn text(bytes: &[u8]) -> Cow<'_, str> {
     String::from_utf8_lossy(bytes)
 }
 
-/// A message is one line that says something and carries nothing that moves a terminal's cursor.
+/// A message is one line with text and without characters that move the cursor of a terminal.
 fn assert_message(message: &str) {
     assert!(message.chars().any(char::is_alphabetic), "a message without words: {message:?}");
     assert!(!message.contains(char::is_control), "a message with control characters: {message:?}");
@@ -46,7 +46,7 @@ fn assert_message(message: &str) {
     assert!(length <= LONGEST_MESSAGE, "a message of {length} characters: {message:?}");
 }
 
-/// Each error says what is wrong, where, and either what is allowed or why it is refused; `assert_origin`
+/// Each error names its cause, its place, and either the allowed values or the reason of refusal; `assert_origin`
 /// judges the place.
 fn assert_errors(errors: &SceneErrors, assert_origin: impl Fn(&Origin)) {
     let count = errors.iter().count();
@@ -65,27 +65,27 @@ fn assert_errors(errors: &SceneErrors, assert_origin: impl Fn(&Origin)) {
     }
 }
 
-/// A place is in the text, or directly behind its last character.
+/// A place is in the text, or directly after its last character.
 fn assert_place(text: &str, line: usize, column: usize) {
     let line_text = line.checked_sub(1).and_then(|index| text.split('\n').nth(index));
     let Some(line_text) = line_text else { panic!("line {line} is not in {text:?}") };
     assert!((1..=line_text.chars().count() + 1).contains(&column), "{line}:{column} is not in {text:?}");
 }
 
-/// What must hold for every document, however it came about.
+/// Asserts the properties of every document.
 fn assert_document(document: &Document) {
     let scene = document.scene();
     assert_eq!(asperity::scene::check(scene), [], "{}", document.text());
     let read =
         |text: &str| Document::parse(text, "again").unwrap_or_else(|errors| panic!("{errors}\n{text}"));
     assert_eq!(read(document.text()).scene(), scene, "the text is that of the scene");
-    // Written in canonical form it is the same, and stays as it is.
+    // Written in canonical form the scene is the same, and remains so.
     let written = to_ron(scene);
     assert_eq!(read(&written).scene(), scene, "{written}");
     assert_eq!(to_ron(read(&written).scene()), written);
 }
 
-/// The overrides that are said to make one scene of another do.
+/// The stated overrides lead from one scene to another.
 fn assert_leads(base: &Document, target: &Document) {
     let overrides = target.overrides_from(base);
     let reached = base.set_all(&overrides).unwrap_or_else(|errors| panic!("{overrides:?}: {errors}"));

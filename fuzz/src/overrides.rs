@@ -1,16 +1,15 @@
-//! Overrides as `--set` takes them.
+//! Overrides in the form of `--set`.
 
 use super::{assert_document, assert_errors, assert_leads, text};
 use asperity::scene::{DEFAULT, Document, Origin, SceneErrors, find};
 
-/// So many overrides at a time; each of them has the whole text read again.
+/// Most overrides at a time; for each of them the whole text is read again.
 const MOST: usize = 16;
 
-/// The first line names a built-in scene (the default where there is none of that name), each further one
-/// is an override.
+/// The first line names a built-in scene (the default if there is none of that name), each further one is an override.
 ///
-/// Overrides that are accepted make a sound scene, together as one by one, and those that a document lists
-/// make it again; those that are refused are named.
+/// Accepted overrides make a sound scene, together as one by one, and those listed by a document make the scene again;
+/// refused ones are named.
 pub fn overrides(bytes: &[u8]) {
     let text = text(bytes);
     let mut lines = text.lines();
@@ -18,7 +17,7 @@ pub fn overrides(bytes: &[u8]) {
     let Some(base) = preset.and_then(|preset| Document::parse(preset.text, preset.name).ok()) else {
         panic!("{DEFAULT} is a scene")
     };
-    // As the command line splits them.
+    // Split as on the command line.
     let pair = |line: &str| line.split_once('=').map(|(path, value)| (path.trim().into(), value.into()));
     let pairs: Vec<(String, String)> = lines.filter_map(pair).take(MOST).collect();
 
@@ -43,7 +42,7 @@ pub fn overrides(bytes: &[u8]) {
     }
 }
 
-/// Errors name overrides that were given.
+/// Errors name given overrides.
 fn assert_named(errors: &SceneErrors, pairs: &[(String, String)]) {
     assert_errors(errors, |origin| match origin {
         Origin::Overrides(named) => {

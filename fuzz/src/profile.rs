@@ -3,8 +3,8 @@
 use super::{assert_message, text};
 use asperity::surface::MeasuredProfile;
 
-/// A profile that is read has finite points in ascending order and can be sampled; what is refused is refused in one
-/// line that states what is allowed.
+/// An accepted profile has finite points in ascending order and can be sampled; a refusal is one line that states the
+/// allowed values.
 pub fn profile(bytes: &[u8]) {
     let text = text(bytes);
     let read = MeasuredProfile::parse(&text);
@@ -54,7 +54,7 @@ fn assert_samples(profile: &MeasuredProfile) {
                 let heights = profile.sample(part * length, points, shift);
                 let heights = heights.unwrap_or_else(|error| panic!("{error}"));
                 assert_eq!(heights.len(), points);
-                // As they are, or above the first.
+                // As given, or relative to the first height.
                 let inside = |level: f64| {
                     let allowed = low - level - margin..=high - level + margin;
                     heights.iter().all(|height| allowed.contains(height))
@@ -66,8 +66,8 @@ fn assert_samples(profile: &MeasuredProfile) {
             }
         }
     }
-    // More memory than there is, and a longer line than the profile, are refused and not tried. Points at even distances
-    // cover half a distance more at each end.
+    // More memory than available, and a longer line than the profile, are refused without a try. Points at even
+    // distances cover half a distance more at each end.
     let points = profile.heights().len() as f64;
     let covered = length * (points / (points - 1.0));
     let refused =

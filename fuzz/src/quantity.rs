@@ -1,15 +1,14 @@
-//! Numbers with units, as they are typed.
+//! Typed numbers with units.
 
 use super::{assert_message, text};
 use asperity::scene::{FIELDS, LEG_FORCE, LEG_INDENTATION, QuantityError, format_quantity, parse_quantity};
 
-/// The largest number any field allows.
+/// The largest number allowed by any field.
 const LARGEST: f64 = 1.0e300;
 
 /// The text is read for each unit of the table of fields.
 ///
-/// What is read is finite, is read the same by whoever reads plain numbers, and is shown so that reading it
-/// gives what is shown.
+/// An accepted number is finite and equals the number of a plain text; its shown text reads back as the same text.
 pub fn quantity(bytes: &[u8]) {
     let text = text(bytes);
     let mut units: Vec<&str> =
@@ -51,10 +50,10 @@ fn assert_shown(text: &str, value: f64, unit: &str) {
     let shown = format_quantity(value, unit);
     let read = parse_quantity(&shown, unit).unwrap_or_else(|error| panic!("{text:?}: {error}"));
     assert_eq!(format_quantity(read, unit), shown, "{text:?} {unit}: {value} {read}");
-    // Four digits, as far as numbers that small have them.
+    // Four digits, as far as numbers this small have them.
     let error = (read - value).abs();
     assert!(error <= 5.01e-4 * value.abs() + f64::MIN_POSITIVE, "{text:?} {unit}: {value} {read}");
-    // Another sign is the other number.
+    // The opposite sign gives the opposite number.
     let typed = text.trim();
     if !typed.starts_with(['+', '-']) {
         assert_eq!(parse_quantity(&format!("-{typed}"), unit).ok(), Some(-value), "-{typed:?} {unit}");

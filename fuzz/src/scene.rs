@@ -6,7 +6,7 @@ use asperity::simulation::Plan;
 
 const NAME: &str = "fuzzed.ron";
 
-/// What is read is written and read back the same; what is refused is refused with a place in it.
+/// An accepted scene is written and read back the same; a refusal has its place in the text.
 pub fn scene(bytes: &[u8]) {
     let whole = text(bytes);
     let text = whole.strip_prefix('\u{feff}').unwrap_or(&whole);
@@ -37,7 +37,7 @@ pub fn scene(bytes: &[u8]) {
     }
 }
 
-/// A field set to what it says changes nothing; one step stays inside the range.
+/// Setting a field to its own value changes nothing; one step stays inside the range.
 fn assert_fields(document: &Document) {
     for field in document.fields() {
         let Some(value) = document.value(field.path) else { continue };

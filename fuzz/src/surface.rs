@@ -4,11 +4,11 @@ use super::assert_message;
 use asperity::spectrum::{Options, analyse};
 use asperity::topography::{Grid, Missing, ReadOptions, Topography, TopographyError, Unit, parse};
 
-/// Most points of a surface that is analysed as well, so that no input takes long.
+/// Most points of an analysed surface, so that no input takes long.
 const MOST_ANALYSED: usize = 128;
 
-/// A surface that is read has finite heights at ascending positions and gives a spectrum or a reason; one that is refused
-/// is refused with its place and what is allowed, whatever the user states.
+/// An accepted surface has finite heights at ascending positions and gives a spectrum or a reason; a refusal has its
+/// place and the allowed values, for any statements of the user.
 pub fn surface(bytes: &[u8]) {
     let stated = ReadOptions {
         unit: Some(Unit::METRE),
@@ -29,7 +29,7 @@ pub fn surface(bytes: &[u8]) {
             Err(error) => assert_error(&error),
         }
     }
-    // What a user adds changes nothing that the file states.
+    // Additions of the user change nothing stated by the file.
     if let [first, second, ..] = &read[..] {
         assert_eq!((first.format(), first.columns()), (second.format(), second.columns()));
     }

@@ -26,17 +26,17 @@ pub trait ContactModel {
     /// Springs, in contact or not.
     fn count(&self) -> u64;
 
-    /// Begins a loading leg from this indentation, or from separation, and returns the indentation from which
-    /// on everything is in contact, m.
+    /// Begins a loading leg from this indentation, or from separation, and returns the smallest indentation of full
+    /// contact, m.
     ///
     /// # Errors
-    /// [`ContactError::OutOfMemory`]; the contact is then as it was.
+    /// [`ContactError::OutOfMemory`]; the contact is then unchanged.
     fn load(&mut self, from: Option<f64>, work: &mut Work) -> Result<f64, ContactError>;
 
     /// Begins an unloading leg from this indentation and returns the smallest one with contact, m.
     ///
     /// # Errors
-    /// [`ContactError::OutOfMemory`]; the contact is then as it was.
+    /// [`ContactError::OutOfMemory`]; the contact is then unchanged.
     fn unload(&mut self, from: f64, work: &mut Work) -> Result<f64, ContactError>;
 
     /// Begins the unloadings from these turning points of the present leg, which is a loading from separation, m, in
@@ -59,8 +59,8 @@ pub trait ContactModel {
     /// [`ContactError::OutOfMemory`].
     fn sample_reversal(&self, grid: Grid) -> Result<Sampled, ContactError>;
 
-    /// The smallest force on the range of a grid of this unloading, from separation to the turning point, the contact at
-    /// which is given.
+    /// The smallest force on the range of a grid of this unloading, from separation to the turning point with the given
+    /// contact.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
@@ -84,7 +84,7 @@ pub trait ContactModel {
     /// [`ContactError::OutOfMemory`].
     fn sample_changes(&self, grid: Grid, separated: bool) -> Result<(Sampled, f64), ContactError>;
 
-    /// The extreme force on the grid's range; `sorted` counts the events it took to find it.
+    /// The extreme force on the grid's range; `sorted` counts the events of the search.
     fn extreme(&self, extreme: Extreme, leg: &Sampled, sorted: &mut u64) -> ContactState;
 
     /// The smallest indentation of the range at which the compression is at least `wanted`.
@@ -93,7 +93,7 @@ pub trait ContactModel {
     /// The largest indentation of the range at which the compression is at most `wanted`.
     fn last_at_most(&self, leg: &Sampled, wanted: f64, sorted: &mut u64) -> Option<f64>;
 
-    /// Indentation at which the totals alone carry a compression, where nothing else does, m.
+    /// Indentation at which the totals alone carry a compression, m; `None` if edge cells carry too.
     fn straight(&self, totals: ContactTotals, compression: f64) -> Option<f64>;
 
     /// Contact at all indentations of the leg.

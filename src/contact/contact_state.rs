@@ -11,7 +11,7 @@ pub struct ContactState {
     pub indentation: f64,
     /// Springs in contact.
     pub springs: i64,
-    /// Fragments they form.
+    /// Number of fragments in contact.
     pub fragments: i64,
     /// Contact length in units of the distance between springs.
     pub length: f64,
@@ -66,7 +66,7 @@ impl Sampled {
         self.states[self.states.len() - 1]
     }
 
-    /// The intervals of the grid for which the contact at their ends allows it.
+    /// The intervals of the grid whose contact at both ends passes `may_lie`.
     pub fn choose(&self, may_lie: impl Fn(&ContactState, &ContactState) -> bool) -> Vec<usize> {
         let ends = self.states.windows(2).enumerate();
         ends.filter(|(_, ends)| may_lie(&ends[0], &ends[1])).map(|(index, _)| index).collect()
@@ -103,13 +103,13 @@ impl Extreme {
     }
 }
 
-/// A bound below any force between two indentations.
+/// Lower bound of the force between two indentations.
 pub fn lower_bound(low: &ContactState, high: &ContactState) -> f64 {
     let rise = (high.indentation - low.indentation) * high.length;
     high.compression - rise - slack(low, high, rise)
 }
 
-/// A bound above.
+/// Upper bound of the force between two indentations.
 pub fn upper_bound(low: &ContactState, high: &ContactState) -> f64 {
     let rise = (high.indentation - low.indentation) * high.length;
     low.compression + rise + slack(low, high, rise)

@@ -1,11 +1,11 @@
 //! Crossings of a value that rises through zero once, found to neighbouring numbers.
 
-/// Halvings of an interval in which a crossing or a flat place is looked for: enough for any two numbers.
+/// Halvings of an interval in which a crossing or a flat place is searched: enough for any two numbers.
 const HALVINGS: usize = 2200;
 /// Guesses by interpolation before a crossing is halved down to neighbouring numbers.
 const GUESSES: usize = 20;
 
-/// The smallest number above `low`, up to `high`, of which `is_past` says so; it says so of `high`.
+/// The smallest number above `low`, up to `high`, for which `is_past` is true; `is_past(high)` is true.
 pub fn bisect(mut low: f64, mut high: f64, is_past: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..HALVINGS {
         let middle = low + 0.5 * (high - low);
@@ -24,17 +24,17 @@ pub fn crossing(low: f64, high: f64, value: impl Fn(f64) -> f64) -> f64 {
     bisect(low, high, |at| value(at) >= 0.0)
 }
 
-/// The largest number from `low` on, below `high`, at which `value`, which rises through zero once, is at most
-/// zero; at `high` it is above.
+/// The largest number in `low..high` at which `value`, which rises through zero once, is at most zero; at `high` it is
+/// above.
 pub fn last_before(low: f64, high: f64, value: impl Fn(f64) -> f64) -> f64 {
     let (from, to) = enclose(low, high, &value, |value| value > 0.0);
     bisect(from, to, |at| value(at) > 0.0).next_down().max(low)
 }
 
-/// Narrows an interval by interpolation: it is still not past at its lower end and past at its higher one.
+/// Narrows an interval by interpolation: its lower end remains before the crossing and its upper end past it.
 ///
-/// The value at an end that has stayed is halved (the Illinois rule), so that both ends move; where this does
-/// not narrow the interval fast it is halved as well.
+/// The value at an end that has stayed is halved (the Illinois rule), so that both ends move; an interval that narrows
+/// slowly is halved as well.
 fn enclose(
     mut low: f64,
     mut high: f64,
@@ -73,7 +73,7 @@ mod tests {
     use super::*;
     use std::cell::Cell;
 
-    /// Zeros are met to the last place, in far fewer looks on the whole than the fifty-odd that halving takes.
+    /// Zeros are found to the last place, in far fewer evaluations in total than the fifty-odd of halving.
     #[test]
     fn a_rising_zero_is_met_in_few_looks() {
         let looks = Cell::new(0);

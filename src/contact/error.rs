@@ -9,7 +9,7 @@ pub enum ContactError {
     /// An array does not fit into memory.
     #[error("not enough memory for {springs} springs")]
     OutOfMemory {
-        /// Springs asked for.
+        /// Requested number of springs.
         springs: usize,
     },
     /// A pulling force on a separated body.
@@ -19,7 +19,7 @@ pub enum ContactError {
     NothingToPull {
         /// Index of the leg.
         index: usize,
-        /// Force asked for, N.
+        /// Requested force, N.
         force: f64,
     },
     /// A turning point without contact.

@@ -1,6 +1,6 @@
 //! The exact solver: any loading history, leg by leg, in linear time and without a step error.
 //!
-//! A leg proceeds in the same way for whole springs and for edges between them; the contact model gives forces and
+//! A leg proceeds in the same way for whole springs and for edges between them; the contact model supplies forces and
 //! thresholds.
 
 use super::adhesive::{Adhesive, AdhesiveMemory, ContactTree, EdgeModel, GridEdges, SubCellEdges};
@@ -21,7 +21,7 @@ pub struct Exact<'a> {
     foundation: Foundation,
     samples: usize,
     state: ContactState,
-    /// Contact states of the loading from separation, once a force has been sought there: the same each time.
+    /// Contact states of the loading from separation, kept after the first search for a force there: always the same.
     first: Option<Sampled>,
     /// True if the body touches on the present leg, so that the thresholds are those of this leg.
     touching: bool,
@@ -32,7 +32,8 @@ pub struct Exact<'a> {
     pass_time: Duration,
 }
 
-/// A separated body without adhesion at d = 0 just before first touch, over springs of these gaps (m, the smallest 0).
+/// Returns a separated body without adhesion at d = 0 just before first touch, over springs of these gaps (m, the
+/// smallest 0).
 #[must_use]
 pub fn nonadhesive(gaps: &[f64], edges: Edges, foundation: Foundation, samples: usize) -> Exact<'_> {
     Exact::over(Box::new(Nonadhesive::new(gaps, edges)), foundation, samples)
@@ -69,7 +70,8 @@ impl<'a> Exact<'a> {
     /// by a rule of Hess and the tree of these gaps, if there is one; `samples` (at least 2) curve points are taken on
     /// each leg.
     ///
-    /// Under adhesion it takes this memory, until [`Exact::give_back`]: fresh memory costs about as much as a pass.
+    /// Under adhesion the body takes this memory until [`Exact::give_back`]: fresh memory costs about as much as a
+    /// pass.
     #[must_use]
     pub fn new(
         memory: &mut AdhesiveMemory,
@@ -131,7 +133,7 @@ impl<'a> Exact<'a> {
         self.state.springs == 0
     }
 
-    /// Places the body apart and begins a loading from there; returns the indentation from which on all is in contact, m.
+    /// Separates the body and begins a loading; returns the smallest indentation of full contact, m.
     pub(super) fn begin_loading(&mut self) -> Result<f64, ContactError> {
         self.state = ContactState::free(0.0);
         self.touching = true;
@@ -182,7 +184,7 @@ impl<'a> Exact<'a> {
             Target::Separation => low,
         };
         let (grid, stride) = match target {
-            // Nothing is sought any more.
+            // No search follows.
             Target::Force(_) => (Grid::new(low, high, self.samples - 1), 1),
             _ => self.grid(low, high),
         };
@@ -217,14 +219,14 @@ impl<'a> Exact<'a> {
     ) -> Result<f64, ContactError> {
         let wanted = force / self.foundation.spring_stiffness();
         let forms = self.is_separated();
-        // From d = 0 to where all is in contact.
+        // From d = 0 to full contact.
         let known = if forms { self.first.take() } else { None };
         let sampled = match known {
             Some(sampled) => sampled,
             None => self.sample(low, complete)?,
         };
         let sorted = &mut self.work.events_sorted;
-        // Beyond, everything is in contact and the force rises with all springs.
+        // Beyond full contact the force rises with all springs.
         let beyond = || {
             let end = sampled.last();
             let straight = self.contact.straight(*sampled.totals.last()?, wanted);
@@ -295,7 +297,7 @@ impl<'a> Exact<'a> {
         if let Some(found) = self.contact.last_at_most(&sampled, wanted, sorted) {
             return Ok(found);
         }
-        // The thresholds of this leg are still true at the present indentation.
+        // The thresholds of this leg still hold at the present indentation.
         let smallest = self.contact.extreme(Extreme::Smallest, &sampled, sorted).compression;
         let smallest = self.foundation.spring_stiffness() * smallest;
         Err(ContactError::DetachesBefore { index: self.legs, leg, smallest })

@@ -9,25 +9,25 @@ pub struct Foundation {
     pub spacing: f64,
     /// Effective modulus E*, Pa, eq. (2).
     pub effective_modulus: f64,
-    /// Length L of all of it, m; infinite where it reaches beyond any contact.
+    /// Length L of the foundation, m; infinite if it extends beyond any contact.
     pub length: f64,
 }
 
 impl Foundation {
-    /// So many springs on a length (m) for a half-space of this modulus (Pa).
+    /// Returns a foundation of this length (m) and number of springs for a half-space of this modulus (Pa).
     #[must_use]
     pub fn new(length: f64, springs: usize, effective_modulus: f64) -> Self {
         Foundation { spacing: length / springs as f64, effective_modulus, length }
     }
 
-    /// Springs at this distance (m) without end for a half-space of this modulus (Pa).
+    /// Returns an endless foundation of springs at this distance (m) for a half-space of this modulus (Pa).
     #[must_use]
     pub const fn endless(spacing: f64, effective_modulus: f64) -> Self {
         Foundation { spacing, effective_modulus, length: f64::INFINITY }
     }
 
-    /// Length in contact of so many cells, m: never more than that of the foundation, and exactly this where the
-    /// cells cover the foundation, which N times Δx may miss by a rounding.
+    /// Length in contact of this number of cells, m: never more than the length of the foundation, and exactly that
+    /// length where the cells cover the foundation, which N times Δx may miss by a rounding.
     #[inline]
     #[must_use]
     pub fn contact_length(&self, cells: f64) -> f64 {
@@ -42,8 +42,7 @@ impl Foundation {
     }
 }
 
-/// The rule of Hess, eqs. (3) and (10): how far the springs of a contact fragment can be stretched
-/// before they detach.
+/// The rule of Hess, eqs. (3) and (10): largest stretch of the springs of a contact fragment before they detach.
 ///
 /// Where the work of adhesion is larger on opening than on closing, a fragment attaches springs by the closing rule and
 /// detaches them by the opening one. In between its edges are pinned.
@@ -51,12 +50,12 @@ impl Foundation {
 pub struct HessRule {
     /// Largest stretch of a single spring on detaching, m.
     opening: f64,
-    /// The same on attaching, at most as large.
+    /// Largest stretch of a single spring on attaching, m; at most `opening`.
     closing: f64,
 }
 
 impl HessRule {
-    /// The rule without adhesion: nothing can be stretched.
+    /// The rule without adhesion: no stretch.
     pub const NO_ADHESION: HessRule = HessRule { opening: 0.0, closing: 0.0 };
 
     /// The rule for a work of adhesion γ in J/m².
@@ -79,12 +78,12 @@ impl HessRule {
         HessRule { opening: stretch(opening_work).max(closing), closing }
     }
 
-    /// The rule under which a fragment of one spring can be stretched by so much, m.
+    /// The rule with this largest stretch of a fragment of one spring, m.
     pub(super) fn with_stretch(stretch: f64) -> Self {
         HessRule { opening: stretch, closing: stretch }
     }
 
-    /// The rule by which springs attach alone, or detach alone.
+    /// The rule of attachment alone, or of detachment alone.
     #[must_use]
     pub fn on(&self, direction: Direction) -> Self {
         Self::with_stretch(match direction {
@@ -101,7 +100,7 @@ impl HessRule {
 
     /// Largest stretch Δl_max = sqrt(π n Δx γ/E*) before a fragment of `springs` springs detaches, m, eq. (10).
     ///
-    /// Rounding keeps the order: more springs never give a smaller value.
+    /// Rounding keeps the order: the value never falls with the number of springs.
     #[inline]
     #[must_use]
     pub fn largest_stretch(&self, springs: u32) -> f64 {

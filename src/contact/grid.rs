@@ -42,13 +42,13 @@ impl Grid {
         self.points[self.points.len() - 1]
     }
 
-    /// Index of the first point that is at least `indentation`, which must not exceed the last.
+    /// Index of the first point that is at least `indentation`, which must not exceed the last point.
     #[inline]
     pub fn first_at_least(&self, indentation: f64) -> usize {
         if !self.is_even() {
             return self.points.partition_point(|&point| point < indentation);
         }
-        // The guess is off by one at the most where the grid is even; the loops make it exact.
+        // The guess is off by at most one where the grid is even; the loops make it exact.
         let guess = ((indentation - self.points[0]) * self.intervals_per_metre) as usize;
         let mut index = guess.min(self.points.len() - 1);
         while self.points[index] < indentation {
@@ -94,7 +94,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// As many equal intervals as asked for, both ends exact; the search finds what a look at all points finds.
+        /// A grid has the requested number of equal intervals, both ends exact; the search finds the same point as a
+        /// scan.
         #[test]
         fn points_are_even_and_found(
             low in -1.0..1.0_f64,
@@ -117,8 +118,7 @@ mod tests {
             }
         }
 
-        /// Of small numbers added to a large one that is taken away again, none is lost, in whatever groups they are
-        /// added.
+        /// Small numbers added to a large one, which is then subtracted, are kept in any grouping.
         #[test]
         fn what_rounding_takes_from_a_sum_is_kept(power in 40..60_i32, small in 1e-3..1.0_f64, count in 1_u32..99) {
             let large = 2.0_f64.powi(power);

@@ -28,15 +28,15 @@ pub struct CurvePoint {
     pub fragments: u64,
 }
 
-/// One leg as it went.
+/// Record of one leg.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LegRecord {
     /// Leg of the scene.
     pub leg: Leg,
     /// Direction of the motion.
     pub direction: Direction,
-    /// The curve along the leg: its samples, and the point of the smallest force of an unloading leg.
-    /// At a jump into or out of contact it has the points before and after.
+    /// The curve along the leg: its samples, and the point of the smallest force of an unloading leg. A jump into or
+    /// out of contact has the points before and after.
     pub curve: Vec<CurvePoint>,
     /// Largest force on the leg, exact to rounding (loading legs).
     pub largest: CurvePoint,
@@ -73,8 +73,8 @@ impl LegRecord {
         LegRecord { direction, curve: vec![start, end], ..LegRecord::still(leg, end) }
     }
 
-    /// A leg along this curve, on which so many springs attached, or detached where it unloads, with stretches of this
-    /// energy, J.
+    /// A leg along this curve, with this number of springs attached, or detached on unloading, and the energy of their
+    /// stretches, J.
     pub(crate) fn moved(
         (leg, direction): (Leg, Direction),
         curve: Vec<CurvePoint>,
@@ -145,9 +145,9 @@ pub struct Work {
     pub detached: u64,
     /// Steps of the stepwise solver.
     pub steps: u64,
-    /// Sweeps over the line that relaxed it.
+    /// Sweeps of relaxation over the line.
     pub relaxation_sweeps: u64,
-    /// Springs looked at in those sweeps.
+    /// Springs visited in those sweeps.
     pub spring_updates: u64,
     /// Heights counted into the histogram.
     pub heights_binned: u64,
@@ -160,7 +160,7 @@ impl Work {
         self.detached += leg.detached;
     }
 
-    /// Adds work done beside the legs of the loading, without the springs attached and detached there.
+    /// Adds work done beside the legs of the loading, without its attached and detached springs.
     pub(crate) fn add_effort(&mut self, beside: &Work) {
         // All fields by name: a new one cannot be forgotten here.
         let Work {
@@ -198,7 +198,7 @@ impl Work {
 mod tests {
     use super::*;
 
-    /// Work of which each count is another power of two: no two sums of some of them are equal.
+    /// Work whose counts are different powers of two: no two sums of some of them are equal.
     fn counted() -> Work {
         Work {
             springs: 1,

@@ -7,7 +7,7 @@ use super::contact_state::{ContactState, Extreme, lower_bound, upper_bound};
 use super::steady::{SteadyContact, state};
 use super::totals::{ContactTotals, GapScale};
 
-/// From this indentation on so much is whole in contact, until the next step.
+/// Whole springs or cells in contact from this indentation on, until the next step.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     threshold: f64,
@@ -26,7 +26,7 @@ pub struct Piece {
 pub struct Interval<E: EdgeModel> {
     edges: E,
     scale: GapScale,
-    /// The first one at its lowest indentation; then, once they are sorted, its events.
+    /// First its contact at the lowest indentation; then, once sorted, its events.
     steps: Vec<Step>,
     pub pieces: Vec<Piece>,
 }
@@ -68,32 +68,32 @@ impl<E: EdgeModel> Interval<E> {
         self.steps[above.saturating_sub(1)].totals
     }
 
-    /// The contact at an indentation.
+    /// Contact state at an indentation.
     fn at(&self, pieces: &[Piece], indentation: f64) -> ContactState {
         let there = pieces.iter().filter(|piece| piece.is_at(indentation)).map(|piece| piece.slider);
         state(self.edges, &self.scale, self.totals(indentation), there, indentation)
     }
 
-    /// The contact at an indentation, as it is up to the next event.
+    /// The contact from an indentation up to the next event.
     fn steady(&self, pieces: &[Piece], indentation: f64) -> SteadyContact<E> {
         let there = pieces.iter().filter(|piece| piece.is_at(indentation));
         let (edges, scale, totals) = (self.edges, self.scale, self.totals(indentation));
         SteadyContact { edges, scale, totals, sliders: there.map(|piece| piece.slider).collect() }
     }
 
-    /// The middle event of all inside a part.
+    /// The middle one of all events inside a part.
     fn middle_event(&self, low: f64, high: f64) -> Option<f64> {
         let first = self.steps.partition_point(|step| step.threshold <= low);
         let end = self.steps.partition_point(|step| step.threshold < high);
         (first < end).then(|| self.steps[first + (end - first) / 2].threshold)
     }
 
-    /// The pieces that matter on a part.
+    /// The pieces that overlap a part.
     fn part(pieces: &[Piece], low: f64, high: f64) -> Vec<Piece> {
         pieces.iter().copied().filter(|piece| piece.from <= high && piece.to > low).collect()
     }
 
-    /// Makes `best` the extreme force between two ends, both of which it knows already.
+    /// Makes `best` the extreme force between two ends, already covered by `best`.
     pub fn search(&self, extreme: Extreme, pieces: &[Piece], (low, high): Ends<'_>, best: &mut ContactState) {
         let (from, to) = (low.indentation, high.indentation);
         if !extreme.may_lie(low, high, best) || from.next_up() >= to {

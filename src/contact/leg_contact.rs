@@ -65,7 +65,7 @@ impl<'a> LegView<'a> {
 
     /// First and last spring of each fragment in contact at `indentation` (m), in ascending order.
     ///
-    /// Takes as long as there are runs of an adhesive contact, else as long as there are springs.
+    /// Takes O(runs) for an adhesive contact, else O(springs).
     #[must_use]
     pub fn fragments(&self, indentation: f64) -> Vec<(usize, usize)> {
         let touching =
@@ -81,8 +81,8 @@ impl<'a> LegView<'a> {
         }
     }
 
-    /// Height of the level of the edges above the largest gap of each of these fragments, m, in their order, where
-    /// edges can be pinned: between springs and under two works of adhesion. Empty elsewhere.
+    /// Height of the level of the edges above the largest gap of each of these fragments, m, in order, where edges can
+    /// be pinned: between springs and under two works of adhesion. Empty elsewhere.
     #[must_use]
     pub fn rises(&self, indentation: f64) -> Vec<f64> {
         match self.contact {
@@ -130,10 +130,10 @@ impl<'a> LegView<'a> {
     }
 }
 
-/// The contact at any indentation of one leg, copied from a [`Solver`](super::Solver) when the leg was done.
+/// The contact at any indentation of one leg, copied from a [`Solver`](super::Solver) after the leg.
 ///
-/// A copy holds the runs of an adhesive contact, nothing where the gaps decide, and a number for each spring of the
-/// stepwise solver. Its memory serves for other legs and lines.
+/// A copy holds the runs of an adhesive contact, nothing where the gaps alone define the contact, and a number for each
+/// spring of the stepwise solver. Its memory serves for other legs and lines.
 #[derive(Clone, Debug, Default)]
 pub struct LegContact {
     kind: Kind,
@@ -152,8 +152,8 @@ enum Kind {
 }
 
 impl LegContact {
-    /// The contact of the leg. `gaps` and `tree` are those of the run from which it comes; a tree is asked for only
-    /// where adhesion was solved exactly, and without one nothing touches there.
+    /// The contact of the leg. `gaps` and `tree` are those of its run; only an exact solution of adhesion needs a tree,
+    /// and without one the view shows no contact.
     #[must_use]
     pub fn view<'a>(&'a self, gaps: &'a [f64], tree: Option<&'a ContactTree>) -> LegView<'a> {
         let contact = match (self.kind, tree) {
@@ -165,7 +165,7 @@ impl LegContact {
         LegView { gaps, contact }
     }
 
-    /// Bytes this copy holds on to, for those who keep many.
+    /// Bytes held, for a caller that keeps many copies.
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.thresholds.capacity() * size_of::<f64>() + self.runs.capacity() * size_of::<Run>()

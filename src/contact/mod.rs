@@ -9,9 +9,9 @@
 //! * *detach*: within a fragment of n springs the most stretched one detaches when d ≤ c − Δl_max(n), but
 //!   not while its gap is closed.
 //!
-//! [`exact`] solves them for any loading history in one pass over a tree for each leg; [`stepwise`]
-//! moves by small steps and relaxes, as the paper does; [`Manual`] loading moves the body by steps of any size,
-//! either way, at a cost in proportion to the change.
+//! [`exact`] applies these rules to any loading history in one pass over a tree for each leg; [`stepwise`] moves by
+//! small steps and relaxes, as the paper does; [`Manual`] loading moves the body by steps of any size, either way, at a
+//! cost in proportion to the change.
 
 pub mod adhesive;
 mod contact_model;
@@ -57,7 +57,7 @@ pub(crate) fn reserve<T>(count: usize) -> Result<Vec<T>, ContactError> {
     crate::memory::emptied(Vec::new(), count).map_err(|_| ContactError::OutOfMemory { springs: count })
 }
 
-/// Adds a value of an array over so many springs, or gives an error instead of an abort.
+/// Adds a value to an array over this number of springs, or returns an error instead of an abort.
 fn push<T>(values: &mut Vec<T>, value: T, springs: usize) -> Result<(), ContactError> {
     values.try_reserve(1).map_err(|_| ContactError::OutOfMemory { springs })?;
     values.push(value);

@@ -1,7 +1,7 @@
 //! Contact without adhesion: a spring carries exactly while its gap is closed, on any leg.
 //!
 //! The contact depends on the indentation alone, so there is no history and no threshold; the force is a convex
-//! function of the indentation. One pass along the line gives a whole curve.
+//! function of the indentation. One pass along the line yields a whole curve.
 //!
 //! A *cell*, the line between two neighbouring springs, fills from its smaller gap to its larger one. Full cells are
 //! summed exactly, as whole numbers of quanta. Partly filled cells are summed one by one, which keeps every
@@ -20,7 +20,7 @@ use super::{AdhesiveMemory, ContactError, LegView, Work, resized};
 use crate::scene::Edges;
 use std::ops::Range;
 
-/// Cells that are filled in part at so many points of a curve in a row are added to each of them.
+/// Most points of a curve in a row at which a partly filled cell is added point by point.
 const FEW_POINTS: usize = 4;
 /// Most Newton steps to a force; bisection does the rest.
 const NEWTON_STEPS: usize = 200;
@@ -43,7 +43,7 @@ fn partly_filled(low: f64, high: f64, indentation: f64) -> EdgeCells {
     EdgeCells { length: share, compression: 0.5 * above * share }
 }
 
-/// Sum of cells as a quadratic in the way x from a point: `compression + length x + curvature x²`.
+/// Sum of cells as a quadratic in the distance x from a point: `compression + length x + curvature x²`.
 #[derive(Clone, Copy, Debug, Default)]
 struct Quadratic {
     partial: EdgeSum,
@@ -51,7 +51,7 @@ struct Quadratic {
 }
 
 impl Quadratic {
-    /// Adds a cell at a point, or takes it away.
+    /// Adds (`sign` 1) or subtracts (−1) a cell at a point.
     #[inline]
     fn add(&mut self, low: f64, high: f64, point: f64, sign: f64) {
         let (above, growth) = (point - low, (high - low).recip());
@@ -67,7 +67,7 @@ impl Quadratic {
         self.curvature.add_sum(other.curvature);
     }
 
-    /// Moves the point on.
+    /// Shifts the point.
     fn shift(&mut self, way: f64) {
         let (length, bend) = (self.partial.length.total(), way * self.curvature.total());
         self.partial.compression.add(way * (length + bend));
@@ -89,7 +89,7 @@ struct Between<'s> {
     contact: &'s Nonadhesive<'s>,
     /// Full springs or cells.
     full: Interval<GridEdges>,
-    /// Cells that are filled in part anywhere inside.
+    /// Cells that are partly filled anywhere inside.
     cells: Vec<[f64; 2]>,
 }
 
@@ -108,7 +108,7 @@ impl<'a> Nonadhesive<'a> {
             .map(|cell| if cell[0] < cell[1] { [cell[0], cell[1]] } else { [cell[1], cell[0]] })
     }
 
-    /// The half cells beyond the first and the last spring lie level with them.
+    /// Gaps of the half cells beyond the first and the last spring, level with these springs.
     fn half_cells(&self) -> impl Iterator<Item = f64> {
         let ends =
             if self.edges == Edges::SubCell { [self.gaps.first(), self.gaps.last()] } else { [None, None] };
@@ -134,10 +134,10 @@ impl<'a> Nonadhesive<'a> {
         }
     }
 
-    /// Calls `see` with each spring: the contact it adds, its gap and that of the spring before it.
+    /// Calls `see` with each spring: its contribution to the contact, its gap and that of the spring before it.
     ///
-    /// A spring adds a fragment, less one for each neighbour that touches earlier; among equals the left one counts
-    /// as the later. Between springs it adds the cells to these neighbours.
+    /// A spring adds a fragment, less one for each neighbour that touches earlier; among equals the left one counts as
+    /// the later. With edges between springs it adds the cells to these neighbours.
     #[inline]
     fn each_spring(&self, mut see: impl FnMut(ContactTotals, f64, f64)) {
         let sub_cell = self.edges == Edges::SubCell;
@@ -158,7 +158,7 @@ impl<'a> Nonadhesive<'a> {
     fn along(&self, grid: Grid) -> Result<Sampled, ContactError> {
         let points = grid.points();
         let count = points.len();
-        // Points that were asked for one by one have the same contact as each of them alone.
+        // Points requested one by one have the same contact as each of them alone.
         let few = if grid.is_even() { FEW_POINTS } else { count };
         let mut changes = Changes {
             few,
@@ -236,8 +236,8 @@ impl<'a> Nonadhesive<'a> {
         Between { contact: self, full, cells }
     }
 
-    /// The contact at the two neighbouring points of a leg between which the compression passes a value: `is_past`
-    /// holds at the higher one. The lower one is `None` before the leg, and there is none beyond its end.
+    /// The contact at the two neighbouring points of a leg between which the compression passes a value: `is_past` is
+    /// true at the higher one. The lower one is `None` before the leg; no pair beyond its end.
     fn ends(leg: &Sampled, is_past: impl Fn(f64) -> bool) -> Option<(Option<&ContactState>, &ContactState)> {
         let past = leg.states.partition_point(|state| !is_past(state.compression));
         Some((past.checked_sub(1).map(|index| &leg.states[index]), leg.states.get(past)?))
@@ -253,11 +253,11 @@ impl Between<'_> {
         self.contact.state(indentation, self.full.totals(indentation), partial)
     }
 
-    /// Neighbouring numbers (m) in `low..=high` between which the compression passes `wanted`: `is_past` holds at
-    /// the higher end and not at the lower one.
+    /// Neighbouring numbers (m) in `low..=high` between which the compression passes `wanted`: `is_past` is true at the
+    /// higher end only.
     ///
-    /// Newton's method from above: the compression is convex and the length is its derivative, so that each step
-    /// leads down to the crossing and not beyond it, until rounding ends the steps.
+    /// Newton's method from above: the compression is convex and the length is its derivative, so each step descends
+    /// towards the crossing and not past it, until rounding ends the steps.
     fn crossing(
         &self,
         (mut low, mut high): (f64, f64),
@@ -288,7 +288,7 @@ impl Between<'_> {
 }
 
 impl Changes {
-    /// Adds a cell that is filled in part at these points.
+    /// Adds a cell that is partly filled at these points.
     #[inline]
     fn add_cell(&mut self, low: f64, high: f64, at: Range<usize>, points: &[f64]) {
         let last = points.len() - 1;
@@ -299,7 +299,7 @@ impl Changes {
             }
             return;
         }
-        // Both ends of the curve are ends of other legs as well, which must find the same there.
+        // Both ends of the curve are ends of other legs as well and must have the same contact there.
         for index in [0, last].into_iter().filter(|index| (start..end).contains(index)) {
             self.partial[index].add(partly_filled(low, high, points[index]));
         }
@@ -349,7 +349,7 @@ impl ContactModel for Nonadhesive<'_> {
         self.along(grid)
     }
 
-    /// Nothing is stretched, so that nothing dissipates.
+    /// No spring is stretched, so no energy is dissipated.
     fn sample_changes(&self, grid: Grid, _: bool) -> Result<(Sampled, f64), ContactError> {
         Ok((self.sample(grid)?, 0.0))
     }
@@ -383,7 +383,7 @@ impl ContactModel for Nonadhesive<'_> {
         let between = self.between(start, high.indentation);
         match self.edges {
             Edges::Grid => between.full.last_of(&[], (low, high), wanted).or(Some(start)),
-            // It rises from there on, though perhaps by less than a number can hold.
+            // The compression rises from there on, though perhaps by less than a number can hold.
             Edges::SubCell if low.compression == wanted => Some(start),
             Edges::SubCell => Some(between.crossing((start, high.indentation), wanted, is_past)[0]),
         }

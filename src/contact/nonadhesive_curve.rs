@@ -81,7 +81,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Patches are as long together as the contact, and grow as the contact does where none attaches.
+        /// The lengths of the patches sum to the contact length, and their growths to its growth where none attaches.
         #[test]
         fn patches_make_up_the_contact(
             mut gaps in prop::collection::vec(0.0..1.0_f64, 1..60),

@@ -1,8 +1,8 @@
 //! Reversals: the unloadings from many turning points of one loading.
 //!
-//! The contact that is left on the way back from a turning point depends on this point only through the patches that
-//! were closed there. So all reversals share the tree, the thresholds of attachment and the list of the loading, and
-//! each costs what its own contact holds.
+//! The remaining contact on the way back depends on the turning point only through the patches closed there. So all
+//! reversals share the tree, the thresholds of attachment and the list of the loading, and the cost of each is
+//! proportional to its own contact.
 
 use super::contact_model::Reversed;
 use super::contact_state::ContactState;
@@ -23,7 +23,7 @@ pub struct Reversal {
     pub separation: f64,
     /// Energy dissipated from separation to separation, J.
     pub dissipated_energy: f64,
-    /// Forces at the points asked for, up to the turning point, N.
+    /// Forces at the requested points, up to the turning point, N.
     pub forces: Vec<f64>,
 }
 
@@ -81,8 +81,8 @@ impl<'a> Reversals<'a> {
         Ok(Reversals { body, turns })
     }
 
-    /// Calls `see` with each reversal and the number of its leg, from the shallowest on. `points` are ascending
-    /// indentations at which the forces are wanted, m.
+    /// Calls `see` with each reversal and the number of its leg, from the shallowest on. `points` are the ascending
+    /// indentations of the forces, m.
     ///
     /// # Errors
     /// The first error of `see` ends the work; [`ContactError::OutOfMemory`].

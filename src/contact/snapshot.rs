@@ -1,4 +1,4 @@
-//! Forces and lengths of given fragments at one indentation: for a view of a contact that is not solved again.
+//! Forces and lengths of given fragments at one indentation: a view of a contact without a new solution.
 
 use super::adhesive::{EdgeModel, GridEdges, Slider, Span, SubCellEdges};
 use super::contact_state::ContactState;
@@ -7,7 +7,7 @@ use super::totals::{ContactTotals, GapScale};
 use super::{CurvePoint, Foundation, HessRule};
 use crate::scene::Edges;
 
-/// A line of springs, looked at one contact at a time.
+/// A line of springs, viewed one contact at a time.
 #[derive(Clone, Copy, Debug)]
 pub struct Snapshot<'a> {
     gaps: &'a [f64],
@@ -23,14 +23,15 @@ pub struct FragmentState {
     pub length: f64,
     /// Compression ∫ (d − c) dx, in cells times metres: the force in units of the stiffness of one spring.
     pub compression: f64,
-    /// Largest stretch Δl_max that its length allows, m, eq. (10).
+    /// Largest stretch Δl_max at this length, m, eq. (10).
     pub largest_stretch: f64,
     /// Stretch of its edges, or of its most stretched spring, m.
     pub most_stretched: f64,
 }
 
 impl<'a> Snapshot<'a> {
-    /// A line of these gaps, the largest of which is `deepest`, m; `hess` is the rule of Hess, `None` without adhesion.
+    /// Returns a line of these gaps, the largest of which is `deepest`, m; `hess` is the rule of Hess, `None` without
+    /// adhesion.
     #[must_use]
     pub fn new(gaps: &'a [f64], deepest: f64, edges: Edges, hess: Option<HessRule>) -> Self {
         let hess = hess.unwrap_or(HessRule::NO_ADHESION);
@@ -38,8 +39,7 @@ impl<'a> Snapshot<'a> {
     }
 
     /// The point of the curve at an indentation, m, at which these fragments, given by first and last spring, are in
-    /// contact; their `rises` are those of [`Solver::rises`](super::Solver::rises). Takes as long as there are springs
-    /// in contact.
+    /// contact; their `rises` are those of [`Solver::rises`](super::Solver::rises). Takes O(springs in contact).
     #[must_use]
     pub fn point(
         &self,
@@ -55,7 +55,7 @@ impl<'a> Snapshot<'a> {
         contact.point(foundation)
     }
 
-    /// The fragment with these first and last springs at an indentation, m, and where it has one its rise, m.
+    /// The fragment with these first and last springs at an indentation, m, and its rise, if any, m.
     #[must_use]
     pub fn fragment(&self, indentation: f64, ends: (usize, usize), rise: Option<f64>) -> FragmentState {
         match self.edges {

@@ -46,7 +46,7 @@ pub trait Solver {
     }
 }
 
-/// Runs a whole loading history. `after` receives each leg as soon as it is done, and the solver in its state then.
+/// Runs a whole loading history. `after` receives each completed leg and the solver in its state then.
 ///
 /// # Errors
 /// The first leg that fails ends the run.

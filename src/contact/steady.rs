@@ -1,4 +1,4 @@
-//! A contact that stays the same over a range of indentations: its force, and where this passes a value.
+//! A contact that stays the same over a range of indentations: its force and the crossings of a value.
 
 use super::adhesive::{EdgeModel, EdgeSum, Slider};
 use super::contact_state::ContactState;
@@ -54,7 +54,7 @@ impl<E: EdgeModel> SteadyContact<E> {
         if let Some(straight) = self.straight(wanted) {
             return Some(straight.max(from)).filter(|&found| found < to);
         }
-        // Convex and below it at first: it gets there once.
+        // Convex and below `wanted` at first: one crossing.
         let reaches = self.compression(to) >= wanted;
         reaches.then(|| crossing(from, to, |at| self.compression(at) - wanted))
     }
@@ -70,7 +70,7 @@ impl<E: EdgeModel> SteadyContact<E> {
         if let Some(straight) = self.straight(wanted) {
             return Ok(straight.clamp(from, last));
         }
-        // It rises from there on: the last place where it has not passed.
+        // The compression rises from there on: the last number at which it has not passed `wanted`.
         let passes = |at: f64| self.compression(at) - wanted;
         Ok(if passes(last) > 0.0 { last_before(flattest, last, passes) } else { last })
     }

@@ -1,8 +1,8 @@
 //! The stepwise solver: move by a small step, relax to equilibrium, repeat, as the paper does.
 //!
-//! The step Δd is its accuracy; each step costs a few sweeps over the whole line. It shares nothing
-//! with the exact solver but the rules and the sums; the exact thresholds decide only, before the first step, whether
-//! a leg can end and within how many steps.
+//! The step Δd is its accuracy; each step costs a few sweeps over the whole line. The solver shares only the rules and
+//! the sums with the exact solver; exact thresholds are used only before the first step of a leg, to check its end and
+//! number of steps.
 
 use super::leg_plan::{Target, plan};
 use super::{
@@ -71,8 +71,8 @@ impl<'a> Stepwise<'a> {
         self.hess.map_or(0.0, |hess| hess.on(direction).largest_stretch(springs as u32))
     }
 
-    /// Attaches a spring, or detaches it where it has been held to this indentation, m: how far a step goes beyond is
-    /// no property of the contact.
+    /// Attaches a spring, or detaches it where it has been held to this indentation, m: the overshoot of a step is no
+    /// property of the contact.
     fn change(&mut self, index: usize, attaches: bool, at: f64) {
         self.contact[index] = attaches;
         self.thresholds[index] = at;
@@ -103,7 +103,7 @@ impl<'a> Stepwise<'a> {
         }
     }
 
-    /// Extends each fragment over its neighbours for as long as the rule allows.
+    /// Extends each fragment over its neighbours as long as the rule allows.
     fn grow_fragments(&mut self) {
         let count = self.gaps.len();
         let mut first = 0;
@@ -151,7 +151,7 @@ impl<'a> Stepwise<'a> {
                 let stretch = self.largest_stretch(end - first, Direction::Unloading);
                 for index in first..end {
                     let gap = self.gaps[index];
-                    // Whatever is stretched too far here is so in each part of the fragment as well.
+                    // A spring stretched too far here is stretched too far in each part of the fragment as well.
                     if self.indentation <= gap - stretch && self.indentation < gap {
                         self.change(index, false, held_until);
                     }
@@ -189,7 +189,7 @@ impl<'a> Stepwise<'a> {
         self.squared_stretch = 0.0;
     }
 
-    /// Refuses a leg whose end lies out of reach or beyond the limit of steps, before its first step.
+    /// Refuses a leg whose end is out of reach or beyond the limit of steps, before its first step.
     ///
     /// # Errors
     /// [`ContactError::DetachesBefore`], [`ContactError::OutOfReach`], [`ContactError::TooManySteps`].
@@ -200,7 +200,7 @@ impl<'a> Stepwise<'a> {
         };
         // From separation the first step is the touch.
         let start = if self.totals.springs == 0 { self.indentation.max(0.0) } else { self.indentation };
-        // No end is closer than the exact one, and the last step may be a part of one.
+        // No end is closer than the exact one, and the last step may be partial.
         if (end - start).abs() / self.step > STEP_LIMIT as f64 {
             let index = self.legs;
             return Err(ContactError::TooManySteps { index, step: self.step, limit: STEP_LIMIT });
@@ -300,7 +300,7 @@ impl<'a> Stepwise<'a> {
             }
         }
         let changed = (self.totals.springs - before).unsigned_abs();
-        // The sum counts what detaches.
+        // The sum counts detachments.
         let squared =
             if direction == Direction::Loading { -self.squared_stretch } else { self.squared_stretch };
         let energy = 0.5 * self.foundation.spring_stiffness() * squared;
@@ -330,7 +330,7 @@ impl Target {
     }
 }
 
-/// A curve that halves its density whenever it reaches twice the wanted length.
+/// A curve whose density is halved at twice the wanted length.
 struct Thinned {
     wanted: usize,
     stride: u64,
@@ -401,7 +401,7 @@ impl Solver for Stepwise<'_> {
     }
 
     fn curve_seconds(&self) -> f64 {
-        // Each step gives its point of the curve by itself.
+        // Each step adds its own point to the curve.
         0.0
     }
 }
@@ -412,8 +412,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// However many points are pushed, the curve has from as many as wanted to twice as many, evenly spread in
-        /// the order of the steps, and both its ends; on the way back the smallest force as well.
+        /// For any number of points pushed, the curve has from `wanted` to twice as many, evenly spread in the order of
+        /// the steps, with both ends; on unloading the smallest force as well.
         #[test]
         fn a_thinned_curve_is_even(wanted in 2_usize..20, steps in 1_usize..500, lowest in 0.0..1.0_f64) {
             let pushed: Vec<_> = (0..steps)

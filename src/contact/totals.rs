@@ -33,7 +33,7 @@ impl GapScale {
         (gap * self.quanta_per_metre) as i64
     }
 
-    /// The mean of two gaps in quanta: of a cell between two springs.
+    /// The mean of two gaps in quanta, for a cell between two springs.
     #[inline]
     #[must_use]
     pub fn mean_quanta(&self, one: f64, other: f64) -> i64 {
@@ -58,8 +58,7 @@ fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((exponent + 1023) as u64) << 52)
 }
 
-/// The springs in contact at one indentation: how many, in how many fragments, and the sum of their
-/// gaps.
+/// The springs in contact at one indentation: their number, their fragments, and the sum of their gaps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ContactTotals {
     /// Springs in contact.
@@ -88,7 +87,7 @@ impl ContactTotals {
         self.springs - self.fragments
     }
 
-    /// The same of so many springs, or of so many cells, where the quanta are those of their mean gaps: ∫ (d − c) dx
+    /// Compression of this number of springs, or of cells where the quanta are sums of their mean gaps: ∫ (d − c) dx
     /// over them, in cells times metres.
     #[inline]
     pub(super) fn compression_of(&self, count: i64, indentation: f64, scale: &GapScale) -> f64 {
@@ -98,7 +97,7 @@ impl ContactTotals {
         let high = self.quanta as f64;
         let low = (self.quanta - high as i128) as f64;
         let (high, low) = (high * scale.quantum, low * scale.quantum);
-        // Error of product − high by Knuth's two-sum, which does not ask which of them is larger.
+        // Error of product − high by Knuth's two-sum, which is independent of their order.
         let difference = product - high;
         let subtracted = difference - product;
         let kept = difference - subtracted;
@@ -106,8 +105,7 @@ impl ContactTotals {
         difference + (error + (product_error - low))
     }
 
-    /// Indentation at which these springs carry the compression Σ (d − c_i) = `compression`, m;
-    /// `None` when nothing is in contact.
+    /// Indentation at which these springs carry the compression Σ (d − c_i) = `compression`, m; `None` without contact.
     #[must_use]
     pub fn indentation(&self, compression: f64, scale: &GapScale) -> Option<f64> {
         if self.springs == 0 {

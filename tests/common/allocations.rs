@@ -1,4 +1,4 @@
-//! How much memory is asked for at once, and how much is held.
+//! Largest request of memory, and memory held.
 
 #![allow(dead_code, reason = "no test uses all of it")]
 
@@ -10,9 +10,9 @@ thread_local! {
     static LARGEST: Cell<usize> = const { Cell::new(0) };
 }
 
-/// Bytes that have been given out and not taken back, on all threads.
+/// Bytes allocated and not freed, on all threads.
 static HELD: AtomicUsize = AtomicUsize::new(0);
-/// Most of them since the last reset.
+/// Largest value of `HELD` since the last reset.
 static MOST: AtomicUsize = AtomicUsize::new(0);
 
 struct Watched;
@@ -21,11 +21,11 @@ struct Watched;
 static ALLOCATOR: Watched = Watched;
 
 fn note(size: usize) {
-    // A thread that ends has no such cell any more, and asks for nothing of interest.
+    // A thread that ends has no such cell any more, and its requests do not matter.
     let _ = LARGEST.try_with(|largest| largest.set(largest.get().max(size)));
 }
 
-/// Counts what the system has given in place of what it had given before.
+/// Counts a block given by the system in place of `before` bytes.
 fn count(given: *mut u8, before: usize, size: usize) -> *mut u8 {
     if !given.is_null() {
         let held = HELD.fetch_add(size, Ordering::Relaxed) + size;
@@ -35,7 +35,7 @@ fn count(given: *mut u8, before: usize, size: usize) -> *mut u8 {
     given
 }
 
-// SAFETY: everything is left to the allocator of the system; a cell without destructor is all that is added.
+// SAFETY: all work is left to the allocator of the system; only a cell without destructor is added.
 unsafe impl GlobalAlloc for Watched {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         note(layout.size());
@@ -63,7 +63,7 @@ pub fn held() -> usize {
     HELD.load(Ordering::Relaxed)
 }
 
-/// What `work` gives, and the most memory that all threads held meanwhile beyond that before, bytes.
+/// Result of `work`, and the most memory that all threads held meanwhile beyond that before, bytes.
 pub fn most_held<T>(work: impl FnOnce() -> T) -> (T, usize) {
     let before = held();
     MOST.store(before, Ordering::Relaxed);
@@ -71,7 +71,7 @@ pub fn most_held<T>(work: impl FnOnce() -> T) -> (T, usize) {
     (result, MOST.load(Ordering::Relaxed) - before)
 }
 
-/// What `work` gives, and the largest piece of memory it asked for on this thread, bytes.
+/// Result of `work`, and its largest single request of memory on this thread, bytes.
 pub fn largest<T>(work: impl FnOnce() -> T) -> (T, usize) {
     LARGEST.set(0);
     let result = work();

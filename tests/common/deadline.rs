@@ -5,7 +5,7 @@ use std::sync::mpsc::channel;
 use std::thread;
 use std::time::Duration;
 
-/// Runs a test, and fails it when it takes longer than this: a test that hangs says so.
+/// Runs a test, and fails it after this time: a test that hangs is reported.
 pub fn within(seconds: u64, test: impl FnOnce() + Send + 'static) {
     let (done, outcome) = channel();
     thread::spawn(move || done.send(catch_unwind(AssertUnwindSafe(test))));

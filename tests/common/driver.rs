@@ -1,5 +1,5 @@
-//! An explorer without a terminal. Its worker is the real one, and is waited for: what happens does not
-//! depend on how fast it is.
+//! An explorer without a terminal. Its worker is the real one, and every answer is awaited: results do not depend on
+//! its speed.
 
 use asperity::explorer::action::{Action, Content, WriteFailure, Written};
 use asperity::explorer::model::Model;
@@ -20,7 +20,7 @@ use std::time::Duration;
 /// The name of a file that cannot be saved.
 pub const REFUSED: &str = "refused.ron";
 
-/// How it looks.
+/// Appearance of the explorer.
 pub const APPEARANCE: Appearance = Appearance { theme: Theme::Neutral, marker: Marker::Braille };
 
 /// Longest time a request may take.
@@ -31,25 +31,25 @@ pub struct Driver {
     pub model: Model,
     /// The working folder of the library.
     pub folder: PathBuf,
-    /// What has been saved, by name.
+    /// Saved files by name.
     pub files: BTreeMap<PathBuf, String>,
-    /// What has been copied.
+    /// Copied texts.
     pub copied: Vec<String>,
-    /// The seed that is drawn next.
+    /// Next random seed.
     pub seed: u64,
-    /// Computes estimates of accuracy; without it nothing is estimated.
+    /// Computes estimates of accuracy; `None`: no estimates.
     pub appraiser: Option<Box<dyn Appraiser>>,
     worker: Worker,
     reports: Receiver<Report>,
 }
 
 impl Driver {
-    /// The explorer as it opens, before anything is computed.
+    /// Opens the explorer, before any computation.
     pub fn open(opening: impl Into<Opening>) -> Self {
         Driver::open_with(opening, Box::new(Simulation::default()))
     }
 
-    /// The same with another engine.
+    /// Opens the explorer with another engine.
     pub fn open_with(opening: impl Into<Opening>, engine: Box<dyn Engine>) -> Self {
         let Opening { document, study_map, beside } = opening.into();
         let mut model = Model::new(document, (120, 40), APPEARANCE);
@@ -73,13 +73,13 @@ impl Driver {
         }
     }
 
-    /// What comes back when an effect is done.
+    /// Actions that follow an effect.
     pub fn answer(&mut self, effect: Effect) -> Vec<Action> {
         match effect {
             Effect::Compute | Effect::Show | Effect::Preview(_) => {
                 request(&self.model, &effect).map_or(Vec::new(), |one| self.ask(one))
             }
-            // Answered with the next moment.
+            // Answered with the next state.
             Effect::Beside | Effect::Manual(_) => {
                 request(&self.model, &effect).into_iter().for_each(|one| self.worker.ask(one));
                 Vec::new()
@@ -108,7 +108,7 @@ impl Driver {
             Effect::Write { path, .. } if path.ends_with(REFUSED) => {
                 vec![Action::Written(Err(WriteFailure::Refused("no room".to_owned())))]
             }
-            // A file with a whole path is one on disk.
+            // An absolute path is a file on disk.
             Effect::Write { path, content, overwrite } if path.is_absolute() => {
                 vec![Action::Written(write(&self.model, path, content, overwrite))]
             }
@@ -129,7 +129,7 @@ impl Driver {
         }
     }
 
-    /// All that is found out about accuracy, as if nobody did anything meanwhile.
+    /// All findings about accuracy, without a key in between.
     fn study(&mut self) -> Vec<Action> {
         let (generation, tasks) = (self.model.generation, study_tasks(&self.model));
         let mut found = Vec::new();
@@ -143,7 +143,7 @@ impl Driver {
         found
     }
 
-    /// Asks the worker, and waits for all it reports.
+    /// Sends a request to the worker, and waits for all its reports.
     fn ask(&mut self, request: Request) -> Vec<Action> {
         self.worker.ask(request.clone());
         let mut actions = Vec::new();
@@ -159,7 +159,7 @@ impl Driver {
     }
 }
 
-/// Action of a report. Times are taken out of it: they differ from run to run.
+/// Action of a report, without its times: they differ from run to run.
 fn action_of(report: Report) -> Action {
     Action::Report(match report {
         Report::Computed(computed) => {

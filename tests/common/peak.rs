@@ -4,7 +4,7 @@ use std::fs;
 use std::io::Read;
 use std::process::{Command, Stdio};
 
-/// A scene by its name, and fields that are changed in it.
+/// Name of a scene, and its changed fields.
 pub type Changed<'a> = (&'a str, &'a [(&'a str, &'a str)]);
 
 /// Arguments of `asperity run` for a scene.
@@ -16,7 +16,7 @@ pub fn arguments((scene, fields): Changed<'_>) -> Vec<String> {
 /// Largest resident memory of `asperity run`, bytes.
 ///
 /// Read at the first byte of the results. With more results than a pipe holds, at least 5000 samples, the process waits
-/// there, and all its memory has been taken.
+/// there with all its memory allocated.
 pub fn peak(asperity: &str, changed: Changed<'_>) -> u64 {
     let mut run = Command::new(asperity).args(arguments(changed)).stdout(Stdio::piped()).spawn().unwrap();
     run.stdout.as_mut().unwrap().read_exact(&mut [0]).unwrap();

@@ -1,5 +1,4 @@
-//! Scenes that the tests explore: small ones, and not those that come with the program, which may
-//! change.
+//! Small scenes for the tests, in place of the presets of the program, which may change.
 
 use asperity::scene::Document;
 
@@ -23,7 +22,7 @@ pub fn changed(document: &Document, fields: &[(&str, &str)]) -> Document {
     document.set_all(&fields).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
-/// A scene as a file of that name would hold it.
+/// A scene as read from a file of that name.
 fn as_file(document: &Document, name: &str) -> Document {
     Document::parse(document.text(), name).unwrap_or_else(|errors| panic!("{errors}"))
 }
@@ -49,7 +48,7 @@ pub fn smooth() -> Document {
     based_on_rough("smooth-sphere", &fields)
 }
 
-/// A rough line that nothing attracts.
+/// A rough line without adhesion.
 pub fn without_adhesion() -> Document {
     based_on_rough("without-adhesion", &[("adhesion", "None")])
 }

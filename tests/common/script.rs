@@ -1,5 +1,5 @@
-//! Scripts for an explorer without a terminal: keys in, a screen out. Every request is answered before
-//! the next key counts, so that a script gives the same screens always.
+//! Scripts for an explorer without a terminal: keys in, a screen out. Every request is answered before the next key, so
+//! a script always shows the same screens.
 
 use super::driver::Driver;
 use asperity::explorer::action::Action;
@@ -14,27 +14,27 @@ use ratatui::buffer::{Buffer, Cell};
 use std::time::Duration;
 
 impl Driver {
-    /// The explorer with its scene computed and the first moment shown.
+    /// The explorer with its scene computed and the first state shown.
     pub fn start(opening: impl Into<Opening>) -> Self {
         let mut driver = Driver::open(opening);
         driver.perform(vec![Effect::Compute]);
         driver
     }
 
-    /// Lets something happen, and all that follows from it. Gives what it asked for by itself.
+    /// Performs an action and all its effects. Returns the effects of the action itself.
     pub fn act(&mut self, action: Action) -> Vec<Effect> {
         let effects = update(&mut self.model, action);
         self.perform(effects.clone());
         effects
     }
 
-    /// Runs a command of this name, and gives its effects undone.
+    /// Runs a command of this name, and returns its effects, not performed.
     pub fn update(&mut self, name: &str) -> Vec<Effect> {
         let command = self.model.bindings.named(name, self.model.keys()).expect("a valid command");
         update(&mut self.model, Action::Command(command))
     }
 
-    /// Does what an action asks for.
+    /// Performs the effects of an action.
     pub fn perform(&mut self, effects: Vec<Effect>) {
         for effect in effects {
             for action in self.answer(effect) {
@@ -43,8 +43,8 @@ impl Driver {
         }
     }
 
-    /// Presses keys, their names separated by blanks: `j`, `Ctrl+c`, `Enter`, `Shift+Left`. Gives what
-    /// the last of them asked for.
+    /// Presses keys, their names separated by blanks: `j`, `Ctrl+c`, `Enter`, `Shift+Left`. Returns the effects of the
+    /// last one.
     pub fn press(&mut self, names: &str) -> Vec<Effect> {
         let mut effects = Vec::new();
         for name in names.split_whitespace() {
@@ -63,7 +63,7 @@ impl Driver {
         text.chars().for_each(|character| drop(self.act(Action::Type(character))));
     }
 
-    /// Types a value for the selected parameter in place of the one it has.
+    /// Types a value for the selected parameter in place of the present one.
     pub fn enter(&mut self, value: &str) {
         self.press("e Ctrl+u");
         self.type_text(value);
@@ -82,17 +82,17 @@ impl Driver {
         panic!("no parameter {path}: {:?}", self.model.parameters);
     }
 
-    /// Lets time go by.
+    /// Advances the clock.
     pub fn elapse(&mut self, seconds: f64) -> Vec<Effect> {
         self.act(Action::Elapse(Duration::from_secs_f64(seconds)))
     }
 
-    /// Gives the window another size.
+    /// Resizes the window.
     pub fn resize(&mut self, (columns, rows): (u16, u16)) {
         self.act(Action::Resize(columns, rows));
     }
 
-    /// What is on the screen.
+    /// Present screen.
     pub fn screen(&self) -> Buffer {
         draw(&self.model)
     }

@@ -8,28 +8,28 @@ use super::{
 };
 use proptest::prelude::*;
 
-/// Most elements of a list that is drawn; longer lists add time and no other case.
+/// Most elements of a drawn list; longer lists add time and no other case.
 const MOST_ELEMENTS: usize = 6;
 
-/// Most characters of a text that is drawn.
+/// Most characters of a drawn text.
 const MOST_CHARACTERS: usize = 40;
 
-/// Values of ten that are ends of their range, or drawn over all its orders of magnitude.
+/// Numbers of values in ten at an end of their range, or drawn over all its orders of magnitude.
 const EXTREME: [u32; 3] = [1, 5, 10];
 
 /// Options of the draws.
 #[derive(Clone, Default)]
 pub struct Drawn {
-    /// Fields whose values are drawn otherwise, by path: because a whole range takes too long to compute.
+    /// Fields with values of another strategy, by path: a whole range would take too long to compute.
     narrowed: Vec<(&'static str, BoxedStrategy<String>)>,
-    /// Values outside their ranges or of other types, missing and unknown fields are drawn now and then.
+    /// True to draw now and then values outside their ranges or of other types, missing and unknown fields.
     wrong: bool,
-    /// Values of ten that are extreme.
+    /// Number of extreme values in ten.
     extreme: u32,
 }
 
 impl Drawn {
-    /// Draws the value of one field otherwise.
+    /// Sets another strategy for the values of one field.
     pub fn narrowed(mut self, path: &'static str, value: BoxedStrategy<String>) -> Self {
         self.narrowed.push((path, value));
         self
@@ -52,7 +52,7 @@ impl Drawn {
             .prop_filter_map("a scene that is allowed", |text| Document::parse(&text, "drawn").ok())
     }
 
-    /// Overrides as `--set` takes them: path and value.
+    /// Overrides in the form of `--set`: path and value.
     pub fn overrides(&self, most: usize) -> BoxedStrategy<Vec<(String, String)>> {
         let of = |field: &'static Field| {
             let drawn = Drawn { extreme: EXTREME[0], ..self.clone() };
@@ -66,7 +66,7 @@ impl Drawn {
         prop::collection::vec(one, 1..=most).boxed()
     }
 
-    /// A value of a field as it is written.
+    /// Text of a value of a field.
     fn value(&self, field: &'static Field) -> BoxedStrategy<String> {
         if let Some((_, value)) = self.narrowed.iter().find(|(path, _)| *path == field.path) {
             return value.clone();
@@ -115,8 +115,8 @@ impl Drawn {
         }
     }
 
-    /// The fields below a path, in parentheses. A template names those of them that make a whole; others that may
-    /// be left out are mostly left out.
+    /// The fields below a path, in parentheses. A template names the fields of a complete group; other optional fields
+    /// are mostly left out.
     fn group(&self, parent: &str, variant: Option<&str>, template: &str) -> BoxedStrategy<String> {
         let belongs = |field: &&Field| {
             field.parent() == parent
@@ -151,7 +151,7 @@ impl Drawn {
             .boxed()
     }
 
-    /// Numbers around what is usual in the field, and extreme ones: the ends of the range, and all its orders of
+    /// Numbers around the usual value of the field, and extreme ones: the ends of the range, and all its orders of
     /// magnitude alike.
     fn number(&self, field: &'static Field, min: End, max: End) -> BoxedStrategy<f64> {
         let least = if let End::Open(end) = min { end.next_up() } else { min.value() };
@@ -182,7 +182,7 @@ fn whole(min: u64, max: u64) -> BoxedStrategy<u64> {
     prop_oneof![1 => Just(min), 1 => Just(max), 10 => decades].boxed()
 }
 
-/// Text with characters of all kinds, but control characters.
+/// Text with characters of all kinds except control characters.
 fn text(most: usize, lines: bool) -> BoxedStrategy<String> {
     let character = prop_oneof![4 => proptest::char::range(' ', '~'), 1 => any::<char>(), 1 => Just('\n')];
     let allowed = move |c: &char| !is_control(*c) || (lines && *c == '\n');
@@ -241,7 +241,7 @@ pub fn sound_scenes() -> impl Strategy<Value = Scene> {
     Drawn::default().documents().prop_map(|document| document.scene().clone())
 }
 
-/// A rough scene with adhesion that violates nothing.
+/// A valid rough scene with adhesion.
 pub fn sound() -> Scene {
     const TEXT: &str = r#"(
         version: 1,

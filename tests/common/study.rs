@@ -23,14 +23,14 @@ pub const PLAN: &str = r#"(
     record: [zero_load_adhesion_share, adhesion_coefficient, adhesion_force, regime],
 )"#;
 
-/// Puts the study of a plan into a folder, merged.
+/// Creates the study of a plan in a folder, computed and merged.
 pub fn merged(folder: &Path, plan: &str) {
     let study = begun(folder, plan);
     run(&study, Options { jobs: 2, shard: Shard::WHOLE }, &|| false, &mut |_| ()).unwrap();
     merge(&study, false).unwrap();
 }
 
-/// Puts the study of a plan into a folder, with nothing computed of it.
+/// Creates the study of a plan in a folder, without results.
 pub fn begun(folder: &Path, plan: &str) -> Folder {
     let plan = Plan::parse(plan, "plan", &Changes::default()).unwrap();
     Folder::create(folder, &plan).unwrap()

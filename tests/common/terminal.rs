@@ -1,5 +1,4 @@
-//! A program in a pseudo-terminal: what it writes is kept byte by byte and shown on a screen, and it is
-//! waited for with a deadline.
+//! A program in a pseudo-terminal: its output is kept byte by byte and shown on a screen, and each wait has a deadline.
 
 #![allow(dead_code, reason = "no test uses all of it")]
 
@@ -16,42 +15,42 @@ use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
-/// Longest time anything may take.
+/// Longest wait.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// Time without a byte after which a screen is taken for finished: several frames.
+/// Time without a byte after which a screen counts as finished: several frames.
 const QUIET: Duration = Duration::from_millis(200);
 
-/// What a program writes before and after a frame that is to be shown at once.
+/// Bytes of the program before and after a frame to be shown at once.
 pub const BEGIN_FRAME: &[u8] = b"\x1b[?2026h";
 pub const END_FRAME: &[u8] = b"\x1b[?2026l";
 
-/// Something the program does.
+/// An event of the program.
 enum Event {
     Wrote(Vec<u8>, Instant),
     Closed,
     Ended(ExitStatus),
 }
 
-/// A frame that has come.
+/// A received frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
-    /// When its last byte came.
+    /// Time of its last byte.
     pub arrived: Instant,
-    /// Its bytes, with the marks around them.
+    /// Number of its bytes, including the marks around them.
     pub bytes: usize,
 }
 
-/// A program about to be started in a terminal of its own.
+/// A program to be started in a terminal of its own.
 pub struct Program {
     command: CommandBuilder,
     size: (u16, u16),
-    /// Home folder of its own: nothing of the user's is read or written.
+    /// Home folder of its own: no file of the user is read or written.
     home: TempDir,
 }
 
 impl Program {
-    /// A program in a window of 120 × 40 that knows of the environment no more than its terminal.
+    /// A program in a window of 120 × 40 whose environment contains only its terminal.
     pub fn new(path: impl AsRef<OsStr>) -> Self {
         let mut command = CommandBuilder::new(path);
         command.env_clear();
@@ -86,7 +85,7 @@ impl Program {
         self
     }
 
-    /// Starts it.
+    /// Starts the program.
     pub fn start(self) -> Terminal {
         let pty = native_pty_system().openpty(size(self.size)).unwrap();
         let before = attributes(pty.master.as_ref());
@@ -133,7 +132,7 @@ fn nonzero(value: u16) -> NonZeroU16 {
     NonZeroU16::new(value).expect("a window has columns and rows")
 }
 
-/// How the terminal treats what is typed and written: raw or line by line, with echo or without.
+/// Treatment of input and output by the terminal: raw or line by line, with or without echo.
 fn attributes(master: &dyn MasterPty) -> String {
     format!("{:?}", master.get_termios().expect("a terminal has attributes"))
 }
@@ -173,11 +172,11 @@ fn read(
 pub struct Terminal {
     parser: vt100::Parser,
     written: Vec<u8>,
-    /// What has come and is not shown yet, frame by frame.
+    /// Bytes received and not shown yet, frame by frame.
     waiting: VecDeque<Vec<u8>>,
-    /// When the newest byte came.
+    /// Time of the newest byte.
     arrived: Instant,
-    /// Where the frame begins that has not ended.
+    /// Beginning of the unfinished frame.
     begun: Option<usize>,
     frames: Vec<Frame>,
     keyboard: Option<Box<dyn Write + Send>>,
@@ -187,7 +186,7 @@ pub struct Terminal {
     events: Receiver<Event>,
     reader: Option<JoinHandle<()>>,
     closing: Arc<AtomicBool>,
-    /// Whether nothing of what is written is read.
+    /// True while output is not read.
     resting: Arc<AtomicBool>,
     killer: Box<dyn ChildKiller + Send + Sync>,
     pid: u32,
@@ -222,7 +221,7 @@ impl Terminal {
         &self.frames
     }
 
-    /// When the newest byte on the screen came, however long it took to show it.
+    /// Time of the newest byte on the screen, without the time of showing it.
     pub fn arrived(&self) -> Instant {
         self.arrived
     }
@@ -232,33 +231,33 @@ impl Terminal {
         self.pid
     }
 
-    /// Types: one write, as a terminal sends it.
+    /// Sends keys in one write, as a terminal does.
     pub fn send(&mut self, keys: &str) {
         let keyboard = self.keyboard.as_mut().expect("the terminal is open");
         keyboard.write_all(keys.as_bytes()).unwrap();
         keyboard.flush().unwrap();
     }
 
-    /// Types where the program still runs.
+    /// Sends keys if the program still runs.
     pub fn send_if_open(&mut self, keys: &str) {
         let keyboard = self.keyboard.as_mut().expect("the terminal is open");
         let _ = keyboard.write_all(keys.as_bytes()).and_then(|()| keyboard.flush());
     }
 
-    /// Gives the window another size. What was on it goes, as it may in a terminal.
+    /// Resizes the window. Its former content is lost, as it may be in a terminal.
     pub fn resize(&mut self, columns: u16, rows: u16) {
         self.parser.process(b"\x1b[2J");
         self.parser.set_size(nonzero(rows), nonzero(columns));
         self.master.as_ref().expect("the terminal is open").resize(size((columns, rows))).unwrap();
     }
 
-    /// Whether what is typed is echoed and read line by line, as before the program started.
+    /// True if input is echoed and read line by line, as before the start of the program.
     pub fn is_as_before(&self) -> bool {
         let master = self.master.as_ref().expect("the terminal is open");
         attributes(master.as_ref()) == self.before
     }
 
-    /// Waits until the rows of the screen are as they should be.
+    /// Waits until the rows of the screen satisfy a condition.
     #[track_caller]
     pub fn wait(&mut self, what: &str, is_there: impl Fn(&[String]) -> bool) {
         let deadline = Instant::now() + PATIENCE;
@@ -287,13 +286,13 @@ impl Terminal {
         self.wait(&format!("screen without {text}"), |rows| !rows.iter().any(|row| row.contains(text)));
     }
 
-    /// Waits until nothing more is written for a while.
+    /// Waits until output pauses.
     #[track_caller]
     pub fn settle(&mut self) {
         self.settle_for(QUIET);
     }
 
-    /// Waits until nothing more is written for this time.
+    /// Waits until output pauses for this time.
     #[track_caller]
     pub fn settle_for(&mut self, quiet: Duration) {
         let deadline = Instant::now() + PATIENCE;
@@ -302,7 +301,7 @@ impl Terminal {
         }
     }
 
-    /// Waits for something that is not on the screen.
+    /// Waits for a condition outside the screen.
     #[track_caller]
     pub fn wait_until(&mut self, what: &str, is_so: impl Fn() -> bool) {
         let deadline = Instant::now() + PATIENCE;
@@ -312,12 +311,12 @@ impl Terminal {
         }
     }
 
-    /// Whether nothing is written for a time.
+    /// True if there is no output for a time.
     pub fn is_silent_for(&mut self, time: Duration) -> bool {
         !self.take(time)
     }
 
-    /// Shows what comes until a moment.
+    /// Shows output until an instant.
     pub fn take_until(&mut self, moment: Instant) {
         loop {
             let time = moment.saturating_duration_since(Instant::now());
@@ -327,7 +326,7 @@ impl Terminal {
         }
     }
 
-    /// Waits until the program has ended and all it wrote has come.
+    /// Waits until the program has ended and all its output has arrived.
     #[track_caller]
     pub fn wait_end(&mut self) -> ExitStatus {
         let deadline = Instant::now() + PATIENCE;
@@ -338,13 +337,12 @@ impl Terminal {
         self.ended.clone().expect("it has ended")
     }
 
-    /// Reads nothing of what is written, as a terminal that hangs, or reads again. What is on its way when it
-    /// stops is still taken.
+    /// Stops (or resumes) reading output, as a terminal that hangs does. Output already on its way is still taken.
     pub fn rest(&self, resting: bool) {
         self.resting.store(resting, Ordering::SeqCst);
     }
 
-    /// Waits until the program has ended, whatever it wrote.
+    /// Waits until the program has ended, with any output.
     #[track_caller]
     pub fn wait_process(&mut self) -> ExitStatus {
         let deadline = Instant::now() + PATIENCE;
@@ -355,17 +353,17 @@ impl Terminal {
         self.ended.clone().expect("it has ended")
     }
 
-    /// Closes the terminal, as a window that is shut or a connection that drops.
+    /// Closes the terminal, like a closed window or a dropped connection.
     pub fn hang_up(&mut self) {
         self.closing.store(true, Ordering::SeqCst);
-        // The reader returns with the next byte that is written: that of a key.
+        // The reader returns with the next byte of output: the echo of a key.
         self.send("?");
         self.reader.take().expect("the terminal is open").join().unwrap();
         self.keyboard = None;
         self.master = None;
     }
 
-    /// Takes one event, of what is written one frame, and returns true if there was one in time.
+    /// Takes one event, or one frame of output; returns true if there was one in time.
     fn take(&mut self, time: Duration) -> bool {
         if let Some(part) = self.waiting.pop_front() {
             self.show(&part);
@@ -384,7 +382,7 @@ impl Terminal {
         true
     }
 
-    /// Parts what has come behind the end of each frame, also of one whose end came in two pieces.
+    /// Splits bytes after the end of each frame, also of one whose end arrived in two pieces.
     fn frame_by_frame(&self, bytes: &[u8]) -> VecDeque<Vec<u8>> {
         let before = &self.written[self.written.len().saturating_sub(END_FRAME.len() - 1)..];
         let joined = [before, bytes].concat();
@@ -400,7 +398,7 @@ impl Terminal {
         parts
     }
 
-    /// Shows what has come of one frame.
+    /// Shows received bytes of one frame.
     fn show(&mut self, part: &[u8]) {
         self.parser.process(part);
         let from = self.written.len().saturating_sub(END_FRAME.len() - 1);

@@ -19,22 +19,22 @@ struct Problem {
     modulus: f64,
     /// γ, J/m².
     work: f64,
-    /// Indentation at which it turns, m.
+    /// Indentation of the turning point, m.
     deepest: f64,
 }
 
-/// What is known of it in closed form.
+/// Known values of a problem in closed form.
 struct ClosedForm {
     figures: Vec<Figure>,
     /// F(d) in contact, from the deepest indentation back to `curve_from`.
     force: Box<dyn Fn(f64) -> f64>,
-    /// Indentation, m, below which the curve falls so steeply to the last force before separation that
-    /// only its end, which is one of the figures, has an error worth the name.
+    /// Indentation, m, below which the curve falls so steeply to the last force before separation that only its end,
+    /// one of the figures, has a meaningful error.
     curve_from: f64,
 }
 
-/// One number of a loop: how it is read from loading and unloading leg, what it must be, and what
-/// its error is measured in.
+/// One number of a loop: its function of the loading and the unloading leg, its expected value, and the unit of its
+/// error.
 struct Figure {
     name: &'static str,
     read: fn(&[LegRecord; 2]) -> f64,
@@ -104,23 +104,23 @@ fn errors(problem: &Problem, closed: &ClosedForm, points: usize) -> Vec<(&'stati
     figures.chain([("curve", curve_error(&legs, closed))]).collect()
 }
 
-/// How near a figure must come.
+/// Demand on the error of a figure.
 #[derive(Clone)]
 enum Demand {
     /// Within this on every grid.
     Within(f64),
-    /// Ever nearer with the number of springs: slope of ln(error) over −ln(N) by least squares, and the
-    /// error on the finest grid.
+    /// Decreasing with the number of springs: slope of ln(error) over −ln(N) by least squares, and the error on the
+    /// finest grid.
     Order(RangeInclusive<f64>, f64),
 }
 
-/// What counting whole springs costs. The largest errors are those of small losses: all the way, growing
-/// takes the length before, letting go the length after.
+/// The cost of counting whole springs. The largest errors are those of small losses: throughout, growth takes the
+/// length before, detachment the length after.
 const FIRST_ORDER: Demand = Demand::Order(0.8..=1.3, 2e-3);
 
 const ROUNDING: Demand = Demand::Within(2e-15);
 
-/// Computes a problem on all grids and demands that each figure and the curve come near enough.
+/// Computes a problem on all grids and checks the errors of each figure and of the curve.
 fn judge(name: &str, problem: &Problem, closed: &ClosedForm, grids: &[usize], demand: &Demand) {
     let errors: Vec<_> = grids.iter().map(|&points| errors(problem, closed, points)).collect();
     for (index, &(what, coarse)) in errors[0].iter().enumerate() {
@@ -149,8 +149,8 @@ fn grids() -> Vec<usize> {
 
 /// The figures of a body in contact on one stable branch, of which F(a), d(a) and dd/da are known.
 ///
-/// Above d = 0 the way in and the way back are the same; below, only the way back is in contact, down to
-/// where dd/da = 0. What is lost is −∫F dd over that part.
+/// Above d = 0 the way in and the way back are the same; below, only the way back is in contact, down to a zero of
+/// dd/da. The dissipated energy is −∫F dd over that part.
 struct Branch {
     force: fn(&PowerLaw, f64) -> f64,
     indentation: fn(&PowerLaw, f64) -> f64,
@@ -207,7 +207,7 @@ fn unit_sphere() -> (Problem, ClosedForm) {
         force: |_, a| 4.0 / 3.0 * a.powi(3) - (8.0 * PI * a.powi(3)).sqrt(),
         indentation: |_, a| a * a - (2.0 * PI * a).sqrt(),
         slope: |_, a| 2.0 * a - (PI / (2.0 * a)).sqrt(),
-        // Not looked at: the formulas have no parameter.
+        // Not used: the formulas have no parameter.
         body: PowerLaw::of(&form, 1.0, 1.0).unwrap(),
         pull_off: ((9.0 * PI / 8.0).cbrt(), -1.5 * PI),
         separation: ((PI / 8.0).cbrt(), -5.0 / 6.0 * PI),
@@ -261,7 +261,7 @@ fn power_laws_converge_to_their_closed_forms() {
     }
 }
 
-/// Kendall's flat punch of diameter 2a: all of it is in contact or nothing is.
+/// Kendall's flat punch of diameter 2a: either all of it is in contact or none.
 fn flat(diameter: f64, modulus: f64, work: f64) -> ClosedForm {
     let radius = 0.5 * diameter;
     let stretch = (2.0 * PI * radius * work / modulus).sqrt();

@@ -1,4 +1,4 @@
-//! The exact solver against blind relaxation of the rules, written here and independent of the library.
+//! The exact solver against blind relaxation of the rules, independent of the library.
 
 use asperity::contact::{ContactError, ContactTree, Foundation, GridEdges, HessRule, Solver, exact};
 use asperity::scene::{Edges, Leg};
@@ -10,7 +10,7 @@ const SPACING: f64 = 0.01;
 /// Far above the rounding of a threshold, far below the distance between two, m.
 const ROUNDING: f64 = 1e-9;
 
-/// A foundation that knows only the rules: it looks at any spring in any order until nothing applies.
+/// A foundation that knows only the rules: it tries any spring in any order until no rule applies.
 #[derive(Clone)]
 struct Blind<'a> {
     gaps: &'a [f64],
@@ -18,25 +18,25 @@ struct Blind<'a> {
     ranges: [f64; 2],
     contact: Vec<bool>,
     order: Order,
-    /// The springs in the order of a round; shuffled anew for each round where the order says so.
+    /// The springs in the order of a round; shuffled anew for each round by `Order::Shuffled`.
     springs: Vec<usize>,
 }
 
-/// The order in which blind looks at the springs.
+/// The order in which blind relaxation tries the springs.
 #[derive(Clone, Copy, Debug)]
 enum Order {
     LeftToRight,
     RightToLeft,
     /// From both ends to the middle.
     Inwards,
-    /// Every so many springs, around and around.
+    /// Steps of this many springs, around and around.
     Stride(usize),
     /// Shuffled anew for each round.
     Shuffled(u64),
 }
 
 impl Order {
-    /// The springs of a round, each of them once, before they are shuffled.
+    /// The springs of a round, each once, before any shuffling.
     fn springs(self, count: usize) -> Vec<usize> {
         let mut springs: Vec<usize> = (0..count).collect();
         match self {
@@ -48,7 +48,7 @@ impl Order {
         springs
     }
 
-    /// Shuffles the springs for a round, where that is the order.
+    /// Shuffles the springs for a round, if the order requires it.
     fn shuffle(&mut self, springs: &mut [usize]) {
         let Order::Shuffled(state) = self else { return };
         for last in (1..springs.len()).rev() {
@@ -75,7 +75,7 @@ impl<'a> Blind<'a> {
         (left, right)
     }
 
-    /// Applies a rule to this spring; false where none applies.
+    /// Applies a rule to this spring; returns false if none applies.
     fn apply(&mut self, index: usize, d: f64) -> bool {
         let gap = self.gaps[index];
         let [closing, opening] = self.ranges;
@@ -185,14 +185,14 @@ fn order() -> impl Strategy<Value = Order> {
     ]
 }
 
-/// A leg as it is drawn.
+/// A leg as drawn.
 #[derive(Clone, Copy, Debug)]
 enum Move {
     /// To an indentation, m.
     To(f64),
     Touch,
     ZeroForce,
-    /// To the present force and this, N.
+    /// To the present force plus this, N.
     ForceStep(f64),
     /// To this share of the present force.
     ForceShare(f64),
@@ -219,19 +219,19 @@ fn steps() -> impl Strategy<Value = Vec<(Move, Vec<f64>)>> {
     prop::collection::vec((step(), prop::collection::vec(0.001..1.0_f64, 0..8)), 1..=8)
 }
 
-/// What has been compared so far.
+/// Counts of comparisons so far.
 struct Compared {
     /// Whole contact states.
     states: AtomicU64,
     /// States of single springs.
     springs: AtomicU64,
-    /// Legs that could not be done.
+    /// Legs that were refused.
     refused: AtomicU64,
     /// Whole contact states of each kind of case, and under each order of rules.
     of_kinds: [AtomicU64; KINDS.len()],
 }
 
-/// Kinds of cases that have to be among those compared.
+/// Kinds of cases required among those compared.
 const KINDS: [&str; 9] = [
     "gaps alike",
     "γ₁ = 0 < γ₂",
@@ -275,7 +275,7 @@ impl Compared {
     }
 }
 
-/// Moves both along the legs and compares them wherever they are asked for.
+/// Moves both along the legs and compares them at all probes.
 fn compare(
     gaps: &[f64],
     ranges: [f64; 2],
@@ -304,7 +304,7 @@ fn compare(
         let record = match solver.advance(leg) {
             Ok(record) => record,
             Err(ContactError::NothingToPull { .. } | ContactError::DetachesBefore { .. }) => {
-                // The body is where it was. The leg of a separation still has the contact of its end.
+                // The body has not moved. The leg of a separation still has the contact of its end.
                 if blind.contact.contains(&true) {
                     let found = solver.fragments(present);
                     prop_assert_eq!(found, blind.fragments(), "after {:?} failed", leg);
@@ -320,7 +320,7 @@ fn compare(
         let stays = record.curve.len() == 1;
         let separates = leg == Leg::ToSeparation;
         // Separation ends just where the last springs still hold: to rounding, the blind relaxation may be on either
-        // side of it. Everywhere else both are at the same number.
+        // side of it. Elsewhere both are at the same number.
         let to = if separates { (end.indentation + ROUNDING).min(present) } else { end.indentation };
         for probe in probes.iter().filter(|_| !stays) {
             let d = present + probe * (to - present);
@@ -396,7 +396,7 @@ fn few_springs_agree_with_blind_relaxation() {
     // Without adhesion the deepest spring touches last, though its neighbours are in contact.
     let gaps = [0.0, 0.718_352_439_046_38, 0.747_622_633_866_587_6];
     compare(&gaps, [0.0; 2], Order::LeftToRight, &[(Move::To(0.75), vec![0.99])], &compared).unwrap();
-    // A single spring is held below first touch, then detaches, and needs a touch to attach again.
+    // A single spring is held below first touch, then detaches, and must touch to attach again.
     let legs =
         [0.0, -0.183_601_704_731_071_62, -2.344_984_497_776_057e-5, -0.493_355_240_886_346_4, -0.1, 0.0]
             .map(|to| (Move::To(to), vec![0.25, 0.5, 1.0]));

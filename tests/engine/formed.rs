@@ -1,10 +1,10 @@
-//! A body that forms its contact several times, beside new ones that form it once.
+//! A body that forms its contact several times, compared with new bodies that form it once.
 
 use asperity::contact::Solver;
 use asperity::scene::Leg;
 use proptest::prelude::*;
 
-/// Loadings that come down several times; forces are shares, indentations metres.
+/// Loadings with several separations; forces are shares, indentations metres.
 pub fn loadings() -> impl Strategy<Value = Vec<Leg>> {
     let leg = prop_oneof![
         3 => (-0.5..1.3_f64).prop_map(Leg::ToIndentation),
@@ -17,8 +17,8 @@ pub fn loadings() -> impl Strategy<Value = Vec<Leg>> {
 }
 
 /// Moves a body along the legs, shares of this force instead of forces, and beside it a new one from each separation
-/// on, and holds each record and contact of one against the other's. A contact that forms again closes as it did
-/// before, without another pass over the tree.
+/// on, and compares their records and contacts. A contact that forms again closes as before, without another pass over
+/// the tree.
 pub fn as_if_new<S: Solver>(new: impl Fn() -> S, legs: &[Leg], force: f64) -> Result<(), TestCaseError> {
     let (mut body, mut beside) = (new(), new());
     let (mut passes_beside, mut formed, mut free) = (0, 0_u64, true);
@@ -32,7 +32,7 @@ pub fn as_if_new<S: Solver>(new: impl Fn() -> S, legs: &[Leg], force: f64) -> Re
         }
         match (body.advance(leg), beside.advance(leg)) {
             (Ok(one), Ok(other)) => {
-                // Where it came from in separation does not matter.
+                // The indentation of the start in separation does not matter.
                 let touching = |record: &asperity::contact::LegRecord| {
                     record
                         .curve

@@ -11,7 +11,7 @@ use asperity::scene::Leg;
 use loops::Loop;
 use trace::{Quantity, Trace};
 
-/// Loops of which results are recorded, those without adhesion included.
+/// Number of recorded loops, including those without adhesion.
 const LOOPS: u64 = 32_768;
 /// Largest relative deviation of energies.
 const OF_ENERGY: f64 = 1e-14;
@@ -19,8 +19,8 @@ const OF_ENERGY: f64 = 1e-14;
 /// Checksum and sum of absolute energies (J) of each loop under adhesion, in their order.
 const RECORDED: &[u8] = include_bytes!("former_engine/recorded.bin");
 
-/// Loops with edges between springs that unload to a force where its last digits decide: the indentation differs in its
-/// last digits, since the interpolation begins at other ends.
+/// Loops with edges between springs that unload to a force determined by its last digits: the indentation differs in
+/// its last digits, since the interpolation begins at other ends.
 const OTHER_TARGETS: [u64; 43] = [
     157, 377, 447, 679, 761, 905, 951, 1093, 1923, 3885, 3929, 4287, 4501, 5571, 5689, 6959, 9019, 11549,
     12543, 13085, 13251, 13951, 14061, 14339, 15553, 15831, 15923, 16409, 16459, 17447, 18557, 18859, 21103,
@@ -59,8 +59,8 @@ fn trace<E: EdgeModel>(case: &Loop, edges: E, foundation: Foundation) -> Trace {
     trace
 }
 
-/// Curves, pull-off, patches and zero-load adhesion are the same bit for bit but in these loops; energies of all are the
-/// same to rounding.
+/// Curves, pull-off, patches and zero-load adhesion are the same bit for bit except in these loops; all energies are
+/// the same to rounding.
 fn check(sub_cell: bool, others: &[u64]) {
     let recorded = RECORDED.as_chunks::<12>().0;
     let mut different = Vec::new();
@@ -147,7 +147,7 @@ impl Scales {
         Scales([0, 1, 2].map(component), of(Quantity::Energy).fold(0.0, f64::max))
     }
 
-    /// Scale of the value at this place among all of its quantity.
+    /// Scale of the value at this index of a quantity.
     fn of(&self, quantity: usize, place: usize) -> f64 {
         if quantity == Quantity::Energy as usize { self.1 } else { self.0[place % 3] }
     }

@@ -1,5 +1,5 @@
-//! The catalogue of hard cases that `asperity check` shows, case by case, and what it rests on against
-//! arithmetic of 192 binary digits.
+//! The catalogue of hard cases of `asperity check`, case by case, and its references against arithmetic of 192 binary
+//! digits.
 
 mod events;
 mod extended;
@@ -10,7 +10,7 @@ mod wide;
 use super::subcell::brute_force as level_by_level;
 use asperity::check::{Family, checks, judge};
 
-/// Runs the cases of a family and says which of them fail, or pass although they are known to fail.
+/// Runs the cases of a family; fails if one fails, or passes although known to fail.
 fn hold(family: Family) {
     let mut failed = Vec::new();
     let checks = checks(|case| case.family == family && !case.large);

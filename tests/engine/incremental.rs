@@ -1,4 +1,4 @@
-//! Manual loading against the exact solver: the same contact, bit for bit, at the cost of what changes.
+//! Manual loading against the exact solver: the same contact, bit for bit, at a cost proportional to the change.
 
 use asperity::contact::{
     ContactError, ContactTree, CurvePoint, Foundation, GridEdges, HessRule, LegRecord, Manual, ManualError,
@@ -9,7 +9,7 @@ use asperity::surface::{SelfAffine, UnitRoughness};
 use proptest::prelude::*;
 use std::sync::Arc;
 
-/// Springs, with a work of adhesion unless there is none.
+/// Springs, with or without a work of adhesion.
 #[derive(Clone, Debug)]
 struct Body {
     /// m, the smallest 0.
@@ -38,12 +38,12 @@ impl Body {
         }
     }
 
-    /// Under manual loading, as it is before first touch.
+    /// The body under manual loading, before first touch.
     fn separated(&self, tree: &Arc<ContactTree>) -> Manual<GridEdges> {
         Manual::new(&self.gaps, Arc::clone(tree), self.edges(), self.foundation).unwrap()
     }
 
-    /// Under manual loading, in this contact.
+    /// The body under manual loading, in this contact.
     fn in_contact(
         &self,
         tree: &Arc<ContactTree>,
@@ -60,14 +60,14 @@ impl Body {
         self.gaps.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Largest stretch of a fragment that is the whole line, m.
+    /// Largest stretch of a fragment over the whole line, m.
     fn largest_stretch(&self) -> f64 {
         let length = self.gaps.len() as f64 * self.foundation.spacing;
         let range = self.work.unwrap_or(0.0) / self.foundation.effective_modulus;
         (std::f64::consts::PI * length * range).sqrt()
     }
 
-    /// A force of the order of those that act, N.
+    /// Order of magnitude of the acting forces, N.
     fn force_scale(&self) -> f64 {
         let springs = self.gaps.len() as f64 * self.foundation.spring_stiffness();
         springs * (self.deepest() + self.largest_stretch()).max(1e-3)
@@ -107,7 +107,7 @@ fn gaps() -> impl Strategy<Value = Vec<f64>> {
     )
 }
 
-/// Bodies about 1 m deep, without adhesion, with hardly any, and with far more than it takes.
+/// Bodies about 1 m deep: without adhesion, with hardly any, and with far more than full adhesion needs.
 fn body() -> impl Strategy<Value = Body> {
     let range = prop_oneof![
         3 => (-5.0..2.0_f64).prop_map(|power| Some(10_f64.powf(power))),
@@ -124,7 +124,7 @@ fn body() -> impl Strategy<Value = Body> {
     )
 }
 
-/// Where a move goes; forces in units of those that act.
+/// Target of a move; forces in units of the acting ones.
 #[derive(Clone, Copy, Debug)]
 enum Goal {
     Indentation(f64),
@@ -170,7 +170,7 @@ fn cases(cases: u32) -> ProptestConfig {
     ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
 }
 
-/// All of a point, bit for bit.
+/// All bits of a point.
 fn bits(point: &CurvePoint) -> [u64; 4] {
     [point.indentation.to_bits(), point.force.to_bits(), point.springs, point.fragments]
 }
@@ -179,18 +179,18 @@ fn fragments(body: &dyn ManualLoading) -> Vec<(usize, usize)> {
     body.fragments().collect()
 }
 
-/// State of a body: all of its point and its fragments.
+/// State of a body: all bits of its point, and its fragments.
 fn state(body: &dyn ManualLoading) -> ([u64; 4], Vec<(usize, usize)>) {
     (bits(&body.point()), fragments(body))
 }
 
-/// The fragments a solver has at the end of a leg.
+/// The fragments of a solver at the end of a leg.
 fn fragments_after(solver: &dyn Solver, record: &LegRecord) -> Vec<(usize, usize)> {
     let end = record.curve.last().unwrap();
     if end.springs == 0 { Vec::new() } else { solver.fragments(end.indentation) }
 }
 
-/// The springs around one that touch before it does, where of equal gaps the leftmost touches last.
+/// The springs around one that touch before that one, where of equal gaps the leftmost touches last.
 fn span_of(gaps: &[f64], spring: usize) -> (usize, usize) {
     let gap = gaps[spring];
     let before = gaps[..spring].iter().rev().take_while(|&&other| other < gap).count();
@@ -198,7 +198,7 @@ fn span_of(gaps: &[f64], spring: usize) -> (usize, usize) {
     (spring - before, spring + after)
 }
 
-/// To 1e-12 of the sum of its terms, ½ Δk e² for each spring that moved.
+/// Checks an energy to 1e-12 of the sum of its terms, ½ Δk e² for each moved spring.
 fn check_energy(found: f64, expected: f64) -> Result<(), TestCaseError> {
     // On one leg they all have one sign.
     prop_assert!((found - expected).abs() <= 1e-12 * expected.abs(), "{} J against {} J", found, expected);
@@ -323,7 +323,7 @@ proptest! {
         for &to in &history {
             last = Some(solver.advance(Leg::ToIndentation(to)).unwrap());
         }
-        // A moment of the last leg.
+        // A state of the last leg.
         let last = last.unwrap();
         let moment = last.start() + share * (last.end() - last.start());
         for &to in &history[..history.len() - 1] {
@@ -364,7 +364,7 @@ proptest! {
         let force: f64 = expected.iter().flat_map(|&(first, last)| &body.gaps[first..=last])
             .map(|gap| body.foundation.spring_stiffness() * (0.1 - gap)).sum();
         prop_assert!((point.force - force).abs() <= 1e-12 * body.force_scale());
-        // Out of equilibrium or not: pressed beyond all gaps everything touches, pulled apart nothing does.
+        // In equilibrium or not: pressed beyond all gaps everything touches, pulled apart nothing does.
         manual.move_to_indentation(body.deepest().max(0.2)).unwrap();
         prop_assert_eq!(manual.point().springs, body.gaps.len() as u64);
         prop_assert_eq!(manual.separate().detaches, body.gaps.len() as u64);
@@ -427,7 +427,7 @@ fn shares() -> impl Iterator<Item = f64> {
     (1_u32..).map(|k| (f64::from(k) * 0.618_033_988_749_894_9).fract())
 }
 
-/// Most entries looked at for each spring that changes, and once more, in units of log₂ N.
+/// Most entries read for each spring that changes, plus one, in units of log₂ N.
 const MOST_TOUCHED: f64 = 4.0;
 
 #[test]
@@ -462,7 +462,7 @@ fn a_step_costs_what_changes() {
                 let changed = check(manual.move_to_indentation(middle + size * (share - 0.5)).unwrap());
                 still += usize::from(changed == 0);
             }
-            // The history in between, as the exact solver sees it.
+            // The history in between, by the exact solver.
             let runs = fragments(&manual);
             let at = manual.point();
             let mut taken = body.in_contact(&tree, at.indentation, &runs);

@@ -1,5 +1,5 @@
-//! A million springs in the shapes that are hardest on a tree: it becomes a chain, all gaps tie, or
-//! every fragment is like every other. All have answers that are known.
+//! A million springs in the hardest shapes for a tree: a chain, all gaps equal, or all fragments alike. All results are
+//! known.
 
 use asperity::contact::{ContactTree, CurvePoint, Foundation, GridEdges, HessRule, LegRecord, Solver, exact};
 use asperity::scene::{Edges, Leg};
@@ -47,7 +47,7 @@ fn a_ramp_is_a_wedge_that_peels_from_one_side() {
     let (slope, work, deepest) = (1.0, 0.01, 0.5);
     let indentation = |a: f64| slope * a - (PI * a * work).sqrt();
     let force = |a: f64| indentation(a) * a - 0.5 * slope * a * a;
-    // dd/da = 0 where it detaches; dF/da = 0 where the force is smallest.
+    // dd/da = 0 at detachment; dF/da = 0 at the smallest force.
     let last = PI * work / (4.0 * slope * slope);
     let smallest = 9.0 * PI * work / (4.0 * slope * slope);
     let rising: Vec<f64> = (0..SPRINGS).map(|i| slope * i as f64 / SPRINGS as f64).collect();
@@ -74,8 +74,8 @@ fn a_ramp_is_a_wedge_that_peels_from_one_side() {
 
 #[test]
 fn a_staircase_goes_down_step_by_step() {
-    // 1024 treads of 1024 springs. A tread touches or leaves at once, so every state is the first k
-    // treads, held to c_k − √(π k γ/(1024 E*)) where c_k is the deepest of them.
+    // 1024 treads of 1024 springs. A tread attaches or detaches at once, so every state is the first k treads, held to
+    // c_k − √(π k γ/(1024 E*)) where c_k is the deepest of them.
     let treads = 1024;
     let rise = 1.0 / treads as f64;
     let work = 0.02;
@@ -84,7 +84,7 @@ fn a_staircase_goes_down_step_by_step() {
     assert_eq!(fragments, 1);
     let stretch = |treads_held: usize| (PI * work * treads_held as f64 / treads as f64).sqrt();
     let gap = |tread: usize| rise * tread as f64;
-    // Tread k is taken in by the k before it where d ≥ c_k − Δl(k); what comes before follows first.
+    // Tread k is attached by the k before it where d ≥ c_k − Δl(k), after all treads before it.
     let mut joins_at = vec![0.0_f64];
     for tread in 1..treads {
         let taken_in = joins_at[tread - 1].max(gap(tread) - stretch(tread));
@@ -99,7 +99,7 @@ fn a_staircase_goes_down_step_by_step() {
     for point in loading.curve.iter().filter(|point| point.springs > 0) {
         expect(point, joins_at.partition_point(|&at| at <= point.indentation));
     }
-    // On the way back the count falls while the outermost tread of what is left is not held.
+    // On unloading the count falls while the outermost remaining tread is not held.
     let mut count = (loading.attached as usize) / (SPRINGS / treads);
     for point in unloading.curve.iter().filter(|point| point.springs > 0) {
         while held_to(count) > point.indentation + 1e-12 && gap(count - 1) > point.indentation {
@@ -149,7 +149,7 @@ fn teeth_pressed_together_are_one_fragment() {
     let work = 0.5;
     let ([loading, unloading], fragments) = legs(&comb, foundation(SPRINGS), work, deepest);
     assert_eq!((loading.attached, fragments), (SPRINGS as u64, 1));
-    // It holds as one face until its deepest springs leave, all at once and everything with them.
+    // The line holds as one face until its deepest springs detach, and all others with them.
     let lets_go = 63.0 * 64.0 * rise - (PI * work).sqrt();
     near(unloading.end(), lets_go, 1e-14);
     near(unloading.smallest.indentation, lets_go, 1e-14);

@@ -1,5 +1,5 @@
-//! Laws that hold for every line, whatever its heights: symmetries, memory, order, energy, and that
-//! extremes and crossings of the force are found exactly.
+//! Laws for every line with any heights: symmetries, memory, order, energy, and exact extremes and crossings of the
+//! force.
 
 mod brute_force;
 mod extreme_inputs;
@@ -50,13 +50,13 @@ impl Body {
         self.gaps.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Largest stretch of a fragment that is the whole line, m.
+    /// Largest stretch of a fragment over the whole line, m.
     fn largest_stretch(&self) -> f64 {
         let length = self.gaps.len() as f64 * self.foundation.spacing;
         (std::f64::consts::PI * length * self.work / self.foundation.effective_modulus).sqrt()
     }
 
-    /// A force of the order of those that act, N.
+    /// Order of magnitude of the acting forces, N.
     fn force_scale(&self) -> f64 {
         let springs = self.gaps.len() as f64 * self.foundation.spring_stiffness();
         springs * (self.deepest() + self.largest_stretch()).max(1e-3)
@@ -83,7 +83,7 @@ fn gaps() -> impl Strategy<Value = Vec<f64>> {
     })
 }
 
-/// Bodies about 1 m deep, from hardly any adhesion to far more than it takes.
+/// Bodies about 1 m deep, from hardly any adhesion to far more than full adhesion needs.
 fn body() -> impl Strategy<Value = Body> {
     (gaps(), -5.0..2.0_f64, 0.003..0.03_f64, 0.3..3.0_f64).prop_map(
         |(gaps, range, spacing, effective_modulus)| Body {
@@ -121,7 +121,7 @@ fn end(history: &History) -> CurvePoint {
     *history.legs.last().unwrap().curve.last().unwrap()
 }
 
-/// All of a point, bit for bit.
+/// All bits of a point.
 fn bits(point: &CurvePoint) -> [u64; 4] {
     [point.indentation.to_bits(), point.force.to_bits(), point.springs, point.fragments]
 }

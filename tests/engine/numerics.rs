@@ -10,7 +10,7 @@ pub fn observed_order(grids: &[usize], errors: &[f64]) -> f64 {
     covariance / xs.iter().map(|a| (a - x) * (a - x)).sum::<f64>()
 }
 
-/// Where a rising function takes a value between `low` and `high`.
+/// Argument between `low` and `high` at which a rising function takes a value.
 pub fn invert(function: impl Fn(f64) -> f64, value: f64, mut low: f64, mut high: f64) -> f64 {
     for _ in 0..200 {
         let middle = 0.5 * (low + high);

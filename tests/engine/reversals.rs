@@ -1,4 +1,4 @@
-//! Reversals of one loading against loadings and unloadings of their own, bit for bit.
+//! Reversals of one loading against separate loadings and unloadings, bit for bit.
 
 use asperity::analysis::Figures;
 use asperity::contact::{
@@ -9,7 +9,7 @@ use asperity::scene::{Edges, Leg};
 use asperity::surface::{Line, SelfAffine, UnitRoughness};
 use proptest::prelude::*;
 
-/// Springs under adhesion and what is done with them.
+/// Springs under adhesion and their reversals.
 #[derive(Clone, Debug)]
 struct Case {
     /// m, the smallest 0.
@@ -17,9 +17,9 @@ struct Case {
     foundation: Foundation,
     hess: HessRule,
     samples: usize,
-    /// Turning points; forces as shares of a force of the order of those that act.
+    /// Turning points; forces as shares of the order of the acting ones.
     turns: Vec<Leg>,
-    /// Indentations at which forces are wanted, m.
+    /// Indentations of the requested forces, m.
     points: Vec<f64>,
 }
 
@@ -68,7 +68,7 @@ fn turns() -> impl Strategy<Value = Vec<Leg>> {
     prop::collection::vec(turn, 1..24)
 }
 
-/// From no adhesion to far more than it takes, with the works of closing and opening equal or not.
+/// From no adhesion to far more than full adhesion needs, with the works of closing and opening equal or not.
 fn cases() -> impl Strategy<Value = Case> {
     let work = prop_oneof![1 => Just(0.0), 6 => (-5.0..2.0_f64).prop_map(|power| 10.0_f64.powf(power))];
     let share = prop_oneof![2 => Just(1.0), 1 => Just(0.0), 2 => 0.0..1.0_f64];
@@ -90,7 +90,7 @@ fn cases() -> impl Strategy<Value = Case> {
     })
 }
 
-/// What both ways must agree in, bit for bit.
+/// Values on which both ways must agree, bit for bit.
 fn bits(turn: [f64; 4], smallest: [f64; 4], rest: &[Option<f64>]) -> Vec<Option<u64>> {
     let points = turn.into_iter().chain(smallest).map(Some);
     points.chain(rest.iter().copied()).map(|value| value.map(f64::to_bits)).collect()
@@ -131,7 +131,7 @@ fn all(count: usize, each: impl FnOnce(&mut See<'_>) -> Result<(), ContactError>
     found.into_iter().map(Option::unwrap).collect()
 }
 
-/// Compares all reversals of a case with histories of their own, each on a new body.
+/// Compares all reversals of a case with separate histories, each on a new body.
 fn compare<S: Solver>(reversals: &[Reversal], new: impl Fn() -> S, case: &Case) -> Result<(), TestCaseError> {
     for (leg, reversal) in case.turns.iter().zip(reversals) {
         let separate = run(&mut new(), &[*leg, Leg::ToSeparation], |_, _| Ok(())).unwrap();
@@ -184,8 +184,8 @@ fn turning_points_out_of_contact_are_refused() {
     assert_eq!(refused, Some(ContactError::NoContact { index: 0, leg: Leg::ToSeparation }));
 }
 
-/// Evaluations of the rule of Hess measure the walked share of the line: 64 reversals of a rough line together less than
-/// three loops to the deepest turning point, although each of these would walk all of its contact again.
+/// Evaluations of the rule of Hess measure the walked share of the line: 64 reversals of a rough line together take
+/// less than three loops to the deepest turning point, although each such loop walks all of its contact again.
 #[test]
 fn the_line_is_walked_once_for_all_reversals() {
     let springs = 1 << 13;

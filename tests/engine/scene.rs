@@ -1,5 +1,4 @@
-//! The room of scenes from outside: whatever text comes in, an answer comes out, and a change to
-//! one field is a change to that field alone.
+//! Scenes from outside: any text gets an answer, and a change to one field changes that field alone.
 
 use asperity::scene::{
     DEFAULT, Document, Effect, FIELDS, Form, LONGEST_TEXT, Leg, Range, Scene, Span, Text, line_column, open,
@@ -16,7 +15,7 @@ fn message(text: &str) -> String {
     Document::parse(text, "scene.ron").unwrap_err().to_string()
 }
 
-/// A scene whose third line is given.
+/// A scene with this third line.
 fn with_line(line: &str) -> String {
     format!(
         "(\n    version: 1,\n    {line}\n    material: (effective_modulus: 1.0e6),\n    length: 1.0e-4,\n)\n"
@@ -30,12 +29,15 @@ fn comments(text: &str) -> Vec<&str> {
 #[test]
 fn an_unknown_field_is_pointed_at() {
     assert!(Document::parse(&with_line(""), "scene.ron").is_ok());
-    let said = message(&with_line("ruoghness: None,"));
-    assert!(said.starts_with("scene.ron:3:5: ruoghness: no such field; did you mean roughness?"), "{said}");
-    let said = message(&with_line("numerics: (point: 64),"));
+    let refusal = message(&with_line("ruoghness: None,"));
     assert!(
-        said.starts_with("scene.ron:3:16: numerics.point: no such field; did you mean points?"),
-        "{said}"
+        refusal.starts_with("scene.ron:3:5: ruoghness: no such field; did you mean roughness?"),
+        "{refusal}"
+    );
+    let refusal = message(&with_line("numerics: (point: 64),"));
+    assert!(
+        refusal.starts_with("scene.ron:3:16: numerics.point: no such field; did you mean points?"),
+        "{refusal}"
     );
 }
 
@@ -48,22 +50,22 @@ fn numbers_that_are_none_are_refused() {
             format!("loading: [ToForce({value})],"),
             format!("numerics: (solver: Stepwise(step: {value})),"),
         ] {
-            let said = message(&with_line(&line));
-            assert!(said.contains("scene.ron:3:") && said.contains(": allowed: "), "{line}: {said}");
+            let refusal = message(&with_line(&line));
+            assert!(refusal.contains("scene.ron:3:") && refusal.contains(": allowed: "), "{line}: {refusal}");
         }
     }
 }
 
 #[test]
 fn a_scene_that_asks_for_too_much_is_refused_at_once() {
-    for (line, said) in [
+    for (line, expected) in [
         ("numerics: (points: 268435457),", "numerics.points = 268435457: allowed: a whole number from 1 to"),
         ("numerics: (points: 18446744073709551615),", "numerics.points = 18446744073709551615: allowed"),
         ("numerics: (points: 18446744073709551616),", "numerics.points = 18446744073709551616: allowed"),
         ("numerics: (samples: 1000001),", "numerics.samples = 1000001: allowed: a whole number from 2 to"),
     ] {
         let all = message(&with_line(line));
-        assert!(all.contains(said), "{all}");
+        assert!(all.contains(expected), "{all}");
     }
     let line = format!("loading: [{}],", "ToTouch,".repeat(100_001));
     assert!(
@@ -139,7 +141,7 @@ fn open_default() -> Document {
 
 #[test]
 fn the_table_names_every_field_of_the_model_and_no_other() {
-    // A scene as JSON has every field of the model, those left out included.
+    // A scene as JSON has every field of the model, including omitted ones.
     let mut found = Vec::new();
     for (form, rough, solver) in [
         (
@@ -185,7 +187,7 @@ fn paths_of(value: &serde_json::Value, path: String, found: &mut Vec<String>) {
         return;
     };
     for (name, value) in fields {
-        // A variant's name is not part of a path.
+        // The name of a variant is not part of a path.
         let inside = match (path.as_str(), name.starts_with(char::is_uppercase)) {
             (_, true) => path.clone(),
             ("", false) => name.clone(),
@@ -273,7 +275,7 @@ fn an_adhesion_free_sphere_is_made_from_a_preset_by_overrides() {
     assert!(changed.text().contains("\n    numerics: (points: 1024),\n)"), "{}", changed.text());
 }
 
-/// Values to set: plausible ones, and ones that try to escape.
+/// Values to set: plausible ones, and attempts to escape.
 fn values() -> impl Strategy<Value = String> {
     prop_oneof![
         "-?[0-9]{1,3}(\\.[0-9]{0,2})?(e-?[0-9]{1,2})?",
@@ -360,7 +362,7 @@ fn scene_of(text: &str) -> Scene {
     Document::parse(text, "x").unwrap().scene().clone()
 }
 
-/// Edits at any path: whatever comes of them, the text is read.
+/// Edits at any path: every result is read as text.
 fn edits_of(text: &str, path: &str) {
     let Ok(read) = Text::new(text) else { return };
     for edited in [read.replace(path, "0"), read.insert(path, "a", "0", &["b", "a"])].into_iter().flatten() {
@@ -407,7 +409,7 @@ proptest! {
             for (name, part) in before.as_object().unwrap() {
                 prop_assert!(*name == parts || after[name] == *part, "{path}={value} changed {name}");
             }
-            // The overrides say how to come from the opened scene to this one.
+            // The overrides lead from the opened scene to this one.
             prop_assert_eq!(document.set_all(changed.overrides()).unwrap(), changed);
         }
     }

@@ -1,5 +1,5 @@
-//! Studies and saved files on a disk of which each operation fails, is torn, or is the last one before the process
-//! or the machine ends: what was reported as done is there, and going on gives the bytes of an undisturbed study.
+//! Studies and saved files on a disk of which each operation fails, is torn, or is the last one before the process or
+//! the machine ends: all work reported as done is present, and the continued study has the bytes of an undisturbed one.
 mod disk;
 
 use asperity::io::{Disk, write_new_on};
@@ -56,7 +56,7 @@ fn place() -> (TempDir, PathBuf) {
     (place, path)
 }
 
-/// What was reported as done before something went wrong.
+/// Work reported as done before a failure.
 #[derive(Clone, Copy, Debug, Default)]
 struct Reported {
     folder: bool,
@@ -66,7 +66,7 @@ struct Reported {
     whole: bool,
 }
 
-/// A study from its beginning to its end, by two processes one after the other.
+/// A study from beginning to end, by two processes in turn.
 fn study(disk: &Arc<dyn Disk>, root: &Path, reported: &mut Reported) -> Result<(), StudyError> {
     let folder = Folder::create_on(Arc::clone(disk), &root.join("study"), plan())?;
     reported.folder = true;
@@ -88,7 +88,7 @@ fn study(disk: &Arc<dyn Disk>, root: &Path, reported: &mut Reported) -> Result<(
     Ok(())
 }
 
-/// Results and summary, as far as they are there, and how many records the sidecar counts.
+/// Results and summary, where present, and the number of records counted by the sidecar.
 type Tables = (Option<String>, Option<String>, Option<u64>);
 
 fn tables(folder: &Path) -> Tables {
@@ -122,7 +122,7 @@ impl Expected {
         expected
     }
 
-    /// Checks what is found of a study, takes it up again, and checks what that gives; what is lost otherwise.
+    /// Checks the found study, continues it, and checks the result; the error names the loss.
     fn check(&self, root: &Path, reported: Reported) -> Result<(), String> {
         let message = |error: StudyError| error.to_string();
         let path = root.join("study");
@@ -140,7 +140,7 @@ impl Expected {
         if !sound {
             return Err(format!("{reported:?}: {found:?}"));
         }
-        // The disk is simulated so that it need not be waited for.
+        // The disk is simulated so that waits are short.
         let folder = Folder::create_on(SimulatedDisk::new(root).shared(), &path, plan()).map_err(message)?;
         let options = Options { jobs: 1, shard: Shard::WHOLE };
         assert!(run(&folder, options, &|| false, &mut |_| ()).map_err(message)?.complete);
@@ -157,7 +157,7 @@ impl Expected {
         if remains.is_empty() { Ok(()) } else { Err(format!("unpublished tables are left: {remains:?}")) }
     }
 
-    /// Checks, and says what happened before something was lost.
+    /// Checks, and reports the operation before a loss.
     fn hold(&self, root: &Path, reported: Reported, what: &str) {
         self.check(root, reported).unwrap_or_else(|lost| panic!("{what}: {lost}"));
     }
@@ -186,7 +186,7 @@ fn content(root: &Path) -> Content {
     found
 }
 
-/// Checks what a disk holds after power cuts with these survivals; of several with the same content one is checked.
+/// Checks the content of a disk after power cuts with these survivals; of several with the same content one is checked.
 /// Returns the number of the cuts.
 fn hold_after_power_cuts(
     expected: &Expected,
@@ -208,7 +208,7 @@ fn hold_after_power_cuts(
     survivals.len()
 }
 
-/// Operations of a study nobody disturbs.
+/// Operations of an undisturbed study.
 fn operations() -> Vec<String> {
     let (_place, root) = place();
     let disk = SimulatedDisk::new(&root);
@@ -216,7 +216,8 @@ fn operations() -> Vec<String> {
     disk.operations()
 }
 
-/// Runs a study with a fault at each operation; threads may make one write of two, so it ends where none is left.
+/// Runs a study with a fault at each operation; threads may join two writes into one, so the loop ends with the last
+/// operation.
 fn each_operation(
     nameless: bool,
     fault: Fault,
@@ -239,7 +240,7 @@ fn each_operation(
     unreachable!()
 }
 
-/// Operations of a study at least, however threads divide what is written: with and without files without names.
+/// Operations of a study at least, for any division of writes among threads: with and without nameless files.
 fn operations_at_least(nameless: bool) -> usize {
     if nameless { 84 } else { 94 }
 }
@@ -308,8 +309,8 @@ fn a_disk_that_does_not_keep_its_word_is_found_out() {
         disk.after_power_cut(Survival::Nothing, &found);
         assert!(expected.check(&found, reported).is_err(), "{kind}");
     }
-    // What a killed process wrote: with the word kept, nothing is lost; without, something is. The first write of a
-    // shard is its header, the second its first records.
+    // Writes of a killed process: with a reliable disk nothing is lost; with a deceiving one records are. The first
+    // write of a shard is its header, the second its first records.
     for (kind, loses) in [("none", false), ("sync file", true)] {
         let (_place, root) = place();
         let disk = SimulatedDisk::deceiving(&root, kind);

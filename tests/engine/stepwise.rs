@@ -1,4 +1,4 @@
-//! The stepwise solver against the exact one, and what each of them does, counted.
+//! The stepwise solver against the exact one, and the counted work of each.
 
 use asperity::contact::{
     ContactError, ContactTree, Direction, Foundation, GridEdges, HessRule, LegRecord, Solver, Stepwise, Work,
@@ -45,7 +45,7 @@ fn observed_order(steps: &[f64], errors: &[f64]) -> f64 {
 
 #[test]
 fn pull_off_force_and_energy_converge_with_the_step() {
-    // One number of one line comes nearer by leaps; the mean error of several lines, evenly.
+    // One number of one line converges by leaps; the mean error of several lines, evenly.
     let lines: Vec<Vec<f64>> = (1..=12).map(|seed| rough(128, seed)).collect();
     let legs = [Leg::ToIndentation(0.4), Leg::ToSeparation];
     let steps: Vec<f64> = (0..7).map(|halvings| 0.02 * 0.5_f64.powi(halvings)).collect();
@@ -73,7 +73,7 @@ fn pull_off_force_and_energy_converge_with_the_step() {
     }
 }
 
-/// Which springs are in contact at an indentation of the present leg.
+/// Contact state of each spring at an indentation of the present leg.
 fn held(solver: &dyn Solver, springs: usize, d: f64) -> Vec<bool> {
     let mut held = vec![false; springs];
     for (first, last) in solver.fragments(d) {
@@ -131,7 +131,7 @@ proptest! {
         let (mut found, mut expected) = (Vec::new(), Vec::new());
         for leg in turns.into_iter().map(Leg::ToIndentation) {
             let (one, other) = (stepwise.advance(leg).unwrap(), exact.advance(leg).unwrap());
-            // Where a leg ends, the step is forgotten: the same springs and, bit for bit, the same force.
+            // The end of a leg does not depend on the step: the same springs and, bit for bit, the same force.
             prop_assert_eq!(one.curve.last(), other.curve.last());
             prop_assert_eq!((one.attached, one.detached), (other.attached, other.detached));
             prop_assert_eq!(one.direction, other.direction);
@@ -143,7 +143,7 @@ proptest! {
             let moved = (other.start(), other.end());
             let (low, high) = (moved.0.min(moved.1), moved.0.max(moved.1));
             for (found, expected) in found.iter().zip(&expected) {
-                // The stepwise solver knows only what happens on the way.
+                // The stepwise solver has only thresholds passed on the way.
                 let on_the_way = low < *expected && *expected <= high;
                 if on_the_way && found.is_finite() {
                     let late = found - expected;
@@ -257,7 +257,7 @@ fn legs_without_an_end_are_refused_before_their_first_step() {
     let gaps = rough(64, 3);
     let hess = Some(HessRule::new(FOUNDATION, 1e-3));
     let steps = std::cell::Cell::new(0_u64);
-    // Asked before each step.
+    // Called before each step.
     let stop = || {
         steps.set(steps.get() + 1);
         false
@@ -284,7 +284,7 @@ fn legs_without_an_end_are_refused_before_their_first_step() {
             panic!("{beyond:?}")
         };
         assert_eq!(steps.replace(0), 0);
-        // The steps come no further, and no less far than one of them.
+        // The smallest force of the steps is not below the exact one, and above it by at most one step.
         let record = solver.advance(Leg::ToSeparation).unwrap();
         assert!(record.smallest.force >= smallest && record.smallest.force <= smallest + 64.0 * 0.01 * step);
         steps.set(0);
@@ -367,7 +367,7 @@ fn nothing_is_done_that_a_scene_does_not_call_for() {
     let exact = work(&[]);
     assert_eq!((exact.steps, exact.relaxation_sweeps, exact.spring_updates), (0, 0, 0));
     assert_eq!((exact.loading_passes, exact.unloading_passes), (1, 1));
-    // One for each local maximum of the gap: no more than there are modes.
+    // One node for each local maximum of the gap: no more than modes.
     assert!((16..=64).contains(&exact.tree_nodes), "{}", exact.tree_nodes);
     // F_a(0) takes another pass, and none where the loading turns at first touch.
     assert_eq!(exact.zero_load_passes, 1);

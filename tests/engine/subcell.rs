@@ -1,4 +1,4 @@
-//! Edges between grid points: against brute force, closed forms, and laws that hold for every line.
+//! Edges between grid points: against brute force, closed forms, and laws for every line.
 
 pub mod brute_force;
 mod closed_forms;
@@ -48,13 +48,13 @@ impl Body {
         self.gaps.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Largest stretch of a fragment that is the whole line, m.
+    /// Largest stretch of a fragment over the whole line, m.
     fn largest_stretch(&self) -> f64 {
         let length = self.gaps.len() as f64 * self.foundation.spacing;
         (std::f64::consts::PI * length * self.work / self.foundation.effective_modulus).sqrt()
     }
 
-    /// A force of the order of those that act, N.
+    /// Order of magnitude of the acting forces, N.
     fn force_scale(&self) -> f64 {
         let springs = self.gaps.len() as f64 * self.foundation.spring_stiffness();
         springs * (self.deepest() + self.largest_stretch()).max(1e-3)
@@ -88,7 +88,7 @@ fn gaps(most: usize) -> impl Strategy<Value = Vec<f64>> {
     )
 }
 
-/// Bodies about 1 m deep, without adhesion, with hardly any, and with far more than it takes.
+/// Bodies about 1 m deep: without adhesion, with hardly any, and with far more than full adhesion needs.
 fn body(most: usize) -> impl Strategy<Value = Body> {
     let range = prop_oneof![
         5 => (-5.0..2.0_f64).prop_map(|power| 10_f64.powf(power)),
@@ -105,7 +105,7 @@ fn body(most: usize) -> impl Strategy<Value = Body> {
     )
 }
 
-/// The same with a smaller work of adhesion on closing: none, hardly less than on opening, or any.
+/// Bodies with a smaller work of adhesion on closing: none, hardly less than on opening, or any.
 fn two_works(most: usize) -> impl Strategy<Value = Body> {
     let share = prop_oneof![1 => Just(0.0), 1 => Just(1.0 - 1e-6), 3 => 0.0..1.0_f64];
     (body(most), share).prop_map(|(body, share)| Body { closing_work: share * body.work, ..body })
@@ -120,7 +120,7 @@ fn cases(cases: u32) -> ProptestConfig {
     ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
 }
 
-/// Where a leg ended.
+/// End of a leg.
 fn end(record: &LegRecord) -> CurvePoint {
     *record.curve.last().unwrap()
 }

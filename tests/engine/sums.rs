@@ -1,5 +1,5 @@
-//! Sums of gaps and forces against exact arithmetic: the documented bound holds also where nearly all
-//! of a force cancels, and no order of the springs shows.
+//! Sums of gaps and forces against exact arithmetic: the documented bound also holds where nearly all of a force
+//! cancels, and the order of the springs has no effect.
 
 use asperity::contact::{
     ContactTotals, ContactTree, Foundation, GapScale, GridEdges, HessRule, Solver, exact,
@@ -15,7 +15,7 @@ fn unrounded(value: f64) -> Unrounded {
     without_limit(Unrounded::try_from(value).unwrap())
 }
 
-/// A number whose sums and products with others without a limit have none either.
+/// A number whose sums and products with other exact ones are exact too.
 fn without_limit(value: Unrounded) -> Unrounded {
     value.with_precision(0).value()
 }
@@ -40,7 +40,7 @@ fn sum(gaps: &[f64]) -> Unrounded {
     gaps.iter().fold(Unrounded::ZERO, |sum, &gap| sum + unrounded(gap))
 }
 
-/// Σ (d − c), exactly, of so many springs with this sum of gaps.
+/// Σ (d − c), exactly, of this number of springs with this sum of gaps.
 fn compression(springs: usize, sum: &Unrounded, d: f64) -> Unrounded {
     let exact = unrounded(springs as f64) * unrounded(d) - sum;
     assert_eq!(exact.precision(), 0, "a limit to the digits");
@@ -51,14 +51,14 @@ fn magnitude(value: Unrounded) -> Unrounded {
     if value < Unrounded::ZERO { -value } else { value }
 }
 
-/// What [`ContactTotals::compression`] promises: 2u |result| + n 2^(e − 62), a quantum for each gap.
+/// Bound of [`ContactTotals::compression`]: 2u |result| + n 2^(e − 62), a quantum for each gap.
 fn bound(exact: &Unrounded, springs: usize, scale: &GapScale) -> Unrounded {
     unrounded(2.0 * UNIT_ROUNDOFF) * magnitude(exact.clone())
         + unrounded(springs as f64) * unrounded(scale.quantum())
 }
 
-/// Whether the compressions of these gaps are within their bound, at these indentations and where the
-/// gaps nearly balance; returns the rest.
+/// Checks that the compressions of these gaps are within their bound, at these indentations and where the gaps nearly
+/// balance.
 fn check(gaps: &[f64], indentations: &[f64]) -> Result<(), String> {
     let scale = scale_of(gaps);
     let (totals, sum) = (totals(gaps, &scale), sum(gaps));
@@ -75,7 +75,7 @@ fn check(gaps: &[f64], indentations: &[f64]) -> Result<(), String> {
     Ok(())
 }
 
-/// An indentation at which these gaps nearly balance: their mean, rounded, and so many places beside.
+/// An indentation at which these gaps nearly balance: their mean, rounded, and `places` numbers beside.
 fn balance(springs: usize, sum: &Unrounded, places: i64) -> f64 {
     let mean = (sum.clone().with_precision(200).value() / Unrounded::from(springs)).to_f64().value();
     f64::from_bits(mean.to_bits().saturating_add_signed(places))
@@ -156,7 +156,7 @@ proptest! {
         for gap in [largest, share * largest, 0.0] {
             let quanta = scale.quanta(gap);
             prop_assert!((0..1_i64 << 62).contains(&quanta));
-            // A whole number comes with as many digits as it has, and would round the difference to them.
+            // A whole number has the precision of its own digits, and would round the difference to them.
             let whole = Unrounded::from(quanta).with_precision(0).value();
             let left = unrounded(gap) - whole * unrounded(scale.quantum());
             prop_assert!(left >= Unrounded::ZERO && left < unrounded(scale.quantum()), "{} of {}", gap, largest);
@@ -190,7 +190,7 @@ fn forces_at_full_contact_keep_the_bound_where_they_vanish() {
     let foundation = Foundation::endless(1e-6, 2.0e6);
     let stiffness = foundation.spring_stiffness();
     let tree = ContactTree::build(&gaps, Edges::Grid).unwrap();
-    // Adhesion enough to hold everything when hardly pressed.
+    // Enough adhesion to hold everything when hardly pressed.
     let rule = GridEdges::new(HessRule::new(foundation, 4.0e6));
     let mut solver = exact::adhesive(&gaps, &tree, rule, foundation, 20);
     let (scale, sum) = (scale_of(&gaps), sum(&gaps));
@@ -205,7 +205,7 @@ fn forces_at_full_contact_keep_the_bound_where_they_vanish() {
             + unrounded(gaps.len() as f64 * scale.quantum() * stiffness);
         let error = magnitude(unrounded(end.force) - exact);
         assert!(error <= allowed, "{leg:?}: error {:e} of {:e}", error.to_f64().value(), end.force);
-        // Pressed at d = 1 m, what is left at balance is the rounding of the indentation.
+        // Pressed at d = 1 m, the remainder at balance is the rounding of the indentation.
         if leg != Leg::ToIndentation(1.0) {
             let rounding = f64::EPSILON * stiffness * gaps.len() as f64;
             assert!(end.force.abs() <= 2.0 * rounding, "{leg:?}: {:e}", end.force);

@@ -1,5 +1,5 @@
-//! Whatever happens to the explorer, in whatever order, in a window of whatever size: it does not
-//! panic, it draws, and its scene is one that may be computed.
+//! Any events in any order, in windows of any size: the explorer does not panic, it draws, and its scene remains
+//! computable.
 
 use super::common::deadline::within;
 use super::common::driver::{Driver, REFUSED};
@@ -31,10 +31,10 @@ const LONGEST: usize = 60;
 /// Scenes with more springs or samples are not computed, but reported as failed.
 const MOST: u64 = 2048;
 
-/// Something that happens.
+/// An event.
 #[derive(Clone, Debug)]
 enum Event {
-    /// A key that is valid in the present mode, pressed so many times.
+    /// A key that is valid in the present mode, pressed several times.
     Keys(usize, usize),
     Type(char),
     Paste(String),
@@ -42,15 +42,15 @@ enum Event {
     Enter(String),
     /// The scene saved under a name.
     Save(String),
-    /// The folder of the study, or one that is none, opened by its path.
+    /// The folder of the study, or another path, opened.
     Open(bool),
     Resize(u16, u16),
-    /// The window has another size by now, unknown to the explorer.
+    /// The window has shrunk, unknown to the explorer.
     Shrunk(u16, u16),
     Elapse(f64),
-    /// The oldest request that waits is answered.
+    /// An answer to the oldest waiting request.
     Answer,
-    /// A report that came earlier comes again.
+    /// An earlier report, repeated.
     Stale(usize),
 }
 
@@ -142,13 +142,13 @@ fn scenes(study: &Path) -> Vec<Opening> {
     scenes
 }
 
-/// An explorer whose worker answers only when it is let.
+/// An explorer whose worker answers only on demand.
 struct Explorer {
     driver: Driver,
     waiting: VecDeque<Effect>,
-    /// All that has been reported.
+    /// All reports so far.
     reports: Vec<Action>,
-    /// The generation that has been looked at.
+    /// The last judged generation.
     judged: u64,
     /// Folder of the study.
     study: PathBuf,
@@ -162,10 +162,10 @@ impl Explorer {
 
     fn act(&mut self, action: Action) {
         for effect in update(&mut self.driver.model, action) {
-            // Manual moves wait for no answer: they are sent at once.
+            // Manual moves do not wait for an answer: they are sent at once.
             match effect {
                 Effect::Manual(_) => drop(self.driver.answer(effect)),
-                // Of all scenes that wait, only the newest is computed.
+                // Of all waiting scenes, only the newest is computed.
                 Effect::Compute => {
                     self.waiting.retain(|one| *one != Effect::Compute);
                     self.waiting.push_back(Effect::Compute);
@@ -258,7 +258,7 @@ impl Explorer {
         terminal.draw(|frame| view::draw(frame, &self.driver.model)).unwrap();
     }
 
-    /// What holds whatever has happened.
+    /// Checks conditions that always hold.
     fn judge(&mut self) {
         let model = &self.driver.model;
         assert!(model.generation >= self.judged, "generations only grow");
@@ -294,7 +294,7 @@ impl Explorer {
         self.draw(self.driver.model.size);
     }
 
-    /// Lets the worker catch up: the outcome shown is then that of the scene, or an error is.
+    /// Lets the worker catch up: the explorer then shows the outcome of the scene, or an error.
     fn settle(&mut self) {
         while !self.waiting.is_empty() {
             self.answer();

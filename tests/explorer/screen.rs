@@ -1,5 +1,4 @@
-//! The screen of the explorer: what a user sees after each key, in large windows and small ones, with
-//! colours and without.
+//! The screen of the explorer after each key, in large windows and small ones, with colours and without.
 
 mod accuracy;
 mod chart;
@@ -125,7 +124,7 @@ fn everywhere() -> Vec<Driver> {
     all
 }
 
-/// The cells of a row of the screen that has this text in it.
+/// The cells of the first row of the screen that contains this text.
 fn row_with<'a>(screen: &'a Buffer, text: &str) -> &'a [Cell] {
     let number = rows(screen).iter().position(|row| row.contains(text));
     let number = number.unwrap_or_else(|| panic!("{text} in\n{}", rows(screen).join("\n")));
@@ -148,7 +147,7 @@ fn is_up_to_date(model: &Model) -> bool {
         && !model.is_computing()
 }
 
-/// Compares with the picture that is kept, beside those of the other tests.
+/// Compares the screens with the kept picture, beside those of the other tests.
 fn keep(name: &str, screens: &str) {
     insta::assert_snapshot!(name, screens);
 }

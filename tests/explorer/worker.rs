@@ -1,5 +1,5 @@
-//! The worker of the explorer, spoken to through its channels: the newest request wins, what fails
-//! is shown, and a snapshot of the animation is a point of the computed curve.
+//! The worker of the explorer, driven through its channels: the newest request wins, failures are shown, and a snapshot
+//! of the animation is a point of the computed curve.
 
 use super::common::deadline::within;
 use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
@@ -17,10 +17,10 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
-/// Longest time an answer may take.
+/// Longest wait for an answer.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// A worker on a thread of its own, and the channel it reports to.
+/// A worker on a thread of its own, and its channel of reports.
 struct Served {
     worker: Worker,
     reports: Receiver<Report>,
@@ -45,7 +45,7 @@ impl Served {
         self.reports.recv_timeout(PATIENCE).expect("the worker reports")
     }
 
-    /// The next report but for progress.
+    /// The next report other than progress.
     fn answer(&self) -> Report {
         loop {
             match self.report() {
@@ -57,7 +57,7 @@ impl Served {
 
     fn computed(&self, generation: u64, document: &Document) -> Arc<SolvedScene> {
         self.compute(generation, document);
-        // The snapshot of a scene before may have been asked for.
+        // The snapshot of an earlier scene may have been requested.
         let of_before = |report: &Report| matches!(report, Report::Shown(one) if one.generation < generation);
         match std::iter::repeat_with(|| self.answer()).find(|report| !of_before(report)).unwrap() {
             Report::Computed(computed) => computed,
@@ -97,7 +97,7 @@ fn compute(generation: u64, document: &Document) -> Request {
     Request::Compute { generation, scene: Arc::new(document.scene().clone()) }
 }
 
-/// Hands all requests to a worker at once and gives all its reports.
+/// Sends all requests to a worker at once and returns all its reports.
 fn serve_all(engine: impl Engine + 'static, newest: u64, requests: Vec<Request>) -> Vec<Report> {
     let (sender, receiver) = channel();
     requests.into_iter().for_each(|request| sender.send(request).unwrap());
@@ -112,7 +112,7 @@ fn serve_all(engine: impl Engine + 'static, newest: u64, requests: Vec<Request>)
     reports.into_inner()
 }
 
-/// The generations that were computed, and those of which moments were shown.
+/// The computed generations, and those with shown states.
 fn generations(reports: &[Report]) -> (Vec<u64>, Vec<u64>) {
     let (mut computed, mut shown) = (Vec::new(), Vec::new());
     for report in reports {
@@ -126,10 +126,10 @@ fn generations(reports: &[Report]) -> (Vec<u64>, Vec<u64>) {
     (computed, shown)
 }
 
-/// What a [`Double`] does in place of a run.
+/// Replacement of a run in a [`Double`].
 type Run = dyn FnMut(&Scene, &dyn Fn() -> bool) -> Option<RunError> + Send;
 
-/// An engine that may do something else before a run, or in its place.
+/// An engine that may act before a run, or in its place.
 struct Double {
     simulation: Simulation,
     before: Box<Run>,
@@ -251,7 +251,7 @@ fn a_preview_that_is_no_longer_wanted_is_not_computed() {
         assert!(matches!(&reports[..], [Report::Previewed(preview)] if preview.text == *text), "{reports:?}");
         awaited.set_preview(None);
         assert!(serve(&awaited, vec![other]).is_empty(), "none is waited for");
-        // A scene that is asked for makes it stale.
+        // A newer scene makes the request stale.
         let (requests, _outbox) = channel();
         awaited.set_preview(Some(Arc::clone(&first)));
         Worker::new(requests, Arc::clone(&awaited)).ask(compute(1, &rough()));
@@ -309,7 +309,7 @@ fn a_scene_beside_is_computed_only_in_sight_and_gives_way_to_a_newer_scene() {
     });
 }
 
-/// A run that waits for a word, and then gives up if it is asked to stop.
+/// A run that waits for a message, and then stops if asked to.
 fn stop_when_told(words: &Receiver<()>, stop: &dyn Fn() -> bool) -> RunError {
     words.recv_timeout(PATIENCE).expect("a word to go on");
     assert!(stop(), "the run is asked to stop");
@@ -323,7 +323,7 @@ fn the_worker_ends_with_the_explorer() {
         served.computed(1, &rough());
         drop(served.worker);
         assert_eq!(served.reports.recv_timeout(PATIENCE).unwrap_err(), RecvTimeoutError::Disconnected);
-        // Nobody listens: no second report is tried.
+        // Without a receiver no second report is sent.
         let (sender, receiver) = channel();
         sender.send(compute(1, &rough())).unwrap();
         let generation = Newest::default();
@@ -347,12 +347,12 @@ fn a_panic_is_told_and_the_next_scene_is_computed() {
             _ => None,
         }));
         let mut generation = 0;
-        for (title, said) in [("\"text\"", "no such spring"), ("\"formatted\"", "no spring 1024")] {
+        for (title, expected) in [("\"text\"", "no such spring"), ("\"formatted\"", "no spring 1024")] {
             generation += 1;
             served.compute(generation, &rough().set("title", title).unwrap());
             let Report::Failed { generation: of, error } = served.answer() else { panic!("not failed") };
             assert_eq!(of, generation);
-            assert!(error.contains("internal error") && error.contains(said), "{error}");
+            assert!(error.contains("internal error") && error.contains(expected), "{error}");
             assert_eq!(error.lines().count(), 1, "{error}");
             generation += 1;
             assert_eq!(served.computed(generation, &rough()).generation, generation);
@@ -372,7 +372,7 @@ fn a_leg_that_cannot_be_gone_is_told_in_one_line() {
         assert_eq!(error.lines().count(), 1, "{error}");
         let alone = Simulation::default().run(beyond.scene(), &|| false, &mut |_, _, _| Ok(()));
         assert_eq!(error, alone.unwrap_err().to_string());
-        // Nothing of it can be shown, and the next scene is computed.
+        // Nothing of the failed scene can be shown, and the next one is computed.
         served.worker.ask(Request::Show(snapshot(0, 0.0)));
         served.computed(2, &rough());
     });
@@ -386,7 +386,7 @@ fn rough_sphere() -> Document {
     )
 }
 
-/// Scenes whose moments are looked at, with a name.
+/// Scenes whose states are examined, with a name.
 fn scenes() -> Vec<(&'static str, Document)> {
     let several = "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToIndentation(-1.0e-8), ToSeparation]";
     vec![
@@ -403,7 +403,7 @@ fn scenes() -> Vec<(&'static str, Document)> {
     ]
 }
 
-/// Some points of a curve, its ends among them.
+/// Some points of a curve, including its ends.
 fn some(curve: &[CurvePoint]) -> impl Iterator<Item = &CurvePoint> {
     let every = (curve.len() / 24).max(1);
     curve
@@ -427,7 +427,7 @@ fn a_moment_at_a_sample_is_the_sample() {
                         continue;
                     }
                     let shown = served.shown(snapshot(leg, sample.indentation)).point;
-                    // Where the contact forms or ends at once two samples have one indentation.
+                    // At a jump into or out of contact two samples have one indentation.
                     let same = record.curve.iter().filter(|one| one.indentation == sample.indentation);
                     assert!(
                         same.clone().any(|one| near(one, &shown)),
@@ -440,8 +440,8 @@ fn a_moment_at_a_sample_is_the_sample() {
     });
 }
 
-/// Whether two points are the same but for the rounding of their sums: edges between springs are not summed up
-/// in the same order on a leg and at a snapshot.
+/// True if two points are the same except for the rounding of their sums: edges between springs are summed in different
+/// orders on a leg and at a snapshot.
 fn near(one: &CurvePoint, other: &CurvePoint) -> bool {
     let same = |a: f64, b: f64| (a - b).abs() <= 1e-13 * a.abs().max(b.abs()).max(1e-12);
     one.indentation == other.indentation
@@ -544,7 +544,7 @@ fn picture_counts_and_boundaries_say_the_same() {
                     if let Some((number, springs)) = fragment {
                         assert_eq!(found[number], springs, "{name}");
                     }
-                    // In contact the surface follows the line, elsewhere it is at its level.
+                    // In contact the surface follows the line, elsewhere it lies at its level.
                     for column in &shown.profile.columns {
                         let level = (shown.profile.level, shown.profile.level);
                         assert_eq!(column.surface, column.contact.unwrap_or(level), "{name}");
@@ -615,7 +615,7 @@ fn next_and_previous_fragment_go_round() {
             (number, spring) = (next, middle);
         }
         assert_eq!(number, start);
-        // Without a spring the summit is the first one; a spring is shown as it is.
+        // Without a spring the summit is the first one; a given spring is shown as is.
         assert_eq!(look(Focus::After(None)).0, (start + 1) % count);
         assert_eq!(look(Focus::Before(None)).0, (start + count - 1) % count);
         assert_eq!(look(Focus::Spring(spring)).0, start);
@@ -673,7 +673,7 @@ fn a_fragment_bears_what_the_rule_of_hess_allows() {
         for sample in some(&computed.outcome.history.legs[1].curve).filter(|sample| sample.springs > 0) {
             let facts = served.shown(snapshot(1, sample.indentation)).close_up.fragment.unwrap();
             let springs = facts.springs.1 + 1 - facts.springs.0;
-            // Its edges lie within a cell of its outermost springs.
+            // The edges of the patch lie within a cell of its outermost springs.
             assert!((facts.length / spacing - springs as f64).abs() <= 1.0 + 1e-9, "{facts:?}");
             // Eq. (10), written anew.
             let bears = (2.0 * std::f64::consts::PI * (facts.length / 2.0) * range).sqrt();

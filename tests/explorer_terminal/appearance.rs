@@ -18,7 +18,7 @@ fn renditions(bytes: &[u8]) -> Vec<Vec<u16>> {
     found
 }
 
-/// Whether a rendition sets a colour; to go back to the terminal's own is none.
+/// True if a rendition sets a colour; a reset to the default of the terminal does not.
 fn is_colour(rendition: &[u16]) -> bool {
     rendition.iter().any(|number| matches!(number, 30..=38 | 40..=48 | 58 | 90..=97 | 100..=107))
 }
@@ -43,8 +43,8 @@ fn without_colours_there_is_emphasis_and_no_colour() {
         let coloured: Vec<_> = plain.iter().filter(|one| is_colour(one)).collect();
         assert!(coloured.is_empty(), "{coloured:?}");
         assert!(plain.iter().any(|one| one.contains(&1)), "titles are bold");
-        assert!(plain.iter().any(|one| one.contains(&7)), "what is selected is reversed");
-        // An empty one counts as none.
+        assert!(plain.iter().any(|one| one.contains(&7)), "the selected row is reversed");
+        // An empty variable counts as unset.
         for (name, value) in [("NO_COLOR", ""), ("COLUMNS", "1")] {
             assert!(shown(name, value).iter().any(|one| is_colour(one)), "{name}={value}");
         }
@@ -75,7 +75,7 @@ fn is_half_block(character: char) -> bool {
     "▀▄█".contains(character)
 }
 
-/// A marker and whether a character is made of it.
+/// A marker, and a function that is true for its characters.
 type Made = (&'static str, fn(char) -> bool);
 
 const MARKERS: [Made; 3] = [("braille", is_braille), ("octant", is_octant), ("half-block", is_half_block)];
@@ -85,7 +85,7 @@ fn plots_are_made_of_the_marker_that_is_wanted() {
     within(60, || {
         for (name, is_of_it) in MARKERS {
             let (mut terminal, _folder) = opened(&["--marker", name], &[]);
-            // The bars of the histogram are blocks with every marker, so the force curve is looked at.
+            // The bars of the histogram are blocks with every marker, so the force curve is examined.
             let curve = |terminal: &Terminal| {
                 let rows = terminal.rows();
                 let columns = rows[4..18].iter().map(|row| row.chars().skip(80).collect::<String>());
@@ -95,7 +95,7 @@ fn plots_are_made_of_the_marker_that_is_wanted() {
             assert!(curve.chars().any(is_of_it), "{name}:\n{curve}");
             let others = MARKERS.iter().filter(|(other, _)| *other != name);
             for (other, is_of_other) in others {
-                // The legend of the branches and full blocks are what they are.
+                // The legend of the branches and full blocks are the same with every marker.
                 let found = curve.chars().filter(|c| is_of_other(*c) && !"⠒⠂█▀▄".contains(*c)).count();
                 assert_eq!(found, 0, "{name} shows {other}:\n{curve}");
             }
@@ -142,14 +142,14 @@ fn a_key_goes_through_markers_and_colours() {
             terminal.send("T");
             terminal.wait_for(&format!("colours: {name}"));
         }
-        // The next key takes the line away, and everything is as it was.
+        // The next key removes the line, and the screen is as before.
         terminal.send("k");
         terminal.wait("screen as before", |rows| rows.join("\n") == before);
         quit(&mut terminal);
     });
 }
 
-/// Whether any of the bright colours is used, and whether any colour at all is.
+/// True if any bright colour is used, and true if any colour is.
 fn brightness(terminal: &Terminal) -> (bool, bool) {
     let all = renditions(terminal.written());
     let bright = all.iter().any(|one| {
@@ -178,7 +178,7 @@ fn colours_suit_the_background_and_the_wishes_of_the_user() {
         check(&["--theme", "light"], &[to_dark], light);
         check(&["--theme", "plain"], &[to_dark], none);
         check(&["--theme", "high-contrast"], &[], dark);
-        // Who asks for no colours means it, and who asks on the command line means it more.
+        // NO_COLOR is obeyed, unless an argument sets a theme.
         check(&[], &[to_dark, without], none);
         check(&["--theme", "dark"], &[without], dark);
     });

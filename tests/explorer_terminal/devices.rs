@@ -1,4 +1,4 @@
-//! What is no file is neither read nor written, and nothing waits for it.
+//! Anything but a regular file is neither read nor written, and no step waits for it.
 
 use crate::common::deadline::within;
 use crate::common::terminal::Terminal;
@@ -10,19 +10,19 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Makes a pipe with a name; nobody writes or reads it.
+/// Makes a named pipe without reader or writer.
 fn make_pipe(path: &Path) {
     mknodat(CWD, path, FileType::Fifo, Mode::from_raw_mode(0o600), 0).unwrap();
 }
 
-/// Opens what is typed in the library.
+/// Opens the typed path in the library.
 #[track_caller]
 fn open(terminal: &mut Terminal, path: &str) {
     terminal.send("o");
     answer(terminal, "Search: ", path);
 }
 
-/// Whether keys are answered soon.
+/// Asserts that keys are answered soon.
 #[track_caller]
 fn assert_answers(terminal: &mut Terminal) {
     let asked = Instant::now();
@@ -44,11 +44,11 @@ fn a_pipe_or_a_device_is_not_opened_as_a_scene() {
             terminal.wait_for(&format!("{path}: this is not a regular file"));
             assert_answers(&mut terminal);
         }
-        // The system calls it a regular file; whether it may be read, and what is in it, differs.
+        // A regular file to the system; its permissions and content differ between machines.
         open(&mut terminal, "/proc/kmsg");
         terminal.wait_for("/proc/kmsg:");
         assert_answers(&mut terminal);
-        // The list shows it with its error.
+        // The list shows the file with its error.
         terminal.send("o");
         terminal.send("pipe");
         terminal.wait_for("! pipe.ron  here");
@@ -71,7 +71,7 @@ fn a_scene_is_not_saved_to_a_pipe_or_a_device() {
         for (path, why) in [
             ("pipe.ron", "this is not a regular file"),
             ("tty.ron", "this is not a regular file"),
-            // An extension is added to the name of a file, and to no other name.
+            // An extension is added only to the name of a file.
             ("pipe", "this is not a regular file; allowed: the name of a file"),
             ("/dev/tty", "this is not a regular file; allowed: the name of a file"),
             ("/dev/", "this is not the name of a file"),
@@ -109,17 +109,17 @@ fn a_measured_file_that_is_a_pipe_stops_no_computation() {
             terminal.wait_for("not a regular file");
             terminal.send(ESCAPE);
             terminal.wait_without("Search:");
-            // The worker goes on with what it is asked next.
+            // The worker continues with the next request.
             let before = headline(&terminal.rows()).unwrap();
             select(&mut terminal, "κ");
             terminal.send("h");
             wait_for_another(&mut terminal, &before);
         }
-        // Opened, it is an error of the scene.
+        // On opening, this is an error of the scene.
         open(&mut terminal, "./piped.ron");
         terminal.wait_for("not a regular file");
         assert_answers(&mut terminal);
-        // The scene that was edited is kept, and asked for.
+        // The edited scene is kept, and leaving asks about it.
         terminal.send("q");
         terminal.wait_for("unsaved changes. Leave?");
         quit(&mut terminal);

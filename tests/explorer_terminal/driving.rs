@@ -1,4 +1,4 @@
-//! How the tests drive the explorer and read its screen.
+//! Driving the explorer and reading its screen.
 
 use crate::common::terminal::{Program, Terminal};
 use asperity::scene::parse_quantity;
@@ -16,7 +16,7 @@ pub const LEAVE_ALTERNATE_SCREEN: &[u8] = b"\x1b[?1049l";
 pub const SHOW_CURSOR: &[u8] = b"\x1b[?25h";
 pub const HIDE_CURSOR: &[u8] = b"\x1b[?25l";
 
-/// A scene that is computed at once and whose fields are few.
+/// A scene with few fields that is computed at once.
 pub const SCENE: &str = r#"(
     version: 1,
     title: "Rough line",
@@ -29,20 +29,20 @@ pub const SCENE: &str = r#"(
 )
 "#;
 
-/// The explorer on the scene above, in a folder of its own, and the scene's file.
+/// The explorer on the scene above, in a folder of its own with the file of the scene.
 pub fn explorer() -> (Program, tempfile::TempDir) {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("scene.ron"), SCENE).unwrap();
-    // Its own scenes are none of those of whoever runs the tests.
+    // A home folder without the scenes of the user who runs the tests.
     let home = folder.path().to_str().expect("a name in Unicode");
     (Program::new(ASPERITY).argument("scene.ron").folder(folder.path()).env("HOME", home), folder)
 }
 
-/// The explorer once it shows its curve, its animation paused.
+/// The explorer after the first curve, with its animation paused.
 pub fn paused(program: Program) -> Terminal {
     let mut terminal = program.start();
     terminal.wait_for("F_a ");
-    // Its error comes when it has been quiet for a while.
+    // The error appears after a short rest.
     terminal.wait_without("± …");
     terminal.send(".");
     terminal.settle();
@@ -65,7 +65,7 @@ pub fn headline(rows: &[String]) -> Option<String> {
     Some(words.join(" "))
 }
 
-/// Waits for another adhesion force than this one, and gives it.
+/// Waits for another adhesion force than this one, and returns it.
 #[track_caller]
 pub fn wait_for_another(terminal: &mut Terminal, force: &str) -> String {
     terminal.wait("other force", |rows| headline(rows).is_some_and(|now| now != force));
@@ -104,7 +104,7 @@ pub fn last_place(bytes: &[u8], part: &[u8]) -> Option<usize> {
     bytes.windows(part.len()).rposition(|window| window == part)
 }
 
-/// The terminal as a program should leave it: its own screen again, with cursor and echo.
+/// Asserts the terminal as left by a program: its own screen again, with cursor and echo.
 #[track_caller]
 pub fn assert_given_back(terminal: &Terminal) {
     let bytes = terminal.written();
@@ -117,7 +117,7 @@ pub fn assert_given_back(terminal: &Terminal) {
     assert!(terminal.is_as_before(), "line by line and with echo, as before");
 }
 
-/// Leaves the explorer as it is meant to be left.
+/// Leaves the explorer by its own keys.
 #[track_caller]
 pub fn quit(terminal: &mut Terminal) {
     terminal.send("q");
@@ -125,17 +125,17 @@ pub fn quit(terminal: &mut Terminal) {
     assert_given_back(terminal);
 }
 
-/// What is on the screen beside the name of a quantity, in SI units: `d 175.6 nm` is 1.756e-7.
+/// Quantity beside its name on the screen, in SI units: `d 175.6 nm` is 1.756e-7.
 pub fn quantity(rows: &[String], name: &str, unit: &str) -> Option<f64> {
     rows.iter().find_map(|row| {
         let mut words = row.split_whitespace().skip_while(|word| *word != name).skip(1);
         let (number, unit_shown) = (words.next()?, words.next()?);
-        // Nothing has no unit.
+        // Zero has no unit.
         parse_quantity(&format!("{number} {unit_shown}"), unit).or_else(|_| parse_quantity(number, unit)).ok()
     })
 }
 
-/// Types a line into the prompt that is open, and accepts it.
+/// Types a line into the open prompt, and accepts it.
 #[track_caller]
 pub fn answer(terminal: &mut Terminal, prompt: &str, text: &str) {
     terminal.wait_for(prompt.trim_end());

@@ -32,7 +32,7 @@ fn a_value_is_typed_with_its_unit() {
         terminal.send("e");
         terminal.wait_for("Esc cancel");
         terminal.send(CLEAR_LINE);
-        // Letters are letters while a value is typed, even those that are keys elsewhere.
+        // In a value, letters are typed, even those that are keys elsewhere.
         terminal.send("3 q");
         terminal.wait_for("3 q");
         terminal.send("\x7f");
@@ -61,7 +61,7 @@ fn a_value_is_pasted_and_a_wrong_one_refused() {
         terminal.wait_for("1.5q");
         terminal.send("\x7f");
         terminal.send(ENTER);
-        // The refused value stays to be corrected; Escape gives it up.
+        // The refused value remains for correction; Escape discards it.
         terminal.wait_for("allowed: above 0 and below 1");
         terminal.wait_for("Esc cancel");
         terminal.send(ESCAPE);

@@ -1,4 +1,4 @@
-//! What is saved, exported and copied.
+//! Saved, exported and copied texts.
 
 use crate::common::deadline::within;
 use crate::common::terminal::{Program, Terminal};
@@ -60,7 +60,7 @@ fn what_is_saved_is_a_scene_and_is_overwritten_only_when_asked() {
     });
 }
 
-/// What the program says of a scene file, and whether it accepts it.
+/// Output of the program on a scene file, and true if the file is accepted.
 fn check(path: &Path) -> (bool, String) {
     let mut command = Command::new(ASPERITY);
     command.current_dir(path.parent().unwrap()).args(["presets", "check"]).arg(path.file_name().unwrap());
@@ -68,7 +68,7 @@ fn check(path: &Path) -> (bool, String) {
     (output.status.success(), String::from_utf8(output.stdout).unwrap())
 }
 
-/// The screen at the start of the loading, but for the line with the times.
+/// The screen at the start of the loading, except for the line with the times.
 #[track_caller]
 fn at_the_start(terminal: &mut Terminal) -> Vec<String> {
     terminal.send("<<");
@@ -108,7 +108,7 @@ fn a_saved_scene_opens_as_it_was_left() {
     });
 }
 
-/// What the program writes to its standard output in a folder, by a command line for a shell.
+/// Standard output of the program in a folder, for a command line of a shell.
 fn shell(folder: &Path, line: &str) -> Vec<u8> {
     let programs = Path::new(ASPERITY).parent().unwrap().display().to_string();
     let path = format!("{programs}:/usr/bin:/bin");
@@ -134,7 +134,7 @@ fn from_base64(text: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// The text the terminal was last asked to put on the clipboard.
+/// The last text sent to the clipboard of the terminal.
 fn copied(terminal: &Terminal) -> Option<String> {
     let bytes = terminal.written();
     let start = last_place(bytes, b"\x1b]52;c;")? + b"\x1b]52;c;".len();
@@ -147,7 +147,7 @@ fn copied(terminal: &Terminal) -> Option<String> {
 fn the_command_that_is_copied_gives_the_same_curve() {
     within(60, || {
         let (program, folder) = explorer();
-        // A name that a shell would not take for one word.
+        // A name that a shell would split into words.
         fs::rename(folder.path().join("scene.ron"), folder.path().join("my 'scene' $1.ron")).unwrap();
         let home = folder.path().to_str().unwrap();
         drop(program);
@@ -179,7 +179,7 @@ fn the_command_that_is_copied_gives_the_same_curve() {
     });
 }
 
-/// Leaves a changed scene as it is.
+/// Leaves without saving a changed scene.
 fn quit_anyway(terminal: &mut Terminal) {
     terminal.send("q");
     terminal.wait_for("unsaved changes");
@@ -208,7 +208,7 @@ fn curve_figures_and_panes_are_exported() {
         }
         assert!(exported["adhesion_force"].as_f64().is_some_and(|force| force > 0.0));
 
-        // The panes are those on the screen, but for the line with the notice of the export.
+        // The panes are those on the screen, except for the line with the notice of the export.
         let screen = terminal.rows();
         let text = file("out.txt");
         let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
@@ -221,7 +221,7 @@ fn curve_figures_and_panes_are_exported() {
         assert!(picture.trim_start().starts_with("<svg") && picture.trim_end().ends_with("</svg>"));
         assert!(picture.contains("<title>Asperity: scene</title>"), "{}", &picture[..300]);
 
-        // What is there is not overwritten unasked, and a name must say what is wanted.
+        // An existing file is not overwritten without a question, and the name must have a known extension.
         terminal.send("E");
         answer(&mut terminal, "Export to (.csv .npy .json .svg .png .txt): ", "out.csv");
         terminal.wait_for("out.csv exists. Overwrite it?");

@@ -37,7 +37,7 @@ fn a_loop_is_kept_compared_and_exchanged() {
 
         terminal.send("C");
         terminal.wait_without("· κ 8 ");
-        // Exchanges are edits: they can be taken back.
+        // Exchanges are edits and can be undone.
         terminal.send("u");
         terminal.wait("first loop", |rows| headline(rows).as_ref() == Some(&before));
         terminal.send("uu");
@@ -72,7 +72,7 @@ fn edits_are_taken_back_and_done_again() {
             terminal.send(key);
             reached(&mut terminal, force);
         }
-        // Nothing more to be done again.
+        // Nothing more to redo.
         terminal.send("U");
         terminal.send("uuu");
         terminal.wait_without("[changed]");

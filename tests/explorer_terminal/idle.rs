@@ -1,4 +1,4 @@
-//! Nothing is done while nothing happens.
+//! No work without events.
 
 use crate::common::deadline::within;
 use crate::common::terminal::Terminal;
@@ -6,10 +6,10 @@ use crate::driving::{explorer, paused, quit};
 use std::fs;
 use std::time::Duration;
 
-/// Ticks of processor time the process has used, and how often one of its threads was woken.
+/// Ticks of processor time of the process, and number of wake-ups of its threads.
 fn activity(pid: u32) -> (u64, u64) {
     let stat = fs::read_to_string(format!("/proc/{pid}/stat")).unwrap();
-    // The name of the program, in brackets, may hold anything.
+    // The name of the program, in brackets, may contain any character.
     let fields: Vec<&str> = stat.rsplit_once(')').unwrap().1.split_whitespace().collect();
     let ticks = fields[11].parse::<u64>().unwrap() + fields[12].parse::<u64>().unwrap();
     let mut switches = 0;
@@ -36,7 +36,7 @@ fn nothing_happens_while_nothing_happens() {
         let (program, _folder) = explorer();
         let mut terminal = paused(program.env("SSH_CONNECTION", "192.0.2.1 50000 192.0.2.2 22"));
         assert_idle(&mut terminal);
-        // With a window open above the panes, too.
+        // Also with a window open above the panes.
         terminal.send("?");
         terminal.wait_for("What you see");
         assert_idle(&mut terminal);
@@ -48,7 +48,7 @@ fn nothing_happens_while_nothing_happens() {
         assert_idle(&mut terminal);
         terminal.send("d");
         terminal.wait_without("manual: d ");
-        // While a scene is looked for, with its curve beside it.
+        // While a scene is chosen, with its curve beside.
         terminal.send("o");
         terminal.wait_for("built-in");
         assert_idle(&mut terminal);
@@ -57,13 +57,13 @@ fn nothing_happens_while_nothing_happens() {
         assert_idle(&mut terminal);
         terminal.send("\x1b");
         terminal.wait_without("Search:");
-        // While something is typed.
+        // While a text is typed.
         terminal.send("F1");
         terminal.wait_for("Go to the force: 1");
         assert_idle(&mut terminal);
         terminal.send("\x1b");
         terminal.wait_without("Go to the force:");
-        // Played to its end it stops by itself: to the last leg, near its end, and on.
+        // Played to its end the animation stops by itself: to the last leg, near its end, and on.
         terminal.send(">");
         terminal.settle();
         terminal.send(&".".repeat(110));

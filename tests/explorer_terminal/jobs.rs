@@ -1,4 +1,4 @@
-//! Ctrl-Z gives the terminal to the shell, and `fg` gives it back.
+//! Ctrl-Z returns the terminal to the shell, and `fg` resumes.
 
 use crate::common::deadline::within;
 use crate::common::terminal::{Program, Terminal};
@@ -9,11 +9,11 @@ use vt100::MouseProtocolMode;
 const SUSPEND: &str = "\x1a";
 const PROMPT: &str = "your turn> ";
 
-/// Shells with job control that read their lines as the terminal gives them.
+/// Shells with job control that read their lines from the terminal unchanged.
 const SHELLS: [(&str, &[&str]); 2] =
     [("/bin/sh", &["-i"]), ("/bin/bash", &["--norc", "--noprofile", "--noediting", "-i"])];
 
-/// Runs a test in each shell that knows of jobs.
+/// Runs a test in each shell with job control.
 fn in_each_shell(test: impl Fn(Terminal)) {
     let mut found = 0;
     for (shell, arguments) in SHELLS.into_iter().filter(|(shell, _)| Path::new(shell).exists()) {
@@ -44,7 +44,7 @@ fn in_each_shell(test: impl Fn(Terminal)) {
     }
 }
 
-/// The screen but for the time the newest run took, which differs from run to run.
+/// The screen except for the time of the newest run, which differs from run to run.
 fn without_times(terminal: &Terminal) -> Vec<String> {
     let mut rows = terminal.rows();
     for row in &mut rows {
@@ -55,7 +55,7 @@ fn without_times(terminal: &Terminal) -> Vec<String> {
     rows
 }
 
-/// Waits for the shell to have the terminal, as a shell needs it.
+/// Waits until the shell has the terminal in its own mode.
 #[track_caller]
 fn wait_for_shell(terminal: &mut Terminal) {
     terminal.wait("prompt", |rows| rows.last_filled() == Some(PROMPT.trim_end()));
@@ -81,11 +81,11 @@ fn suspended_and_continued_it_is_as_it_was() {
         in_each_shell(|mut terminal| {
             terminal.wait_without("± …");
             let before = without_times(&terminal);
-            // Twice: the second time everything works as the first.
+            // Twice: the second time works like the first.
             for _ in 0..2 {
                 terminal.send(SUSPEND);
                 wait_for_shell(&mut terminal);
-                // What is typed now is the shell's, and seen.
+                // Text typed now goes to the shell, with echo.
                 terminal.send("echo it''self\r");
                 terminal.wait("answer", |rows| rows.iter().any(|row| row == "itself"));
                 terminal.send("fg\r");
@@ -147,7 +147,7 @@ fn it_is_suspended_while_something_is_typed_and_while_it_plays() {
             wait_for_shell(&mut terminal);
             terminal.send("fg\r");
             terminal.wait_for("F_a ");
-            // It plays on.
+            // The animation continues.
             for _ in 0..3 {
                 let now = terminal.text();
                 terminal.wait("next snapshot", |rows| rows.join("\n") != now);

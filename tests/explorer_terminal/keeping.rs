@@ -1,4 +1,4 @@
-//! What outlives a session: unsaved changes and the configuration, in the folders of a user of their own.
+//! Files that outlive a session: unsaved changes and the configuration, in the folders of a separate user.
 
 use crate::common::deadline::within;
 use crate::common::terminal::{Program, Terminal};
@@ -26,7 +26,7 @@ fn again(home: &Path, argument: &str) -> Program {
     program.argument(argument)
 }
 
-/// The explorer with a changed scene, once the change is kept.
+/// The explorer with a changed scene, after the change is kept.
 fn changed(program: Program, home: &Path) -> Terminal {
     let mut terminal = paused(program);
     assert!(kept(home).is_empty(), "nothing is written unasked");
@@ -53,7 +53,7 @@ fn unsaved_changes_outlive_a_killed_explorer_and_a_lost_connection() {
                 terminal.wait_process();
             }
             assert_eq!(fs::read_to_string(home.join("scene.ron")).unwrap(), SCENE);
-            // The next explorer says so, in one line that goes with the next key.
+            // The next explorer reports the kept change in a line that ends with the next key.
             let mut terminal = again(home, "scene.ron").start();
             terminal.wait_for("unsaved changes of scene.ron are kept");
             terminal.send(".");
@@ -68,8 +68,8 @@ fn unsaved_changes_outlive_a_killed_explorer_and_a_lost_connection() {
             quit(&mut terminal);
             assert!(kept(home).is_empty(), "the question was answered");
             let output = command(home).arg("--restore").output().unwrap();
-            let said = String::from_utf8(output.stderr).unwrap();
-            assert!(said.contains("--restore: no unsaved changes are kept"), "{said}");
+            let message = String::from_utf8(output.stderr).unwrap();
+            assert!(message.contains("--restore: no unsaved changes are kept"), "{message}");
         });
     }
 }
@@ -103,17 +103,17 @@ fn a_configuration_is_read_and_written_when_asked() {
             let text = |bytes| String::from_utf8(bytes).unwrap();
             (output.status.code(), text(output.stdout), text(output.stderr))
         };
-        let (code, said, _) = run(&["config"]);
+        let (code, printed, _) = run(&["config"]);
         assert_eq!(code, Some(0));
         assert!(
-            said.contains("scene: \"scene.ron\"") && said.contains("keys: [\"_\", \"Ctrl+c\"]"),
-            "{said}"
+            printed.contains("scene: \"scene.ron\"") && printed.contains("keys: [\"_\", \"Ctrl+c\"]"),
+            "{printed}"
         );
-        let (code, _, said) = run(&["config", "--write"]);
-        assert!(code == Some(1) && said.contains("there is a file of that name already"), "{said}");
+        let (code, _, message) = run(&["config", "--write"]);
+        assert!(code == Some(1) && message.contains("there is a file of that name already"), "{message}");
         fs::write(&file, "(version: 1, theme: Pink)").unwrap();
-        let (code, _, said) = run(&[]);
-        assert!(code == Some(1) && said.contains("config.ron:1:21: Pink: allowed: Neutral"), "{said}");
+        let (code, _, message) = run(&[]);
+        assert!(code == Some(1) && message.contains("config.ron:1:21: Pink: allowed: Neutral"), "{message}");
         assert_eq!(fs::read_to_string(&file).unwrap(), "(version: 1, theme: Pink)");
     });
 }

@@ -1,4 +1,4 @@
-//! How the explorer is left, and what is left of it.
+//! Leaving the explorer, and the remains on the terminal.
 
 use crate::common::deadline::within;
 use crate::common::terminal::{Program, Terminal};
@@ -130,7 +130,7 @@ fn a_terminal_that_reads_nothing_keeps_no_signal_from_ending_it() {
             let (program, _folder) = explorer();
             let mut terminal = paused(program);
             terminal.rest(true);
-            // Each size is a whole frame; some of them are more than the system holds for a terminal.
+            // Each size is a whole frame; some frames exceed the buffer of a terminal.
             for columns in (100..140).step_by(4) {
                 terminal.resize(columns, 40);
                 std::thread::sleep(std::time::Duration::from_millis(50));
@@ -138,7 +138,7 @@ fn a_terminal_that_reads_nothing_keeps_no_signal_from_ending_it() {
             assert!(is_waiting_to_write(terminal.pid()), "the explorer waits for the terminal");
             signal(&terminal, name);
             assert!(!terminal.wait_process().success(), "{name}");
-            // Line by line and with echo already, while what was drawn still waits.
+            // Line by line and with echo already, while output still waits.
             assert!(terminal.is_as_before(), "{name}");
             terminal.rest(false);
             terminal.wait_end();
@@ -158,7 +158,7 @@ fn with_whatever_memory_there_is_the_terminal_is_given_back() {
     within(300, || {
         let (_, folder) = explorer();
         let mut computed = 0;
-        // Up to more than the scene takes, and its threads reserve.
+        // Up to more than the memory of the scene and the reservations of its threads.
         for mebibytes in [40, 70, 100, 130, 160, 190, 220, 250, 280, 310, 400, 2000] {
             let limited = format!("ulimit -v {}; exec '{ASPERITY}' million-springs", mebibytes << 10);
             let mut terminal =
@@ -176,10 +176,10 @@ fn with_whatever_memory_there_is_the_terminal_is_given_back() {
     });
 }
 
-/// Whether the main thread of a process sleeps in a call that writes.
+/// True if the main thread of a process sleeps in a call that writes.
 fn is_waiting_to_write(pid: u32) -> bool {
     let call = fs::read_to_string(format!("/proc/{pid}/syscall")).unwrap();
-    // The numbers of `write` on 64-bit x86 and ARM; the first argument is standard output.
+    // Numbers of `write` on 64-bit x86 and ARM; the first argument is standard output.
     let words: Vec<&str> = call.split_whitespace().collect();
     matches!(words[..], ["1" | "64", "0x1", ..])
 }
@@ -189,7 +189,7 @@ fn a_suspended_explorer_that_is_killed_leaves_the_terminal_to_the_shell() {
     within(40, || {
         let (program, _folder) = explorer();
         let mut terminal = paused(program);
-        // No shell continues it: the system goes on at once.
+        // No shell controls the process: the system continues it at once.
         terminal.send("\x1a");
         terminal.settle();
         signal(&terminal, "KILL");
@@ -234,7 +234,7 @@ fn assert_rows_of(left: &str, summary: &str) {
     }
 }
 
-/// The summary that `asperity run` gives.
+/// Summary of `asperity run`.
 fn summary(folder: &Path, arguments: &[&str]) -> String {
     let mut command = Command::new(ASPERITY);
     let output = command.current_dir(folder).arg("run").arg("scene.ron").args(arguments).output().unwrap();

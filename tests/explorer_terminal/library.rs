@@ -1,11 +1,11 @@
-//! Scenes are chosen from the library: built-in ones, one's own, those in the working folder.
+//! Scenes are chosen from the library: built-in ones, those of the user, those in the working folder.
 
 use crate::common::deadline::within;
 use crate::driving::{CLEAR_LINE, ENTER, ESCAPE, SCENE, answer, explorer, paused, quit};
 use std::fs;
 use std::path::Path;
 
-/// Puts a scene of this title into the folder of one's own scenes.
+/// Puts a scene of this title into the folder of the user's scenes.
 fn own_scene(config: &Path, name: &str, title: &str) {
     let folder = config.join("asperity").join("presets");
     fs::create_dir_all(&folder).unwrap();
@@ -24,7 +24,7 @@ fn a_scene_is_searched_looked_at_and_opened() {
         for listed in ["pressure-sensitive  built-in", "tape  own", "scene.ron  here", "! broken.ron  here"] {
             terminal.wait_for(listed);
         }
-        // Letters are letters here, also those that are keys elsewhere.
+        // Letters are typed here, even those that are keys elsewhere.
         terminal.send("qdzz");
         terminal.wait_for("no scene fits");
         terminal.send(CLEAR_LINE);
@@ -32,7 +32,7 @@ fn a_scene_is_searched_looked_at_and_opened() {
         terminal.send("tape");
         terminal.wait_for("› tape  own");
         terminal.wait_for("Sticky tape");
-        // Its curve, too, with the force.
+        // Also its curve, with the force.
         terminal
             .wait("force of the scene", |rows| rows[..rows.len() - 2].iter().any(|row| row.contains("F_a ")));
         terminal.send(ENTER);
@@ -50,7 +50,7 @@ fn a_scene_is_searched_looked_at_and_opened() {
         terminal.wait_for("Search:");
         terminal.send(ESCAPE);
         terminal.wait_without("Search:");
-        // The keys mean again what they mean.
+        // The keys have their usual meaning again.
         quit(&mut terminal);
     });
 }

@@ -1,9 +1,8 @@
-//! The program in a terminal, as it is used: keys are typed, the screen is read, the window changes its
-//! size or goes away, and in the end the terminal is as it was.
+//! The program in a terminal: keys are typed, the screen is read, the window is resized or closed, and in the end the
+//! terminal is as before.
 //!
-//! The engine that panics is the example `panicking_engine`, which is in `examples/` beside the
-//! program: `cargo test` builds both, `cargo test --test explorer_terminal` builds the example only
-//! after `cargo build --examples`.
+//! The engine that panics is the example `panicking_engine`, in `examples/` beside the program: `cargo test` builds
+//! both, `cargo test --test explorer_terminal` builds the example only after `cargo build --examples`.
 #![cfg(target_os = "linux")]
 
 #[path = "../common"]

@@ -1,4 +1,4 @@
-//! The body is loaded manually.
+//! Manual loading of the body.
 
 use crate::common::deadline::within;
 use crate::common::terminal::Terminal;
@@ -10,7 +10,7 @@ fn body_at(rows: &[String]) -> Option<(f64, f64)> {
     Some((quantity(&row, "d", "m")?, quantity(&row, "F", "N")?))
 }
 
-/// Numbers of springs that changed on the last move, and of entries looked at for it.
+/// Numbers of springs changed by the last move, and of entries read for it.
 #[track_caller]
 fn cost(terminal: &mut Terminal) -> (u64, u64) {
     terminal.send("I");
@@ -50,7 +50,7 @@ fn the_body_is_pressed_and_pulled_by_keys() {
         assert!((pulled - coarse).abs() < 0.3 * (fine - coarse), "{pulled} {coarse}");
         assert!(push(&mut terminal, "{").0 < pulled);
 
-        // In contact the line below says what a move changed and what it cost.
+        // In contact the line below shows the changes and the cost of a move.
         terminal.send("F");
         answer(&mut terminal, "Go to the force: ", "10 µN");
         let at_force =
@@ -61,7 +61,7 @@ fn the_body_is_pressed_and_pulled_by_keys() {
         assert!(changed > 10 && looked_at >= changed, "{changed} springs changed, {looked_at} looked at");
         let (deeper, larger) = push(&mut terminal, "}");
         assert!(deeper > pressed && larger > force);
-        // A held line: a small step costs no more than what changes, not the line's thousand springs.
+        // A held line: the cost of a small step follows the change, not the thousand springs of the line.
         push(&mut terminal, "]");
         let (changed, looked_at) = cost(&mut terminal);
         assert!(changed < 100 && looked_at < 1024, "{changed} springs changed, {looked_at} looked at");
@@ -89,7 +89,7 @@ fn a_force_that_is_none_or_out_of_reach_is_told() {
         terminal.send("F");
         answer(&mut terminal, "Go to the force: ", "-1");
         terminal.wait_for("the contact detaches before");
-        // A key takes the line away, and manual loading goes on at the same place.
+        // A key removes the line, and manual loading continues at the same place.
         terminal.send("k");
         terminal.wait("manual loading", |rows| body_at(rows).is_some());
         let (_, force) = body_at(&terminal.rows()).unwrap();
@@ -117,7 +117,7 @@ fn an_edit_puts_the_body_back_on_the_loading() {
         terminal.wait_without("[changed]");
         terminal.settle();
         assert_eq!(body_at(&terminal.rows()), None, "{}", terminal.text());
-        // The animation takes it back, too.
+        // The animation also takes the body back.
         push(&mut terminal, "}");
         terminal.send(".");
         terminal.wait("body given back", |rows| body_at(rows).is_none());

@@ -1,4 +1,4 @@
-//! The mouse chooses, drags and scrolls, and is left alone when it should be.
+//! The mouse selects, drags and scrolls, and is released on request.
 
 use crate::common::deadline::within;
 use crate::common::terminal::Terminal;
@@ -10,12 +10,12 @@ const DRAGGED: u8 = 32;
 const WHEEL_UP: u8 = 64;
 const WHEEL_DOWN: u8 = 65;
 
-/// What a terminal sends for the mouse at a cell, counted from 1.
+/// Bytes of a terminal for the mouse at a cell, counted from 1.
 fn report(what: u8, column: usize, row: usize) -> String {
     format!("\x1b[<{what};{column};{row}M")
 }
 
-/// Presses the left button and lets it go.
+/// Presses and releases the left button.
 fn click(terminal: &mut Terminal, column: usize, row: usize) {
     terminal.send(&(report(LEFT, column, row) + &format!("\x1b[<{LEFT};{column};{row}m")));
 }
@@ -37,7 +37,7 @@ fn manual_indentation(rows: &[String]) -> Option<f64> {
     quantity(&row, "d", "m")
 }
 
-/// The column, counted from 1, of the mark of the body on the curve. The legend has it, too.
+/// The column, counted from 1, of the mark of the body on the curve. The legend has the mark, too.
 #[track_caller]
 fn cursor(terminal: &Terminal) -> usize {
     let rows = terminal.rows();
@@ -94,13 +94,13 @@ fn a_click_chooses_a_pane_and_a_parameter() {
             rows.iter().any(|row| row.contains('›') && row.contains("Hurst exponent"))
         });
         assert!(terminal.text().contains("▸ Parameters"), "{}", terminal.text());
-        // The wheel goes on from there.
+        // The wheel continues from there.
         let selected = row_with(&terminal, "›");
         terminal.send(&report(WHEEL_DOWN, column, row));
         terminal.wait("next row", |rows| rows.iter().any(|row| row.contains('›') && *row != selected));
         terminal.send(&report(WHEEL_UP, column, row));
         terminal.wait("row before", |rows| rows.contains(&selected));
-        // A release, another button and a place outside mean nothing.
+        // A release, another button and a place outside have no effect.
         let before = terminal.text();
         terminal.send("\x1b[<2;20;10M\x1b[<2;20;10m\x1b[<0;900;900M\x1b[<35;20;10M");
         terminal.settle();
@@ -127,7 +127,7 @@ fn the_body_is_dragged_along_the_curve() {
             last = manual_indentation(&terminal.rows()).unwrap();
             assert!(cursor(&terminal).abs_diff(column) <= 1, "{column}:\n{}", terminal.text());
         }
-        // Back to where it began; every cell is as wide as every other.
+        // Back to the beginning; all cells have the same width.
         terminal.send(&report(DRAGGED, left, row));
         terminal.wait("body back", |rows| manual_indentation(rows).is_some_and(|now| now < last));
         let back = manual_indentation(&terminal.rows()).unwrap();

@@ -1,4 +1,4 @@
-//! How the explorer opens, and when it does not.
+//! Opening the explorer, and refusals to open.
 
 use crate::common::deadline::within;
 use crate::common::terminal::{BEGIN_FRAME, END_FRAME, Program};
@@ -12,7 +12,7 @@ use std::process::{Command, Stdio};
 #[test]
 fn the_first_frame_has_all_panes_and_the_next_the_curve() {
     within(40, || {
-        // Without a scene it opens one of its own.
+        // Without a scene the explorer opens a built-in one.
         let mut terminal = Program::new(ASPERITY).start();
         for pane in ["Force", "Profile", "Fragments", "Parameters", "work of adhesion", "q quit"] {
             terminal.wait_for(pane);
@@ -48,7 +48,7 @@ fn whatever_is_drawn_is_drawn_in_whole_frames() {
             frames += 1;
         }
         assert!(frames > 3, "{frames} frames");
-        // Behind them the terminal is given back, and the summary is on its own screen.
+        // After the frames the terminal is restored, and the summary is on its own screen.
         let rest = String::from_utf8_lossy(rest);
         let (given_back, summary) = rest.split_once("Rough line").expect("there is a summary");
         assert!(given_back.len() < 64 && given_back.contains("\x1b[?1049l"), "{given_back:?}");
@@ -68,7 +68,7 @@ fn keys_typed_before_the_first_frame_are_not_lost() {
         let rows = terminal.rows();
         let place = |text: &str| rows.iter().position(|row| row.contains(text)).expect("it is in the list");
         assert_eq!(place("›"), place("roughness parameter κ") + 1, "{}", terminal.text());
-        // Typed before the terminal was taken, they were echoed; that is all that is left.
+        // Keys typed before the terminal was taken are echoed; nothing else remains.
         terminal.send("q");
         assert!(terminal.wait_end().success());
         assert_given_back(&terminal);
@@ -103,14 +103,14 @@ fn fields_are_overridden_from_the_command_line() {
 #[test]
 fn a_misspelt_scene_is_told_without_taking_the_terminal() {
     within(40, || {
-        for (name, said) in [("jkr-spere", "did you mean jkr-sphere?"), ("none.ron", "none.ron")] {
+        for (name, expected) in [("jkr-spere", "did you mean jkr-sphere?"), ("none.ron", "none.ron")] {
             let home = tempfile::tempdir().unwrap();
             let program = Program::new(ASPERITY).argument(name).env("HOME", home.path().to_str().unwrap());
             let mut terminal = program.start();
             let status = terminal.wait_end();
             assert_eq!(status.exit_code(), 1);
             let screen = terminal.rows().concat();
-            assert!(screen.contains(said), "{screen}");
+            assert!(screen.contains(expected), "{screen}");
             assert!(!terminal.written().contains(&0x1b), "{}", terminal.text());
             assert!(terminal.is_as_before());
         }
@@ -151,7 +151,7 @@ fn over_a_connection_and_without_a_known_terminal_it_works_the_same() {
             explorer().0.env("SSH_TTY", "/dev/pts/1"),
             explorer().0.without_env("TERM"),
         ] {
-            // Its own folder is gone by now, and with it its scene.
+            // The former folder is gone by now, with its scene.
             let folder = tempfile::tempdir().unwrap();
             fs::write(folder.path().join("scene.ron"), SCENE).unwrap();
             let mut far = paused(far.folder(folder.path()));

@@ -1,4 +1,4 @@
-//! Panics of the engine and of the view, and an engine that does not come to an end.
+//! Panics of the engine and of the view, and an endless engine.
 
 use crate::common::deadline::within;
 use crate::common::terminal::{Program, Terminal};
@@ -8,7 +8,7 @@ use crate::driving::{
 use crate::idle::assert_idle;
 use std::path::{Path, PathBuf};
 
-/// The explorer with the engine that panics on the seed 13 and computes without end on the seed 14.
+/// The explorer with an engine that panics on the seed 13 and computes endlessly on the seed 14.
 fn panicking() -> Program {
     let folder = Path::new(ASPERITY).parent().expect("the program is in a folder");
     let path: PathBuf = folder.join("examples").join("panicking_engine");
@@ -58,7 +58,7 @@ fn a_panic_while_drawing_gives_the_terminal_back_and_tells_why() {
         terminal.send(ENTER);
         assert_eq!(terminal.wait_end().exit_code(), 101);
         assert_given_back(&terminal);
-        // One line below the other: the terminal starts each line at its left again.
+        // One line below the other: each line starts at the left again.
         let rows = terminal.rows();
         assert!(rows.iter().any(|row| row.starts_with("thirteen is unlucky")), "{}", terminal.text());
     });
@@ -82,7 +82,7 @@ fn a_typed_digit_is_in_the_next_frame_whatever_the_engine_does() {
             terminal.wait("typed digits", |rows| rows.iter().any(|row| row.contains(&format!(": {typed}"))));
             assert_eq!(terminal.frames().len() - before, 1, "frames from the key to its echo");
         }
-        // The engine gives up for the newer scene.
+        // The engine stops for the newer scene.
         terminal.send(CLEAR_LINE);
         terminal.send("5");
         terminal.send(ENTER);

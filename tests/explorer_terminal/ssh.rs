@@ -1,7 +1,7 @@
-//! The explorer over a real connection: a server of its own on the loopback, a client in a terminal,
-//! and a count of what travels while the animation plays.
+//! The explorer over a real connection: a server of its own on the loopback, a client in a terminal, and a count of the
+//! bytes sent during the animation.
 //!
-//! Needs `sshd`, `ssh` and `ssh-keygen`; where one of them is missing the tests say so and do nothing.
+//! Needs `sshd`, `ssh` and `ssh-keygen`; if one of them is missing the tests report so and end.
 
 use crate::common::deadline::within;
 use crate::common::terminal::{Frame, Program, Terminal};
@@ -15,55 +15,54 @@ use std::time::{Duration, Instant};
 
 const ASPERITY: &str = env!("CARGO_BIN_EXE_asperity");
 
-/// What a slow connection still carries, bytes in a second.
+/// Most bytes in a second on a slow connection.
 const MOST_BYTES: f64 = 20_000.0;
 /// Most frames in a second.
 const MOST_FRAMES: f64 = 12.0;
 
-/// Says what is left out, past the test runner, which keeps what passing tests print to itself.
+/// Reports a skipped test past the test runner, which hides the output of passing tests.
 fn report(note: &str) {
     let _ = writeln!(std::io::stderr(), "{note}");
 }
 
-/// A program by its name, on the path or where Debian keeps those of the administrator.
+/// A program by its name, on the path or in the administrator's folders of Debian.
 fn program(name: &str) -> Option<PathBuf> {
     let path = std::env::var_os("PATH").unwrap_or_default();
     let folders = std::env::split_paths(&path).chain([PathBuf::from("/usr/sbin"), PathBuf::from("/sbin")]);
     folders.map(|folder| folder.join(name)).find(|file| file.is_absolute() && file.is_file())
 }
 
-/// What a command that must succeed prints.
+/// Output of a command that must succeed.
 fn output_of(command: &mut Command) -> String {
     let output = command.output().unwrap();
     assert!(output.status.success(), "{command:?}: {}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8(output.stdout).unwrap().trim().to_owned()
 }
 
-/// Runs a program until its own input ends: with the process that holds the other end of it, whatever
-/// becomes of that.
+/// Runs a program until its input ends: with the process at the other end, however that process ends.
 const WHILE_WANTED: &str = r#""$@" & read -r _; kill $!; wait"#;
 
-/// A server that ends with the test, however that ends.
+/// A server that ends with the test, on any outcome.
 struct Server {
     sshd: Child,
     ssh: PathBuf,
     port: u16,
     user: String,
     folder: tempfile::TempDir,
-    /// What it says.
+    /// Lines of its log.
     log: Receiver<String>,
 }
 
 impl Drop for Server {
     fn drop(&mut self) {
-        // The end of its input ends it, and its end is waited for.
+        // The end of its input ends the server; wait for that.
         drop(self.sshd.stdin.take());
         let _ = self.sshd.wait();
     }
 }
 
 impl Server {
-    /// Starts one; `None`, and a note, where that is not possible here.
+    /// Starts a server; `None`, and a note, if that is impossible here.
     fn start() -> Option<Server> {
         let [sshd, ssh, keygen] = ["sshd", "ssh", "ssh-keygen"].map(|name| {
             let found = program(name);
@@ -74,7 +73,7 @@ impl Server {
         });
         let (sshd, ssh, keygen) = (sshd?, ssh?, keygen?);
         let user = output_of(Command::new("id").arg("-un"));
-        // As root it parts with its rights in an empty folder that must be there.
+        // As root the server drops its rights in an empty folder that must exist.
         let empty = Path::new("/run/sshd");
         if user == "root" && !empty.exists() && fs::create_dir(empty).is_err() {
             report(&format!("skipped: {} is not there and cannot be made", empty.display()));
@@ -87,7 +86,7 @@ impl Server {
             output_of(keygen.args(["-q", "-t", "ed25519", "-N", "", "-C", name, "-f"]).arg(file(name)));
         }
         fs::copy(file("user.pub"), file("authorized")).unwrap();
-        // Free now; whoever takes it before the server does fails the test, which can be run again.
+        // Free now; if another process takes the port first the test fails and can be run again.
         let port = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
         let config = format!(
             "Port {port}\nListenAddress 127.0.0.1\nHostKey {}\nAuthorizedKeysFile {}\nPidFile none\n\
@@ -112,7 +111,7 @@ impl Server {
         server.is_open().then_some(server)
     }
 
-    /// Waits for a line in what the server says.
+    /// Waits for a line in the log of the server.
     fn wait_for_log(&self, text: &str) {
         let deadline = Instant::now() + Duration::from_secs(20);
         let mut all = String::new();
@@ -125,7 +124,7 @@ impl Server {
         panic!("sshd does not say {text}:\n{all}");
     }
 
-    /// Arguments of a client that knows this server and no other.
+    /// Arguments of a client that knows only this server.
     fn arguments(&self) -> Vec<String> {
         let file = |name: &str| self.folder.path().join(name).display().to_string();
         let options = [
@@ -143,7 +142,7 @@ impl Server {
         arguments
     }
 
-    /// Whether this user may log in at all: an account can be locked to everyone.
+    /// True if this user may log in at all: an account can be locked to everyone.
     fn is_open(&self) -> bool {
         let output = Command::new(&self.ssh).args(self.arguments()).arg("true").output().unwrap();
         if output.status.success() {
@@ -160,7 +159,7 @@ impl Server {
     /// The explorer behind a connection, in a terminal. Its process number is written to a file.
     fn explorer(&self, arguments: &str) -> Terminal {
         let pid = self.pid_file();
-        // Nothing of the user's is read or written.
+        // No file of the user is read or written.
         let home = self.folder.path();
         let remote =
             format!("echo $$ > '{}'; HOME='{}' exec '{ASPERITY}' {arguments}", pid.display(), home.display());
@@ -222,7 +221,7 @@ fn a_whole_loop_is_edited_and_played_over_a_slow_line() {
         let (start, first) = (terminal.written().len(), terminal.frames().len());
         let begun = Instant::now();
         terminal.send("r");
-        // Until nothing has come for longer than between any two frames.
+        // Until a pause longer than between any two frames.
         terminal.settle_for(Duration::from_millis(1500));
         let frames = &terminal.frames()[first..];
         let seconds = frames.last().unwrap().arrived.duration_since(begun).as_secs_f64();
@@ -261,7 +260,7 @@ fn a_held_key_does_not_flood_a_slow_line() {
         terminal.settle();
         let (start, first) = (terminal.written().len(), terminal.frames().len());
         let begun = Instant::now();
-        // As a keyboard repeats a key that is held down: thirty in a second, for three seconds.
+        // As from a keyboard that repeats a held key: thirty in a second, for three seconds.
         for key in 1..=90 {
             terminal.send("]");
             let next = begun + Duration::from_secs(key) / 30;
@@ -272,7 +271,7 @@ fn a_held_key_does_not_flood_a_slow_line() {
         println!("{bytes} bytes in {frames} frames in 3 s of a held key");
         assert!(frames as f64 <= 3.0 * MOST_FRAMES + 4.0, "{frames} frames in 3 s");
         assert!(bytes as f64 / 3.0 < MOST_BYTES, "{bytes} bytes in 3 s");
-        // The last of them is seen, too, and at once.
+        // The last key also has its effect at once.
         terminal.settle();
         assert!(terminal.text().contains("manual: d "), "{}", terminal.text());
         terminal.send("q");

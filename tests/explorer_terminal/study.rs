@@ -1,4 +1,4 @@
-//! A finished study opens as a map, and a folder that is none says what it is.
+//! A finished study opens as a map; another folder is refused with its kind.
 
 use crate::common::deadline::within;
 use crate::common::study::{PLAN, begun, merged};
@@ -31,7 +31,7 @@ fn a_folder_opens_as_the_map_of_its_study() {
         terminal.wait_for("Map of regime over H, κ, 4 profiles");
         terminal.send("W");
         terminal.wait_for("Study small");
-        // The command that is copied opens the study again.
+        // The copied command opens the study again.
         terminal.send("y");
         terminal.wait_for("copy: asperity small --set");
         terminal.send("q");
@@ -58,7 +58,7 @@ fn a_study_is_opened_by_its_path_from_within() {
     });
 }
 
-/// What the program says of a folder, without a terminal.
+/// Message of the program about a folder, without a terminal.
 fn message(folder: &Path, name: &str) -> String {
     let mut command = Command::new(ASPERITY);
     let output = command.current_dir(folder).arg(name).stdin(Stdio::null()).output().unwrap();
@@ -86,7 +86,7 @@ fn a_folder_without_a_map_says_why() {
         merged(&at("one cell"), &one_cell);
         std::fs::create_dir(at("notes")).unwrap();
         std::fs::create_dir(at("jkr-sphere")).unwrap();
-        for (name, said) in [
+        for (name, expected) in [
             ("begun", "begun: the study has not been merged yet; asperity sweep merge begun does it"),
             (
                 "notes",
@@ -105,12 +105,12 @@ fn a_folder_without_a_map_says_why() {
                 "narrow one",
                 "the explorer needs a terminal; asperity sweep plot 'narrow one' draws the study without one",
             ),
-            // A built-in scene is not hidden by a folder that happens to have its name.
+            // A folder with the name of a built-in scene does not hide the scene.
             ("jkr-sphere", "asperity run jkr-sphere computes the scene without one"),
         ] {
             let message = message(folder.path(), name);
             assert!(
-                message.starts_with(said) || message.ends_with(&format!("{said}\n")),
+                message.starts_with(expected) || message.ends_with(&format!("{expected}\n")),
                 "{name}: {message}"
             );
             assert_eq!(message.lines().count(), 1, "{message}");

@@ -64,7 +64,7 @@ fn keys_and_changes_of_the_window_that_come_together_all_count() {
         for round in 0..60 {
             let before = marked(&terminal.rows()).expect("a parameter is selected");
             let name: String = before.split('›').nth(1).expect("it has a name").chars().take(16).collect();
-            // The width of this window shows on the screen that the new size is known.
+            // The width of this window shows that the new size is known.
             terminal.resize(100 + round % 2, 40);
             terminal.send(if round / 10 % 2 == 0 { "j" } else { "k" });
             terminal.wait("other row selected", |rows| marked(rows).is_some_and(|row| !row.contains(&name)));
@@ -85,7 +85,7 @@ fn a_window_that_changes_while_the_animation_plays_is_survived() {
         for round in 0..60 {
             let (columns, rows) = if round % 2 == 0 { (30 + round, 8) } else { (120, 40) };
             terminal.resize(columns, rows);
-            // Two frames of the animation, or as much as fits.
+            // Two frames of the animation, or fewer.
             terminal.is_silent_for(Duration::from_millis(20));
             terminal.is_silent_for(Duration::from_millis(20));
         }

@@ -1,5 +1,5 @@
-//! The properties of the fuzz targets on a plain toolchain: for all seeds, for all that fuzzing has found,
-//! and for some thousand mutations of both, the same ones each time.
+//! The properties of the fuzz targets on a plain toolchain: for all seeds, for all findings of fuzzing, and for some
+//! thousand mutations of both, the same ones each time.
 //!
 //! `TEST_EFFORT=40 cargo test --test fuzz corpus` tries 100 000 mutations of each target, `FUZZ_SEED=7` others.
 
@@ -13,11 +13,11 @@ use std::path::{Path, PathBuf};
 /// Mutations of each target in a quick run.
 const MUTATIONS: u32 = 2500;
 
-/// Longest input that is made up, bytes.
+/// Longest generated input, bytes.
 const LONGEST: usize = 4_096;
 
-/// What reading takes at most in one piece, bytes: tables of fixed size, and so much for each byte of input.
-/// No number in the input has any part in it.
+/// Largest single request of memory while reading, bytes: tables of fixed size, and a multiple of the input.
+/// Independent of the numbers in the input.
 const LARGEST_TABLE: usize = 1 << 18;
 const LARGEST_PER_BYTE: usize = 128;
 
@@ -25,7 +25,7 @@ fn folder(kind: &str, target: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz").join(kind).join(target)
 }
 
-/// The files of a folder with their names, in the order of these; none where there is no such folder.
+/// The files of a folder with their names, in alphabetical order; none if the folder does not exist.
 fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
     let mut files: Vec<_> = entries
@@ -40,18 +40,18 @@ fn from_environment(name: &str) -> Option<u64> {
     std::env::var(name).ok().map(|number| number.parse().unwrap_or_else(|_| panic!("{name}: a whole number")))
 }
 
-/// Seeds of a target and what fuzzing has found.
+/// Seeds of a target and the findings of fuzzing.
 fn inputs(target: &str) -> Vec<(String, Vec<u8>)> {
     let seeds = files(&folder("seeds", target));
     assert!(seeds.len() >= 4, "{target} has {} seeds", seeds.len());
     [seeds, files(&folder("corpus", target))].concat()
 }
 
-/// Bytes that decompression gives at most beside those of the input, and for each of them.
+/// Most bytes of decompression beside those of the input, and for each of them.
 const LEAST_EXPANDED: usize = 1 << 20;
 const MOST_EXPANSION: usize = 32;
 
-/// Length of an input, of compressed ones that of the longest content.
+/// Length of an input; of compressed ones that of the longest content.
 fn content(input: &[u8]) -> usize {
     let compressed: [&[u8]; 3] = [b"\x1f\x8b", b"PK\x03\x04", b"DSCOMPRESSED"];
     if compressed.iter().any(|signature| input.starts_with(signature)) {
@@ -61,7 +61,7 @@ fn content(input: &[u8]) -> usize {
     }
 }
 
-/// The property holds, and memory was asked for only as the input is long; says for which input not.
+/// Asserts that the property holds and that memory requests follow the length of the input; names a failing input.
 fn check(property: Property, name: &str, input: &[u8]) {
     let (result, largest) = allocations::largest(|| catch_unwind(AssertUnwindSafe(|| property(input))));
     if let Err(panic) = result {
@@ -72,7 +72,7 @@ fn check(property: Property, name: &str, input: &[u8]) {
     assert!(largest <= most, "{name}: {largest} bytes at once for an input of {}", input.len());
 }
 
-/// Replays what there is of a target and tries mutations of it.
+/// Replays all inputs of a target and tries mutations of them.
 fn replay_and_mutate(target: &str) {
     let (_, property) = TARGETS.iter().find(|(name, _)| *name == target).unwrap();
     let inputs = inputs(target);
@@ -127,7 +127,7 @@ fn every_target_has_a_file_seeds_and_a_place_in_the_package() {
     }
 }
 
-/// A property that could not fail would prove nothing.
+/// A property that cannot fail proves nothing.
 #[test]
 fn what_does_not_hold_is_told() {
     let panics: Property = |input| assert!(!input.contains(&b'x'));

@@ -1,8 +1,8 @@
-//! Inputs made of others, the same ones for the same seed.
+//! Inputs mutated from others, the same ones for the same seed.
 
 use asperity::scene::{FIELDS, Range};
 
-/// What trips readers of numbers and of nested text.
+/// Fragments that trip readers of numbers and of nested text.
 const NASTY: &[&str] = &[
     "NaN",
     "inf",
@@ -69,7 +69,7 @@ const NASTY: &[&str] = &[
     "rad",
 ];
 
-/// Makes inputs of others.
+/// Mutates inputs.
 pub struct Mutator<'a> {
     state: u64,
     inputs: &'a [Vec<u8>],
@@ -78,8 +78,7 @@ pub struct Mutator<'a> {
 }
 
 impl<'a> Mutator<'a> {
-    /// A mutator of these inputs, of which there is at least one; what it makes is at most `longest` bytes
-    /// long.
+    /// A mutator of these inputs, at least one; its results are at most `longest` bytes long.
     pub fn new(seed: u64, inputs: &'a [Vec<u8>], longest: usize) -> Self {
         let mut tokens = NASTY.to_vec();
         for field in FIELDS {
@@ -106,7 +105,7 @@ impl<'a> Mutator<'a> {
         ((u128::from(self.next()) * count as u128) >> 64) as usize
     }
 
-    /// A place in `input`, the end included.
+    /// A place in `input`, including the end.
     fn place(&mut self, input: &[u8]) -> usize {
         self.below(input.len() + 1)
     }
@@ -118,7 +117,7 @@ impl<'a> Mutator<'a> {
         start..(start + self.below(most + 1)).min(input.len())
     }
 
-    /// The number nearest behind some place, digits, point, exponent and sign.
+    /// The number nearest after some place: digits, point, exponent and sign.
     fn number(&mut self, input: &[u8]) -> std::ops::Range<usize> {
         let from = self.place(input);
         let is_part = |byte: &u8| byte.is_ascii_digit() || b".eE+-".contains(byte);
@@ -127,13 +126,13 @@ impl<'a> Mutator<'a> {
         start..start + length
     }
 
-    /// One of those there are.
+    /// One of the inputs.
     fn other(&mut self) -> &'a Vec<u8> {
         let index = self.below(self.inputs.len());
         &self.inputs[index]
     }
 
-    /// The next input: one of those there are, changed in one to eight places.
+    /// The next input: an existing one, changed in one to eight places.
     pub fn next_input(&mut self) -> Vec<u8> {
         let mut input = self.other().clone();
         for _ in 0..1 << self.below(4) {

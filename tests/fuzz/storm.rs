@@ -1,5 +1,5 @@
-//! Storms of random input, drawn from the table of fields: texts of scenes, overrides, profiles, plans, and the
-//! runs of those that are allowed.
+//! Storms of random input, drawn from the table of fields: texts of scenes, overrides, profiles, plans, and the runs of
+//! the allowed ones.
 //!
 //! `TEST_EFFORT=800 cargo test --test fuzz storm` draws 800 times as many; `PROPTEST_RNG_SEED=7` draws others.
 
@@ -12,7 +12,7 @@ mod strategies;
 mod texts;
 
 use super::{effort::cases, properties};
-// For the strategies, which name them as the room of the scene does.
+// For the strategies, which use the names of the scene module.
 use asperity::scene::{
     DEFAULT, Document, End, FIELDS, Field, LEG_FORCE, LEG_INDENTATION, Range, Scene, find, is_control,
     ron_float, ron_string,
@@ -20,7 +20,7 @@ use asperity::scene::{
 use proptest::prelude::*;
 use strategies::Drawn;
 
-/// Most springs of a line that is computed.
+/// Most springs of a computed line.
 const MOST_POINTS: u64 = 2000;
 
 /// Draws of a quick run, times the effort.

@@ -1,4 +1,4 @@
-//! The command line as its users have it: the program itself, what it prints and how it ends.
+//! The command line as for its users: the program itself, its output and its exit code.
 
 use super::common::deadline::within;
 use super::program::{Finished, asperity, failed, json, program};
@@ -32,7 +32,7 @@ const KEYS: &[&str] = &[
 const LINE_KEYS: &[&str] = &["points", "length", "spacing", "rms_height", "rms_gradient", "modes", "seed"];
 const CURVE_KEYS: &[&str] = &["leg", "indentation", "force", "contact_length", "fragments"];
 
-/// Standard output of a command that succeeds and has nothing to report.
+/// Standard output of a command that succeeds without messages.
 fn done(arguments: &[&str]) -> String {
     let Finished { code, stdout, stderr } = asperity(arguments);
     assert_eq!((code, stderr.as_str()), (Some(0), ""), "{arguments:?}");
@@ -110,7 +110,7 @@ fn every_scene_gives_the_documented_json() {
         let end = curve.last().unwrap();
         let contacts = object["contacts"].as_array().unwrap();
         assert_eq!(contacts.len() as f64, number(&end["fragments"]), "{scene:?}");
-        // Each of its edges lies within a cell of the last spring it holds.
+        // Each edge lies within a cell of the last held spring.
         let springs: f64 = contacts.iter().map(|run| number(&run[1]) - number(&run[0]) + 1.0).sum();
         let beyond = number(&end["contact_length"]) / spacing - springs;
         assert!(beyond.abs() <= contacts.len() as f64 * (1.0 + 1e-9), "{scene:?}: {beyond} cells");
@@ -129,7 +129,7 @@ fn figures_follow_from_the_curve() {
     let coefficient = number(&object["adhesion_coefficient"]);
     assert!((coefficient * largest + smallest).abs() < 1e-12 * largest);
     assert_eq!(object["scene"]["numerics"]["samples"], 512, "defaults are filled in");
-    // The number of samples is no matter of the figures.
+    // The number of samples does not affect the figures.
     let coarse = json(&["run", "pressure-sensitive", "--format", "json", "--set", "numerics.samples=7"]);
     for key in ["adhesion_force", "preload", "pull_off_indentation", "dissipated_energy"] {
         let (one, other) = (number(&object[key]), number(&coarse[key]));
@@ -160,7 +160,7 @@ fn csv_is_the_curve_of_the_json() {
 #[test]
 fn a_summary_says_what_came_out_and_why() {
     let text = done(&["run", "pressure-sensitive"]);
-    for said in [
+    for expected in [
         "Pressure-sensitive adhesion",
         "16 384",
         "100 µm",
@@ -177,7 +177,7 @@ fn a_summary_says_what_came_out_and_why() {
         "tree nodes",
         "time",
     ] {
-        assert!(text.contains(said), "{said}: {text}");
+        assert!(text.contains(expected), "{expected}: {text}");
     }
     for preset in presets() {
         let text = done(&["run", &preset]);
@@ -213,7 +213,7 @@ fn overrides_reach_the_run() {
         assert_eq!(object["line"]["points"], 65536);
         number(&object["adhesion_force"])
     };
-    // Pull-off is in proportion to the work of adhesion.
+    // Pull-off is proportional to the work of adhesion.
     let ratio = sphere("0.1") / sphere("0.05");
     assert!((ratio - 2.0).abs() < 0.02, "{ratio}");
     assert_eq!(sphere("50mJ/m2").to_bits(), sphere("0.05").to_bits());
@@ -223,8 +223,8 @@ fn overrides_reach_the_run() {
 fn errors_of_overrides_state_field_value_and_range() {
     let run = |set: &str| failed(1, &["run", "pressure-sensitive", "--set", set]);
     let message = run("roughness.hurst=1.4");
-    for said in ["roughness.hurst", "1.4", "above 0 and below 1"] {
-        assert!(message.contains(said), "{said}: {message}");
+    for expected in ["roughness.hurst", "1.4", "above 0 and below 1"] {
+        assert!(message.contains(expected), "{expected}: {message}");
     }
     assert!(run("numerics.pionts=64").contains("numerics.points"));
     assert!(run("numerics.points=many").contains("many"));
@@ -238,7 +238,7 @@ fn errors_of_overrides_state_field_value_and_range() {
         assert_eq!(lines.len(), 2, "{message}");
         assert!(lines[0].contains("length") && lines[1].contains("numerics.samples"), "{message}");
     }
-    // Also without a command, where there is no terminal to explore in.
+    // Also without a command, if there is no terminal to explore in.
     assert!(failed(1, &["--set", "roughness.hurst=1.4"]).contains("above 0 and below 1"));
 }
 
@@ -343,7 +343,7 @@ fn built_in_scenes_are_listed_shown_and_sound() {
     assert!(message.contains("no-such-scene") && message.contains("kendall-punch"), "{message}");
 }
 
-/// Elsewhere the configuration folder is not named by a variable.
+/// On other systems no variable names the configuration folder.
 #[cfg(unix)]
 #[test]
 fn own_scenes_are_listed_and_opened() {
@@ -442,7 +442,7 @@ fn a_line_refines_to_the_same_line() {
     let spacing = 1.0e-4 / 9000.0;
     for (index, &(x, z)) in coarse.iter().enumerate() {
         assert!((x - (index as f64 + 0.5) * spacing).abs() < 1e-12 * 1.0e-4);
-        // With three times the springs, the middle one of each three is at the place of one.
+        // With three times the springs, the middle one of each three is at the place of one spring.
         let (fine_x, fine_z) = fine[3 * index + 1];
         assert!((x - fine_x).abs() < 1e-12 * 1.0e-4);
         assert!((z - fine_z).abs() < 1e-10 * 2.0e-7, "{index}: {z} {fine_z}");
@@ -574,7 +574,7 @@ fn a_table_computes_again_from_itself() {
         for ending in ["csv", "npy"] {
             let [first, second, other] =
                 ["", "-again", "-other"].map(|part| path(&format!("{name}{part}.{ending}")));
-            // Springs chosen for a tolerance are named on standard error.
+            // Numbers of springs chosen for a tolerance are reported on standard error.
             assert_eq!(asperity(&[arguments, &["-o", &first]].concat()).code, Some(0));
             assert_eq!(done(&["run", &first, "-o", &second]), "");
             let written = fs::read(&first).unwrap();
@@ -606,7 +606,7 @@ fn files_are_not_overwritten_unasked() {
         let arguments = [command, "jkr-sphere", "-o", file];
         assert_eq!(done(&arguments), "");
         let written = fs::read_to_string(&path).unwrap();
-        assert!(rows(&written).next().unwrap().starts_with(header), "the ending .csv says what to write");
+        assert!(rows(&written).next().unwrap().starts_with(header), "the ending .csv selects the table");
         let message = failed(1, &arguments);
         assert!(message.contains(file) && message.contains("--force"), "{message}");
         assert_eq!(fs::read_to_string(&path).unwrap(), written);
@@ -648,7 +648,7 @@ fn a_process_that_is_killed_while_it_writes_leaves_nothing_behind() {
                 fs::write(&out, &whole).unwrap();
             }
         }
-        // Where files have names from the beginning, the next one removes those of processes that are gone.
+        // Where files have names from the beginning, the next run removes those of ended processes.
         assert!(program().args(arguments).arg(&out).status().unwrap().success());
         let names = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name());
         assert_eq!(names.collect::<Vec<_>>(), ["out.csv"]);
@@ -666,7 +666,7 @@ fn a_scene_comes_from_a_stream_only_where_it_is_named_on_the_command_line() {
             let stdout = with_input(&["run", name, "--format", "json"], &text);
             assert_eq!(force(&serde_json::from_str(&stdout).unwrap()), wanted, "{name}");
         }
-        // Of what has no end no more is read than a scene can be long.
+        // An endless file is read no further than the longest scene.
         assert!(failed(1, &["run", "/dev/zero"]).contains("too long"));
         let folder = tempfile::tempdir().unwrap();
         let scene = folder.path().join("endless.ron");
@@ -677,14 +677,14 @@ fn a_scene_comes_from_a_stream_only_where_it_is_named_on_the_command_line() {
             let message = failed(1, &[command, &[scene]].concat());
             assert!(message.contains("not a regular file"), "{command:?}: {message}");
         }
-        // The frames of a demo show what is wrong.
+        // The frames of a demo show the error.
         assert!(done(&["demo", "--frames", "--size", "120x40", scene]).contains("not a regular file"));
     });
 }
 
 #[test]
 fn a_file_that_cannot_be_written_is_an_error_before_anything_is_computed() {
-    // The run itself would fail as well, and later.
+    // The run itself would fail as well, but later.
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().to_str().unwrap();
     let message = failed(1, &["run", "jkr-sphere", "--set", "loading=[ToTouch, ToForce(-1.0)]", "-o", file]);
@@ -720,8 +720,8 @@ fn wrong_usage_is_exit_code_two() {
 #[test]
 fn a_word_that_is_no_scene_may_be_meant_as_a_command() {
     let message = failed(1, &["rnu"]);
-    for said in ["rnu", "pressure-sensitive", "presets", "asperity --help"] {
-        assert!(message.contains(said), "{said}: {message}");
+    for expected in ["rnu", "pressure-sensitive", "presets", "asperity --help"] {
+        assert!(message.contains(expected), "{expected}: {message}");
     }
 }
 
@@ -771,7 +771,7 @@ fn help_is_for_reading() {
 fn a_demo_into_a_pipe_is_text() {
     within(60, || {
         let text = done(&["demo", "jkr-sphere", "--size", "100x30"]);
-        assert!(!text.contains(['\u{1b}', '\r']), "no terminal is spoken to");
+        assert!(!text.contains(['\u{1b}', '\r']), "no control characters of a terminal");
         let heads: Vec<&str> = text.lines().filter(|line| line.starts_with("== ")).collect();
         assert_eq!(heads.len(), 13, "{heads:?}");
         assert_eq!((heads[0], heads[12]), ("== 0.00 s ==", "== 12.00 s =="));
@@ -841,7 +841,7 @@ fn a_demo_is_recorded_the_same_every_time() {
         let times: Vec<f64> = lines[1..].iter().map(|line| number(&line[0])).collect();
         assert!(times.len() > 40 && times.is_sorted_by(|a, b| a < b), "{times:?}");
         assert!(lines[1..].iter().all(|line| line[1] == "o"));
-        // Played back it shows the last frame.
+        // Played back, the recording shows the last frame.
         let mut terminal = vt100::Parser::new(24.try_into().unwrap(), 80.try_into().unwrap(), 0);
         lines[1..].iter().for_each(|line| terminal.process(line[2].as_str().unwrap().as_bytes()));
         let last = done(&["demo", "jkr-sphere", "--size", "80x24", "--at", "100"]);
@@ -921,7 +921,7 @@ fn a_full_disk_is_an_error() {
 #[test]
 fn hard_cases_are_a_table_or_json() {
     let table = done(&["check", "no-adhesion", "one-mode"]);
-    // A row goes on below its last column.
+    // A row may continue below its last column.
     let rows = table.lines().take_while(|line| !line.is_empty());
     let rows: Vec<_> = rows.filter(|line| !line.starts_with(' ')).collect();
     assert!(rows[0].starts_with("case") && rows.len() == 5, "{table}");
@@ -959,7 +959,7 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
         then(&words.iter().map(String::as_str).collect::<Vec<_>>());
     };
     let loop_file = path("loop.svg");
-    for (command, file, said) in [
+    for (command, file, expected) in [
         (
             run(&["jkr-sphere"], &["-o", &loop_file]),
             Some(&loop_file),
@@ -978,8 +978,8 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
             let svg = file.map_or(printed, |file| fs::read_to_string(file).unwrap());
             assert!(svg.starts_with("<svg ") && svg.trim_end().ends_with("</svg>"), "{arguments:?}");
             assert!(!svg.contains("NaN") && !svg.contains("inf"), "{arguments:?}");
-            for said in &said {
-                assert!(svg.contains(said), "{arguments:?}: no {said}");
+            for expected in &expected {
+                assert!(svg.contains(expected), "{arguments:?}: no {expected}");
             }
         });
     }
@@ -995,7 +995,7 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
     }
     let before = fs::read_dir(folder.path()).unwrap().count();
     let (picture, other) = (path("a.svg"), path("a.json"));
-    for (command, said) in [
+    for (command, expected) in [
         (
             run(&["jkr-sphere"], &["--format", "json", "-o", &picture]),
             "not an ending of what is written; allowed: .json",
@@ -1020,7 +1020,7 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
     ] {
         with(&command, &|arguments| {
             let message = failed(1, arguments);
-            assert!(message.contains(said), "{arguments:?}: {message}");
+            assert!(message.contains(expected), "{arguments:?}: {message}");
         });
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), before, "nothing is written");
@@ -1041,7 +1041,7 @@ fn every_figure_is_written_as_svg_and_as_png_by_its_extension() {
         (&["cost", "kendall-punch", "--budget", "1s"], &[], "time of a run"),
         (&["surface", &profile, "--unit", "um"], &[], "wave number"),
     ];
-    for (command, more, said) in commands {
+    for (command, more, expected) in commands {
         for ending in ["svg", "png"] {
             let file = path(&format!("{}.{ending}", command[0]));
             // The progress of measurements is on standard error.
@@ -1052,7 +1052,7 @@ fn every_figure_is_written_as_svg_and_as_png_by_its_extension() {
                 assert!(bytes.starts_with(b"\x89PNG") && bytes.ends_with(b"IEND\xaeB`\x82"), "{command:?}");
             } else {
                 let svg = String::from_utf8(bytes).unwrap();
-                assert!(svg.starts_with("<svg ") && svg.contains(said), "{command:?}: {svg}");
+                assert!(svg.starts_with("<svg ") && svg.contains(expected), "{command:?}: {svg}");
             }
         }
     }
@@ -1062,7 +1062,7 @@ fn every_figure_is_written_as_svg_and_as_png_by_its_extension() {
     assert!(fs::read(&beside[1]).unwrap().starts_with(b"\x89PNG") && fs::exists(&beside[0]).unwrap());
 }
 
-/// Few springs, for a profile that is only looked at.
+/// Few springs, for a profile that is only inspected.
 const FEW_SPRINGS: [&str; 2] = ["--set", "numerics.points=1024"];
 
 #[test]
@@ -1078,7 +1078,7 @@ fn adhesion_against_preload_is_printed_for_one_profile_and_for_many() {
     let rows: Vec<Vec<&str>> = rows(&csv).map(|line| line.split(',').collect()).collect();
     assert_eq!(rows[0][..2], ["seed", "preload"]);
     assert_eq!(rows.len(), 6);
-    // Each is what a run to that preload gives.
+    // Each equals a run to that preload.
     let loading = format!("loading=[ToForce({}), ToSeparation]", rows[4][1]);
     let one = done(
         &[&["run", "pressure-sensitive", "--format", "json", "--set", &loading], &FEW_SPRINGS[..]].concat(),
@@ -1202,7 +1202,7 @@ fn tables_of_reversals_are_computed_again_from_themselves() {
             assert!(text.contains("seed: 7\n") && text.contains("points: 1024"), "{text}");
         }
     }
-    // Other formats state the same reversals, other results the scene.
+    // Other formats contain the same reversals, other results the scene.
     let summary = done(&["run", &path("first3.csv")]);
     assert!(summary.contains("8 reversals of one loading, 1 024 springs"), "{summary}");
     let other = done(&["run", &path("first0.csv"), "--set", "roughness.seed=8", "--format", "csv"]);

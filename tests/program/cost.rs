@@ -1,5 +1,5 @@
-//! What accuracy costs, tolerances and many lines, as users have them: through the program itself. What is
-//! demanded is structure, errors and orders, never times.
+//! The cost of accuracy, tolerances and many lines, through the program itself. Asserted are structure, errors and
+//! orders, never times.
 
 mod estimates;
 
@@ -11,7 +11,7 @@ fn done(arguments: &[&str]) -> String {
     asperity(arguments).succeeded()
 }
 
-/// Springs and error of a figure in the rows of a knob, those that are resolved.
+/// Springs and resolved errors of a figure in the rows of a knob.
 fn errors(table: &Value, knob: &str, figure: &str) -> Vec<(f64, f64)> {
     let rows = table["rows"].as_array().unwrap().iter().filter(|row| row["knob"] == knob);
     let resolved = rows.filter(|row| row["errors"][figure]["resolved"] == true);
@@ -20,7 +20,7 @@ fn errors(table: &Value, knob: &str, figure: &str) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// Slope of ln(error) over −ln(springs) by least squares, up to so many springs.
+/// Slope of ln(error) over −ln(springs) by least squares, up to this number of springs.
 fn order(errors: &[(f64, f64)], most: f64) -> f64 {
     let points: Vec<_> = errors
         .iter()
@@ -36,7 +36,7 @@ fn order(errors: &[(f64, f64)], most: f64) -> f64 {
 
 #[test]
 fn a_sphere_is_reached_with_the_orders_of_its_edges() {
-    // A machine busy with other things gets no further in the shorter time.
+    // A busy machine gets no further in the shorter time.
     let has_enough = |table: &Value| {
         let rows = |knob, figure| errors(table, knob, figure).iter().filter(|row| row.0 <= 1024.0).count();
         let springs = ["sub-cell-springs", "grid-springs"];
@@ -57,7 +57,7 @@ fn a_sphere_is_reached_with_the_orders_of_its_edges() {
         assert!((1.6..2.5).contains(&sub_cell), "order {sub_cell} of the {figure} with edges SubCell");
         assert!((0.85..1.25).contains(&grid), "order {grid} of the {figure} with edges Grid");
     }
-    // Steps and samples make the curve better as well, and the last of them by far.
+    // Steps and samples also improve the curve; its last error is far below the first.
     for knob in ["step", "samples"] {
         let errors = errors(&table, knob, "curve");
         let (first, last) = (errors.first().unwrap().1, errors.last().unwrap().1);
@@ -83,13 +83,13 @@ fn rough_scenes_are_counted_from_their_finest_solution() {
     assert_eq!(reference["closed_form"], false);
     let own = reference["errors"]["adhesion_force"].as_f64().unwrap();
     assert!(own > 0.0 && own < 0.01, "{own}");
-    // The finest differs from itself by nothing: the error stated is that of the reference.
+    // The finest solution has no difference from itself: its stated error is that of the reference.
     let rows = table["rows"].as_array().unwrap();
     let finest = rows.iter().rfind(|row| row["knob"] == "sub-cell-springs").unwrap();
     assert_eq!(finest["setting"].as_f64(), reference["springs"].as_f64());
     assert_eq!(finest["errors"]["adhesion_force"]["resolved"], false);
     assert_eq!(finest["errors"]["adhesion_force"]["error"], reference["errors"]["adhesion_force"]);
-    // As many springs as twice the last mode are the fewest.
+    // The fewest springs are twice the last mode.
     assert_eq!(rows[0]["setting"], 1024.0);
     let lines = errors(&table, "lines", "adhesion_force");
     assert_eq!(lines[0].0, 4.0);
@@ -111,7 +111,7 @@ fn the_text_begins_with_the_answer_and_ends_with_what_was_too_much() {
     let lines = reported.len();
     reported.dedup();
     assert!(lines == reported.len() && (2..=6).contains(&lines), "{progress}");
-    // Without adhesion it is about the curve.
+    // Without adhesion the table is about the curve.
     let text = done(&["cost", "jkr-sphere", "--budget", "1s", "--set", "adhesion=None"]);
     assert!(text.starts_with("1 % of the force curve: "), "{text}");
 }
@@ -188,8 +188,11 @@ fn tolerances_are_kept() {
 
 #[test]
 fn tolerances_out_of_reach_are_refused_with_what_is_in_reach() {
-    let said = failed(1, &["run", "pressure-sensitive", "--tolerance", "1e-13"]);
-    assert!(said.contains("is not reached with at most 2 097 152 springs; what is reached is "), "{said}");
+    let message = failed(1, &["run", "pressure-sensitive", "--tolerance", "1e-13"]);
+    assert!(
+        message.contains("is not reached with at most 2 097 152 springs; what is reached is "),
+        "{message}"
+    );
     let stepwise = ["run", "jkr-sphere", "--set", "numerics.solver=Stepwise(step: 1e-8)"];
     assert!(failed(1, &[&stepwise[..], &["--tolerance", "0.01"]].concat()).contains("Exact"));
     for wrong in ["0", "1", "nan", "much"] {
@@ -248,7 +251,7 @@ fn lines_that_mean_nothing_are_refused() {
     failed(2, &["run", "pressure-sensitive", "--lines", "4", "--jobs", "0"]);
 }
 
-/// More springs, and as many more waves as they allow, do not bring a line's heights nearer to a bell curve.
+/// More springs, with as many more waves, do not bring the heights of a line nearer to a bell curve.
 #[test]
 fn heights_do_not_average_themselves() {
     let skewness = |points: u32| {
@@ -269,6 +272,6 @@ fn heights_do_not_average_themselves() {
         object["rms_skewness"].as_f64().unwrap()
     };
     let (few, many) = (skewness(256), skewness(16_384));
-    // Heights that are independent would bring it down by sqrt(64) = 8.
+    // Independent heights would reduce the deviation by sqrt(64) = 8.
     assert!(many > 0.2 && many / few > 0.7 && many / few < 1.4, "{few} and {many}");
 }

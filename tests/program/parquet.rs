@@ -30,7 +30,7 @@ fn merge(folder: &Path, arguments: &[&str]) -> String {
     asperity_in(folder, &[&["sweep", "merge", "study"], arguments].concat()).succeeded()
 }
 
-/// Compares the file with the table, and gives the number of rows and of values that are null.
+/// Compares the file with the table, and returns the numbers of rows and of null values.
 fn compare(study: &Path) -> (usize, usize) {
     let reader = SerializedFileReader::new(File::open(study.join("results.parquet")).unwrap()).unwrap();
     let table = fs::read_to_string(study.join("results.csv")).unwrap();
@@ -78,7 +78,7 @@ fn rows_are_those_of_the_csv_and_no_older_file_stays() {
     let (part, _) = compare(&study);
     assert!(part > 0 && part < 36, "{part}");
 
-    // The whole study without it: the file of the part must not be beside the new tables.
+    // The whole study without Parquet: the file of the part must not remain beside the new tables.
     asperity_in(at, &["sweep", "plan.ron", "-o", "study"]).succeeded();
     assert!(!study.join("results.parquet").exists());
 
@@ -92,7 +92,7 @@ fn rows_are_those_of_the_csv_and_no_older_file_stays() {
 fn what_there_is_not_is_null() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
-    // Neither preloads nor a way back: no adhesion force, no coefficient, no regime.
+    // Neither preloads nor unloading: no adhesion force, no coefficient, no regime.
     let plan = PLAN.replace("preloads: [0.01, 0.3],", "");
     let plan = plan.replace("numerics: (", "loading: [ToForce(1.0e-5)],\n        numerics: (");
     fs::write(at.join("plan.ron"), plan).unwrap();

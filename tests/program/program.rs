@@ -1,10 +1,10 @@
-//! The program as its users have it: output and exit code of a command.
+//! The program as for its users: output and exit code of a command.
 
 use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// A command that has ended.
+/// A finished command.
 pub struct Finished {
     pub code: Option<i32>,
     pub stdout: String,
@@ -51,7 +51,7 @@ pub fn failed(code: i32, arguments: &[&str]) -> String {
     stderr
 }
 
-/// The object that a command prints.
+/// The JSON object printed by a command.
 pub fn json(arguments: &[&str]) -> Value {
     serde_json::from_str(&asperity(arguments).succeeded()).unwrap()
 }

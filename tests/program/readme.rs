@@ -1,4 +1,4 @@
-//! The documentation is that of the program: tables, pictures, messages, examples and links.
+//! The documentation matches the program: tables, pictures, messages, examples and links.
 //!
 //! After a change of the program, `UPDATE_README=1 cargo test --test program readme` writes the generated parts anew.
 
@@ -98,7 +98,7 @@ fn tables_of_studies_are_those_of_the_program() {
     check("docs/studies.md", "quantities", &quantities);
 }
 
-/// Text of the program for a page, its asterisks escaped.
+/// Text of the program for a page, with escaped asterisks.
 fn starred(text: &str) -> String {
     text.replace('*', "\\*")
 }
@@ -197,12 +197,12 @@ fn the_picture_is_that_of_the_program() {
     compare("docs/explorer.svg", std::str::from_utf8(&picture).unwrap());
 }
 
-/// Compares a picture with what the program draws, or writes it.
+/// Compares a picture with the drawing of the program, or writes it.
 fn compare(picture: &str, drawn: &str) {
     if updating() {
         std::fs::write(root().join(picture), drawn).unwrap();
     } else {
-        assert!(read(picture) == drawn, "{picture} is not the program's: the README says how to make it");
+        assert!(read(picture) == drawn, "{picture} is not the drawing of the program: see the README");
     }
 }
 
@@ -304,7 +304,7 @@ fn messages_are_those_of_the_program() {
     let text = read(page);
     let mut written = String::new();
     for (index, part) in text.split("```").enumerate() {
-        // Every other part is a block.
+        // Every second part is a block.
         let Some(lines) = part.strip_prefix("console\n").filter(|_| index % 2 == 1) else {
             written += &format!("{}{part}", if index > 0 { "```" } else { "" });
             continue;
@@ -337,7 +337,7 @@ fn the_readme_is_short_and_lists_all_pages() {
     assert!(lines <= LONGEST_README, "README.md has {lines} lines; allowed: at most {LONGEST_README}");
 }
 
-/// The anchor of a heading, as code hosts make it.
+/// The anchor of a heading on code hosts.
 fn anchor(heading: &str) -> String {
     let kept = heading.trim().to_lowercase().replace(' ', "-");
     kept.chars().filter(|c| c.is_alphanumeric() || matches!(c, '-' | '_')).collect()

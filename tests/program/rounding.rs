@@ -1,31 +1,31 @@
-//! The catalogue of hard cases under other directions of rounding: how many digits of each error do not depend on
-//! how each operation is rounded.
+//! The catalogue of hard cases under other directions of rounding: digits of each error independent of the rounding of
+//! each operation.
 //!
-//! `docs/rounding.md` says how, holds the table of digits, and so many of them, less one, are demanded here.
-//! After a change of the catalogue `UPDATE_ROUNDING=1 cargo test --test program rounding` writes the table anew.
+//! `docs/rounding.md` states the method and holds the table of digits; the same number of digits less one is required
+//! here. After a change of the catalogue `UPDATE_ROUNDING=1 cargo test --test program rounding` writes the table anew.
 
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Directions in which every operation is rounded; the first is the usual one.
+/// Directions of rounding of every operation; the first is the usual one.
 const DIRECTIONS: [&str; 4] = ["to nearest", "upward", "downward", "towards zero"];
 
-/// Digits of a number that did not change at all.
+/// Digits of an unchanged number.
 const ALL_DIGITS: f64 = 16.0;
 
-/// Fewest checks that must change: with none nothing has been perturbed.
+/// Fewest checks that must change: without any the rounding was not perturbed.
 const MOVED: usize = 20;
 
-/// Where the table begins and ends.
+/// Marks of the beginning and the end of the table.
 const START: &str = "<!-- digits -->\n";
 const END: &str = "<!-- end of digits -->";
 
 /// Name and edges of a check, in the order of the catalogue.
 type Errors = Vec<((String, String), Option<f64>)>;
 
-/// The library that sets the direction, made by the C compiler; `None` where there is none.
+/// The library that sets the direction, built by the C compiler; `None` without a compiler.
 fn library(folder: &Path) -> Option<PathBuf> {
     let made = folder.join("direction.so");
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/program/rounding/direction.c");
@@ -38,7 +38,7 @@ fn library(folder: &Path) -> Option<PathBuf> {
     }
 }
 
-/// The errors of all checks but the large ones under one direction of rounding.
+/// The errors of all checks except the large ones under one direction of rounding.
 fn errors(library: &Path, direction: &str) -> Errors {
     let run = Command::new(env!("CARGO_BIN_EXE_asperity"))
         .args(["check", "--quick", "--format", "json"])
@@ -46,7 +46,7 @@ fn errors(library: &Path, direction: &str) -> Errors {
         .env("ROUNDING", direction)
         .output()
         .unwrap();
-    // Bounds are those of rounding to nearest: beyond them the exit code is 1, and the table is there all the same.
+    // Bounds are those of rounding to nearest: beyond them the exit code is 1, but the table is still printed.
     let report: Value = serde_json::from_slice(&run.stdout)
         .unwrap_or_else(|error| panic!("{direction}: {error}\n{}", String::from_utf8_lossy(&run.stderr)));
     let text = |value: &Value| value.as_str().unwrap_or_default().to_string();
@@ -57,13 +57,13 @@ fn errors(library: &Path, direction: &str) -> Errors {
         .collect()
 }
 
-/// What a check keeps.
+/// Digits of a check that do not depend on the rounding.
 struct Kept {
     /// The error under rounding to nearest.
     error: Option<f64>,
-    /// Decimal digits of the error, counted from one, that are the same in all directions that give a number.
+    /// Decimal digits of the error, counted from one, that are the same in all directions with a number.
     digits: f64,
-    /// Directions that give none.
+    /// Directions without a number.
     without: Vec<&'static str>,
 }
 
@@ -84,7 +84,7 @@ fn row((case, edges): &(String, String), kept: &Kept) -> String {
     format!("| `{case}` | {edges} | {error} | {digits:.1} | {demanded} | {} |\n", kept.without.join(", "))
 }
 
-/// Digits that are demanded of each check, and the directions that may give no number.
+/// Digits required of each check, and the directions allowed without a number.
 fn demanded(table: &str) -> BTreeMap<(String, String), (f64, String)> {
     let rows = table.lines().skip(2).map(|row| {
         let columns: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();

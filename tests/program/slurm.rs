@@ -1,8 +1,8 @@
-//! Studies on a cluster: a real Slurm of two nodes on the loopback, and stand-ins for what one may answer.
+//! Studies on a cluster: a real Slurm of two nodes on the loopback, and stand-ins for the answers of others.
 //!
-//! Needs `slurmctld`, `slurmd`, `sbatch` and `munged`; where one of them is missing, or no such cluster can be
-//! started, the tests on it say so and do nothing. What takes minutes, because Slurm waits for lost nodes, is run
-//! by `cargo test --test program slurm -- --ignored`.
+//! Needs `slurmctld`, `slurmd`, `sbatch` and `munged`; if one of them is missing, or no such cluster can be started,
+//! its tests report so and end. Tests of minutes, since Slurm waits for lost nodes, are run by `cargo test --test
+//! program slurm -- --ignored`.
 
 use super::common::deadline::within;
 use std::fs;
@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 const ASPERITY: &str = env!("CARGO_BIN_EXE_asperity");
 const CLUSTER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/program/slurm_cluster/cluster.sh");
 
-/// Small, but its cells take long enough to be killed in: about a tenth of a second each.
+/// Small, but with cells long enough for a kill: about a tenth of a second each.
 const PLAN: &str = r#"(
     version: 1,
     scene: (
@@ -33,19 +33,19 @@ const PLAN: &str = r#"(
     record: [adhesion_force, dissipated_energy],
 )"#;
 
-/// Says what is left out, past the test runner, which keeps what passing tests print to itself.
+/// Reports a skipped test past the test runner, which hides the output of passing tests.
 fn report(note: &str) {
     let _ = writeln!(std::io::stderr(), "{note}");
 }
 
-/// A program by its name, on the path or where Debian keeps those of the administrator.
+/// A program by its name, on the path or in the administrator's folders of Debian.
 fn program(name: &str) -> Option<PathBuf> {
     let path = std::env::var_os("PATH").unwrap_or_default();
     let folders = std::env::split_paths(&path).chain([PathBuf::from("/usr/sbin"), PathBuf::from("/sbin")]);
     folders.map(|folder| folder.join(name)).find(|file| file.is_absolute() && file.is_file())
 }
 
-/// A cluster that ends with the test, however that ends.
+/// A cluster that ends with the test, on any outcome.
 struct Cluster {
     keeper: Child,
     folder: tempfile::TempDir,
@@ -53,14 +53,14 @@ struct Cluster {
 
 impl Drop for Cluster {
     fn drop(&mut self) {
-        // The end of its input ends the process, which is waited for.
+        // The end of its input ends the keeper; wait for that.
         drop(self.keeper.stdin.take());
         let _ = self.keeper.wait();
     }
 }
 
 impl Cluster {
-    /// Starts one; `None`, and a note, where that is not possible here.
+    /// Starts a cluster; `None`, and a note, if that is impossible here.
     fn start() -> Option<Cluster> {
         let [munged, slurmctld, slurmd, _] = ["munged", "slurmctld", "slurmd", "sbatch"].map(|name| {
             let found = program(name);
@@ -79,7 +79,7 @@ impl Cluster {
         for path in [folder.path(), &home] {
             fs::set_permissions(path, fs::Permissions::from_mode(0o755)).unwrap();
         }
-        // Free now; whoever takes one of them before Slurm does fails the test, which can be run again.
+        // Free now; if another process takes a port first the test fails and can be run again.
         let listeners = [(); 3].map(|()| TcpListener::bind("127.0.0.1:0").unwrap());
         let ports = listeners.each_ref().map(|listener| listener.local_addr().unwrap().port().to_string());
         drop(listeners);
@@ -87,15 +87,15 @@ impl Cluster {
         command.arg(CLUSTER).arg(&home).args(ports).args([munged, slurmctld, slurmd]);
         command.stdin(Stdio::piped()).stdout(Stdio::piped());
         let mut keeper = command.spawn().unwrap();
-        let mut said = BufReader::new(keeper.stdout.take().unwrap());
+        let mut stdout = BufReader::new(keeper.stdout.take().unwrap());
         let mut line = String::new();
-        said.read_line(&mut line).unwrap();
+        stdout.read_line(&mut line).unwrap();
         let cluster = Cluster { keeper, folder };
         if line.trim() == "ready" {
             return Some(cluster);
         }
         let mut rest = String::new();
-        said.read_to_string(&mut rest).unwrap();
+        stdout.read_to_string(&mut rest).unwrap();
         report(&format!("skipped: no cluster can be started here:\n{line}{rest}"));
         None
     }
@@ -104,7 +104,7 @@ impl Cluster {
         self.folder.path().join(name)
     }
 
-    /// A program that asks this cluster.
+    /// A program that talks to this cluster.
     fn command(&self, program: impl AsRef<std::ffi::OsStr>) -> Command {
         let mut command = Command::new(program);
         command.env("SLURM_CONF", self.path("cluster/slurm.conf")).current_dir(self.folder.path());
@@ -117,18 +117,18 @@ impl Cluster {
         path
     }
 
-    /// Submits a plan; the numbers of the array and the merge.
+    /// Submits a plan; returns the numbers of the array and the merge.
     fn submit(&self, plan: &Path, folder: &str, options: &[&str]) -> (String, String) {
         let mut submit = self.command(ASPERITY);
         submit.args(["sweep", "submit"]).arg(plan).arg("-o").arg(self.path(folder)).args(options);
-        let said = succeeded(&mut submit);
+        let answer = succeeded(&mut submit);
         let numbers: Vec<_> =
-            said.split(|c: char| !c.is_ascii_digit()).filter(|word| !word.is_empty()).collect();
+            answer.split(|c: char| !c.is_ascii_digit()).filter(|word| !word.is_empty()).collect();
         // job ARRAY: TASKS tasks; job MERGE: …
         (numbers[0].to_owned(), numbers[2].to_owned())
     }
 
-    /// What squeue says of a job, one line for each of its tasks; nothing when it is over.
+    /// Output of squeue for a job, one line for each of its tasks; empty after its end.
     fn queue(&self, job: &str) -> String {
         let format = "--format=%K %T %N %r";
         let output =
@@ -152,7 +152,7 @@ impl Cluster {
         }
     }
 
-    /// What jobs and daemons said.
+    /// Output of jobs and daemons.
     fn logs(&self) -> String {
         let mut logs = String::new();
         let mut folders = vec![self.folder.path().to_path_buf()];
@@ -170,7 +170,7 @@ impl Cluster {
         logs
     }
 
-    /// Computes the same in this process's own way, without a cluster.
+    /// Computes the same study in this process, without a cluster.
     fn serial(&self, plan: &Path, folder: &str) {
         let mut run = self.command(ASPERITY);
         succeeded(run.arg("sweep").arg(plan).arg("-o").arg(self.path(folder)).args(["--jobs", "1"]));
@@ -184,7 +184,7 @@ impl Cluster {
         })
     }
 
-    /// Processes that compute this shard of a study, as Slurm started them.
+    /// Processes that compute this shard of a study, as started by Slurm.
     fn processes(&self, folder: &str, shard: &str) -> Vec<u32> {
         let folder = self.path(folder).display().to_string();
         let found = fs::read_dir("/proc").unwrap().flatten().filter_map(|entry| {
@@ -208,8 +208,8 @@ impl Cluster {
 
 fn succeeded(command: &mut Command) -> String {
     let Output { status, stdout, stderr } = command.output().unwrap();
-    let said = String::from_utf8_lossy(&stderr);
-    assert!(status.success(), "{command:?}: {said}");
+    let message = String::from_utf8_lossy(&stderr);
+    assert!(status.success(), "{command:?}: {message}");
     String::from_utf8(stdout).unwrap()
 }
 
@@ -227,7 +227,7 @@ fn a_cluster_gives_the_bytes_of_one_machine_even_when_programs_are_killed() {
         let plan = cluster.plan(1 << 10);
         cluster.serial(&plan, "serial");
 
-        // A folder that a shell and Slurm could read otherwise.
+        // A folder name with special characters of the shell and of Slurm.
         let name = "it's %j & $HOME";
         let (_, merge) = cluster.submit(&plan, name, &["--shards", "4"]);
         cluster.wait_for(&merge, 40);
@@ -235,7 +235,7 @@ fn a_cluster_gives_the_bytes_of_one_machine_even_when_programs_are_killed() {
         let log = cluster.path(name).join("slurm").join(format!("merge-{merge}.log"));
         assert!(fs::read_to_string(log).unwrap().contains("24 of 24 records"), "{}", cluster.logs());
 
-        // Cells so large that the program is killed in the middle of one.
+        // Cells so large that a kill hits the middle of one.
         let plan = cluster.plan(1 << 21);
         let (array, merge) = cluster.submit(&plan, "killed", &["--shards", "2", "--", "--job-name=killed"]);
         cluster.wait_until("there is a record, and shard 1 runs", 30, || {
@@ -264,7 +264,7 @@ fn lost_nodes_and_twins_change_no_byte() {
             ["1/2", "2/2"].iter().all(|shard| !cluster.processes("lost", shard).is_empty())
                 && cluster.records("lost") > 1
         });
-        // Shard 1 is slowed down so that it outlives its node; then the node's daemon is killed and the task is not.
+        // Shard 1 is slowed down so that it outlives its node; then the daemon of the node is killed but not the task.
         let lost = cluster.processes("lost", "1/2");
         kill("-STOP", &lost);
         let on = |task: &str| {
@@ -276,7 +276,7 @@ fn lost_nodes_and_twins_change_no_byte() {
         let daemon = fs::read_to_string(cluster.path(&format!("cluster/{node}.pid"))).unwrap();
         kill("-9", &[daemon.trim().parse().unwrap()]);
         cluster.wait_until("the task of the lost node runs again elsewhere", 400, || {
-            // Stopped anew each time: continued by anyone else, it would end before its twin begins.
+            // Stopped anew each time: continued by another process, it would end before its twin begins.
             kill("-STOP", &lost);
             cluster.processes("lost", "1/2").iter().any(|process| !lost.contains(process))
         });
@@ -288,10 +288,10 @@ fn lost_nodes_and_twins_change_no_byte() {
         cluster.wait_until("the lost task is over", 60, || cluster.processes("lost", "1/2").is_empty());
         println!("merged after {:.0} s", started.elapsed().as_secs_f64());
         assert_eq!(cluster.tables("lost"), cluster.tables("serial"));
-        // What the lost one has written since is merged as well.
-        let said = succeeded(cluster.command(ASPERITY).args(["sweep", "merge"]).arg(cluster.path("lost")));
-        println!("{said}");
-        assert!(said.contains("records were computed twice, with the same bits"), "{said}");
+        // Later records of the lost process are merged as well.
+        let message = succeeded(cluster.command(ASPERITY).args(["sweep", "merge"]).arg(cluster.path("lost")));
+        println!("{message}");
+        assert!(message.contains("records were computed twice, with the same bits"), "{message}");
         assert_eq!(cluster.tables("lost"), cluster.tables("serial"));
     });
 }
@@ -312,7 +312,7 @@ fn a_node_that_dies_with_its_task_is_replaced() {
         let queue = cluster.queue(&array);
         let node = queue.lines().find(|line| line.starts_with("1 ")).unwrap().split(' ').nth(2).unwrap();
         let daemon = fs::read_to_string(cluster.path(&format!("cluster/{node}.pid"))).unwrap();
-        // The keeper of the task and its shell die with the node, or they would start the program again.
+        // The keeper of the task and its shell die with the node; otherwise they would start the program again.
         let task = cluster.processes("dead", "1/2");
         let parent = |process: u32| -> Option<u32> {
             let status = fs::read_to_string(format!("/proc/{process}/status")).ok()?;
@@ -352,25 +352,25 @@ fn submit_to(folder: &Path, options: &[&str]) -> (Option<i32>, String, String) {
 #[test]
 fn what_slurm_refuses_is_passed_on() {
     let none = stand_ins(&[]);
-    let (code, _, said) = submit_to(none.path(), &["--shards", "4"]);
+    let (code, _, message) = submit_to(none.path(), &["--shards", "4"]);
     assert_eq!(code, Some(1));
-    assert!(said.contains("sbatch: there is no such program here"), "{said}");
-    assert!(said.contains("parallel --joblog shards.log --resume-failed --retries 3"), "{said}");
+    assert!(message.contains("sbatch: there is no such program here"), "{message}");
+    assert!(message.contains("parallel --joblog shards.log --resume-failed --retries 3"), "{message}");
 
     let refusing =
         stand_ins(&[("sbatch", "echo 'sbatch: error: invalid partition specified: x' >&2; exit 1")]);
-    let (code, _, said) = submit_to(refusing.path(), &["--shards", "4", "--", "--partition=x"]);
+    let (code, _, message) = submit_to(refusing.path(), &["--shards", "4", "--", "--partition=x"]);
     assert_eq!(code, Some(1));
-    assert_eq!(said.trim(), "sbatch refuses the array: sbatch: error: invalid partition specified: x");
+    assert_eq!(message.trim(), "sbatch refuses the array: sbatch: error: invalid partition specified: x");
 
-    // The array is taken, the merge is not: then the array goes as well.
+    // The array is accepted, the merge is not: then the array is cancelled.
     let sbatch = r#"case "$*" in *--dependency*) echo "no dependencies today" >&2; exit 1 ;; esac; echo 17"#;
     let half = stand_ins(&[("sbatch", sbatch), ("scancel", "echo \"$*\" >cancelled")]);
-    let (code, _, said) = submit_to(half.path(), &["--shards", "4"]);
+    let (code, _, message) = submit_to(half.path(), &["--shards", "4"]);
     assert_eq!(code, Some(1));
     assert!(
-        said.contains("refuses the merge: no dependencies today") && said.contains("17 was cancelled"),
-        "{said}"
+        message.contains("refuses the merge: no dependencies today") && message.contains("17 was cancelled"),
+        "{message}"
     );
     assert_eq!(fs::read_to_string(half.path().join("cancelled")).unwrap().trim(), "17");
 }
@@ -381,30 +381,34 @@ fn arrays_are_no_larger_than_the_cluster_has_them() {
         ("sbatch", "echo \"$*\" >>asked; echo '21;east'"),
         ("scontrol", "echo 'MaxArraySize            = 5'"),
     ]);
-    let (code, _, said) = submit_to(small.path(), &["--shards", "5"]);
+    let (code, _, message) = submit_to(small.path(), &["--shards", "5"]);
     assert_eq!(code, Some(1));
-    assert!(said.contains("arrays of at most 4 tasks") && said.contains("allowed: 1 to 4"), "{said}");
+    assert!(
+        message.contains("arrays of at most 4 tasks") && message.contains("allowed: 1 to 4"),
+        "{message}"
+    );
     assert!(!small.path().join("study").exists());
-    let (code, stdout, said) = submit_to(small.path(), &["--shards", "4", "--at-once", "2", "--", "-p", "x"]);
-    assert_eq!(code, Some(0), "{said}");
+    let (code, stdout, message) =
+        submit_to(small.path(), &["--shards", "4", "--at-once", "2", "--", "-p", "x"]);
+    assert_eq!(code, Some(0), "{message}");
     assert!(stdout.starts_with("job 21: 4 tasks; job 21: the merge after them\n"), "{stdout}");
     let asked = fs::read_to_string(small.path().join("asked")).unwrap();
     let [array, merge] = asked.lines().collect::<Vec<_>>()[..] else { panic!("{asked}") };
     assert!(array.contains("--partition=x --array=1-4%2 --requeue "), "{array}");
     assert!(merge.contains("--partition=x --dependency=afterok:21 --kill-on-invalid-dep=yes"), "{merge}");
 
-    // Where the cluster does not say, Slurm's own limit holds.
+    // Without an answer of the cluster, Slurm's own limit holds.
     let silent = stand_ins(&[]);
-    let (code, _, said) = submit_to(silent.path(), &["--shards", "1001", "--dry-run"]);
+    let (code, _, message) = submit_to(silent.path(), &["--shards", "1001", "--dry-run"]);
     assert_eq!(code, Some(1));
-    assert!(said.contains("arrays of at most 1000 tasks"), "{said}");
-    let (_, _, said) = submit_to(silent.path(), &["--shards", "4", "--", "--array=1-9"]);
-    assert!(said.contains("--array=1-9: this is not for sbatch here"), "{said}");
+    assert!(message.contains("arrays of at most 1000 tasks"), "{message}");
+    let (_, _, message) = submit_to(silent.path(), &["--shards", "4", "--", "--array=1-9"]);
+    assert!(message.contains("--array=1-9: this is not for sbatch here"), "{message}");
 }
 
 #[test]
 fn only_known_options_and_no_variables_reach_sbatch() {
-    // Does what sbatch does with the words it is given, as far as words can be distinguished.
+    // Treats its arguments like sbatch, as far as they can be distinguished.
     let sbatch = "printf '%s\\n' \"$@\" >>asked; /usr/bin/env >>variables; echo 17";
     let folder = stand_ins(&[("sbatch", sbatch)]);
     for words in [
@@ -419,11 +423,11 @@ fn only_known_options_and_no_variables_reach_sbatch() {
         &["--", "x.sh"],
     ] {
         let arguments = [&["--shards", "4", "--"], words].concat();
-        let (code, stdout, said) = submit_to(folder.path(), &arguments);
-        assert_eq!((code, stdout.as_str()), (Some(1), ""), "{words:?}: {said}");
+        let (code, stdout, message) = submit_to(folder.path(), &arguments);
+        assert_eq!((code, stdout.as_str()), (Some(1), ""), "{words:?}: {message}");
         assert!(
-            said.contains("this is not for sbatch here; allowed: --account, --begin,"),
-            "{words:?}: {said}"
+            message.contains("this is not for sbatch here; allowed: --account, --begin,"),
+            "{words:?}: {message}"
         );
     }
     assert!(!folder.path().join("asked").exists() && !folder.path().join("study").exists());
@@ -434,9 +438,9 @@ fn only_known_options_and_no_variables_reach_sbatch() {
         "sweep", "submit", "plan.ron", "-o", "study", "--shards", "4", "--", "-t", "1:00", "--mem=1G",
     ]);
     let output = command.output().unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert!(output.status.success(), "{said}");
-    assert!(said.contains("not passed on to sbatch: SBATCH_ARRAY_INX, SBATCH_QUIET"), "{said}");
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{message}");
+    assert!(message.contains("not passed on to sbatch: SBATCH_ARRAY_INX, SBATCH_QUIET"), "{message}");
     let variables = fs::read_to_string(folder.path().join("variables")).unwrap();
     assert!(variables.contains("SLURM_CONF=kept") && !variables.contains("SBATCH_"), "{variables}");
     let asked = fs::read_to_string(folder.path().join("asked")).unwrap();
@@ -449,28 +453,32 @@ fn an_answer_that_is_no_number_of_a_job_is_an_error() {
     for answer in ["", "Submitted batch job 17", "17;", "+17", "0", "17\\n18", "17 18"] {
         let sbatch = format!("printf '{answer}\\n'");
         let folder = stand_ins(&[("sbatch", &sbatch)]);
-        let (code, stdout, said) = submit_to(folder.path(), &["--shards", "4"]);
-        assert_eq!((code, stdout.as_str()), (Some(1), ""), "{answer:?}: {said}");
+        let (code, stdout, message) = submit_to(folder.path(), &["--shards", "4"]);
+        assert_eq!((code, stdout.as_str()), (Some(1), ""), "{answer:?}: {message}");
         assert!(
-            said.contains("sbatch took the array and did not answer with the number"),
-            "{answer:?}: {said}"
+            message.contains("sbatch took the array and did not answer with the number"),
+            "{answer:?}: {message}"
         );
-        assert!(said.contains("squeue --me lists the array"), "{answer:?}: {said}");
+        assert!(message.contains("squeue --me lists the array"), "{answer:?}: {message}");
     }
-    // Where it is that of the merge, the array goes.
+    // If the answer for the merge has no number, the array is cancelled.
     let sbatch = r#"case "$*" in *--dependency*) echo what ;; *) echo '17;east' ;; esac"#;
     let folder = stand_ins(&[("sbatch", sbatch), ("scancel", "echo \"$*\" >cancelled")]);
-    let (code, _, said) = submit_to(folder.path(), &["--shards", "4"]);
+    let (code, _, message) = submit_to(folder.path(), &["--shards", "4"]);
     assert_eq!(code, Some(1));
-    assert!(said.contains("no number of a job: what") && said.contains("17 was cancelled"), "{said}");
+    assert!(
+        message.contains("no number of a job: what") && message.contains("17 was cancelled"),
+        "{message}"
+    );
     assert_eq!(fs::read_to_string(folder.path().join("cancelled")).unwrap().trim(), "--clusters=east 17");
 }
 
 #[test]
 fn a_dry_run_tells_and_touches_nothing() {
     let folder = stand_ins(&[("sbatch", "touch submitted; echo 1")]);
-    let (code, stdout, said) = submit_to(folder.path(), &["--shards", "12", "--memory", "2G", "--dry-run"]);
-    assert_eq!((code, said.as_str()), (Some(0), ""));
+    let (code, stdout, message) =
+        submit_to(folder.path(), &["--shards", "12", "--memory", "2G", "--dry-run"]);
+    assert_eq!((code, message.as_str()), (Some(0), ""));
     for expected in [
         "--shard \"$SLURM_ARRAY_TASK_ID/12\"",
         "--memory 2147483648",

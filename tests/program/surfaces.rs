@@ -1,4 +1,4 @@
-//! Surfaces with known spectra, generated, cut and estimated: biases and spreads, as `docs/surfaces.md` states them.
+//! Surfaces with known spectra, generated, cut and estimated: biases and spreads as stated in `docs/surfaces.md`.
 
 mod command;
 mod generate;
@@ -98,7 +98,7 @@ fn the_equivalent_line_of_generated_surfaces_is_theirs() {
                 for (ratio, (bias, spread)) in ratios.iter().zip(bounds(kind, has_roll_off)) {
                     let inside = ratio.bias.abs() <= bias && ratio.spread <= spread;
                     assert!(inside, "{kind}, H = {hurst}, roll-off {roll_off}: {ratios:?}");
-                    // The stated error is neither a promise too many nor useless.
+                    // The stated error is neither much too small nor much too large.
                     let stated = ratio.stated / ratio.spread.max(ratio.bias.abs());
                     assert!((0.4..8.0).contains(&stated), "{kind}, H = {hurst}: {ratios:?}");
                 }
@@ -116,7 +116,7 @@ fn the_equivalent_line_of_generated_surfaces_is_theirs() {
     scenes::check("docs/surfaces.md", "biases", &table);
 }
 
-/// Mean of w⁴ of a Hann window w with a mean of w² of 1: the window leaves so many times fewer independent waves.
+/// Mean of w⁴ of a Hann window w with a mean of w² of 1: factor by which the window reduces the independent waves.
 const HANN: f64 = 35.0 / 18.0;
 
 /// Number of independent waves that carry ∫ k^power C_cut dk of one windowed profile: the power of each wave has a standard
@@ -127,7 +127,7 @@ fn independent_waves(spectrum: &Spectrum, power: i32) -> f64 {
     sum * sum / squares / HANN
 }
 
-/// A profile holds few waves, and no estimate knows more than they do: the spread is that of their number.
+/// A profile holds few waves, and no estimate can exceed their information: the spread follows from their number.
 #[test]
 #[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn the_spread_of_an_estimate_is_that_of_the_waves_in_its_profiles() {
@@ -147,7 +147,7 @@ fn the_spread_of_an_estimate_is_that_of_the_waves_in_its_profiles() {
             let found: Vec<Analysis> = (0..SETS).map(set).collect();
             ratios(&spectrum, &found).map(|ratio| ratio.spread)
         });
-        // Of a root the relative error is half as large.
+        // The relative error of a root is half as large.
         for (index, (name, power, share)) in
             [("h", 0, 0.5), ("⟨∇z⟩", 2, 0.5), ("e_el", 1, 1.0)].into_iter().enumerate()
         {
@@ -155,7 +155,7 @@ fn the_spread_of_an_estimate_is_that_of_the_waves_in_its_profiles() {
             let least = share / waves.sqrt();
             let spreads = spreads.map(|spread| spread[index]);
             for (spread, count) in spreads.iter().zip([1.0_f64, 4.0, 16.0]) {
-                // 48 samples know a standard deviation within 10 %.
+                // 48 samples determine a standard deviation within 10 %.
                 let ratio = spread * count.sqrt() / least;
                 assert!((0.7..1.5).contains(&ratio), "H = {hurst}, {name}, {count} profiles: {ratio}");
             }

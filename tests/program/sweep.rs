@@ -1,4 +1,4 @@
-//! Parameter studies: what they give is what single runs give, whoever computes it and however it is ended.
+//! Parameter studies: results equal to those of single runs, for any division of the work and any interruption.
 
 use super::common::effort::cases;
 use asperity::analysis::Regime;
@@ -72,7 +72,7 @@ fn progress_and_status_state_the_same_rate() {
     run(&folder, options, &|| false, &mut |progress| last = progress.rate()).unwrap();
     let reported = last.unwrap();
     let there = Status::of(&folder).unwrap().shards[0].attempts[0].rate.unwrap();
-    // Times of files are those of the system's ticks.
+    // Times of files have the resolution of the system's ticks.
     let seconds = plan.records_in_all() as f64 / reported;
     assert!((reported / there - 1.0).abs() <= 0.02 + 0.02 / seconds, "{reported} and {there} per second");
 }
@@ -159,7 +159,7 @@ fn no_bit_depends_on_who_computes() {
         compute(&folder, 2, Shard { number, count: 3 });
     }
     assert_eq!(shard_files(&folder).len(), 3);
-    // A shard whose records are there makes no file.
+    // A shard with all its records present makes no file.
     compute(&folder, 2, Shard { number: 1, count: 3 });
     assert_eq!(shard_files(&folder).len(), 3);
     let merged = merge(&folder, false).unwrap();
@@ -171,7 +171,7 @@ fn no_bit_depends_on_who_computes() {
 fn the_same_shard_twice_is_one() {
     let plan = plan(SMALL);
     let (_place, folder) = study(&plan);
-    // Both begin before the other has written anything.
+    // Both begin before the first write of the other.
     let barrier = std::sync::Barrier::new(2);
     std::thread::scope(|scope| {
         for _ in 0..2 {
@@ -181,7 +181,7 @@ fn the_same_shard_twice_is_one() {
             });
         }
     });
-    // However they met, the same file twice is a duplicate for certain.
+    // In any order of writes, the same file twice is certainly a duplicate.
     let first = shard_files(&folder).remove(0);
     fs::copy(&first, first.with_file_name("again.shard")).unwrap();
     let merged = merge(&folder, false).unwrap();
@@ -262,7 +262,7 @@ fn summaries_are_the_statistics_of_the_rows() {
             assert_eq!(share, count as f64 / 3.0);
         }
     }
-    // The preload is the fastest, then the last axis.
+    // The preload varies fastest, then the last axis.
     assert_eq!(finished.at(&[3, 1, 0, 1]).unwrap().cell, ((3 * 2 + 1) * 2) * 2 + 1);
     assert_eq!(plan.values(29), [5.0, 0.3, 1.0e6, 0.3]);
     assert_eq!(finished.at(&[4, 0, 0, 0]), None);
@@ -276,7 +276,7 @@ fn another_plan_is_refused() {
     let error = Folder::create(folder.path(), &other).unwrap_err().to_string();
     assert!(error.contains("holds a study of another plan"), "{error}");
     assert!(error.contains("there: Linear(path: \"kappa\", from: 0.5, to: 5.0, count: 4)"), "{error}");
-    // A shard file of another plan is none of this one's.
+    // A shard file of another plan does not belong to this one.
     let (_other_place, other) = study(&other);
     compute(&other, 1, Shard { number: 1, count: 8 });
     let stray = &shard_files(&other)[0];
@@ -343,7 +343,7 @@ proptest! {
         let place = place.index(bytes.len());
         bytes[place] ^= 1 << bit;
         fs::write(file, &bytes).unwrap();
-        // Gone on from, it is whole again.
+        // Continued, the study is whole again.
         compute(&folder, 1, Shard::WHOLE);
         merge(&folder, false).unwrap();
         prop_assert_eq!(tables(&folder), whole);

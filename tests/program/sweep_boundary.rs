@@ -1,4 +1,4 @@
-//! `asperity sweep boundary`: from a plan to a table, and what it says where there is no boundary to find.
+//! `asperity sweep boundary`: from a plan to a table, and its messages without a boundary.
 
 use super::program::{asperity, failed, json};
 use serde_json::Value;
@@ -36,7 +36,7 @@ fn a_boundary_is_found_for_each_place_protocol_and_level() {
             assert!(low.as_f64().unwrap() <= kappa && kappa <= high.as_f64().unwrap(), "{boundary}");
         }
     }
-    // Asking for less left over takes a larger κ.
+    // A smaller threshold is reached at a larger κ.
     for pair in boundaries.chunks(2) {
         assert!(pair[0]["kappa"].as_f64() < pair[1]["kappa"].as_f64(), "{pair:?}");
     }

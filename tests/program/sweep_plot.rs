@@ -44,7 +44,7 @@ fn a_study_is_drawn_as_map_and_as_section() {
     let error = plot(&[]).unwrap_err();
     assert!(error.starts_with("3 axes are free: roughness.hurst (0.1, "), "{error}");
     assert!(error.trim_end().ends_with("Fix one of them, such as --at preload=0.01"), "{error}");
-    for (arguments, said) in [
+    for (arguments, expected) in [
         (
             vec!["--quantity", "force"],
             "allowed: zero_load_adhesion_share, adhesion_coefficient, adhesion_force",
@@ -60,7 +60,7 @@ fn a_study_is_drawn_as_map_and_as_section() {
         (vec!["--at", "preload"], "allowed: AXIS=VALUE"),
     ] {
         let error = plot(&arguments).unwrap_err();
-        assert!(error.contains(said), "{arguments:?}: {error}");
+        assert!(error.contains(expected), "{arguments:?}: {error}");
     }
 
     let map = plot(&["--at", "preload=0.1", "-o", "-"]).unwrap();
@@ -72,7 +72,7 @@ fn a_study_is_drawn_as_map_and_as_section() {
     assert_eq!(fs::read_to_string(at.join("map.svg")).unwrap(), map);
     assert!(plot(&["--at", "preload=0.1", "-o", "map.svg"]).unwrap_err().contains("--force overwrites it"));
 
-    // Into a pipe: text, and no colours.
+    // Into a pipe: text without colours.
     let text = plot(&["--at", "preload=0.1"]).unwrap();
     assert!(
         text.contains("Hurst exponent H") && text.contains("F_a/F_n") && !text.contains('\x1b'),
@@ -110,14 +110,14 @@ fn curves_lie_along_the_longer_axis_and_protocols_stand_side_by_side() {
     assert_eq!(text.matches("⠒●⠒ H = 0.1  ⠒■⠒ H = 0.5  ⠒▲⠒ H = 0.9").count(), 2, "{text}");
     assert!(text.contains("governing parameter κ") && !text.contains('↑'), "{text}");
     let picture = plot(&["-o", "-"]);
-    // Quantities with their symbols, which are typeset.
+    // Quantities with their typeset symbols.
     let symbol = r#"<tspan font-style="italic">F</tspan>"#;
     assert!(picture.contains(&format!("(a) zero-load adhesion share {symbol}")), "{picture}");
     assert!(picture.contains(&format!("(b) zero-force adhesion share {symbol}")), "{picture}");
-    // Asked for, the short axis goes across, and it is a map.
+    // By request the short axis goes across, and the figure is a map.
     let map = plot(&["--x", "roughness.hurst"]);
     assert!(map.contains("↑ governing parameter κ"), "{map}");
-    // The same number but for rounding is one number.
+    // Numbers equal to rounding are one number.
     let same = plot(&["--x", "roughness.hurst", "--quantity", "rms_height"]);
     assert!(same.contains("180 ··· ") && same.contains(" 220\n"), "{same}");
 }

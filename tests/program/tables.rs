@@ -1,6 +1,6 @@
-//! The lines of Python on the page of scene files read the tables that the program writes.
+//! The lines of Python on the page of scene files read the tables of the program.
 //!
-//! `PYTHON` names another interpreter than `python3`; with `NUMPY=required` NumPy and pandas have to be there.
+//! `PYTHON` names another interpreter than `python3`; with `NUMPY=required` NumPy and pandas must be installed.
 
 use super::program::program;
 use std::path::Path;
@@ -19,7 +19,7 @@ fn python(folder: &Path, code: &str) -> std::io::Result<Output> {
     Command::new(interpreter).args(["-c", code]).current_dir(folder).output()
 }
 
-/// Runs code that has to succeed.
+/// Runs code that must succeed.
 fn passes(folder: &Path, code: &str) {
     let output = python(folder, code).unwrap();
     assert!(output.status.success(), "{code}\n{}", String::from_utf8_lossy(&output.stderr));
@@ -74,7 +74,7 @@ fn lines_of_python_read_tables() {
              assert scene.startswith('(\\n    version: 1,') and 'points: 1024' in scene"
         ),
     );
-    // Words, and values that are missing.
+    // Words, and missing values.
     let lines = ["run", "rough-sphere", "--set", "numerics.points=1024", "--set", "roughness.modes=(1, 64)"];
     for file in ["lines.csv", "lines.npy"] {
         asperity(folder, &[&lines[..], &["--set", "loading=[ToTouch]", "--lines", "3", "-o", file]].concat());

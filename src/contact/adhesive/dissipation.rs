@@ -1,15 +1,15 @@
 //! Energy of the parts of the line that attach or detach under a stretch, as a stream along the line.
 //!
-//! When a fragment forms or parts at an indentation θ, all between its edges but the fragments inside attaches
-//! (detaches) at once. In the order of the runs the fragments inside another one follow it from right
-//! to left, so one pass with a stack meets each place of the line once for each event there.
+//! When a fragment forms or parts at an indentation θ, everything between its edges but the fragments inside attaches
+//! (detaches) at once. In the order of the runs the fragments inside another one follow it from right to left, so one
+//! pass with a stack meets each place of the line once for each event there.
 
 use super::edge_model::{AtOnce, Boundary, Edge, EdgeModel};
 use super::run::{Ground, Run};
 use super::span::Span;
 use crate::contact::grid::CompensatedSum;
 
-/// Terms summed side by side, and such sums before one is compensated.
+/// Terms summed side by side, and terms before a sum is compensated.
 const LANES: usize = 8;
 const LONG: usize = 256;
 
@@ -109,8 +109,8 @@ impl<E: EdgeModel> Ground<'_, E> {
         nesting.close(&mut jump);
     }
 
-    /// Calls `jump` with each stretch of the line that detaches at once when a run of these parts that is `wanted`, and
-    /// the number of this run; `wanted` is asked once for each, in their order; the unloading began at `high`, m.
+    /// Calls `jump` with each stretch of the line that detaches at once with a `wanted` run of these parts, and the
+    /// number of this run; `wanted` is called once for each run, in their order; the unloading began at `high`, m.
     pub fn each_jump(
         &self,
         runs: &[Run],
@@ -172,8 +172,8 @@ impl Nesting {
         }
     }
 
-    /// Enters the run that was met last, the number of which and the indentation at which it parts (m) are given, at its
-    /// smallest span and the level of its edges there.
+    /// Enters the run met last, of this number and indentation at which it parts (m), at its smallest span and the
+    /// level of its edges there.
     #[inline]
     fn enter(&mut self, (run, at): (usize, f64), bottom: [u32; 2], level: f64, counts: bool) {
         let [left, right] = bottom.map(|spring| Edge { spring: spring as usize, level });

@@ -8,7 +8,7 @@ use crate::contact::{Direction, HessRule};
 use crate::scene::Edges;
 use std::ops::Range;
 
-/// Length of a fragment, on which alone the rule of Hess depends, and the force of its edge cells.
+/// Length of a fragment, the only input of the rule of Hess, and the force of its edge cells.
 ///
 /// A fragment grows from span to span. On each it has levels from its own largest gap up to that of its wall, and on
 /// each level a length.
@@ -80,7 +80,7 @@ pub trait EdgeModel: Copy + Send + Sync + 'static {
         !Self::SLIDES || lower.slide_on(self.stretch(), upper)
     }
 
-    /// Whole springs or cells, whichever carry.
+    /// Number of whole springs or cells that carry.
     #[inline]
     fn whole(&self, totals: ContactTotals) -> i64 {
         if Self::SLIDES { totals.cells() } else { totals.springs }
@@ -110,7 +110,7 @@ pub trait EdgeModel: Copy + Send + Sync + 'static {
         state
     }
 
-    /// Indentation at which whole springs carry a compression, m, if nothing else does.
+    /// Indentation at which whole springs alone carry a compression, m; `None` if edge cells carry too.
     fn indentation_of(&self, totals: ContactTotals, compression: f64, scale: &GapScale) -> Option<f64> {
         if Self::SLIDES { None } else { totals.indentation(compression, scale) }
     }
@@ -130,7 +130,7 @@ pub struct Edge {
 pub enum Boundary {
     /// At an edge of the fragment that forms: the stretch lies inside.
     Outer(Edge),
-    /// At an edge of a fragment it is made of: the stretch lies outside.
+    /// At an edge of a constituent fragment: the stretch lies outside.
     Part(Edge),
 }
 

@@ -64,13 +64,13 @@ impl EdgeCell {
     fn new(inside: f64, outside: f64, level: f64) -> Self {
         let (height, above) = (outside - inside, level - inside);
         if height == f64::INFINITY {
-            // Half a cell as level as the spring it belongs to.
+            // Half a cell, as level as its spring.
             return EdgeCell { outside, share: 0.5, growth: 0.0, carries: above };
         }
         let growth = height.recip();
         let growth = if growth < f64::INFINITY { growth } else { 0.0 };
         let share = if growth > 0.0 { above * growth } else { above / height };
-        // 0/0 where the cell is level: then it lies there whole.
+        // 0/0 for a level cell: all of it counts.
         let share = if above < height { share } else { 1.0 };
         EdgeCell { outside, share, growth, carries: above * share }
     }
@@ -90,7 +90,7 @@ impl Levels {
         (Levels { gap, length, growth, top }, 0.5 * (left.carries + right.carries))
     }
 
-    /// Length at a level so far above the gap, in cells.
+    /// Length at a level of this rise above the gap, in cells.
     #[inline]
     pub fn length_at(&self, rise: f64) -> f64 {
         self.length + self.growth * rise
@@ -108,14 +108,14 @@ impl Levels {
     pub fn release(&self, stretch: f64, rise: f64) -> (f64, bool) {
         let length = self.length_at(rise);
         let root = 0.5 * stretch * self.growth;
-        // φ rises with the level where √ℓ is more than half of the stretch that a unit of growth gives.
+        // φ rises with the level where √ℓ exceeds half of stretch × growth.
         ((self.gap + rise) - stretch * length.sqrt(), root * root <= length)
     }
 
     /// Returns true if edges of this stretch (m) pass from here to the next larger span without a jump.
     #[inline]
     pub fn slide_on(&self, stretch: f64, upper: &Levels) -> bool {
-        // φ rises from the lowest level of the upper span on, and that span brings no cell that lies level.
+        // φ rises from the lowest level of the upper span on, and that span adds no level cell.
         let root = 0.5 * stretch * upper.growth;
         let reached = self.length_at(self.top - self.gap);
         root * root < upper.length && upper.length - reached < 0.25
@@ -142,11 +142,11 @@ impl Slide {
         Slide { levels, stretch, half, square: half * half + levels.length }
     }
 
-    /// √ℓ at an indentation so far above the gap.
+    /// √ℓ at an indentation `above` the gap.
     #[inline]
     fn root(&self, above: f64) -> f64 {
         let square = self.square + self.levels.growth * above;
-        // A square that is not a number comes of growth without bound, and then nothing but `half` counts.
+        // A square that is not a number results from growth without bound; then only `half` counts.
         self.half + if square > 0.0 { square.sqrt() } else { 0.0 }
     }
 
@@ -202,10 +202,11 @@ impl Slider {
         }
     }
 
-    /// By how much the compression that they add grows with the indentation, in cells.
+    /// Growth of the compression of the edge cells with the indentation, in cells.
     ///
     /// The length times (2y − 3k)/(2y − k) with y = √ℓ and k = stretch × growth, as the edges move with the
-    /// indentation, less the whole cells. It only grows with the indentation: between events the force is convex.
+    /// indentation, less the whole cells. This stiffness only grows with the indentation: between events the force is
+    /// convex.
     pub fn stiffness(&self, indentation: f64) -> f64 {
         let Slide { levels, half, .. } = self.slide;
         if levels.growth <= 0.0 {
@@ -213,10 +214,10 @@ impl Slider {
         }
         let above = indentation - levels.gap;
         let length = levels.length_at(self.slide.rise(above));
-        // Also at the ends of its levels its edges slide, to the one side at least.
+        // The edges also slide at the ends of their levels, to one side at least.
         let (root, fall) = (self.slide.root(above), 2.0 * half);
         let rises = 2.0 * root - fall;
-        // Where it is about to detach the edges run away at once.
+        // Edges of a fragment about to detach run away at once.
         if rises > 0.0 { length * (2.0 * root - 3.0 * fall) / rises - self.cells } else { f64::NEG_INFINITY }
     }
 }

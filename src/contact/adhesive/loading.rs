@@ -18,7 +18,7 @@ const BELOW: f64 = 1.0 - 1e-12;
 pub struct Closing {
     /// Indentation at which each node closes on a loading from separation, m.
     closes: Vec<f64>,
-    /// Springs that each node surely takes with it; bounds that grow as the chains above the node are walked.
+    /// Springs that surely attach with each node; bounds that grow as the chains above the node are walked.
     known: Vec<[u32; 2]>,
     /// True if `closes` holds for the present line and rule.
     ready: bool,
@@ -58,7 +58,7 @@ struct Climb {
 }
 
 impl Closing {
-    /// Bytes it holds on to.
+    /// Bytes held.
     pub fn bytes(&self) -> usize {
         size_of::<f64>() * self.closes.capacity() + size_of::<[u32; 2]>() * self.known.capacity()
     }
@@ -190,8 +190,8 @@ impl Closing {
         }
     }
 
-    /// Lists the runs of a loading from these fragments in contact (from left to right) in place of `runs`. Returns
-    /// the indentation from which on all is in contact, m.
+    /// Lists the runs of a loading from these fragments in contact (from left to right) in place of `runs`. Returns the
+    /// smallest indentation of full contact, m.
     pub fn list<E: EdgeModel>(
         &mut self,
         ground: &Ground<'_, E>,
@@ -314,8 +314,8 @@ impl<E: EdgeModel> Ground<'_, E> {
         stretch * stretch * BELOW
     }
 
-    /// The largest φ on the way from where a branch begins up to the spring `parent`, not below its own threshold; and
-    /// the springs it surely holds at its lowest span.
+    /// Largest φ from the beginning of a branch up to the spring `parent`, not below its own threshold; and the springs
+    /// that the branch surely holds at its lowest span.
     ///
     /// No φ below a gap b exceeds b − s√n with n cells known inside, so that most chains need no evaluation.
     #[inline(never)]
@@ -330,7 +330,7 @@ impl<E: EdgeModel> Ground<'_, E> {
         let mut span = Span::around(gaps, known, start.gap);
         let ends = span.ends();
         let mut closes = start.closes;
-        // At the top first: mostly φ is largest there.
+        // At the top first: φ is mostly largest there.
         let top = self.below(&span, parent);
         if may_rise(closes, gaps[parent], &top) {
             *evaluations += 1;

@@ -11,13 +11,13 @@ pub struct AdhesiveMemory {
     pub(super) opening: Opening,
     /// Runs of the present leg.
     pub(super) runs: Vec<Run>,
-    /// Those of the leg before, or of an unloading beside the present one.
+    /// Runs of the leg before, or of an unloading beside the present one.
     pub(super) spare: Vec<Run>,
     pub(super) held: Vec<Held>,
 }
 
 impl AdhesiveMemory {
-    /// Bytes it holds on to.
+    /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.closing.bytes() + size_of::<Run>() * (self.runs.capacity() + self.spare.capacity())

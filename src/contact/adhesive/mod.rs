@@ -2,8 +2,7 @@
 //!
 //! The gaps of a line give a [`ContactTree`] of their local maxima. A loading pass closes its nodes from below, an
 //! unloading pass opens them from above; both list the *runs* of the leg, fragments whose edges move without a jump.
-//! Curves, extremes and energies are sums over these runs. How the length of a fragment is read is the business of an
-//! [`EdgeModel`] alone.
+//! Curves, extremes and energies are sums over these runs. Only the [`EdgeModel`] defines the length of a fragment.
 
 mod curve;
 mod dissipation;

@@ -1,9 +1,9 @@
-//! Unloadings from ever deeper turning points of one loading, each made from the one before.
+//! Unloadings from ever deeper turning points of one loading, each derived from the previous one.
 //!
 //! Inside a fragment of the loading nothing depends on the turning point: a span parts at the smallest indentation that
 //! holds any of the spans around it in the fragment. A deeper turning point lengthens fragments and merges them, which
-//! caps the indentations of all that lies inside. So the runs of the next unloading are those of the last one, less what
-//! the cap takes away, and the runs of the spans that are new; the line between is walked once for all reversals.
+//! caps the indentations of everything inside. So the runs of the next unloading are those of the last one, less those
+//! beyond the cap, and the runs of the spans that are new; the line between is walked once for all reversals.
 
 use super::dissipation::Range;
 use super::edge_model::EdgeModel;
@@ -32,9 +32,10 @@ struct Listed {
 /// Squares of the stretches over which the springs of a run detach, m²; see [`Ground::squared_stretch`].
 #[derive(Clone, Copy, Debug, Default)]
 struct Detaching {
-    /// Three times those of the stretch of the line that detaches at once when the run parts, once known.
+    /// Three times the squares over the stretch of the line that detaches at once when the run parts, once known.
     jump: Option<CompensatedSum>,
-    /// Those of the springs that detach while the run passes from span to span, from its smallest span up to this one.
+    /// Squares over the springs that detach while the run passes from span to span, from its smallest span up to this
+    /// one.
     slide: Option<(CompensatedSum, [u32; 2])>,
 }
 
@@ -46,7 +47,7 @@ struct Unloading {
     detaching: Vec<Detaching>,
 }
 
-/// The unloading from the present turning point, and what the next one is made from.
+/// The unloading from the present turning point, and the input of the next one.
 #[derive(Clone, Debug, Default)]
 pub struct Reversing {
     present: Unloading,
@@ -55,7 +56,7 @@ pub struct Reversing {
     passed: usize,
     /// Span that each run of the loading fills at the present turning point, or its smallest one.
     spans: Vec<[u32; 2]>,
-    /// Squares of stretches of what attaches up to each turning point: three times those of what attaches at once, and
+    /// Squares of the stretches of attachments up to each turning point: three times those of attachments at once, and
     /// those of the runs that have ended there.
     attached: Vec<[CompensatedSum; 2]>,
     parts: Vec<Part>,
@@ -108,7 +109,7 @@ impl Reversing {
         Ok(())
     }
 
-    /// Goes on to the turning point of this number and lists the unloading from there, m.
+    /// Proceeds to the turning point of this number and lists the unloading from there, m.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
@@ -212,14 +213,14 @@ impl Unloading {
         Some(listed).filter(|listed| listed.branch == branch && listed.is_whole)
     }
 
-    /// Has a place for each run.
+    /// Extends the lists by a place for each run.
     fn fill_up(&mut self) -> Result<(), ContactError> {
         let count = self.runs.len();
         self.detaching = resized(take(&mut self.detaching), count, Detaching::default())?;
         Ok(())
     }
 
-    /// Takes over the runs of a fragment that is the same as before.
+    /// Copies the runs of an unchanged fragment.
     fn copy(&mut self, before: &Unloading, listed: Listed) -> Result<(), ContactError> {
         let [start, end] = listed.runs;
         let out_of_memory = |_| ContactError::OutOfMemory { springs: end - start };
@@ -230,7 +231,7 @@ impl Unloading {
         Ok(())
     }
 
-    /// Takes over the runs of a fragment that now lies inside another one, which parts at the indentation `opens`, m;
+    /// Copies the runs of a fragment that now lies inside another one, which parts at the indentation `opens`, m;
     /// `above` are the levels of the span around the fragment, where its run may go on.
     fn graft<E: EdgeModel>(
         &mut self,

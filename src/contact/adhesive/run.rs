@@ -6,8 +6,8 @@ use super::span::{Span, larger};
 use super::tree::{Branch, ContactTree};
 use crate::contact::Direction;
 
-/// One fragment from an indentation on until it jumps, merges or parts: on the way from its bottom to its top each
-/// span passes into the next.
+/// One fragment over the range of indentations up to its next jump, merging or parting: on the way from its bottom to
+/// its top each span passes into the next.
 ///
 /// The runs of a leg are in the order of a walk through the tree from its root, right parts first, and on each branch
 /// the larger ones first: a run comes before those inside it, and of two others the right one comes first.
@@ -44,7 +44,7 @@ pub struct Ground<'a, E> {
 }
 
 impl Run {
-    /// A run over one span.
+    /// Returns a run over one span.
     pub fn new(branch: Branch, span: &Span, from: f64, to: f64) -> Self {
         Run { from, to, bottom: span.ends(), top: span.ends(), branch, is_pinned: false }
     }
@@ -69,12 +69,12 @@ impl Run {
         if self.is_pinned { self.bottom } else { self.top }
     }
 
-    /// Goes on upwards, to the next larger span.
+    /// Extends the run upwards, to the next larger span.
     pub fn raise(&mut self, span: &Span, to: f64) {
         (self.to, self.top) = (to, span.ends());
     }
 
-    /// Goes on downwards, to the next smaller span.
+    /// Extends the run downwards, to the next smaller span.
     pub fn lower(&mut self, span: &Span, from: f64) {
         (self.from, self.bottom) = (from, span.ends());
     }
@@ -103,7 +103,7 @@ impl<E: EdgeModel> Ground<'_, E> {
         self.span(run.branch, run.bottom)
     }
 
-    /// The largest one.
+    /// The largest span of a run.
     #[inline]
     pub fn top(&self, run: &Run) -> Span {
         self.span(run.branch, run.top_ends())
@@ -139,7 +139,7 @@ impl<E: EdgeModel> Ground<'_, E> {
         span.gap + self.rise(span, pin, indentation)
     }
 
-    /// Height of this level above the largest gap, m.
+    /// Height of the level of the edges above the largest gap, m, pinned or not.
     #[inline]
     pub fn rise(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         pin.unwrap_or_else(|| self.edges.rise(&self.levels(span), indentation))
@@ -160,7 +160,7 @@ impl<E: EdgeModel> Ground<'_, E> {
     }
 
     /// Calls `see` with each span of a run from the smallest one on and the range of indentations (m) over which the
-    /// run fills it, until `see` says that this is enough.
+    /// run fills it, until `see` returns true.
     #[inline]
     pub fn each_span(&self, run: &Run, unloading: bool, mut see: impl FnMut(&Span, f64, f64) -> bool) {
         let mut span = self.bottom(run);
@@ -181,7 +181,7 @@ impl<E: EdgeModel> Ground<'_, E> {
         see(&span, from, run.to);
     }
 
-    /// The span of a loading run at an indentation, from the one that it filled at a smaller indentation on.
+    /// The span of a loading run at an indentation, climbed from its span at a smaller indentation.
     pub fn climbed(&self, run: &Run, from: [u32; 2], indentation: f64) -> Span {
         let mut span = self.span(run.branch, from);
         while span.ends() != run.top_ends() {

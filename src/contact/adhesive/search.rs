@@ -1,8 +1,9 @@
-//! Extremes and crossings of the force along a leg, exact whatever the number of samples.
+//! Extremes and crossings of the force along a leg, exact for any number of samples.
 //!
 //! Between two events the force is convex; at an event, read upwards in d, it falls or stays. From the contact at two
-//! indentations follow bounds of the force between them: what attaches there is stretched, or just touches and is then
-//! compressed by no more than the interval is wide. Only intervals of a grid whose bounds allow it are looked into.
+//! indentations follow bounds of the force between them: springs that attach there are stretched, or just touch and are
+//! then compressed by no more than the width of the interval. Only intervals of a grid with suitable bounds are
+//! searched.
 
 use super::edge_model::EdgeModel;
 use super::run::{Ground, Run};
@@ -11,7 +12,7 @@ use crate::contact::contact_state::{ContactState, Extreme, Sampled, lower_bound,
 use crate::contact::grid::Grid;
 use crate::contact::interval::{Interval, Piece};
 
-/// Points of a grid from one to the next of those that are looked at first.
+/// Points of a grid from one to the next of those evaluated first.
 const STRIDE: usize = 16;
 
 /// Most times that a range is cut where the force is above zero, each time by this part at least.
@@ -59,7 +60,7 @@ impl<E: EdgeModel> Search<'_, E> {
     }
 
     /// The smallest force of an unloading to separation, on the range of a grid from there to the turning point, the
-    /// contact at which is given. Most points of the grid are left out: those where the force is certain to be above
+    /// state at which is `turn`. Most points of the grid are left out: those where the force is certain to be above
     /// zero, and those between two neighbours of a coarser grid whose bounds exclude a smaller force.
     pub fn smallest_below(
         &self,
@@ -84,9 +85,9 @@ impl<E: EdgeModel> Search<'_, E> {
 
     /// The points of an unloading, from separation on, beyond which the force is above zero.
     ///
-    /// On the way back a contact only shrinks, and what detaches was stretched: the force falls no faster than with the
-    /// length of a contact further up. Just before separation the force is not above zero, so that the smallest force
-    /// lies among these points.
+    /// On the way back a contact only shrinks, and detaching springs are stretched: the force falls no faster than with
+    /// the length of a contact further up. Just before separation the force is not above zero, so that the smallest
+    /// force lies among these points.
     fn pulling<'p>(&self, points: &'p [f64], turn: ContactState) -> Result<&'p [f64], ContactError> {
         let (mut points, mut state) = (points, turn);
         for _ in 0..MOST_CUTS {
@@ -108,7 +109,7 @@ impl<E: EdgeModel> Search<'_, E> {
 
     /// The smallest indentation of a grid, m, at which the compression is at least `wanted`.
     pub fn first_at_least(&self, leg: &Sampled, wanted: f64, sorted: &mut u64) -> Option<f64> {
-        // Behind the first point that has it nothing is sought.
+        // No search beyond the first sample that reaches `wanted`.
         let reached = leg.states.iter().position(|state| state.compression >= wanted);
         if reached == Some(0) {
             return Some(leg.states[0].indentation);

@@ -15,7 +15,7 @@ pub struct Span {
 }
 
 impl Span {
-    /// The span of all springs around these that lie below a gap, m, which is the largest of all.
+    /// The span of all springs around these with gaps below `gap`, m, the largest gap of the span.
     #[inline]
     pub fn around(gaps: &[f64], (mut first, mut last): (usize, usize), gap: f64) -> Self {
         while first > 0 && gaps[first - 1] < gap {
@@ -38,7 +38,7 @@ impl Span {
         }
     }
 
-    /// The same with the spring beside it that attaches next.
+    /// The span extended by the spring beside it that attaches next.
     #[inline]
     pub fn with(&self, gaps: &[f64], wall: usize) -> Self {
         let gap = gaps[wall];
@@ -64,7 +64,7 @@ impl Span {
         Span { gap: ends.max(bottom), first, last }
     }
 
-    /// Springs in it.
+    /// Number of springs.
     #[inline]
     pub fn springs(&self) -> usize {
         self.last + 1 - self.first
@@ -77,7 +77,7 @@ impl Span {
     }
 }
 
-/// The smaller of two numbers, neither of which is NaN: `f64::min` would look for that.
+/// The smaller of two numbers, neither of which is NaN: `f64::min` would check for NaN.
 #[inline]
 pub fn smaller(a: f64, b: f64) -> f64 {
     if b < a { b } else { a }

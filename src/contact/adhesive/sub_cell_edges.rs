@@ -11,8 +11,8 @@ use crate::scene::Edges;
 /// Sub-cell edges under a rule of Hess.
 ///
 /// A fragment at level t is in equilibrium with the indentation φ(t) = t − Δl_max(ℓ(t)): it grows while φ(t) ≤ d and
-/// recedes while φ(t) ≥ d. Between the gap of its largest spring and that of its wall ℓ is linear in t, so φ is
-/// convex: it falls to its lowest value and then rises, and only where it rises does a fragment rest.
+/// recedes while φ(t) ≥ d. Between the gap of its largest spring and that of its wall ℓ is linear in t, so φ is convex:
+/// φ falls to its lowest value and then rises, and a fragment rests only where φ rises.
 #[derive(Clone, Copy, Debug)]
 pub struct SubCellEdges {
     hess: HessRule,
@@ -54,7 +54,7 @@ impl EdgeModel for SubCellEdges {
     #[inline]
     fn holds_to(&self, levels: &Levels) -> f64 {
         let (gap, stretch) = (levels.gap, self.stretch());
-        // At the smallest φ √ℓ is half of the stretch that a unit of growth gives.
+        // At the smallest φ √ℓ is half of stretch × growth.
         let root = 0.5 * stretch * levels.growth;
         let excess = root * root - levels.length;
         // Without branches: they would often be mispredicted.
@@ -108,14 +108,14 @@ impl EdgeModel for SubCellEdges {
     fn squared_stretch_sliding(&self, gaps: &[f64], [lower, upper]: [(Span, f64); 2]) -> f64 {
         // Twice the stretch of an edge times the change of the length, as the stretch is s √ℓ.
         let ([cells0, share0], [cells1, share1]) = (length_at(gaps, &lower), length_at(gaps, &upper));
-        // Whole cells and shares apart: as lengths they would lose digits.
+        // Whole cells and shares are subtracted separately: as lengths they would lose digits.
         let grown = (cells1 - cells0) + (share1 - share0);
         let both = (cells0 + cells1) + (share0 + share1);
         0.5 * self.stretch() * self.stretch() * grown * both
     }
 }
 
-/// Whole cells of a span at a level, and the shares of those at its edges.
+/// Whole cells of a span at a level, and the shares of its edge cells.
 fn length_at(gaps: &[f64], (span, level): &(Span, f64)) -> [f64; 2] {
     let share = |inside: usize, outside: Option<&f64>| {
         outside.map_or(0.5, |outside| {
@@ -136,13 +136,13 @@ fn part_of_cell(gaps: &[f64], cell: usize, (from, to): (f64, f64), at: f64) -> f
     growth * (from - to).abs() * (a * a + a * b + b * b)
 }
 
-/// The same over the cell beyond the outermost spring of a fragment, up to its level; `None`: half a cell as level as
-/// the spring, at the end of the foundation.
+/// Three times ∫ (c − θ)² dx over the cell beyond the outermost spring of a fragment, up to its level; `None`: half a
+/// cell as level as the spring, at the end of the foundation.
 fn outer_cell(gaps: &[f64], cell: Option<usize>, (spring, level): (usize, f64), at: f64) -> f64 {
     let stretch = gaps[spring] - at;
     match cell {
         None => 1.5 * stretch * stretch,
-        // Level: it attaches whole, with the spring.
+        // A level cell attaches whole, with the spring.
         Some(cell) if gaps[cell] == gaps[cell + 1] => 3.0 * stretch * stretch,
         Some(cell) => part_of_cell(gaps, cell, (gaps[spring], level), at),
     }

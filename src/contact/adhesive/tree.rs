@@ -1,4 +1,4 @@
-//! The contact tree: how the fragments of a line merge, over its local maxima alone.
+//! The contact tree: the merging of the fragments of a line, over its local maxima alone.
 
 use super::span::larger;
 use crate::contact::{ContactError, GapScale, reserve};
@@ -10,7 +10,7 @@ use crate::scene::Edges;
 const BLOCK: usize = 4;
 /// Springs compared at once.
 const LANES: usize = 64;
-/// Springs from which a second thread costs less than its share of a pass takes.
+/// Number of springs from which a second thread costs less than it saves.
 pub(super) const TWO_THREADS: usize = 1 << 17;
 
 /// Merge tree of the local maxima of the gap, the turning points, and prefix sums along the line.
@@ -94,7 +94,7 @@ impl ContactTree {
         ContactTree::default().rebuild(gaps, edges)
     }
 
-    /// The same in the memory of a tree that is no longer needed.
+    /// Rebuilds the tree in the memory of one that is no longer needed.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
@@ -125,7 +125,7 @@ impl ContactTree {
         self.nodes.is_empty()
     }
 
-    /// Bytes it holds on to.
+    /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
         size_of::<u32>() * self.turns.capacity()
@@ -133,7 +133,7 @@ impl ContactTree {
             + size_of::<i128>() * self.sums.capacity()
     }
 
-    /// The kind of edges it sums for.
+    /// Edge model of its sums.
     #[must_use]
     pub fn edges(&self) -> Edges {
         self.edges.unwrap_or(Edges::SubCell)

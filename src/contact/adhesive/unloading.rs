@@ -135,7 +135,7 @@ impl<E: EdgeModel> Ground<'_, E> {
             return Ok(Descent::Nothing);
         }
         let is_leaf = bottom == f64::NEG_INFINITY;
-        // The span above and its length, while its run may go on.
+        // Levels of the span above, while its run may go on.
         let mut above: Option<Levels> = None;
         loop {
             let (left, right) = (gaps[first], gaps[last]);

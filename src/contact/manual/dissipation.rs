@@ -9,9 +9,9 @@ use std::slice::from_ref;
 
 /// Squared stretches of the parts of the line that have attached or detached on a move.
 ///
-/// Whole springs attach and detach one by one, or many at once. Edges between springs slide, and jump where the fragment
-/// passes to another span. Where they only slide on, the jump has no width but that of rounding, which changes the
-/// energy by its square: a jump by a small width and a slide over the same width differ in that order alone.
+/// Whole springs attach and detach one by one, or many at once. Edges between springs slide, and jump where the
+/// fragment passes to another span. Where edges only slide on, the width of the jump is a rounding, which changes the
+/// energy by its square: a small jump and a slide over the same width differ in that order alone.
 pub struct Dissipation {
     direction: Direction,
     /// Indentation at which the move begins, m.
@@ -25,7 +25,7 @@ pub struct Dissipation {
 }
 
 impl Dissipation {
-    /// Nothing yet on a move in this direction from an indentation, m.
+    /// Returns empty sums for a move in this direction from an indentation, m.
     pub fn new(direction: Direction, from: f64) -> Self {
         let (sliding, thirds) = (CompensatedSum::default(), CompensatedSum::default());
         Dissipation { direction, from, levels: HashMap::new(), sliding, thirds }
@@ -37,8 +37,8 @@ impl Dissipation {
         self.sliding.total()
     }
 
-    /// At an indentation, m, a fragment has formed from these parts, or has detached a spring and they remain; or its
-    /// pinned edges begin to slide.
+    /// Adds an event at an indentation, m: a fragment has formed from these parts, or has detached a spring and they
+    /// remain; or its pinned edges begin to slide.
     pub fn change<E: EdgeModel>(
         &mut self,
         ground: Ground<'_, E>,
@@ -67,7 +67,7 @@ impl Dissipation {
         }
     }
 
-    /// The edges of a fragment slide to those of an indentation, m.
+    /// Slides the edges of a fragment to those of an indentation, m.
     pub fn slide<E: EdgeModel>(&mut self, ground: Ground<'_, E>, fragment: &Fragment, to: f64) {
         if E::SLIDES {
             let begun = self.levels.get(&fragment.slot).copied();
@@ -82,7 +82,7 @@ impl Dissipation {
         }
     }
 
-    /// All of a fragment attaches or detaches at once, but for these parts of it.
+    /// Adds all of a fragment but these parts of it, attached or detached at once.
     fn jump<E: EdgeModel>(&mut self, ground: Ground<'_, E>, at: f64, whole: &Fragment, parts: &[Fragment]) {
         let mut add = |from, to| {
             let stretch = AtOnce { at, between: (from, to) };

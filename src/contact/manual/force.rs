@@ -6,7 +6,7 @@ use crate::contact::adhesive::{EdgeModel, Ground, Slider};
 use crate::contact::steady::SteadyContact;
 
 impl<E: EdgeModel> Manual<E> {
-    /// The present contact, as it is up to the next event.
+    /// The present contact, constant up to the next event.
     pub(super) fn steady(&self) -> SteadyContact<E> {
         let Ground { gaps, tree, edges } = self.contact.ground();
         let fragments = self.contact.fragments().take_while(|_| E::SLIDES);
@@ -15,8 +15,8 @@ impl<E: EdgeModel> Manual<E> {
         SteadyContact { edges, scale: tree.scale(), totals: self.contact.totals(), sliders }
     }
 
-    /// Presses until the compression ∫ (d − c) dx is at least `wanted`, and returns the indentation; `None` when there
-    /// is no finite one.
+    /// Presses until the compression ∫ (d − c) dx is at least `wanted`, and returns the indentation; `None` if no
+    /// finite one exists.
     pub(super) fn press_to_compression(&mut self, course: &mut Course, wanted: f64) -> Option<f64> {
         // Nothing touches below d = 0.
         let mut from = if self.is_separated() { self.indentation.max(0.0) } else { self.indentation };
@@ -61,7 +61,7 @@ impl<E: EdgeModel> Manual<E> {
         }
     }
 
-    /// The indentation beyond `from`, where everything is in contact, with this compression.
+    /// The indentation beyond `from`, in full contact, with this compression.
     fn beyond(&self, from: f64, wanted: f64) -> f64 {
         let contact = self.steady();
         if E::SLIDES {

@@ -9,14 +9,14 @@ use std::sync::Arc;
 /// In place of the parent of the branch that fills the line.
 const NO_PARENT: u32 = u32::MAX;
 
-/// Key of a slot to which nothing can happen.
+/// Key of a slot without a next event.
 const NEVER: f64 = f64::INFINITY;
 
 /// The fragments in contact, each a span of one branch of the contact tree.
 ///
 /// No two fragments begin at the same leaf of the tree, a local minimum of the gap. So the leaves, in their order along
-/// the line, are slots: a slot holds the fragment that begins at its leaf, or its leaf is inside of a fragment, or
-/// free. Two winner trees over the slots give the next event: the one that attaches next when the indentation grows,
+/// the line, are slots: a slot holds the fragment that begins at its leaf, or its leaf lies inside a fragment, or is
+/// free. Two winner trees over the slots yield the next event: the one that attaches next when the indentation grows,
 /// and the one that detaches next when it falls. Both hold at any time, so that a turn costs nothing.
 pub struct FragmentSet<E> {
     gaps: Vec<f64>,
@@ -36,12 +36,12 @@ pub struct FragmentSet<E> {
     /// Indentations, negated, to which fragments hold their most stretched springs.
     detaching: WinnerTree,
     totals: ContactTotals,
-    /// Fragments that the last one to form was made of, or into which the last one to detach has parted.
+    /// Fragments merged by the last event, or left by it.
     parts: Vec<Fragment>,
-    /// While changes may be taken back: the direction before them, and former contents of slots in the order of their
+    /// Present while changes can be undone: the former direction, and former contents of slots in the order of their
     /// changes.
     journal: Option<(Direction, Vec<(u32, Slot)>)>,
-    /// Springs, slots and nodes of the winner trees looked at or changed so far.
+    /// Springs, slots and nodes of the winner trees read or changed so far.
     touched: u64,
 }
 
@@ -67,7 +67,7 @@ pub struct Fragment {
     pub pin: Option<f64>,
 }
 
-/// One change of the contact, between a fragment and the parts it is made of ([`FragmentSet::parts`]).
+/// One change of the contact, between a fragment and its parts ([`FragmentSet::parts`]).
 #[derive(Clone, Copy, Debug)]
 pub struct Event {
     /// The fragment that forms or that detaches a spring.
@@ -77,9 +77,9 @@ pub struct Event {
 }
 
 impl<E: EdgeModel> FragmentSet<E> {
-    /// The largest spans that a fragment can fill with springs of these runs alone, given by first and last spring;
-    /// O(N) and O(n log n) of n runs. Springs beyond the line are left out. Where edges can be pinned, they are, each
-    /// fragment at the rise `rise_of` its span, m.
+    /// Returns the largest spans that a fragment can fill with springs of these runs alone, given by first and last
+    /// spring; O(N) and O(n log n) of n runs. Springs beyond the line are left out. Edges that can be pinned are
+    /// pinned, each fragment at the rise `rise_of` its span, m.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
@@ -160,7 +160,7 @@ impl<E: EdgeModel> FragmentSet<E> {
         Ground { gaps: &self.gaps, tree: &self.tree, edges }
     }
 
-    /// Goes on in a direction from an indentation, m: on a turn, edges that slide are pinned.
+    /// Continues in a direction from an indentation, m: a turn pins sliding edges.
     pub fn turn(&mut self, direction: Direction, indentation: f64) {
         if direction != self.direction && self.pins {
             let sliding: Vec<Fragment> = self.fragments().filter(|fragment| fragment.pin.is_none()).collect();
@@ -185,7 +185,7 @@ impl<E: EdgeModel> FragmentSet<E> {
         self.totals
     }
 
-    /// Springs, slots and nodes looked at or changed so far.
+    /// Springs, slots and nodes read or changed so far.
     #[inline]
     pub fn touched(&self) -> u64 {
         self.touched
@@ -196,7 +196,7 @@ impl<E: EdgeModel> FragmentSet<E> {
         self.ground().rise(span, *pin, indentation)
     }
 
-    /// The same of all fragments where edges can be pinned, in their order along the line.
+    /// Heights of these levels for all fragments, in their order along the line; empty unless edges can be pinned.
     pub fn rises(&self, indentation: f64) -> Vec<f64> {
         let fragments = self.fragments().filter(|_| self.pins);
         fragments.map(|fragment| self.rise(&fragment, indentation)).collect()
@@ -220,7 +220,7 @@ impl<E: EdgeModel> FragmentSet<E> {
     }
 
     /// Indentation of the next event in the present direction, m: the smallest one at which a spring attaches, or the
-    /// smallest one at which nothing in contact has detached.
+    /// smallest one that holds all springs in contact.
     #[inline]
     pub fn next_event(&self) -> Option<f64> {
         match self.direction {
@@ -229,7 +229,7 @@ impl<E: EdgeModel> FragmentSet<E> {
         }
     }
 
-    /// Makes this event happen.
+    /// Performs the next event.
     pub fn change(&mut self) -> Option<Event> {
         match self.direction {
             Direction::Loading => self.attach(),
@@ -268,12 +268,12 @@ impl<E: EdgeModel> FragmentSet<E> {
         };
         self.totals += self.ground().totals(&whole.span);
         let springs = (self.totals.springs - before.springs).unsigned_abs();
-        // One of them is in an entry of its slot.
+        // One of the springs is already counted with its slot.
         self.touched += springs - 1;
         Some(Event { whole, springs })
     }
 
-    /// Makes all springs of the subtree of a node one fragment.
+    /// Merges all springs of the subtree of a node into one fragment.
     fn merge(&mut self, node: usize) -> Fragment {
         let Node { gap, .. } = self.tree.nodes()[node];
         let branch = Branch::node(node);
@@ -346,14 +346,14 @@ impl<E: EdgeModel> FragmentSet<E> {
         Some(Event { whole, springs: 1 })
     }
 
-    /// Lets pinned edges slide.
+    /// Releases pinned edges, which then slide.
     fn release(&mut self, slot: usize, held: Held) -> Event {
         let whole = self.fragment(slot, held);
         self.replace(slot, Held { pin: None, ..held });
         Event { whole, springs: 0 }
     }
 
-    /// Returns true for the span with which its branch begins. Among equal gaps the leftmost is the outermost.
+    /// Returns true for the lowest span of its branch. Among equal gaps the leftmost is the outermost.
     fn is_lowest(&self, branch: Branch, span: &Span) -> bool {
         let (left, right) = (self.gaps[span.first], self.gaps[span.last]);
         match branch.origin() {
@@ -365,13 +365,13 @@ impl<E: EdgeModel> FragmentSet<E> {
         }
     }
 
-    /// Notes a fragment that becomes part of another one.
+    /// Moves a fragment that becomes part of another one from the totals to the parts.
     fn take_part(&mut self, part: Fragment) {
         self.totals += -self.ground().totals(&part.span);
         self.parts.push(part);
     }
 
-    /// Lets a part of a fragment remain.
+    /// Keeps a part of a fragment in contact.
     fn part(&mut self, slot: usize, held: Held) {
         let part = self.replace(slot, held);
         self.totals += self.ground().totals(&part.span);
@@ -390,17 +390,17 @@ impl<E: EdgeModel> FragmentSet<E> {
         Fragment { slot, span: self.span(held), pin: held.pin }
     }
 
-    /// From here on changes can be taken back.
+    /// Makes later changes undoable.
     pub fn keep_journal(&mut self) {
         self.journal = Some((self.direction, Vec::new()));
     }
 
-    /// Forgets the changes that could be taken back.
+    /// Makes the changes so far permanent.
     pub fn drop_journal(&mut self) {
         self.journal = None;
     }
 
-    /// Takes back all changes since the journal was begun, when these were the totals.
+    /// Undoes all changes since the beginning of the journal, to these totals.
     pub fn take_back(&mut self, totals: ContactTotals) {
         if let Some((direction, changes)) = self.journal.take() {
             for (slot, was) in changes.into_iter().rev() {
@@ -458,7 +458,7 @@ impl<E: EdgeModel> FragmentSet<E> {
         }
     }
 
-    /// Sets a slot and its keys, which count from [`FragmentSet::settle`] on.
+    /// Sets a slot and its keys, which take effect with [`FragmentSet::settle`].
     fn set(&mut self, slot: usize, becomes: Slot) {
         let was = std::mem::replace(&mut self.slots[slot], becomes);
         if let Some((_, changes)) = &mut self.journal {
@@ -479,7 +479,7 @@ impl<E: EdgeModel> FragmentSet<E> {
     }
 }
 
-/// Place of a branch among all.
+/// Index of a branch among all.
 #[inline]
 fn place_of(branch: Branch) -> usize {
     match branch.origin() {

@@ -1,13 +1,13 @@
 //! Manual loading: the body moved by steps of any size, either way, at a cost in proportion to the change.
 //!
-//! The exact solver finds for a whole leg when each fragment grows or detaches; manual loading knows the next
-//! event alone. A move proceeds from event to event: a free local minimum of the gap touches, a fragment attaches its wall,
-//! with the rest of the subtree where it merges, or a fragment detaches its most stretched spring. Both use the same
-//! thresholds of the same spans, so both find the same contact, bit for bit.
+//! The exact solver finds the indentations of all events of a leg; manual loading knows the next event alone. A move
+//! proceeds from event to event: a free local minimum of the gap touches, a fragment attaches its wall, with the rest
+//! of the subtree where it merges, or a fragment detaches its most stretched spring. Both use the same thresholds of
+//! the same spans, so both find the same contact, bit for bit.
 //!
 //! A move that changes k springs of N in n fragments takes O((k + 1) log N) time with whole springs, and O(n) more
-//! where edges slide between springs, as they do all the time; there a move to a force takes O(n) for each event on its
-//! way. A start takes O(N).
+//! where edges slide between springs, as edges always do; there a move to a force takes O(n) for each event on its way.
+//! A start takes O(N).
 
 mod dissipation;
 mod force;
@@ -27,34 +27,34 @@ use thiserror::Error;
 
 /// A body under manual loading, with either edge model.
 ///
-/// An error leaves the body where it was.
+/// An error leaves the body in place.
 pub trait ManualLoading {
     /// Presses or pulls to this indentation, m.
     ///
-    /// From separation a move to d ≥ 0 touches, also where it has no length.
+    /// From separation a move to d ≥ 0 touches, also without a change of the indentation.
     ///
     /// # Errors
     /// [`ManualError::NotFinite`].
     fn move_to_indentation(&mut self, indentation: f64) -> Result<Move, ManualError>;
 
-    /// Presses until the force, N, is at least this for the first time, or pulls until it is at most this, if it is
-    /// not this already.
+    /// Presses until the force first reaches `force`, N, or pulls until it falls to `force`; a body at this force
+    /// stays.
     ///
     /// # Errors
     /// [`ManualError::NotFinite`], [`ManualError::NothingToPull`], [`ManualError::DetachesBefore`],
     /// [`ManualError::OutOfReach`].
     fn move_to_force(&mut self, force: f64) -> Result<Move, ManualError>;
 
-    /// Finds out if [`Self::move_to_force`] reaches a force, N, and leaves the body where it is.
+    /// Checks that [`Self::move_to_force`] reaches a force, N, without moving the body.
     ///
     /// # Errors
     /// Those of the move.
     fn check_force(&mut self, force: f64) -> Result<(), ManualError>;
 
-    /// Pulls just until nothing touches any more.
+    /// Pulls just until the bodies separate.
     fn separate(&mut self) -> Move;
 
-    /// The point of the curve at which the body is.
+    /// Present point of the curve.
     fn point(&self) -> CurvePoint;
 
     /// First and last spring of each fragment in contact, in ascending order along the line. With n fragments of N
@@ -74,7 +74,7 @@ pub struct Move {
     pub detaches: u64,
     /// Events: a spring touches alone, a fragment attaches its wall, or a fragment detaches a spring.
     pub events: u64,
-    /// Entries of all tables looked at or changed: a measure of the time taken, the same on every machine.
+    /// Table entries read or changed: a measure of the time, the same on every machine.
     pub touched: u64,
     /// Dissipated energy, J: ½ Δk Σ e² over the springs that detached with a stretch e, less the same over those that
     /// attached.
@@ -93,24 +93,24 @@ pub enum ManualError {
         /// The number.
         value: f64,
     },
-    /// Nothing touches that could be pulled.
+    /// A pulling force on a separated body.
     #[error("nothing touches that could be pulled with {force:e} N; allowed: at least 0 N")]
     NothingToPull {
-        /// Force asked for, N.
+        /// Requested force, N.
         force: f64,
     },
     /// The contact detaches before this force.
     #[error("the contact detaches before {force:e} N; allowed: at least {smallest:e} N")]
     DetachesBefore {
-        /// Force asked for, N.
+        /// Requested force, N.
         force: f64,
-        /// Smallest force that the contact bears when it is pulled from where it is, N.
+        /// Smallest force that the present contact bears when pulled, N.
         smallest: f64,
     },
     /// The force lies beyond all indentations.
     #[error("no finite indentation reaches {force:e} N on this foundation")]
     OutOfReach {
-        /// Force asked for, N.
+        /// Requested force, N.
         force: f64,
     },
 }
@@ -126,8 +126,8 @@ pub struct Manual<E> {
 }
 
 impl<E: EdgeModel> Manual<E> {
-    /// A body over springs of these gaps (m, the smallest 0) and the tree of these gaps, separated, at d = 0 just
-    /// before first touch. It copies the gaps.
+    /// Returns a separated body over springs of these gaps (m, the smallest 0) and their tree, at d = 0 just before
+    /// first touch. The gaps are copied.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
@@ -141,14 +141,14 @@ impl<E: EdgeModel> Manual<E> {
         Ok(Manual { contact, foundation, indentation: 0.0 })
     }
 
-    /// A body at `indentation`, m, in the contact given by first and last spring of each fragment, as
-    /// [`Solver::fragments`](super::Solver::fragments) and [`ManualLoading::fragments`] give it.
+    /// Returns a body at `indentation`, m, in the contact of these fragments (first and last spring of each), as
+    /// returned by [`Solver::fragments`](super::Solver::fragments) and [`ManualLoading::fragments`].
     ///
-    /// Under two works of adhesion the edges of each fragment are pinned at these `rises`, m, as
-    /// [`Solver::rises`](super::Solver::rises) gives them; those of a fragment without one lie where loading would have
-    /// left them. Under one work of adhesion they follow from the indentation.
+    /// Under two works of adhesion the edges of each fragment are pinned at these `rises`, m, as returned by
+    /// [`Solver::rises`](super::Solver::rises); without a rise they lie as after loading. Under one work of adhesion
+    /// the edges follow from the indentation.
     ///
-    /// Of springs that no fragment in equilibrium can be, the largest spans inside that one can be are taken. A contact
+    /// Springs that do not form a fragment in equilibrium are reduced to the largest spans inside that do. A contact
     /// that is not in equilibrium relaxes with the next move.
     ///
     /// # Errors
@@ -189,11 +189,11 @@ impl<E: EdgeModel> Manual<E> {
         }
     }
 
-    /// Attaches or detaches one spring after the other, as long as `goes_on` says so of the indentation at which the
-    /// next one attaches, or to which it is held, m.
+    /// Attaches or detaches one spring after the other, as long as `goes_on` is true of the indentation of the next
+    /// one, m.
     fn proceed(&mut self, course: &mut Course, goes_on: impl Fn(f64) -> bool) {
         while let Some(next) = self.contact.next_event().filter(|&next| goes_on(next)) {
-            // A fragment attaches nothing before it has formed, and a part detaches nothing before the whole has.
+            // A fragment attaches no spring before its formation, and a part detaches none before its whole has parted.
             course.level = match course.direction {
                 Direction::Loading => course.level.max(next),
                 Direction::Unloading => course.level.min(next),
@@ -228,8 +228,8 @@ impl<E: EdgeModel> Manual<E> {
         Move { attaches, detaches, events, touched, dissipated_energy }
     }
 
-    /// Presses until the force is at least this, or pulls until it is at most this, and returns the way there with its
-    /// indentation; `None` where the force is this already. The move has not ended.
+    /// Presses until the force is at least `force`, or pulls until it is at most `force`; returns the course up to
+    /// there and its indentation, or `None` where the body is at `force` already. The move has not ended.
     fn find_force(&mut self, force: f64) -> Result<Option<(Course, f64)>, ManualError> {
         let stiffness = self.foundation.spring_stiffness();
         let Some(direction) = self.direction(Leg::ToForce(force))? else { return Ok(None) };
@@ -247,7 +247,7 @@ impl<E: EdgeModel> Manual<E> {
         Ok(Some((course, to)))
     }
 
-    /// Direction of a leg from here; `None` where it ends here.
+    /// Direction of a leg from the present point; `None` where it ends there.
     fn direction(&self, leg: Leg) -> Result<Option<Direction>, ManualError> {
         let planned = plan(leg, self.point(), 0).map_err(|error| match error {
             ContactError::NothingToPull { force, .. } => ManualError::NothingToPull { force },
@@ -256,7 +256,7 @@ impl<E: EdgeModel> Manual<E> {
         Ok(planned.map(|(direction, _)| direction))
     }
 
-    /// Moves to a force, or `stays` and finds out if it can be reached.
+    /// Moves to a force, or with `stays` only checks that it can be reached.
     fn try_force(&mut self, force: f64, stays: bool) -> Result<Move, ManualError> {
         let force = finite(force)?;
         let before = self.contact.totals();
@@ -313,10 +313,10 @@ impl<E: EdgeModel> ManualLoading for Manual<E> {
     }
 }
 
-/// A move while it goes on.
+/// A move in progress.
 struct Course {
     direction: Direction,
-    /// Indentation of the last event, m; it never turns back.
+    /// Indentation of the last event, m; monotonic.
     level: f64,
     springs: u64,
     events: u64,

@@ -31,8 +31,8 @@ pub fn whole_spans(gaps: &[f64], runs: &[(usize, usize)]) -> Result<Vec<Span>, C
     Ok(spans)
 }
 
-/// Parts a run at the springs whose own spans reach beyond it: those above all between them and an end of the run and
-/// the spring beyond. Among equal gaps the leftmost counts as the largest.
+/// Parts a run at the springs whose own spans reach beyond it: those with gaps above all others up to an end of the run
+/// and the spring beyond. Among equal gaps the leftmost counts as the largest.
 fn part(gaps: &[f64], (first, last): (usize, usize), spans: &mut Vec<Span>) -> Result<(), ContactError> {
     let mut highest = first.checked_sub(1).map_or(f64::INFINITY, |before| gaps[before]);
     let mut reaching: Vec<usize> = Vec::new();

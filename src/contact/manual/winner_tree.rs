@@ -1,11 +1,11 @@
-//! A queue of slots by key in which any slot can be given another key.
+//! A queue of slots by key in which the key of any slot can change.
 
 use crate::contact::{ContactError, reserve};
 
-/// Slots 0, 1, … with a key each, the smallest of which is known at any time.
+/// Slots 0, 1, … with a key each; the smallest key is known at any time.
 ///
 /// Each node of a complete binary tree over the slots keeps the slot with the smallest key below it, the winner. Unlike
-/// in a heap a slot is found by its number, so that no outdated entry is ever kept and thrown out later.
+/// in a heap a slot is found by its number, so no outdated entries accumulate.
 #[derive(Clone, Debug)]
 pub struct WinnerTree {
     keys: Vec<f64>,
@@ -16,7 +16,7 @@ pub struct WinnerTree {
 }
 
 impl WinnerTree {
-    /// A winner tree of slots with these keys; one with the key +∞ is empty.
+    /// Returns a winner tree of slots with these keys; a slot with the key +∞ is empty.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
@@ -60,14 +60,14 @@ impl WinnerTree {
         (key < f64::INFINITY).then_some((slot as usize, key))
     }
 
-    /// Gives a slot another key. It counts only after [`WinnerTree::settle`].
+    /// Sets the key of a slot, which takes effect with [`WinnerTree::settle`].
     #[inline]
     pub fn set(&mut self, slot: usize, key: f64) {
         self.keys[slot] = key;
     }
 
-    /// Updates the winners above the slots `first ..= last`. Returns the number of nodes looked at: at most
-    /// about twice the number of slots and two for each row.
+    /// Updates the winners above the slots `first ..= last`. Returns the number of nodes read: at most about twice the
+    /// number of slots and two for each row.
     pub fn settle(&mut self, first: usize, last: usize) -> u64 {
         let (mut low, mut high) = (self.width + first, self.width + last);
         let mut looked_at = 0;
@@ -76,7 +76,7 @@ impl WinnerTree {
             let mut changed = false;
             for node in low..=high {
                 let winner = self.decide(node);
-                // The same slot with another key is a change for those above.
+                // A new key of the same slot is a change for the nodes above.
                 changed |= winner != self.winners[node] || (first..=last).contains(&(winner as usize));
                 self.winners[node] = winner;
             }
@@ -94,7 +94,7 @@ impl WinnerTree {
             return None;
         }
         let mut node = self.width + slot;
-        // Up to a node with an occupied slot on its right, and down to the leftmost of these.
+        // Up to a node with an occupied slot on its right, then down to the leftmost occupied one.
         while !self.is_occupied(node) {
             while node % 2 == 1 {
                 node /= 2;

@@ -62,7 +62,7 @@ impl Dice {
 }
 
 impl Loop {
-    /// Returns true for a number the loop of which has edges between springs.
+    /// True for the number of a loop with edges between springs.
     pub fn is_sub_cell(number: u64) -> bool {
         number % 2 == 1
     }
@@ -163,7 +163,7 @@ fn roots_of_unity(count: usize) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// A number to the power of so many thirty-seconds, fewer than 64.
+/// Power of a number with an exponent in thirty-seconds, fewer than 64 of them.
 fn thirty_second_power(base: f64, thirty_seconds: u32) -> f64 {
     let mut root = base;
     let mut power = if thirty_seconds & 32 > 0 { base } else { 1.0 };

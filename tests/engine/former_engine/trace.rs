@@ -1,4 +1,4 @@
-//! Results of a loop as a list of numbers, in the same order whichever engine computes them.
+//! Results of a loop as a list of numbers, in the same order for every engine.
 
 use asperity::contact::{CurvePoint, LegRecord, Solver};
 use asperity::scene::Leg;
@@ -12,9 +12,9 @@ pub enum Quantity {
     Point,
     /// Springs and patches at points.
     Count,
-    /// Indentation, force and contact length where the force is largest.
+    /// Indentation, force and contact length at the largest force.
     Largest,
-    /// The same where the force is smallest.
+    /// Indentation, force and contact length at the smallest force.
     Smallest,
     /// Springs attached and detached.
     Change,
@@ -40,8 +40,8 @@ impl Quantity {
 pub struct Trace(pub Vec<(Quantity, u64)>);
 
 impl Trace {
-    /// Runs all legs, also those behind a refused one. `refusal` gives the number of an error and the force of its message,
-    /// `changes` the springs attached and detached.
+    /// Runs all legs, also those after a refused one. `refusal` returns the number of an error and the force of its
+    /// message, `changes` the springs attached and detached.
     pub fn new<S: Solver, E>(
         solver: &mut S,
         legs: &[Leg],
@@ -90,8 +90,8 @@ impl Trace {
 
     /// Checksum of all bits but those of energies and, with whole springs, of the largest forces.
     ///
-    /// Where the force of whole springs falls at once, the former engine gave the force of the contact before at the
-    /// indentation of the fall; the present one gives the force at the largest number below.
+    /// Where the force of whole springs falls at once, the former engine returned the force of the contact before at
+    /// the indentation of the fall; the present one returns the force at the largest number below.
     pub fn checksum(&self, sub_cell: bool) -> u32 {
         let mut hasher = Hasher::new();
         for (quantity, bits) in &self.0 {

@@ -1,5 +1,5 @@
-//! Whole springs from event to event: each rule evaluated anew for every spring it may apply to, in 192
-//! digits. No tree, no pass, no curve, and nothing rounded that could decide about a contact.
+//! Whole springs from event to event: each rule evaluated anew for every spring it may apply to, in 192 digits. No
+//! tree, no pass, no curve, and no rounding that could decide a contact.
 
 use super::wide::{Wide, pi, wide};
 use asperity::check::Body;
@@ -7,12 +7,12 @@ use asperity::check::Body;
 /// A body moved from event to event.
 pub struct Events<'a> {
     body: &'a Body,
-    /// Largest stretch of a fragment of so many springs.
+    /// Largest stretch of a fragment by its number of springs.
     stretch: Vec<Wide>,
     contact: Vec<bool>,
     indentation: Wide,
     springs: usize,
-    /// Σ c over what is in contact.
+    /// Σ c over the springs in contact.
     gaps: Wide,
 }
 
@@ -21,13 +21,13 @@ pub struct Events<'a> {
 pub struct Moved {
     pub attached: u64,
     pub detached: u64,
-    /// Σ (c − θ)² of what left less that of what joined, m².
+    /// Σ (c − θ)² of the detached springs less that of the attached ones, m².
     pub squares: Wide,
-    /// Σ (c − θ)(c + |θ|): what roundings of θ do to it, m².
+    /// Σ (c − θ)(c + |θ|): the effect of roundings of θ, m².
     pub rounding: f64,
-    /// The smallest Σ (d − c) that was held, and where.
+    /// Smallest Σ (d − c) held, and its indentation.
     pub smallest: Option<(Wide, Wide)>,
-    /// Where the last spring left, if it did.
+    /// Indentation at which the last spring detached, if it did.
     pub separated_at: Option<Wide>,
 }
 
@@ -121,7 +121,7 @@ impl<'a> Events<'a> {
 
     fn press(&mut self, to: &Wide, moved: &mut Moved) {
         loop {
-            // The next spring to join, by touch or taken in by a fragment beside it.
+            // The next spring to attach, by touch or beside a fragment.
             let touching = (0..self.contact.len()).filter(|&spring| !self.contact[spring]);
             let touching = touching.min_by(|&a, &b| self.body.gaps[a].total_cmp(&self.body.gaps[b]));
             let mut next = touching.map(|spring| (wide(self.body.gaps[spring]), spring));
@@ -148,7 +148,7 @@ impl<'a> Events<'a> {
 
     fn pull(&mut self, to: Option<&Wide>, moved: &mut Moved) {
         loop {
-            // The next spring to leave: the most stretched of its fragment.
+            // The next spring to detach: the most stretched of its fragment.
             let mut next: Option<(Wide, usize)> = None;
             for (first, springs) in self.fragments() {
                 let by_gap = |a: &usize, b: &usize| self.body.gaps[*a].total_cmp(&self.body.gaps[*b]);
@@ -164,7 +164,7 @@ impl<'a> Events<'a> {
             }
             if at < self.indentation {
                 self.indentation = at;
-                // Just before it leaves.
+                // Just before detachment.
                 self.look(moved);
             }
             self.change(spring, false, moved);

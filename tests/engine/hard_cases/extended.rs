@@ -36,7 +36,7 @@ fn compare(body: &Body) -> ([f64; 3], usize) {
             } else if let Some(at) = moved.separated_at.as_ref().filter(|_| leg == Leg::ToSeparation) {
                 assert!(distance(last.indentation, at) <= 4.0 * f64::EPSILON * size, "{leg:?}");
             }
-            // The smallest force is at an event, and moves with its rounding.
+            // The smallest force is at an event, and moves with the rounding of the event.
             if let Some((smallest, _)) =
                 moved.smallest.filter(|_| last.springs > 0 || leg == Leg::ToSeparation)
             {
@@ -86,12 +86,12 @@ fn contact_forces_pull_off_and_losses_are_those_of_exact_events() {
 
 #[test]
 fn twice_the_digits_are_there() {
-    // What the catalogue counts errors with, on numbers without a pattern.
+    // The arithmetic in which the catalogue counts errors, on numbers without a pattern.
     let numbers: Vec<f64> =
         phases(17, 1).take(400).map(|phase| (phase - 3.0) * 10.0_f64.powf(3.0 * phase - 9.0)).collect();
     let tiny = 2.0_f64.powi(-100);
     let near = |found: Extended, expected: &Wide, size: f64| {
-        // Both of its parts: the second one by what is left of the first.
+        // Both parts: the second one from the remainder of the first.
         let high = found.rounded();
         let low = (found - Extended::from(high)).rounded();
         let error = rounded(&(wide(high) + wide(low) - expected.clone())).abs();

@@ -1,5 +1,5 @@
-//! Laws for both kinds of edges that the tests of the one or the other do not hold yet: stronger adhesion
-//! holds more, units are arbitrary, and more springs on the same straight pieces change nothing.
+//! Laws for both kinds of edges not covered by the tests of one kind: stronger adhesion holds more, units are
+//! arbitrary, and more springs on the same straight pieces change nothing.
 
 use asperity::check::{Body, end};
 use asperity::contact::Foundation;
@@ -14,7 +14,7 @@ fn edges() -> impl Strategy<Value = Edges> {
     prop_oneof![Just(Edges::Grid), Just(Edges::SubCell)]
 }
 
-/// Turning points as shares of what a body can do.
+/// Turning points as shares of the range of a body.
 fn shares() -> impl Strategy<Value = Vec<f64>> {
     prop::collection::vec(0.0..1.0_f64, 1..6)
 }
@@ -64,7 +64,7 @@ proptest! {
         }).collect();
         let (one, other) =
             (body.history(edges, &legs, 2).unwrap(), scaled.history(edges, &higher, 2).unwrap());
-        // Where an event lies at a turning point to rounding, either contact is right.
+        // For an event at a turning point to rounding, either contact is right.
         let slight = |factor: f64| {
             let body = Body { work: factor * body.work, ..body.clone() };
             springs(&body, edges, &legs)
@@ -72,7 +72,7 @@ proptest! {
         prop_assume!(slight(1.0 + 1e-11) == slight(1.0 - 1e-11));
         prop_assert_eq!(&one.contacts, &other.contacts);
         let scale = body.force_scale() * (1.0 + shares.len() as f64);
-        // An edge that is about to run away turns a rounding into more.
+        // An edge about to run away amplifies a rounding.
         let steep = {
             let of = |factor: f64| Body { work: factor * body.work, ..body.clone() }.history(edges, &legs, 2);
             let [more, less] = [1.0 + 1e-11, 1.0 - 1e-11].map(|f| end(of(f).unwrap().legs.last().unwrap()));

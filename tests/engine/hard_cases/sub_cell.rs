@@ -6,7 +6,7 @@ use asperity::scene::{Edges, Leg};
 use asperity::surface::phases;
 use std::f64::consts::PI;
 
-/// Shapes in units of the depth, which lines without a pattern hardly ever have.
+/// Shapes in units of the depth, rare among lines without a pattern.
 fn shapes(points: usize) -> Vec<(&'static str, Vec<f64>)> {
     let of = |height: &dyn Fn(usize) -> f64| (0..points).map(height).collect::<Vec<f64>>();
     let share = |index: usize| index as f64 / points as f64;
@@ -37,7 +37,7 @@ fn contact_on_ties_and_chains_is_that_of_the_rule() {
                 let work = stretch * stretch * MODULUS / (PI * LENGTH);
                 let heights = shape.iter().map(|height| -RMS_HEIGHT * height).collect();
                 let body = Body::below(heights, LENGTH, MODULUS, work);
-                // With hardly more and hardly less adhesion: where these differ rounding decides.
+                // With slightly more and slightly less adhesion: where these differ rounding decides.
                 let relaxed =
                     |factor: f64| Relaxed::new(&body.gaps, body.foundation, work * factor, work * factor);
                 let mut relaxed = [relaxed(1.0), relaxed(1.0 + 1e-11), relaxed(1.0 - 1e-11)];
@@ -77,7 +77,7 @@ fn contact_on_ties_and_chains_is_that_of_the_rule() {
 
 #[test]
 fn other_roundings_of_a_line_raise_no_alarm() {
-    // Another machine may round powers and cosines otherwise: the catalogue must hold there as well.
+    // Another machine may round powers and cosines otherwise: the catalogue must also hold there.
     for seed in 0..48 {
         let body = Body::random(seed).unwrap();
         for trial in 0..25 {

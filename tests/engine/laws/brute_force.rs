@@ -5,7 +5,7 @@ use super::Body;
 /// All segments of a leg: between two thresholds the same springs are in contact.
 pub struct Steps {
     stiffness: f64,
-    /// Thresholds in ascending order, with what is in contact from there on.
+    /// Thresholds in ascending order, with the springs in contact from there on.
     steps: Vec<Step>,
     /// (threshold, gap) of each spring.
     springs: Vec<(f64, f64)>,
@@ -100,8 +100,7 @@ impl Steps {
         })
     }
 
-    /// Largest indentation up to `high` at which something is in contact and the force is at most
-    /// `force`.
+    /// Largest indentation up to `high` at which springs are in contact and the force is at most `force`.
     pub fn last_at_most(&self, force: f64, high: f64) -> Option<f64> {
         let wanted = force / self.stiffness;
         self.pieces(f64::NEG_INFINITY, high).rev().find_map(|(from, to, step)| {

@@ -1,4 +1,4 @@
-//! Numbers at the ends of what is allowed: no NaN, no infinity, and books that balance.
+//! Numbers at the ends of their ranges: no NaN, no infinity, and energies that balance.
 
 use super::*;
 use asperity::contact::{ContactError, Direction, Stepwise};
@@ -37,7 +37,7 @@ fn extreme_leg() -> impl Strategy<Value = Leg> {
     ]
 }
 
-/// What must hold of a leg that began with so many springs in contact.
+/// Checks a leg that began with this number of springs in contact.
 fn check_leg(record: &LegRecord, before: u64, springs: u64) -> Result<(), TestCaseError> {
     prop_assert!(record.dissipated_energy.is_finite(), "{:?}", record.dissipated_energy);
     for point in record.curve.iter().chain([&record.largest, &record.smallest]) {

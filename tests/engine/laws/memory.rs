@@ -1,12 +1,12 @@
-//! What the past leaves behind: closed minor loops, ordered contact sets, and no energy for nothing.
+//! Effects of the past: closed minor loops, ordered contact sets, and no free energy.
 
 use super::brute_force::Steps;
 use super::*;
 use asperity::scene::Document;
 use asperity::simulation::Simulation;
 
-/// Turning points that are still remembered at the end of a history from separation: whoever goes as
-/// far as an earlier turning point wipes out the loop that began there.
+/// Turning points that are still remembered at the end of a history from separation: a move as far as an earlier
+/// turning point erases the loop that began there.
 fn remembered(indentations: &[f64]) -> Vec<f64> {
     let mut turns = vec![f64::NEG_INFINITY];
     for &to in indentations {
@@ -15,7 +15,7 @@ fn remembered(indentations: &[f64]) -> Vec<f64> {
             let end = turns.len();
             match turns[..] {
                 [.., a, b] if a == b => turns.truncate(end - 1),
-                // b is no turn: it lies on the way.
+                // b is no turn but a point on the way.
                 [.., a, b, c] if (a < b) == (b < c) => drop(turns.remove(end - 2)),
                 // The loop from b to c and back lies on the way from a to d.
                 [.., _, b, c, d] if (b - c).abs() <= (d - c).abs() => drop(turns.drain(end - 3..end - 1)),
@@ -45,7 +45,7 @@ proptest! {
         let before = body.history(&to_indentations(&turns), 2);
         let last = turns[turns.len() - 1];
         let came_from = remembered(&turns).iter().rev().nth(1).copied().unwrap_or(f64::NEG_INFINITY);
-        // Back the way it came, but not as far as where it came from.
+        // Back along the same way, but not beyond its beginning.
         let inner = if last > came_from { inner.clamp(came_from, last) } else { inner.clamp(last, came_from) };
         let there_and_back = [&turns[..], &[inner, last]].concat();
         let after = body.history(&to_indentations(&there_and_back), 2);
@@ -88,7 +88,7 @@ proptest! {
             let end = record.curve.last().unwrap();
             let steps = Steps::new(&thresholds, &body);
             let stored_now = if end.springs > 0 { steps.stored_energy(end.indentation) } else { 0.0 };
-            // ∫F dd = what is stored + what is lost, to the rounding of the energies about.
+            // ∫F dd = stored + dissipated energy, to the rounding of the larger energies.
             let done = if stands_at < end.indentation {
                 steps.work(stands_at, end.indentation)
             } else {
@@ -181,7 +181,7 @@ fn refining_the_grid_refines_the_same_line() {
             assert!((same - height).abs() <= 1e-13 * deepest, "{factor}: {height} and {same} at {index}");
         }
     }
-    // So the figures converge, and to one value.
+    // So the figures converge to one value.
     let mut adhesion_force = |points: u64| {
         let outcome = simulation.run(&scene(points), &|| false, &mut |_, _, _| Ok(())).unwrap();
         outcome.figures.adhesion_force.unwrap()

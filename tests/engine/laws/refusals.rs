@@ -1,5 +1,4 @@
-//! Legs that cannot be done are errors with their reason, and leave the body where it was; legs without
-//! anything to do are done at once.
+//! Impossible legs are errors with their reason, and leave the body in place; empty legs are done at once.
 
 use super::*;
 use asperity::analysis::Figures;
@@ -32,7 +31,7 @@ proptest! {
                 (true, _) => ContactError::OutOfReach { index, leg: Leg::ToForce(force) },
                 (false, true) => ContactError::NothingToPull { index, force },
                 (false, false) => match error {
-                    // How small it gets is judged elsewhere; that it is said, here.
+                    // The size of `smallest` is tested elsewhere; here only that the error names it.
                     ContactError::DetachesBefore { smallest, .. } if smallest > force => error.clone(),
                     _ => ContactError::DetachesBefore { index, leg: Leg::ToForce(force), smallest: f64::NAN },
                 },
@@ -64,11 +63,11 @@ proptest! {
             prop_assert!(flown.fragments(-height).is_empty() && flown.fragments(1.0).is_empty());
             below = -height;
         }
-        // Separation is where it is already.
+        // The body is already separated.
         let record = flown.advance(Leg::ToSeparation).unwrap();
         prop_assert_eq!(record.curve.len(), 1);
         prop_assert_eq!((record.start(), record.detached, record.dissipated_energy), (below, 0, 0.0));
-        // From up there the first touch is the first touch; the way there is one more point.
+        // From up there first touch is the same; the way there is one more point.
         let (touch, expected) = (flown.advance(Leg::ToTouch).unwrap(), fresh.advance(Leg::ToTouch).unwrap());
         prop_assert_eq!(&curve_bits(&touch)[1..], &curve_bits(&expected)[..]);
         prop_assert_eq!((touch.start(), touch.attached), (below, expected.attached));
@@ -85,7 +84,7 @@ proptest! {
         let mut legs = vec![Leg::ToIndentation(to), Leg::ToSeparation];
         let figures = Figures::of(&body.history(&legs, 17));
         prop_assert!(figures.adhesion_force.is_some() && figures.dissipated_energy.is_some());
-        // High enough not to be moved towards the body from where it detached.
+        // High enough not to be moved towards the body from its point of detachment.
         let low = body.largest_stretch() + 1.0;
         legs.extend(heights.iter().map(|height| Leg::ToIndentation(-low - height)));
         legs.push(Leg::ToSeparation);

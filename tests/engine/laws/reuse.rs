@@ -1,4 +1,4 @@
-//! What is kept, copied or worked out beside the loading is what it would be alone.
+//! Kept, copied and shared results equal those computed alone.
 
 use super::*;
 use asperity::analysis::Figures;
@@ -17,7 +17,7 @@ proptest! {
         kind in 0..3,
         probes in prop::collection::vec(-1.0..1.5_f64, 8),
     ) {
-        // Its memory serves for all legs of one body, then of the other.
+        // The memory serves for all legs of one body, then of the other.
         let mut copies: Vec<LegContact> = Vec::new();
         for body in &bodies {
             let tree = body.tree();
@@ -128,7 +128,7 @@ fn what_a_simulation_keeps_changes_no_bit() {
         let scene = scene(edit);
         let found = outcome(&mut kept, &scene);
         let mut expected = outcome(&mut Simulation::default(), &scene);
-        // What is kept is not done again.
+        // Kept results are not computed again.
         let Work { random_phases, transforms, heights_binned, .. } = found.history.work;
         assert!([0, expected.history.work.random_phases].contains(&random_phases), "{edit:?}");
         expected.history.work = Work { random_phases, transforms, heights_binned, ..expected.history.work };
@@ -172,7 +172,7 @@ fn a_tree_held_by_somebody_else_stays_as_it_is() {
     assert_eq!(*held, before);
     let line = simulation.line().unwrap().gaps.clone();
     assert_eq!(**simulation.tree().unwrap(), ContactTree::build(&line, Edges::Grid).unwrap());
-    // The tree of another line is none of this one.
+    // The tree of another line is not reused.
     outcome(&mut simulation, &scene(&[("adhesion", "None"), ("roughness.seed", "2")]));
     assert!(simulation.tree().is_some());
     outcome(&mut simulation, &scene(&[("adhesion", "None"), ("roughness.seed", "3")]));

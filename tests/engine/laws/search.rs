@@ -1,11 +1,10 @@
-//! Extremes and crossings of the force against all segments of the leg, and without a trace of the
-//! number of samples.
+//! Extremes and crossings of the force against all segments of the leg, and independent of the number of samples.
 
 use super::brute_force::Steps;
 use super::*;
 use asperity::contact::{ContactError, Direction};
 
-/// Legs as they are drawn: forces as shares of a scale.
+/// Legs as drawn: forces as shares of a scale.
 #[derive(Clone, Copy, Debug)]
 enum Move {
     To(f64),
@@ -46,7 +45,7 @@ fn rounding(body: &Body, d: f64, force: f64) -> f64 {
     4.0 * f64::EPSILON * force.abs() + 1e-18 * largest_sum
 }
 
-/// The same where the indentation itself has been rounded.
+/// Rounding of a force at a rounded indentation, N.
 fn rounding_at_rounded(body: &Body, d: f64, force: f64) -> f64 {
     let springs = body.gaps.len() as f64 * body.foundation.spring_stiffness();
     rounding(body, d, force) + 8.0 * f64::EPSILON * springs * (d.abs() + body.deepest())
@@ -148,7 +147,7 @@ proptest! {
                     Direction::Unloading => (one.smallest, other.smallest),
                 };
                 prop_assert!(within_ulps(exact.0.force, exact.1.force, 2), "{:?}", exact);
-                // Where the force is the same to rounding, both ends of its stretch are right.
+                // Where the force is the same to rounding, both ends of the interval are right.
                 let stretch = body.deepest() + exact.0.indentation.abs();
                 prop_assert!((exact.0.indentation - exact.1.indentation).abs() <= 4.0 * f64::EPSILON * stretch,
                     "{:?} on {:?}", exact, leg);

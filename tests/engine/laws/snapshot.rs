@@ -1,9 +1,9 @@
-//! A contact looked at by itself: the fragments at a point of a curve give that point again.
+//! A contact by itself: the fragments at a point of a curve reproduce that point.
 
 use super::*;
 use asperity::contact::{EdgeModel, Snapshot, SubCellEdges};
 
-/// Moves a body along legs and holds points of each curve against snapshots of the fragments there.
+/// Moves a body along legs and compares points of each curve with snapshots of the fragments there.
 fn looked_at<E: EdgeModel>(body: &Body, hess: HessRule, edges: E, legs: &[Leg]) -> Result<(), TestCaseError> {
     let tree = ContactTree::build(&body.gaps, E::EDGES).unwrap();
     let mut solver = exact::adhesive(&body.gaps, &tree, edges, body.foundation, 12);
@@ -11,7 +11,7 @@ fn looked_at<E: EdgeModel>(body: &Body, hess: HessRule, edges: E, legs: &[Leg]) 
     let tolerance = 1e-9 * body.force_scale();
     for &leg in legs {
         let record = solver.advance(leg).unwrap();
-        // A point at which part of the contact jumps has it on one side or the other.
+        // At a point where part of the contact jumps, either side is right.
         for point in &record.curve {
             let fragments = solver.fragments(point.indentation);
             let rises = solver.rises(point.indentation);
@@ -30,7 +30,7 @@ fn looked_at<E: EdgeModel>(body: &Body, hess: HessRule, edges: E, legs: &[Leg]) 
                 seen,
                 point
             );
-            // The parts add up to the whole, and none is stretched further than it can be.
+            // The parts sum to the whole, and none is stretched beyond its limit.
             let parts: Vec<_> = fragments
                 .iter()
                 .enumerate()
@@ -72,7 +72,7 @@ proptest! {
         }
     }
 
-    /// The contacts a history ends with are as many as its last point says: none after separation.
+    /// A history ends with as many contacts as its last point has fragments: none after separation.
     #[test]
     fn a_history_ends_with_the_contacts_of_its_last_point(body in body(), turns in indentations(5), apart: bool) {
         let mut legs = to_indentations(&turns);

@@ -1,4 +1,4 @@
-//! No adhesion is reversible; scales of height and of stress only scale; a mirror only mirrors.
+//! Contact without adhesion is reversible; scales of height and of stress only scale; a mirror only mirrors.
 
 use super::*;
 
@@ -23,7 +23,7 @@ fn scaled_legs(legs: &[Leg], length: f64, force: f64) -> Vec<Leg> {
     legs.iter().map(scale).collect()
 }
 
-/// A history that every body can follow.
+/// A history possible for every body.
 fn legs(body: &Body, turns: &[f64], force: f64) -> Vec<Leg> {
     let mut legs = vec![Leg::ToForce(force * body.force_scale())];
     legs.extend(to_indentations(turns));

@@ -1,4 +1,4 @@
-//! Forces met exactly where the contact jumps.
+//! Forces reached exactly where the contact jumps.
 
 use super::*;
 use asperity::contact::{Manual, ManualLoading};
@@ -7,8 +7,9 @@ use std::sync::Arc;
 proptest! {
     #![proptest_config(cases(300))]
 
-    /// One spring carries just the force wanted where a second one attaches, stretched by s, and takes as much of it
-    /// away: both carry it half of s deeper than the second one touches by itself, less half of the first one's depth.
+    /// One spring carries just the wanted force where a second one attaches, stretched by s, and reduces the force
+    /// accordingly: both carry it half of s deeper than the second one touches by itself, less half of the first one's
+    /// depth.
     #[test]
     fn a_force_lost_as_it_is_reached_is_met_further_on(wall in 0.25..1.0_f64, share in 0.05..0.9_f64, first: bool) {
         // E* Δx = 1 N/m: force and compression are the same number.
@@ -27,7 +28,7 @@ proptest! {
         prop_assert_eq!(manual.point().indentation, record.end());
     }
 
-    /// The smallest force of a way back can be reached but for its rounding, and no smaller one.
+    /// The smallest force of an unloading is reached except for its rounding, and no smaller one.
     #[test]
     fn the_smallest_force_is_reached_and_none_below(body in body(), deep in 0.2..1.2_f64) {
         let foundation = Foundation::endless(0.25, 4.0);

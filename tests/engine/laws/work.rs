@@ -1,9 +1,9 @@
-//! As much as is asked for and no more: points of a curve, memory that is held, and work that is counted.
+//! No more than requested: points of a curve, held memory, and counted work.
 
 use super::*;
 use asperity::contact::{AdhesiveMemory, LegContact, Stepwise};
 
-/// As many flat punches of so many springs at one height, far apart, above springs that are never reached.
+/// This number of flat punches of `springs` springs at one height, far apart, above springs out of reach.
 fn punches(count: usize, springs: usize) -> Body {
     let punch = [vec![0.0; springs], vec![100.0; 3 * springs]].concat();
     Body { gaps: punch.repeat(count), foundation: Foundation::endless(0.01, 1.0), work: 1e-4, closing: 1.0 }
@@ -12,7 +12,7 @@ fn punches(count: usize, springs: usize) -> Body {
 proptest! {
     #![proptest_config(cases(200))]
 
-    /// The points of a curve divide the leg evenly; beside them is the extreme of the force where it lies between.
+    /// The points of a curve divide the leg evenly; an extreme of the force between them is added.
     #[test]
     fn curves_have_the_samples_asked_for(
         body in body(),
@@ -91,7 +91,7 @@ fn memory_left_to_the_next_body_grows_with_the_line() {
 proptest! {
     #![proptest_config(cases(200))]
 
-    /// F_a(0) takes one pass and looks at the springs that touch first and those they attach.
+    /// F_a(0) takes one pass and visits the springs that touch first and those that these attach.
     #[test]
     fn the_way_back_from_first_touch_looks_at_the_springs_in_contact(body in body()) {
         let tree = body.tree();
@@ -104,8 +104,8 @@ proptest! {
         prop_assert!((force - back.legs[1].smallest.force).abs() <= tolerance, "{} {:?}", force, back.legs[1].smallest);
     }
 
-    /// A node for each place inside the line behind which the gap no longer rises; and a tree built in the memory of
-    /// another takes no more than a new one.
+    /// A node for each place inside the line after which the gap no longer rises; a tree rebuilt in the memory of
+    /// another is no larger than a new one.
     #[test]
     fn a_tree_has_a_node_for_each_summit_of_the_gap(gaps in gaps()) {
         let tree = ContactTree::build(&gaps, Edges::Grid).unwrap();
@@ -136,6 +136,6 @@ fn curves_take_some_of_the_time_and_not_more() {
     }
     let taken = clock.elapsed().as_secs_f64();
     assert!(exact.curve_seconds() > 0.0 && exact.curve_seconds() < taken);
-    // Each step gives its point of the curve by itself.
+    // Each step adds its own point to the curve.
     assert_eq!(stepwise.curve_seconds(), 0.0);
 }

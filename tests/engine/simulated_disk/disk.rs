@@ -1,9 +1,8 @@
 //! A disk of which any operation can fail, be torn, or be the last one before the process or the machine ends.
 //!
-//! Operations are done in a real folder, which is what a process sees: the system's memory of the disk. Beside
-//! that, the disk knows what has been synchronised. After a power cut it makes the folder that would be found:
-//! what was synchronised, and of the rest whatever is asked for. No order is assumed between two changes of which
-//! none was synchronised.
+//! Operations are done in a real folder, the process's view: the system's memory of the disk. Besides, the disk knows
+//! the synchronised content. After a power cut it makes the folder that would be found: the synchronised part, and of
+//! the rest a chosen part. No order is assumed between two changes of which none was synchronised.
 
 use asperity::io::{Disk, DiskFile};
 use rand::{RngExt, SeedableRng};
@@ -14,25 +13,25 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard};
 
-/// What happens at an operation.
+/// Fault of an operation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fault {
-    /// It fails, and those after it do not.
+    /// The operation fails; those after it do not.
     Failure,
-    /// Half of what is written is written, then it fails. Other operations fail whole.
+    /// Half of the bytes are written, then the write fails. Other operations fail whole.
     Torn,
-    /// It is done, and is the last one of this process.
+    /// The operation is done, and is the last one of this process.
     Kill,
 }
 
-/// What is found after a power cut of what was not synchronised.
+/// Survivors of a power cut among changes that were not synchronised.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Survival {
     Nothing,
     Everything,
-    /// All names, and of files what was synchronised.
+    /// All names, and the synchronised content of files.
     Names,
-    /// All content, under the names that were synchronised.
+    /// All content, under the synchronised names.
     Content,
     /// All names, and half of the bytes of each file.
     Half,
@@ -62,7 +61,7 @@ impl Change {
     fn apply(&self, names: &mut Names) {
         match self {
             Change::Add(path, node) => drop(names.insert(path.clone(), *node)),
-            // What was in a folder goes with it.
+            // The content of a folder goes with it.
             Change::Remove(path) => names.retain(|name, _| !name.starts_with(path)),
             Change::Rename(from, to, node) => {
                 names.remove(from);
@@ -77,16 +76,16 @@ struct State {
     nodes: Vec<Node>,
     names: Names,
     synced: Names,
-    /// With the folder that each is in.
+    /// Each with its folder.
     pending: Vec<(PathBuf, Change)>,
     operations: Vec<String>,
     fault: Option<(usize, Fault)>,
-    /// Beginning of the names of operations, and the one of these, from 1, that ends the process.
+    /// Prefix of the names of operations, and the number, from 1, of the one that ends the process.
     kill_at: Option<(&'static str, usize)>,
     ended: bool,
-    /// The kind of operation that says it has synchronised, and has not.
+    /// The kind of operation that reports a synchronisation and omits it.
     deceit: Option<&'static str>,
-    /// Where files without a name have theirs; `None` on a disk without such files.
+    /// Folder for files without a name; `None` on a disk without such files.
     nameless: Option<tempfile::TempDir>,
 }
 
@@ -107,7 +106,7 @@ fn failure(what: &str) -> io::Error {
 }
 
 impl SimulatedDisk {
-    /// A disk on which all that is in a folder has been synchronised.
+    /// A disk on which the whole content of a folder has been synchronised.
     pub fn new(root: &Path) -> SimulatedDisk {
         let mut state = State::default();
         let mut folders = vec![root.to_path_buf()];
@@ -132,14 +131,14 @@ impl SimulatedDisk {
         SimulatedDisk { root: root.to_path_buf(), state: Arc::new(Mutex::new(state)) }
     }
 
-    /// Lets the operation with this number, from 0, go wrong.
+    /// A disk with a fault at the operation of this number, from 0.
     pub fn with_fault(root: &Path, operation: usize, fault: Fault) -> SimulatedDisk {
         let disk = SimulatedDisk::new(root);
         disk.lock().fault = Some((operation, fault));
         disk
     }
 
-    /// A disk on which operations of a kind do not synchronise what they say they do.
+    /// A disk on which operations of a kind report a synchronisation and omit it.
     pub fn deceiving(root: &Path, kind: &'static str) -> SimulatedDisk {
         let disk = SimulatedDisk::new(root);
         disk.lock().deceit = Some(kind);
@@ -150,12 +149,12 @@ impl SimulatedDisk {
         Arc::new(self.clone())
     }
 
-    /// What has been done so far.
+    /// Operations so far.
     pub fn operations(&self) -> Vec<String> {
         self.lock().operations.clone()
     }
 
-    /// The same disk, with files that have no name until they are given one.
+    /// The same disk with files that are nameless until linked.
     pub fn with_nameless_files(self) -> SimulatedDisk {
         self.lock().nameless = Some(tempfile::tempdir().unwrap());
         self
@@ -167,7 +166,7 @@ impl SimulatedDisk {
         self.lock().kill_at = Some((prefix, count));
     }
 
-    /// Another process uses the disk, of which no operation goes wrong.
+    /// Lets another process use the disk, without faults.
     pub fn go_on(&self) {
         let mut state = self.lock();
         (state.fault, state.kill_at, state.ended) = (None, None, false);
@@ -191,7 +190,7 @@ impl SimulatedDisk {
         }
         for (path, &node) in &names {
             let place = into.join(path.strip_prefix(&self.root).unwrap());
-            // What is in a folder that is lost is lost.
+            // The content of a lost folder is lost.
             if !place.parent().unwrap().is_dir() {
                 continue;
             }
@@ -224,7 +223,7 @@ impl SimulatedDisk {
         self.state.lock().unwrap()
     }
 
-    /// Begins an operation: whether it is the last one, or why it is not done.
+    /// Begins an operation: returns true if it is the last one, or the error that prevents it.
     fn begin(&self, what: &str, path: &Path) -> io::Result<(MutexGuard<'_, State>, bool)> {
         let mut state = self.lock();
         if state.ended {
@@ -244,7 +243,7 @@ impl SimulatedDisk {
         }
         match state.fault {
             Some((operation, Fault::Failure)) if operation == number => Err(failure("failure")),
-            // Writing does this by itself.
+            // A write tears by itself.
             Some((operation, Fault::Torn)) if operation == number && what != "write" => {
                 Err(failure("failure"))
             }
@@ -260,7 +259,7 @@ impl SimulatedDisk {
         if last { Err(failure("the process ends here")) } else { Ok(done) }
     }
 
-    /// Adds a name that the system has accepted.
+    /// Adds a name accepted by the system.
     fn add(state: &mut State, path: &Path, node: Node) -> usize {
         let number = state.nodes.len();
         state.nodes.push(node);

@@ -3,7 +3,7 @@
 
 use asperity::contact::Foundation;
 
-/// Points of a stretch of levels at which the rule is looked at before it is bisected.
+/// Points of a stretch of levels at which the rule is evaluated before bisection.
 const POINTS: usize = 24;
 
 /// A fragment: the component of {c ≤ level} that holds a spring.
@@ -35,7 +35,7 @@ pub struct Relaxed<'a> {
     foundation: Foundation,
     /// Largest stretch of a fragment one cell long before it grows, m.
     closing: f64,
-    /// The same before it recedes.
+    /// Largest stretch of a fragment one cell long before it recedes, m.
     opening: f64,
     indentation: f64,
     fragments: Vec<Fragment>,
@@ -142,7 +142,7 @@ impl<'a> Relaxed<'a> {
         next
     }
 
-    /// Drops what lies within another fragment.
+    /// Drops fragments within another one.
     fn merge(&mut self) {
         let parts: Vec<Part> = self.parts().map(|(_, part)| part).collect();
         let is_within = |a: usize, b: usize| {
@@ -158,21 +158,21 @@ impl<'a> Relaxed<'a> {
     }
 
     fn pull(&mut self) {
-        // A part that a spring has just left does not reach up to that spring's gap any more.
+        // A part that a spring has just left no longer reaches up to the gap of that spring.
         let mut waiting: Vec<_> = self.fragments.drain(..).map(|fragment| (fragment, true)).collect();
         while let Some((Fragment { spring, level }, closed)) = waiting.pop() {
             let below = self.last_gap(level, closed);
             let stop = below.max(self.indentation);
             match self.sink(spring, level, stop, closed) {
                 Some(level) => self.fragments.push(Fragment { spring, level }),
-                // What is not stretched stays.
+                // An unstretched fragment stays.
                 None if below <= self.indentation => {
                     let part = self.part(spring, level, closed);
                     let held = (part.first..=part.last).find(|&spring| self.gaps[spring] <= stop);
                     self.fragments.extend(held.map(|spring| Fragment { spring, level: stop }));
                 }
                 None => {
-                    // Springs of this gap leave, and each part that lies lower goes on by itself.
+                    // Springs of this gap detach, and each lower part goes on by itself.
                     let part = self.part(spring, level, closed);
                     let lower = |spring: usize| self.gaps[spring] < below;
                     let starts =
@@ -184,7 +184,7 @@ impl<'a> Relaxed<'a> {
         }
     }
 
-    /// The level down to which a fragment sinks, above `stop`; `None` when it sinks to there.
+    /// The level down to which a fragment sinks, above `stop`; `None` if it sinks to `stop`.
     fn sink(&self, spring: usize, level: f64, stop: f64, closed: bool) -> Option<f64> {
         let rest = |at: f64| self.rest(self.opening, spring, at, closed || at < level);
         if rest(level) < self.indentation {
@@ -225,7 +225,7 @@ impl<'a> Relaxed<'a> {
         self.integral(|d, a, b, share| share * (d - 0.5 * (a + b)))
     }
 
-    /// The sum over all cells in contact, of which the share from gap a to gap b is held.
+    /// Sum of `cell` over all cells in contact, each with the share held from gap a to gap b.
     fn integral(&self, cell: impl Fn(f64, f64, f64, f64) -> f64) -> f64 {
         let mut sum = 0.0;
         for (level, part) in self.parts() {
@@ -244,7 +244,7 @@ impl<'a> Relaxed<'a> {
     }
 }
 
-/// Two neighbours between `low`, of which `is_past` does not say so, and `high`, of which it does.
+/// Two neighbouring numbers between `low`, for which `is_past` is false, and `high`, for which it is true.
 fn bisect(mut low: f64, mut high: f64, is_past: impl Fn(f64) -> bool) -> (f64, f64) {
     for _ in 0..200 {
         let middle = low + 0.5 * (high - low);

@@ -67,7 +67,8 @@ fn power_laws_converge_with_the_square_of_the_distance() {
     ] {
         for odd in [true, false] {
             let grids = grids(odd);
-            // An error depends on where in its cell an edge is: the worst of some grids of about as many springs.
+            // An error depends on the position of an edge in its cell: the worst of some grids of about as many
+            // springs.
             let worst = |&points: &usize| {
                 let grids = (0..8).map(|k| points + 2 * (k * points / 100));
                 let worse = |one: [f64; 4], other: [f64; 4]| {
@@ -131,7 +132,7 @@ impl WavySphere {
         2.0 * (a * self.indentation(a) - a.powi(3) / 3.0 - of_wave)
     }
 
-    /// Intervals of a in which d rises with a: all that an equilibrium is stable in.
+    /// Intervals of a in which d rises with a: those of stable equilibrium.
     fn stable(&self) -> Vec<(f64, f64)> {
         let steps = 4000;
         let radius = |k: i32| Self::WIDEST * f64::from(k) / f64::from(steps);
@@ -243,7 +244,7 @@ fn waves(sphere: &WavyForm, deepest: f64, points: usize) -> [f64; 3] {
     [unloading.smallest.force, unloading.end(), energy]
 }
 
-/// The same by the closed form.
+/// Pull-off, place of separation and energy by the closed form.
 fn by_closed_form(sphere: &WavyForm, deepest: f64) -> [f64; 3] {
     let cycle = sphere.cycle(deepest, 0.5).unwrap();
     [cycle.smallest_force, cycle.separation, cycle.dissipated_energy]
@@ -259,7 +260,7 @@ fn the_wavy_form_converges_with_the_square_of_the_distance_to_its_closed_form() 
         let errors: Vec<[f64; 3]> = grids
             .iter()
             .map(|&points| {
-                // One grid may meet a number by chance.
+                // One grid may match a number by chance.
                 (0..8).map(|k| points + 2 * (k * points / 100)).fold([0.0_f64; 3], |worst, points| {
                     let found = waves(&sphere, 0.06, points);
                     std::array::from_fn(|index| {
@@ -282,13 +283,13 @@ fn the_wavy_form_converges_with_the_square_of_the_distance_to_its_closed_form() 
     }
 }
 
-/// Contact radius of a sphere with waves on its way up to an indentation, or back from a larger one, by δ(a) alone: the
-/// smallest radius at which δ reaches the indentation, or the largest one below which δ falls under it.
+/// Contact radius of a sphere with waves on loading to an indentation, or on unloading from a larger one, by δ(a)
+/// alone: the smallest radius at which δ reaches the indentation, or the largest one below which δ falls under it.
 struct Branch<'a> {
     exact: &'a WavyForm,
     loading: bool,
     widest: f64,
-    /// δ at radii of equal distances, from the first one on.
+    /// δ at evenly spaced radii, from the first one on.
     levels: Vec<f64>,
 }
 
@@ -372,7 +373,7 @@ fn below_the_monotone_limit_the_rule_detaches_before_jkr() {
     assert!((-jkr[0] / smooth - 1.556_549).abs() < 2e-6, "{}", -jkr[0] / smooth);
 }
 
-/// Waves of a sphere with λ²/(AR) = 5 by the closed form of the rule, at whatever resolution.
+/// Waves of a sphere with λ²/(AR) = 5 by the closed form of the rule, at any resolution.
 #[test]
 fn steep_waves_follow_the_closed_form_of_the_rule() {
     let sphere = wavy_sphere(2e-3, 0.1);
@@ -448,12 +449,12 @@ impl TwoWorks {
         2.0 * body.line_coefficient * a - (2.0 * PI * a * body.work_of_adhesion).sqrt() / (2.0 * a)
     }
 
-    /// Indentation at which the edge is pinned no more, m.
+    /// Indentation at which the edge is released, m.
     fn released(&self) -> f64 {
         self.opening.indentation(self.turns.1)
     }
 
-    /// Force at an indentation on the way back.
+    /// Force at an indentation on unloading.
     fn force(&self, d: f64) -> f64 {
         let (deepest, radius) = self.turns;
         if d >= self.released() {
@@ -552,7 +553,7 @@ fn without_adhesion_loading_and_unloading_agree_bit_for_bit_with_order_two() {
         };
         let mut back = bits(&down.curve);
         back.reverse();
-        // The first point of the way in is the one before anything touches.
+        // The first point of the loading is the one before touch.
         assert_eq!(bits(&up.curve[1..]), back);
         assert_eq!(up.dissipated_energy + down.dissipated_energy, 0.0);
         let exact = |d: f64| 10.0 * n / (n + 1.0) * d * (d / c).powf(n.recip());
@@ -617,7 +618,7 @@ fn rough_lines_of_few_modes_converge_with_the_square_of_the_distance_in_the_medi
 
 #[test]
 fn rough_bodies_of_revolution_converge_with_the_square_of_the_distance_in_the_median() {
-    // Form and roughness lie on each other as they do on any other grid, and the tip is on a spring.
+    // Form and roughness are aligned as on any other grid, and the tip is on a spring.
     for (name, form) in [("sphere", Form::Paraboloid { radius: 0.5 }), ("cone", Form::Cone { angle: 0.3 })] {
         for order in orders_of_rough_lines(name, Some(form)) {
             assert!(order >= 1.8, "{name}: order {order}");

@@ -1,5 +1,4 @@
-//! Laws that hold for every line: energy, memory, order, symmetries, and that extremes and crossings of the
-//! force are found exactly.
+//! Laws for every line: energy, memory, order, symmetries, and exact extremes and crossings of the force.
 
 use super::*;
 
@@ -20,8 +19,8 @@ proptest! {
         body in any_body(40),
         turns in prop::collection::vec(-0.9..1.3_f64, 1..7),
     ) {
-        // From event to event and between them on fine steps: Simpson's rule on a curve that is smooth but for
-        // jumps, where the steps are.
+        // From event to event and between them on fine steps: Simpson's rule on a curve that is smooth except at jumps,
+        // where steps are.
         let history = body.history(&[to(&turns), vec![Leg::ToSeparation]].concat(), 30_000);
         let lost: f64 = history.legs.iter().map(|leg| leg.dissipated_energy).sum();
         let work: f64 = history.legs.iter().flat_map(|leg| leg.curve.windows(2)).map(|p| {

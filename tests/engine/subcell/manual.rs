@@ -3,7 +3,7 @@
 use super::*;
 use asperity::contact::{Manual, ManualError, ManualLoading};
 
-/// Where a move goes; forces in units of those that act.
+/// Target of a move; forces in units of the acting ones.
 #[derive(Clone, Copy, Debug)]
 enum Goal {
     Indentation(f64),

@@ -1,4 +1,4 @@
-//! The same contact as brute force relaxes to, after any history.
+//! The same contact as relaxed by brute force, after any history.
 
 use super::brute_force::Relaxed;
 use super::*;
@@ -13,22 +13,22 @@ proptest! {
     ) {
         let tree = body.tree();
         let mut solver = body.on(&tree, 6);
-        // A body with hardly more and one with hardly less adhesion: where these are not in the same
-        // fragments, an event lies at the turning point to rounding and either is right.
+        // One body with hardly more and one with hardly less adhesion: where their fragments differ, an event lies at
+        // the turning point to rounding and either is right.
         let work = |factor: f64| {
             Relaxed::new(&body.gaps, body.foundation, body.closing_work * factor, body.work * factor)
         };
         let mut relaxed: [Relaxed; 3] = [work(1.0), work(1.0 + 1e-11), work(1.0 - 1e-11)];
-        // What rounding of the indentation alone does to the force.
+        // Effect of the rounding of the indentation alone on the force.
         let springs = body.gaps.len() as f64 * body.foundation.spring_stiffness();
         let largest = 0.01 * springs * (1.3 + body.largest_stretch());
         for turn in turns {
             let record = solver.advance(Leg::ToIndentation(turn)).unwrap();
             let before = record.curve.iter().filter(|point| point.springs > 0).count();
             for (index, point) in record.curve.iter().enumerate() {
-                // Where it detaches or forms at once, the point before and the point after.
+                // At a jump, the point before and the point after.
                 let moved_on = record.curve.get(index + 1).is_some_and(|p| p.indentation == point.indentation);
-                // Nor does the brute force distinguish levels that are 0 but for the rounding of any gap.
+                // Brute force does not distinguish levels that are 0 except for the rounding of any gap.
                 if moved_on || before == 0 || point.indentation.abs() < 1e-16 {
                     continue;
                 }

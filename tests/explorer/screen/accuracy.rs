@@ -1,4 +1,4 @@
-//! What accuracy costs, the error in the status line, springs for a tolerance.
+//! The cost of accuracy, the error in the status line, springs for a tolerance.
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
@@ -123,7 +123,7 @@ fn what_accuracy_costs_is_shown_beside_what_can_be_changed() {
         driver.press("A");
         assert_eq!((driver.model.large, driver.model.pane), (None, Pane::Force));
         assert!(driver.text().contains("Profile"), "{}", driver.text());
-        // It is not measured twice.
+        // Costs are not measured twice.
         assert!(driver.model.appraisal.costs.is_whole);
         assert_eq!(driver.press("A"), [Effect::Study, Effect::Show]);
         assert!(driver.text().contains("order 2.0"));
@@ -154,7 +154,7 @@ fn an_edit_forgets_what_was_found_out() {
     within(60, || {
         let mut driver = measured(rough());
         let before = driver.model.generation;
-        // Nobody answers any more.
+        // No answers any more.
         driver.appraiser = None;
         driver.select("roughness.hurst");
         assert_eq!(driver.press("l"), [Effect::Compute]);
@@ -163,7 +163,7 @@ fn an_edit_forgets_what_was_found_out() {
         assert_eq!(driver.model.appraisal.costs, Costs::default());
         assert!(driver.status().contains("± …"), "{}", driver.status());
         assert!(driver.text().contains("measuring"), "{}", driver.text());
-        // What comes late changes nothing.
+        // Late answers change nothing.
         let screen = driver.screen();
         let scene = Arc::new(rough().scene().clone());
         for finding in [
@@ -191,7 +191,7 @@ fn the_headline_has_its_error_and_its_time() {
         driver.resize((200, 40));
         driver.press("I");
         assert!(driver.status().trim_end().ends_with(" 0 s"), "{}", driver.status());
-        // Pictures that are the same always have no times, and wait for nothing.
+        // Reproducible pictures have no times, and wait for nothing.
         driver.model.shows_times = false;
         assert!(driver.status().contains("N ± 0.4 % "), "{}", driver.status());
         assert!(!driver.status().trim_end().ends_with(" 0 s"), "{}", driver.status());
@@ -204,7 +204,7 @@ fn the_headline_has_its_error_and_its_time() {
             driver.status()
         );
         assert!(!stated(None).status().contains('±'), "an unknown error is left out");
-        // Where nothing pulls, the largest force, and how good its curve is.
+        // Without a pulling force: the largest force, and the error of its curve.
         let curve = Estimate { target: Target::Curve, ..estimate(0.02).unwrap() };
         let driver = driver_with(without_adhesion(), Some(curve), Ok(table()));
         assert!(driver.status().starts_with("F_max 20 µN curve ± 2 %"), "{}", driver.status());
@@ -231,7 +231,7 @@ fn a_tolerance_is_an_edit_that_can_be_taken_back() {
         let answer = driver.model.appraisal.answer.clone().unwrap();
         assert!(answer.contains("the fewest found to keep the adhesion force within 1e-3"), "{answer}");
         assert!(driver.text().contains("2 048 springs with edges SubCell: the fewest"), "{}", driver.text());
-        // It was found out from finer solutions than an estimate.
+        // The known error is from finer solutions than an estimate.
         assert!(matches!(&driver.model.appraisal.estimated, Estimated::Known(known) if known.error == 4e-4));
         let generation = driver.model.generation;
         ask(&mut driver, "0.1 %");
@@ -260,7 +260,7 @@ fn a_tolerance_out_of_reach_changes_nothing() {
         driver.press("% 1 Esc");
         assert!(driver.model.notice.is_none() && driver.model.appraisal.choosing.is_none());
         assert_eq!((driver.model.document.text(), driver.model.generation), (text.as_str(), generation));
-        // Nothing is chosen for a scene that is not there.
+        // No choice for a missing scene.
         let mut driver = Driver::open(rough());
         driver.press("%");
         assert!(driver.status().contains("not before"), "{}", driver.status());
@@ -279,39 +279,39 @@ fn measure(scene: &Arc<Scene>) -> Task {
 }
 
 fn endless() -> (Study, Receiver<Found>, Receiver<&'static str>) {
-    let (says, said) = channel();
+    let (sender, events) = channel();
     let (report, reports) = channel();
-    let endless = StandIn::endless(says, |data, report| {
+    let endless = StandIn::endless(sender, |data, report| {
         let PaneData::Costs(scene, _) = data else { return data };
         report(trying(&scene, "samples: 8"));
         trying(&scene, "too late")
     });
     let study = Study::start(Box::new(endless), move |found| report.send(found).is_ok()).unwrap();
-    (study, reports, said)
+    (study, reports, events)
 }
 
 #[test]
 fn what_is_measured_ends_as_soon_as_something_else_is_asked_for() {
     within(60, || {
-        let (study, reports, said) = endless();
+        let (study, reports, events) = endless();
         let scene = Arc::new(rough().scene().clone());
         let next = || reports.recv_timeout(PATIENCE).expect("a finding");
         for round in 1..=2 {
             study.ask(round, vec![measure(&scene)]);
-            assert_eq!(said.recv_timeout(PATIENCE), Ok("begun"));
+            assert_eq!(events.recv_timeout(PATIENCE), Ok("begun"));
             assert_eq!(next().finding, Finding::Extended(trying(&scene, "samples: 8")));
-            // An edit stops it, a tolerance takes its place.
+            // An edit stops the measurement, a tolerance takes its place.
             if round == 1 {
                 study.stop();
             } else {
                 study.ask(round, vec![Task::Choose(Arc::clone(&scene), 0.1)]);
             }
-            assert_eq!(said.recv_timeout(PATIENCE), Ok("stopped"));
+            assert_eq!(events.recv_timeout(PATIENCE), Ok("stopped"));
         }
         // No message was shown in between.
         let chosen = Finding::Chosen(0.1, Err(ChoiceError::Stepwise));
         assert_eq!(next(), Found { generation: 2, finding: chosen });
-        // The explorer leaves: so does the study.
+        // Leaving the explorer ends the study.
         drop(study);
         assert!(reports.recv_timeout(PATIENCE).is_err());
     });
@@ -320,15 +320,15 @@ fn what_is_measured_ends_as_soon_as_something_else_is_asked_for() {
 #[test]
 fn a_key_held_down_begins_nothing() {
     within(60, || {
-        let (study, reports, said) = endless();
+        let (study, reports, events) = endless();
         let scene = Arc::new(rough().scene().clone());
         for generation in 1..=50 {
             study.ask(generation, vec![measure(&scene)]);
         }
-        assert_eq!(said.recv_timeout(PATIENCE), Ok("begun"));
+        assert_eq!(events.recv_timeout(PATIENCE), Ok("begun"));
         assert_eq!(reports.recv_timeout(PATIENCE).map(|found| found.generation), Ok(50));
-        assert!(said.try_recv().is_err(), "of fifty only the last was begun");
+        assert!(events.try_recv().is_err(), "of fifty only the last was begun");
         study.stop();
-        assert_eq!(said.recv_timeout(PATIENCE), Ok("stopped"));
+        assert_eq!(events.recv_timeout(PATIENCE), Ok("stopped"));
     });
 }

@@ -1,4 +1,4 @@
-//! The map over H and κ: what it shows, its mark, which is the scene, and what is computed of it when.
+//! The map over H and κ: its content, its mark at the scene, and the order of its computations.
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
@@ -67,7 +67,7 @@ fn driver_with(document: Document, levels: &[Level]) -> Driver {
     driver
 }
 
-/// The explorer with a whole map, and the map shown.
+/// The explorer with a complete map on display.
 pub fn charted(document: Document) -> Driver {
     driver_with(document, &Level::ALL)
 }
@@ -91,7 +91,7 @@ fn e_maps_over_the_elastic_energy() {
         }
         let ratio = driver.model.governing().unwrap().elastic_energy_ratio.unwrap();
         assert_eq!(place(&driver), (ratio, over_kappa.1));
-        // The mark goes to values of the map, and the scene with it.
+        // The mark moves to values of the map, and the scene with it.
         driver.press("k");
         let (moved, _) = place(&driver);
         let mut values =
@@ -155,15 +155,15 @@ fn the_map_says_without_colours_what_it_says_with_them() {
         assert!(driver.text().is_ascii() && driver.text().contains("##"), "{}", driver.text());
         driver.model.appearance.marker = Marker::Braille;
         // Each quantity has a legend of its own, with the scale of the shades, and the regimes as letters.
-        for (quantity, said) in [
+        for (quantity, expected) in [
             (Quantity::ZeroLoadAdhesionShare, "F_a(0)/F_a,max "),
             (Quantity::AdhesionCoefficient, "F_a/F_n "),
         ] {
             driver.press("V");
             assert_eq!(driver.model.chart.quantity, Charted::Quantity(quantity));
-            for said in [said, "···", "███", "i pressure-insensitive", "▁▕ F_a(0) = 0.05 F_a,max"]
+            for expected in [expected, "···", "███", "i pressure-insensitive", "▁▕ F_a(0) = 0.05 F_a,max"]
             {
-                assert!(driver.text().contains(said), "{said}\n{}", driver.text());
+                assert!(driver.text().contains(expected), "{expected}\n{}", driver.text());
             }
         }
         driver.press("V");
@@ -226,19 +226,22 @@ fn the_map_is_exported_as_it_is_seen() {
             )
         );
         let (figure, _) = export("", "map.svg");
-        for said in ["Hurst exponent", "pressure-sensitive", "adhesion coefficient"] {
-            assert!(figure.starts_with("<svg") && figure.contains(said), "{said}");
+        for expected in ["Hurst exponent", "pressure-sensitive", "adhesion coefficient"] {
+            assert!(figure.starts_with("<svg") && figure.contains(expected), "{expected}");
         }
-        let (_, said) = export("", "map.png");
-        assert!(said.starts_with("exported to"), "{said}");
+        let (_, message) = export("", "map.png");
+        assert!(message.starts_with("exported to"), "{message}");
         assert!(std::fs::read(folder.path().join("map.png")).unwrap().starts_with(b"\x89PNG\r\n\x1a\n"));
         let (figure, _) = export("X", "sections.svg");
         assert!(figure.starts_with("<svg") && figure.contains("at κ 8"), "{figure}");
         let (cells, _) = export("", "sections.csv");
         assert_eq!(cells.lines().count(), 1 + COLUMNS + HURSTS - 1);
-        let (nothing, said) = export("", "map.json");
-        assert!(nothing.is_empty() && said.contains("the name must end in .csv, .svg, .png, .txt"), "{said}");
-        // The curve, while another pane is selected.
+        let (nothing, message) = export("", "map.json");
+        assert!(
+            nothing.is_empty() && message.contains("the name must end in .csv, .svg, .png, .txt"),
+            "{message}"
+        );
+        // The curve, with another pane selected.
         driver.press("Tab Tab E");
         assert!(driver.status().contains("Export to"), "{}", driver.status());
     });
@@ -304,7 +307,7 @@ fn adhesion_given_by_its_work_stays_so() {
         let (at, hurst) = place(&driver);
         assert!((0..COLUMNS).any(|column| (kappa(column) / at - 1.0).abs() < 1e-9), "{at}");
         assert_eq!(hurst, 0.75);
-        // What ran agrees.
+        // The computed value agrees.
         let computed = driver.model.computed.as_ref().unwrap().outcome.governing.kappa.unwrap();
         assert!((computed / at - 1.0).abs() < 1e-9);
     });
@@ -345,18 +348,18 @@ fn other_edits_begin_the_map_anew_and_wait_for_quiet() {
         driver.press("Tab Tab R");
         assert_eq!(chart(&driver), Some((None, true)));
         assert!(driver.text().contains("computing the map"), "{}", driver.text());
-        // What comes late is of no use.
+        // Late reports are dropped.
         let generation = driver.model.generation - 1;
         let late = Arc::new(LiveMap::new(Arc::new(Template::of(rough().scene()).unwrap())));
         driver.act(Action::Found(Found { generation, finding: Finding::Extended(PaneData::Map(late)) }));
         assert!(driver.model.chart.map.is_none());
-        // Nobody looks on.
+        // The map is hidden.
         driver.press("m m");
         assert!(!driver.model.is_shown(Pane::Chart));
         assert_eq!(chart(&driver), None);
         assert_eq!(driver.press("m"), [Effect::Study, Effect::Show]);
         assert_eq!(chart(&driver), Some((None, false)), "shown, it begins at once");
-        // Accuracy takes its place, and the other way round.
+        // Accuracy takes the place of the map, and vice versa.
         driver.press("A");
         assert_eq!(driver.model.large, Some(Pane::Accuracy));
         driver.press("m");
@@ -397,15 +400,15 @@ const PATIENCE: Duration = Duration::from_secs(20);
 #[test]
 fn an_edit_ends_the_computing_of_the_map() {
     within(60, || {
-        let (says, said) = channel();
+        let (sender, events) = channel();
         let (report, reports) = channel();
-        let endless = StandIn::endless(says, |data, report| fill(&[Level::Coarse], data, report));
+        let endless = StandIn::endless(sender, |data, report| fill(&[Level::Coarse], data, report));
         let study = Study::start(Box::new(endless), move |found| report.send(found).is_ok()).unwrap();
         let map = Arc::new(LiveMap::new(Arc::new(Template::of(rough().scene()).unwrap())));
         study.ask(1, vec![Task::Extend { data: PaneData::Map(map), waits: false }]);
-        assert_eq!(said.recv_timeout(PATIENCE), Ok("begun"));
+        assert_eq!(events.recv_timeout(PATIENCE), Ok("begun"));
         study.stop();
-        assert_eq!(said.recv_timeout(PATIENCE), Ok("stopped"));
+        assert_eq!(events.recv_timeout(PATIENCE), Ok("stopped"));
         drop(study);
         let found: Vec<Found> = reports.iter().collect();
         assert_eq!(found.len(), 5, "a finding for each row, and none after the stop");

@@ -14,7 +14,7 @@ fn an_unfinished_scene_says_that_it_computes() {
     within(30, || {
         let driver = Driver::open(rough());
         assert!(driver.text().contains("computing"), "{}", driver.text());
-        // Later the old curve stays until the new one is there.
+        // Later the old curve remains until the new one arrives.
         let mut driver = pressed("");
         let document = driver.model.document.set("roughness.seed", "2").unwrap();
         let before = driver.text();
@@ -59,7 +59,7 @@ fn the_headline_is_that_of_the_computed_curve() {
     });
 }
 
-/// The keys that the footer shows, each with its word.
+/// The keys of the footer, each with its word.
 fn footer(driver: &Driver) -> Vec<String> {
     let area = Layout::of(&driver.model).footer.expect("there is a footer");
     let row = &driver.rows()[usize::from(area.y)];
@@ -172,7 +172,7 @@ fn each_mode_has_its_own_footer() {
     });
 }
 
-/// All that the help says, scrolled to its end.
+/// The whole help, scrolled to its end.
 fn help(size: (u16, u16)) -> Vec<String> {
     let mut driver = pressed("");
     driver.resize(size);

@@ -18,7 +18,7 @@ fn kept(driver: &Driver) -> Vec<Document> {
     driver.model.ghosts.iter().map(|ghost| ghost.document.clone()).collect()
 }
 
-/// What was computed for the scene.
+/// Outcome computed for the scene.
 fn outcome(driver: &Driver) -> Outcome {
     driver.model.computed.as_deref().map(|SolvedScene { outcome, .. }| outcome.clone()).unwrap()
 }
@@ -45,8 +45,8 @@ fn ghosts_have_letters_and_say_where_they_differ() {
         driver.press("j");
         driver.enter("10 µN");
         let text = driver.text();
-        for said in ["· H 0.7, κ 8", "· κ 8, leg 1"] {
-            assert!(text.contains(said), "{said}\n{text}");
+        for expected in ["· H 0.7, κ 8", "· κ 8, leg 1"] {
+            assert!(text.contains(expected), "{expected}\n{text}");
         }
         driver.select("loading");
         driver.enter("[ToForce(1.0e-5), ToIndentation(0.0)]");
@@ -85,7 +85,7 @@ fn one_loop_is_kept_once_and_eight_at_most() {
         let mut driver = pressed("c c");
         assert_eq!(driver.model.ghosts.len(), 1);
         assert!(message(&driver).contains("kept already"), "{}", message(&driver));
-        // Also when it was left meanwhile.
+        // Also after another scene in between.
         driver.press("l c h c");
         assert_eq!(driver.model.ghosts.len(), 2);
         driver.press("C");
@@ -115,7 +115,7 @@ fn two_exchanges_are_none() {
         assert_eq!(driver.model.document, document);
         assert_eq!(kept(&driver), ghosts);
         assert_eq!(outcome(&driver).history, computed.history);
-        // An exchange is taken back like any other edit, and the ghosts stay.
+        // An exchange is undone like any other edit, and the ghosts remain.
         driver.press("x u");
         assert_eq!(driver.model.document, document);
         assert_eq!(outcome(&driver).history, computed.history);
@@ -143,7 +143,7 @@ fn what_cannot_be_kept_or_exchanged_says_why() {
     });
 }
 
-/// The rows of the pane that has the close-up or the scene beside in it.
+/// The rows of the pane that holds the close-up or the scene beside.
 fn lower_pane(driver: &Driver) -> Vec<String> {
     rows_of(driver, driver.model.lower)
 }
@@ -167,8 +167,8 @@ fn two_scenes_are_shown_side_by_side() {
             let mut driver = pressed("&");
             driver.resize(size);
             assert_eq!(driver.model.ghosts.len(), 1, "the present scene is the one to compare with");
-            let said = lower_pane(&driver).join("\n");
-            assert!(said.contains("A → this scene: the same scene") && said.contains("ratio 1 "), "{said}");
+            let text = lower_pane(&driver).join("\n");
+            assert!(text.contains("A → this scene: the same scene") && text.contains("ratio 1 "), "{text}");
             driver.press("L");
             let now = driver.model.snapshot.clone().unwrap();
             let before = now.beside.clone().unwrap();
@@ -192,7 +192,7 @@ fn two_scenes_are_shown_side_by_side() {
                 pane.join("\n")
             );
             assert!(pane[0].contains("Profile z(x) of A: Rough line"), "{}", pane[0]);
-            // Both profiles are on one scale, as far as the panes are of one height.
+            // Both profiles have one scale, if the panes have one height.
             let [upper, lower] = [scale(&rows_of(&driver, Pane::Profile)), scale(&pane)];
             assert!(!lower.is_empty(), "{}", driver.text());
             if size.0 == 120 {
@@ -241,7 +241,7 @@ fn two_scenes_that_are_opened_are_shown_side_by_side() {
         assert!(!driver.model.is_unsaved() && driver.model.undo.is_empty());
         let text = driver.text();
         assert!(text.contains("Stickier") && text.contains("A → this scene: κ 8 → 4"), "{text}");
-        // Exchanged, the other one is beside.
+        // After the exchange, the other scene is beside.
         driver.press("x");
         assert!(is_up_to_date(&driver.model));
         assert!(driver.text().contains("A → this scene: κ 4 → 8"), "{}", driver.text());
@@ -274,8 +274,8 @@ fn ghosts_have_their_force_and_its_difference_in_colours_of_their_own() {
         assert!(kept[0] < kept[1] && kept[1] < present);
         let three = |value: f64| format_quantity(format!("{value:.2e}").parse().unwrap(), "N");
         for (letter, force) in ["A", "B"].into_iter().zip(kept) {
-            let said = format!("{letter} F_a {} ({}) ·", three(force), three(force - present));
-            assert!(driver.text().contains(&said), "{said}\n{}", driver.text());
+            let expected = format!("{letter} F_a {} ({}) ·", three(force), three(force - present));
+            assert!(driver.text().contains(&expected), "{expected}\n{}", driver.text());
         }
         let screen = driver.screen();
         let colour = |letter: &str| {

@@ -1,4 +1,4 @@
-//! The crosshair: what it reads, and that panes and readings agree.
+//! The crosshair: its readings, and their agreement with the panes.
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
@@ -34,7 +34,7 @@ fn mouse(driver: &mut Driver, (column, row): (u16, u16), gesture: Gesture) {
     driver.act(Action::Mouse(Mouse { column, row, gesture }));
 }
 
-/// Three digits of a force, four of a length, as the panes read them.
+/// A force with three digits, a length with four, as in the panes.
 pub fn read(value: f64, digits: usize, unit: &str) -> String {
     format_quantity(format!("{value:.digits$e}").parse().unwrap(), unit)
 }
@@ -91,7 +91,7 @@ fn the_crosshair_moves_along_a_stage_and_to_the_other_one_at_the_same_indentatio
         assert!(loading.force > before.force, "adhesion holds on the way back");
         driver.press("Down");
         assert_eq!(at(&driver).0, 1);
-        // The ends of the stage, and no further.
+        // Up to the ends of the stage.
         let ends = |driver: &Driver| {
             let leg = &driver.model.legs()[1];
             (leg.end().min(leg.start()), leg.end().max(leg.start()))
@@ -102,7 +102,7 @@ fn the_crosshair_moves_along_a_stage_and_to_the_other_one_at_the_same_indentatio
         assert_eq!((at(&driver).0, at(&driver).1.indentation), (1, ends(&driver).1));
         driver.press("Home");
         assert!(at(&driver).1.indentation <= ends(&driver).0);
-        // In manual loading it moves the body.
+        // In manual loading the crosshair moves the body.
         driver.press("End d Left");
         assert!(driver.model.manual.is_some() && snapshot(&driver).point.indentation < ends(&driver).1);
         assert!(!edge(&driver, Pane::Force).contains("stage"));
@@ -133,15 +133,15 @@ fn on_the_profile_the_crosshair_reads_position_height_and_state() {
                 assert!(near(column.line.0.min(before.line.0), column.line.1.max(before.line.1)));
                 let x = (shown.line.first + spring) as f64 + 0.5;
                 let text = edge(&driver, Pane::Profile);
-                for said in [read(x * shown.line.spacing, 3, "m"), read(height, 3, "m")] {
-                    assert!(text.contains(&said), "{said}\n{text}");
+                for expected in [read(x * shown.line.spacing, 3, "m"), read(height, 3, "m")] {
+                    assert!(text.contains(&expected), "{expected}\n{text}");
                 }
-                let said = match patch {
+                let expected = match patch {
                     None => format!("gap {}", read(level - height, 3, "m")),
                     Some(_) if level > height => format!("stretched {}", read(level - height, 3, "m")),
                     Some(_) => format!("compressed {}", read(height - level, 3, "m")),
                 };
-                assert!(text.contains(&said), "{said}\n{text}");
+                assert!(text.contains(&expected), "{expected}\n{text}");
                 if patch.is_none() {
                     assert!(level >= height, "a free spring does not lie under the body");
                 }
@@ -176,7 +176,7 @@ fn the_mouse_moves_the_crosshair_of_the_pane_it_is_in() {
                 mouse(&mut driver, (area.x + 9, area.y + 2), Gesture::Drag);
                 assert!(probe(&driver).spring < springs[1]);
             }
-            // On the force curve the nearest branch is taken, and manual loading does not begin.
+            // The nearest branch of the force curve is taken, and manual loading does not begin.
             let area = place(&driver, Pane::Force);
             let sign = |driver: &Driver, glyph: &str| {
                 let screen = driver.screen();
@@ -208,7 +208,7 @@ fn crosshairs_of_profile_and_close_up_are_at_one_position() {
             |text: &str| text.split("  z (").next().unwrap().trim_start_matches(['└', ' ']).to_owned();
         assert_eq!(reading(&profile), reading(&close_up));
         assert!(reading(&profile).contains(&format!("patch {} of", patch.number + 1)), "{profile}");
-        // With the parameters chosen the arrows are theirs.
+        // With the parameters selected the arrows act on these.
         let before = driver.model.selected;
         while driver.model.pane != Pane::Parameters {
             driver.press("Tab");

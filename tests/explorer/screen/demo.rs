@@ -1,4 +1,4 @@
-//! The demo: the same frames always, in any window, and not more bytes than a slow line carries.
+//! The demo: always the same frames, in any window, and no more bytes than a slow line carries.
 
 use super::common::deadline::within;
 use super::common::driver::APPEARANCE;
@@ -112,7 +112,7 @@ fn cues_are_followed_in_time() {
         while let Some(seconds) = demo.advance() {
             kappa.push((seconds, demo.model().document.value("adhesion.kappa").unwrap().to_owned()));
         }
-        // Two characters take 0.15 s each, and so does what comes before them.
+        // Two characters take 0.15 s each, and so does the time before them.
         for (seconds, value) in &kappa {
             assert_eq!(value, if *seconds < 1.449 { "8.0" } else { "12.0" }, "{seconds}");
         }

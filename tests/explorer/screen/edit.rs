@@ -1,4 +1,4 @@
-//! Edits of the scene by keys, taken back and done again.
+//! Edits of the scene by keys, undone and redone.
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
@@ -77,7 +77,7 @@ fn edits_are_taken_back_and_done_again() {
             assert_eq!(driver.model.document.text(), text);
         }
         assert_eq!(driver.model.computed.clone().unwrap().outcome.figures, last);
-        // A new edit leaves nothing to do again.
+        // A new edit clears the redo list.
         driver.press("u l");
         let text = driver.model.document.text().to_owned();
         driver.press("U");
@@ -156,11 +156,11 @@ fn a_smooth_scene_has_no_line_to_draw_anew() {
         driver.press("R");
         assert_eq!(driver.model.document, before);
         assert!(is_up_to_date(&driver.model));
-        // No other field is to blame for that.
+        // No other field is marked for that error.
         assert_eq!(driver.model.refused, None);
         let status = Layout::of(&driver.model).status;
-        let said = driver.rows()[usize::from(status.y)].clone();
-        assert!(said.contains("no random line"), "{said}");
+        let row = driver.rows()[usize::from(status.y)].clone();
+        assert!(row.contains("no random line"), "{row}");
     });
 }
 

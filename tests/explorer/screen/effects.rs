@@ -1,4 +1,4 @@
-//! Effects switched on and off, and the two ways of giving adhesion.
+//! Effects switched on and off, and the two forms of adhesion.
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
@@ -16,7 +16,7 @@ fn select(driver: &mut Driver, path: &str) {
     }
 }
 
-/// The row that is selected, as it is read.
+/// The text of the selected row.
 fn row(driver: &Driver) -> String {
     driver.rows().iter().find(|row| row.contains('›')).cloned().unwrap_or_default()
 }
@@ -25,7 +25,7 @@ fn is_on(driver: &Driver, effect: Effect) -> bool {
     effect.is_on(driver.model.document.scene())
 }
 
-/// The scene with every effect, none of them as a switch would make it.
+/// The scene with every effect, each in another form than its switch makes.
 fn full() -> Driver {
     let fields = [
         ("form", "Cone(angle: 0.01)"),
@@ -115,14 +115,14 @@ fn adhesion_given_the_other_way_is_the_same() {
         driver.press("l");
         assert_eq!(driver.model.document.text(), text, "κ is the one that was typed");
         assert!(near(force(&driver), before));
-        // By e_el/γ it is the same as well.
+        // By e_el/γ the result is the same.
         driver.press("l");
         let adhesion = driver.model.document.scene().adhesion.unwrap();
         assert!((adhesion.work, adhesion.kappa) == (None, None) && adhesion.elastic_energy_ratio.is_some());
         assert!(near(governing(&driver).0, kappa) && near(force(&driver), before));
         driver.press("h");
         assert_eq!(driver.model.document.text(), text);
-        // Beyond all ways there is no adhesion, and back it is the same again.
+        // Beyond the last form there is no adhesion, and back it is the same again.
         driver.press("h h");
         assert!(!is_on(&driver, Effect::Adhesion));
         driver.press("l l");
@@ -155,7 +155,7 @@ fn an_effect_that_never_was_comes_as_it_suits() {
             let mut driver = Driver::start(changed(&rough(), &bare));
             select(&mut driver, path);
             assert!(!is_on(&driver, effect) && row(&driver).contains('○'), "{path}: {}", row(&driver));
-            // Enter and steps do the same for a switch.
+            // Enter and steps also act on a switch.
             driver.press(if path.starts_with("observe") { "Enter" } else { "t" });
             assert!(is_on(&driver, effect), "{path}");
             assert!(is_up_to_date(&driver.model), "{path}: {:?}", driver.model.notice);
@@ -173,7 +173,7 @@ fn a_switch_that_cannot_be_made_says_why() {
         assert_eq!(driver.model.document, before);
         let (_, why) = driver.model.refused.clone().expect("it is refused");
         assert!(!why.is_empty() && driver.status().starts_with("! "), "{why}: {}", driver.status());
-        // Rows that belong to no effect have none to switch.
+        // Rows without an effect have no switch.
         let mut driver = pressed("");
         for path in ["length", "numerics.points", "material"] {
             let of_before = generation(&driver);
@@ -182,7 +182,7 @@ fn a_switch_that_cannot_be_made_says_why() {
             assert_eq!(generation(&driver), of_before);
             assert!(driver.text().contains("no effect to switch"), "{path}: {}", driver.text());
         }
-        // What belongs to an effect switches it.
+        // Rows of an effect switch that effect.
         select(&mut driver, "roughness.hurst");
         driver.press("t");
         assert!(!is_on(&driver, Effect::Roughness));
@@ -201,7 +201,7 @@ fn without_roughness_the_same_adhesion_is_left() {
     });
 }
 
-/// κ and γ of the scene as it was computed, and γ as eq. (11) gives it: h⟨∇z⟩E*/κ².
+/// κ and γ of the computed scene, and γ by eq. (11): h⟨∇z⟩E*/κ².
 fn governing(driver: &Driver) -> (f64, f64, f64) {
     assert!(is_up_to_date(&driver.model), "{:?}", driver.model.notice);
     let governing = driver.model.computed.as_ref().unwrap().outcome.governing;
@@ -229,7 +229,7 @@ fn kappa_is_solved_for_where_the_scene_gives_the_work() {
         assert!(near(work_now, work * (kappa / 2.8).powi(2)));
         let adhesion = driver.model.document.scene().adhesion.unwrap();
         assert_eq!((adhesion.work, adhesion.kappa), (Some(work_now), None), "the scene still gives γ");
-        // Steps start from the value that follows.
+        // Steps start from the derived value.
         driver.press("l");
         assert!(near(governing(&driver).0, 3.15));
         driver.press("h");

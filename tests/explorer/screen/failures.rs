@@ -1,4 +1,4 @@
-//! What fails, comes too late or panics.
+//! Failures, late reports and panics.
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
@@ -45,7 +45,7 @@ fn a_scene_that_fails_is_told_and_the_next_edit_mends_it() {
         assert!(!driver.model.is_computing());
         let text = driver.text();
         assert!(text.contains("the contact detaches above that force"), "{text}");
-        // Its numbers are not those of the scene any more.
+        // Figures of the former scene are no longer shown.
         assert!(!text.contains("F_a "), "{text}");
         for keys in ["j", "k", ". .", "Tab", "n", "+"] {
             driver.press(keys);

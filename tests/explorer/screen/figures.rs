@@ -55,7 +55,7 @@ fn number(text: &str) -> Option<f64> {
     text.trim().replace('−', "-").parse().ok()
 }
 
-/// The value on a line through two labelled places.
+/// Value on a line through two labelled places.
 fn between(ticks: &[(f64, f64)], at: f64) -> f64 {
     let ((a, low), (b, high)) = (ticks[0], ticks[ticks.len() - 1]);
     low + (high - low) * (at - a) / (b - a)
@@ -77,7 +77,7 @@ fn marks_of_figure(svg: &str) -> Vec<(char, f64, f64)> {
     let (across, up) = (ticks("middle", " x"), ticks("end", " y"));
     let label = |name: &str| texts.iter().find(|text| text.text.starts_with(name)).unwrap().text.clone();
     let (metre, newton) = (unit(&label("indentation"), "m"), unit(&label("force"), "N"));
-    // The base lines of numbers are below the tick.
+    // The base lines of numbers lie below the tick.
     let size: f64 =
         texts.iter().find(|text| text.attribute("text-anchor") == "end").unwrap().number("font-size");
     let value =
@@ -135,14 +135,14 @@ fn the_pane_and_the_figure_have_the_same_marks_at_the_same_values() {
                     let drawn = figure.iter().find(|(other, ..)| *other == glyph);
                     let words = rows[..usize::from(first)].iter().map(|row| row.iter().collect::<String>());
                     let head = format!("{glyph} {name} ");
-                    let said = words
+                    let printed = words
                         .into_iter()
                         .find_map(|row| row.split_once(&head).map(|(_, rest)| rest.to_owned()));
-                    assert_eq!(drawn.is_some(), said.is_some(), "{glyph} {size:?}\n{}", driver.text());
-                    let (Some(&(_, d, force)), Some(said)) = (drawn, said) else { continue };
+                    assert_eq!(drawn.is_some(), printed.is_some(), "{glyph} {size:?}\n{}", driver.text());
+                    let (Some(&(_, d, force)), Some(printed)) = (drawn, printed) else { continue };
                     // In words: three digits here, as many there; F_a has the other sign.
                     let value = |text: &str| parse_quantity(&text.replace('−', "-"), "N").unwrap();
-                    let here = value(said.split("  ").next().unwrap().replace('│', " ").trim());
+                    let here = value(printed.split("  ").next().unwrap().replace('│', " ").trim());
                     let there = legend.iter().find(|text| text.starts_with(name)).unwrap();
                     let there = value(there.split_once(" = ").unwrap().1);
                     assert!((here.abs() / there.abs() - 1.0).abs() < 6e-3, "{glyph}: {here} {there}");

@@ -17,7 +17,7 @@ use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// Exports to a file and gives what was asked for.
+/// Exports to a file and returns the effects.
 fn export(driver: &mut Driver, path: &Path) -> Vec<Effect> {
     driver.press("E Ctrl+u");
     driver.type_text(&path.display().to_string());
@@ -55,12 +55,12 @@ fn the_ending_of_a_name_tells_what_is_exported() {
             let mut driver = pressed("");
             assert!(export(&mut driver, Path::new(name)).is_empty(), "{name}");
             assert!(driver.files.is_empty());
-            let said = format!(
+            let expected = format!(
                 "{name}: the name must end in .csv, .npy, .json, .svg, .png, .txt, to export the curve"
             );
-            assert!(driver.status().contains(&said), "{}", driver.status());
+            assert!(driver.status().contains(&expected), "{}", driver.status());
         }
-        // The name that is proposed is that of the scene.
+        // The proposed name is that of the scene.
         let mut driver = pressed("");
         driver.press("E Enter");
         assert_eq!(driver.files.keys().collect::<Vec<_>>(), [Path::new("rough-line.csv")]);
@@ -103,7 +103,7 @@ fn the_curve_and_the_figures_are_those_of_the_command_line() {
         write_json(&mut figures, &scene, &outcome, None, driver.model.appraisal.estimate()).unwrap();
         assert_eq!(exported(&mut driver, "a.json").into_bytes(), figures);
         assert!(serde_json::from_slice::<serde_json::Value>(&figures).is_ok());
-        // A scene that failed has neither, but may be seen.
+        // A failed scene has neither, but its screen can be exported.
         driver.select("loading");
         driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
         let folder = tempfile::tempdir().unwrap();
@@ -132,7 +132,7 @@ fn the_text_is_the_screen_without_the_prompt() {
     });
 }
 
-/// The elements of an XML text in their order, each closed where it is to be, and the text in it.
+/// The elements of an XML text in order, checked to be closed in place, and its text.
 fn elements(xml: &str) -> (Vec<String>, String) {
     let (mut open, mut names, mut text) = (Vec::new(), Vec::new(), String::new());
     let mut rest = xml;
@@ -180,8 +180,9 @@ fn the_picture_is_sound_and_shows_the_panes_without_the_prompt() {
             let (names, text) = elements(&written);
             assert_eq!(names[0], "svg");
             assert!(names.len() > 20, "{names:?}");
-            for said in ["Asperity: rough-line", "Force F(d)", "Profile z(x)", "Parameters", "Fragments"] {
-                assert!(text.contains(said), "{marker:?}: {said}");
+            for expected in ["Asperity: rough-line", "Force F(d)", "Profile z(x)", "Parameters", "Fragments"]
+            {
+                assert!(text.contains(expected), "{marker:?}: {expected}");
             }
             assert!(!text.contains("Export to") && !text.contains("cancel"), "{marker:?}");
             driver.press("j k");
@@ -227,13 +228,13 @@ fn a_picture_of_pixels_has_the_size_and_the_colours_of_the_screen() {
             let ground = at(0, 0);
             let screen = picture_of(&driver.model);
             let seen = Modifier::REVERSED | Modifier::UNDERLINED | Modifier::CROSSED_OUT;
-            // Cells with a sign have other colours than the background, blank ones have not.
+            // Cells with a sign have other colours than the background, blank ones do not.
             let mut signs = 0;
             for (column, row) in (0..size.0).flat_map(|column| (0..size.1).map(move |row| (column, row))) {
                 let (x, y) = (16 * (usize::from(column) + 1), 32 * usize::from(row) + 16);
                 let cell = &screen[(column, row)];
                 let is_blank = matches!(cell.symbol(), " " | "\u{2800}") && !cell.modifier.intersects(seen);
-                // Ends of lines reach a little into the next cell.
+                // Ends of lines reach slightly into the next cell.
                 let inset = if is_blank { 3 } else { 0 };
                 let is_drawn = (x + inset..x + 16 - inset)
                     .any(|x| (y + inset..y + 32 - inset).any(|y| at(x, y) != ground));
@@ -245,7 +246,7 @@ fn a_picture_of_pixels_has_the_size_and_the_colours_of_the_screen() {
     });
 }
 
-/// The words a shell makes of a command, by the rules of POSIX for quotes and backslashes.
+/// The words that a shell makes of a command, by the rules of POSIX for quotes and backslashes.
 fn words(command: &str) -> Vec<String> {
     let (mut words, mut word, mut characters) = (Vec::new(), None::<String>, command.chars());
     while let Some(character) = characters.next() {
@@ -318,7 +319,7 @@ fn a_saved_scene_goes_on_under_its_new_name() {
         driver.press("Enter");
         assert_eq!(driver.model.document.name(), path.display().to_string());
         assert!(!driver.model.is_unsaved());
-        // The command is that of the file, without what has been saved to it.
+        // The command opens the file, without options for the saved changes.
         driver.press("y");
         let command = driver.copied.last().unwrap().clone();
         assert_eq!(words(&command), ["asperity".to_owned(), path.display().to_string()]);
@@ -326,7 +327,7 @@ fn a_saved_scene_goes_on_under_its_new_name() {
         driver.press("l y");
         let command = driver.copied.last().unwrap().clone();
         assert_eq!(opened(&command).scene(), driver.model.document.scene(), "{command}");
-        // Saved again it is proposed, and asked about.
+        // At the next save the name is proposed, with a question.
         driver.press("s Enter");
         assert!(driver.status().contains("Overwrite it?"), "{}", driver.status());
         driver.press("y");

@@ -1,4 +1,4 @@
-//! The close-up of fragments, and how long they are.
+//! The close-up of fragments, and their lengths.
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
@@ -29,8 +29,8 @@ fn the_close_up_goes_round_all_fragments() {
                 for _ in 0..count {
                     driver.press(key);
                     seen.push(number(&driver));
-                    let said = format!("fragment {} of {count}", number(&driver) + 1);
-                    assert!(driver.text().contains(&said), "{said}: {}", driver.text());
+                    let expected = format!("fragment {} of {count}", number(&driver) + 1);
+                    assert!(driver.text().contains(&expected), "{expected}: {}", driver.text());
                 }
                 assert_eq!(number(&driver), start, "{key}: {seen:?}");
                 seen.sort_unstable();
@@ -48,7 +48,7 @@ fn a_moment_on_its_way_does_not_take_the_chosen_fragment_away() {
             |driver: &Driver| driver.model.snapshot.as_ref().unwrap().close_up.fragment.unwrap().number;
         let before = driver.model.snapshot.clone().unwrap();
         let first = number(&driver);
-        // The fragment is asked for while the animation has asked for a snapshot just before.
+        // The fragment is requested just after a snapshot requested by the animation.
         let effects = driver.update("fragment next");
         assert_eq!(effects, [Effect::Show]);
         driver.act(Action::Report(Report::Shown(before)));
@@ -81,7 +81,7 @@ fn fragments(driver: &mut Driver) -> Vec<(usize, usize)> {
     let (size, pane) = (driver.model.size, driver.model.pane);
     driver.model.pane = Pane::Profile;
     driver.press("z");
-    // So wide that every spring has columns of its own.
+    // So wide that each spring has columns of its own.
     driver.resize((1100, 40));
     let section = driver.model.snapshot.as_ref().unwrap().profile.clone();
     driver.press("z");

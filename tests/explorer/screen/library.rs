@@ -30,7 +30,7 @@ fn library(driver: &Driver) -> &Library {
     }
 }
 
-/// Names of what is found, in their order.
+/// Names of the found scenes, in order.
 fn found(driver: &Driver) -> Vec<String> {
     let library = library(driver);
     let entries = library.entries.as_ref().unwrap();
@@ -57,7 +57,7 @@ fn all_scenes_are_listed_and_found_as_one_types() {
         driver.type_text("ere-no-such");
         assert!(found(&driver).is_empty());
         assert!(driver.text().contains("no scene fits"), "{}", driver.text());
-        // Accepted, it is tried as a path.
+        // On Enter the text is tried as a path.
         driver.press("Enter");
         assert!(driver.status().contains("! sphere-no-such: there is no such file"), "{}", driver.status());
         driver.press("o");
@@ -67,7 +67,7 @@ fn all_scenes_are_listed_and_found_as_one_types() {
         assert_eq!(found(&driver), ["mine.ron"]);
         driver.press("Backspace Backspace Backspace Backspace");
         assert_eq!(found(&driver).len(), presets().len() + 2);
-        // Letters are letters here, whatever they do elsewhere.
+        // Letters are typed here, even those that are keys elsewhere.
         driver.press("q j ?");
         assert_eq!(library(&driver).finder.query.text(), "qj?");
     });
@@ -82,11 +82,11 @@ fn the_selected_scene_is_seen_before_it_is_opened() {
         assert_eq!(preview.text, smooth().text());
         let force = preview.outcome.as_ref().unwrap().figures.adhesion_force.unwrap();
         let text = driver.text();
-        for said in [format!("F_a {}", format_quantity(force, "N")), "smooth-sphere".to_owned()] {
-            assert!(text.contains(&said), "{said}\n{text}");
+        for expected in [format!("F_a {}", format_quantity(force, "N")), "smooth-sphere".to_owned()] {
+            assert!(text.contains(&expected), "{expected}\n{text}");
         }
         assert_eq!(driver.model.document.scene(), rough().scene(), "looking is not opening");
-        // Opened, the curve is the one that was seen.
+        // The opened scene has the previewed curve.
         let seen = preview.outcome.clone().unwrap().history.legs;
         driver.press("Enter");
         assert_eq!(driver.model.computed.as_ref().unwrap().outcome.history.legs, seen);
@@ -113,7 +113,7 @@ fn enter_opens_and_escape_leaves() {
         assert!(!driver.model.is_unsaved() && driver.model.player.playing);
         driver.press("u");
         assert_eq!(driver.model.document, before);
-        // The whole list can be gone through in the smallest window.
+        // The smallest window shows the whole list by scrolling.
         driver.resize((20, 5));
         driver.press("o");
         for _ in 0..presets().len() + 1 {

@@ -1,4 +1,4 @@
-//! What part of the line the profile shows, and which quantities the curve.
+//! The part of the line in the profile pane, and the quantities of the curve.
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
@@ -26,7 +26,7 @@ fn the_profile_is_looked_at_from_near_and_moved_along() {
         let mut driver = pressed("Tab");
         assert_eq!((driver.model.pane, seen(&driver)), (Pane::Profile, (0, 1024)));
         assert!(driver.text().contains("x to 100 µm"), "{}", driver.text());
-        // Nothing is beside the whole line.
+        // There is nothing beside the whole line.
         driver.press(") (");
         assert_eq!(seen(&driver), (0, 1024));
         driver.press("+");
@@ -97,7 +97,7 @@ fn the_profile_follows_the_close_up() {
         }
         firsts.dedup();
         assert!(firsts.len() > 1, "it never moves: {firsts:?}");
-        // Moved manually, the body stays in its place.
+        // Manual loading keeps the body in its place.
         driver.press("Tab (");
         let put = seen(&driver);
         driver.press("n n n");
@@ -185,8 +185,8 @@ fn the_curve_has_three_views_in_two_units() {
         ];
         for (title, x, y) in views.chunks(2).flatten() {
             let text = curve(&mut driver);
-            for said in [title, x.0.as_str(), y.0.as_str()] {
-                assert!(text.contains(said), "{said}\n{text}");
+            for expected in [title, x.0.as_str(), y.0.as_str()] {
+                assert!(text.contains(expected), "{expected}\n{text}");
             }
             // The highest tick is in the upper half of the axis.
             let number = text.lines().find_map(|row| row.split_once(" ┤")?.0.split_whitespace().last());
@@ -199,7 +199,7 @@ fn the_curve_has_three_views_in_two_units() {
             driver.press("v");
         }
         assert!(curve(&mut driver).contains("Force F(d)"), "they come round");
-        // Where nothing attracts there is no F_a,max to count in.
+        // Without adhesion there is no F_a,max as a unit.
         let mut driver = mid_retraction(without_adhesion());
         driver.press("N");
         let text = curve(&mut driver);
@@ -254,7 +254,7 @@ fn the_loss_is_shaded_inside_the_loop_and_nowhere_else() {
             let title = format!("loss {}", format_quantity(energy, "J"));
             assert!(driver.text().contains(&title), "{title}\n{}", driver.text());
             let new: Vec<_> = dots(&driver).into_iter().filter(|dot| !before.contains(dot)).collect();
-            // In each column every other dot between the branches, so as many as they are apart.
+            // In each column every other dot between the branches, so their number follows the distance.
             let area = inside(Layout::of(&driver.model).panes[0].1);
             let legs = driver.model.legs();
             let last = area.right();
@@ -274,8 +274,8 @@ fn the_loss_is_shaded_inside_the_loop_and_nowhere_else() {
             let scale = sums.0 / sums.1;
             let mut wrong = 0;
             for (number, (found, apart)) in columns.iter().enumerate() {
-                // Dots of the curve itself, a jump within a column and springs that join or leave one by one
-                // make a difference.
+                // Dots of the curve itself, a jump within a column and springs that attach or detach one by one make a
+                // difference.
                 let neighbours = columns[number.saturating_sub(1)..(number + 2).min(columns.len())].iter();
                 let (low, high) = neighbours
                     .fold((f64::INFINITY, 0.0_f64), |range, one| (range.0.min(one.1), range.1.max(one.1)));
@@ -287,7 +287,7 @@ fn the_loss_is_shaded_inside_the_loop_and_nowhere_else() {
             driver.press("a");
             assert_eq!(driver.screen(), unshaded);
         }
-        // A loop that is not closed has lost nothing yet.
+        // A loop that is not closed has no dissipated energy yet.
         let mut driver = Driver::start(rough().set("loading", "[ToForce(1.0e-5)]").unwrap());
         driver.press("a");
         assert!(driver.text().contains("loss open"), "{}", driver.text());
@@ -301,11 +301,11 @@ fn marked_forces_are_told_with_their_values() {
         let mut driver = mid_retraction(smooth());
         let text = curve(&mut driver);
         let legs = driver.model.legs();
-        for said in [
+        for expected in [
             format!("▲ preload {}", labelled(legs[0].largest.force)),
             format!("▼ pull-off {}", labelled(legs[1].smallest.force)),
         ] {
-            assert!(text.contains(&said), "{said}\n{text}");
+            assert!(text.contains(&expected), "{expected}\n{text}");
         }
         // The glyphs are on the curve as well.
         for glyph in ['▲', '▼'] {
@@ -317,7 +317,7 @@ fn marked_forces_are_told_with_their_values() {
     });
 }
 
-/// The number that superscript digits are.
+/// The number in superscript digits.
 fn exponent(digits: std::str::Chars<'_>) -> Option<i32> {
     let digit = |c| {
         Some(if c == '⁻' {
@@ -354,7 +354,7 @@ fn profile_and_close_up_have_scales_of_position_and_height() {
                 (Pane::Profile, profile(&driver)),
                 (Pane::CloseUp, driver.model.snapshot.as_ref().unwrap().close_up.section.clone()),
             ] {
-                // In nm, as the frame says.
+                // In nm, as in the frame.
                 let numbers = scale(&driver, pane);
                 assert!(numbers.len() >= 2, "{pane:?} {size:?}\n{}", driver.text());
                 let (low, high) = section.heights;
@@ -418,7 +418,7 @@ fn logarithmic_axes_show_the_numbers_above_zero() {
         assert!(numbers.len() >= 2 && numbers.iter().all(|number| *number > 0.0), "{text}");
         assert!(numbers[0] / numbers[numbers.len() - 1] >= 10.0, "{numbers:?}");
         assert!(!text.split("log–log").nth(1).unwrap().contains("▼ pull-off\n"), "{text}");
-        // An area is no energy there.
+        // An area is no energy on these axes.
         driver.press("a");
         assert!(!driver.text().contains("loss"), "{}", driver.text());
         driver.press("a O");

@@ -1,4 +1,4 @@
-//! Colours and markers: what they show they show by glyphs as well.
+//! Colours and markers: everything they show is also shown by glyphs.
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
@@ -191,7 +191,7 @@ fn keys_change_colours_and_markers_and_say_so() {
             driver.press("M");
             assert_eq!(driver.model.appearance.marker, marker);
             assert!(driver.status().contains(&marker.name()), "{}", driver.status());
-            // The worker was asked for as many columns as there are now.
+            // The worker was asked for the present number of columns.
             let cells = Layout::of(&driver.model).profile_cells();
             let columns = driver.model.snapshot.as_ref().unwrap().profile.columns.len();
             assert_eq!(columns, cells * marker.columns());

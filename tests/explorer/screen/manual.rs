@@ -18,7 +18,7 @@ fn manual(driver: &Driver) -> &ManualState {
     driver.model.manual.as_ref().expect("manual loading")
 }
 
-/// Types a force to go to.
+/// Types a target force.
 fn go(driver: &mut Driver, force: &str) {
     driver.press("F");
     driver.type_text(force);
@@ -58,7 +58,7 @@ fn small_and_large_steps_press_and_pull() {
             assert!((way - share).abs() < 1e-9, "{keys}: {way}");
             assert_eq!(manual(&driver).path.last(), Some(&point(&driver)), "{keys}: the way ends there");
         }
-        // They begin manual loading where it has not begun.
+        // These keys begin manual loading.
         for keys in ["]", "[", "}", "{", "S"] {
             let mut driver = pressed(keys);
             assert!(driver.model.manual.is_some(), "{keys}");
@@ -74,7 +74,7 @@ fn a_minor_loop_closes_on_itself() {
         for document in [rough(), smooth(), without_adhesion()] {
             let mut driver = mid_retraction(document);
             driver.press("d } }");
-            // Once around, so that the steps are rounded as they are from then on.
+            // Once around, so that the steps are rounded as afterwards.
             driver.press("[ [ [ ] ] ]");
             let (turn, energy) = (point(&driver), manual(&driver).dissipated_energy);
             assert!(turn.springs > 0);
@@ -102,7 +102,7 @@ fn the_status_tells_what_a_move_changed() {
         assert!(driver.status().contains("springs changed"), "in a common window too: {}", driver.status());
         assert!(manual(&driver).touched > 0);
         assert!(driver.text().contains("manual"), "{}", driver.text());
-        // A look around is no move: the changes of the last one are still shown.
+        // A change of the view is no move: the changes of the last move are still shown.
         driver.press("n + z z");
         assert_eq!(manual(&driver).changed, changed);
     });
@@ -122,7 +122,7 @@ fn pulled_off_by_hand_it_loses_what_the_leg_loses() {
         assert!(path.len() > 20, "the way down is seen");
         let pulled = path.iter().map(|point| point.force).fold(f64::INFINITY, f64::min);
         assert!(pulled >= smallest && pulled < 0.5 * smallest, "{pulled} {smallest}");
-        // From there it does not touch before the foundation is reached again.
+        // From there the body does not touch before the foundation is reached again.
         while point(&driver).springs == 0 {
             assert!(point(&driver).indentation < 0.0);
             driver.press("}");
@@ -141,7 +141,7 @@ fn a_force_is_gone_to() {
             assert!((reached / force - 1.0).abs() < 1e-9, "{typed}: {reached}");
             assert!(driver.model.notice.is_none(), "{:?}", driver.model.notice);
         }
-        // Under adhesion the contact may jump past it, but not stop short of it.
+        // Under adhesion the contact may jump past the force, but not stop short of it.
         let mut driver = pressed("");
         for (typed, force) in [("8 µN", 8e-6), ("-40 nN", -4e-8), ("2 µN", 2e-6)] {
             let before = point(&driver).force;
@@ -160,12 +160,12 @@ fn a_force_out_of_reach_is_told_and_nothing_is_lost() {
         let before = point(&driver);
         for (typed, unit) in [("-1", "N"), ("-1e6 µN", "µN"), ("-3 mN", "mN")] {
             go(&mut driver, typed);
-            let said = format!("the contact detaches before {typed}; smallest force within reach: -");
+            let expected = format!("the contact detaches before {typed}; smallest force within reach: -");
             let status = driver.status();
-            assert!(status.contains(&said) && status.ends_with(&format!(" {unit}")), "{typed}: {status}");
-            assert_eq!(point(&driver), before, "what is refused moves nothing");
+            assert!(status.contains(&expected) && status.ends_with(&format!(" {unit}")), "{typed}: {status}");
+            assert_eq!(point(&driver), before, "a refused force moves nothing");
         }
-        // The force that is named can be reached, and one that is smaller in its last digit cannot.
+        // The named force can be reached, and one smaller in its last digit cannot.
         let status = driver.status();
         let least = status.rsplit("reach: ").next().unwrap().trim_end_matches(" mN");
         let (least, digits): (f64, usize) = (least.parse().unwrap(), least.split('.').nth(1).unwrap().len());
@@ -178,7 +178,7 @@ fn a_force_out_of_reach_is_told_and_nothing_is_lost() {
         assert!(driver.model.manual.is_some() && after.springs > 0, "{after:?}");
         assert!(after.force <= 1e-3 * least * (1.0 - 1e-9), "{} {least}", after.force);
         driver.press("d d");
-        // It can be moved as before.
+        // The body can be moved as before.
         let after = point(&driver);
         driver.press("]");
         assert!(driver.model.notice.is_none());
@@ -230,7 +230,7 @@ fn an_edit_puts_the_body_back_and_says_so() {
             assert_eq!(driver.model.drive(), Drive::Leg(1), "{keys}");
             assert!(driver.status().contains("the body is back"), "{keys}: {}", driver.status());
         }
-        // What changes only how it looks does not.
+        // A change of the view alone does not.
         let mut driver = pressed("d {");
         let at_first = point(&driver);
         driver.press("j n v N a D T M z Tab + 0");

@@ -1,4 +1,4 @@
-//! The mouse: all it does, keys do too.
+//! The mouse: keys do everything that the mouse does.
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
@@ -28,7 +28,7 @@ fn a_press_chooses_the_pane_and_the_row() {
             mouse(&mut driver, area.x + 1, area.y, Gesture::Press);
             assert_eq!(driver.model.pane, pane);
         }
-        // Each row that shows, in a list that is scrolled too.
+        // Each visible row, also in a scrolled list.
         for keys in ["g", "G"] {
             let area = place(&driver, Pane::Parameters);
             let mut chosen = 0;
@@ -46,7 +46,7 @@ fn a_press_chooses_the_pane_and_the_row() {
             }
             assert!(chosen > 5, "{chosen}");
         }
-        // A second press on the first row of a group, which has stayed where it was, folds the group.
+        // A second press on the first row of a group, still in its place, folds the group.
         driver.press("g");
         let area = place(&driver, Pane::Parameters);
         let loading = driver.rows().iter().position(|row| row.contains("▾●loading")).unwrap() as u16;
@@ -88,7 +88,7 @@ fn a_drag_takes_the_body_to_where_the_mouse_is() {
                 let next = indentation_at(&driver.model, area, column + 1).unwrap();
                 let found = driver.model.snapshot.as_ref().unwrap().point.indentation;
                 assert!(driver.model.manual.is_some());
-                // What is seen may change a little as the path of manual loading grows.
+                // The view may change a little as the path of manual loading grows.
                 assert!((found - wanted).abs() <= next - wanted, "{found}, not {wanted}");
                 let screen = driver.screen();
                 let seen: Vec<u16> = (0..driver.model.size.1)
@@ -121,7 +121,7 @@ fn the_wheel_looks_closer_and_scrolls() {
         assert_eq!(driver.model.profile.share, 0.5);
         mouse(&mut driver, area.x, area.y, Gesture::Wheel(-1));
         assert_eq!(driver.model.profile.share, 1.0);
-        // What is under the pointer stays there.
+        // The place under the pointer remains there.
         let (column, row) = (area.x + 3 * area.width / 4, area.y + 2);
         let at = |driver: &Driver| {
             let share = share_at(&driver.model, Pane::Profile, place(driver, Pane::Profile), column).unwrap();

@@ -1,4 +1,4 @@
-//! The list of all commands, and paths that are completed.
+//! The list of all commands, and completed paths.
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
@@ -77,7 +77,7 @@ fn a_command_is_found_by_letters_and_runs_as_its_key_does() {
             by_key.press(keys);
             assert_eq!(by_list.text(), by_key.text(), "{typed}");
         }
-        // Commands of another pane go there first.
+        // Commands of another pane select this pane first.
         let mut driver = pressed("");
         query(&mut driver, "sections");
         driver.press("Enter");
@@ -143,7 +143,7 @@ fn a_path_is_completed_and_its_candidates_follow_each_other() {
             assert_eq!(line("", "Tab").0, "alpha-one.ron");
             assert_eq!(line("", "Tab").0, "alpha-two.ron");
             assert_eq!(line("", "Tab").0, "alpha-one.ron");
-            // A key in between begins anew, from what is typed by then.
+            // A key in between restarts the completion from the text typed so far.
             let (typed, shown) = line("", "Backspace Tab");
             assert_eq!(typed, "alpha-one.ron");
             assert!(shown.contains("cancel"), "a single candidate needs no list: {shown}");

@@ -1,4 +1,4 @@
-//! Pictures of the whole screen in windows of all sizes, to be read by whoever changes them.
+//! Pictures of the whole screen in windows of all sizes, for review.
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
@@ -8,7 +8,7 @@ use asperity::explorer::picture;
 use asperity::explorer::theme::{Marker, Theme};
 use clap::ValueEnum;
 
-/// The screen in all windows, one below the other. It says the same in all colours and without any.
+/// The screen in all windows, one below the other. The text is the same in all colours and without any.
 fn screens(driver: &mut Driver) -> String {
     let mut all = String::new();
     for size in SIZES {

@@ -1,4 +1,4 @@
-//! The list of parameters: its order, its groups, what of it is in sight, and the search.
+//! The list of parameters: its order, its groups, its visible part, and the search.
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
@@ -17,7 +17,7 @@ fn pane(driver: &Driver) -> Vec<String> {
     (area.y..area.bottom()).map(row).collect()
 }
 
-/// Places of the scroll bar's thumb.
+/// Rows of the thumb of the scroll bar.
 fn thumb(driver: &Driver) -> Vec<u16> {
     let area = Layout::of(&driver.model).pane(Pane::Parameters).expect("the pane is shown");
     let screen = driver.screen();
@@ -63,7 +63,7 @@ fn a_group_folds_to_its_first_row_and_unfolds_for_what_is_selected() {
         let mut driver = pressed("");
         let all = driver.model.listed().len();
         assert_eq!(all, driver.model.parameters.len());
-        // Rows of a group but the first.
+        // Rows of a group except the first.
         let rows = |group: &str| driver.model.parameters.iter().filter(|one| one.group == group).count() - 1;
         let (roughness, observe, adhesion) = (rows("roughness"), rows("observe"), rows("adhesion"));
         driver.press("Z");
@@ -71,12 +71,12 @@ fn a_group_folds_to_its_first_row_and_unfolds_for_what_is_selected() {
         assert_eq!(driver.model.listed().len(), all - roughness);
         assert!(pane(&driver).iter().any(|row| row.contains("▸●roughness")), "{}", driver.text());
         assert!(!pane(&driver).iter().any(|row| row.contains("Hurst")), "{}", driver.text());
-        // The keys that move go over what is folded.
+        // Keys of motion skip folded rows.
         driver.press("j");
         assert_eq!(selected(&driver.model), "numerics");
         driver.press("k k");
         assert_eq!(selected(&driver.model), "loading.0.0");
-        // An edit and its undoing leave it folded.
+        // An edit and its undoing leave the group folded.
         driver.press("l u");
         assert_eq!(driver.model.listed().len(), all - roughness);
         driver.press("j Z");
@@ -85,7 +85,7 @@ fn a_group_folds_to_its_first_row_and_unfolds_for_what_is_selected() {
         assert_eq!(driver.model.listed().len(), all - roughness - observe - adhesion);
         driver.press("G");
         assert_eq!(selected(&driver.model), "observe");
-        // A search finds what is folded as well.
+        // A search also finds folded rows.
         driver.press("/ h u r s t Enter");
         assert_eq!(
             (selected(&driver.model), driver.model.listed().len()),
@@ -125,7 +125,7 @@ fn a_scroll_bar_says_that_rows_are_out_of_sight() {
             let end = thumb(&driver);
             assert!(end.last() > top.last() && end.first() > top.first(), "{size:?}: {top:?} {end:?}");
         }
-        // Where all rows are in sight there is none.
+        // No scroll bar if all rows are visible.
         let mut driver = mid_retraction(rough());
         driver.resize((120, 60));
         driver.model.pane = Pane::Parameters;
@@ -217,7 +217,7 @@ fn a_search_is_moved_through_and_left() {
                 assert_eq!(driver.model.document, document);
             }
         }
-        // What nothing fits is not gone to.
+        // A search without a match moves nothing.
         let mut driver = pressed("/ q q q Enter");
         assert_eq!(driver.model.keys(), ModeKind::Find);
         assert!(driver.text().contains("no parameter"), "{}", driver.text());

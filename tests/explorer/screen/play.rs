@@ -1,4 +1,4 @@
-//! The animation of the scene's loading.
+//! The animation of the loading.
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
@@ -22,7 +22,7 @@ fn the_animation_plays_to_its_end_and_stops() {
                 last = ends[0];
             }
             let d = driver.model.snapshot.as_ref().unwrap().point.indentation;
-            // It turns where the first leg ends.
+            // The direction turns at the end of the first leg.
             let forwards = if driver.model.player.leg == 0 { last <= d && d <= ends[0] } else { d <= last };
             assert!(forwards, "{last} to {d}");
             last = d;
@@ -31,13 +31,13 @@ fn the_animation_plays_to_its_end_and_stops() {
         }
         assert_eq!(driver.model.player.leg, 1);
         assert!((last - ends[1]).abs() < 1e-12, "{last}");
-        // And then nothing happens any more.
+        // Then nothing changes any more.
         let screen = driver.screen();
         for _ in 0..3 {
             assert!(driver.elapse(1.0).is_empty());
         }
         assert_eq!(driver.screen(), screen);
-        // Playing again begins at the beginning.
+        // Playing again starts from the beginning.
         driver.press("Space");
         assert!(driver.model.player.playing && driver.model.player.leg == 0);
     });
@@ -190,7 +190,7 @@ fn the_configuration_sets_speed_end_and_keys() {
         assert_eq!(place(config("(version: 1)"), 20), (1, 10.0, false));
         let (leg, _, playing) = place(config("(version: 1, repeat: true)"), 14);
         assert!(leg == 0 && playing, "it begins again");
-        // Other keys show in the help.
+        // Other keys are shown in the help.
         let mut driver = Driver::start(rough());
         driver
             .model

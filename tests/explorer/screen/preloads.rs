@@ -13,7 +13,7 @@ use asperity::scene::Document;
 use asperity::simulation::Simulation;
 use std::cell::RefCell;
 
-/// Computes the curve until it has so many profiles.
+/// Computes the curve up to this number of profiles.
 fn computing(profiles: usize) -> StandIn {
     StandIn::new(move |data, _, report| {
         let last = RefCell::new(data.clone());
@@ -24,7 +24,7 @@ fn computing(profiles: usize) -> StandIn {
             report(data);
         });
         match done {
-            // The data so far are enough.
+            // The data suffice.
             Err(_) if is_enough() => Ok(last.into_inner()),
             done => done,
         }
@@ -89,7 +89,7 @@ fn an_edit_begins_a_new_curve_and_a_scene_without_one_says_why() {
         let mut driver = shown(rough(), 2);
         let before = driver.model.preloads.clone().unwrap();
         assert_eq!(before.profiles(), 2);
-        // It goes on with what there is.
+        // The computation continues from the present data.
         let goes_on = |driver: &Driver| {
             study_tasks(&driver.model).into_iter().find_map(|task| match task {
                 Task::Extend { data: PaneData::Preloads(curve), waits } => Some((curve.profiles(), waits)),

@@ -1,4 +1,4 @@
-//! Saving the scene, and leaving with or without it.
+//! Saving the scene, and leaving with or without saving.
 
 use super::common::deadline::within;
 use super::common::driver::{Driver, REFUSED};
@@ -58,7 +58,7 @@ fn what_could_not_be_saved_is_told_and_not_forgotten() {
         driver.press("Enter");
         assert!(driver.text().contains("no room"), "{}", driver.text());
         assert!(driver.model.is_unsaved());
-        // It goes with the next key, so that the figures can be read again.
+        // The message ends with the next key, so that the figures can be read again.
         driver.press("j");
         assert!(!driver.text().contains("no room"), "{}", driver.text());
         assert!(driver.text().contains("F_a "), "{}", driver.text());
@@ -110,7 +110,7 @@ fn a_changed_scene_asks_before_it_is_left() {
         let driver = asked("s Enter");
         assert!(driver.model.finished);
         assert_eq!(driver.files.len(), 1);
-        // Whoever turns back from saving does not leave.
+        // Cancelling the save prompt also cancels leaving.
         for keys in ["s Esc", "s Ctrl+u Enter Esc"] {
             assert!(!asked(keys).model.finished, "{keys}");
         }
@@ -218,7 +218,7 @@ fn comments_about_changed_values_are_removed_only_when_asked() {
         assert_eq!(of(&driver), Some(comments - 1));
         driver.press("u");
         assert_eq!(driver.model.document.comments(), comments, "undo brings it back");
-        // It is asked once: what is saved is the text from now on.
+        // One question only: the text is saved from then on.
         let mut driver = asked("n");
         driver.press("s Enter");
         assert!(driver.status().contains("Overwrite"), "{}", driver.status());
@@ -249,7 +249,7 @@ fn scenes_in_whose_place_others_were_opened_are_not_forgotten() {
         assert!(driver.model.finished, "{}", driver.text());
         let saved: Vec<&Path> = driver.files.keys().map(|path| path.as_path()).collect();
         assert_eq!(saved, [Path::new("first.ron"), Path::new("rough-line.ron")]);
-        // Leaving without them is the second q.
+        // A second q leaves without saving.
         let driver = pressed("l 1 q q");
         assert!(driver.model.finished && driver.files.is_empty());
     });

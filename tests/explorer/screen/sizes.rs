@@ -1,4 +1,4 @@
-//! The same statements in windows of five sizes: nothing is cut without a sign, and what is asked for is in sight.
+//! The same statements in windows of five sizes: every cut has a sign, and requested parts are visible.
 
 use super::accuracy::measured;
 use super::chart::charted;
@@ -18,10 +18,10 @@ use asperity::scene::{Effect, format_quantity, open};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// A window in which every message has room.
+/// A window with room for every message.
 const WIDE: (u16, u16) = (400, 40);
 
-/// Glyphs of the marks of a curve and of the state shown.
+/// Glyphs of the marks of a curve and of the shown state.
 const MARKS: [char; 5] = ['◇', '▲', '▼', '○', '◆'];
 
 /// A Braille character with at least one dot.
@@ -37,7 +37,7 @@ fn marks_are_at_their_curve() {
             for document in [default_scene(), rough()] {
                 let mut driver = mid_retraction(document);
                 driver.resize(size);
-                // The axis of zero force would be beside any mark.
+                // The axis of zero force would lie beside any mark.
                 let rows: Vec<Vec<char>> = driver.rows().iter().map(|row| row.chars().collect()).collect();
                 let area = Layout::of(&driver.model).pane(Pane::Force).unwrap();
                 let at = |column: usize, row: usize| rows.get(row).and_then(|row| row.get(column)).copied();
@@ -246,10 +246,10 @@ fn another_way_to_give_the_adhesion_and_another_roughness_can_be_computed() {
                 let before = driver.model.document.scene().roughness.clone();
                 driver.press("Right");
                 let is_changed = driver.model.document.scene().roughness != before;
-                let said = driver.status();
+                let status = driver.status();
                 assert!(
-                    is_up_to_date(&driver.model) && (is_changed || said.starts_with('!')),
-                    "{size:?} {said}"
+                    is_up_to_date(&driver.model) && (is_changed || status.starts_with('!')),
+                    "{size:?} {status}"
                 );
             }
         }
@@ -463,7 +463,7 @@ fn the_wheel_zooms_at_the_pointer_and_strong_contrast_keeps_profile_and_surface_
             driver.act(Action::Mouse(Mouse { column, row: area.y + 1, gesture: Gesture::Wheel(2) }));
             let (from, springs) = shown(&driver);
             assert!(springs < all, "{size:?}: {springs} of {all}");
-            // The spring under the pointer stays there: nearer to the left end than to the right one.
+            // The spring under the pointer remains there: nearer to the left end than to the right one.
             assert!(from - first < first + all - (from + springs), "{size:?}: {from} {springs} of {all}");
         }
     });
@@ -510,7 +510,7 @@ fn a_digit_on_a_choice_says_how_choices_are_changed() {
                 switches.map(|one| (one.path.clone(), format!("{} is a switch: t changes it", one.name())))
             };
             let (switch, says_of_switch) = switch(&pressed("")).unwrap();
-            for (path, says) in [
+            for (path, expected) in [
                 ("adhesion", "adhesion is a choice: ← → change it"),
                 ("numerics.edges", "edges is a choice: ← → change it"),
                 ("material", "material is no number: Enter types it"),
@@ -527,7 +527,7 @@ fn a_digit_on_a_choice_says_how_choices_are_changed() {
                 driver.press("2");
                 let status = driver.status();
                 let start = status.strip_suffix('…').unwrap_or(&status);
-                assert!(says.starts_with(start) && start.len() > 8, "{size:?} {path}: {status}");
+                assert!(expected.starts_with(start) && start.len() > 8, "{size:?} {path}: {status}");
                 assert_eq!(
                     (driver.model.mode == Mode::Explore, driver.model.document.text()),
                     (true, &*before)

@@ -18,7 +18,7 @@ fn q_shows_the_spectrum_in_place_of_the_line() {
         assert_eq!((driver.model.pane, driver.model.large), (Pane::Spectrum, Some(Pane::Spectrum)));
         driver.press("Q");
         assert_eq!((driver.model.pane, driver.model.large), (Pane::Force, None));
-        // One thing at a time is in that place.
+        // One pane at a time in that place.
         for (keys, pane) in
             [("Q A", Pane::Accuracy), ("Q", Pane::Spectrum), ("m", Pane::Chart), ("Q", Pane::Spectrum)]
         {
@@ -34,7 +34,7 @@ fn q_shows_the_spectrum_in_place_of_the_line() {
     });
 }
 
-/// A scene of a measured profile of 512 µm, whose file is written.
+/// A scene of a measured profile of 512 µm, with its file.
 fn measured(file: &Path) -> Document {
     let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
     let rows: String = (0..512).map(|i| format!("{i} {}\n", 30.0 * height(i))).collect();
@@ -76,7 +76,7 @@ fn the_profile_itself_is_kept_beside_its_equivalent_line() {
     within(60, || {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("stylus.txt");
-        // The whole scan: the equivalent line is as long as its points are many.
+        // The whole scan: the length of the equivalent line follows from the number of its points.
         let document = measured(&file)
             .set_all(&[("length".to_owned(), "512 µm".to_owned()), ("form".to_owned(), "None".to_owned())]);
         let mut driver = Driver::start(document.unwrap());
@@ -87,7 +87,7 @@ fn the_profile_itself_is_kept_beside_its_equivalent_line() {
         let profile = ghost.computed.outcome.figures.adhesion_force;
         assert!(profile.is_some() && ghost.computed.outcome.governing.kappa.is_some());
         assert!(driver.text().contains("profile as line true"), "{}", driver.text());
-        // A small pane has room for the letter alone.
+        // A small pane has room for the letter only.
         driver.resize((80, 24));
         driver.press("z");
         assert!(driver.text().contains("profile as line true"), "{}", driver.text());
@@ -101,7 +101,7 @@ fn the_profile_itself_is_kept_beside_its_equivalent_line() {
         assert_eq!(driver.model.computed.as_ref().unwrap().outcome.figures.adhesion_force, profile);
         driver.press("C |");
         assert!(!driver.model.ghosts[0].document.scene().measured_as_line());
-        // A file that is gone, and roughness that is not measured.
+        // A missing file, and roughness that is not measured.
         let mut driver = Driver::start(equivalent);
         std::fs::remove_file(&file).unwrap();
         driver.press("|");
@@ -138,7 +138,7 @@ fn a_measured_surface_has_its_spectrum_fit_and_errors() {
             }
         }
         driver.resize((120, 40));
-        // A file that is gone is named.
+        // The message names a missing file.
         std::fs::remove_file(&file).unwrap();
         driver.press("R");
         assert!(driver.text().contains("stylus.txt"), "{}", driver.text());
@@ -159,7 +159,7 @@ fn a_measured_surface_is_the_roughness_by_its_path_alone() {
             driver.resize(size);
             driver.select("roughness");
             driver.press("Enter");
-            // What is typed replaces the value.
+            // The typed text replaces the value.
             driver.type_text(&format!("{}/sty", folder.path().display()));
             driver.press("Tab");
             let typed = driver.model.mode.line_mut().map(|line| line.text());
@@ -178,7 +178,7 @@ fn a_measured_surface_is_the_roughness_by_its_path_alone() {
             assert_eq!(driver.model.adhesion_spread.as_ref().unwrap().found.profiles.len(), PROFILES);
             driver.press("z");
             let screen = driver.text();
-            // The smallest screen has room for the spectra alone.
+            // The smallest screen has room for the spectra only.
             assert!(size.0 == 40 || screen.contains("over 16 lines, ± "), "{screen}");
             assert!(screen.contains("Spectr"), "{screen}");
         }

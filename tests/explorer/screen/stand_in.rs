@@ -1,4 +1,4 @@
-//! Stand-in for the studies beside the worker: gives the answers of a test, so that nothing depends on time.
+//! Stand-in for the studies beside the worker: returns the answers of a test, so that nothing depends on time.
 
 use asperity::accuracy::{Choice, ChoiceError, Estimate};
 use asperity::explorer::snapshot::SolvedScene;
@@ -14,7 +14,7 @@ type Extension = dyn FnMut(PaneData, &dyn Fn() -> bool, Reported<'_>) -> Result<
 /// Choice of the number of springs for a tolerance.
 type Chosen = fn(f64, &mut dyn FnMut(u64)) -> Result<Choice, ChoiceError>;
 
-/// A stand-in; without other answers nothing is estimated and no number of springs chosen.
+/// A stand-in; by default there is no estimate and no choice of a number of springs.
 pub struct StandIn {
     pub estimate: Option<Estimate>,
     pub choose: Chosen,
@@ -29,20 +29,20 @@ impl StandIn {
         StandIn { estimate: None, choose, extend: Box::new(extend) }
     }
 
-    /// Extends data, goes on until it is stopped, and reports too late; says when it begins to wait and when it has
+    /// Extends data until stopped, and reports too late; sends a message when it begins to wait and when it has
     /// stopped.
     pub fn endless(
-        says: Sender<&'static str>,
+        sender: Sender<&'static str>,
         mut extend: impl FnMut(PaneData, Reported<'_>) -> PaneData + Send + 'static,
     ) -> Self {
         StandIn::new(move |data, stop, report| {
             let data = extend(data, report);
-            says.send("begun").unwrap();
+            sender.send("begun").unwrap();
             while !stop() {
                 std::thread::yield_now();
             }
             report(data.clone());
-            says.send("stopped").unwrap();
+            sender.send("stopped").unwrap();
             Ok(data)
         })
     }

@@ -1,4 +1,4 @@
-//! A finished study in place of the map that is computed here.
+//! A finished study in place of the computed map.
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
@@ -78,7 +78,7 @@ fn glyphs_tell_all_that_was_recorded() {
             assert_eq!(driver.model.chart.charted(), Charted::Quantity(quantity));
             assert!(driver.text().contains(text), "{text}\n{}", driver.text());
         }
-        // The map that is computed here does not have it, and shows what it has.
+        // The map computed here does not have this quantity, and shows its own.
         driver.press("W");
         assert!(!driver.text().contains("F_a (mN) "), "{}", driver.text());
         driver.press("W");
@@ -98,7 +98,7 @@ fn the_mark_goes_from_cell_to_cell_and_beyond_the_map_stays_at_its_edge() {
         let before = driver.model.document.clone();
         assert_eq!(place(&driver), (1.0, 0.5));
         driver.press("Up Right k L");
-        // Values of the study: 12 digits, and not those of the map that is computed here.
+        // Values of the study: 12 digits, other than those of the map computed here.
         assert_eq!(place(&driver), (2.0, 0.9));
         assert!(driver.text().contains("◆ H 0.9, κ 2"), "{}", driver.text());
         assert!(is_up_to_date(&driver.model));
@@ -149,7 +149,7 @@ fn the_scene_follows_to_the_next_preload() {
         assert!(regimes[0] != regimes[1] && regimes[0] == regimes[3]);
         driver.press("PageUp");
         assert!((preload(&driver) / first / 100.0 - 1.0).abs() < 1e-9);
-        // A scene that is another one is left as it is.
+        // A different scene is left unchanged.
         driver.press("Tab Tab");
         driver.select("material.youngs_modulus");
         driver.press("L");
@@ -189,7 +189,7 @@ fn the_computed_map_can_be_had_instead() {
         assert!(driver.status().contains("W shows the study's"), "{}", driver.status());
         driver.press("W");
         assert!(driver.text().contains("Study small"), "{}", driver.text());
-        // It is hidden and shown again with the pane.
+        // The study is hidden and shown again with the pane.
         driver.press("m m");
         assert!(driver.text().contains("Study small"), "{}", driver.text());
         // Another scene has a map of its own, and the study stays loaded.
@@ -218,7 +218,7 @@ fn sections_have_the_confidence_of_the_mean() {
         }
         driver.press("V V V");
         assert!(driver.text().contains("⠒⠒⠒ F_a  ⠂ ⠂ 95 % confidence"), "{}", driver.text());
-        // Of one profile there is none.
+        // No spread for one profile.
         let (_folder, mut driver) = opened_with(&PLAN.replace("lines: 12", "lines: 1"));
         driver.press("X");
         assert!(
@@ -284,7 +284,7 @@ fn studies_of_other_quantities_open_as_maps_and_sections() {
         driver.press("Up");
         assert_eq!(driver.model.document.scene().length, 2.0e-4);
         assert!(!driver.text().contains("no longer"), "{}", driver.text());
-        // H alone: sections, for each preload.
+        // H alone: sections for each preload.
         let alone = PLAN.replace(&format!("{kappa},"), "");
         let (_folder, mut driver) =
             opened_with(&alone.replace("preloads: [0.01, 0.1, 1.0]", "preloads: [0.1]"));
@@ -314,7 +314,7 @@ fn a_study_is_opened_by_its_path() {
         std::fs::create_dir(folder.path().join("another")).unwrap();
         let mut driver = pressed("");
         let before = driver.model.document.clone();
-        for (name, said) in [
+        for (name, expected) in [
             ("begun", "has not been merged yet; asperity sweep merge"),
             ("another", "this folder is not that of a study"),
             ("nowhere", "nowhere"),
@@ -327,7 +327,7 @@ fn a_study_is_opened_by_its_path() {
             let Some(asperity::explorer::model::Notice::Error(error)) = &driver.model.notice else {
                 panic!()
             };
-            assert!(error.contains(said), "{error}");
+            assert!(error.contains(expected), "{error}");
             assert!(driver.model.chart.study.is_none());
         }
         driver.press("o");
@@ -341,7 +341,7 @@ fn a_study_is_opened_by_its_path() {
         assert_eq!(modes, (1, 32));
         driver.press("u");
         assert_eq!(driver.model.document.scene(), rough().scene());
-        // A scene file opens so as well.
+        // A scene file opens in the same way.
         std::fs::write(folder.path().join("mine.ron"), rough().text()).unwrap();
         driver.press("o");
         driver.act(Action::Paste(path("mine.ron")));

@@ -1,4 +1,4 @@
-//! Values as they are typed, taken and refused.
+//! Values while typed, accepted and refused.
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
@@ -72,7 +72,7 @@ fn the_editor_opens_with_the_value_selected_and_keeps_what_is_refused() {
         driver.press("Enter");
         assert_eq!(driver.model.mode.kind(), ModeKind::Explore);
         assert_eq!(driver.model.document.scene().length, 0.01);
-        // Neither the value as it is nor leaving the editor changes the text.
+        // Neither the unchanged value nor leaving the editor changes the text.
         let text = driver.model.document.text().to_owned();
         for path in
             ["length", "roughness.rms_height", "material.youngs_modulus", "adhesion.work", "loading.0.0"]
@@ -98,13 +98,13 @@ fn what_is_typed_can_be_edited_pasted_and_left() {
         let before = driver.model.document.clone();
         driver.press("e Ctrl+u 7 Esc");
         assert_eq!((&driver.model.document, driver.model.mode.kind()), (&before, ModeKind::Explore));
-        // While a value is typed, letters are letters.
+        // In a value, letters are typed.
         driver.press("e Ctrl+u q u");
         assert_eq!(driver.model.mode.kind(), ModeKind::Edit);
         assert!(driver.text().contains("qu"), "{}", driver.text());
         driver.press("Ctrl+c");
         assert_eq!((&driver.model.document, driver.model.mode.kind()), (&before, ModeKind::Explore));
-        // Typing the value it has changes nothing of it.
+        // Typing the present value changes nothing.
         driver.press("e Enter");
         assert_eq!(driver.model.document.scene(), before.scene());
     });
@@ -182,7 +182,7 @@ fn a_value_that_is_refused_says_so_beside_its_field_and_leaves_the_scene() {
             let text: String = row.iter().map(Cell::symbol).collect();
             assert!(text.contains('!') && text.contains("1.5"), "{text}");
             assert!(driver.text().contains("above 0 and below 1"), "{}", driver.text());
-            // The error goes with the value, or when the value is mended.
+            // The error disappears with the value, or with its correction.
             driver.press("Esc");
             assert!(!driver.text().contains('!'), "{}", driver.text());
             driver.select("roughness.hurst");
@@ -261,9 +261,9 @@ fn a_value_that_is_typed_shows_its_curve_before_it_is_taken() {
             assert_eq!(tried, alone.outcome.figures);
             let force = asperity::scene::format_quantity(tried.adhesion_force.unwrap(), "N");
             assert!(driver.status().starts_with(&format!("preview: F_a {force}")), "{}", driver.status());
-            // The scene itself is as it was, and so it is after Esc.
+            // The scene itself is unchanged, also after Esc.
             assert_eq!((&driver.model.document, is_up_to_date(&driver.model)), (&document, true));
-            // A text that is no value has none.
+            // A text that is no value has no preview.
             driver.type_text("kg");
             assert!(driver.model.tried_outcome().is_none() && driver.model.tried.is_none());
             driver.press("Backspace Backspace");
@@ -289,14 +289,14 @@ fn no_older_curve_is_shown_between_a_preview_and_the_next_one() {
         let force = |driver: &Driver| driver.model.tried_outcome().and_then(|one| one.figures.adhesion_force);
         let first = force(&driver).expect("a preview");
         let older = driver.model.preview.clone().unwrap();
-        // The next value is typed, and its curve is not there yet: that of the value before stays.
+        // The next value is typed, and its curve is not there yet: the previous one remains.
         driver.press("Home Delete");
         let waiting = update(&mut driver.model, Action::Type('4'));
         assert!(matches!(waiting[..], [Effect::Preview(_)]), "{waiting:?}");
         // "00 nm" is no allowed height, and has no curve.
         assert!(driver.status().starts_with("preview: computing…") || force(&driver).is_none());
         let seen = force(&driver);
-        // A curve that comes late, of a value that was typed over, is not shown.
+        // A late curve, of a value typed over since, is not shown.
         let late = Preview { text: older.text.clone() + " ", outcome: older.outcome.clone() };
         driver.act(Action::Report(Report::Previewed(Arc::new(late))));
         assert_eq!(force(&driver), seen);
@@ -304,7 +304,7 @@ fn no_older_curve_is_shown_between_a_preview_and_the_next_one() {
         let second = force(&driver).expect("a preview");
         assert_ne!(first, second);
         assert!(!driver.status().contains("computing"), "{}", driver.status());
-        // Accepted, the curve is there until the scene itself is computed.
+        // After acceptance the curve remains until the scene itself is computed.
         let accepted = driver.update("accept");
         assert_eq!(accepted, [Effect::Compute]);
         assert_eq!((driver.model.is_computing(), force(&driver)), (true, Some(second)));

@@ -48,7 +48,7 @@ fn a_screen_grows_back_to_what_it_was() {
         let before = driver.screen();
         for size in [(40, 12), (20, 5), (1, 1), (0, 0), (300, 100), (120, 40)] {
             driver.resize(size);
-            // The snapshot that fits comes after the first drawing.
+            // The matching snapshot arrives after the first drawing.
             driver.screen();
         }
         assert_eq!(driver.screen(), before);
@@ -61,7 +61,7 @@ fn a_pane_that_has_just_come_is_drawn_before_its_picture_is_there() {
         for (small, large) in [((40, 12), (120, 40)), ((20, 5), (80, 24)), ((120, 40), (40, 12))] {
             let mut driver = pressed("");
             driver.resize(small);
-            // The window grows, and is drawn before the worker has answered.
+            // The window grows, and is drawn before the answer of the worker.
             driver.model.size = large;
             draw(&driver.model);
             for _ in 0..4 {
@@ -77,7 +77,7 @@ fn a_pane_that_has_just_come_is_drawn_before_its_picture_is_there() {
     });
 }
 
-/// Cells of the pane that has the screen that show anything.
+/// True for each cell of the pane across the screen that is not blank.
 fn marked(driver: &Driver) -> Vec<bool> {
     driver.screen().content.iter().map(|cell| !cell.symbol().trim().is_empty()).collect()
 }
@@ -90,7 +90,7 @@ fn a_picture_made_for_another_window_is_fitted_into_this_one() {
             kept.resize(from);
             let mut fresh = pressed("Tab z");
             fresh.resize(to);
-            // The scene fails, so that the picture cannot be made anew.
+            // The scene fails, so the picture cannot be drawn anew.
             let failed = |driver: &mut Driver| {
                 driver.select("loading");
                 driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
@@ -139,18 +139,18 @@ fn the_smallest_window_says_what_is_true() {
         driver.resize((20, 5));
         let outcome = driver.model.computed.clone().unwrap().outcome.clone();
         let force = format_quantity(outcome.figures.adhesion_force.unwrap(), "N");
-        let said = |driver: &Driver, text: &str| {
+        let assert_shows = |driver: &Driver, text: &str| {
             assert!(driver.text().contains(text), "{text}\n{}", driver.text());
         };
         assert_eq!(driver.status(), format!("F_a {force}"), "and no number that is cut");
-        said(&driver, "◆");
+        assert_shows(&driver, "◆");
         driver.press("Tab");
-        said(&driver, "⣿");
+        assert_shows(&driver, "⣿");
         driver.press("Tab");
-        said(&driver, "›");
+        assert_shows(&driver, "›");
         driver.press("Tab");
         let facts = driver.model.snapshot.as_ref().unwrap().close_up.fragment.unwrap();
-        said(&driver, &format!("fragment {}", facts.number + 1));
+        assert_shows(&driver, &format!("fragment {}", facts.number + 1));
     });
 }
 

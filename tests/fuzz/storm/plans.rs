@@ -7,20 +7,20 @@ use asperity::study::{
     run,
 };
 
-/// Plans that are read.
+/// Number of plans read.
 const PLANS: u32 = 1000;
 
-/// Plans that are computed.
+/// Number of plans computed.
 const STUDIES: u32 = 25;
 
-/// Most records of a study that is computed, and most samples of a curve in it.
+/// Most records of a computed study, and most samples of a curve in it.
 const MOST_RECORDS: u64 = 60;
 const MOST_SAMPLES: u64 = 1000;
 
 /// Name of a plan in messages.
 const NAME: &str = "drawn.ron";
 
-/// What an axis can vary: the numbers of a scene, those derived of it, and a few that there are not.
+/// Quantities of an axis: the numbers of a scene, derived ones, and a few unknown ones.
 fn paths() -> impl Strategy<Value = &'static str> {
     let is_number = |field: &&Field| matches!(field.range, Range::Real { .. } | Range::Whole { .. });
     let mut paths: Vec<_> = FIELDS.iter().filter(is_number).map(|field| field.path).collect();
@@ -29,7 +29,7 @@ fn paths() -> impl Strategy<Value = &'static str> {
     prop::sample::select(paths)
 }
 
-/// Numbers in the range of what an axis varies.
+/// Numbers in the range of the quantity of an axis.
 fn numbers(path: &str) -> BoxedStrategy<f64> {
     let range = FIELDS.iter().find(|field| field.path == path).map(|field| field.range);
     let (low, high) = match range {
@@ -67,7 +67,7 @@ fn list(values: Vec<f64>) -> String {
     format!("[{}]", values.into_iter().map(ron_float).collect::<Vec<_>>().join(", "))
 }
 
-/// Texts of plans on scenes that are allowed.
+/// Texts of plans on allowed scenes.
 fn plans() -> impl Strategy<Value = String> {
     let names: Vec<_> = Quantity::ALL.iter().map(|quantity| quantity.name()).collect();
     let most = names.len();
@@ -93,8 +93,8 @@ fn plans() -> impl Strategy<Value = String> {
     )
 }
 
-/// A plan that is read is written and read back the same, and each of its cells is a scene that is allowed; what is
-/// refused is refused in lines that begin with the plan's name.
+/// An accepted plan is written and read back the same, and each of its cells is an allowed scene; refusals begin with
+/// the name of the plan in each line.
 fn assert_plan(text: &str) -> Result<Option<Plan>, TestCaseError> {
     let plan = match Plan::parse(text, NAME, &Changes::default()) {
         Ok(plan) => plan,
@@ -129,7 +129,7 @@ fn assert_plan(text: &str) -> Result<Option<Plan>, TestCaseError> {
     Ok(Some(plan))
 }
 
-/// Whether a study is done in tenths of a second.
+/// True if a study is done in tenths of a second.
 fn is_small(plan: &Plan) -> bool {
     let mut small = plan.records_in_all() <= MOST_RECORDS;
     plan.each_scene(|scene| {
@@ -138,12 +138,12 @@ fn is_small(plan: &Plan) -> bool {
     small
 }
 
-/// The study is computed and merged, or one of its cells is named with the reason; what has been merged reads back.
+/// The study is computed and merged, or one of its cells is named with the reason; the merged results read back.
 fn assert_study(plan: &Plan) -> Result<(), TestCaseError> {
     let place = tempfile::tempdir().unwrap();
     let fail = |error: StudyError| TestCaseError::fail(error.to_string());
     let folder = match Folder::create(&place.path().join("study"), plan) {
-        // Measured files of these names are not there, and the field is named.
+        // Measured files of these names do not exist, and the field is named.
         Err(error) if error.to_string().starts_with("roughness.file = ") => return Ok(()),
         folder => folder.map_err(fail)?,
     };
@@ -187,7 +187,7 @@ fn texts_of_plans() {
     proptest!(draws(PLANS), |(text in plans())| {
         allowed.set(allowed.get() + u32::from(assert_plan(&text)?.is_some()));
     });
-    // A storm of refused plans would show little.
+    // A storm of refused plans would prove little.
     assert!(allowed.get() >= PLANS / 50, "{} plans are allowed", allowed.get());
 }
 

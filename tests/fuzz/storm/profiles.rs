@@ -1,15 +1,15 @@
-//! Measured profiles as instruments and people write them, and as they must not be.
+//! Measured profiles, as written by instruments and people, and invalid ones.
 
 use super::properties::profile;
 use super::*;
 
-/// The file that scenes with a measured profile name.
+/// Profile file of scenes with a measured profile.
 pub const FILE: &str = "profile.csv";
 
 /// Profiles.
 const PROFILES: u32 = 2500;
 
-/// Most rows of a profile that is drawn.
+/// Most rows of a drawn profile.
 const MOST_ROWS: usize = 40;
 
 /// A profile on a length of 1: ascending positions from 0 to 1, and heights of the size of 1.
@@ -20,7 +20,7 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// The profile on `length` m, so many m high.
+    /// The profile on `length` m, `height` m high.
     pub fn text(&self, length: f64, height: f64) -> String {
         let row = |(x, z): (&f64, &f64)| format!("{:?}\t{:?}\n", x * length, z * height);
         self.positions.iter().zip(&self.heights).map(row).collect()
@@ -52,7 +52,7 @@ fn any_step() -> impl Strategy<Value = f64> {
     prop_oneof![3 => Just(1.0), 1 => (-12.0..2.0_f64).prop_map(f64::exp)]
 }
 
-/// A number as a column has it, of any size, and now and then none.
+/// A number of a column, of any size, and now and then none.
 fn column() -> BoxedStrategy<String> {
     prop_oneof![
         12 => (any::<bool>(), -30.0..21.0_f64)

@@ -1,4 +1,4 @@
-//! Scenes that are allowed, computed: a valid result, or one error that says where and what is allowed.
+//! Allowed scenes, computed: a valid result, or one error with its place and the allowed values.
 
 use super::*;
 use asperity::contact::{ContactError, CurvePoint, Direction, LegRecord};
@@ -10,16 +10,16 @@ use profiles::{FILE, Shape};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Scenes that are computed.
+/// Number of scenes computed.
 const RUNS: u32 = 375;
 
-/// No scene of so few springs takes so long.
+/// Longest time of a scene with this few springs.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Rounding of a sum over the springs, relative to the size of its terms.
 const ROUNDING: f64 = 1e-12;
 
-/// Computes a scene and asserts what holds for every one.
+/// Computes a scene and asserts the properties of every scene.
 fn compute(document: &Document, folder: &std::path::Path) -> Result<(), TestCaseError> {
     let scene = document.scene();
     let clock = Instant::now();
@@ -37,13 +37,13 @@ fn compute(document: &Document, folder: &std::path::Path) -> Result<(), TestCase
     }
 }
 
-/// Where each leg begins: the body separated, then at the end of the leg before.
+/// Point at the beginning of each leg: the body separated, then the end of the leg before.
 fn ends(outcome: &Outcome) -> Vec<CurvePoint> {
     let ends = outcome.history.legs.iter().filter_map(|leg| leg.curve.last().copied());
     std::iter::once(CurvePoint::default()).chain(ends).collect()
 }
 
-/// Every number is finite, and those that count something are in order.
+/// Every number is finite, and counts are consistent.
 fn assert_numbers(outcome: &Outcome) -> Result<(), TestCaseError> {
     let all = format!("{outcome:?}");
     for word in ["NaN", "inf"] {
@@ -65,16 +65,16 @@ fn assert_numbers(outcome: &Outcome) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// The size of the forces that a leg adds up, N: all springs at the deepest compression and the largest gap.
+/// Size of the forces summed on a leg, N: all springs at the deepest compression and the largest gap.
 fn force_scale(leg: &LegRecord, outcome: &Outcome) -> f64 {
     let gap = outcome.line.deepest.max(f64::MIN_POSITIVE);
     let deepest = leg.curve.iter().map(|point| point.indentation.abs()).fold(gap, f64::max);
     outcome.governing.effective_modulus * outcome.line.length * deepest
 }
 
-/// What holds for a leg that begins at a point.
+/// Asserts the properties of a leg that begins at a point.
 fn assert_leg(leg: &LegRecord, before: &CurvePoint, outcome: &Outcome) -> Result<(), TestCaseError> {
-    // L/N is rounded, and N of them may be longer than L by that.
+    // L/N is rounded, and N of them may exceed L by that.
     let length = outcome.line.length.max(outcome.line.points as f64 * outcome.line.spacing);
     let loading = leg.direction == Direction::Loading;
     for point in leg.curve.iter().chain([&leg.largest, &leg.smallest]) {
@@ -89,12 +89,12 @@ fn assert_leg(leg: &LegRecord, before: &CurvePoint, outcome: &Outcome) -> Result
     for pair in leg.curve.windows(2) {
         let [one, other] = if loading { [pair[0], pair[1]] } else { [pair[1], pair[0]] };
         prop_assert!(one.indentation <= other.indentation, "{:?}", pair);
-        // More is in contact the deeper the body is pressed, on one way.
+        // On one way the contact grows with the indentation.
         prop_assert!(one.springs <= other.springs, "{:?}", pair);
         prop_assert!(one.contact_length <= other.contact_length + ROUNDING * length, "{:?}", pair);
     }
     let rounding = ROUNDING * force_scale(leg, outcome);
-    // Extremes are those of the contact; what is not in contact has no force.
+    // Extremes are those of the contact; outside of contact there is no force.
     for point in leg.curve.iter().filter(|point| point.fragments > 0) {
         prop_assert!(
             !loading || point.force <= leg.largest.force + rounding,
@@ -117,7 +117,7 @@ fn assert_leg(leg: &LegRecord, before: &CurvePoint, outcome: &Outcome) -> Result
     assert_target(leg, end, rounding)
 }
 
-/// A leg ends where it was to end.
+/// A leg ends at its target.
 fn assert_target(leg: &LegRecord, end: &CurvePoint, rounding: f64) -> Result<(), TestCaseError> {
     let force = |target: f64| {
         let error = (end.force - target).abs();
@@ -140,7 +140,7 @@ fn assert_target(leg: &LegRecord, end: &CurvePoint, rounding: f64) -> Result<(),
     Ok(())
 }
 
-/// From separation to separation energy is lost, never won; without adhesion none is lost.
+/// From separation to separation energy is dissipated, never gained; without adhesion none is dissipated.
 fn assert_energy(outcome: &Outcome) -> Result<(), TestCaseError> {
     let legs = outcome.history.legs.iter().map(|leg| leg.dissipated_energy);
     let size = legs.clone().map(f64::abs).sum::<f64>();
@@ -151,7 +151,7 @@ fn assert_energy(outcome: &Outcome) -> Result<(), TestCaseError> {
             least = least.min(sum);
         }
     }
-    // What is stretched by less than a rounding of the gaps attaches and detaches wherever rounding puts it.
+    // Springs stretched by less than a rounding of the gaps attach and detach at a place decided by rounding.
     let place = 2.0 * f64::EPSILON * outcome.line.deepest;
     let rounded = 0.5 * outcome.governing.effective_modulus * outcome.line.length * place * place;
     prop_assert!(least >= -ROUNDING * size - rounded, "{:e} J won of {:e}", -least, size);
@@ -159,7 +159,7 @@ fn assert_energy(outcome: &Outcome) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// The curve that is written reads back bit for bit.
+/// The written curve reads back bit for bit.
 fn assert_written(scene: &Scene, outcome: &Outcome) -> Result<(), TestCaseError> {
     let mut table = Vec::new();
     let here = Path::new("");
@@ -181,7 +181,7 @@ fn assert_written(scene: &Scene, outcome: &Outcome) -> Result<(), TestCaseError>
     Ok(())
 }
 
-/// An error names a leg, a field or what is too large, and a force that is refused comes with those that are not.
+/// An error names a leg, a field or the excessive size, and a refused force comes with the allowed ones.
 fn assert_refused(error: &RunError, scene: &Scene) -> Result<(), TestCaseError> {
     let message = error.to_string();
     prop_assert_eq!(message.lines().count(), 1);
@@ -194,7 +194,7 @@ fn assert_refused(error: &RunError, scene: &Scene) -> Result<(), TestCaseError> 
         }
         RunError::Contact(ContactError::OutOfReach { index, leg }) => {
             prop_assert!(message.starts_with(&format!("loading.{index} = ")), "{}", message);
-            // Without adhesion every pressing force has its indentation, unless that is beyond all numbers.
+            // Without adhesion every pressing force has its indentation, unless that exceeds all numbers.
             let presses = matches!(leg, Leg::ToForce(force) if *force > 0.0);
             let stiffness = scene.material.effective_modulus() * scene.length;
             let reaches = matches!(leg, Leg::ToForce(force) if (force / stiffness).is_finite());
@@ -224,7 +224,7 @@ fn scenes_over_whole_ranges() {
     });
 }
 
-/// Writes the profile of a scene that names one: a little longer than the line.
+/// Writes the profile named by a scene: a little longer than the line.
 fn write_profile(document: &Document, shape: &Shape, height: f64, folder: &std::path::Path) {
     if matches!(document.scene().roughness, Some(Roughness::Measured { .. })) {
         let text = shape.text(document.scene().length * (1.0 + 1e-9), height);

@@ -1,4 +1,4 @@
-//! Texts of scenes and overrides, with the properties that fuzzing has.
+//! Texts of scenes and overrides, with the properties of the fuzz targets.
 
 use super::properties::{overrides, scene};
 use super::*;
@@ -33,7 +33,7 @@ fn overrides_of_presets() {
     });
 }
 
-/// A storm that draws nothing but refused texts, or nothing but a few kinds of scenes, would show little.
+/// A storm of only refused texts, or of only a few kinds of scenes, would prove little.
 #[test]
 fn all_fields_are_drawn_and_many_texts_are_allowed() {
     use proptest::strategy::ValueTree;

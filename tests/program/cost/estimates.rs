@@ -50,7 +50,7 @@ fn stated_errors_hold_and_are_not_far_above_the_true_ones() {
         let truth = run(&finest.unwrap()).figures.adhesion_force.filter(|force| *force > 0.0);
         let (Some(truth), Some(force)) = (truth, outcome.figures.adhesion_force) else { continue };
         let stated = estimate(document.scene(), Path::new(""), &outcome, &|| false).unwrap().unwrap().error;
-        // The finest solution itself is known to rounding only.
+        // The finest solution itself is known only to rounding.
         ratios.push(stated / ((force - truth).abs() / truth).max(1.0e-13));
     }
     ratios.sort_by(f64::total_cmp);

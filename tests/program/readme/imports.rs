@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Rooms of the source from the ground up: each imports only rooms before it.
+/// Rooms of the source from the ground up: each imports only earlier rooms.
 const ROOMS: [&str; 22] = [
     "text",
     "draw",
@@ -85,7 +85,7 @@ fn paths(module: &[String], code: &str) -> Vec<Module> {
     found.into_iter().map(absolute).collect()
 }
 
-/// Adds the paths of a tree of imports to those found, and returns the rest of the text.
+/// Adds the paths of a tree of imports to `found`, and returns the rest of the text.
 pub fn multiply_out<'t>(prefix: &mut Module, text: &'t str, found: &mut Vec<Module>) -> &'t str {
     let text = text.trim_start();
     if let Some(mut inside) = text.strip_prefix('{') {
@@ -110,7 +110,7 @@ pub fn multiply_out<'t>(prefix: &mut Module, text: &'t str, found: &mut Vec<Modu
     }
 }
 
-/// Files that each file imports; a path leads to the innermost module that it passes.
+/// Files imported by each file; a path leads to the innermost module on it.
 fn imports() -> BTreeMap<Module, BTreeSet<Module>> {
     let modules = modules();
     let innermost = |path: Module| {
@@ -160,11 +160,11 @@ fn files_of_the_contact_are_in_no_circle() {
         .filter(|(module, _)| module.first().is_some_and(|room| room == "contact"))
         .collect();
     let count = left.len();
-    // Files that import nothing of the room that is left are taken away until none is left, or all are in circles.
+    // Files without imports from the rest of the room are removed until none is left, or all are in cycles.
     loop {
         let names: BTreeSet<Module> = left.keys().cloned().collect();
         let before = left.len();
-        // A folder's own file names its files and gives them what it holds: this is no import of theirs.
+        // The file of a folder names its files and gives them its items: this is no import by them.
         left.retain(|here, imported| {
             imported.iter().any(|there| names.contains(there) && !here.starts_with(there))
         });
@@ -197,7 +197,7 @@ fn few_files_name_a_pane() {
 
 #[test]
 fn three_files_name_a_form() {
-    // The catalogue of hard cases and the profile of a sphere are made of forms and know nothing else of them.
+    // The catalogue of hard cases and the profile of a sphere only construct forms.
     let is_example = |file: &String| file.starts_with("check::cases") || file == "profile";
     for form in ["Form::Paraboloid", "Form::Cone", "Form::Power", "Form::Punch"] {
         let files: Vec<String> = files_that_name(form).into_iter().filter(|file| !is_example(file)).collect();

@@ -23,14 +23,14 @@ fn adhesion_force(outcome: &Outcome) -> f64 {
     outcome.figures.adhesion_force.unwrap()
 }
 
-/// Asserts that a notice has this part, so that a test cannot outlive its claim.
+/// Asserts that a notice contains this part, so that no test outlives its claim.
 fn assert_says(name: &str, part: &str) {
     let document = scene(name);
     let notice = &document.scene().notice;
     assert!(notice.contains(part), "{name}: {notice:?} does not say {part:?}");
 }
 
-/// A number with two significant digits, as notices have them.
+/// A number with two significant digits, as in notices.
 fn two_digits(value: f64) -> f64 {
     format!("{value:.1e}").parse().unwrap()
 }

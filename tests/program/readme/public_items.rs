@@ -1,14 +1,14 @@
-//! The public items of the library, as a snapshot: a change of what others build on is seen in review.
+//! The public items of the library, as a snapshot: changes of the interface are seen in review.
 //!
 //! The rooms of the program, `cli` and `explorer`, are left out. Signatures are read from the formatted source.
 
 use super::imports::{Module, modules, multiply_out};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// First words of the items that are listed.
+/// First words of the listed items.
 const KINDS: [&str; 7] = ["const fn ", "const ", "enum ", "fn ", "struct ", "trait ", "type "];
 
-/// Modules that are public up to the crate, the rooms of the program left out.
+/// Modules that are public up to the crate, without the rooms of the program.
 fn public_modules(modules: &BTreeMap<Module, String>) -> Vec<Module> {
     let (mut found, mut next) = (Vec::new(), vec![Vec::new()]);
     while let Some(module) = next.pop() {
@@ -22,7 +22,7 @@ fn public_modules(modules: &BTreeMap<Module, String>) -> Vec<Module> {
     found
 }
 
-/// Full paths of what a module gives on: `pub use` of it, outside the crate left out.
+/// Full paths re-exported by a module: its `pub use`, without those from outside the crate.
 fn reexports(module: &Module, modules: &BTreeMap<Module, String>) -> Vec<Module> {
     let mut found = Vec::new();
     for (index, _) in modules[module].match_indices("\npub use ") {
@@ -63,7 +63,7 @@ fn items(code: &str) -> Vec<(String, String)> {
     starts.filter_map(item).collect()
 }
 
-/// Fields, variants and methods of a type, or methods of a trait, wherever its room writes them.
+/// Fields, variants and methods of a type, or methods of a trait, from all files of its room.
 fn members(name: &str, room: &[&String]) -> Vec<String> {
     let mut found = Vec::new();
     for code in room {
@@ -79,7 +79,7 @@ fn members(name: &str, room: &[&String]) -> Vec<String> {
                 continue;
             };
             let whole = lines[head..].join("\n");
-            // Of an implementation for another type that mentions the name nothing is listed.
+            // An implementation for another type that mentions the name lists nothing.
             let of = lines[head].trim_start_matches("impl").trim_start();
             let of = if of.starts_with('<') { of.split_once("> ").map_or("", |(_, rest)| rest) } else { of };
             if lines[head].starts_with("impl") && !of.starts_with(name) {
@@ -116,7 +116,7 @@ fn public_items_are_those_of_the_snapshot() {
         );
         for path in shown {
             let (name, place) = path.split_last().unwrap();
-            // What is given on may be given on before.
+            // Re-exports may be of re-exports.
             let room: Vec<&String> = modules
                 .iter()
                 .filter(|(other, _)| other.first() == place.first())

@@ -1,4 +1,4 @@
-//! The page of the scene file: fields and scenes are those of the program.
+//! The page of the scene file: its fields and scenes match the program.
 
 use asperity::scene::{FIELDS, LEG_FORCE, LEG_INDENTATION, Range, presets};
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::sync::Mutex;
 /// One test at a time writes a page.
 static PAGES: Mutex<()> = Mutex::new(());
 
-/// The pages are written anew.
+/// True if the pages are to be written anew.
 pub fn updating() -> bool {
     std::env::var_os("UPDATE_README").is_some()
 }
@@ -22,7 +22,7 @@ pub fn read(page: &str) -> String {
     std::fs::read_to_string(root().join(page)).unwrap_or_else(|error| panic!("{page}: {error}"))
 }
 
-/// Compares the part of this name on a page with what the program gives, or writes it there.
+/// Compares the part of this name on a page with the expected text, or writes it there.
 pub fn check(page: &str, name: &str, expected: &str) {
     let _alone = PAGES.lock();
     let text = read(page);

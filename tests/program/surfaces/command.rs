@@ -96,7 +96,7 @@ fn a_profile_is_stated_in_every_form() {
     assert_eq!(report["files"][0]["points"], serde_json::json!([512]));
     let table = done(folder, &["surface", "line.txt", "--format", "csv"]);
     assert!(table.contains("\nspectrum,wave_number,power,waves\n1D PSD along x,"), "{table}");
-    // The bins hold the whole height but for waves 1 to 255 of the window's.
+    // The bins hold the whole height except for waves 1 to 255 of the window.
     let rows = table.lines().filter_map(|row| row.strip_prefix("1D PSD along x,"));
     let numbers = rows.map(|row| row.split(',').map(|cell| cell.parse::<f64>().unwrap()).collect::<Vec<_>>());
     let square: f64 = numbers.map(|row| row[1] * row[2]).sum::<f64>() / 512e-6 * 2.0;
@@ -117,7 +117,7 @@ fn spectra_are_computed_again_from_their_table() {
     for ending in ["csv", "npy"] {
         let (first, second) = (format!("a.{ending}"), format!("b.{ending}"));
         done(folder, &[&["surface", "plain.txt", "--unit", "um", "-o", &first], &options[..]].concat());
-        // From another folder too.
+        // Also from another folder.
         let path = folder.join(&first).to_str().unwrap().to_owned();
         done(&folder.join("other"), &["run", &path, "-o", &format!("../{second}")]);
         let [one, other] = [&first, &second].map(|name| std::fs::read(folder.join(name)).unwrap());
@@ -170,7 +170,7 @@ fn a_table_is_not_computed_again_from_a_changed_file() {
         let expected = "line.txt: the measured file has changed: its SHA-256 is ";
         assert!(message.starts_with(expected) && message.contains(&format!("…, {table} has ")), "{message}");
     }
-    // Another file in its place is another scene.
+    // Another file in its place makes another scene.
     done(
         folder,
         &["run", "curve.csv", "--set", "roughness=Measured(file: \"map.txt\")", "--set", "length=4e-5"],
@@ -190,8 +190,8 @@ fn several_files_are_one_roughness() {
     assert!(map["rms_gradient"].as_f64().unwrap() > map["rms_slope"].as_f64().unwrap());
 }
 
-/// Folder with files that leave everything open: `plain.txt` without units, `column.txt` without distances and units,
-/// `holes.txt` with missing points, `uneven.txt` with points at uneven distances, and a map `map.txt`.
+/// Folder with incomplete files: `plain.txt` without units, `column.txt` without distances and units, `holes.txt` with
+/// missing points, `uneven.txt` with points at uneven distances, and a map `map.txt`.
 fn open_folder() -> tempfile::TempDir {
     let folder = folder();
     let heights = heights(512);
@@ -204,7 +204,7 @@ fn open_folder() -> tempfile::TempDir {
     folder
 }
 
-/// Numbers behind the last of these keys, each looked for behind the one before, to the last digit: a general reader of JSON
+/// Numbers after the last of these keys, each searched after the previous one, to the last digit: a general JSON reader
 /// rounds some of them.
 fn numbers<'a>(text: &'a str, keys: &[&str]) -> impl Iterator<Item = f64> + 'a {
     let quoted = |key: &str| format!("\"{key}\":");
@@ -271,13 +271,13 @@ fn the_spectra_of_both_faces_add() {
     let report = |arguments: &[&str]| json(folder, &[&["surface", "--format", "json"], arguments].concat());
     let [one, other] = ["line.txt", "map.txt"].map(|file| report(&[file]));
     let both = report(&["line.txt", "--opposite", "map.txt"]);
-    // Each face is stated as alone.
+    // Each face is stated by itself.
     for name in ["files", "points", "rms_height", "hurst_exponent", "spectrum", "profile_spectra", "warnings"]
     {
         assert_eq!((&both[name], &both["opposite"][name]), (&one[name], &other[name]), "{name}");
     }
     assert_eq!(one["opposite"], serde_json::Value::Null);
-    // The gradient, to which long waves that one scan does not hold add little.
+    // The gradient: long waves missing in one scan add little to it.
     let squares = |report: &serde_json::Value| {
         report["equivalent_line"]["rms_gradient"]["value"].as_f64().unwrap().powi(2)
     };
@@ -299,7 +299,7 @@ fn the_spectra_of_both_faces_add() {
         assert_eq!(power(&table, &format!("opposite, {kind}")), power(&alone, kind));
         assert!(!power(&alone, kind).is_empty());
     }
-    // The line begins at the first wave that both scans hold.
+    // The line begins at the first wave contained in both scans.
     let line = power(&table, "equivalent line");
     assert!((line[0][0] * 40e-6 / std::f64::consts::TAU - 1.0).abs() < 1e-9, "{line:?}");
     let summary = done(folder, &["surface", "line.txt", "--opposite", "map.txt"]);
@@ -410,7 +410,7 @@ fn the_adhesion_force_has_the_spread_over_lines_beside_that_of_the_fit() {
         let force: f64 = row.split(',').nth(1).unwrap().parse().unwrap();
         assert!((force / line["adhesion_force"].as_f64().unwrap() - 1.0).abs() < 1e-9, "{row} {line}");
     }
-    // Without a work of adhesion there is none.
+    // Without a work of adhesion there is no adhesion force.
     let none = json(folder, &["surface", "line.txt", "--modulus", "1MPa", "--format", "json"]);
     assert_eq!(none["adhesion"], serde_json::Value::Null);
 }

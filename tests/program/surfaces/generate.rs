@@ -108,7 +108,8 @@ pub struct Profiles {
 }
 
 impl Profiles {
-    /// Profiles of so many points. Waves beyond their Nyquist wave number are sampled as an instrument would, at points.
+    /// Profiles of this number of points. Waves beyond their Nyquist wave number are sampled at points, as by an
+    /// instrument.
     pub fn new(spectrum: &Spectrum, points: usize) -> Self {
         let stride = (2.0 * spectrum.last / points as f64).ceil().max(1.0) as usize;
         let all = 2 * points * stride;
@@ -145,7 +146,7 @@ pub fn cut(spectrum: &Spectrum, k: f64) -> f64 {
     2.0 * sum * step
 }
 
-/// The heights as a file of NumPy would give them: a profile (`columns` of 0) or a map on a length of 1 m.
+/// The heights as read from a NumPy file: a profile (`columns` of 0) or a map on a length of 1 m.
 fn topography(heights: &[f64], columns: usize) -> Topography {
     let points = if columns == 0 { heights.len() } else { columns };
     let shape = match heights.len().checked_div(columns) {

@@ -1,5 +1,5 @@
-//! What others may have put into the folder of a study, or named it: nothing hangs, panics, or reaches a terminal
-//! but as text.
+//! Foreign content in the folder of a study, or in its name: nothing hangs, panics, or reaches a terminal except as
+//! text.
 
 use super::{SMALL, compute, plan, shard_files, study, tables};
 use asperity::study::{Changes, Finished, Folder, Plan, Shard, Status, StudyError, merge};
@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 use std::time::{Duration, Instant};
 
-/// Runs the program, and fails where it does not end.
+/// Runs the program, and fails if it does not end.
 fn asperity(arguments: &[&str]) -> Output {
     let mut child = Command::new(env!("CARGO_BIN_EXE_asperity"))
         .args(arguments)
@@ -57,7 +57,7 @@ fn a_header_that_no_program_wrote_is_an_error() {
     compute(&folder, 1, Shard { number: 1, count: 2 });
     let header = header_of(&folder);
     let stray = folder.path().join("shards/stray.shard");
-    for (from, to, said) in [
+    for (from, to, expected) in [
         ("\"count\":2", "\"count\":0", "shard 1/0: allowed: K/N with K from 1 to N"),
         ("\"number\":1", "\"number\":3", "shard 3/2: allowed: K/N"),
         ("\"number\":1", "\"number\":0", "shard 0/2: allowed: K/N"),
@@ -70,7 +70,7 @@ fn a_header_that_no_program_wrote_is_an_error() {
         for message in
             [Status::of(&folder).unwrap_err().to_string(), merge(&folder, true).unwrap_err().to_string()]
         {
-            assert!(message.contains("stray.shard: ") && message.contains(said), "{message}");
+            assert!(message.contains("stray.shard: ") && message.contains(expected), "{message}");
         }
     }
 }
@@ -111,11 +111,11 @@ fn pipes_and_devices_are_refused_at_once() {
     compute(&folder, 2, Shard::WHOLE);
     merge(&folder, false).unwrap();
     let path = folder.path().to_str().unwrap();
-    let refused = |arguments: &[&str], said: &str| {
+    let refused = |arguments: &[&str], expected: &str| {
         let output = asperity(arguments);
         let message = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(1), "{arguments:?}: {message}");
-        assert!(message.contains(said), "{arguments:?}: {message}");
+        assert!(message.contains(expected), "{arguments:?}: {message}");
     };
     let pipe = folder.path().join("shards/pipe.shard");
     for make in [|path: &Path| fifo(path), |path: &Path| symlink("/dev/zero", path).unwrap()] {
@@ -129,15 +129,15 @@ fn pipes_and_devices_are_refused_at_once() {
         for make in [|path: &Path| fifo(path), |path: &Path| symlink("/dev/zero", path).unwrap()] {
             fs::remove_file(&table).unwrap();
             make(&table);
-            let said = format!("{name}: this is not a regular file");
+            let expected = format!("{name}: this is not a regular file");
             if name == "summary.csv" {
-                refused(&["sweep", "plot", path], &said);
+                refused(&["sweep", "plot", path], &expected);
             } else {
                 let error = Finished::rows(folder.path(), |_| ()).unwrap_err();
-                assert!(error.to_string().contains(&said), "{error}");
+                assert!(error.to_string().contains(&expected), "{error}");
             }
         }
-        // The link goes, and what it led to stays.
+        // The link is removed, and its target remains.
         merge(&folder, false).unwrap();
         assert_eq!(fs::read_link(&table).unwrap(), Path::new("tables").join(name));
         fs::remove_file(&table).unwrap();
@@ -155,7 +155,7 @@ fn pipes_and_devices_are_refused_at_once() {
 
 #[test]
 fn titles_of_plans_are_held_to_what_scenes_may_have() {
-    for (title, said) in [
+    for (title, expected) in [
         ("\\u{1b}]52;c;eA==\\u{7}", "title = text with '\\u{1b}': allowed: no control characters"),
         ("a\\u{202e}b", "title = text with '\\u{202e}': allowed: no control characters"),
         ("two\\nlines", "title = text with '\\n': allowed: no control characters"),
@@ -164,7 +164,7 @@ fn titles_of_plans_are_held_to_what_scenes_may_have() {
         let text = SMALL.replacen("\"Small\"", &format!("\"{title}\""), 1);
         assert_ne!(text, SMALL);
         let message = Plan::parse(&text, "p.ron", &Changes::default()).unwrap_err().to_string();
-        assert!(message.contains(said), "{message}");
+        assert!(message.contains(expected), "{message}");
         let text = text.replacen("title:", "notice:", 1);
         let notice = Plan::parse(&text, "p.ron", &Changes::default());
         assert_eq!(notice.is_ok(), title.contains("lines") || title.starts_with('x'), "{notice:?}");
@@ -193,11 +193,11 @@ fn nothing_that_is_named_acts_on_a_terminal() {
     let mut outputs = Vec::new();
     let mut run = |arguments: &[&str]| {
         let output = asperity(arguments);
-        let said =
+        let shown =
             [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).concat();
-        assert!(!said.contains(acts), "{arguments:?}: {said:?}");
-        assert!(!said.is_empty(), "{arguments:?}");
-        outputs.push(said);
+        assert!(!shown.contains(acts), "{arguments:?}: {shown:?}");
+        assert!(!shown.is_empty(), "{arguments:?}");
+        outputs.push(shown);
     };
     run(&["sweep", "merge", &evil]);
     run(&["sweep", &plan_file, "-o", &evil, "--shard", "1/2"]);
@@ -231,7 +231,7 @@ fn nothing_that_is_named_acts_on_a_terminal() {
     run(&["check", EVIL]);
     run(&[EVIL]);
     run(&["sweep", "plans", EVIL, EVIL]);
-    // A header that says it comes from elsewhere, and a plan that differs.
+    // A header that claims another origin, and a different plan.
     let folder = Folder::open(Path::new(&evil)).unwrap();
     let payload = header_of(&folder);
     let start = payload.find("\"host\":\"").unwrap() + 8;
@@ -251,5 +251,5 @@ fn nothing_that_is_named_acts_on_a_terminal() {
     fs::write(folder.path().join("plan.ron"), text.replace("Small", "Sm\u{1b}[2J\u{202e}all")).unwrap();
     run(&["sweep", &plan_file, "-o", &evil]);
     run(&["sweep", "status", &evil]);
-    assert!(outputs.iter().any(|said| said.contains("\\u{1b}]52;c;eA==\\u{7}\\u{9b}2J\\u{202e}")));
+    assert!(outputs.iter().any(|shown| shown.contains("\\u{1b}]52;c;eA==\\u{7}\\u{9b}2J\\u{202e}")));
 }

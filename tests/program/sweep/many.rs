@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Divides the records of a study among so many files, as that many processes would have.
+/// Divides the records of a study among this number of files, as from that many processes.
 fn scatter(folder: &Folder, files: usize) {
     let file = shard_files(folder).remove(0);
     let text = fs::read_to_string(&file).unwrap();
@@ -62,9 +62,9 @@ fn two_thousand_shards_are_merged_with_few_open_files() {
     });
     fs::write(folder.path().join("shards/zz.shard"), all).unwrap();
     let output = limited(24, &["sweep", "merge", path]).output().unwrap();
-    let said = String::from_utf8_lossy(&output.stdout);
+    let message = String::from_utf8_lossy(&output.stdout);
     let repeats = format!("{} records were computed twice", plan.records_in_all());
-    assert!(said.contains(&repeats), "{said}{}", String::from_utf8_lossy(&output.stderr));
+    assert!(message.contains(&repeats), "{message}{}", String::from_utf8_lossy(&output.stderr));
     assert_eq!(tables(&folder), whole);
 }
 
@@ -95,7 +95,7 @@ fn the_parts_of_a_study_are_the_whole() {
     }
 }
 
-/// The tables under the names that users know: which merge has made them.
+/// The generation of the tables under their public names: the merge that made them.
 fn generation(folder: &Path, names: &[(String, [String; 3])]) -> Option<String> {
     let read = [RESULTS, SUMMARY, SIDECAR].map(|name| fs::read_to_string(folder.join(name)).ok());
     let [Some(results), Some(summary), Some(sidecar)] = read else {
@@ -110,7 +110,7 @@ fn generation(folder: &Path, names: &[(String, [String; 3])]) -> Option<String> 
 #[test]
 #[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn killed_merges_leave_the_tables_of_one_merge() {
-    // Large enough to be killed while it writes.
+    // Large enough for a kill while it writes.
     let plan = plan(&SMALL.replace("lines: 3", "lines: 200").replace("count: 4", "count: 8"));
     let (_place, folder) = study(&plan);
     let path = folder.path().to_str().unwrap().to_owned();
@@ -131,7 +131,7 @@ fn killed_merges_leave_the_tables_of_one_merge() {
     assert!(merge_once().status().unwrap().success());
     let long = clock.elapsed();
     let known = [partial, ("whole".to_owned(), all())];
-    // Old and new take turns: what one merge publishes, the next one replaces.
+    // Old and new alternate: each merge replaces the tables of the one before.
     let second = shard_files(&folder)
         .into_iter()
         .find(|path| path.file_name().unwrap().to_str().unwrap().starts_with("2-"))
@@ -166,13 +166,13 @@ fn tables_that_are_no_links_become_links() {
     let whole = undisturbed(&plan);
     let (place, folder) = study(&plan);
     compute(&folder, 2, Shard::WHOLE);
-    // Of an earlier version.
+    // Tables of an earlier version.
     for name in [RESULTS, SUMMARY, SIDECAR] {
         fs::write(folder.path().join(name), "old").unwrap();
     }
     merge(&folder, false).unwrap();
     assert_eq!(tables(&folder), whole);
-    // Copied by a program that follows links.
+    // A copy by a program that follows links.
     let copy = place.path().join("copy");
     let copied = Command::new("cp").arg("-rL").arg(folder.path()).arg(&copy).status().unwrap();
     assert!(copied.success());
@@ -185,9 +185,9 @@ fn tables_that_are_no_links_become_links() {
     for folder in [&folder, &copy] {
         assert_eq!(fs::read_link(folder.path().join(RESULTS)).unwrap(), Path::new("tables/results.csv"));
     }
-    // What is in the way of a table is not removed.
+    // An obstacle in place of a table is not removed.
     fs::remove_file(copy.path().join(RESULTS)).unwrap();
     fs::create_dir(copy.path().join(RESULTS)).unwrap();
-    let said = merge(&copy, false).unwrap_err().to_string();
-    assert!(said.contains("results.csv is in the way"), "{said}");
+    let message = merge(&copy, false).unwrap_err().to_string();
+    assert!(message.contains("results.csv is in the way"), "{message}");
 }

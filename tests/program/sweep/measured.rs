@@ -25,7 +25,7 @@ fn profile(amplitude: f64) -> String {
     (0..=110).map(row).collect()
 }
 
-/// A folder with a profile and a plan of it.
+/// A folder with a profile and a plan for it.
 fn place() -> (tempfile::TempDir, Plan) {
     let place = tempfile::tempdir().unwrap();
     fs::write(place.path().join("line.csv"), profile(1e-7)).unwrap();
@@ -57,7 +57,7 @@ fn the_hash_of_the_content_is_in_plan_and_headers() {
     for text in [text, header.lines().next().unwrap().to_owned(), sidecar] {
         assert!(text.contains(&hash), "{hash}: {text}");
     }
-    // The same study is gone on with, and read back, from its own copy of the plan too.
+    // The same study is continued, and read back, also from its own copy of the plan.
     begin(place.path(), &plan).unwrap();
     let again = Plan::open(folder.path().join("plan.ron").to_str().unwrap(), &Changes::default()).unwrap();
     assert_eq!(&again, Folder::open(folder.path()).unwrap().plan());
@@ -74,20 +74,20 @@ fn a_file_that_has_changed_is_refused() {
     fs::write(&line, profile(2e-7)).unwrap();
     let found = hash_of(&line);
     let check = |error: StudyError| {
-        let said = error.to_string();
+        let message = error.to_string();
         for part in [line.to_str().unwrap(), &expected, &found, "has changed", "study/plan.ron"] {
-            assert!(said.contains(part), "{part}: {said}");
+            assert!(message.contains(part), "{part}: {message}");
         }
     };
     check(begin(place.path(), &plan).unwrap_err());
-    // So is it where the folder was opened before.
+    // Also if the folder was opened before.
     let options = Options { jobs: 1, shard: Shard::WHOLE };
     check(run(&folder, options, &|| false, &mut |_| ()).unwrap_err());
-    // Brought back, the study is gone on with.
+    // With the file restored, the study continues.
     fs::write(&line, profile(1e-7)).unwrap();
     compute(&begin(place.path(), &plan).unwrap(), 1, Shard::WHOLE);
     merge(&folder, false).unwrap();
-    // A plan that asks for other content is refused before there is a folder.
+    // A plan that requires other content is refused before it creates a folder.
     let other = Plan { measured_sha256: Some(found), ..plan };
     let refused = Folder::create(&place.path().join("new"), &other).unwrap_err();
     assert!(matches!(refused, StudyError::MeasuredChanged { .. }), "{refused}");
@@ -103,7 +103,7 @@ fn a_file_that_changes_while_a_study_runs_changes_nothing() {
     let whole = tables(&folder);
     let line = place.path().join("line.csv");
     let other = Folder::create(&place.path().join("other"), &plan).unwrap();
-    // Lines of other numbers of points are sampled from the file again: after the first cell it is another one.
+    // Lines of other numbers of points are sampled from the file again: after the first cell the file has changed.
     let asked = std::sync::atomic::AtomicU32::new(0);
     let change = || {
         if asked.fetch_add(1, std::sync::atomic::Ordering::SeqCst) == 1 {
@@ -127,8 +127,11 @@ fn shards_of_another_content_are_refused() {
     compute(&other, 1, Shard { number: 2, count: 2 });
     let stray = &shard_files(&other)[0];
     fs::copy(stray, folder.path().join("shards").join(stray.file_name().unwrap())).unwrap();
-    let said = merge(&folder, true).unwrap_err().to_string();
-    assert!(said.contains("computed from another measured file") && said.contains("the plan has"), "{said}");
+    let message = merge(&folder, true).unwrap_err().to_string();
+    assert!(
+        message.contains("computed from another measured file") && message.contains("the plan has"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -141,14 +144,14 @@ fn a_study_that_does_not_say_its_content_is_not_gone_on_with() {
         text.lines().filter(|line| !line.contains("sha256")).map(|line| format!("{line}\n")).collect();
     assert_ne!(old, text);
     fs::write(&file, old).unwrap();
-    let said = begin(place.path(), &plan).unwrap_err().to_string();
-    assert!(said.contains("does not say which content of") && said.contains("line.csv"), "{said}");
-    // Nor is a hash that is none, or of nothing.
+    let message = begin(place.path(), &plan).unwrap_err().to_string();
+    assert!(message.contains("does not say which content of") && message.contains("line.csv"), "{message}");
+    // An invalid hash, or a hash without a file, is refused as well.
     let wrong = PLAN.replace("record:", "measured_sha256: \"abc\", record:");
-    let said = Plan::parse(&wrong, "p.ron", &Changes::default()).unwrap_err().to_string();
-    assert!(said.contains("measured_sha256 = \"abc\": allowed: 64 digits"), "{said}");
+    let message = Plan::parse(&wrong, "p.ron", &Changes::default()).unwrap_err().to_string();
+    assert!(message.contains("measured_sha256 = \"abc\": allowed: 64 digits"), "{message}");
     let smooth =
         super::SMALL.replace("lines: 3", &format!("lines: 3, measured_sha256: \"{}\"", "0".repeat(64)));
-    let said = Plan::parse(&smooth, "p.ron", &Changes::default()).unwrap_err().to_string();
-    assert!(said.contains("this scene has no such file"), "{said}");
+    let message = Plan::parse(&smooth, "p.ron", &Changes::default()).unwrap_err().to_string();
+    assert!(message.contains("this scene has no such file"), "{message}");
 }

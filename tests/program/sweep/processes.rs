@@ -1,4 +1,4 @@
-//! Processes that are killed, stopped, or run out of disk: nothing is lost, nothing is counted twice.
+//! Processes that are killed, stopped, or out of disk space: no record is lost or counted twice.
 
 use super::{plan, tables, undisturbed};
 use asperity::study::{Folder, Status};
@@ -11,7 +11,7 @@ use std::process::{Child, Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// Long enough to be killed in the middle.
+/// Long enough for a kill in the middle.
 fn text() -> String {
     super::SMALL
         .replace("count: 4", "count: 12")
@@ -41,7 +41,7 @@ fn done(place: &Path) -> u64 {
     Folder::open(&place.join("study")).map_or(0, |folder| Status::of(&folder).unwrap().done)
 }
 
-/// Waits until a study has so many records, or its process has ended.
+/// Waits until a study has this number of records, or its process has ended.
 fn wait_for(child: &mut Child, place: &Path, records: u64) {
     let clock = Instant::now();
     while done(place) < records && child.try_wait().unwrap().is_none() {
@@ -61,7 +61,7 @@ const KILLS: u32 = 20;
 #[test]
 fn killed_twenty_times_at_random_moments_it_goes_on() {
     let expected = undisturbed(&plan(&text()));
-    // How long a process takes that nobody disturbs.
+    // Time of an undisturbed process.
     let calm = place();
     let clock = Instant::now();
     assert!(finish(command(calm.path())).status.success());
@@ -69,7 +69,7 @@ fn killed_twenty_times_at_random_moments_it_goes_on() {
     let mut random = ChaCha8Rng::seed_from_u64(rand::random());
     let (mut kills, mut after_records) = (0, 0);
     while kills < KILLS {
-        // A study is killed and taken up again until it is whole; then there is another one.
+        // A study is killed and continued until it is whole; then another one begins.
         let place = place();
         let mut there = 0;
         loop {
@@ -87,7 +87,7 @@ fn killed_twenty_times_at_random_moments_it_goes_on() {
             }
             assert_eq!(status.signal(), Some(9), "{status}");
             kills += 1;
-            // What was there is there still.
+            // Earlier records are still there.
             let now = done(place.path());
             assert!(now >= there, "{now} {there}");
             after_records += u32::from(now > there);
@@ -143,7 +143,7 @@ fn two_processes_may_be_given_the_same_shard() {
 #[test]
 fn a_full_disk_is_told_and_loses_nothing() {
     let place = place();
-    // A file may not grow beyond 16 blocks of 512 bytes; the signal for it is left out, as where a disk is full.
+    // A file may not grow beyond 16 blocks of 512 bytes; its signal is ignored, so that writes fail as on a full disk.
     let inner = command(place.path());
     let mut words = vec![inner.get_program().to_owned()];
     words.extend(inner.get_args().map(std::ffi::OsStr::to_owned));

@@ -1,4 +1,4 @@
-//! Errors of a plan are found before anything runs.
+//! Errors of a plan are found before any computation.
 
 use super::SMALL;
 use asperity::study::{Changes, Plan};
@@ -10,7 +10,7 @@ fn wrong(text: &str) -> String {
 
 #[test]
 fn each_mistake_has_its_message() {
-    for (from, to, said) in [
+    for (from, to, expected) in [
         ("axes:", "axis:", "p.ron:12:5: axis: no such field; did you mean axes?"),
         ("Linear(", "Liner(", "p.ron:13:9: Liner: allowed: Linear, Logarithmic, List (did you mean Linear?)"),
         ("from: 0.5", "form: 0.5", "form: no such field; did you mean from?"),
@@ -49,7 +49,7 @@ fn each_mistake_has_its_message() {
         let text = SMALL.replacen(from, to, 1);
         assert_ne!(text, SMALL);
         let message = wrong(&text);
-        assert!(message.contains(said), "{to}: {message}");
+        assert!(message.contains(expected), "{to}: {message}");
         assert!(message.lines().all(|line| line.starts_with("p.ron")), "{message}");
     }
     let smooth = "(version: 1, base: \"jkr-sphere\", preloads: [0.1], lines: 2, record: [regime])";
