@@ -87,8 +87,24 @@ pub trait ContactModel {
     /// The extreme force on the grid's range; `sorted` counts the events of the search.
     fn extreme(&self, extreme: Extreme, leg: &Sampled, sorted: &mut u64) -> ContactState;
 
-    /// The smallest indentation of the range at which the compression is at least `wanted`.
-    fn first_at_least(&self, leg: &Sampled, wanted: f64, sorted: &mut u64) -> Option<f64>;
+    /// Contact states at those points of a grid from which [`ContactModel::first_at_least`] proceeds, its ends among
+    /// them.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    fn sample_coarsely(&self, grid: &Grid) -> Result<Sampled, ContactError>;
+
+    /// The smallest indentation of a grid at which the compression is at least `wanted`.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    fn first_at_least(
+        &self,
+        grid: &Grid,
+        coarse: &Sampled,
+        wanted: f64,
+        sorted: &mut u64,
+    ) -> Result<Option<f64>, ContactError>;
 
     /// The largest indentation of the range at which the compression is at most `wanted`.
     fn last_at_most(&self, leg: &Sampled, wanted: f64, sorted: &mut u64) -> Option<f64>;

@@ -147,12 +147,6 @@ impl<'a> Exact<'a> {
         (Grid::new(low, high, intervals * stride), stride)
     }
 
-    /// Contact states along the grid of a search.
-    fn sample(&mut self, low: f64, high: f64) -> Result<Sampled, ContactError> {
-        self.work.springs_tallied += self.work.springs;
-        self.contact.sample(Grid::new(low, high, SEARCH_INTERVALS))
-    }
-
     pub(super) fn curve_point(&self, state: ContactState) -> CurvePoint {
         state.point(self.foundation)
     }
@@ -221,9 +215,13 @@ impl<'a> Exact<'a> {
         let forms = self.is_separated();
         // From d = 0 to full contact.
         let known = if forms { self.first.take() } else { None };
+        let grid = Grid::new(low, complete, SEARCH_INTERVALS);
         let sampled = match known {
             Some(sampled) => sampled,
-            None => self.sample(low, complete)?,
+            None => {
+                self.work.springs_tallied += self.work.springs;
+                self.contact.sample_coarsely(&grid)?
+            }
         };
         let sorted = &mut self.work.events_sorted;
         // Beyond full contact the force rises with all springs.
@@ -234,7 +232,7 @@ impl<'a> Exact<'a> {
             let found = straight.unwrap_or_else(sliding);
             found.is_finite().then(|| found.max(complete))
         };
-        let found = self.contact.first_at_least(&sampled, wanted, sorted).or_else(beyond);
+        let found = self.contact.first_at_least(&grid, &sampled, wanted, sorted)?.or_else(beyond);
         if forms {
             self.first = Some(sampled);
         }
@@ -292,7 +290,8 @@ impl<'a> Exact<'a> {
 
     fn unload_to_force(&mut self, leg: Leg, force: f64, low: f64, high: f64) -> Result<f64, ContactError> {
         let wanted = force / self.foundation.spring_stiffness();
-        let sampled = self.sample(low, high)?;
+        self.work.springs_tallied += self.work.springs;
+        let sampled = self.contact.sample(Grid::new(low, high, SEARCH_INTERVALS))?;
         let sorted = &mut self.work.events_sorted;
         if let Some(found) = self.contact.last_at_most(&sampled, wanted, sorted) {
             return Ok(found);

@@ -1,6 +1,9 @@
 //! Grids of indentations, and sums that keep their rounding errors.
 
-/// A grid of ascending indentations, evenly spaced with both ends exact, or at given points.
+use std::ops::Range;
+
+/// A grid of ascending indentations, evenly spaced with both ends exact but for a shorter last interval, or at given
+/// points.
 #[derive(Clone, Debug)]
 pub struct Grid {
     points: Vec<f64>,
@@ -29,6 +32,19 @@ impl Grid {
         Grid { points, intervals_per_metre: 0.0 }
     }
 
+    /// Every `stride`-th of its points, and the last.
+    pub fn coarser(&self, stride: usize) -> Self {
+        let last = self.points.len() - 1;
+        let points = (0..last).step_by(stride).chain([last]).map(|index| self.points[index]).collect();
+        Grid { points, intervals_per_metre: self.intervals_per_metre / stride as f64 }
+    }
+
+    /// Its points of these indices, at least one.
+    pub fn part(&self, indices: Range<usize>) -> Self {
+        let points = self.points[indices].to_vec();
+        Grid { points, intervals_per_metre: self.intervals_per_metre }
+    }
+
     /// Returns false for a grid of given points, or of its two ends alone.
     pub fn is_even(&self) -> bool {
         self.intervals_per_metre > 0.0
@@ -48,7 +64,7 @@ impl Grid {
         if !self.is_even() {
             return self.points.partition_point(|&point| point < indentation);
         }
-        // The guess is off by at most one where the grid is even; the loops make it exact.
+        // Off by at most two where the grid is even; the loops make it exact.
         let guess = ((indentation - self.points[0]) * self.intervals_per_metre) as usize;
         let mut index = guess.min(self.points.len() - 1);
         while self.points[index] < indentation {

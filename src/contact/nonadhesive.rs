@@ -361,16 +361,26 @@ impl ContactModel for Nonadhesive<'_> {
         }
     }
 
-    fn first_at_least(&self, leg: &Sampled, wanted: f64, _: &mut u64) -> Option<f64> {
+    fn sample_coarsely(&self, grid: &Grid) -> Result<Sampled, ContactError> {
+        self.sample(grid.clone())
+    }
+
+    fn first_at_least(
+        &self,
+        _: &Grid,
+        leg: &Sampled,
+        wanted: f64,
+        _: &mut u64,
+    ) -> Result<Option<f64>, ContactError> {
         let is_past = |compression| compression >= wanted;
-        let (low, high) = Self::ends(leg, is_past)?;
+        let Some((low, high)) = Self::ends(leg, is_past) else { return Ok(None) };
         let end = high.indentation;
-        let Some(low) = low else { return Some(end) };
+        let Some(low) = low else { return Ok(Some(end)) };
         let between = self.between(low.indentation, end);
-        match self.edges {
+        Ok(match self.edges {
             Edges::Grid => between.full.first_of(&[], (low, high), wanted).or(Some(end)),
             Edges::SubCell => Some(between.crossing((low.indentation, end), wanted, is_past)[1]),
-        }
+        })
     }
 
     fn last_at_most(&self, leg: &Sampled, wanted: f64, _: &mut u64) -> Option<f64> {

@@ -25,22 +25,21 @@ impl<E: EdgeModel> Ground<'_, E> {
             if first >= end {
                 continue;
             }
-            self.each_span(run, unloading, |span, _, to| {
-                let next = place(to).min(end);
-                if first < next {
-                    let whole = self.totals(span);
-                    totals[first] += whole;
-                    totals[next] += -whole;
-                    if E::SLIDES {
-                        let slider = self.slider(run, span);
-                        for (sums, &point) in sums[first..next].iter_mut().zip(&points[first..next]) {
-                            sums.add(slider.edge_cells(point));
-                        }
+            let mut span = self.bottom(run);
+            while first < end {
+                span = self.filled(run, span, unloading, points[first]);
+                let next = place(self.filled_up_to(run, &span, unloading)).min(end);
+                let whole = self.totals(&span);
+                totals[first] += whole;
+                totals[next] += -whole;
+                if E::SLIDES {
+                    let slider = self.slider(run, &span);
+                    for (sums, &point) in sums[first..next].iter_mut().zip(&points[first..next]) {
+                        sums.add(slider.edge_cells(point));
                     }
-                    first = next;
                 }
-                next >= end
-            });
+                first = next;
+            }
         }
         totals.truncate(count);
         let mut total = ContactTotals::default();

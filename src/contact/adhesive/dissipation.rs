@@ -62,7 +62,7 @@ impl<E: EdgeModel> Ground<'_, E> {
     pub fn each_spring_of_chains(&self, runs: &[Run], unloading: bool, mut see: impl FnMut(usize, f64)) {
         for run in runs {
             let mut below: Option<Span> = None;
-            self.each_span(run, unloading, |span, from, _| {
+            self.each_span(run, unloading, f64::NEG_INFINITY, |span, from, _| {
                 if let Some(below) = below.replace(*span) {
                     see(if span.last > below.last { span.last } else { span.first }, from);
                 }

@@ -63,16 +63,23 @@ impl EdgeCell {
     #[inline]
     fn new(inside: f64, outside: f64, level: f64) -> Self {
         let (height, above) = (outside - inside, level - inside);
+        let growth = height.recip();
+        if !(growth > 0.0 && growth < f64::INFINITY) {
+            return EdgeCell::without_growth(outside, height, above);
+        }
+        let share = if above < height { above * growth } else { 1.0 };
+        EdgeCell { outside, share, growth, carries: above * share }
+    }
+
+    /// Half a cell as level as its spring at the end of the foundation, or a cell too steep or too level to grow.
+    #[cold]
+    fn without_growth(outside: f64, height: f64, above: f64) -> Self {
         if height == f64::INFINITY {
-            // Half a cell, as level as its spring.
             return EdgeCell { outside, share: 0.5, growth: 0.0, carries: above };
         }
-        let growth = height.recip();
-        let growth = if growth < f64::INFINITY { growth } else { 0.0 };
-        let share = if growth > 0.0 { above * growth } else { above / height };
         // 0/0 for a level cell: all of it counts.
-        let share = if above < height { share } else { 1.0 };
-        EdgeCell { outside, share, growth, carries: above * share }
+        let share = if above < height { above / height } else { 1.0 };
+        EdgeCell { outside, share, growth: 0.0, carries: above * share }
     }
 }
 

@@ -7,9 +7,6 @@ use super::span::{Span, larger, smaller};
 use super::tree::{Branch, Node};
 use crate::contact::{ContactError, push, resized};
 
-/// Margin of the bounds for rounding.
-const BELOW: f64 = 1.0 - 1e-12;
-
 /// Closing thresholds of the nodes of a tree.
 ///
 /// A node closes, and all its subtree is one fragment, when one of its two branches attaches its spring:
@@ -217,7 +214,7 @@ impl Closing {
             let start = self.start(ground, branch, state);
             let node = branch.origin().ok().map(|index| (index, ground.tree.nodes()[index]));
             let lowest = node.map_or(start.gap, |(_, node)| node.lowest);
-            // A present contact remains, however far it is stretched.
+            // What is in contact already stays so, however far it is stretched.
             if lowest >= merges && climb.held[0] == climb.held[1] {
                 continue;
             }
@@ -308,12 +305,6 @@ fn held_on(held: &[Held], [begin, end]: [u32; 2], branch: Branch) -> Option<&Hel
 }
 
 impl<E: EdgeModel> Ground<'_, E> {
-    /// Squared stretch of a fragment of unit length, m², rounded down.
-    fn square(&self) -> f64 {
-        let stretch = self.edges.stretch();
-        stretch * stretch * BELOW
-    }
-
     /// Largest φ from the beginning of a branch up to the spring `parent`, not below its own threshold; and the springs
     /// that the branch surely holds at its lowest span.
     ///
@@ -339,7 +330,9 @@ impl<E: EdgeModel> Ground<'_, E> {
         if !may_rise(closes, top.gap, &span) {
             return (closes, ends);
         }
-        while let Some(wall) = span.wall(gaps).filter(|&wall| wall != parent) {
+        while span.ends() != top.ends() {
+            span = span.up_to(gaps, self.sure_level(&span, closes), top.ends());
+            let Some(wall) = span.wall(gaps).filter(|&wall| wall != parent) else { break };
             if may_rise(closes, gaps[wall], &span) {
                 *evaluations += 1;
                 closes = larger(closes, self.attaches_at(&span, gaps[wall]));

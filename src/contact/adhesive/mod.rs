@@ -198,8 +198,18 @@ impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
         self.search().extreme(extreme, leg, sorted)
     }
 
-    fn first_at_least(&self, leg: &Sampled, wanted: f64, sorted: &mut u64) -> Option<f64> {
-        self.search().first_at_least(leg, wanted, sorted)
+    fn sample_coarsely(&self, grid: &Grid) -> Result<Sampled, ContactError> {
+        self.search().sample_coarsely(grid)
+    }
+
+    fn first_at_least(
+        &self,
+        grid: &Grid,
+        coarse: &Sampled,
+        wanted: f64,
+        sorted: &mut u64,
+    ) -> Result<Option<f64>, ContactError> {
+        self.search().first_at_least(grid, coarse, wanted, sorted)
     }
 
     fn last_at_most(&self, leg: &Sampled, wanted: f64, sorted: &mut u64) -> Option<f64> {

@@ -126,7 +126,8 @@ impl Reversing {
         let [thirds, mut attached] = self.attached[index];
         let range = Range { low: f64::NEG_INFINITY, high: at, unloading: false };
         for (number, run) in runs.iter().enumerate().filter(|(_, run)| run.is_at(at)) {
-            let span = loading.climbed(run, self.spans[number], at);
+            let from = loading.span(run.branch, self.spans[number]);
+            let span = loading.filled(run, from, false, at);
             self.spans[number] = span.ends();
             if E::SLIDES {
                 let ends = loading.levels_of(run, loading.bottom(run), span, range);

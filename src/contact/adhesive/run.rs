@@ -6,6 +6,9 @@ use super::span::{Span, larger};
 use super::tree::{Branch, ContactTree};
 use crate::contact::Direction;
 
+/// Margin of bounds for rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// One fragment over the range of indentations up to its next jump, merging or parting: on the way from its bottom to
 /// its top each span passes into the next.
 ///
@@ -159,34 +162,71 @@ impl<E: EdgeModel> Ground<'_, E> {
         crate::contact::ContactTotals { springs: span.springs() as i64, fragments: 1, quanta }
     }
 
-    /// Calls `see` with each span of a run from the smallest one on and the range of indentations (m) over which the
-    /// run fills it, until `see` returns true.
+    /// Upper end of the indentations over which a run fills a span, m: where the span `above` takes its place.
     #[inline]
-    pub fn each_span(&self, run: &Run, unloading: bool, mut see: impl FnMut(&Span, f64, f64) -> bool) {
-        let mut span = self.bottom(run);
-        let mut from = run.from;
-        while !run.is_pinned && span.ends() != run.top {
-            let above = span.grown(self.gaps);
-            let to = if unloading {
-                // The span above parts where this one would go on.
-                self.holds_to(&above)
-            } else {
-                self.attaches_at(&span, above.gap)
-            };
-            if see(&span, from, to) {
-                return;
-            }
-            (span, from) = (above, to);
-        }
-        see(&span, from, run.to);
+    fn upper_end(&self, span: &Span, above: &Span, unloading: bool) -> f64 {
+        // Unloading, the span above parts where this one would go on.
+        if unloading { self.holds_to(above) } else { self.attaches_at(span, above.gap) }
     }
 
-    /// The span of a loading run at an indentation, climbed from its span at a smaller indentation.
-    pub fn climbed(&self, run: &Run, from: [u32; 2], indentation: f64) -> Span {
-        let mut span = self.span(run.branch, from);
-        while span.ends() != run.top_ends() {
+    /// Upper end of the indentations over which a run fills one of its spans, m.
+    #[inline]
+    pub fn filled_up_to(&self, run: &Run, span: &Span, unloading: bool) -> f64 {
+        if span.ends() == run.top_ends() {
+            return run.to;
+        }
+        self.upper_end(span, &span.grown(self.gaps), unloading)
+    }
+
+    /// Lower bound of the gaps of springs outside a span that do not belong to its fragment at this indentation (m), on
+    /// either leg: a spring with a smaller gap needs no evaluation of the rule.
+    #[inline]
+    pub fn sure_level(&self, span: &Span, indentation: f64) -> f64 {
+        let root = (self.square() * self.edges.least_length(span.first, span.last)).sqrt();
+        (indentation + root) - ROUNDING * (indentation.abs() + root)
+    }
+
+    /// Squared stretch of a fragment of unit length, m², rounded down.
+    #[inline]
+    pub fn square(&self) -> f64 {
+        let stretch = self.edges.stretch();
+        stretch * stretch * (1.0 - ROUNDING)
+    }
+
+    /// Calls `see` with each span of a run from the smallest one on and the range of indentations (m) over which the
+    /// run fills it, until `see` returns true. Ranges that end at `low` (m) or below are left out; the first of the others
+    /// then begins at `low`.
+    #[inline]
+    pub fn each_span(
+        &self,
+        run: &Run,
+        unloading: bool,
+        low: f64,
+        mut see: impl FnMut(&Span, f64, f64) -> bool,
+    ) {
+        let bottom = self.bottom(run);
+        let mut span = self.filled(run, bottom, unloading, low);
+        let mut from = if span == bottom { run.from } else { low };
+        loop {
+            let to = self.filled_up_to(run, &span, unloading);
+            if see(&span, from, to) || span.ends() == run.top_ends() {
+                return;
+            }
+            (span, from) = (span.grown(self.gaps), to);
+        }
+    }
+
+    /// The span of a run at an indentation, from one that it fills at a smaller indentation on.
+    pub fn filled(&self, run: &Run, from: Span, unloading: bool, indentation: f64) -> Span {
+        let (mut span, top) = (from, run.top_ends());
+        while span.ends() != top {
+            let sure = span.up_to(self.gaps, self.sure_level(&span, indentation), top);
+            if sure != span {
+                span = sure;
+                continue;
+            }
             let above = span.grown(self.gaps);
-            if indentation < self.attaches_at(&span, above.gap) {
+            if indentation < self.upper_end(&span, &above, unloading) {
                 break;
             }
             span = above;
@@ -195,13 +235,9 @@ impl<E: EdgeModel> Ground<'_, E> {
     }
 
     /// The span of a run at an indentation, m.
+    #[inline]
     pub fn span_at(&self, run: &Run, unloading: bool, indentation: f64) -> Span {
-        let mut found = self.bottom(run);
-        self.each_span(run, unloading, |span, _, to| {
-            found = *span;
-            indentation < to
-        });
-        found
+        self.filled(run, self.bottom(run), unloading, indentation)
     }
 
     /// Fragments in contact at an indentation (m) of a leg, from left to right.

@@ -68,10 +68,10 @@ impl<E: EdgeModel> Search<'_, E> {
         grid: &Grid,
         sorted: &mut u64,
     ) -> Result<ContactState, ContactError> {
-        let points = self.pulling(grid.points(), turn)?;
+        let grid = grid.part(0..self.pulling(grid.points(), turn)?);
+        let points = grid.points();
         let last = points.len() - 1;
-        let coarse = (0..last).step_by(STRIDE).chain([last]).map(|index| points[index]).collect();
-        let leg = self.sample(Grid::at(coarse))?;
+        let leg = self.sample(grid.coarser(STRIDE))?;
         let smallest = leg.states.iter().map(|state| state.compression).fold(f64::INFINITY, f64::min);
         let chosen = leg.choose(|low, high| lower_bound(low, high) < smallest);
         let between = |&interval: &usize| STRIDE * interval + 1..(STRIDE * (interval + 1)).min(last);
@@ -83,12 +83,12 @@ impl<E: EdgeModel> Search<'_, E> {
         Ok(self.extreme(Extreme::Smallest, &leg.merged(fine), sorted))
     }
 
-    /// The points of an unloading, from separation on, beyond which the force is above zero.
+    /// Number of points of an unloading, from separation on, beyond which the force is above zero.
     ///
     /// On the way back a contact only shrinks, and detaching springs are stretched: the force falls no faster than with
     /// the length of a contact further up. Just before separation the force is not above zero, so that the smallest
     /// force lies among these points.
-    fn pulling<'p>(&self, points: &'p [f64], turn: ContactState) -> Result<&'p [f64], ContactError> {
+    fn pulling(&self, points: &[f64], turn: ContactState) -> Result<usize, ContactError> {
         let (mut points, mut state) = (points, turn);
         for _ in 0..MOST_CUTS {
             if !(state.compression > 0.0 && state.length > 0.0) {
@@ -104,24 +104,32 @@ impl<E: EdgeModel> Search<'_, E> {
             let at = Grid::at(vec![points[end - 1]]);
             state = self.sample(at)?.states[0];
         }
-        Ok(points)
+        Ok(points.len())
+    }
+
+    /// Contact at those points of a grid from which [`Search::first_at_least`] proceeds.
+    pub fn sample_coarsely(&self, grid: &Grid) -> Result<Sampled, ContactError> {
+        self.sample(grid.coarser(STRIDE))
     }
 
     /// The smallest indentation of a grid, m, at which the compression is at least `wanted`.
-    pub fn first_at_least(&self, leg: &Sampled, wanted: f64, sorted: &mut u64) -> Option<f64> {
-        // No search beyond the first sample that reaches `wanted`.
-        let reached = leg.states.iter().position(|state| state.compression >= wanted);
-        if reached == Some(0) {
-            return Some(leg.states[0].indentation);
-        }
-        let end = reached.map(|index| leg.states[index].indentation);
-        let last = end.unwrap_or(f64::INFINITY);
-        let chosen = leg.choose(|low, high| high.indentation <= last && upper_bound(low, high) >= wanted);
+    pub fn first_at_least(
+        &self,
+        grid: &Grid,
+        coarse: &Sampled,
+        wanted: f64,
+        sorted: &mut u64,
+    ) -> Result<Option<f64>, ContactError> {
+        let (chosen, end) = first_intervals(coarse, wanted);
+        let (Some(first), Some(last)) = (chosen.first(), chosen.last()) else { return Ok(end) };
+        let end = (STRIDE * (last + 1) + 1).min(grid.points().len());
+        let leg = &self.sample(grid.part(STRIDE * first..end))?;
+        let (chosen, end) = first_intervals(leg, wanted);
         let intervals = self.intervals(leg, &chosen, sorted);
         let mut found = chosen.iter().zip(&intervals);
-        found
+        Ok(found
             .find_map(|(&index, interval)| interval.first_of(&interval.pieces, leg.ends(index), wanted))
-            .or(end)
+            .or(end))
     }
 
     /// The largest indentation of a grid, m, at which the compression is at most `wanted`.
@@ -161,7 +169,7 @@ impl<E: EdgeModel> Search<'_, E> {
             if marks[range].iter().all(Option::is_none) {
                 continue;
             }
-            self.ground.each_span(run, self.unloading, |span, from, to| {
+            self.ground.each_span(run, self.unloading, low, |span, from, to| {
                 if from > high || to <= low {
                     return from > high;
                 }
@@ -189,4 +197,15 @@ impl<E: EdgeModel> Search<'_, E> {
         intervals.iter_mut().for_each(Interval::sort);
         intervals
     }
+}
+
+/// The intervals in which the compression may first be at least `wanted`, and the first point at which it is, m.
+fn first_intervals(leg: &Sampled, wanted: f64) -> (Vec<usize>, Option<f64>) {
+    let reached = leg.states.iter().find(|state| state.compression >= wanted).map(|state| state.indentation);
+    // Behind the first point that has it nothing is sought.
+    let last = reached.unwrap_or(f64::INFINITY);
+    let may_lie = |low: &ContactState, high: &ContactState| {
+        high.indentation <= last && upper_bound(low, high) >= wanted
+    };
+    (leg.choose(may_lie), reached)
 }

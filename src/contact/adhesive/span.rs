@@ -27,6 +27,20 @@ impl Span {
         Span { gap, first, last }
     }
 
+    /// The largest span of its branch within these first and last springs whose walls lie above a level, m; itself if its
+    /// walls do already.
+    #[inline]
+    pub fn up_to(&self, gaps: &[f64], level: f64, [lowest, highest]: [u32; 2]) -> Self {
+        let Span { gap, mut first, mut last } = *self;
+        while first > lowest as usize && gaps[first - 1] < level {
+            first -= 1;
+        }
+        while last < highest as usize && gaps[last + 1] <= level {
+            last += 1;
+        }
+        Span { gap: larger(gap, larger(gaps[first], gaps[last])), first, last }
+    }
+
     /// The spring that attaches next, the lower one beside the span; `None` where it fills the line.
     #[inline]
     pub fn wall(&self, gaps: &[f64]) -> Option<usize> {
