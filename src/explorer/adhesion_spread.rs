@@ -30,16 +30,16 @@ impl AdhesionSpread {
             .then(|| AdhesionSpread { scene: Arc::clone(scene), found: MeasuredAdhesion::default() })
     }
 
-    /// Returns true once nothing is left to be computed.
+    /// Returns true once all profiles are computed.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.found.profiles.len() >= PROFILES
     }
 
-    /// Computes the missing profiles. `report` receives them after each; they are kept where `stop` interrupts.
+    /// Computes the missing profiles. `report` receives them after each; an interruption by `stop` keeps them.
     ///
     /// # Errors
-    /// When the surface cannot be read, or a profile or its contact fails, or `stop` says so.
+    /// When the surface cannot be read, a profile or its contact fails, or `stop` interrupts.
     pub fn compute(
         &mut self,
         folder: &Path,

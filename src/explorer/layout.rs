@@ -9,18 +9,18 @@ const HISTOGRAM_COLUMNS: u16 = 14;
 /// The parts of the screen.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
-    /// The name of the scene and what to look at.
+    /// The name of the scene and its notice.
     pub title: Option<Rect>,
-    /// The panes that are shown.
+    /// The shown panes.
     pub panes: Vec<(Pane, Rect)>,
-    /// One line with the headline figures, or what is typed.
+    /// One line with the headline figures, or the typed text.
     pub status: Rect,
     /// One line with the keys.
     pub footer: Option<Rect>,
 }
 
 impl Layout {
-    /// The layout of a model in the window it knows of.
+    /// The layout of a model in its own window.
     #[must_use]
     pub fn of(model: &Model) -> Self {
         Layout::within(model, model.size)
