@@ -1,4 +1,4 @@
-//! From a cell of a pane to the place on the profile that is drawn there.
+//! Place on the profile at a cell of a pane.
 
 use super::Pane;
 use crate::explorer::model::Model;
