@@ -1,4 +1,4 @@
-//! A line that is being typed, with its cursor.
+//! A line being typed, with its cursor.
 
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::{Meaning, Theme};
