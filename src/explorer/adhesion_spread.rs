@@ -11,7 +11,7 @@ use std::sync::Arc;
 /// Random profiles.
 pub const PROFILES: usize = 16;
 
-/// Adhesion of random profiles of a scene, as far as it is computed.
+/// Adhesion of random profiles of a scene, as far as computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdhesionSpread {
     scene: Arc<Scene>,

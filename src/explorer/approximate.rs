@@ -25,7 +25,7 @@ impl Approximate {
         (self.shown && self.found.is_none()).then(|| Arc::clone(computed))
     }
 
-    /// The curve, while it is shown.
+    /// The curve, while shown.
     #[must_use]
     pub fn curve(&self) -> Option<&ApproximateJkr> {
         let found = self.found.as_ref().filter(|_| self.shown)?;

@@ -25,7 +25,7 @@ pub struct Chart {
     pub study: Option<OpenStudy>,
     /// True if the map of the study replaces the live map.
     pub of_study: bool,
-    /// True if the last edit was a move of the mark: the next one belongs to it.
+    /// True if the last edit was a move of the mark: the next move belongs to the same edit.
     pub moving: bool,
 }
 
@@ -85,7 +85,7 @@ impl Chart {
         self.parameter
     }
 
-    /// Maps over the other parameter of roughness: e_el/γ in place of κ, or κ again.
+    /// Maps over the other parameter of roughness: e_el/γ in place of κ, or the reverse.
     pub fn next_parameter(&mut self) {
         self.parameter = match self.parameter {
             RoughnessParameter::Kappa => RoughnessParameter::ElasticEnergyRatio,

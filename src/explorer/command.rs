@@ -10,7 +10,7 @@ pub struct Command {
     /// Name in the configuration and in scripts: `step -1`, `push 1 coarse`.
     pub name: &'static str,
     handler: Handler,
-    /// Character of the key, for a handler that needs it.
+    /// Character of the key, for a handler of characters.
     character: Option<char>,
 }
 

@@ -194,7 +194,7 @@ impl Config {
             })?;
         }
         if let Some((key, one, other)) = bindings.conflict() {
-            // The setting that has the key, or the last one.
+            // The setting with the key, or the last one.
             let has = |setting: &KeySetting| setting.action == one || setting.action == other;
             let number = file.keys.iter().rposition(has).unwrap_or_default();
             let message = format!("{key}: bound to {one} and to {other}; allowed: one action for each key");

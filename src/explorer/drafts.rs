@@ -77,7 +77,7 @@ fn newest(folder: &Path) -> Option<PathBuf> {
 /// Reads back the newest unsaved changes of an ended process from a folder; `None` where there are none.
 ///
 /// # Errors
-/// The file and the reason why it cannot be read.
+/// The unreadable file and the reason.
 pub fn restore(folder: &Path) -> Result<Option<Restored>, String> {
     let Some(path) = newest(folder) else { return Ok(None) };
     let wrong = |why: String| format!("{}: {why}", path.display());
@@ -254,7 +254,7 @@ mod tests {
         assert!(!own.exists(), "nothing is unsaved any more");
         drop(drafts);
         assert!(reported.recv().is_err(), "there was nothing to report");
-        // Another session offers them; one that has restored them keeps them under its own name.
+        // Another session offers the scenes; a session that has restored them keeps them under its own name.
         let (reports, reported) = channel();
         let drafts = Drafts::start(folder.clone(), None, move |report| drop(reports.send(report))).unwrap();
         let Ok(Action::Offered(names)) = reported.recv() else { panic!("nothing is offered") };

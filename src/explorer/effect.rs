@@ -27,7 +27,7 @@ pub enum Effect {
         path: PathBuf,
         /// Content.
         content: Content,
-        /// True to overwrite it.
+        /// True to overwrite the file.
         overwrite: bool,
     },
     /// Keep colours and markers in the configuration file.

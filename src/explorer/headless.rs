@@ -12,7 +12,7 @@ use crate::scene::Document;
 use std::cell::RefCell;
 use std::collections::VecDeque;
 
-/// Most springs for an estimate of the error: above, a viewer would wait for it.
+/// Most springs for an estimate of the error: above, viewers would have to wait.
 const MOST_ESTIMATED: u64 = 1 << 17;
 
 /// Most springs for the map over κ and H, of hundreds of scenes.

@@ -49,7 +49,7 @@ impl Layout {
         self.panes.iter().find(|(pane, _)| *pane == wanted).map(|(_, area)| *area)
     }
 
-    /// Cells across the profile, without its histogram; those of the profile beside where only that is shown.
+    /// Cells across the profile, without its histogram; without the profile, those of the profile beside.
     #[must_use]
     pub fn profile_cells(&self) -> usize {
         let shown = [Pane::Profile, Pane::Beside].into_iter().find_map(|pane| self.pane(pane));

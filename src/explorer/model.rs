@@ -174,7 +174,7 @@ pub struct Model {
     pub progress: Option<usize>,
     /// State of the animation.
     pub player: Player,
-    /// Manual loading, while it lasts.
+    /// Manual loading, while active.
     pub manual: Option<ManualState>,
     /// Target force as last typed.
     pub typed_force: String,
@@ -194,13 +194,13 @@ pub struct Model {
     pub curve: CurveLook,
     /// Approximate JKR curve beside the loop.
     pub approximate: Approximate,
-    /// The crosshair, while it is shown.
+    /// The crosshair, while shown.
     pub crosshair: Option<Crosshair>,
     /// Loops kept for comparison, the newest last.
     pub ghosts: Vec<Ghost>,
-    /// Scene that becomes a ghost as soon as it is computed.
+    /// Scene that becomes a ghost once computed.
     pub next_ghost: Option<Document>,
-    /// Scene to open beside the present one as soon as that is computed.
+    /// Scene to open beside the present one once that is computed.
     pub opens_beside: Option<Document>,
     /// Accuracy of the scene and the cost of accuracy.
     pub appraisal: Appraisal,
@@ -232,7 +232,7 @@ pub struct Model {
     pub bindings: Arc<Bindings>,
     /// Speed and end of the animation.
     pub animation: Animation,
-    /// The configuration file; `None` where none is to be written.
+    /// The configuration file; `None` if none is written.
     pub config_path: Option<std::path::PathBuf>,
     /// Traffic of the connection, over SSH.
     pub traffic: Option<Traffic>,
@@ -467,7 +467,7 @@ impl Model {
         self.player.indentation(self.legs())
     }
 
-    /// Part of a loading stage that is done at an indentation, 0 to 1: the inverse of [`Model::indentation`].
+    /// Part of a loading stage done at an indentation, 0 to 1: the inverse of [`Model::indentation`].
     #[must_use]
     pub fn done_at(&self, leg: usize, indentation: f64) -> f64 {
         let Some(end) = self.legs().get(leg).map(LegRecord::end) else { return 0.0 };

@@ -20,7 +20,7 @@ pub struct Parameter {
     pub field: &'static Field,
     /// Path in the scene.
     pub path: String,
-    /// Name of its group, which is the path of the group's first row.
+    /// Name of its group: the path of the first row.
     pub group: &'static str,
     /// The leg, for the target of a leg.
     pub leg: Option<usize>,

@@ -31,7 +31,7 @@ pub struct Playback {
     generation: u64,
     scene: Option<Arc<Scene>>,
     computed: Option<Arc<SolvedScene>>,
-    /// Contact on each leg, as far as it is kept.
+    /// Contact on each leg, as far as kept.
     legs: Vec<Option<LegContact>>,
     /// Memory for the legs of the next scene.
     spare: Vec<LegContact>,

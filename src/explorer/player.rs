@@ -10,9 +10,9 @@ const LIFT: f64 = 0.12;
 pub struct Player {
     /// Index of the leg.
     pub leg: usize,
-    /// Share that is played, 0 to 1.
+    /// Played share, 0 to 1.
     pub done: f64,
-    /// True if time advances it.
+    /// True while playing.
     pub playing: bool,
 }
 

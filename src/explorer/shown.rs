@@ -18,7 +18,7 @@ impl Model {
         }
     }
 
-    /// Returns true if a pane is in its place, as far as the window has room for it.
+    /// Returns true if a pane is in its place, as far as the window has room.
     #[must_use]
     pub fn is_shown(&self, pane: Pane) -> bool {
         self.panes().contains(&pane)
@@ -41,7 +41,7 @@ impl Model {
         self.keep_selection();
     }
 
-    /// Hides a pane and shows those in its place again.
+    /// Hides a pane and restores the panes in its place.
     pub fn hide(&mut self, pane: Pane) {
         if self.large == Some(pane) {
             self.large = None;

@@ -63,7 +63,7 @@ pub struct Probe {
     pub spring: usize,
     /// Height of the rigid profile, m.
     pub height: f64,
-    /// Height of the elastic surface where it is undeformed, m.
+    /// Height of the undeformed elastic surface, m.
     pub level: f64,
     /// Number of the contact patch of the spring along the profile, from 0; none where the spring is free.
     pub patch: Option<usize>,
@@ -76,7 +76,7 @@ pub struct ManualPath {
     pub path: Vec<CurvePoint>,
     /// Springs attached or detached.
     pub changed: u64,
-    /// Entries of lists and trees visited for it.
+    /// Visited entries of lists and trees.
     pub touched: u64,
     /// Energy dissipated since manual loading began, J.
     pub dissipated_energy: f64,

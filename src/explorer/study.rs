@@ -107,7 +107,7 @@ impl Task {
 /// Finding of a task.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Finding {
-    /// The error of the outcome, where it is known.
+    /// The error of the outcome, where known.
     Estimated(Option<Estimate>),
     /// The approximate JKR curve, or the reason for none.
     Approximated(Result<Arc<ApproximateJkr>, String>),

@@ -90,7 +90,7 @@ impl TerminalGuard {
 
 impl Drop for TerminalGuard {
     fn drop(&mut self) {
-        // Nothing can be done about a terminal that is gone.
+        // A lost terminal cannot be restored.
         let _ = self.give_back();
         // While a panic unwinds, the hook cannot be taken and is needed no more.
         if !std::thread::panicking() {

@@ -1,4 +1,4 @@
-//! The one table of keys with their functions: it feeds dispatch, footer, help, list of commands, configuration, demo and
+//! The one table of keys with their functions, for dispatch, footer, help, list of commands, configuration, demo and
 //! docs/keys.md.
 
 mod bindings;
@@ -30,7 +30,7 @@ pub struct Binding {
     pub modes: &'static [ModeKind],
     /// Function of the keys, with its name.
     pub command: Command,
-    /// One word for the footer; empty where the footer leaves it out.
+    /// One word for the footer; empty for none.
     pub label: &'static str,
     /// A line for the help.
     pub help: &'static str,

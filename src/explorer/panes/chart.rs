@@ -175,7 +175,7 @@ fn mark(frame: &mut Frame<'_>, area: Rect, plot: Rect, (x, y): (u16, u16), theme
         put(x + 1, y, " ");
     }
     put(x, y, "◆");
-    // Without a line of its own the scale below has names and numbers there.
+    // Without a line of the axis, names and numbers of the scale take this row.
     if has_line {
         put(x, plot.bottom(), "▲");
     }

@@ -67,7 +67,7 @@ pub fn nothing_yet(model: &Model) -> String {
     }
 }
 
-/// The name of a quantity: its symbol, where no other quantity of the map has the same.
+/// The name of a quantity: its symbol, where unique on the map.
 pub fn name_of(map_model: &MapModel, quantity: Quantity) -> String {
     let symbol = quantity.symbol();
     let is_only = map_model.layers().iter().filter(|layer| layer.quantity.symbol() == symbol).count() == 1;

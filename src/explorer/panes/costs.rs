@@ -1,4 +1,4 @@
-//! Cost of accuracy, as far as it is measured.
+//! Cost of accuracy, as far as measured.
 
 use crate::accuracy::{CostError, CostTable, Progress, measure};
 use crate::scene::Scene;

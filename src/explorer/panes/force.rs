@@ -233,7 +233,7 @@ pub fn indentation_at(model: &Model, area: Rect, column: u16) -> Option<f64> {
     Some(at * units.indentation.unwrap_or(1.0))
 }
 
-/// Loading stage and indentation, m, of the point of the curves that is nearest to a cell.
+/// Loading stage and indentation, m, of the point of the curves nearest to a cell.
 pub fn stage_at(model: &Model, area: Rect, here: Position) -> Option<(usize, f64)> {
     let computed = model.computed.as_ref()?;
     let units = Units::of(model, computed);
@@ -365,7 +365,7 @@ fn chart(model: &Model, units: Units) -> Chart {
         layers.push(Layer::unnamed(Ink::Quiet, Shape::Inside(border)));
     }
     for (number, ghost) in model.ghosts.iter().enumerate() {
-        // One beside the scene is named with the curves; the others have their letters.
+        // A ghost beside the scene is named with the curves; the others have their letters.
         let is_beside = model.beside().is_some() && number + 1 == model.ghosts.len();
         let name = if is_beside { letter(number).into() } else { Label::default() };
         for leg in &ghost.computed.outcome.history.legs {

@@ -65,7 +65,7 @@ impl Places {
                 (rows, selected, model.first_listed)
             }
         };
-        // The selected row has one above and one below it, as far as there are any.
+        // A row above and one below the selected row are visible, if any.
         let height = usize::from(list.height);
         let margin = usize::from(height >= 5);
         let lowest = (selected + 1 + margin).saturating_sub(height);
@@ -76,7 +76,7 @@ impl Places {
         Places { list, derived, help, rows, selected, first }
     }
 
-    /// Rows out of sight.
+    /// Returns true if rows are hidden.
     fn is_scrolled(&self) -> bool {
         self.rows.len() > usize::from(self.list.height)
     }
@@ -191,7 +191,7 @@ fn found_in(model: &Model, parameter: &Parameter, shown: &str, lead: usize) -> V
     letters
 }
 
-/// Marks before a name: the first row of a group is folded or not, and an effect is on or off; the others are set in.
+/// Marks before a name: first row of a group folded or not, effect on or off; other rows are indented.
 fn lead(model: &Model, parameter: &Parameter) -> &'static str {
     let is_on = parameter.effect.map(|effect| effect.is_on(model.document.scene()));
     match parameter.setting {
@@ -250,7 +250,7 @@ fn columns(text: &str) -> usize {
     Span::raw(text).width()
 }
 
-/// A text in so many columns, with `…` where it goes on.
+/// A text in so many columns, with `…` in place of the rest.
 fn cut(text: &str, room: usize) -> String {
     if columns(text) <= room {
         return text.to_owned();

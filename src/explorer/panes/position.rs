@@ -14,7 +14,7 @@ pub fn position_at(model: &Model, pane: Pane, area: Rect, column: u16) -> Option
     Some(spring.clamp(section.first, section.first + section.springs.saturating_sub(1)))
 }
 
-/// Share of the section in a pane that is left of a column of the screen; `None` for a pane without section.
+/// Share of the section in a pane to the left of a column of the screen; `None` for a pane without section.
 #[must_use]
 pub fn share_at(model: &Model, pane: Pane, area: Rect, column: u16) -> Option<f64> {
     let (_, chart, place) = (pane.row().section?)(model, area)?;

@@ -19,7 +19,7 @@ const SHOWN_EVERY: usize = 32;
 /// Largest preload in preloads of the scene.
 const REACH: f64 = 2.0;
 
-/// Adhesion forces of a scene for many preloads, as far as they are computed.
+/// Adhesion forces of a scene for many preloads, as far as computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PreloadCurve {
     scene: Arc<Scene>,

@@ -49,7 +49,7 @@ pub struct PaneRow {
     pub drag: Reply,
     /// Reply to turns of the wheel, up positive.
     pub wheel: fn(&mut Model, Rect, Position, i32) -> Vec<Effect>,
-    /// True if the pane draws spectra of the scene, which are computed only then.
+    /// True if the pane needs the spectra of the scene, computed only then.
     pub needs_spectra: bool,
     /// Computation that the shown pane waits for.
     pub task: fn(&Model, &Arc<SolvedScene>) -> Option<Task>,

@@ -101,7 +101,7 @@ fn words(model: &Model, shown: Option<&SceneSpectra>) -> Vec<String> {
     words
 }
 
-/// Adhesion force with its spread over random profiles beside that of the fit, as far as it is computed.
+/// Adhesion force with its spread over random profiles beside that of the fit, as far as computed.
 fn adhesion(model: &Model) -> Option<String> {
     let none = || AdhesionSpread::new(model.computed.as_ref()?).map(Arc::new);
     let spread = model.adhesion_spread.clone().or_else(none)?;

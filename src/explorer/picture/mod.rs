@@ -22,13 +22,13 @@ pub use text::text;
 use crate::text::is_control;
 use ratatui::buffer::{Buffer, Cell, CellDiffOption, CellWidth};
 
-/// A symbol on the screen, with the cells it covers.
+/// A symbol on the screen, with its cells.
 struct Glyph<'a> {
     /// Column, from 0 at the left edge of the screen.
     column: u16,
     /// Row, from 0 at the upper edge.
     row: u16,
-    /// Cells it covers, at least one.
+    /// Number of cells, at least one.
     width: u16,
     cell: &'a Cell,
 }

@@ -103,7 +103,7 @@ impl Dots {
         }
     }
 
-    /// The data of a path that has a point for each dot, to be drawn with a round pen.
+    /// The data of a path with a point for each dot, to be drawn with a round pen.
     pub fn path(mut self) -> String {
         const PITCH: (i64, i64) = (WIDTH as i64 / 2, HEIGHT as i64 / 4);
         self.0.sort_unstable();
@@ -164,7 +164,7 @@ impl Lines {
             let doubled = beside.map(|one| one == Some(Weight::Double));
             let offsets: &[i32] = if weight == Weight::Double { &[-APART, APART] } else { &[0] };
             for &offset in offsets {
-                // A line ends where it meets the nearer or the farther of two lines across it.
+                // A line ends at the nearer or the farther of two lines across.
                 let near =
                     if offset == 0 { doubled[0] && doubled[1] } else { doubled[usize::from(offset > 0)] };
                 let start = match near {
@@ -233,7 +233,7 @@ fn pieces(start: i32, end: i32, count: u8) -> Vec<(i32, i32)> {
     (0..i32::from(count)).map(dash).filter(|(from, to)| from < to).collect()
 }
 
-/// Lines of the same place, each from one end to the other, as few as possible.
+/// Lines joined where they overlap or touch, as few as possible.
 fn joined(mut lines: Vec<(i32, i32, i32)>) -> Vec<(i32, i32, i32)> {
     lines.sort_unstable();
     let mut all: Vec<(i32, i32, i32)> = Vec::new();

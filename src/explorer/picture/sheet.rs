@@ -138,7 +138,7 @@ impl<'a> Sheet<'a> {
         (ink, ground)
     }
 
-    /// Draws a character that is no letter; `false` for a letter.
+    /// Draws a character other than a letter; `false` for a letter.
     fn draw_shape(&mut self, glyph: &Glyph<'_>, character: char, ink: Rgb, ground: Rgb) -> bool {
         let (column, row) = (glyph.column, glyph.row);
         if let Some(dots) = dots(character) {

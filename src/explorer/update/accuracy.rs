@@ -9,7 +9,7 @@ use crate::explorer::text_line::TextLine;
 use crate::scene::format_quantity;
 use crate::text::grouped;
 
-/// Studies of the present scene that are still to be done, in this order.
+/// Remaining studies of the present scene, in this order.
 #[must_use]
 pub fn study_tasks(model: &Model) -> Vec<Task> {
     let Some(computed) = model.current() else { return Vec::new() };
@@ -147,7 +147,7 @@ fn refuse(model: &mut Model, tolerance: f64, error: &ChoiceError) {
     model.appraisal.answer = Some(sentence);
 }
 
-/// The long text where the status line has room for it, else the short one.
+/// The long text where the status line has room, else the short one.
 fn fitting(model: &Model, long: String, short: String) -> String {
     if long.chars().count() + 2 <= usize::from(model.size.0) { long } else { short }
 }

@@ -125,7 +125,7 @@ pub fn move_to(model: &mut Model, place: Place) -> Vec<Effect> {
     effects
 }
 
-/// The scene at a place on the map. A preload in units of E* h L may change with it.
+/// The scene at a place on the map. A preload in units of E* h L may change with the place.
 fn moved_to(model: &Model, (to_across, to_up): Place) -> Result<Document, SceneErrors> {
     let (across, up) = axes(model);
     let up = up.as_ref().zip(to_up).map(|(axis, value)| (axis.path.as_str(), value));

@@ -366,7 +366,7 @@ fn row_of(model: &Model, path: &str) -> usize {
 /// Requests the computation of the changed scene.
 fn renew(model: &mut Model) -> Vec<Effect> {
     let selected = model.parameter().map(|parameter| parameter.path.clone()).unwrap_or_default();
-    // The scene itself is shown again.
+    // A scene left before is the present one again.
     let document = &model.document;
     model.left.retain(|_, left| left.name() != document.name() || left.scene() != document.scene());
     model.parameters = parameters(&model.document);

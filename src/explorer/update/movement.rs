@@ -115,7 +115,7 @@ pub fn elapse(model: &mut Model, time: Duration) -> Vec<Effect> {
     let player = &mut model.player;
     let Animation { speed, repeats } = model.animation;
     player.done += speed * time.as_secs_f64() / LEG_TIME.as_secs_f64();
-    // The distance does not depend on the frame rate: the rest of it continues on the next leg.
+    // The distance does not depend on the frame rate: its rest continues on the next leg.
     while player.done > 1.0 && player.leg + 1 < legs {
         player.leg += 1;
         player.done -= 1.0;

@@ -142,7 +142,7 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
     fitting(parts, "", usize::from(width))
 }
 
-/// A part of the status line, after the text between it and the part before.
+/// Part of the status line, with the text before.
 type Part = (&'static str, String, Meaning);
 
 /// The state under manual loading: the changes by the move come before the resulting contact.

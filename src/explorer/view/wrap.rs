@@ -33,7 +33,7 @@ pub fn wrapped(line: &Line<'_>, columns: u16) -> Vec<Line<'static>> {
     page.lines
 }
 
-/// A line in as many lines as an area has room for, the last of them with `…` where the text goes on.
+/// A line in as many lines as an area has room for, the last with `…` in place of the rest.
 pub fn wrapped_within(line: &Line<'_>, area: Rect) -> Vec<Line<'static>> {
     let mut lines = wrapped(line, area.width);
     if lines.len() > usize::from(area.height) {
@@ -64,7 +64,7 @@ pub fn fitted(line: Line<'static>, columns: u16) -> Line<'static> {
     if line.width() > usize::from(columns) { clipped(line, columns) } else { line }
 }
 
-/// A line that ends in `…` where its text goes on: at most `columns` wide.
+/// A line with `…` in place of the rest: at most `columns` wide.
 pub fn clipped(line: Line<'static>, columns: u16) -> Line<'static> {
     let room = usize::from(columns).saturating_sub(1);
     let mut clipped = Line { spans: Vec::new(), ..line };
