@@ -10,7 +10,7 @@ use crate::scene::Entry;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Something that happens: a command of the user, a report of the worker, or time going by.
+/// Event: a command of the user, a report from outside, or elapsed time.
 #[derive(Clone, Debug)]
 pub enum Action {
     /// A command from a key.
@@ -21,15 +21,15 @@ pub enum Action {
     Paste(String),
     /// The terminal has another size.
     Resize(u16, u16),
-    /// Time went by while the animation plays.
+    /// Time elapsed while the animation plays.
     Elapse(Duration),
-    /// The seed is to be this one.
+    /// A seed to set.
     SetSeed(u64),
     /// A report of the worker.
     Report(Report),
-    /// Something was found out about accuracy.
+    /// A finding of the study.
     Found(Found),
-    /// A file has been written, or not.
+    /// A written file, or a failure.
     Written(Result<Written, WriteFailure>),
     /// The scenes that can be opened.
     Listed(Vec<Entry>),
@@ -40,21 +40,21 @@ pub enum Action {
         /// The whole paths, the best first.
         paths: Vec<String>,
     },
-    /// A scene or a study has been opened by its path, or not, and why.
+    /// A scene or a study opened by its path, or the reason for none.
     Opened(Result<Box<Opening>, String>),
-    /// Colours and markers are in the configuration file, or not, and why.
+    /// Configuration file with the kept appearance, or an error.
     Remembered(Result<PathBuf, String>),
-    /// Unsaved changes of a session that was interrupted are kept: the names of their scenes.
+    /// Names of scenes with unsaved changes of an interrupted session.
     Offered(Vec<String>),
-    /// Unsaved changes cannot be kept, and why.
+    /// Reason why unsaved changes are not kept.
     NotKept(String),
     /// Traffic of the connection.
     Traffic(Traffic),
-    /// The mouse did something.
+    /// Gesture of the mouse.
     Mouse(Mouse),
 }
 
-/// A file that has been written.
+/// A written file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Written {
     /// Path.
@@ -66,9 +66,9 @@ pub struct Written {
 /// Reason for which a file was not written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum WriteFailure {
-    /// A file of that name is there already.
+    /// A file of that name exists.
     Exists(PathBuf, Content),
-    /// The system refused, or what was asked for is not there to be written.
+    /// The system refused, or the content does not exist.
     Refused(String),
 }
 
@@ -79,7 +79,7 @@ pub enum Content {
     Scene,
     /// The force curve, as a table.
     Curve(TableFormat),
-    /// Everything that was computed, in JSON.
+    /// The whole outcome, in JSON.
     Outcome,
     /// The panes as a picture.
     Picture(PictureFormat),
@@ -110,7 +110,7 @@ impl Content {
         ("txt", Content::Text),
     ];
 
-    /// Content for a file of this name, of these; `None` for another extension.
+    /// Content among `exports` by the extension of a file; `None` for others.
     #[must_use]
     pub fn of_file(exports: &[(&'static str, Content)], path: &std::path::Path) -> Option<Self> {
         let ending = path.extension()?.to_str()?;

@@ -11,7 +11,7 @@ use std::sync::Arc;
 /// Random profiles.
 pub const PROFILES: usize = 16;
 
-/// Adhesion of random profiles of a scene, as far as it is computed.
+/// Adhesion of random profiles of a scene, as far as computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdhesionSpread {
     scene: Arc<Scene>,
@@ -30,16 +30,16 @@ impl AdhesionSpread {
             .then(|| AdhesionSpread { scene: Arc::clone(scene), found: MeasuredAdhesion::default() })
     }
 
-    /// Returns true once nothing is left to be computed.
+    /// Returns true once all profiles are computed.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.found.profiles.len() >= PROFILES
     }
 
-    /// Computes the missing profiles. `report` receives them after each; they are kept where `stop` interrupts.
+    /// Computes the missing profiles. `report` receives them after each; an interruption by `stop` keeps them.
     ///
     /// # Errors
-    /// When the surface cannot be read, or a profile or its contact fails, or `stop` says so.
+    /// When the surface cannot be read, a profile or its contact fails, or `stop` interrupts.
     pub fn compute(
         &mut self,
         folder: &Path,

@@ -6,25 +6,25 @@ use crate::accuracy::Estimate;
 /// State of the pane of accuracy.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Appraisal {
-    /// The error of what has been computed.
+    /// Estimated error of the outcome.
     pub estimated: Estimated,
     /// Cost of accuracy.
     pub costs: Costs,
-    /// The tolerance for which springs are searched, and how many are tried.
+    /// The tolerance for which springs are searched, and the number tried.
     pub choosing: Option<(f64, Option<u64>)>,
     /// Answer to the last tolerance, until the next edit.
     pub answer: Option<String>,
 }
 
-/// The error of what has been computed.
+/// Estimated error of the outcome.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Estimated {
     /// Not known yet.
     #[default]
     Waiting,
-    /// This one.
+    /// Known.
     Known(Estimate),
-    /// Nothing is known.
+    /// Cannot be estimated.
     Unknown,
 }
 

@@ -1,4 +1,4 @@
-//! Words for the event at the state of the contact that is shown: first contact, spreading, preload, detachment, pull-off,
+//! Words for the event at the shown state of the contact: first contact, spreading, preload, detachment, pull-off,
 //! separation.
 
 use super::model::Model;
@@ -8,7 +8,8 @@ use crate::contact::{CurvePoint, Direction, LegRecord};
 /// Share of the indentation range of a stage within which a point is at its end or at its smallest force.
 const NEAR: f64 = 0.01;
 
-/// Event at the state that is shown, short enough for the title of a pane of 34 columns; `None` before the first result and where the body rests.
+/// Event at the shown state, short enough for the title of a pane of 34 columns; `None` before the first result and
+/// where the body rests.
 #[must_use]
 pub fn caption(model: &Model) -> Option<&'static str> {
     let snapshot = model.present()?;

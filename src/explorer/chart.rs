@@ -1,4 +1,4 @@
-//! State of the map that is shown, over H and κ or e_el/γ, or over the axes of a study, and what is still to be computed of it.
+//! State of the shown map, over H and κ or e_el/γ or over the axes of a study, and its part still to be computed.
 
 use crate::scene::{RoughnessParameter, Scene};
 use crate::study::map::{
@@ -15,32 +15,32 @@ pub struct Chart {
     pub sections: bool,
     /// True if columns and rows are exchanged: κ or e_el/γ across.
     transposed: bool,
-    /// Parameter of the map that is computed here, beside H.
+    /// Parameter of the live map, beside H.
     parameter: RoughnessParameter,
-    /// The map that is computed here, so far. Kept while its parameter and H change, whether it is shown or not.
+    /// The live map so far, shown or not. Kept while its parameter and H change.
     pub map: Option<Arc<LiveMap>>,
-    /// The same as it is shown.
+    /// The live map as shown.
     live: Option<Arc<MapModel>>,
     /// A finished study, kept until another one is opened.
     pub study: Option<OpenStudy>,
-    /// True if its map is shown rather than the one that is computed here.
+    /// True if the map of the study replaces the live map.
     pub of_study: bool,
-    /// True if the last edit was a move of the mark: the next one belongs to it.
+    /// True if the last edit was a move of the mark: the next move belongs to the same edit.
     pub moving: bool,
 }
 
-/// A finished study, and which of its maps is shown.
+/// A finished study and its shown map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpenStudy {
     /// Its maps.
     pub study_map: Arc<StudyMap>,
-    /// Number of the one that is shown.
+    /// Number of the shown map.
     pub slice: u64,
     map_model: Arc<MapModel>,
 }
 
 impl OpenStudy {
-    /// Number of the map so many after this one, from the last on to the first.
+    /// Number of the map `steps` after this one; the first follows the last.
     #[must_use]
     pub fn stepped(&self, steps: i32) -> u64 {
         let slices = i128::from(self.study_map.slices().max(1));
@@ -49,7 +49,7 @@ impl OpenStudy {
 }
 
 impl Chart {
-    /// The map that is shown, as far as there is one.
+    /// The shown map, if any.
     #[must_use]
     pub fn map_model(&self) -> Option<&MapModel> {
         match self.shown_study() {
@@ -79,13 +79,13 @@ impl Chart {
         }
     }
 
-    /// Parameter of the map that is computed here, beside H.
+    /// Parameter of the live map, beside H.
     #[must_use]
     pub fn parameter(&self) -> RoughnessParameter {
         self.parameter
     }
 
-    /// Maps over the other parameter of roughness: e_el/γ in place of κ, or κ again.
+    /// Maps over the other parameter of roughness: e_el/γ in place of κ, or the reverse.
     pub fn next_parameter(&mut self) {
         self.parameter = match self.parameter {
             RoughnessParameter::Kappa => RoughnessParameter::ElasticEnergyRatio,
@@ -98,7 +98,7 @@ impl Chart {
         Arc::new(if self.transposed { map_model.transposed() } else { map_model })
     }
 
-    /// Axes of the map that is shown or, before there is one, of the live map of a scene with an H or without.
+    /// Axes of the shown map or, before there is one, of the live map of a scene with H or without.
     #[must_use]
     pub fn axes(&self, has_hurst: bool) -> (MapAxis, Option<MapAxis>) {
         match (self.map_model(), has_hurst, self.transposed) {
@@ -126,13 +126,13 @@ impl Chart {
         all.get(place).or(all.first()).copied().unwrap_or(now)
     }
 
-    /// Takes in what has been computed of the map.
+    /// Stores the live map computed so far.
     pub fn take_in(&mut self, map: Arc<LiveMap>) {
         self.live = Some(self.placed(map.model()));
         self.map = Some(map);
     }
 
-    /// The scene has been changed: a map of another one is of no use.
+    /// Drops the live map unless a changed scene has the same.
     pub fn renew(&mut self, scene: &Scene) {
         self.moving = false;
         let template = Template::of(scene).ok().map(|template| template.over(self.parameter));
@@ -140,7 +140,7 @@ impl Chart {
         self.live = self.live.take().filter(|_| self.map.is_some());
     }
 
-    /// The map to be gone on with for a scene, `None` once it is whole.
+    /// The live map to be continued for a scene; `None` once whole.
     ///
     /// # Errors
     /// When the scene has none.

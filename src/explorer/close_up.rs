@@ -1,11 +1,11 @@
-//! The neighbourhood of one fragment: where it is, what it bears, what it carries.
+//! The neighbourhood of one fragment: its place, its stretches, its force.
 
 use super::request::{Focus, SnapshotRequest};
 use super::snapshot::{CloseUp, FragmentFacts};
 use crate::analysis::section::{Contact, LineColumns, Part};
 use crate::contact::{Foundation, FragmentState, Snapshot};
 
-/// The part of the line that a request asks to see from near.
+/// The requested part of the line, and the fragment nearest to its middle.
 pub fn close_up(
     (contact, rises): (&Contact<'_>, &[f64]),
     request: &SnapshotRequest,
@@ -50,7 +50,7 @@ fn centre(contact: &Contact<'_>, focus: Focus) -> usize {
     let summit = || (0..count).find(|&spring| contact.gaps[spring] == 0.0).unwrap_or(count / 2);
     let middle = |(first, last): (usize, usize)| first + (last - first) / 2;
     let best = |worth: &dyn Fn((usize, usize)) -> f64| {
-        // The first of those that are worth as much.
+        // Of equal fragments the first.
         let best = fragments.iter().rev().max_by(|a, b| worth(**a).total_cmp(&worth(**b)));
         best.map_or_else(summit, |&fragment| middle(fragment))
     };

@@ -10,20 +10,20 @@ pub struct Command {
     /// Name in the configuration and in scripts: `step -1`, `push 1 coarse`.
     pub name: &'static str,
     handler: Handler,
-    /// Character of the key, for a handler that needs it.
+    /// Character of the key, for a handler of characters.
     character: Option<char>,
 }
 
 /// Function of a command.
 #[derive(Clone, Copy)]
 pub enum Handler {
-    /// Changes the model; nothing is to be done outside.
+    /// Changes the model without effects.
     Silent(fn(&mut Model)),
-    /// Changes the part or the state of the contact that is shown: a snapshot is requested.
+    /// Changes the shown part or state of the contact: a snapshot is requested.
     View(fn(&mut Model)),
     /// Changes the model and returns the effects.
     Act(fn(&mut Model) -> Vec<Effect>),
-    /// As `Act`, for a row with several keys, each of which means its character.
+    /// As `Act`, for a row with several keys, with the character of the key.
     Character(fn(&mut Model, char) -> Vec<Effect>),
 }
 

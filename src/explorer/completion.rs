@@ -1,4 +1,4 @@
-//! Completion of a typed path by the files and folders there are.
+//! Completion of a typed path by existing files and folders.
 
 use super::fuzzy::{Candidate, find, letters_found};
 use crate::scene::typed_path;
@@ -6,11 +6,11 @@ use crate::text::is_control;
 use std::fs::read_dir;
 use std::path::{MAIN_SEPARATOR, Path, is_separator};
 
-/// Most entries of a folder that are looked at.
+/// Most entries read from a folder.
 const MOST_ENTRIES: usize = 10_000;
 
-/// Paths in the folder of a typed path, in order: those whose names begin as typed, or, where there are none, those whose
-/// names have the typed letters, the best first. Folders end in a separator; hidden files are named by their dot.
+/// Paths in the folder of a typed path, in order: names that begin as typed or, without such, names with the typed
+/// letters, the best first. Folders end in a separator; hidden files need a typed dot.
 #[must_use]
 pub fn complete(typed: &str) -> Vec<String> {
     let (folder, name) = split(typed.trim_start());
@@ -46,23 +46,23 @@ fn split(path: &str) -> (&str, &str) {
     path.split_at(from)
 }
 
-/// Paths that complete a typed one, and the one that has taken its place.
+/// Paths that complete a typed one, and the taken one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Completion {
-    /// Name as it was typed, without its folder.
+    /// Name as typed, without its folder.
     typed: String,
     paths: Vec<String>,
     taken: Option<usize>,
 }
 
 impl Completion {
-    /// Candidates for a typed path, of which none has been taken.
+    /// Candidates for a typed path, none of them taken.
     #[must_use]
     pub fn new(typed: &str, paths: Vec<String>) -> Self {
         Completion { typed: split(typed.trim_start()).1.to_owned(), paths, taken: None }
     }
 
-    /// Characters of the name of a candidate that the typed name has found.
+    /// Characters of a candidate's name found by the typed name.
     #[must_use]
     pub fn letters_found(&self, name: &str) -> Vec<usize> {
         if name.starts_with(&self.typed) {
@@ -86,20 +86,20 @@ impl Completion {
         })
     }
 
-    /// The only path there is.
+    /// The path, if only one.
     #[must_use]
     pub fn only(&self) -> Option<&str> {
         if let [path] = &self.paths[..] { Some(path) } else { None }
     }
 
-    /// Takes the next path, after the last the first again.
+    /// Takes the next path; the first follows the last.
     pub fn take_next(&mut self) -> Option<&str> {
         let next = self.taken.map_or(0, |taken| taken + 1);
         self.taken = Some(if next < self.paths.len() { next } else { 0 });
         self.paths.get(self.taken.unwrap_or(0)).map(String::as_str)
     }
 
-    /// Names of the paths without their folders, and whether each is the one that was taken, which comes first.
+    /// Names of the paths without their folders, each with true if taken; the taken path comes first.
     #[must_use]
     pub fn names(&self) -> Vec<(String, bool)> {
         let first = self.taken.unwrap_or(0);

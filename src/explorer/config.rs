@@ -1,5 +1,5 @@
-//! Configuration file of the explorer: appearance, animation, default scene and keys. The file is read where it exists, and
-//! written only when asked.
+//! Configuration file of the explorer: appearance, animation, default scene and keys. Read where it exists, written
+//! only on request.
 
 use super::keys::Bindings;
 use super::theme::{Appearance, Marker, Theme};
@@ -14,14 +14,14 @@ use thiserror::Error;
 
 /// Version of the file.
 const VERSION: u32 = 1;
-/// Bytes of a file that are read at most.
+/// Largest size of a file, bytes.
 const LONGEST: usize = 1 << 20;
 /// Allowed frames per second.
 const FRAME_RATES: RangeInclusive<u32> = 1..=60;
 /// Allowed speeds of the animation.
 const SPEEDS: RangeInclusive<f64> = 0.1..=10.0;
 
-/// A file with all fields in comments.
+/// File with all fields in comments.
 pub const TEMPLATE: &str = r#"// Configuration of the explorer. A field that is left out has its default.
 (
     version: 1,
@@ -38,7 +38,7 @@ pub const TEMPLATE: &str = r#"// Configuration of the explorer. A field that is 
 /// Fields in the order of the template.
 const ORDER: [&str; 8] = ["version", "theme", "markers", "frame_rate", "speed", "repeat", "scene", "keys"];
 
-/// The file as it is written.
+/// The file as written.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ConfigFile {
@@ -112,7 +112,7 @@ pub enum ConfigError {
         /// The reason.
         why: String,
     },
-    /// The text is wrong at a place.
+    /// A mistake in the text.
     #[error("{path}:{line}:{column}: {message}")]
     Wrong {
         /// The file.
@@ -132,18 +132,18 @@ pub enum ConfigError {
     Write(#[from] WriteError),
 }
 
-/// The file of this user, `asperity/config.ron` in the configuration folder, whether or not the file exists.
+/// Path of this user's file, `asperity/config.ron` in the configuration folder; the file need not exist.
 #[must_use]
 pub fn default_path() -> Option<PathBuf> {
     Some(choose_base_strategy().ok()?.config_dir().join("asperity").join("config.ron"))
 }
 
 impl Config {
-    /// Reads a file. `is_named`: the user has named the file, and a missing one is an error; otherwise a missing file has
+    /// Reads a file. `is_named`: the user has named it, and a missing file is an error; otherwise a missing file has
     /// the defaults.
     ///
     /// # Errors
-    /// The first thing that is wrong, with its place.
+    /// The first mistake, with its place.
     pub fn read(path: &Path, is_named: bool) -> Result<Config, ConfigError> {
         let unread = |why: String| ConfigError::Unread { path: path.display().to_string(), why };
         // A broken link is a file that cannot be read.
@@ -159,7 +159,7 @@ impl Config {
     /// Reads the text of a file.
     ///
     /// # Errors
-    /// The first thing that is wrong, with its place.
+    /// The first mistake, with its place.
     pub fn parse(text: &str, path: &Path) -> Result<Config, ConfigError> {
         let wrong_at = |offset: usize, message: String| {
             let (line, column) = line_column(text, offset);
@@ -194,7 +194,7 @@ impl Config {
             })?;
         }
         if let Some((key, one, other)) = bindings.conflict() {
-            // The setting that has the key, or the last one.
+            // The setting with the key, or the last one.
             let has = |setting: &KeySetting| setting.action == one || setting.action == other;
             let number = file.keys.iter().rposition(has).unwrap_or_default();
             let message = format!("{key}: bound to {one} and to {other}; allowed: one action for each key");
@@ -256,7 +256,7 @@ fn write(path: &Path, text: &str, overwrite: bool) -> Result<(), ConfigError> {
     Ok(write_new(path, overwrite, |file| file.write_all(text.as_bytes()))?)
 }
 
-/// Settings in effect, as a file has them, for people.
+/// Text of a file with the settings in effect.
 #[must_use]
 pub fn text_of(config: &Config, appearance: Appearance, frame_rate: u32) -> String {
     let Config { animation, scene, bindings, .. } = config;

@@ -1,5 +1,5 @@
-//! Unsaved changes, kept in the state folder while the explorer runs, for the case that the process or the connection ends
-//! before they are saved. One file for each process; files of the user are never written.
+//! Unsaved changes, kept in the state folder in case the process or the connection ends before they are saved. One
+//! file for each process; files of the user are never written.
 
 use super::action::Action;
 use crate::io::{is_gone, machine, read_regular_text, write_new};
@@ -14,9 +14,9 @@ use std::time::Duration;
 
 /// Version of the files.
 const VERSION: u32 = 1;
-/// Bytes of a file that are read at most: many scenes, and scenes are a few hundred bytes.
+/// Largest size of a file, bytes: many scenes of a few hundred bytes each.
 const LONGEST: usize = 1 << 24;
-/// Files of the folder that are looked at.
+/// Most files read from the folder.
 const MOST_FILES: usize = 1000;
 /// Changes are written after a pause of this length.
 const QUIET: Duration = Duration::from_millis(300);
@@ -28,7 +28,7 @@ const PATIENCE: Duration = Duration::from_secs(1);
 #[serde(deny_unknown_fields)]
 struct DraftFile {
     version: u32,
-    /// The scene that was explored is the first.
+    /// The explored scene first.
     scenes: Vec<Draft>,
 }
 
@@ -42,11 +42,11 @@ struct Draft {
     overrides: Vec<(String, String)>,
 }
 
-/// Scenes that were read back.
+/// Scenes read back.
 pub struct Restored {
     /// Their file, to be removed once they are kept anew.
     path: PathBuf,
-    /// The scenes, with the one that was explored first.
+    /// The scenes, starting with the explored one.
     pub documents: Vec<Document>,
 }
 
@@ -74,10 +74,10 @@ fn newest(folder: &Path) -> Option<PathBuf> {
     files.filter(|path| of_ended(path).is_some()).max_by_key(written)
 }
 
-/// Reads back the newest unsaved changes that an ended process has left in a folder; `None` where there are none.
+/// Reads back the newest unsaved changes of an ended process from a folder; `None` where there are none.
 ///
 /// # Errors
-/// The file and the reason why it cannot be read.
+/// The unreadable file and the reason.
 pub fn restore(folder: &Path) -> Result<Option<Restored>, String> {
     let Some(path) = newest(folder) else { return Ok(None) };
     let wrong = |why: String| format!("{}: {why}", path.display());
@@ -111,7 +111,7 @@ fn text_of(documents: &[Document]) -> Result<String, ron::Error> {
 enum Request {
     /// Keep these documents, in place of all before.
     Keep(Vec<Document>),
-    /// Keep what was asked for last at once, and report.
+    /// Write the newest documents at once, and confirm.
     Flush(Sender<()>),
 }
 
@@ -121,11 +121,11 @@ pub struct Drafts {
 }
 
 impl Drafts {
-    /// Starts the thread, on a folder. `restored` is removed as soon as its scenes are kept anew; without any, what another
-    /// session has left is reported.
+    /// Starts the thread on a folder. The file of `restored` is removed once its scenes are written anew; without
+    /// `restored`, unsaved changes of another session are reported.
     ///
     /// # Errors
-    /// When the system gives no thread.
+    /// When the system refuses a thread.
     pub fn start(
         folder: PathBuf,
         restored: Option<Restored>,
@@ -144,13 +144,13 @@ impl Drafts {
         Ok(Drafts { requests })
     }
 
-    /// Keeps these documents, in place of all before; none removes the file.
+    /// Keeps these documents in place of all before; without any the file is removed.
     pub fn keep(&self, documents: Vec<Document>) {
         // The thread only ends with the explorer.
         let _ = self.requests.send(Request::Keep(documents));
     }
 
-    /// Waits until what was asked for is kept, for a second at the most.
+    /// Waits for at most a second until the newest documents are written.
     pub fn flush(&self) {
         let (done, is_done) = channel();
         if self.requests.send(Request::Flush(done)).is_ok() {
@@ -159,7 +159,7 @@ impl Drafts {
     }
 }
 
-/// Keeps what was asked for last, after a pause.
+/// Writes the newest documents after a pause.
 fn serve(folder: &Path, mut restored: Option<PathBuf>, inbox: &Receiver<Request>, report: &dyn Fn(Action)) {
     let path = file_of(folder, std::process::id());
     let (mut wanted, mut has_failed) = (None, false);
@@ -180,7 +180,7 @@ fn serve(folder: &Path, mut restored: Option<PathBuf>, inbox: &Receiver<Request>
         if let Some(documents) = wanted.take() {
             match write(folder, &path, &documents) {
                 Ok(()) => {
-                    // Its scenes are kept in the file of this process now.
+                    // The file of this process has its scenes now.
                     if let Some(old) = restored.take() {
                         let _ = fs::remove_file(old);
                     }
@@ -241,7 +241,7 @@ mod tests {
         drafts.keep(documents[..1].to_vec());
         drafts.keep(documents.clone());
         drafts.flush();
-        // That of a running process is its own.
+        // A running process keeps its own file.
         assert!(restore(&folder).unwrap().is_none());
         let own = file_of(&folder, std::process::id());
         let left = file_of(&folder, ended());
@@ -254,7 +254,7 @@ mod tests {
         assert!(!own.exists(), "nothing is unsaved any more");
         drop(drafts);
         assert!(reported.recv().is_err(), "there was nothing to report");
-        // Another session offers them; one that has restored them keeps them under its own name.
+        // Another session offers the scenes; a session that has restored them keeps them under its own name.
         let (reports, reported) = channel();
         let drafts = Drafts::start(folder.clone(), None, move |report| drop(reports.send(report))).unwrap();
         let Ok(Action::Offered(names)) = reported.recv() else { panic!("nothing is offered") };

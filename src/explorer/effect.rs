@@ -6,20 +6,20 @@ use super::theme::Appearance;
 use crate::scene::Document;
 use std::path::PathBuf;
 
-/// Something to be done outside the model.
+/// Work outside the model.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Effect {
     /// Compute the scene.
     Compute,
     /// Show the present snapshot of the contact.
     Show,
-    /// Compute the scene that is shown beside, or forget the last one.
+    /// Compute the scene beside, or drop the last one.
     Beside,
-    /// Work out what is not known yet of the scene's accuracy, see [`super::update::study_tasks`], and nothing else.
+    /// Perform the remaining studies of the scene, see [`super::update::study_tasks`], and no others.
     Study,
     /// Move the body manually.
     Manual(ManualMove),
-    /// Draw a random seed and give it back as an action.
+    /// Draw a random seed and return it as an action.
     DrawSeed,
     /// Write a file.
     Write {
@@ -27,7 +27,7 @@ pub enum Effect {
         path: PathBuf,
         /// Content.
         content: Content,
-        /// True if to overwrite it.
+        /// True to overwrite the file.
         overwrite: bool,
     },
     /// Keep colours and markers in the configuration file.
@@ -43,12 +43,12 @@ pub enum Effect {
     Complete(String),
     /// Open a scene or a study by its path.
     Open(String),
-    /// Compute a scene to look at its curve.
+    /// Compute the preview of a scene.
     Preview(Box<Document>),
-    /// Compute no scene to look at any more.
+    /// Stop the preview.
     StopPreview,
     /// Copy a text.
     Copy(String),
-    /// Hand the terminal back to the shell for a while.
+    /// Return the terminal to the shell for a while.
     Suspend,
 }

@@ -11,7 +11,7 @@ pub trait Engine: Send {
     /// Computes a scene; see [`Simulation::run`].
     ///
     /// # Errors
-    /// When it cannot be computed or `stop` says so.
+    /// When the scene fails or `stop` interrupts.
     fn run(
         &mut self,
         scene: &Scene,
@@ -22,7 +22,7 @@ pub trait Engine: Send {
     /// The line of the last scene.
     fn line(&self) -> Option<&Line>;
 
-    /// The tree of that line, where the scene called for one.
+    /// The tree of that line, where the scene needed one.
     fn tree(&self) -> Option<&Arc<ContactTree>>;
 }
 

@@ -1,5 +1,4 @@
-//! Reading and writing files for the explorer, each job on a thread of its own: a file may be on a disk that does
-//! not answer, and the screen has to.
+//! File jobs of the explorer, each on a thread of its own: a disk that does not answer must not block the screen.
 
 use super::action::{Action, Content, WriteFailure};
 use super::completion::complete;
@@ -12,9 +11,9 @@ use crate::scene::Library;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 
-/// A job with files.
+/// File job.
 pub(super) enum FileJob {
-    /// Write a file from the model as it was asked for.
+    /// Write a file from the model as of the request.
     Write { model: Box<Model>, path: PathBuf, content: Content, overwrite: bool },
     /// Keep colours and markers in the configuration file.
     Remember { path: PathBuf, appearance: Appearance },
@@ -27,7 +26,7 @@ pub(super) enum FileJob {
 }
 
 impl FileJob {
-    /// Description for who waits for it.
+    /// Description for the waiting user.
     pub fn describe(&self) -> String {
         match self {
             FileJob::Write { path, .. } | FileJob::Remember { path, .. } => {
@@ -39,7 +38,7 @@ impl FileJob {
         }
     }
 
-    /// Does the job on a thread of its own and passes its result on.
+    /// Runs the job on a thread of its own; `done` receives its action.
     pub fn start(self, done: impl FnOnce(Action) + Send + 'static) {
         let failed = self.failure();
         let (on_thread, otherwise) = (failed("internal error, please report it"), failed("no thread for it"));
@@ -78,7 +77,7 @@ impl FileJob {
         }
     }
 
-    /// The action for a job that was not done, for a reason.
+    /// The action of a failed job for a reason.
     fn failure(&self) -> impl Fn(&str) -> Action + use<> {
         let (writes, description) = (matches!(self, FileJob::Write { .. }), self.describe());
         move |why| {

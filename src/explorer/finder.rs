@@ -1,4 +1,4 @@
-//! A list that is searched while the query is typed.
+//! A list searched while the query is typed.
 
 use super::fuzzy::{Candidate, find};
 use super::text_line::TextLine;
@@ -10,18 +10,18 @@ pub struct Finder {
     pub query: TextLine,
     /// Indices of the candidates that fit, the best first.
     pub found: Vec<usize>,
-    /// Place of the selected one among them.
+    /// Place of the selected candidate among them.
     pub selected: usize,
 }
 
 impl Finder {
-    /// A search that finds everything so far.
+    /// An empty search, which finds everything.
     #[must_use]
     pub fn new(candidates: usize) -> Self {
         Finder { found: (0..candidates).collect(), ..Finder::default() }
     }
 
-    /// Finds what fits the query as it is now, and selects the best.
+    /// Finds the candidates that fit the query, and selects the best.
     pub fn search(&mut self, candidates: impl IntoIterator<Item = Candidate>) {
         self.found = find(candidates, &self.query.text());
         self.selected = 0;

@@ -9,11 +9,11 @@ pub struct Candidate {
     pub prose: Vec<String>,
 }
 
-/// Indices of the candidates in which every word of a query occurs, the best first; candidates that are as good as
-/// each other keep their order. An empty query finds everything.
+/// Indices of the candidates in which every word of a query occurs, the best first; equal candidates keep their
+/// order. An empty query finds everything.
 ///
-/// A word counts most as a whole name, then at its start, at the start of a word, inside; then in the next text. Last
-/// are names that have its letters in this order, most of them together or at the starts of words.
+/// A query word counts most as a whole name, then at the start of a name, at the start of a word, inside; then in the
+/// next text. Last are names with its letters in this order, most of them together or at starts of words.
 pub fn find(candidates: impl IntoIterator<Item = Candidate>, query: &str) -> Vec<usize> {
     let words: Vec<&str> = query.split_whitespace().collect();
     let cost = |(index, candidate): (usize, Candidate)| {
@@ -25,8 +25,8 @@ pub fn find(candidates: impl IntoIterator<Item = Candidate>, query: &str) -> Vec
     found.into_iter().map(|(_, index)| index).collect()
 }
 
-/// Characters of a text of a candidate that the words of a query have found, by their indices in ascending order: a word
-/// that is whole in any text of the candidate where it is whole, another one by its letters scattered over a name.
+/// Ascending indices of the characters of a candidate's text found by the words of a query: of a word that is whole in
+/// any text of the candidate only whole matches, of another word its letters scattered over a name.
 pub fn letters_found(candidate: &Candidate, text: &str, query: &str) -> Vec<usize> {
     let mut found: Vec<usize> =
         query.split_whitespace().flat_map(|word| found_by(candidate, text, word)).collect();
@@ -55,7 +55,7 @@ fn found_by(candidate: &Candidate, text: &str, word: &str) -> Vec<usize> {
 const PLACES: usize = 5;
 /// Cost of scattered letters: more than that of any whole word, since no candidate has so many texts.
 const SCATTERED: usize = 1000;
-/// Most cost of scattered letters beside one for each letter: nearly any letters are somewhere in a long text.
+/// Largest cost of scattered letters above one per letter: a long text has nearly any letters somewhere.
 const MOST_OVER_LETTERS: usize = 2;
 /// Cost of a run of scattered letters at the start of a word, and inside one.
 const RUN: (usize, usize) = (1, 3);
@@ -81,8 +81,8 @@ fn lower(text: &str) -> Vec<char> {
     text.chars().flat_map(char::to_lowercase).collect()
 }
 
-/// Place of a word in a text, below [`PLACES`], and its first letter: the whole text with its capitals, the whole text, at
-/// its start, at the start of a word, anywhere.
+/// Place of a word in a text, below [`PLACES`], and its first letter: the whole text with its capitals, the whole
+/// text, at its start, at the start of a word, anywhere.
 fn place(text: &str, word: &str) -> Option<(usize, usize)> {
     if text == word {
         return Some((0, 0));
@@ -98,13 +98,13 @@ fn place(text: &str, word: &str) -> Option<(usize, usize)> {
     })
 }
 
-/// A word begins at this letter.
+/// Returns true if a word begins at this letter.
 fn begins_word(text: &[char], at: usize) -> bool {
     at == 0 || !text[at - 1].is_alphanumeric()
 }
 
-/// Runs of least cost in which a text has these letters in their order: the cost, and the place of each letter. `None` for
-/// a text that has not.
+/// Cheapest runs of these letters, in their order, in a text: the cost, and the place of each letter; `None` for a
+/// text without such runs.
 fn runs(text: &str, letters: &[char]) -> Option<(usize, Vec<usize>)> {
     let text = lower(text);
     // For each letter and each place of it the least cost of the letters so far, and the place of the letter before.

@@ -1,5 +1,5 @@
-//! An explorer without terminal and threads: each thing that happens is done, and all that follows from
-//! it, before the next. The same actions give the same screens.
+//! An explorer without terminal and threads: an action and all its effects are completed before the next
+//! action. The same actions lead to the same screens.
 
 use super::action::Action;
 use super::mode::ModeKind;
@@ -12,10 +12,10 @@ use crate::scene::Document;
 use std::cell::RefCell;
 use std::collections::VecDeque;
 
-/// With more springs than these no error is estimated: who watches would have to wait for it.
+/// Most springs for an estimate of the error: above, viewers would have to wait.
 const MOST_ESTIMATED: u64 = 1 << 17;
 
-/// Nor is a map over κ and H computed, of hundreds of scenes.
+/// Most springs for the map over κ and H, of hundreds of scenes.
 const MOST_CHARTED: u64 = 1 << 12;
 
 /// Explorer without a terminal.
@@ -24,7 +24,7 @@ pub struct Headless {
     pub model: Model,
     worker: WorkerState,
     newest: Newest,
-    /// Seeds drawn so far: chance would not be the same twice.
+    /// Seeds drawn so far, in place of random ones.
     seeds: u64,
 }
 
@@ -46,7 +46,7 @@ impl Headless {
         headless
     }
 
-    /// Runs a command by its name, where the present mode has the command, or while exploring any pane has.
+    /// Runs a command by its name, if valid in the present mode or, while exploring, in [`ModeKind::Explore`].
     pub fn command(&mut self, name: &str) {
         let (bindings, here) = (&self.model.bindings, self.model.keys());
         let elsewhere = || bindings.named(name, ModeKind::Explore).filter(|_| here.is_exploring());
@@ -55,7 +55,7 @@ impl Headless {
         }
     }
 
-    /// Lets something happen.
+    /// Applies an action with all its effects.
     pub fn act(&mut self, action: Action) {
         let effects = update(&mut self.model, action);
         self.perform(effects);

@@ -5,11 +5,11 @@ use super::keys::Bindings;
 use super::mode::ModeKind;
 use crossterm::event::{Event, KeyCode, KeyEventKind, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
-/// Reads input on a thread of its own, which ends with the terminal or the explorer. `send` says whether
-/// anyone still listens; it is given `None` at the end of the input.
+/// Reads input on a thread of its own, which ends with the terminal or the explorer. `send` returns true
+/// while anyone listens; the end of the input is sent as `None`.
 ///
 /// # Errors
-/// When the system gives no thread.
+/// When the system refuses a thread.
 pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::Result<()> {
     std::thread::Builder::new()
         .name("input".to_owned())
@@ -26,7 +26,7 @@ pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::R
         .map(drop)
 }
 
-/// The action of an input event in a mode; `None` for one that means nothing.
+/// The action of an input event in a mode; `None` without a meaning.
 pub fn action_of(event: &Event, bindings: &Bindings, mode: ModeKind) -> Option<Action> {
     match event {
         Event::Key(key) if key.kind == KeyEventKind::Press => {

@@ -9,18 +9,18 @@ const HISTOGRAM_COLUMNS: u16 = 14;
 /// The parts of the screen.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
-    /// The name of the scene and what to look at.
+    /// The name of the scene and its notice.
     pub title: Option<Rect>,
-    /// The panes that are shown.
+    /// The shown panes.
     pub panes: Vec<(Pane, Rect)>,
-    /// One line with the headline figures, or what is typed.
+    /// One line with the headline figures, or the typed text.
     pub status: Rect,
     /// One line with the keys.
     pub footer: Option<Rect>,
 }
 
 impl Layout {
-    /// The layout of a model in the window it knows of.
+    /// The layout of a model in its own window.
     #[must_use]
     pub fn of(model: &Model) -> Self {
         Layout::within(model, model.size)
@@ -49,7 +49,7 @@ impl Layout {
         self.panes.iter().find(|(pane, _)| *pane == wanted).map(|(_, area)| *area)
     }
 
-    /// Cells across the profile, without its histogram; those of the profile beside where only that is shown.
+    /// Cells across the profile, without its histogram; without the profile, those of the profile beside.
     #[must_use]
     pub fn profile_cells(&self) -> usize {
         let shown = [Pane::Profile, Pane::Beside].into_iter().find_map(|pane| self.pane(pane));

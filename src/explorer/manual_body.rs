@@ -10,11 +10,11 @@ use crate::scene::Edges;
 use crate::surface::Line;
 use std::sync::Arc;
 
-/// Points of the curve that are taken on the way of one order.
+/// Points of the curve along the way of one order.
 const POINTS: u32 = 16;
 /// Most moves of one order.
 const MOST_STEPS: u32 = 512;
-/// Largest force over that at full contact: beyond it the curve is a straight line to no end.
+/// Largest force over that at full contact: beyond full contact the curve is a straight line.
 const MOST_OVER_FULL_CONTACT: f64 = 10.0;
 
 /// Body under manual loading.
@@ -25,14 +25,14 @@ pub struct ManualBody {
     step: f64,
     /// Force at which the last spring touches the rigid body, N.
     full_contact: f64,
-    /// Largest force that is pressed with, N.
+    /// Largest pressing force, N.
     largest: f64,
 }
 
 impl ManualBody {
-    /// Begins manual loading where these fragments are in contact at this indentation, m, with edges of this kind;
-    /// `tree` is that of the line, where there is one. `step` is the distance of the points of a pull, m, and `preload`
-    /// the largest force of the scene's loading, N.
+    /// Begins manual loading at an indentation, m, with these fragments in contact and edges of this kind; `tree` is
+    /// that of the line, where there is one. `step` is the distance of the points of a pull, m, and `preload` the
+    /// largest force of the scene's loading, N.
     pub fn take(
         line: &Line,
         tree: Option<&Arc<ContactTree>>,
@@ -79,13 +79,13 @@ impl ManualBody {
         self.body.fragments().collect()
     }
 
-    /// Its way since this was asked last.
+    /// Path since the last call.
     pub fn travel(&mut self) -> ManualPath {
         let dissipated_energy = self.travel.dissipated_energy;
         std::mem::replace(&mut self.travel, ManualPath { dissipated_energy, ..ManualPath::default() })
     }
 
-    /// Moves it.
+    /// Moves the body.
     pub fn obey(&mut self, order: ManualMove) {
         let from = self.body.point();
         let went = match order {
@@ -98,11 +98,11 @@ impl ManualBody {
         self.travel.refused = went.err();
     }
 
-    /// Goes to an indentation, by as many moves as the curve gets points.
+    /// Moves the body to an indentation, with one move for each point of the curve.
     fn go(&mut self, from: f64, to: f64) -> Result<(), ManualError> {
         for step in 1..=POINTS {
             let share = f64::from(step) / f64::from(POINTS);
-            // The last one exactly.
+            // The last move ends exactly.
             let at = if step == POINTS { to } else { from + (to - from) * share };
             let moved = self.body.move_to_indentation(at)?;
             self.record(moved);
@@ -110,8 +110,7 @@ impl ManualBody {
         Ok(())
     }
 
-    /// Goes to a force, by as many moves as the curve gets points: each is passed on the way to the next. A force out
-    /// of reach moves nothing.
+    /// Moves the body to a force, with one move for each point of the curve. A force out of reach moves nothing.
     fn find(&mut self, force: f64) -> Result<(), Refusal> {
         let from = self.body.point().force;
         if force > self.largest.max(from) {
@@ -130,8 +129,7 @@ impl ManualBody {
         Ok(())
     }
 
-    /// Pulls in steps of the curve until nothing touches; however far that is, it takes no more than so
-    /// many steps.
+    /// Pulls in steps of the curve until nothing touches; after `MOST_STEPS` steps the rest is one step.
     fn separate(&mut self) -> Result<(), ManualError> {
         let start = self.body.point();
         for step in 1..=MOST_STEPS {

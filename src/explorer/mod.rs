@@ -1,6 +1,5 @@
 //! The explorer: a blocking input thread and the worker send actions into one channel, `update`
-//! changes the model, the views draw it. Nothing is computed on this thread and nothing wakes it while
-//! nothing happens.
+//! changes the model, the views draw the model. This thread computes nothing and sleeps without events.
 
 pub mod action;
 pub mod adhesion_spread;

@@ -26,24 +26,24 @@ pub enum Mode {
     Palette(Finder),
     /// Typing title, notice and the name of the file to save the scene to.
     SaveAs(SaveForm),
-    /// Asked whether to remove comments about values that have been changed.
+    /// Asking whether to remove comments about changed values.
     StaleComments {
         /// Number of the comments.
         count: usize,
         /// The file to save to.
         path: PathBuf,
-        /// True if to leave afterwards.
+        /// True to leave afterwards.
         then_quit: bool,
     },
     /// Typing the name of the file to export to.
     Export(TextLine),
-    /// Asked whether to overwrite a file.
+    /// Asking whether to overwrite a file.
     Overwrite {
         /// The file.
         path: PathBuf,
         /// Content to be written.
         content: Content,
-        /// True if to leave afterwards.
+        /// True to leave afterwards.
         then_quit: bool,
     },
     /// Reading the help.
@@ -51,7 +51,7 @@ pub enum Mode {
         /// Lines scrolled down.
         scroll: u16,
     },
-    /// Asked whether to leave with unsaved changes.
+    /// Asking whether to leave with unsaved changes.
     Quit,
 }
 
@@ -60,9 +60,9 @@ pub enum Mode {
 pub struct SaveForm {
     /// File, title and notice, in the order of [`SaveForm::PROMPTS`].
     pub lines: [TextLine; 3],
-    /// Index of the line that is being typed.
+    /// Index of the line being typed.
     pub line: usize,
-    /// True if to leave afterwards.
+    /// True to leave afterwards.
     pub then_quit: bool,
 }
 
@@ -70,14 +70,14 @@ impl SaveForm {
     /// Prompts of the lines.
     pub const PROMPTS: [&'static str; 3] = ["Save as: ", "Title: ", "Notice: "];
 
-    /// Goes to the line so many after this one, from the last on to the first.
+    /// Goes `lines` lines on; the first follows the last.
     pub fn go(&mut self, lines: i32) {
         let count = self.lines.len() as i32;
         self.line = (self.line as i32 + lines.signum()).rem_euclid(count) as usize;
     }
 }
 
-/// The library as one looks through it.
+/// Library dialogue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Library {
     /// All scenes; `None` until they have been listed.
@@ -93,14 +93,14 @@ impl Library {
         self.entries.as_ref()?.get(self.finder.choice()?)
     }
 
-    /// The words by which an entry is found: name, and as prose title and notice.
+    /// Search words of an entry: name, and as prose title and notice.
     #[must_use]
     pub fn candidate(entry: &Entry) -> Candidate {
         Candidate { names: vec![entry.name.clone()], prose: vec![entry.title.clone(), entry.notice.clone()] }
     }
 }
 
-/// A mode without what it holds: what the table of keys refers to.
+/// Mode without its data, for the table of keys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ModeKind {
     /// See [`Mode::Explore`].
@@ -188,7 +188,7 @@ impl Mode {
         }
     }
 
-    /// The line that is being typed.
+    /// The line being typed.
     pub fn line_mut(&mut self) -> Option<&mut TextLine> {
         match self {
             Mode::Edit(line) | Mode::Force(line) | Mode::Tolerance(line) | Mode::Export(line) => Some(line),

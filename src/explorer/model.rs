@@ -32,13 +32,13 @@ use std::sync::Arc;
 pub struct CloseUpTarget {
     /// Place.
     pub focus: Focus,
-    /// Springs it shows.
+    /// Springs shown.
     pub springs: usize,
 }
 
 impl CloseUpTarget {
-    /// Springs shown when a scene opens: a small part of the line, but several asperities; a larger part of a scene that
-    /// observes its contact patches, with both ends of the patch at first touch.
+    /// Springs shown when a scene opens: a small part of the line, but several asperities; a larger part of a scene
+    /// that observes its contact patches, with both ends of the patch at first touch.
     #[must_use]
     pub fn springs_shown(document: &Document) -> usize {
         let scene = document.scene();
@@ -54,9 +54,9 @@ pub struct ManualState {
     pub path: Vec<CurvePoint>,
     /// Springs attached or detached on the last move.
     pub changed: u64,
-    /// Entries looked at for it.
+    /// Entries visited by the last move.
     pub touched: u64,
-    /// Energy lost since it was taken, J.
+    /// Energy dissipated since manual loading began, J.
     pub dissipated_energy: f64,
 }
 
@@ -65,9 +65,9 @@ pub struct ManualState {
 pub struct CurveLook {
     /// Quantities.
     pub quantities: Quantities,
-    /// In units of F_a,max, h and the whole line rather than in SI units.
+    /// True for units of F_a,max, h and the whole line, false for SI units.
     pub normalised: bool,
-    /// True if the loss is shaded.
+    /// True if the dissipated energy is shaded.
     pub loss: bool,
     /// Scale of both axes; a logarithmic one shows the numbers above zero.
     pub scale: AxisScale,
@@ -86,7 +86,7 @@ pub enum Quantities {
 }
 
 impl Quantities {
-    /// The next ones.
+    /// The next pair.
     #[must_use]
     pub fn next(self) -> Self {
         match self {
@@ -104,7 +104,7 @@ pub struct Crosshair {
     pub position: f64,
 }
 
-/// A loop that was kept to be compared with.
+/// Loop kept for comparison.
 #[derive(Clone, Debug)]
 pub struct Ghost {
     /// Its scene.
@@ -113,27 +113,27 @@ pub struct Ghost {
     pub computed: Arc<SolvedScene>,
     /// Differences of its scene from the present one.
     pub differs: String,
-    /// Names of what differs, with the values of the ghost and of the present scene: `κ 4 → 8`.
+    /// The same differences with the values of the ghost and of the present scene: `κ 4 → 8`.
     pub changes: String,
 }
 
 /// A line for the user, below the panes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Notice {
-    /// Something went as wanted.
+    /// Success.
     Done(String),
-    /// Something did not.
+    /// Failure.
     Error(String),
 }
 
-/// A file that is being written.
+/// A file being written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Writing {
     /// Its path.
     pub path: std::path::PathBuf,
-    /// The scene as it was when that began.
+    /// The scene when writing began.
     pub text: String,
-    /// True if to leave afterwards.
+    /// True to leave afterwards.
     pub then_quit: bool,
 }
 
@@ -146,19 +146,19 @@ pub struct Model {
     pub saved: BTreeMap<String, Document>,
     /// Number of times that a scene was saved or opened.
     pub saves: u64,
-    /// Scenes with unsaved changes in whose place another one was opened, by their names.
+    /// Scenes left with unsaved changes, by their names.
     pub left: BTreeMap<String, Document>,
-    /// Documents before each edit, and those taken back.
+    /// Documents before each edit.
     pub undo: Vec<Document>,
-    /// See `undo`.
+    /// Documents after each undone edit.
     pub redo: Vec<Document>,
-    /// Number of the newest scene asked for.
+    /// Number of the newest requested scene.
     pub generation: u64,
     /// The parameters of the scene.
     pub parameters: Vec<Parameter>,
     /// Index of the selected parameter, which is never in a folded group.
     pub selected: usize,
-    /// Place of the first row of the list of parameters in sight, as far as the selected one is in sight with it.
+    /// Place of the first visible row of the list of parameters, unless the selected row would be hidden.
     pub first_listed: usize,
     /// Groups of parameters of which only the first row is listed.
     pub folded: BTreeSet<&'static str>,
@@ -166,19 +166,19 @@ pub struct Model {
     pub refused: Option<(usize, String)>,
     /// Present mode.
     pub mode: Mode,
-    /// The newest scene that has been computed.
+    /// The newest computed scene.
     pub computed: Option<Arc<SolvedScene>>,
     /// The newest snapshot of its animation.
     pub snapshot: Option<Arc<ContactSnapshot>>,
-    /// Legs done of the scene that is being computed.
+    /// Legs done of the scene being computed.
     pub progress: Option<usize>,
     /// State of the animation.
     pub player: Player,
-    /// Manual loading, while it lasts.
+    /// Manual loading, while active.
     pub manual: Option<ManualState>,
-    /// The force to go to, as it was typed last.
+    /// Target force as last typed.
     pub typed_force: String,
-    /// The status line has springs and times of the computation in place of mechanical quantities.
+    /// True if the status line has springs and times in place of mechanical quantities.
     pub shows_work: bool,
     /// Paths that complete the typed one, while they are shown.
     pub completion: Option<Completion>,
@@ -194,13 +194,13 @@ pub struct Model {
     pub curve: CurveLook,
     /// Approximate JKR curve beside the loop.
     pub approximate: Approximate,
-    /// The crosshair, while it is shown.
+    /// The crosshair, while shown.
     pub crosshair: Option<Crosshair>,
-    /// Loops kept to be compared with, the newest last.
+    /// Loops kept for comparison, the newest last.
     pub ghosts: Vec<Ghost>,
-    /// Scene that becomes a ghost as soon as it is computed.
+    /// Scene that becomes a ghost once computed.
     pub next_ghost: Option<Document>,
-    /// Scene to open beside the present one as soon as that is computed.
+    /// Scene to open beside the present one once that is computed.
     pub opens_beside: Option<Document>,
     /// Accuracy of the scene and the cost of accuracy.
     pub appraisal: Appraisal,
@@ -210,20 +210,19 @@ pub struct Model {
     pub preloads: Option<Arc<PreloadCurve>>,
     /// Adhesion of random profiles of a measured surface, so far.
     pub adhesion_spread: Option<Arc<AdhesionSpread>>,
-    /// Reasons for which data of panes are not computed further.
+    /// Reasons why data of panes are not computed further.
     pub failures: BTreeMap<Pane, String>,
     /// True if the scene was edited after the last pane was shown: its data wait while a key is held down.
     pub edited: bool,
-    /// The newest curve of a scene to look at: the one selected in the library, or the one with a value that is being
-    /// typed.
+    /// The newest preview: of the scene selected in the library, or of the value being typed.
     pub preview: Option<Arc<Preview>>,
-    /// Text of the scene with the value that is being typed, where it is another scene.
+    /// Text of the scene with the value being typed, where that changes the scene.
     pub tried: Option<String>,
     /// The chosen pane.
     pub pane: Pane,
-    /// True if it has the whole screen.
+    /// True if the chosen pane has the whole screen.
     pub zoomed: bool,
-    /// The pane that was chosen before the search of a parameter.
+    /// The pane chosen before the search of a parameter.
     pub pane_before: Pane,
     /// Columns and rows of the terminal.
     pub size: (u16, u16),
@@ -233,24 +232,24 @@ pub struct Model {
     pub bindings: Arc<Bindings>,
     /// Speed and end of the animation.
     pub animation: Animation,
-    /// The configuration file; `None` where none is to be written.
+    /// The configuration file; `None` if none is written.
     pub config_path: Option<std::path::PathBuf>,
     /// Traffic of the connection, over SSH.
     pub traffic: Option<Traffic>,
     /// True if times are shown: they differ from run to run.
     pub shows_times: bool,
-    /// The file that is being written.
+    /// The file being written.
     pub writing: Option<Writing>,
     /// A line for the user.
     pub notice: Option<Notice>,
-    /// Line in place of the keys while a script plays, since they do nothing then.
+    /// Line in place of the keys, which have no effect while a script plays.
     pub demo: Option<&'static str>,
     /// True if the explorer is to end.
     pub finished: bool,
 }
 
 impl Model {
-    /// The explorer as it opens on a scene.
+    /// The explorer just opened on a scene.
     #[must_use]
     pub fn new(document: Document, size: (u16, u16), appearance: Appearance) -> Self {
         let springs = CloseUpTarget::springs_shown(&document);
@@ -311,12 +310,12 @@ impl Model {
         }
     }
 
-    /// Shows that something went as wanted.
+    /// Shows a success.
     pub(super) fn set_done(&mut self, text: impl Into<String>) {
         self.notice = Some(Notice::Done(text.into()));
     }
 
-    /// Shows that something did not, and why.
+    /// Shows the reason of a failure.
     pub(super) fn set_error(&mut self, why: impl Into<String>) {
         self.notice = Some(Notice::Error(why.into()));
     }
@@ -327,15 +326,15 @@ impl Model {
         (self.animation, self.config_path) = (config.animation, config.path);
     }
 
-    /// Governing parameters of the present scene, as far as the newest computation gives them: its line must be that
-    /// of the scene, its adhesion may be another.
+    /// Governing parameters of the present scene from the newest computation, which must have the same line; its
+    /// adhesion may differ.
     #[must_use]
     pub fn governing(&self) -> Option<Governing> {
         let computed = self.computed.as_ref()?;
         let (before, now) = (computed.scene.as_ref(), self.document.scene());
         let mut roughness = now.roughness.clone();
         if let Some(roughness) = &mut roughness {
-            // The scene that was computed names files from the working folder.
+            // The computed scene names files from the working folder.
             roughness.rename_files(|file| self.document.resolve(file).to_string_lossy().into_owned());
         }
         let same_line = before.roughness == roughness
@@ -357,20 +356,20 @@ impl Model {
         self.current().is_some()
     }
 
-    /// The computed scene, where that is the present scene.
+    /// The computed scene, if this is the present one.
     #[must_use]
     pub fn current(&self) -> Option<&Arc<SolvedScene>> {
         self.computed.as_ref().filter(|computed| computed.generation == self.generation)
     }
 
-    /// Returns true if a newer scene than the one shown is being computed.
+    /// Returns true while a newer scene than the shown one is computed.
     #[must_use]
     pub fn is_computing(&self) -> bool {
         self.progress.is_some()
     }
 
-    /// Outcome for the value that is being typed, or for the one typed before until that is there; after a value was accepted,
-    /// its outcome until the scene is computed.
+    /// Outcome for the value being typed, until then for the one typed before; for an accepted value until the scene is
+    /// computed.
     #[must_use]
     pub fn tried_outcome(&self) -> Option<&Outcome> {
         let preview = self.preview.as_ref()?;
@@ -382,14 +381,14 @@ impl Model {
         preview.outcome.as_ref().ok().filter(|_| is_shown)
     }
 
-    /// Returns true if the outcome for the typed value itself is there.
+    /// Returns true once the typed value itself has an outcome.
     #[must_use]
     pub fn is_tried(&self) -> bool {
         self.preview.as_ref().is_some_and(|preview| self.tried.as_ref() == Some(&preview.text))
     }
 
-    /// Values of the scene on the axes of the map: its mark. `None` where the scene has no such quantity, or none that is
-    /// known yet.
+    /// Values of the scene on the axes of the map: its mark. `None` where the scene has no such quantity, or its value
+    /// is not known yet.
     #[must_use]
     pub fn place(&self) -> Option<Place> {
         let scene = self.document.scene();
@@ -404,7 +403,7 @@ impl Model {
         up.map_or(Some((place, None)), |up| Some((place, Some(value(&up)?))))
     }
 
-    /// The ghost that is shown beside the scene.
+    /// The ghost shown beside the scene.
     #[must_use]
     pub fn beside(&self) -> Option<&Ghost> {
         self.ghosts.last().filter(|_| self.lower == Pane::Beside)
@@ -423,14 +422,13 @@ impl Model {
         (snapshot.generation == self.generation && snapshot.drive == self.drive()).then_some(snapshot)
     }
 
-    /// The legs of the scene that is shown.
+    /// The legs of the shown scene.
     #[must_use]
     pub fn legs(&self) -> &[LegRecord] {
         self.computed.as_ref().map_or(&[], |computed| &computed.outcome.history.legs)
     }
 
-    /// A parameter's value as it would be written in the scene: where it follows from others, it is the
-    /// one that was computed.
+    /// A parameter's value in the notation of the scene; computed where the value follows from others.
     #[must_use]
     pub fn written(&self, parameter: &Parameter) -> Option<String> {
         if !parameter.written.is_empty() {
@@ -444,7 +442,7 @@ impl Model {
         }
     }
 
-    /// Indices of the parameters that are listed: those of a folded group are not, its first row apart.
+    /// Indices of the listed parameters: of a folded group only the first.
     #[must_use]
     pub fn listed(&self) -> Vec<usize> {
         let is_listed = |parameter: &Parameter| parameter.is_head() || !self.folded.contains(parameter.group);
@@ -469,7 +467,7 @@ impl Model {
         self.player.indentation(self.legs())
     }
 
-    /// Part of a loading stage that is done at an indentation, 0 to 1: the inverse of [`Model::indentation`].
+    /// Part of a loading stage done at an indentation, 0 to 1: the inverse of [`Model::indentation`].
     #[must_use]
     pub fn done_at(&self, leg: usize, indentation: f64) -> f64 {
         let Some(end) = self.legs().get(leg).map(LegRecord::end) else { return 0.0 };

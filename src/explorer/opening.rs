@@ -12,16 +12,16 @@ use thiserror::Error;
 pub struct Opening {
     /// The scene.
     pub document: Document,
-    /// The study it is from, whose maps are shown.
+    /// The study of the scene, whose maps are shown.
     pub study_map: Option<Arc<StudyMap>>,
-    /// Another scene that is shown beside.
+    /// Another scene, shown beside.
     pub beside: Option<Document>,
 }
 
-/// Reason for which nothing was opened.
+/// Reason why nothing was opened.
 #[derive(Debug, Error)]
 pub enum OpeningError {
-    /// No scene, or a scene that is not allowed.
+    /// No scene, or an invalid scene.
     #[error(transparent)]
     Scene(Box<SceneErrors>),
     /// A folder of no study.
@@ -42,16 +42,16 @@ impl From<Document> for Opening {
 }
 
 impl Opening {
-    /// Opens a scene by its name or file, or a study by its folder. Of a built-in scene and a folder with the
-    /// same name it is the folder, where that is one of a study.
+    /// Opens a scene by its name or file, or a study by its folder. The folder of a study has precedence over a
+    /// built-in scene of the same name.
     ///
     /// # Errors
-    /// A name of neither.
+    /// When neither has the name.
     pub fn of(name: &str) -> Result<Self, OpeningError> {
         Self::with(name, open)
     }
 
-    /// The same for an argument of a command, which may also name a stream; see [`open_argument`].
+    /// As [`Self::of`], for an argument of a command, which may also name a stream; see [`open_argument`].
     ///
     /// # Errors
     /// As [`Self::of`].

@@ -26,13 +26,13 @@ pub struct Entry {
 pub fn entries(bindings: &Bindings) -> Vec<Entry> {
     let is_listed = |row: &&Binding| {
         row.modes.iter().any(|mode| mode.is_exploring() && *mode != ModeKind::Crosshair)
-            // The value begins with the key itself, and the list is open.
+            // `start-value` needs its key as the value, and the list is open.
             && !["start-value", "open-palette"].contains(&row.command.name)
     };
     bindings.rows().filter(is_listed).flat_map(of_row).collect()
 }
 
-/// The command of a row; of the keys of built-in scenes one for each scene.
+/// The command of a row; for the keys of built-in scenes one for each scene.
 fn of_row(row: &Binding) -> Vec<Entry> {
     let entry = |keys, help, command| Entry { keys, help, section: row.section, command, modes: row.modes };
     if !row.command.takes_character() {
@@ -47,7 +47,7 @@ fn of_row(row: &Binding) -> Vec<Entry> {
 }
 
 impl Entry {
-    /// The words by which it is found: keys, description, section.
+    /// Search words: keys, description, section.
     #[must_use]
     pub fn candidate(&self) -> Candidate {
         let names = self.keys.iter().chain([&self.help]).cloned().collect();

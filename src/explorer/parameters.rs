@@ -5,31 +5,30 @@ use crate::scene::{
     Document, Effect, Field, Leg, Range, RoughnessParameter, field, format_quantity, ron_float,
 };
 
-/// Groups in the order of the list. First the parameters of the adhesion of one rough contact, which are changed from
-/// one look at the curve to the next: adhesion, load, roughness, and the number of springs that resolves them. Form and
-/// material are chosen once for a scene.
+/// Groups in the order of the list. The parameters that are varied most come first: adhesion, load, roughness, and the
+/// number of springs that resolves the roughness. Form and material are chosen once for a scene.
 const GROUPS: [&str; 7] = ["adhesion", "loading", "roughness", "numerics", "form", "material", "observe"];
 
-/// Fields that come first in their group; the others follow in the order of the scene file.
+/// First fields of their group; the others follow in the order of the scene file.
 const FIRST: [&str; 4] =
     ["roughness.rms_height", "roughness.rms_gradient", "roughness.hurst", "roughness.seed"];
 
-/// A parameter as the list shows it.
+/// A parameter of the list.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
     /// Row of the table of fields.
     pub field: &'static Field,
     /// Path in the scene.
     pub path: String,
-    /// Name of its group, which is the path of the group's first row.
+    /// Name of its group: the path of the first row.
     pub group: &'static str,
-    /// The leg it belongs to, where it is the target of a leg.
+    /// The leg, for the target of a leg.
     pub leg: Option<usize>,
     /// Its value as written in the scene file.
     pub written: String,
-    /// Its value as people read it; empty where it follows from others and has to be computed.
+    /// Its value for people; empty where the value follows from others and has to be computed.
     pub shown: String,
-    /// The effect it belongs to.
+    /// The effect of the parameter.
     pub effect: Option<Effect>,
     /// Way of setting.
     pub setting: Setting,
@@ -42,11 +41,11 @@ pub enum Setting {
     Field,
     /// The switch of an effect.
     Switch(Effect),
-    /// Not at all: it names a group without a value of its own.
+    /// Not at all: a group without a value of its own.
     Heading,
-    /// κ or e_el/γ, whichever of γ, κ and e_el/γ the scene gives.
+    /// κ or e_el/γ, for any of γ, κ and e_el/γ in the scene.
     RoughnessParameter(RoughnessParameter),
-    /// γ, whichever of γ, κ and e_el/γ the scene gives.
+    /// γ, for any of γ, κ and e_el/γ in the scene.
     WorkOfAdhesion,
 }
 
@@ -78,20 +77,20 @@ impl Parameter {
         }
     }
 
-    /// True if its value is typed as a number.
+    /// Returns true if its value is typed as a number.
     #[must_use]
     pub fn takes_number(&self) -> bool {
         let has_value = !matches!(self.setting, Setting::Switch(_) | Setting::Heading);
         has_value && !matches!(self.field.range, Range::Choice(_) | Range::List { .. })
     }
 
-    /// The first row of its group.
+    /// Returns true for the first row of a group.
     #[must_use]
     pub fn is_head(&self) -> bool {
         self.path == self.group
     }
 
-    /// The words by which it is found: symbol, in Greek and spelled, name and path; its meaning as prose.
+    /// Search words: symbol, in Greek and spelled, name and path; its meaning as prose.
     #[must_use]
     pub fn candidate(&self) -> Candidate {
         let symbol = self.field.symbol;
@@ -101,11 +100,11 @@ impl Parameter {
     }
 }
 
-/// Greek letters of the symbols, and their names: few keyboards have them.
+/// Greek letters of the symbols, rare on keyboards, and their names.
 const GREEK: [(char, &str); 6] =
     [('γ', "gamma"), ('κ', "kappa"), ('λ', "lambda"), ('θ', "theta"), ('ν', "nu"), ('Δ', "delta ")];
 
-/// A symbol with the names of its Greek letters in their place.
+/// A symbol with its Greek letters spelled.
 pub(super) fn spelled(symbol: &str) -> String {
     GREEK.iter().fold(symbol.to_owned(), |text, (letter, name)| text.replace(*letter, name))
 }
@@ -133,7 +132,7 @@ pub fn parameters(document: &Document) -> Vec<Parameter> {
             continue;
         }
         let Some(written) = document.value(field.path) else { continue };
-        // One of several ways to say the same, and not the one taken.
+        // One of several equivalent fields, and not the one in use.
         if written == "None" && !field.parent().is_empty() {
             continue;
         }
@@ -184,7 +183,7 @@ fn setting_of(path: &str) -> Setting {
     }
 }
 
-/// A scene gives γ, κ or e_el/γ; the others follow, and can be set as well.
+/// Adds rows for those of γ, κ and e_el/γ that follow from the given ones.
 fn insert_other_adhesion(parameters: &mut Vec<Parameter>) {
     let place = |parameters: &[Parameter], path| parameters.iter().position(|one| one.path == path);
     let Some(head) = place(parameters, Effect::Adhesion.path()) else { return };
@@ -193,7 +192,7 @@ fn insert_other_adhesion(parameters: &mut Vec<Parameter>) {
     if ![work, kappa, ratio].into_iter().any(is_given) {
         return;
     }
-    // Each follows the one before it.
+    // Each row follows the one before.
     let mut at = head;
     for path in [work, kappa, ratio] {
         at = match place(parameters, path) {
@@ -235,7 +234,7 @@ fn leg_targets(loading: &[Leg]) -> impl Iterator<Item = Parameter> {
     })
 }
 
-/// A written value as people read it.
+/// A written value in the format for people.
 fn shown(field: &Field, written: &str) -> String {
     match (field.range, written.parse::<f64>()) {
         (Range::Real { .. }, Ok(value)) => format_quantity(value, field.unit),

@@ -1,4 +1,4 @@
-//! The scene that was computed last, ready to be played leg by leg or loaded manually.
+//! The last computed scene, ready to be played leg by leg or loaded manually.
 
 use super::close_up::close_up;
 use super::engine::Engine;
@@ -11,11 +11,10 @@ use crate::contact::{ContactError, LegContact, LegRecord, Snapshot, Solver};
 use crate::scene::{Observer, Scene};
 use std::sync::Arc;
 
-/// Bytes of legs that are kept: beyond them, legs are computed again when the animation reaches them.
+/// Most bytes of kept legs: further legs are computed again when the animation reaches them.
 const BYTES_KEPT: usize = 1 << 29;
 
-/// Memory of a leg is used again while it holds no more than so many times what a leg takes, and that of few
-/// springs always.
+/// Memory of a leg is reused up to this multiple of the size of a leg, and always for few springs.
 const MOST_SPARE: usize = 4;
 const FEW_SPRINGS: usize = 1 << 16;
 const BYTES_PER_SPRING: usize = size_of::<f64>();
@@ -32,14 +31,14 @@ pub struct Playback {
     generation: u64,
     scene: Option<Arc<Scene>>,
     computed: Option<Arc<SolvedScene>>,
-    /// Contact on each leg, as far as it is kept.
+    /// Contact on each leg, as far as kept.
     legs: Vec<Option<LegContact>>,
     /// Memory for the legs of the next scene.
     spare: Vec<LegContact>,
     held: Option<ManualBody>,
     /// The contact of the last snapshot, to count the springs that changed.
     last: Option<(Drive, Fragments)>,
-    /// Spectra of the scene, once they have been asked for.
+    /// Spectra of the scene, once requested.
     spectra: Option<Arc<SceneSpectra>>,
     /// Columns of the line, independent of the contact.
     profile: LineColumns,
@@ -52,7 +51,7 @@ impl Playback {
         self.generation
     }
 
-    /// Computes a scene; `None` when a newer one is waited for.
+    /// Computes a scene; `None` when a newer one is awaited.
     pub fn compute(
         &mut self,
         engine: &mut dyn Engine,
@@ -63,11 +62,11 @@ impl Playback {
     ) -> Option<Report> {
         let mut spare = std::mem::take(&mut self.spare);
         spare.extend(self.legs.drain(..).flatten());
-        // Memory of a scene that was much larger is given back.
+        // Memory of a much larger scene is freed.
         let most = MOST_SPARE * BYTES_PER_SPRING * (scene.numerics.points as usize).max(FEW_SPRINGS);
         spare.retain(|leg| leg.bytes() <= most);
         *self = Playback { generation, ..Playback::default() };
-        // The pane beside the profile observes the heights.
+        // The histogram beside the profile needs the heights.
         let mut observed = scene.as_ref().clone();
         if !observed.observe.contains(&Observer::HeightHistogram) {
             observed.observe.push(Observer::HeightHistogram);
@@ -91,7 +90,7 @@ impl Playback {
         if result.is_err() {
             spare.extend(legs.drain(..).flatten());
         }
-        // Other scenes have about as many legs; memory for more is given back.
+        // Other scenes have about as many legs; memory for more is freed.
         spare.truncate(legs.len().max(2));
         self.spare = spare;
         match result {
@@ -219,7 +218,7 @@ impl Playback {
         Some((leg.fragments(indentation), leg.rises(indentation)))
     }
 
-    /// Computes a leg that was not kept.
+    /// Computes a leg again that was not kept.
     fn recall(&mut self, engine: &mut dyn Engine, wanted: usize) {
         let Some(scene) = &self.scene else { return };
         let mut found = None;
@@ -233,7 +232,7 @@ impl Playback {
             // Nothing after this leg is needed.
             Err(ContactError::Interrupted)
         };
-        // It ends as soon as the leg is found.
+        // The run ends as soon as the leg is found.
         let _ = engine.run(scene, &|| false, &mut after);
         if let Some(found) = found {
             // Only one recalled leg is kept at a time.
@@ -269,7 +268,7 @@ fn range_of(computed: &SolvedScene) -> f64 {
     (high - low).max(0.0)
 }
 
-/// The springs that the profile shows: a part of the line that never leaves it.
+/// The springs of the profile pane: a part within the line.
 fn profile_part(request: &SnapshotRequest, count: usize, close_up: usize) -> Part {
     let LineView { centre, share, follow } = request.profile;
     let springs = ((count as f64 * share).round() as usize).clamp(1, count.max(1));

@@ -1,8 +1,8 @@
-//! State of the animation, and the indentation that belongs to the state.
+//! State of the animation, and its indentation.
 
 use crate::contact::LegRecord;
 
-/// Share of the whole range of indentations by which the body is lifted before it first touches.
+/// Share of the whole range of indentations by which the body is lifted before first touch.
 const LIFT: f64 = 0.12;
 
 /// State of the animation.
@@ -10,14 +10,14 @@ const LIFT: f64 = 0.12;
 pub struct Player {
     /// Index of the leg.
     pub leg: usize,
-    /// Share that is played, 0 to 1.
+    /// Played share, 0 to 1.
     pub done: f64,
-    /// True if time moves it on.
+    /// True while playing.
     pub playing: bool,
 }
 
 impl Player {
-    /// The animation as it begins.
+    /// Start of the animation.
     pub const START: Player = Player { leg: 0, done: 0.0, playing: true };
 
     /// The indentation of the animation of these loading stages, m.
@@ -26,7 +26,7 @@ impl Player {
         let Some(leg) = legs.get(self.leg) else { return 0.0 };
         let start = start_of(legs, self.leg);
         match leg.curve.last() {
-            // There the contact is still held, and below it gone.
+            // The contact still holds at this end; below, it is gone.
             Some(end) if self.done >= 1.0 && end.springs == 0 => end.indentation.next_down(),
             _ if self.done >= 1.0 => leg.end(),
             _ => start + (leg.end() - start) * self.done,

@@ -15,18 +15,18 @@ pub enum Request {
         /// The scene.
         scene: Arc<Scene>,
     },
-    /// Move the body manually, in the scene that was computed last.
+    /// Move the body manually, in the last computed scene.
     Manual {
-        /// Generation of the scene it belongs to.
+        /// Generation of the scene.
         generation: u64,
         /// Move.
         order: ManualMove,
     },
-    /// Show a snapshot of the scene that was computed last.
+    /// Show a snapshot of the last computed scene.
     Show(SnapshotRequest),
-    /// Compute a scene to be shown beside, or none.
+    /// Compute a scene beside, or none.
     Beside(Option<Arc<Scene>>),
-    /// Compute a scene to look at its curve: one of the library, or one with a value that is being typed.
+    /// Compute the preview of a scene: one of the library, or one with a value being typed.
     Preview {
         /// The scene's text.
         text: String,
@@ -38,20 +38,20 @@ pub enum Request {
 /// Move of manual loading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ManualMove {
-    /// Takes it where a leg of the loading has it at this indentation, m.
+    /// Begins manual loading at an indentation of a leg.
     Take {
         /// Index of the leg.
         leg: usize,
         /// Indentation, m.
         indentation: f64,
     },
-    /// Gives it back.
+    /// Ends manual loading.
     Give,
-    /// Moves it to an indentation, m.
+    /// Moves the body to an indentation, m.
     To(f64),
-    /// Moves it by so much, m; pressing is positive.
+    /// Moves the body by a distance, m; pressing is positive.
     By(f64),
-    /// Moves it until its force is this one, N.
+    /// Moves the body to a force, N.
     ToForce(f64),
     /// Pulls until nothing touches.
     Separate,
@@ -60,7 +60,7 @@ pub enum ManualMove {
 /// Request for a snapshot of the contact, with the sizes of the panes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SnapshotRequest {
-    /// Generation of the scene it belongs to.
+    /// Generation of the scene.
     pub generation: u64,
     /// Drive of the body.
     pub drive: Drive,
@@ -72,11 +72,11 @@ pub struct SnapshotRequest {
     pub profile: LineView,
     /// Columns of dots of the close-up pane.
     pub close_up_columns: usize,
-    /// Cells across it.
+    /// Cells across the close-up pane.
     pub strip_cells: usize,
     /// Place of the close-up.
     pub focus: Focus,
-    /// Springs it shows.
+    /// Springs of the close-up.
     pub close_up_springs: usize,
     /// Pane in the place of profile and close-up.
     pub large: Option<Pane>,
@@ -93,7 +93,7 @@ pub struct SnapshotRequest {
 pub struct LineView {
     /// Its middle, as a share of the line.
     pub centre: f64,
-    /// Share of the line that it shows, above 0 to 1.
+    /// Shown share of the line, above 0 to 1.
     pub share: f64,
     /// True if its middle follows the close-up instead.
     pub follow: bool,
@@ -122,7 +122,7 @@ pub enum Focus {
 }
 
 impl Focus {
-    /// Returns true if it is a question, to which a spring is the answer.
+    /// Returns true for a question, with a spring as the answer.
     #[must_use]
     pub fn is_question(self) -> bool {
         !matches!(self, Focus::Summit | Focus::Spring(_))
@@ -138,7 +138,7 @@ pub enum Drive {
     Manual,
 }
 
-/// Newest generation that the explorer waits for; a run for an older one stops.
+/// Generation and preview awaited by the explorer; older runs stop.
 #[derive(Debug, Default)]
 pub struct Awaited {
     generation: AtomicU64,
@@ -146,24 +146,24 @@ pub struct Awaited {
 }
 
 impl Awaited {
-    /// Makes this the generation that is waited for.
+    /// Sets the awaited generation.
     pub fn set_generation(&self, generation: u64) {
         self.generation.store(generation, Ordering::Relaxed);
     }
 
-    /// A newer scene than that of this generation is waited for.
+    /// Returns true if another generation than this one is awaited.
     #[must_use]
     pub fn is_newer_than(&self, generation: u64) -> bool {
         self.generation.load(Ordering::Relaxed) != generation
     }
 
-    /// Makes this the preview that is waited for, or none.
+    /// Sets the awaited preview, or none.
     pub fn set_preview(&self, scene: Option<Arc<Scene>>) {
         *self.preview.lock().unwrap_or_else(PoisonError::into_inner) = scene;
     }
 
-    /// Makes a request what is waited for: a scene makes all older ones and every preview stale at once, and a preview those
-    /// before.
+    /// Marks a request as awaited: a scene makes all older ones and every preview stale at once, a preview all earlier
+    /// previews.
     pub fn ask(&self, request: &Request) {
         match request {
             Request::Compute { generation, .. } => {
@@ -175,7 +175,7 @@ impl Awaited {
         }
     }
 
-    /// This very preview is waited for.
+    /// Returns true if this very preview is awaited.
     #[must_use]
     pub fn is_preview(&self, scene: &Arc<Scene>) -> bool {
         let preview = self.preview.lock().unwrap_or_else(PoisonError::into_inner);
@@ -183,5 +183,5 @@ impl Awaited {
     }
 }
 
-/// The same for explorer and worker.
+/// Shared by explorer and worker.
 pub type Newest = Arc<Awaited>;

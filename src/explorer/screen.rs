@@ -38,9 +38,9 @@ impl Screen {
     /// An empty screen of so many columns and rows.
     ///
     /// # Errors
-    /// None that is known of.
+    /// None known.
     pub fn new((columns, rows): (u16, u16)) -> io::Result<Self> {
-        // The theme says whether there are colours, not the environment.
+        // The theme decides on colours, not the environment.
         crossterm::style::force_color_output(true);
         let sent = Shared::default();
         let backend = CrosstermBackend::new(FrameWriter::new(sent.clone()));
@@ -48,10 +48,10 @@ impl Screen {
         Ok(Screen { terminal: Terminal::with_options(backend, TerminalOptions { viewport })?, sent })
     }
 
-    /// Draws a model and gives what is sent for it.
+    /// Draws a model and returns the bytes to be sent.
     ///
     /// # Errors
-    /// None that is known of.
+    /// None known.
     pub fn draw(&mut self, model: &Model) -> io::Result<FrameBytes> {
         self.terminal.draw(|frame| view::draw(frame, model))?;
         Ok(FrameBytes(self.sent.0.take()))

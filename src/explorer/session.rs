@@ -38,22 +38,22 @@ pub const FRAME_RATE: u32 = 30;
 /// Most frames per second over SSH, where each has to travel.
 const REMOTE_FRAMES: u32 = 12;
 
-/// Time in which a job with files is waited for before anything else is done: keys that are typed after it act
-/// on what it gives. Longer jobs go on beside.
+/// Longest wait for a file job before anything else is done: keys typed after the job act on its result. Longer
+/// jobs continue in the background.
 const JOB: Duration = Duration::from_millis(50);
 
 /// Options of the explorer.
 #[derive(Default)]
 pub struct Options {
-    /// Colours, where the environment is not to be asked.
+    /// Colours in place of those by the environment.
     pub theme: Option<Theme>,
-    /// Markers; left out, Braille dots.
+    /// Markers in place of those by the environment.
     pub marker: Option<Marker>,
-    /// True if to leave the mouse to the terminal.
+    /// True to leave the mouse to the terminal.
     pub no_mouse: bool,
-    /// Unsaved changes of another session; the scene that is opened is the first of them.
+    /// Unsaved changes of another session; the opened scene is the first.
     pub restored: Option<Restored>,
-    /// Configuration; what is given here as well has precedence.
+    /// Configuration; options here have precedence.
     pub config: Config,
     /// Folder in which unsaved changes are kept; `None`: nowhere.
     pub drafts: Option<PathBuf>,
@@ -61,28 +61,28 @@ pub struct Options {
 
 /// State at the end of the explorer.
 pub struct SessionEnd {
-    /// The scene as it was left.
+    /// The scene at the end.
     pub document: Document,
     /// Outcome.
     pub computed: Option<Arc<SolvedScene>>,
-    /// Number of the signal that has ended it.
+    /// Number of the signal that ended the explorer.
     pub signal: Option<i32>,
 }
 
-/// Draws a model: [`view::draw`] does.
+/// Function that draws a model, as [`view::draw`].
 pub type Draw = fn(&mut Frame<'_>, &Model);
 
-/// Something from outside: input of the user, or its end, or a report of the worker.
+/// Message from outside: input of the user, its end, a signal, or a report.
 enum Message {
     Input(Event),
     InputEnded,
     /// A signal is to end the process.
     Ended(i32),
-    /// The process was stopped and goes on: another program may have had the terminal.
+    /// The stopped process continues: another program may have had the terminal.
     Continued,
     /// Report of another thread.
     Act(Box<Action>),
-    /// The job with files of this number is done.
+    /// The file job of this number is done.
     Done(u64, Box<Action>),
 }
 
@@ -92,15 +92,15 @@ impl Message {
     }
 }
 
-/// A job with files that goes on beside.
+/// File job in the background.
 #[derive(Clone, Copy)]
 struct Beside {
     number: u64,
-    /// Generation of the scene when it was asked for.
+    /// Generation of the scene at the request.
     generation: u64,
 }
 
-/// Opens the explorer on a scene or a finished study and returns what it leaves.
+/// Opens the explorer on a scene or a finished study and returns its final state.
 ///
 /// # Errors
 /// When the terminal refuses.
@@ -108,7 +108,7 @@ pub fn open(opening: impl Into<Opening>, options: Options) -> io::Result<Session
     open_with(opening, options, Box::new(Simulation::default()), view::draw)
 }
 
-/// Opens the explorer with another engine behind it and another view before it.
+/// Opens the explorer with another engine and another view.
 ///
 /// # Errors
 /// When the terminal refuses.
@@ -136,7 +136,7 @@ pub fn open_with(
         SystemSignal::Continue => Message::Continued,
     }))?;
     input::read(sender(&messages, |event: Option<Event>| event.map_or(Message::InputEnded, Message::Input)))?;
-    // The guard gives everything back; ratatui's own drop would complain on standard error, and panic
+    // The guard restores everything; ratatui's own drop would complain on standard error, and panic
     // where that is gone together with the terminal.
     let writer = FrameWriter::new(io::stdout());
     let written = writer.written();
@@ -210,7 +210,7 @@ struct Session<'a, W: Write> {
     frame_rate: u32,
     /// True if the content of the screen is unknown.
     redraw: bool,
-    /// Stops of its own that no signal of continuation has followed yet.
+    /// Own stops without a signal of continuation so far.
     own_stops: u32,
     /// Bytes written so far.
     written: Rc<Cell<u64>>,
@@ -218,34 +218,34 @@ struct Session<'a, W: Write> {
     traffic: (Instant, u64),
     inbox: Receiver<Message>,
     messages: Sender<Message>,
-    /// Messages that arrived during a job with files.
+    /// Messages that arrived during a file job.
     held: VecDeque<Message>,
-    /// Jobs with files so far.
+    /// File jobs so far.
     jobs: u64,
-    /// The newest of those that open something and go on beside.
+    /// The newest background job that opens a scene or a study.
     opening: Option<Beside>,
     /// Keeps unsaved changes.
     drafts: Option<Drafts>,
-    /// Generation and number of saves at which they were kept last.
+    /// Generation and number of saves when changes were last kept.
     kept: (u64, u64),
 }
 
 impl<W: Write> Session<'_, W> {
-    /// Runs until the explorer is to end; gives the signal that ends it, if one does.
+    /// Runs until the explorer is to end; returns the signal that ends it, if any.
     fn run(&mut self) -> io::Result<Option<i32>> {
         let frames = if self.remote { self.frame_rate.min(REMOTE_FRAMES) } else { self.frame_rate };
         let frame_time = Duration::from_secs(1) / frames;
         self.perform(vec![Effect::Compute])?;
         let mut moved = Instant::now();
         let mut changed = true;
-        // Over SSH nothing is drawn before this, whatever happens: a held key or a dragged mouse would
-        // fill the line with frames that nobody sees in time.
+        // Over SSH nothing is drawn before this time: a held key or a dragged mouse would fill the line
+        // with frames that nobody sees in time.
         let mut due = moved;
         while !self.model.finished {
             if changed && Instant::now() >= due {
                 if std::mem::take(&mut self.redraw) {
-                    // Unlike `clear` this does not ask the terminal where its cursor is, on the input
-                    // that the other thread reads.
+                    // Unlike `clear` this does not query the position of the cursor on the input that
+                    // the other thread reads.
                     let size = self.terminal.size()?;
                     self.terminal.resize(Rect::from((Position::ORIGIN, size)))?;
                 }
@@ -280,7 +280,7 @@ impl<W: Write> Session<'_, W> {
                         let size = self.terminal.size()?;
                         Some(Action::Resize(size.width, size.height))
                     }
-                    // In the mode that holds by now: the key before may have changed it.
+                    // In the present mode: the key before may have changed it.
                     Message::Input(event) => {
                         input::action_of(&event, &self.model.bindings, self.model.keys())
                     }
@@ -306,7 +306,7 @@ impl<W: Write> Session<'_, W> {
         Ok(None)
     }
 
-    /// The next message; waits for this time at the most, or for as long as it takes.
+    /// The next message, after `wait` at most; `None` waits without limit.
     fn wait_for_message(&mut self, wait: Option<Duration>) -> Option<Message> {
         let received = |inbox: &Receiver<Message>| match wait {
             Some(wait) => inbox.recv_timeout(wait).ok(),
@@ -315,7 +315,7 @@ impl<W: Write> Session<'_, W> {
         self.held.pop_front().or_else(|| received(&self.inbox))
     }
 
-    /// Does a job with files, and takes what it gives at once if that comes soon.
+    /// Runs a file job, and performs its action here if that comes soon.
     fn work_on_files(&mut self, job: FileJob) -> io::Result<()> {
         self.jobs += 1;
         let number = self.jobs;
@@ -337,8 +337,8 @@ impl<W: Write> Session<'_, W> {
         Ok(())
     }
 
-    /// Action that follows a background job. An opened scene does not replace one that was opened
-    /// or changed since.
+    /// Action that follows a background job. An opened scene does not replace one opened or changed
+    /// since.
     fn late(&mut self, number: u64, action: Action) -> Action {
         let Action::Opened(Ok(opening)) = &action else { return action };
         let is_wanted =
@@ -359,7 +359,7 @@ impl<W: Write> Session<'_, W> {
         }
     }
 
-    /// Keeps unsaved changes where the user has not been asked about them, and none otherwise.
+    /// Keeps unsaved changes where the user was not asked about them, else none.
     fn leave_drafts(&mut self) {
         self.keep_drafts();
         let Some(drafts) = &self.drafts else { return };
@@ -374,7 +374,7 @@ impl<W: Write> Session<'_, W> {
         self.perform(effects)
     }
 
-    /// Reports once in a second of drawing the number of bytes written.
+    /// Reports the number of bytes written, once in a second of drawing.
     fn measure_traffic(&mut self, frames: u32) {
         let (since, before) = self.traffic;
         let elapsed = since.elapsed();
@@ -388,7 +388,7 @@ impl<W: Write> Session<'_, W> {
         update(&mut self.model, Action::Traffic(traffic));
     }
 
-    /// Does what an update asks for.
+    /// Performs the effects of an update.
     fn perform(&mut self, effects: Vec<Effect>) -> io::Result<()> {
         for effect in effects {
             match effect {
@@ -419,13 +419,13 @@ impl<W: Write> Session<'_, W> {
                 Effect::Open(name) => self.work_on_files(FileJob::Open(name))?,
                 Effect::StopPreview => self.worker.stop_preview(),
                 Effect::Copy(text) => {
-                    // With the next frame; whether the terminal takes it, it does not say.
+                    // Sent with the next frame; the terminal does not confirm a copy.
                     queue!(self.terminal.backend_mut(), CopyToClipboard::to_clipboard_from(text))?;
                 }
                 Effect::Suspend => {
                     self.own_stops += 1;
                     self.guard.suspend()?;
-                    // The window may have become another one meanwhile.
+                    // The window may have another size by now.
                     let size = self.terminal.size()?;
                     self.redraw = true;
                     self.act(Action::Resize(size.width, size.height))?;

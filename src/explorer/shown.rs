@@ -1,4 +1,4 @@
-//! Panes that are shown, the selected one of them, and the keys and exports that are valid there.
+//! Shown panes, the selected one, and its valid keys and exports.
 
 use super::action::Content;
 use super::layout::Layout;
@@ -9,7 +9,7 @@ use crate::study::map::StudyMap;
 use std::sync::Arc;
 
 impl Model {
-    /// The panes there are to choose from, the most important first.
+    /// The selectable panes, the most important first.
     #[must_use]
     pub fn panes(&self) -> Vec<Pane> {
         match self.large {
@@ -18,14 +18,14 @@ impl Model {
         }
     }
 
-    /// Returns true if a pane is in its place, as far as the window has room for it.
+    /// Returns true if a pane is in its place, as far as the window has room.
     #[must_use]
     pub fn is_shown(&self, pane: Pane) -> bool {
         self.panes().contains(&pane)
     }
 
-    /// Shows a pane in its place. A pane in the place of the close-up is selected where that was or where it would be out of
-    /// sight, any other always.
+    /// Shows a pane in its place. A pane in the place of the close-up is selected where that was or where the pane
+    /// would be out of sight, any other always.
     pub fn show(&mut self, pane: Pane) {
         let is_same_place = self.pane == self.lower;
         match pane.row().place {
@@ -41,7 +41,7 @@ impl Model {
         self.keep_selection();
     }
 
-    /// Shows the panes again in whose place a pane is.
+    /// Hides a pane and restores the panes in its place.
     pub fn hide(&mut self, pane: Pane) {
         if self.large == Some(pane) {
             self.large = None;

@@ -1,8 +1,8 @@
-//! Signals that the explorer answers: those that end it give the terminal back first.
+//! Signals handled by the explorer: those that end it restore the terminal first.
 
 use std::io;
 
-/// A signal that the explorer answers.
+/// A signal handled by the explorer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SystemSignal {
     /// Request to end, by the signal of this number.
@@ -35,7 +35,7 @@ pub fn watch_for_signals(report: impl Fn(SystemSignal) -> bool + Send + 'static)
                 if report(SystemSignal::End(signal)) {
                     std::thread::sleep(PATIENCE);
                     if !report(SystemSignal::End(signal)) {
-                        // The explorer has ended, and who opened it goes on or ends by itself.
+                        // The explorer has ended, and its caller continues or ends by itself.
                         continue;
                     }
                     let _ = crossterm::terminal::disable_raw_mode();
@@ -46,7 +46,7 @@ pub fn watch_for_signals(report: impl Fn(SystemSignal) -> bool + Send + 'static)
         .map(drop)
 }
 
-/// Elsewhere there are no signals.
+/// No signals on other systems.
 ///
 /// # Errors
 /// None.
@@ -55,13 +55,13 @@ pub fn watch_for_signals(_: impl Fn(SystemSignal) -> bool + Send + 'static) -> i
     Ok(())
 }
 
-/// Ends the process by a signal, as if it had never been answered: whoever waits for the process sees which.
+/// Ends the process by the default action of a signal, which a waiting process sees.
 #[cfg(unix)]
 pub fn end_by(signal: i32) {
-    // It returns only for a signal that ends nothing.
+    // Returns only for a signal that ends nothing.
     let _ = signal_hook::low_level::emulate_default_handler(signal);
 }
 
-/// Elsewhere nothing has been answered.
+/// Does nothing on other systems.
 #[cfg(not(unix))]
 pub fn end_by(_: i32) {}

@@ -28,13 +28,13 @@ pub struct ContactSnapshot {
     pub generation: u64,
     /// Drive of the body.
     pub drive: Drive,
-    /// The profile that is shown.
+    /// The shown profile.
     pub line: LineFacts,
     /// Requested place of the close-up.
     pub focus: Focus,
     /// Indentation, force, springs in contact and fragments.
     pub point: CurvePoint,
-    /// Springs that changed state since the snapshot before.
+    /// Springs that changed state since the last snapshot.
     pub changed: u64,
     /// Half the distance between the outermost edges of the contact, m; zero in separation.
     pub contact_radius: f64,
@@ -48,7 +48,7 @@ pub struct ContactSnapshot {
     pub probe: Option<Probe>,
     /// Distribution of fragment lengths, where requested.
     pub lengths: Option<Vec<LengthBin>>,
-    /// Spectra of the scene, where they were asked for.
+    /// Spectra of the scene, where requested.
     pub spectra: Option<Arc<SceneSpectra>>,
     /// Path of manual loading to this state.
     pub manual: Option<ManualPath>,
@@ -63,20 +63,20 @@ pub struct Probe {
     pub spring: usize,
     /// Height of the rigid profile, m.
     pub height: f64,
-    /// Height of the elastic surface where it is undeformed, m.
+    /// Height of the undeformed elastic surface, m.
     pub level: f64,
     /// Number of the contact patch of the spring along the profile, from 0; none where the spring is free.
     pub patch: Option<usize>,
 }
 
-/// Path of manual loading since the snapshot before.
+/// Path of manual loading since the last snapshot.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ManualPath {
-    /// Points of the curve on the way, the one it began at left out.
+    /// Points of the curve on the way, without its start.
     pub path: Vec<CurvePoint>,
     /// Springs attached or detached.
     pub changed: u64,
-    /// Entries of lists and trees that had to be looked at for it.
+    /// Visited entries of lists and trees.
     pub touched: u64,
     /// Energy dissipated since manual loading began, J.
     pub dissipated_energy: f64,
@@ -96,7 +96,7 @@ pub enum Refusal {
     BeyondFullContact {
         /// Force at full contact, N.
         full_contact: f64,
-        /// Largest force that is allowed, N.
+        /// Largest allowed force, N.
         largest: f64,
     },
     /// Any other.
@@ -132,11 +132,11 @@ pub struct FragmentFacts {
     pub springs: (usize, usize),
     /// Its length δx, m.
     pub length: f64,
-    /// Largest stretch it bears by the rule of Hess, eq. (10), m; zero without adhesion.
+    /// Largest stretch by the rule of Hess, eq. (10), m; zero without adhesion.
     pub largest_stretch: f64,
     /// Stretch of its most stretched spring, m; negative when all are compressed.
     pub most_stretched: f64,
-    /// Force it carries, N; compression positive.
+    /// Force, N; compression positive.
     pub force: f64,
 }
 
@@ -149,7 +149,7 @@ impl FragmentFacts {
     }
 }
 
-/// The curve of a scene to look at.
+/// Preview of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Preview {
     /// The text of the scene, different for different scenes.
@@ -179,6 +179,6 @@ pub enum Report {
         /// Reason, in one line.
         error: String,
     },
-    /// A scene to look at has been computed, or could not be.
+    /// A preview has been computed, or has failed.
     Previewed(Arc<Preview>),
 }

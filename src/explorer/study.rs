@@ -1,5 +1,5 @@
 //! Accuracy of the scene, its cost, and the map over κ and H: computed beside the worker, on a thread of its own, so
-//! that no edit waits for it. Whatever is asked for next ends what is under way.
+//! that no edit waits. A new order ends the running one.
 
 use super::adhesion_spread::AdhesionSpread;
 use super::panes::{Costs, Pane, PreloadCurve};
@@ -16,11 +16,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::Duration;
 
-/// Nothing is begun before it has been as quiet as that: somebody who holds a key down wants the machine.
+/// Quiet time before a waiting task begins: a key held down needs the machine.
 const QUIET: Duration = Duration::from_millis(300);
 
-/// Data of a pane, computed in parts: each part is shown as soon as it is there, and an interrupted computation continues
-/// where it ended, but for costs, whose times are measured together.
+/// Data of a pane, computed in parts: each part is shown at once, and an interrupted computation continues where it
+/// ended, except that of costs, whose times are measured together.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PaneData {
     /// The map over κ and H.
@@ -48,7 +48,7 @@ impl PaneData {
     /// Computes the missing part; `report` receives the data after each addition.
     ///
     /// # Errors
-    /// The reason for which there is nothing more, also when `stop` says so before the end.
+    /// The reason why the data are incomplete, also after an interruption by `stop`.
     pub fn extended(self, stop: &dyn Fn() -> bool, report: &mut dyn FnMut(PaneData)) -> Result<Self, String> {
         let folder = Path::new(FOLDER);
         let described = |error: RunError| error.to_string();
@@ -79,7 +79,7 @@ impl PaneData {
     }
 }
 
-/// Something to be worked out about a scene.
+/// Task of a study of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Task {
     /// Estimated error of the outcome.
@@ -92,36 +92,36 @@ pub enum Task {
     Extend {
         /// The data so far.
         data: PaneData,
-        /// True if it waits until it is quiet.
+        /// True if the task waits for a quiet time.
         waits: bool,
     },
 }
 
 impl Task {
-    /// Returns true if it waits until it is quiet; what the user waits for does not.
+    /// Returns true if the task waits for a quiet time; a task awaited by the user does not.
     fn waits(&self) -> bool {
         !matches!(self, Task::Choose(..) | Task::Extend { waits: false, .. })
     }
 }
 
-/// Findings.
+/// Finding of a task.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Finding {
-    /// The error of the outcome, where it is known.
+    /// The error of the outcome, where known.
     Estimated(Option<Estimate>),
     /// The approximate JKR curve, or the reason for none.
     Approximated(Result<Arc<ApproximateJkr>, String>),
-    /// With how many springs a tolerance is tried next.
+    /// Number of springs tried next for a tolerance.
     Choosing(u64),
     /// Choice for a tolerance, or the reason for none.
     Chosen(f64, Result<Choice, ChoiceError>),
     /// The data of a pane so far.
     Extended(PaneData),
-    /// The data of a pane are not computed further, and why.
+    /// Reason why the data of a pane are not computed further.
     NotExtended(Pane, String),
 }
 
-/// A finding and the generation of the scene it belongs to.
+/// A finding and the generation of its scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
     /// Generation of the scene.
@@ -135,7 +135,7 @@ pub trait Appraiser: Send {
     /// See [`estimate`].
     ///
     /// # Errors
-    /// When a solution that is needed fails.
+    /// When a needed solution fails.
     fn estimate(&mut self, of: &SolvedScene, stop: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
         estimate(&of.scene, Path::new(FOLDER), &of.outcome, stop)
     }
@@ -157,7 +157,7 @@ pub trait Appraiser: Send {
     /// See [`Simulation::approximate_jkr`].
     ///
     /// # Errors
-    /// For a scene without such a curve, when the profile fails or `stop` says so.
+    /// For a scene without such a curve, when the profile fails or `stop` interrupts.
     fn approximate_jkr(
         &mut self,
         of: &SolvedScene,
@@ -169,7 +169,7 @@ pub trait Appraiser: Send {
     /// See [`PaneData::extended`].
     ///
     /// # Errors
-    /// The reason for which there is nothing more, also when `stop` says so before the end.
+    /// The reason why the data are incomplete, also after an interruption by `stop`.
     fn extend(
         &mut self,
         data: PaneData,
@@ -184,7 +184,7 @@ pub trait Appraiser: Send {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Accuracy;
 
-/// The files of a scene that is explored are named by whole paths.
+/// Files of an explored scene are named by whole paths.
 const FOLDER: &str = "";
 
 impl Appraiser for Accuracy {}
@@ -192,7 +192,7 @@ impl Appraiser for Accuracy {}
 /// Reason for no result after a panic.
 const INTERNAL: &str = "internal error, please report it";
 
-/// Does a task. Findings after `stop` has returned true are dropped.
+/// Performs a task. Findings after `stop` has returned true are dropped.
 pub fn perform(
     appraiser: &mut dyn Appraiser,
     task: &Task,
@@ -231,7 +231,7 @@ pub fn perform(
     }));
 }
 
-/// Studies of one scene, one after the other; a new order replaces the one before.
+/// Studies of one scene in succession; a new order replaces the last one.
 struct Order {
     number: u64,
     generation: u64,
@@ -245,11 +245,11 @@ pub struct Study {
 }
 
 impl Study {
-    /// Starts a study on a thread of its own. Its findings go through `report`, which says whether anyone
-    /// still listens.
+    /// Starts a study on a thread of its own. `report` receives its findings and returns true while anyone
+    /// listens.
     ///
     /// # Errors
-    /// When the system gives no thread.
+    /// When the system refuses a thread.
     pub fn start(
         appraiser: Box<dyn Appraiser>,
         report: impl Fn(Found) -> bool + Send + 'static,
@@ -263,20 +263,20 @@ impl Study {
         Ok(Study { orders, newest })
     }
 
-    /// Ends what is under way and asks for these in its place.
+    /// Ends the running tasks and requests these in their place.
     pub fn ask(&self, generation: u64, tasks: Vec<Task>) {
         let number = self.newest.fetch_add(1, Ordering::Relaxed) + 1;
         // The study only ends with the explorer.
         let _ = self.orders.send(Order { number, generation, tasks });
     }
 
-    /// Ends what is under way.
+    /// Ends the running tasks.
     pub fn stop(&self) {
         self.ask(0, Vec::new());
     }
 }
 
-/// Does what was asked for last until the explorer is gone.
+/// Performs the newest order until the explorer is gone.
 fn serve(
     mut appraiser: Box<dyn Appraiser>,
     newest: &AtomicU64,

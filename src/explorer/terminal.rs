@@ -1,4 +1,4 @@
-//! The terminal: taken over when the explorer opens, given back however it ends.
+//! The terminal: taken over when the explorer opens, restored at any end.
 
 use super::rescue::Rescue;
 use crossterm::cursor::Show;
@@ -13,12 +13,12 @@ use std::cell::Cell;
 use std::io::{self, Write};
 use std::rc::Rc;
 
-/// Asks for presses, drags and the wheel of the mouse. What crossterm asks for includes every motion, and
+/// Requests presses, drags and the wheel of the mouse. The request of crossterm includes every motion, and
 /// each would travel and wake the explorer for nothing.
 const MOUSE_ON: &str = "\x1b[?1000h\x1b[?1002h\x1b[?1006h";
 const MOUSE_OFF: &str = "\x1b[?1006l\x1b[?1002l\x1b[?1000l";
 
-/// The terminal in the explorer's hands; dropping it gives it back, and so does the end of the process.
+/// Terminal taken over by the explorer; restored on drop and at the end of the process.
 pub struct TerminalGuard {
     mouse: bool,
     rescue: Option<Rescue>,
@@ -36,7 +36,7 @@ impl TerminalGuard {
         let before = std::panic::take_hook();
         let drawing = std::thread::current().id();
         std::panic::set_hook(Box::new(move |panic| {
-            // A panic of the worker becomes a line in the explorer, which goes on.
+            // A panic of the worker becomes a line in the explorer, which continues.
             if std::thread::current().id() == drawing {
                 let _ = give_back(mouse);
                 before(panic);
@@ -71,7 +71,7 @@ impl TerminalGuard {
     /// # Errors
     /// When the terminal refuses.
     pub fn take_again(&mut self) -> io::Result<()> {
-        // Only what has been given back can be taken.
+        // Only a restored terminal can be taken.
         disable_raw_mode()?;
         self.enter()
     }
@@ -90,7 +90,7 @@ impl TerminalGuard {
 
 impl Drop for TerminalGuard {
     fn drop(&mut self) {
-        // Nothing can be done about a terminal that is gone.
+        // A lost terminal cannot be restored.
         let _ = self.give_back();
         // While a panic unwinds, the hook cannot be taken and is needed no more.
         if !std::thread::panicking() {
@@ -107,13 +107,13 @@ fn give_back(mouse: bool) -> io::Result<()> {
 }
 
 /// Stops all processes of this job, as the terminal does when it turns Ctrl-Z into a signal. Where no
-/// shell could continue them the system goes on at once.
+/// shell could continue them the system does not stop them.
 #[cfg(unix)]
 fn stop_until_continued() {
     let _ = rustix::process::kill_current_process_group(rustix::process::Signal::TSTP);
 }
 
-/// Elsewhere there are no jobs.
+/// No jobs on other systems.
 #[cfg(not(unix))]
 fn stop_until_continued() {}
 
@@ -123,7 +123,7 @@ fn stop_until_continued() {}
 /// for ever, at full speed. A thread that waits for nothing but the hang-up costs nothing.
 ///
 /// # Errors
-/// When the system gives no thread.
+/// When the system refuses a thread.
 #[cfg(unix)]
 pub fn watch_for_hang_up(gone: impl FnOnce() + Send + 'static) -> io::Result<()> {
     use rustix::event::{PollFd, PollFlags, poll};
@@ -144,14 +144,14 @@ pub fn watch_for_hang_up(gone: impl FnOnce() + Send + 'static) -> io::Result<()>
         .map(drop)
 }
 
-/// Elsewhere the end of input is an error of its own.
+/// The end of input is an error of its own on other systems.
 #[cfg(not(unix))]
 pub fn watch_for_hang_up(_: impl FnOnce() + Send + 'static) -> io::Result<()> {
     Ok(())
 }
 
-/// Collects a whole frame and writes it at once, as a synchronized update. Nothing drawn, nothing
-/// written.
+/// Collects a whole frame and writes it at once, as a synchronized update. A frame without a change is
+/// not written.
 pub struct FrameWriter<W: Write> {
     frame: Vec<u8>,
     out: W,
@@ -172,8 +172,8 @@ impl<W: Write> FrameWriter<W> {
     }
 }
 
-/// Returns true if a frame changes the screen: ratatui resets styles and hides the cursor also where it has nothing
-/// to draw.
+/// Returns true if a frame changes the screen: ratatui resets styles and hides the cursor even without anything to
+/// draw.
 fn shows_something(frame: &[u8]) -> bool {
     let mut rest = frame;
     while let Some(sequence) = rest.strip_prefix(b"\x1b[") {

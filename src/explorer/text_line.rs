@@ -1,4 +1,4 @@
-//! A line of text that is being typed.
+//! A line of text being typed.
 
 use crate::text::is_control;
 
@@ -23,7 +23,7 @@ pub enum Motion {
 pub struct TextLine {
     characters: Vec<char>,
     cursor: usize,
-    /// The whole text is selected: the next character replaces it.
+    /// True if the text is selected: the next character replaces it.
     selected: bool,
 }
 
@@ -41,7 +41,7 @@ impl TextLine {
         TextLine { selected: true, ..TextLine::new(text) }
     }
 
-    /// The text is selected.
+    /// Returns true if the text is selected.
     #[must_use]
     pub fn is_selected(&self) -> bool {
         self.selected

@@ -42,7 +42,7 @@ pub enum Marker {
     Ascii,
 }
 
-/// Something that is shown.
+/// Meaning of a style.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meaning {
     /// The rigid line.
@@ -76,8 +76,8 @@ pub enum Meaning {
 }
 
 impl Appearance {
-    /// Appearance for the environment: colours by `NO_COLOR` and `COLORFGBG`; ASCII where the console of Linux (`TERM=linux`)
-    /// or a locale without Unicode (`C`, `POSIX`) shows no Braille.
+    /// Appearance for the environment: colours by `NO_COLOR` and `COLORFGBG`; ASCII where the console of Linux
+    /// (`TERM=linux`) or a locale without Unicode (`C`, `POSIX`) shows no Braille.
     #[must_use]
     pub fn of_environment() -> Self {
         let value = |name| std::env::var_os(name).filter(|value| !value.is_empty());
@@ -94,7 +94,7 @@ impl Appearance {
 }
 
 impl Theme {
-    /// The theme for a background as `COLORFGBG` gives it: the number of its colour comes last.
+    /// The theme for a background in the format of `COLORFGBG`: its colour comes last.
     fn on_background(colours: &str) -> Self {
         match colours.rsplit(';').next().map(str::parse::<u8>) {
             Some(Ok(7 | 9..=15)) => Theme::Light,
@@ -136,7 +136,7 @@ impl Theme {
         }
     }
 
-    /// The style of letters that a search has found, in a text of this style.
+    /// The style of letters found by a search, in a text of this style.
     #[must_use]
     pub fn found(self, style: Style) -> Style {
         style.add_modifier(Modifier::BOLD | Modifier::UNDERLINED)
@@ -177,9 +177,9 @@ impl Marker {
     }
 }
 
-/// Values of an option that a key goes through.
+/// Values of an option, cycled by a key.
 pub trait Choice: ValueEnum + PartialEq + 'static {
-    /// The next one, after the last the first.
+    /// The next value; the first follows the last.
     #[must_use]
     fn next(self) -> Self {
         let all = Self::value_variants();
@@ -187,7 +187,7 @@ pub trait Choice: ValueEnum + PartialEq + 'static {
         all[(place + 1) % all.len()].clone()
     }
 
-    /// Its name, as the command line has it.
+    /// Its name on the command line.
     #[must_use]
     fn name(self) -> String {
         self.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())

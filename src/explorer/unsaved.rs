@@ -1,16 +1,17 @@
-//! Scenes with unsaved changes: the one that is explored, and those in whose place it was opened.
+//! Scenes with unsaved changes: the explored one, and those left for another.
 
 use super::model::Model;
 use crate::scene::Document;
 
 impl Model {
-    /// Returns true if the scene differs from what is saved.
+    /// Returns true if the scene differs from its saved document.
     #[must_use]
     pub fn is_unsaved(&self) -> bool {
         self.is_changed(&self.document)
     }
 
-    /// Returns true if a document differs from what is saved by a value or a comment; another way to write a number is no change.
+    /// Returns true if a document differs from its saved one by a value or a comment; another notation of a number is
+    /// no change.
     #[must_use]
     pub fn is_changed(&self, document: &Document) -> bool {
         let is_same = |saved: &Document| {
@@ -20,14 +21,14 @@ impl Model {
         !self.saved.get(document.name()).is_some_and(is_same)
     }
 
-    /// All scenes with unsaved changes, the one that is explored first.
+    /// All scenes with unsaved changes, starting with the explored one.
     #[must_use]
     pub fn unsaved(&self) -> Vec<&Document> {
         let present = Some(&self.document).filter(|document| self.is_changed(document));
         present.into_iter().chain(self.left.values().filter(|left| self.is_changed(left))).collect()
     }
 
-    /// Takes scenes for unsaved changes of another session, the first of them for that of the explored scene.
+    /// Registers scenes as unsaved changes of another session, the first of them as the explored scene.
     pub fn restore(&mut self, documents: &[Document]) {
         for (number, document) in documents.iter().enumerate() {
             match Document::parse(document.opened(), document.name()) {

@@ -1,4 +1,4 @@
-//! The worker: one thread that owns the simulation, does the newest request and publishes snapshots.
+//! The worker: one thread that owns the simulation, serves the newest request and publishes snapshots.
 
 pub use super::engine::Engine;
 use super::playback::Playback;
@@ -13,24 +13,24 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender};
 
-/// The place where requests are done, one after the other.
+/// State of the worker, which serves requests in succession.
 pub struct WorkerState {
     engine: Box<dyn Engine>,
     playback: Playback,
-    /// The library's scenes have an engine of their own: the one shown keeps its line.
+    /// Engine of previews, so that the shown scene keeps its line.
     previews: Simulation,
-    /// The scene that is shown beside.
+    /// The scene shown beside.
     beside: Option<Beside>,
 }
 
-/// The scene that is shown beside: computed as soon as it is in sight.
+/// The scene shown beside: computed as soon as its pane is in sight.
 struct Beside {
     /// The scene, until it is computed or has failed.
     waiting: Option<Arc<Scene>>,
     solved: Option<(Simulation, Playback)>,
 }
 
-/// Requests that wait together: the newest of each kind counts, but every manual move.
+/// Waiting requests: the newest of each kind, but every manual move.
 #[derive(Default)]
 struct Batch {
     compute: Option<(u64, Arc<Scene>)>,
@@ -57,13 +57,13 @@ impl Batch {
 }
 
 impl WorkerState {
-    /// A desk with an engine.
+    /// A worker with an engine.
     #[must_use]
     pub fn new(engine: Box<dyn Engine>) -> Self {
         WorkerState { engine, playback: Playback::default(), previews: Simulation::default(), beside: None }
     }
 
-    /// Does the requests that wait together, and reports.
+    /// Serves the waiting requests, and reports.
     ///
     /// A panic ends the requests, not the explorer.
     pub fn serve(
@@ -126,8 +126,8 @@ impl WorkerState {
 }
 
 impl Beside {
-    /// Engine and playback of the scene, which is computed first if need be; `None` where the computation fails or gives way
-    /// to a newer scene than that of the generation.
+    /// Engine and playback of the scene, which is computed first if need be; `None` where the computation fails or is
+    /// interrupted by a newer generation.
     fn solve(&mut self, generation: u64, newest: &Newest) -> Option<&mut (Simulation, Playback)> {
         if let Some(scene) = &self.waiting {
             let (mut engine, mut playback) = (Simulation::default(), Playback::default());
@@ -160,7 +160,7 @@ pub fn serve(
         is_heard.set(is_heard.get() && report(one));
         is_heard.get()
     };
-    // Once nobody listens no further request is waited for.
+    // Without a listener no further request is awaited.
     while is_heard.get()
         && let Ok(first) = requests.recv()
     {
@@ -168,11 +168,11 @@ pub fn serve(
     }
 }
 
-/// Starts the worker on a thread of its own. Its reports go through `report`, which says whether
-/// anyone still listens.
+/// Starts the worker on a thread of its own. `report` receives its reports and returns true while
+/// anyone listens.
 ///
 /// # Errors
-/// When the system gives no thread.
+/// When the system refuses a thread.
 pub fn start(
     engine: Box<dyn Engine>,
     newest: Newest,
@@ -193,20 +193,20 @@ pub struct Worker {
 }
 
 impl Worker {
-    /// A handle that sends to `requests` and marks what is newest.
+    /// A handle that sends to `requests` and updates `newest`.
     #[must_use]
     pub fn new(requests: Sender<Request>, newest: Newest) -> Self {
         Worker { requests, newest }
     }
 
-    /// Asks for something, see [`Awaited::ask`](super::request::Awaited::ask).
+    /// Sends a request and marks it as awaited, see [`Awaited::ask`](super::request::Awaited::ask).
     pub fn ask(&self, request: Request) {
         self.newest.ask(&request);
         // The worker only ends with the explorer.
         let _ = self.requests.send(request);
     }
 
-    /// Waits for no preview any more.
+    /// Makes all previews stale.
     pub fn stop_preview(&self) {
         self.newest.set_preview(None);
     }

@@ -16,11 +16,10 @@ use ratatui::buffer::Buffer;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Writes what is asked for, to a regular file: a pipe would be waited for. The name of a scene without an extension gets
-/// `.ron`.
+/// Writes a content to a regular file: a pipe would block. The name of a scene without an extension gets `.ron`.
 ///
 /// # Errors
-/// When the file is there and is not to be overwritten, or the system refuses.
+/// When the file exists and is not to be overwritten, or the system refuses.
 pub fn write(
     model: &Model,
     path: PathBuf,
@@ -37,8 +36,7 @@ pub fn write(
     }
 }
 
-/// The file of a scene by its name as typed. What the name itself cannot be is refused: with an extension it is another
-/// name.
+/// The file of a scene by its typed name. A name without an extension is checked before `.ron` makes it another name.
 ///
 /// # Errors
 /// When the name is that of a folder, a pipe or a device.
@@ -85,7 +83,7 @@ fn write_content(file: &mut dyn Write, model: &Model, path: &Path, content: Cont
 /// The screen as the file of a picture, on a background that suits its colours.
 ///
 /// # Errors
-/// For a picture of more pixels than are allowed.
+/// For a picture of too many pixels.
 pub fn screenshot(model: &Model, format: PictureFormat) -> Result<Vec<u8>, PngError> {
     let palette = if model.appearance.theme == Theme::Light { Palette::LIGHT } else { Palette::DARK };
     let screen = picture_of(model);
@@ -99,7 +97,7 @@ pub fn screenshot(model: &Model, format: PictureFormat) -> Result<Vec<u8>, PngEr
     }
 }
 
-/// The screen as it is without any question or line of text.
+/// The screen without any question or line of text.
 #[must_use]
 pub fn picture_of(model: &Model) -> Buffer {
     let mut model = model.clone();

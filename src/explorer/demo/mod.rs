@@ -1,4 +1,4 @@
-//! The explorer plays by itself: the same frames always, for a terminal, a pipe or a recording.
+//! Demo of the explorer: always the same frames, for a terminal, a pipe or a recording.
 
 mod script;
 mod watch;
@@ -16,10 +16,10 @@ use crate::simulation::Simulation;
 use std::collections::VecDeque;
 use std::time::Duration;
 
-/// Seconds between characters that are typed.
+/// Seconds between typed characters.
 const TYPING: f64 = 0.15;
 
-/// A demo as it plays, frame by frame.
+/// A demo played frame by frame.
 pub struct Demo {
     explorer: Headless,
     cues: VecDeque<Cue>,
@@ -56,7 +56,7 @@ impl Demo {
         }
     }
 
-    /// Goes on to the next frame and gives its time in seconds; `None` when the demo is over.
+    /// Advances to the next frame and returns its time in seconds; `None` when the demo is over.
     pub fn advance(&mut self) -> Option<f64> {
         let mut left = if std::mem::replace(&mut self.begun, true) { self.frame } else { 0.0 };
         while self.pause <= left {
@@ -67,7 +67,7 @@ impl Demo {
                 self.explorer.act(Action::Type(character));
                 self.pause = TYPING;
             } else if matches!(self.explorer.model.mode, Mode::Edit(_)) {
-                // A value that is refused stays in the editor.
+                // A refused value stays in the editor.
                 let is_refused = self.explorer.model.refused.is_some();
                 self.explorer.command(if is_refused { "cancel" } else { "accept" });
             } else {
@@ -87,7 +87,7 @@ impl Demo {
         &self.explorer.model
     }
 
-    /// Gives the window another size.
+    /// Resizes the window.
     pub fn resize(&mut self, columns: u16, rows: u16) {
         self.explorer.act(Action::Resize(columns, rows));
     }
@@ -97,7 +97,7 @@ impl Demo {
         self.explorer.model.demo = Some(note);
     }
 
-    /// Lets time go by.
+    /// Plays for a time.
     fn play(&mut self, seconds: f64) {
         self.seconds += seconds;
         if seconds > 0.0 && self.explorer.model.manual.is_none() {

@@ -1,9 +1,9 @@
 //! Script of the demo.
 
-/// Something the demo does.
+/// Step of the demo.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cue {
-    /// Lets the explorer play for so many seconds.
+    /// Plays for so many seconds.
     Wait(f64),
     /// Runs a command of the table of keys, by its name.
     Do(&'static str),
@@ -11,13 +11,13 @@ pub enum Cue {
     Repeat(u32, f64, &'static str),
     /// Selects the parameter of a field.
     Select(&'static str),
-    /// Types a value for the selected parameter, as people type.
+    /// Types a value for the selected parameter, character by character.
     Enter(&'static str),
 }
 
 use Cue::{Do, Enter, Repeat, Select, Wait};
 
-/// Seconds a loop of two legs takes, and a pause to look at it.
+/// Seconds of a loop of two legs and of a pause at its end.
 const LOOP: f64 = 12.5;
 
 /// The tour over the built-in scenes: the three regimes, pressing harder, manual loading, fragments, a sphere

@@ -15,8 +15,8 @@ impl Binding {
         key.character().map_or(self.command, |character| self.command.with(character))
     }
 
-    /// Returns true if the configuration may give the row other keys: keys for typing, lists and questions are the same for all,
-    /// and digits mean what they are.
+    /// Returns true if the configuration may replace the keys of the row: keys for typing, lists and questions are
+    /// fixed, and so are digits.
     #[must_use]
     pub fn is_rebindable(&self) -> bool {
         !self.command.takes_character() && self.modes.iter().all(|mode| mode.is_exploring())
@@ -59,7 +59,7 @@ impl Bindings {
             .find_map(|row| Some(row.command_of(row.keys.iter().find(|key| key.matches(event))?)))
     }
 
-    /// The command of a name in a mode, for a row whose keys differ in meaning with the character: `preset 3`.
+    /// The command of a name in a mode, with the character where the row takes one: `preset 3`.
     #[must_use]
     pub fn named(&self, name: &str, mode: ModeKind) -> Option<Command> {
         self.valid_in(mode).find_map(|row| match name.strip_prefix(row.command.name)?.strip_prefix(' ') {
@@ -71,7 +71,7 @@ impl Bindings {
         })
     }
 
-    /// Gives an action these keys in place of its own. Ctrl+C always quits.
+    /// Replaces the keys of an action. Ctrl+C always quits.
     ///
     /// # Errors
     /// An action or a key that does not exist.

@@ -10,7 +10,7 @@ pub struct Key {
 }
 
 impl Key {
-    /// Returns true if a key event is this key. Shift is part of a character, not beside it.
+    /// Returns true if a key event is this key. Shift is part of a character, not a modifier.
     #[must_use]
     pub fn matches(&self, event: &KeyEvent) -> bool {
         let modifiers = match event.code {
@@ -26,7 +26,7 @@ impl Key {
         if let KeyCode::Char(character) = self.code { Some(character) } else { None }
     }
 
-    /// The key as it is written on a keyboard.
+    /// The key in the notation of keyboards.
     #[must_use]
     pub fn name(&self) -> String {
         let named = NAMES.iter().find(|(_, code)| *code == self.code);

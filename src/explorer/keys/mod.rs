@@ -1,4 +1,4 @@
-//! The one table of keys with their functions: it feeds dispatch, footer, help, list of commands, configuration, demo and
+//! The one table of keys with their functions, for dispatch, footer, help, list of commands, configuration, demo and
 //! docs/keys.md.
 
 mod bindings;
@@ -30,7 +30,7 @@ pub struct Binding {
     pub modes: &'static [ModeKind],
     /// Function of the keys, with its name.
     pub command: Command,
-    /// One word for the footer; empty where the footer leaves it out.
+    /// One word for the footer; empty for none.
     pub label: &'static str,
     /// A line for the help.
     pub help: &'static str,
@@ -38,9 +38,9 @@ pub struct Binding {
     pub section: &'static str,
 }
 
-/// Exploring, whichever pane is chosen.
+/// Exploring, in any pane.
 const EXPLORE: &[ModeKind] = &[ModeKind::Explore, ModeKind::Chart, ModeKind::Crosshair, ModeKind::Parameters];
-/// In the map other keys do what the arrows do beside these.
+/// Without map and crosshair, where the arrows act on these.
 const LIST: &[ModeKind] = &[ModeKind::Explore, ModeKind::Parameters];
 /// In the list of parameters these characters begin a value.
 const OTHER_PANES: &[ModeKind] = &[ModeKind::Explore, ModeKind::Chart, ModeKind::Crosshair];
@@ -118,7 +118,7 @@ const fn row(
     Binding { keys: Cow::Borrowed(keys), modes, command: Command::new(name, handler), label, help, section }
 }
 
-/// All keys. No mode gives a key two meanings; a test sees to it.
+/// All keys. A test ensures one meaning of a key in each mode.
 #[rustfmt::skip]
 pub const BINDINGS: &[Binding] = &[
     row(&[char(' ')], EXPLORE, "toggle-play", Act(movement::toggle_play), "play", "play or pause", ANIMATION),

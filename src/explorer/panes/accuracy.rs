@@ -41,13 +41,13 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Relative errors that are answered for, and looked for in the plot.
+/// Relative errors whose requirements are stated, with lines in the plot.
 const TARGETS: [f64; 2] = [0.01, 0.001];
 
-/// Errors below this are in the lowest row.
+/// Lower limit of the plot; errors below are in the lowest row.
 const LOWEST: f64 = 1e-8;
 
-/// Rows of plot that make it worth drawing.
+/// Fewest rows of a useful plot.
 const FEWEST_PLOT_ROWS: u16 = 4;
 
 fn error_of(row: &Row) -> Option<ErrorFigure> {
@@ -83,7 +83,7 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     }
 }
 
-/// Reason for which there is no plot.
+/// Reason why there is no plot.
 fn nothing_yet(model: &Model) -> String {
     let costs = &model.appraisal.costs;
     if model.is_computing() {
@@ -103,7 +103,7 @@ fn nothing_yet(model: &Model) -> String {
     }
 }
 
-/// The chart with the errors that are asked for and the scene itself, down to errors of interest.
+/// The chart with the target errors and the scene itself, down to errors of interest.
 fn with_scene(mut chart: Chart, model: &Model, table: &CostTable) -> Chart {
     let Span { low, high } = chart.y.span;
     chart.y.span = Span { low: low.max(LOWEST.log10()).min(high - 1.0), high };
@@ -123,7 +123,7 @@ fn with_scene(mut chart: Chart, model: &Model, table: &CostTable) -> Chart {
     chart
 }
 
-/// The knob that a scene has and the setting it has it at.
+/// The knob of a scene and its setting.
 fn setting_of(numerics: &Numerics) -> (Knob, f64) {
     match (numerics.solver, numerics.edges) {
         (Solver::Stepwise { step }, _) => (Knob::Step, step),
@@ -132,8 +132,8 @@ fn setting_of(numerics: &Numerics) -> (Knob, f64) {
     }
 }
 
-/// Place of the scene itself: at the row of its setting, or between its neighbours. `None` where it was
-/// not tried, and for steps on other springs than they were tried with.
+/// Place of the scene itself: at the row of its setting, or between its neighbours. `None` for an
+/// untried setting, and for steps tried on other springs only.
 fn present(numerics: &Numerics, table: &CostTable) -> Option<(f64, f64)> {
     let (knob, setting) = setting_of(numerics);
     let mut rows: Vec<(f64, (f64, f64))> = table
@@ -218,7 +218,7 @@ fn texts(model: &Model, table: Option<&CostTable>, area: Rect) -> Vec<Line<'stat
     lines
 }
 
-/// The setting of the scene, and how good it is.
+/// The setting of the scene, and its error.
 fn now(model: &Model, table: Option<&CostTable>) -> Line<'static> {
     let theme = model.appearance.theme;
     let numerics = model.document.scene().numerics;

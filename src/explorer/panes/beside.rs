@@ -1,4 +1,4 @@
-//! The newest ghost beside the scene: its profile and contact at the same part of its loading, what differs between the
+//! The newest ghost beside the scene: its profile and contact at the same part of its loading, the differences of the
 //! scenes, and both adhesion forces.
 
 use super::{PaneRow, Place, force, profile};

@@ -1,4 +1,4 @@
-//! The map in its pane: shades in the colours of the regimes, and the mark of the scene. Beside the map are its [words].
+//! The map in its pane: shades in the colours of the regimes, the mark of the scene, and the [words] of the map.
 
 use super::{PaneRow, chart_words as words, sections};
 use crate::draw::{CellPlot, Chart, Figure, Label};
@@ -54,14 +54,14 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Rows of map that make it worth drawing.
+/// Fewest rows of a useful map.
 const FEWEST_ROWS: u16 = 4;
 
-/// Chart of what is charted of a map over two axes.
+/// Chart of the regime or a quantity of a map over two axes.
 pub(super) fn chart(map_model: &MapModel, charted: Charted) -> Option<Chart> {
     let mut figure = map_model.figure(&[charted], true);
     if charted == Charted::Regime {
-        // The shades are the regimes.
+        // The shades show the regimes.
         figure.boundary = None;
     }
     let mut chart = study_figure(&figure).charts.pop()?;
@@ -71,7 +71,7 @@ pub(super) fn chart(map_model: &MapModel, charted: Charted) -> Option<Chart> {
     Some(chart)
 }
 
-/// Figure of what the pane shows: the map, with the quantities behind the regimes while these are mapped, or the sections.
+/// Figure of the pane: the map, with the quantities behind the regimes while these are mapped, or the sections.
 pub fn map_figure(model: &Model, map_model: &MapModel) -> Figure {
     let mut figure = if model.chart.sections || map_model.up().is_none() {
         Figure {
@@ -109,7 +109,7 @@ fn parts(model: &Model, map_model: &MapModel, area: Rect) -> Option<Parts> {
     let chart = chart(map_model, model.chart.charted())?;
     let mut legend = words::legend(model, &chart, area.width);
     let mut below = words::below(model, area);
-    // The map comes first, then what the mark says, then the legend.
+    // The map comes first, then the values at the mark, then the legend.
     let room = usize::from(area.height.saturating_sub(FEWEST_ROWS + 1));
     below.truncate(room.min(usize::from(area.height / 3)));
     legend.truncate(room - below.len());
@@ -135,7 +135,7 @@ fn place_at(model: &Model, area: Rect, here: Position) -> Option<Place> {
     Some((across, Some(up)))
 }
 
-/// Draws legend, map, and what the map says at the mark, as far as there is room.
+/// Draws legend, map, and the values at the mark, as far as there is room.
 fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let area = inside(area);
     let theme = model.appearance.theme;
@@ -158,7 +158,7 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     }
 }
 
-/// The scene as it is, with a pointer on each axis that has a line.
+/// Draws the mark of the scene, with a pointer on each axis that has a line.
 fn mark(frame: &mut Frame<'_>, area: Rect, plot: Rect, (x, y): (u16, u16), theme: Theme) {
     let below = frame.buffer_mut().cell((x, plot.bottom()));
     let has_line = below.is_some_and(|cell| ["─", "┬"].contains(&cell.symbol()));
@@ -167,7 +167,7 @@ fn mark(frame: &mut Frame<'_>, area: Rect, plot: Rect, (x, y): (u16, u16), theme
         let text = Text::styled(text, theme.style(Meaning::Cursor));
         frame.render_widget(Paragraph::new(text), place.intersection(area));
     };
-    // Blanks on both sides, so that the mark is seen without colours.
+    // Blanks on both sides, so that the mark is visible without colours.
     if x > plot.x {
         put(x - 1, y, " ");
     }
@@ -175,7 +175,7 @@ fn mark(frame: &mut Frame<'_>, area: Rect, plot: Rect, (x, y): (u16, u16), theme
         put(x + 1, y, " ");
     }
     put(x, y, "◆");
-    // Without a line of its own the scale below has names and numbers there.
+    // Without a line of the axis, names and numbers of the scale take this row.
     if has_line {
         put(x, plot.bottom(), "▲");
     }

@@ -15,10 +15,10 @@ use crate::text::grouped;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span as Text};
 
-/// From this height on there is room to say what the regimes are.
+/// Least height with room to explain the regimes.
 const ROOMY: u16 = 24;
 
-/// Title of the pane: what is mapped over which quantities, and over how many profiles the mean is.
+/// Title of the pane: the mapped quantity, the axes, and the number of profiles of the mean.
 pub fn title(model: &Model) -> String {
     let template = Template::of(model.document.scene());
     let has_hurst = template.as_ref().is_ok_and(Template::has_hurst);
@@ -39,7 +39,7 @@ pub fn title(model: &Model) -> String {
     }
 }
 
-/// The name of what is charted.
+/// The name of the regime or the charted quantity.
 fn charted_name(map_model: &MapModel, charted: Charted) -> String {
     match charted {
         Charted::Regime => "regime".to_owned(),
@@ -51,7 +51,7 @@ fn profiles(count: u64) -> String {
     if count == 1 { "1 profile".to_owned() } else { format!("{} profiles", grouped(count)) }
 }
 
-/// Reason for which there is no map.
+/// Reason why there is no map.
 pub fn nothing_yet(model: &Model) -> String {
     if let Err(why) = Template::of(model.document.scene()) {
         return why.to_string();
@@ -67,14 +67,14 @@ pub fn nothing_yet(model: &Model) -> String {
     }
 }
 
-/// The name of a quantity: its symbol, where no other quantity of the map has the same.
+/// The name of a quantity: its symbol, where unique on the map.
 pub fn name_of(map_model: &MapModel, quantity: Quantity) -> String {
     let symbol = quantity.symbol();
     let is_only = map_model.layers().iter().filter(|layer| layer.quantity.symbol() == symbol).count() == 1;
     if is_only && !symbol.is_empty() { symbol.to_owned() } else { quantity.name().replace('_', " ") }
 }
 
-/// Axes, shades and their values, classes, and which map of a study it is.
+/// Axes, shades and their values, classes, and the slice of a study.
 pub fn legend(model: &Model, chart: &Chart, width: u16) -> Vec<Line<'static>> {
     let theme = model.appearance.theme;
     let width = usize::from(width);
@@ -109,7 +109,7 @@ pub fn legend(model: &Model, chart: &Chart, width: u16) -> Vec<Line<'static>> {
     lines
 }
 
-/// Slice of a study that has several maps.
+/// Slice of a study with several maps.
 fn slice(model: &Model, study: &OpenStudy, width: usize) -> Vec<Line<'static>> {
     let (theme, slices) = (model.appearance.theme, study.study_map.slices());
     if slices == 1 {
@@ -181,7 +181,7 @@ pub fn below(model: &Model, area: Rect) -> Vec<Line<'static>> {
     lines
 }
 
-/// Progress of the map that is computed here.
+/// Progress of the live map.
 fn computed_so_far(model: &Model, say: &mut impl FnMut(Line<'static>)) {
     let Some(map) = &model.chart.map else { return };
     let theme = model.appearance.theme;
@@ -250,10 +250,10 @@ fn here(model: &Model, map_model: &MapModel, place: Place) -> Line<'static> {
     ])
 }
 
-/// Quantities that go with the regime.
+/// Quantities shown with the regime.
 const WITH_REGIME: [Quantity; 2] = [Quantity::ZeroLoadAdhesionShare, Quantity::AdhesionCoefficient];
 
-/// Layers shown together: with the regime those that decide it, where there are any, else the layer of the
+/// Layers shown together: with the regime those that decide the regime, if any; else the layer of the
 /// glyphs.
 pub fn shown_layers(charted: Charted, map_model: &MapModel) -> Vec<&Layer> {
     match charted {
@@ -265,7 +265,7 @@ pub fn shown_layers(charted: Charted, map_model: &MapModel) -> Vec<&Layer> {
     }
 }
 
-/// Values of the map at a place, with the place where no cell is at the mark.
+/// Values of the map at a cell, with its place unless the cell is at the mark.
 fn there(model: &Model, map_model: &MapModel, mark: Place, place: &ShownCell<'_>) -> String {
     let whose = if model.chart.shown_study().is_some() { "study" } else { "map" };
     let on = |axis: &MapAxis, index: usize| axis.figure.values.get(index).copied();
@@ -295,7 +295,7 @@ fn there(model: &Model, map_model: &MapModel, mark: Place, place: &ShownCell<'_>
     format!("{at}: {}", regime.into_iter().chain(values).collect::<Vec<_>>().join(", "))
 }
 
-/// A mean, and its confidence where that is known.
+/// A mean, with its confidence where known.
 fn value(Estimate { mean, low, high }: Estimate, unit: &str) -> String {
     if low == high {
         return format_rounded(mean, 2, unit);

@@ -43,7 +43,7 @@ fn title(model: &Model) -> String {
     format!(" Fragments, {width} from x = {from} ")
 }
 
-/// Names of what is drawn, for the lower edge of the frame.
+/// Names of the lines and signs, for the lower edge of the frame.
 fn names(model: &Model, area: Rect) -> Option<Line<'static>> {
     let snapshot = model.snapshot.as_ref()?;
     let shown = &snapshot.close_up.section;
@@ -60,7 +60,7 @@ fn section_at(model: &Model, area: Rect) -> Option<(&Section, Chart, CellPlot)> 
     Some((&snapshot.close_up.section, chart, place))
 }
 
-/// Draws the close-up and what is known of its fragment.
+/// Draws the close-up and the values of its fragment.
 fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let area = inside(area);
     let Some(snapshot) = model.snapshot.as_ref() else { return };
@@ -103,14 +103,14 @@ fn placed(snapshot: &ContactSnapshot, area: Rect) -> (Chart, CellPlot) {
     (chart, place)
 }
 
-/// The axis of heights: the line, and the surface where it is not far above or below.
+/// The axis of heights: the line, and the surface unless that is far above or below.
 fn heights(section: &Section) -> Span {
     let (low, high) = section.heights;
     let room = 0.4 * (high - low);
     Span::around([low, high, section.level.clamp(low - room, high + room)].into_iter(), 0.05)
 }
 
-/// The whole contact in one row; the brackets hold what the close-up shows.
+/// The whole contact in one row; the brackets enclose the close-up.
 fn strip(strip: &[Share], section: &Section, springs: usize, theme: Theme) -> Line<'static> {
     let glyph = |share: &Share| match share {
         Share::Nothing => '·',
@@ -132,11 +132,11 @@ fn strip(strip: &[Share], section: &Section, springs: usize, theme: Theme) -> Li
     Line::from(vec![part(0, open), bracket("["), part(open + 1, close), bracket("]"), part(close + 1, count)])
 }
 
-/// Share of a stretch below which it is rounding.
+/// Share of a stretch below which a difference is rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// The fragment in words: its place, its force, and how near its most stretched spring is to
-/// letting go.
+/// The fragment in words: its place, its force, and the margin of its most stretched spring before
+/// detachment.
 fn describe(fragment: Option<FragmentFacts>, fragments: u64, width: u16) -> [Line<'static>; 2] {
     let Some(facts) = fragment else { return [Line::raw("○ nothing is in contact"), Line::default()] };
     let length = format_quantity(facts.length, "m");
@@ -149,7 +149,7 @@ fn describe(fragment: Option<FragmentFacts>, fragments: u64, width: u16) -> [Lin
         first += &force;
     }
     let margin = facts.largest_stretch - facts.most_stretched;
-    // At the very edge of letting go what is left of it is rounding.
+    // At the very edge of detachment the margin is rounding.
     let margin = if margin.abs() <= ROUNDING * facts.largest_stretch { 0.0 } else { margin };
     let [bears, stretched, margin] =
         [facts.largest_stretch, facts.most_stretched, margin].map(|value| format_quantity(value, "m"));

@@ -1,4 +1,4 @@
-//! Cost of accuracy, as far as it is measured.
+//! Cost of accuracy, as far as measured.
 
 use crate::accuracy::{CostError, CostTable, Progress, measure};
 use crate::scene::Scene;
@@ -14,7 +14,7 @@ const BUDGET: Duration = Duration::from_secs(10);
 pub struct Costs {
     /// The rows so far.
     pub table: Option<Arc<CostTable>>,
-    /// Setting that is tried at present.
+    /// Setting tried at present.
     pub trying: Option<String>,
     /// True once all is measured.
     pub is_whole: bool,

@@ -1,4 +1,4 @@
-//! The curve: the hysteresis loop with its two branches, what is compared with it, and manual loading.
+//! The curve: the hysteresis loop with its two branches, curves compared with it, and manual loading.
 
 use super::{PaneRow, Place};
 use crate::analysis::{ApproximatePoint, LEAST_TABOR_NUMBER, Mark, marks};
@@ -88,13 +88,13 @@ fn title(model: &Model) -> String {
     format!(" {name}{scale}{loss}{event} ")
 }
 
-/// In what the axes count: metres and newtons, or what governs the scene.
+/// Units of the axes: metres and newtons, or parameters of the scene.
 #[derive(Clone, Copy)]
 struct Units {
     quantities: Quantities,
     indentation: Option<f64>,
     force: Option<f64>,
-    /// Contact length of one spring.
+    /// Contact length of one spring, m.
     spring: f64,
     in_lengths: bool,
     scale: AxisScale,
@@ -116,7 +116,7 @@ impl Units {
         }
     }
 
-    /// Returns true if any axis counts in other units than SI.
+    /// Returns true if any axis has other units than SI.
     fn is_normalised(&self) -> bool {
         match self.quantities {
             Quantities::ForceIndentation => self.indentation.is_some() || self.force.is_some(),
@@ -162,11 +162,11 @@ impl Units {
     }
 }
 
-/// Decades of a logarithmic axis: a force near its change of sign would take all room.
+/// Most decades of a logarithmic axis: a force near its change of sign would take all room.
 const MOST_DECADES: f64 = 3.0;
 
-/// Most that the approximate JKR curve adds to an axis at each end, in ranges of the other curves, which keep half of the
-/// axis at least. The estimate may be far from them, and they are the result.
+/// Most that the approximate JKR curve adds to an axis at each end, in ranges of the other curves. The estimate may be
+/// far from these, which are the result and keep at least half of the axis.
 const APPROXIMATE_ROOM: f64 = 0.5;
 
 /// Points of the approximate JKR curve on the axes of the force over the indentation.
@@ -233,7 +233,7 @@ pub fn indentation_at(model: &Model, area: Rect, column: u16) -> Option<f64> {
     Some(at * units.indentation.unwrap_or(1.0))
 }
 
-/// Loading stage and indentation, m, of the point of the curves that is nearest to a cell.
+/// Loading stage and indentation, m, of the point of the curves nearest to a cell.
 pub fn stage_at(model: &Model, area: Rect, here: Position) -> Option<(usize, f64)> {
     let computed = model.computed.as_ref()?;
     let units = Units::of(model, computed);
@@ -262,8 +262,8 @@ fn drag(model: &mut Model, area: Rect, here: Position) -> Vec<Effect> {
     if indentation_at(model, area, here.x).is_none() {
         return vec![Effect::Show];
     }
-    // Manual loading begins first: its axis may reach further than that of the loading, and the body is to be under the
-    // mouse.
+    // Manual loading begins first: its axis may reach further than that of the loading, and the body is to be under
+    // the mouse.
     let mut effects = if model.manual.is_none() { movement::take(model, None) } else { Vec::new() };
     effects.retain(|effect| *effect != Effect::Show);
     if let Some(indentation) = indentation_at(model, area, here.x) {
@@ -272,8 +272,8 @@ fn drag(model: &mut Model, area: Rect, here: Position) -> Vec<Effect> {
     effects
 }
 
-/// Readings of the crosshair, or the label of the force axis where no row above the plot has it, for the lower edge of the
-/// frame.
+/// Lower edge of the frame: readings of the crosshair, or the label of the force axis where no row above the plot
+/// has the label.
 fn edge(model: &Model, area: Rect) -> Option<Line<'static>> {
     let is_read = model.crosshair.is_some() && model.present().is_some();
     let line = if is_read { reading(model)? } else { label(model, inside(area))? };
@@ -347,9 +347,9 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     draw_lines(frame, above, rows.into_iter().chain(values).chain(ghosts));
 }
 
-/// The curve, what is compared with it, the way of manual loading, and marks.
+/// The curve, curves compared with it, the path of manual loading, and marks.
 fn chart(model: &Model, units: Units) -> Chart {
-    // A curve of a scene that has been changed since stays in the background until the new one is there.
+    // A curve of a scene changed since stays in the background until the new one is there.
     let stale = !model.is_current();
     let ink = |ink| if stale { Ink::Quiet } else { ink };
     let legs = model.legs();
@@ -365,7 +365,7 @@ fn chart(model: &Model, units: Units) -> Chart {
         layers.push(Layer::unnamed(Ink::Quiet, Shape::Inside(border)));
     }
     for (number, ghost) in model.ghosts.iter().enumerate() {
-        // One beside the scene is named with the curves; the others have their letters.
+        // A ghost beside the scene is named with the curves; the others have their letters.
         let is_beside = model.beside().is_some() && number + 1 == model.ghosts.len();
         let name = if is_beside { letter(number).into() } else { Label::default() };
         for leg in &ghost.computed.outcome.history.legs {
@@ -423,7 +423,7 @@ fn chart(model: &Model, units: Units) -> Chart {
 /// Share of the largest force below which a force is rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// The marked forces with their values, in words where there is room. Where there is none for all, the
+/// The marked forces with their values, in words where there is room. Without room for all, the
 /// pull-off force stays longest.
 fn values(legs: &[LegRecord], width: u16, theme: Theme) -> Line<'static> {
     let marks = marks(legs);
@@ -456,7 +456,7 @@ fn marked(ghost: &Ghost) -> Option<CurvePoint> {
     at.or_else(|| legs.last().and_then(|leg| leg.curve.last().copied()))
 }
 
-/// Adhesion force of a ghost, and how far it is above or below that of the present scene: `F_a 12 µN (+3 µN)`.
+/// Adhesion force of a ghost, and its difference from that of the present scene: `F_a 12 µN (+3 µN)`.
 fn adhesion(model: &Model, ghost: &Ghost) -> Option<String> {
     let of = |computed: &SolvedScene| computed.outcome.figures.adhesion_force;
     let force = of(&ghost.computed)?;

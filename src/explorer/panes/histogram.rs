@@ -11,8 +11,8 @@ use ratatui::widgets::{Block, Borders, Paragraph};
 
 const EIGHTHS: [char; 8] = ['▏', '▎', '▍', '▌', '▋', '▊', '▉', '█'];
 
-/// Draws one bar for each row, the share of heights that lie in it, and behind the bars the bell curve of
-/// the same mean and rms height; in the row of `numbers`, the share of heights of the longest bar.
+/// Draws one bar for each row, the share of heights in the row, and behind the bars the bell curve of the
+/// same mean and rms height; in the row of `numbers`, the share of heights of the longest bar.
 pub fn draw(
     frame: &mut Frame<'_>,
     area: Rect,
@@ -51,8 +51,8 @@ pub fn draw(
     }
 }
 
-/// The heights that would fall into each row, top row first, were they normally distributed with the mean
-/// and the rms height of the histogram.
+/// Number of heights in each row, top row first, of a normal distribution with the mean and the rms height
+/// of the histogram.
 fn bell(histogram: &Histogram, z: Span, rows: usize) -> Vec<f64> {
     let bin = (histogram.high - histogram.low) / histogram.counts.len() as f64;
     let heights = || {
@@ -72,7 +72,7 @@ fn bell(histogram: &Histogram, z: Span, rows: usize) -> Vec<f64> {
     (0..rows).map(|index| count * (below(top(index)) - below(top(index + 1)))).collect()
 }
 
-/// The heights that fall into each row, top row first; a bin is spread evenly over the rows it covers.
+/// Number of heights in each row, top row first; a bin is spread evenly over the rows it covers.
 fn shares(histogram: &Histogram, z: Span, rows: usize) -> Vec<f64> {
     let mut shares = vec![0.0; rows];
     let bin = (histogram.high - histogram.low) / histogram.counts.len() as f64;

@@ -25,7 +25,7 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Draws the distribution: one point for each bin that is not empty.
+/// Draws the distribution: one point for each bin with fragments.
 fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let area = inside(area);
     let theme = model.appearance.theme;

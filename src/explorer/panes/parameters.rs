@@ -1,4 +1,4 @@
-//! The list of parameters and what the selected one means.
+//! The list of parameters and the meaning of the selected one.
 
 use super::{PaneRow, Place};
 use crate::explorer::fuzzy::letters_found;
@@ -65,7 +65,7 @@ impl Places {
                 (rows, selected, model.first_listed)
             }
         };
-        // The selected row has one above and one below it, as far as there are any.
+        // A row above and one below the selected row are visible, if any.
         let height = usize::from(list.height);
         let margin = usize::from(height >= 5);
         let lowest = (selected + 1 + margin).saturating_sub(height);
@@ -76,13 +76,13 @@ impl Places {
         Places { list, derived, help, rows, selected, first }
     }
 
-    /// Rows out of sight.
+    /// Returns true if rows are hidden.
     fn is_scrolled(&self) -> bool {
         self.rows.len() > usize::from(self.list.height)
     }
 }
 
-/// Place of the first row in sight, which takes the list along as little as the selected row needs.
+/// Place of the first visible row; the list scrolls no further than the selected row needs.
 pub fn first_listed(model: &Model) -> usize {
     let pane = Layout::of(model).pane(Pane::Parameters);
     pane.map_or(model.first_listed, |area| Places::within(inside(area), model).first)
@@ -108,7 +108,7 @@ fn parameter_at(model: &Model, area: Rect, row: u16) -> Option<usize> {
 }
 
 /// Draws the list, scrolled so that the selected row shows, derived values, and a line or two of explanation below. A
-/// scroll bar in the last column of the frame says that there are rows out of sight.
+/// scroll bar in the last column of the frame indicates hidden rows.
 fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let edge = area.right().saturating_sub(1);
     let area = inside(area);
@@ -152,7 +152,7 @@ fn parameter_line(model: &Model, index: usize, selected: bool, width: usize) -> 
     if let (true, Mode::Edit(line)) = (selected, &model.mode) {
         return editor(model, parameter, line, &lead, width);
     }
-    // The value is what is looked for: the name makes room for it.
+    // The name makes room for the value, which matters more.
     let value = value(model, parameter);
     let symbol = parameter.field.symbol;
     let least = columns(&lead) + if symbol.is_empty() { FEWEST_LETTERS } else { columns(symbol) } + 1;
@@ -171,7 +171,7 @@ fn parameter_line(model: &Model, index: usize, selected: bool, width: usize) -> 
     Line::from_iter(name.into_iter().chain([Span::styled(rest, style)])).style(style)
 }
 
-/// Characters of the shown name and symbol that the search has found, by their indices; `lead` characters come before.
+/// Indices of the characters of the shown name and symbol found by the search; `lead` characters come before.
 fn found_in(model: &Model, parameter: &Parameter, shown: &str, lead: usize) -> Vec<usize> {
     let Mode::Find(finder) = &model.mode else { return Vec::new() };
     let (query, candidate, name) = (finder.query.text(), parameter.candidate(), parameter.name());
@@ -191,7 +191,7 @@ fn found_in(model: &Model, parameter: &Parameter, shown: &str, lead: usize) -> V
     letters
 }
 
-/// Marks before a name: the first row of a group is folded or not, and an effect is on or off; the others are set in.
+/// Marks before a name: first row of a group folded or not, effect on or off; other rows are indented.
 fn lead(model: &Model, parameter: &Parameter) -> &'static str {
     let is_on = parameter.effect.map(|effect| effect.is_on(model.document.scene()));
     match parameter.setting {
@@ -210,7 +210,7 @@ fn lead(model: &Model, parameter: &Parameter) -> &'static str {
     }
 }
 
-/// The row of a value that is typed: its name, symbol and SI unit, as far as there is room, and what is typed.
+/// The row of a value being typed: its name, symbol and SI unit, as far as there is room, and the typed text.
 fn editor(model: &Model, parameter: &Parameter, line: &TextLine, lead: &str, width: usize) -> Line<'static> {
     let (name, symbol) = (parameter.name(), parameter.field.symbol);
     let unit = match parameter.field.unit {
@@ -232,7 +232,7 @@ fn editor(model: &Model, parameter: &Parameter, line: &TextLine, lead: &str, wid
     Line::from_iter([label].into_iter().chain(typed(line, room, model.appearance.theme)))
 }
 
-/// Name and symbol in so many columns: the name is cut, and where little of it would be left the symbol is enough.
+/// Name and symbol in so many columns: the name is cut, or left out where little of it would remain.
 fn name_within(parameter: &Parameter, room: usize) -> String {
     let (name, symbol) = (parameter.name(), parameter.field.symbol);
     if symbol.is_empty() {
@@ -250,7 +250,7 @@ fn columns(text: &str) -> usize {
     Span::raw(text).width()
 }
 
-/// A text in so many columns, with `…` where it goes on.
+/// A text in so many columns, with `…` in place of the rest.
 fn cut(text: &str, room: usize) -> String {
     if columns(text) <= room {
         return text.to_owned();
@@ -258,7 +258,7 @@ fn cut(text: &str, room: usize) -> String {
     clipped(Line::raw(text.to_owned()), room as u16).to_string()
 }
 
-/// A value as people read it; one that follows from others is marked.
+/// A value in the format for people; one that follows from others is marked.
 fn value(model: &Model, parameter: &Parameter) -> String {
     if !parameter.shown.is_empty() || parameter.setting == Setting::Heading {
         return parameter.shown.clone();
@@ -266,7 +266,7 @@ fn value(model: &Model, parameter: &Parameter) -> String {
     let written = model.written(parameter).and_then(|written| written.parse::<f64>().ok());
     match written {
         Some(value) => format!("= {}", format_quantity(value, parameter.field.unit)),
-        // A smooth body has no κ; of a scene that is not computed yet it is not known.
+        // A smooth body has no κ; before the computation κ is unknown.
         None if model.governing().is_some() => "none".to_owned(),
         None => "= …".to_owned(),
     }
@@ -288,7 +288,7 @@ fn derived_values(model: &Model) -> Vec<(&'static str, String)> {
         values.push(("h", format_quantity(amplitude.rms_height, "m")));
         values.push(("⟨∇z⟩", format_quantity(amplitude.rms_gradient, "1")));
     }
-    // Of a scene that failed nothing more is known.
+    // A failed scene has no further values.
     if !model.is_current() && !model.is_computing() {
         return values;
     }

@@ -1,4 +1,4 @@
-//! From a cell of a pane to the place on the profile that is drawn there.
+//! Place on the profile at a cell of a pane.
 
 use super::Pane;
 use crate::explorer::model::Model;
@@ -14,7 +14,7 @@ pub fn position_at(model: &Model, pane: Pane, area: Rect, column: u16) -> Option
     Some(spring.clamp(section.first, section.first + section.springs.saturating_sub(1)))
 }
 
-/// Share of the section in a pane that is left of a column of the screen; `None` for a pane without section.
+/// Share of the section in a pane to the left of a column of the screen; `None` for a pane without section.
 #[must_use]
 pub fn share_at(model: &Model, pane: Pane, area: Rect, column: u16) -> Option<f64> {
     let (_, chart, place) = (pane.row().section?)(model, area)?;

@@ -9,7 +9,7 @@ use crate::study::{Preloaded, Statistics, preload_statistics, solve_preloads};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Preloads on the profile of the scene, and on each random profile every so many of them.
+/// Number of preloads on the profile of the scene, and step between those on random profiles.
 const FINE: usize = 257;
 const EVERY: usize = 8;
 /// Random profiles of the mean.
@@ -19,7 +19,7 @@ const SHOWN_EVERY: usize = 32;
 /// Largest preload in preloads of the scene.
 const REACH: f64 = 2.0;
 
-/// Adhesion forces of a scene for many preloads, as far as they are computed.
+/// Adhesion forces of a scene for many preloads, as far as computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PreloadCurve {
     scene: Arc<Scene>,
@@ -30,12 +30,12 @@ pub struct PreloadCurve {
     profiles: Vec<Vec<Preloaded>>,
     /// Statistics over these profiles at each of their preloads.
     pub statistics: Vec<Option<Statistics>>,
-    /// Profiles that there are to be.
+    /// Number of requested profiles.
     pub wanted: usize,
 }
 
 impl PreloadCurve {
-    /// The curve of a computed scene, before anything of it is computed.
+    /// The curve of a computed scene, still empty.
     ///
     /// # Errors
     /// The reason why the scene has no such curve.
@@ -56,29 +56,29 @@ impl PreloadCurve {
         Ok(PreloadCurve { scene, forces, own, profiles, statistics, wanted })
     }
 
-    /// Returns true once nothing is left to be computed.
+    /// Returns true once all profiles are computed.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.own.len() == self.forces.len() && self.profiles.len() >= self.wanted
     }
 
-    /// Random profiles that have been computed.
+    /// Number of computed random profiles.
     #[must_use]
     pub fn profiles(&self) -> usize {
         self.profiles.len()
     }
 
-    /// The results at whose preloads the statistics are.
+    /// The results at the preloads of the statistics.
     #[must_use]
     pub fn coarse(&self) -> &[Preloaded] {
         self.profiles.first().map_or(&[], Vec::as_slice)
     }
 
-    /// Computes the missing part, the profile of the scene first. `report` receives the curve after each addition; a curve
-    /// interrupted by `stop` is kept.
+    /// Computes the missing part, the profile of the scene first. `report` receives the curve after each addition; an
+    /// interruption by `stop` keeps the curve.
     ///
     /// # Errors
-    /// When a profile or its contact fails, or `stop` says so.
+    /// When a profile or its contact fails, or `stop` interrupts.
     pub fn compute(
         &mut self,
         folder: &Path,

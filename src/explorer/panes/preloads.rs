@@ -65,7 +65,7 @@ fn progress(curve: &PreloadCurve) -> String {
 }
 
 fn chart(model: &Model, curve: &PreloadCurve) -> Chart {
-    // The statistics are at fewer preloads than the curve of the profile.
+    // The statistics have fewer preloads than the curve of the profile.
     let mut layers = preload_layers(curve.coarse(), &curve.statistics);
     if let Some(own) = preload_layers(&curve.own, &[]).pop() {
         layers.pop();

@@ -1,4 +1,4 @@
-//! The profile: the rigid line, the elastic surface above it, and where they touch.
+//! The profile: the rigid line, the elastic surface above it, and their contact.
 
 use super::position::zoom_at;
 use super::{PaneRow, Place, histogram, section};
@@ -52,13 +52,13 @@ fn title(model: &Model) -> String {
     format!(" Profile z(x), x from {from} to {to} of {length}{follows} ")
 }
 
-/// Names of what is drawn, for the lower edge of the frame.
+/// Names of the lines and signs, for the lower edge of the frame.
 fn names(model: &Model, area: Rect) -> Option<Line<'static>> {
     let snapshot = model.snapshot.as_ref()?;
     Some(scene_names(snapshot, heights(snapshot), area, model.appearance))
 }
 
-/// Names of what is drawn of a scene at one snapshot, heights within `z`.
+/// Names of the lines and signs of a scene at one snapshot, heights within `z`.
 pub fn scene_names(snapshot: &ContactSnapshot, z: Span, area: Rect, appearance: Appearance) -> Line<'static> {
     let chart = section::chart(&snapshot.profile, snapshot.line, z);
     let bell = || vec![Text::styled("¦", appearance.theme.style(Meaning::Surface)), Text::raw(" normal")];
@@ -66,7 +66,7 @@ pub fn scene_names(snapshot: &ContactSnapshot, z: Span, area: Rect, appearance: 
     section::names(snapshot, &chart, beside, appearance, area.width)
 }
 
-/// The part of the profile that is shown, with its chart and place.
+/// The shown part of the profile, with its chart and place.
 fn section_at(model: &Model, area: Rect) -> Option<(&Section, Chart, CellPlot)> {
     let snapshot = model.snapshot.as_deref()?;
     let (chart, place) = placed(snapshot, area, heights(snapshot));
@@ -105,7 +105,7 @@ pub fn draw_scene(
     }
 }
 
-/// Rows below the plot that show where there is contact.
+/// Rows of the contact strip below the plot.
 fn strip_rows(area: Rect) -> u16 {
     u16::from(area.height >= 5)
 }
@@ -119,8 +119,7 @@ fn placed(snapshot: &ContactSnapshot, area: Rect, z: Span) -> (Chart, CellPlot) 
     (chart, place)
 }
 
-/// The axis of heights: the whole line and the surface, though not where it is far away. Two scenes side by side
-/// share the axis.
+/// The axis of heights: the whole line, and the surface unless far away. Two scenes side by side share the axis.
 pub fn heights(snapshot: &ContactSnapshot) -> Span {
     let ends = |section: &Section| {
         let (low, high) = section.heights;
@@ -131,7 +130,7 @@ pub fn heights(snapshot: &ContactSnapshot) -> Span {
     Span::around(ends(&snapshot.profile).into_iter().chain(beside), 0.05)
 }
 
-/// One row that shows by its glyphs where along the section there is contact.
+/// Draws one row of glyphs for the contact along the section.
 fn contact_strip(frame: &mut Frame<'_>, row: Rect, section: &Section, theme: Theme) {
     let (count, cells) = (section.columns.len(), usize::from(row.width));
     if count == 0 {

@@ -1,4 +1,4 @@
-//! The row of a pane: everything that layout, drawing, keys, mouse and data need to know of the pane.
+//! The row of a pane: all properties of the pane for layout, drawing, keys, mouse and data.
 
 use crate::draw::{CellPlot, Chart};
 use crate::explorer::mode::ModeKind;
@@ -28,7 +28,7 @@ pub type Reply = fn(&mut Model, Rect, Position) -> Vec<Effect>;
 /// Section of the profile in a pane, as a chart and its place on the screen.
 pub type PlacedSection = for<'m> fn(&'m Model, Rect) -> Option<(&'m Section, Chart, CellPlot)>;
 
-/// Everything about one pane. Drawing, title and edge get the area of the whole pane, all others the area inside of the
+/// Properties of one pane. Drawing, title and edge get the area of the whole pane, all others the area inside of the
 /// frame.
 pub struct PaneRow {
     /// Place in a window with room for all.
@@ -39,9 +39,9 @@ pub struct PaneRow {
     pub draw: fn(&mut Frame<'_>, Rect, &Model),
     /// Text in the lower edge of the frame.
     pub edge: fn(&Model, Rect) -> Option<Line<'static>>,
-    /// Keys of the pane while it is selected; those of the crosshair, while this is shown.
+    /// Keys of the selected pane; those of the crosshair, while this is shown.
     pub keys: Option<ModeKind>,
-    /// Section of the profile that the pane shows.
+    /// Section of the profile in the pane.
     pub section: Option<PlacedSection>,
     /// Reply to a press, which also selects the pane.
     pub press: Reply,
@@ -49,20 +49,20 @@ pub struct PaneRow {
     pub drag: Reply,
     /// Reply to turns of the wheel, up positive.
     pub wheel: fn(&mut Model, Rect, Position, i32) -> Vec<Effect>,
-    /// True if the pane draws spectra of the scene, which are computed only then.
+    /// True if the pane needs the spectra of the scene, computed only then.
     pub needs_spectra: bool,
-    /// Computation that the pane waits for while it is shown.
+    /// Computation that the shown pane waits for.
     pub task: fn(&Model, &Arc<SolvedScene>) -> Option<Task>,
-    /// Takes in an addition to the data of the pane.
+    /// Stores an addition to the data of the pane.
     pub take_in: fn(&mut Model, PaneData),
-    /// Drops data of a scene that has been changed.
+    /// Drops data of the former scene.
     pub renew: fn(&mut Model),
     /// Paragraphs of the help: a name and the meaning of the signs in the pane.
     pub help: &'static [(&'static str, &'static str)],
 }
 
 impl PaneRow {
-    /// A pane that shows nothing, in the place of profile and close-up.
+    /// An empty pane in the place of profile and close-up.
     pub const EMPTY: PaneRow = PaneRow {
         place: Place::Large,
         title: |_| String::new(),

@@ -1,4 +1,4 @@
-//! Spectra of a computed scene: of its measured files, of the line as it is to be, and of the heights of the line.
+//! Spectra of a computed scene: of its measured files, as expected of the line, and of the heights of the line.
 
 use crate::export::{Spectra, SpectrumPoint};
 use crate::memory::check_room;
@@ -12,17 +12,17 @@ use std::path::Path;
 /// Modes of each decade at which the spectrum of the line is drawn.
 const PER_DECADE: f64 = 20.0;
 
-/// Bytes for each spring that its transform takes.
+/// Bytes of the transform for each spring.
 const BYTES: u64 = 40;
 
-/// Spectra of a scene, and how well the moments of its measured surface are known.
+/// Spectra of a scene, and the moments of its measured surface with their errors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneSpectra {
     /// The spectra.
     pub spectra: Spectra,
     /// Moments of the equivalent line; `None` for a roughness that is not measured, or is the line itself.
     pub moments: Option<LineMoments>,
-    /// Reason for which spectra are missing.
+    /// Reason why spectra are missing.
     pub missing: Option<String>,
 }
 
@@ -56,7 +56,7 @@ fn analyses(scene: &Scene) -> Result<Vec<Analysis>, String> {
     faces.iter().map(|face| options.analyse(face, &mut |_| ()).map_err(|error| error.to_string())).collect()
 }
 
-/// Spectrum that the line is to have, at some of its modes: A²L/4 of a mode with the amplitude A.
+/// Expected spectrum of the line, at some of its modes: A²L/4 of a mode with the amplitude A.
 fn expected(scene: &Scene, outcome: &Outcome, equivalent: Option<&EquivalentLine>) -> Vec<SpectrumPoint> {
     let Some((first, last)) = outcome.line.modes else { return Vec::new() };
     let length = outcome.line.length;
@@ -75,7 +75,7 @@ fn expected(scene: &Scene, outcome: &Outcome, equivalent: Option<&EquivalentLine
     shown.into_iter().map(|mode| (TAU * mode as f64 / length, power(mode))).collect()
 }
 
-/// Spectrum of the heights of the line without its form. Profiles that are the line themselves do not repeat.
+/// Spectrum of the heights of the line without its form. Measured profiles used as the line are not periodic.
 fn of_heights(scene: &Scene, line: &Line) -> Result<Vec<SpectrumPoint>, String> {
     if scene.roughness.is_none() || line.gaps.len() < line.points {
         return Ok(Vec::new());
@@ -115,7 +115,7 @@ mod tests {
         let roughness = "SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (2, 200), seed: 3)";
         for form in ["None", "Paraboloid(radius: 1.0e-4)"] {
             let found = spectra(roughness, form).spectra;
-            // In the first bins there is a mode each: its power is that of the spectrum.
+            // Each of the first bins has one mode, with the power of the spectrum.
             let single = |q: f64| found.line.iter().find(|(at, _)| (at / q - 1.0).abs() < 1e-9);
             let both: Vec<_> =
                 found.heights.iter().filter_map(|(q, power)| Some((power, single(*q)?.1))).collect();

@@ -62,8 +62,8 @@ fn reading(snapshot: &ContactSnapshot, theme: Theme) -> Vec<Vec<Text<'static>>> 
     at.into_iter().chain([state]).chain(patch).map(part).collect()
 }
 
-/// Readings of the crosshair, or label of the heights, names of the lines and further signs, as far as there is room on
-/// the frame.
+/// Readings of the crosshair, or label of the heights, names of the lines and further signs, as far as there is room
+/// on the frame.
 pub fn names(
     snapshot: &ContactSnapshot,
     chart: &Chart,

@@ -1,4 +1,4 @@
-//! Sections through the mark of the map: means along its axes, with their confidence where it is known.
+//! Sections through the mark of the map: means along its axes, with their confidence where known.
 
 use super::chart_words::{name_of, on_axis, shown_layers};
 use crate::draw::{Axis, AxisScale, Chart, Ink, Label, Layer as Drawn, Shape, Sign, Span, Stroke, legend};
@@ -13,12 +13,12 @@ use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::Span as Text;
 
-/// Lowest decade that is shown of numbers without a unit, and most decades of others: what is smaller lies
-/// below the plot.
+/// Lowest shown decade of numbers without a unit, and most decades of others: smaller values lie below the
+/// plot.
 const LOWEST: f64 = -4.0;
 const DECADES: f64 = 8.0;
 
-/// Rows that make a plot worth drawing.
+/// Fewest rows of a useful plot.
 const FEWEST_ROWS: u16 = 6;
 
 /// Lines of curves; there are at most two.
@@ -91,8 +91,8 @@ pub fn section_cell(model: &Model, map_model: &MapModel) -> (usize, usize) {
     model.place().map_or((columns / 2, rows / 2), |mark| map_model.nearest_cell(mark))
 }
 
-/// Sections of the map through the mark, or through the middle of a map without one: along the axis across, headed by
-/// what is kept, and along the axis up where the map has one.
+/// Sections of the map through the mark, or through the middle of a map without one: along the axis across and, where
+/// the map has one, along the axis up, each headed by the fixed value of the other axis.
 pub fn charts(model: &Model) -> Vec<Chart> {
     let Some(map_model) = model.chart.map_model() else { return Vec::new() };
     let mark = model.place();

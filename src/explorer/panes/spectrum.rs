@@ -44,10 +44,10 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Rows of plot that make it worth drawing.
+/// Fewest rows of a useful plot.
 const FEWEST_PLOT_ROWS: u16 = 5;
 
-/// Draws legend, chart and how well the moments are known, as far as there is room.
+/// Draws legend, chart and the moments with their errors, as far as there is room.
 fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let area = inside(area);
     let shown = model.present().and_then(|snapshot| snapshot.spectra.as_deref());
@@ -67,7 +67,7 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     plot::draw_chart(frame, plot, &chart, model.appearance);
 }
 
-/// Text below the chart: moments with their errors, else the reason for which there is no chart.
+/// Text below the chart: moments with their errors, else the reason why there is no chart.
 fn words(model: &Model, shown: Option<&SceneSpectra>) -> Vec<String> {
     let Some(shown) = shown else {
         let text = if model.is_current() { "the spectrum is being computed" } else { "no spectrum yet" };
@@ -101,7 +101,7 @@ fn words(model: &Model, shown: Option<&SceneSpectra>) -> Vec<String> {
     words
 }
 
-/// Adhesion force with its spread over random profiles beside that of the fit, as far as it is computed.
+/// Adhesion force with its spread over random profiles beside that of the fit, as far as computed.
 fn adhesion(model: &Model) -> Option<String> {
     let none = || AdhesionSpread::new(model.computed.as_ref()?).map(Arc::new);
     let spread = model.adhesion_spread.clone().or_else(none)?;

@@ -1,4 +1,4 @@
-//! The screen in ASCII, for terminals, fonts and files that know nothing else.
+//! The screen in ASCII, for terminals, fonts and files limited to ASCII.
 
 use super::raster::{blocks, dots};
 use super::strokes::strokes;
@@ -6,9 +6,9 @@ use super::{Glyph, glyphs};
 use ratatui::buffer::{Buffer, Cell, CellDiffOption};
 use std::sync::LazyLock;
 
-/// ASCII characters and the dots they look like: one letter for each of four rows, from above: `L` left,
-/// `R` right, `B` both, `0` none. Of two that are as near, the first is taken: those that draw lines
-/// precede those that fill. The marks on a curve, `^`, `v`, `*`, `o` and `@`, are not among them.
+/// ASCII characters and their dots: one letter for each of four rows, from above: `L` left, `R` right,
+/// `B` both, `0` none. Of two equally near characters the first is taken: those that draw lines precede
+/// those that fill. The marks on a curve, `^`, `v`, `*`, `o` and `@`, are left out.
 const SHAPES: [(char, &[&str]); 15] = [
     ('-', &["0B00", "00B0", "0RL0", "0LR0"]),
     ('|', &["LLLL", "RRRR"]),
@@ -27,7 +27,7 @@ const SHAPES: [(char, &[&str]); 15] = [
     ('#', &["BBBB", "BBB0", "0BBB"]),
 ];
 
-/// The character nearest to each pattern of dots: the one that differs in the fewest.
+/// The character nearest to each pattern of dots, with the fewest differences.
 static NEAREST: LazyLock<[char; 256]> = LazyLock::new(|| {
     let shapes: Vec<(char, u8)> = SHAPES
         .iter()
@@ -50,7 +50,7 @@ fn bits(shape: &str) -> u8 {
     rows.rev().fold(0, |bits, row| bits << 2 | row)
 }
 
-/// Characters and their replacements. Greek letters are those that look or sound like them.
+/// Replacements of characters. Greek letters become letters that look or sound like them.
 const ALIKE: [(char, &str); 61] = [
     (' ', "\u{a0}\u{2007}\u{2009}\u{202f}"),
     ('^', "▲△↑⌃"),
@@ -121,9 +121,9 @@ const MARKED: [(&str, &str); 2] = [
     ("àáâãäåçèéêëìíîïñòóôõöøùúûüýÿ", "aaaaaaceeeeiiiinoooooouuuuyy"),
 ];
 
-/// Puts printable ASCII in place of all symbols. Every cell stays where it is: behind the replacement of a
-/// wide character is a blank. Curves of dots become the characters whose shapes are nearest, and no
-/// dot is lost altogether. `±` before a blank becomes `+-`; what has no likeness becomes `?`.
+/// Replaces all symbols by printable ASCII. Every cell stays in place: behind the replacement of a wide
+/// character is a blank. Curves of dots become the characters with the nearest shapes, and no dot is lost
+/// altogether. `±` before a blank becomes `+-`; a symbol without a substitute becomes `?`.
 pub fn to_ascii(buffer: &mut Buffer) {
     let of_two = |(sign, next): (&Cell, &Cell)| sign.symbol() == "±" && next.symbol() == " ";
     let width = usize::from(buffer.area.width);
@@ -162,7 +162,7 @@ fn needs_change(glyph: &Glyph<'_>) -> bool {
 /// ASCII substitute of a symbol. Marks over a letter vanish.
 fn of_glyph(glyph: &Glyph<'_>) -> char {
     match glyph.symbol().chars().next() {
-        // A wide character with a narrow likeness would not be one any more.
+        // A narrow substitute would not fill the cells of a wide character.
         Some(character) if glyph.width == 1 || character == ' ' => of_character(character),
         _ => '?',
     }

@@ -3,8 +3,7 @@
 use serde::Serialize;
 use std::io::{self, Write};
 
-/// The first line of a recording. It says nothing of when it was made, so that the same session gives
-/// the same file.
+/// The first line of a recording, without a date, so that the same session results in the same file.
 #[derive(Serialize)]
 struct Header<'a> {
     version: u8,
@@ -20,7 +19,7 @@ struct Environment {
     term: &'static str,
 }
 
-/// A recording that is being written: what goes to the terminal, and when.
+/// A recording in progress: the output to the terminal, with times.
 pub struct Cast<W: Write> {
     out: W,
     /// Time of the last frame, µs.
@@ -39,9 +38,9 @@ impl<W: Write> Cast<W> {
         Ok(Cast { out, last: 0 })
     }
 
-    /// Records what was written to the terminal at a time, in seconds since the beginning. Nothing
-    /// written is left out. Time does not go back: an earlier one, or one that is no number, counts as
-    /// that of the last frame.
+    /// Records the output to the terminal at a time, in seconds since the beginning. No output is left
+    /// out. Time does not go back: an earlier time, or one that is no number, counts as that of the last
+    /// frame.
     ///
     /// # Errors
     /// [`io::ErrorKind::InvalidData`] for bytes that are not UTF-8; else when writing fails.
@@ -63,7 +62,7 @@ impl<W: Write> Cast<W> {
         writeln!(self.out, "[{seconds}.{fraction}, \"o\", {}]", serde_json::to_string(text)?)
     }
 
-    /// Ends the recording and gives back what it was written to.
+    /// Ends the recording and returns its writer.
     ///
     /// # Errors
     /// When writing fails.

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 
 /// Height of the base line of letters in a cell, px.
 pub const BASE: u32 = 12;
-/// Fonts of one width that come with the common systems.
+/// Monospaced fonts of the common systems.
 pub const FONTS: &str =
     "ui-monospace,SFMono-Regular,Menlo,Consolas,'DejaVu Sans Mono','Liberation Mono',monospace";
 /// Letters of these fonts are about 0.6 times as wide.
@@ -23,7 +23,7 @@ pub struct Face {
     pub italic: bool,
 }
 
-/// Letters on one row that are set as one.
+/// Letters on one row, set as one element.
 pub struct Run {
     pub column: u16,
     pub row: u16,
@@ -32,7 +32,7 @@ pub struct Run {
     pub columns: u16,
     /// Cells since its last letter.
     blanks: u16,
-    /// True if it may go on.
+    /// True if letters may follow.
     open: bool,
 }
 
@@ -53,7 +53,7 @@ impl Letters {
             italic: modifier.contains(Modifier::ITALIC),
         };
         let symbol = glyph.symbol();
-        // Others come from another font, whose width is another.
+        // Other symbols come from a font of another width.
         let open = glyph.width == 1 && symbol.chars().all(is_common);
         let row = glyph.row;
         if let Some(run) =
@@ -76,14 +76,14 @@ impl Letters {
     pub fn leave_blank(&mut self, width: u16) {
         if let Some(run) = &mut self.run {
             run.blanks += width;
-            // Gaps are cheaper to leave out, and each run begins anew on the grid.
+            // Gaps are cheaper left out, and each run begins anew on the grid.
             if run.blanks > 1 {
                 self.end();
             }
         }
     }
 
-    /// Ends the run: what comes next does not belong to it.
+    /// Ends the run: the next glyph begins another.
     pub fn end(&mut self) {
         if let Some(run) = self.run.take() {
             self.runs.entry(run.face).or_default().push(run);
@@ -96,7 +96,7 @@ impl Letters {
         self.runs
     }
 
-    /// The elements that set them.
+    /// The SVG elements of the runs.
     pub fn elements(self) -> String {
         let mut elements =
             format!("<g font-family=\"{FONTS}\" font-size=\"{FONT_SIZE}\" xml:space=\"preserve\">\n");
@@ -116,7 +116,7 @@ impl Letters {
     }
 }
 
-/// Returns true if a character is in the common fonts of one width.
+/// Returns true if a character is in the common monospaced fonts.
 fn is_common(character: char) -> bool {
     matches!(character, ' '..='~' | '\u{a1}'..='ſ' | 'Α'..='ω' | '–' | '—' | '‘'..='”' | '…' | '−')
 }

@@ -1,5 +1,5 @@
-//! Screens in forms that leave the terminal: plain text, ASCII, a picture, a
-//! recording. Nothing here knows what the screen shows.
+//! Screens in forms for use outside of the terminal: plain text, ASCII, a
+//! picture, a recording. Nothing here depends on the panes.
 
 mod ascii;
 mod cast;
@@ -22,13 +22,13 @@ pub use text::text;
 use crate::text::is_control;
 use ratatui::buffer::{Buffer, Cell, CellDiffOption, CellWidth};
 
-/// A symbol on the screen, with the cells it covers.
+/// A symbol on the screen, with its cells.
 struct Glyph<'a> {
-    /// Counted from the left edge of the screen.
+    /// Column, from 0 at the left edge of the screen.
     column: u16,
-    /// Counted from its upper edge.
+    /// Row, from 0 at the upper edge.
     row: u16,
-    /// Cells it covers, at least one.
+    /// Number of cells, at least one.
     width: u16,
     cell: &'a Cell,
 }
@@ -40,7 +40,7 @@ impl<'a> Glyph<'a> {
         if symbol.contains(is_control) || symbol.cell_width() == 0 { " " } else { symbol }
     }
 
-    /// Its only character; `None` when there are several.
+    /// The character, if only one.
     fn character(&self) -> Option<char> {
         let mut characters = self.symbol().chars();
         characters.next().filter(|_| characters.next().is_none())

@@ -1,4 +1,4 @@
-//! Parts of a picture gathered cell by cell and written as the data of one path: what touches is joined.
+//! Parts of a picture gathered cell by cell and written as the data of one path: adjacent parts are joined.
 
 use super::raster::{COLUMNS, ROWS, Raster};
 use super::strokes::{Strokes, Weight};
@@ -10,7 +10,7 @@ pub const WIDTH: u32 = 8;
 /// Height of a cell.
 pub const HEIGHT: u32 = 16;
 
-/// A length with two decimals at most and none too many.
+/// A length with at most two decimals, without trailing zeros.
 pub struct Short(pub f64);
 
 impl Display for Short {
@@ -52,7 +52,7 @@ impl Area {
         }
     }
 
-    /// Rectangles that cover the area: left, top, right, bottom. Few of them: they reach over cells.
+    /// Rectangles that cover the area: left, top, right, bottom. Few, since they extend over cells.
     fn rectangles(mut self) -> Vec<(u32, u32, u32, u32)> {
         self.spans.sort_unstable();
         let mut rows: Vec<(u32, u32, u32)> = Vec::new();
@@ -62,7 +62,7 @@ impl Area {
                 _ => rows.push((y, left, right)),
             }
         }
-        // Those that reach the last row, by their sides: top and bottom.
+        // Rectangles that reach the last row, by their sides: top and bottom.
         let mut open: BTreeMap<(u32, u32), (u32, u32)> = BTreeMap::new();
         let mut done = Vec::new();
         for (y, left, right) in rows {
@@ -78,7 +78,7 @@ impl Area {
         done.into_iter().map(|(top, left, right, bottom)| (left, top, right, bottom)).collect()
     }
 
-    /// The data of its path.
+    /// The data of the path.
     pub fn path(self) -> String {
         let x = |columns: u32| Short(f64::from(columns * WIDTH) / f64::from(COLUMNS));
         let y = |rows: u32| Short(f64::from(rows * HEIGHT) / ROWS as f64);
@@ -103,7 +103,7 @@ impl Dots {
         }
     }
 
-    /// The data of a path that has a point for each dot, to be drawn with a round pen.
+    /// The data of a path with a point for each dot, to be drawn with a round pen.
     pub fn path(mut self) -> String {
         const PITCH: (i64, i64) = (WIDTH as i64 / 2, HEIGHT as i64 / 4);
         self.0.sort_unstable();
@@ -112,7 +112,7 @@ impl Dots {
         for (row, column) in self.0 {
             let (x, y) = (i64::from(column) * PITCH.0, i64::from(row) * PITCH.1);
             let (x, y) = (x + PITCH.0 / 2, y + PITCH.1 / 2);
-            // Not quite of no length: such a line is not drawn everywhere.
+            // Short but not zero: a line of no length is not drawn everywhere.
             let _ = if path.is_empty() {
                 write!(path, "M{x} {y}h.1z")
             } else {
@@ -126,7 +126,7 @@ impl Dots {
 
 /// Units of a line's ends in one unit of length.
 const FINE: i32 = 2;
-/// From the middle of a double line to either of its lines.
+/// Distance from the middle of a double line to either line.
 const APART: i32 = 3;
 
 /// Straight lines and rounded corners. Lengths here are counted in halves.
@@ -140,14 +140,14 @@ pub struct Lines {
 }
 
 impl Lines {
-    /// A line across cells, at a height of so many units within them.
+    /// Adds a line across cells, at a height of so many units within them.
     pub fn across(&mut self, column: u16, row: u16, width: u16, height: i32) {
         let (left, top) = corner(column, row);
         let right = left + i32::from(width) * WIDTH as i32 * FINE;
         self.level.push((top + height * FINE, left, right));
     }
 
-    /// The lines of a box-drawing character that are of one weight.
+    /// Adds the lines of one weight of a box-drawing character.
     pub fn add(&mut self, column: u16, row: u16, strokes: &Strokes, weight: Weight) {
         let (left, top) = corner(column, row);
         let half = [WIDTH as i32 * FINE / 2, HEIGHT as i32 * FINE / 2];
@@ -157,14 +157,14 @@ impl Lines {
             return;
         }
         for (arm, _) in strokes.arms.iter().enumerate().filter(|(_, one)| **one == Some(weight)) {
-            // Along the arm, and which way; the arms across it, towards lower and higher coordinates.
+            // Axis and direction of the arm; the arms across it, towards lower and higher coordinates.
             let (axis, sign) = (arm / 2, [-1, 1][arm % 2]);
             let beside = [strokes.arms[2 * (1 - axis)], strokes.arms[2 * (1 - axis) + 1]];
             let through = strokes.arms[arm ^ 1].is_some();
             let doubled = beside.map(|one| one == Some(Weight::Double));
             let offsets: &[i32] = if weight == Weight::Double { &[-APART, APART] } else { &[0] };
             for &offset in offsets {
-                // A line ends where it meets the nearer or the farther of two lines across it.
+                // A line ends at the nearer or the farther of two lines across.
                 let near =
                     if offset == 0 { doubled[0] && doubled[1] } else { doubled[usize::from(offset > 0)] };
                 let start = match near {
@@ -181,7 +181,7 @@ impl Lines {
         }
     }
 
-    /// A quarter of a circle, and what is left of the longer arm.
+    /// Adds a quarter of a circle and the rest of the longer arm.
     fn round(&mut self, [x, y]: [i32; 2], [across, down]: [i32; 2], strokes: &Strokes) {
         let right = if strokes.arms[1].is_some() { 1 } else { -1 };
         let below = if strokes.arms[3].is_some() { 1 } else { -1 };
@@ -199,7 +199,7 @@ impl Lines {
         );
     }
 
-    /// The data of their path.
+    /// The data of the path.
     pub fn path(self) -> String {
         let unit = |halves: i32| Short(f64::from(halves) / f64::from(FINE));
         let mut path = String::new();
@@ -233,7 +233,7 @@ fn pieces(start: i32, end: i32, count: u8) -> Vec<(i32, i32)> {
     (0..i32::from(count)).map(dash).filter(|(from, to)| from < to).collect()
 }
 
-/// Lines of the same place, each from one end to the other, as few as possible.
+/// Lines joined where they overlap or touch, as few as possible.
 fn joined(mut lines: Vec<(i32, i32, i32)>) -> Vec<(i32, i32, i32)> {
     lines.sort_unstable();
     let mut all: Vec<(i32, i32, i32)> = Vec::new();

@@ -13,10 +13,10 @@ const BOLD: f32 = 0.5;
 /// Slope of italics.
 const SLANT: f32 = 0.2;
 
-/// A picture of the screen in PNG. The same screen gives the same bytes.
+/// A picture of the screen in PNG: the same bytes for the same screen.
 ///
 /// # Errors
-/// For a picture of more pixels than are allowed.
+/// For a picture of too many pixels.
 pub fn png(buffer: &Buffer, palette: &Palette) -> Result<Vec<u8>, PngError> {
     let (width, height) = size(buffer);
     let mut pixels = Pixels::new(f64::from(width), f64::from(height))?;
@@ -58,7 +58,7 @@ fn stroke(pen: Pen) -> Stroke {
     Stroke { width: pen.width(), line_cap, line_join, ..Stroke::default() }
 }
 
-/// The path of data of SVG, at its place in the picture.
+/// Path from SVG data, at its place in the picture.
 fn outline(data: &str) -> Result<Option<Path>, PngError> {
     let path = BezPath::from_svg(data).map_err(|error| PngError::Encoding(error.to_string()))?;
     let mut builder = PathBuilder::new();

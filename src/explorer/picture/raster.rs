@@ -2,9 +2,9 @@
 
 use ratatui::symbols::pixel::{OCTANTS, QUADRANTS, SEXTANTS};
 
-/// Squares across a cell: halves and eighths of it come out even.
+/// Squares across a cell, divisible into halves and eighths.
 pub const COLUMNS: u32 = 8;
-/// Squares down a cell: halves, thirds, quarters and eighths of it come out even.
+/// Squares down a cell, divisible into halves, thirds, quarters and eighths.
 pub const ROWS: usize = 24;
 
 /// The part of a cell that a character fills, row by row; bit `i` is column `i` from the left.
@@ -38,8 +38,8 @@ impl Raster {
         Raster(self.0.map(|row| !row))
     }
 
-    /// The dots, as [`dots`] gives them, that represent it: those half covered or more; where there are
-    /// none, those covered most.
+    /// The dots of the raster, in the order of [`dots`]: those half covered or more; without such, those
+    /// covered most.
     pub fn dots(self) -> u8 {
         let covered: [u32; 8] = std::array::from_fn(|dot| {
             let half = if dot % 2 == 0 { 0x0f } else { 0xf0 };

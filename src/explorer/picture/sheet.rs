@@ -1,7 +1,7 @@
 //! A screen as parts of a picture, for every format.
 //!
 //! Only letters need a font. Dots, blocks, lines and marks are drawn, so that they meet from cell to
-//! cell whatever the font, and text is stretched to the grid of cells.
+//! cell with any font, and text is stretched to the grid of cells.
 
 use super::letters::Letters;
 use super::outline::{Area, Dots, HEIGHT, Lines, WIDTH};
@@ -19,7 +19,7 @@ use std::fmt::Write as _;
 pub const MARGIN: u32 = 8;
 /// Height of a line under letters, in its cell.
 const UNDER: i32 = 14;
-/// Share of a colour that stays when it is dimmed, percent.
+/// Remaining share of a dimmed colour, percent.
 const DIMMED: u8 = 60;
 
 /// Width and height of the picture of a screen, px.
@@ -28,7 +28,7 @@ pub fn size(buffer: &Buffer) -> (u32, u32) {
     (columns * WIDTH + 2 * MARGIN, rows * HEIGHT + 2 * MARGIN)
 }
 
-/// Lines of one kind are drawn with one pen.
+/// Pen for lines of one kind.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Pen {
     /// For whole lines, whose ends meet in corners.
@@ -61,7 +61,7 @@ pub struct Part {
     pub pen: Option<Pen>,
 }
 
-/// All that is on the screen, by what it is drawn with.
+/// All shapes and letters on the screen, by pen and colour.
 pub struct Sheet<'a> {
     palette: &'a Palette,
     grounds: BTreeMap<Rgb, Area>,
@@ -124,7 +124,7 @@ impl<'a> Sheet<'a> {
         self.letters.end();
     }
 
-    /// Colours of a symbol and of what is behind it.
+    /// Colours of a symbol and of its background.
     fn colours(&self, glyph: &Glyph<'_>) -> (Rgb, Rgb) {
         let (cell, modifier) = (glyph.cell, glyph.cell.modifier);
         let mut ink = rgb(self.palette, cell.fg, self.palette.foreground);
@@ -138,7 +138,7 @@ impl<'a> Sheet<'a> {
         (ink, ground)
     }
 
-    /// Draws a character that is no letter; `false` for a letter.
+    /// Draws a character other than a letter; `false` for a letter.
     fn draw_shape(&mut self, glyph: &Glyph<'_>, character: char, ink: Rgb, ground: Rgb) -> bool {
         let (column, row) = (glyph.column, glyph.row);
         if let Some(dots) = dots(character) {
@@ -177,7 +177,7 @@ fn mark(character: char) -> Option<&'static str> {
         '▸' => "m1.8 4.5l5 3.5-5 3.5z",
         '•' => "m1.8 8a2.2 2.2 0 1 0 4.4 0a2.2 2.2 0 1 0-4.4 0z",
         '●' => "m.5 8a3.5 3.5 0 1 0 7 0a3.5 3.5 0 1 0-7 0z",
-        // The inner circle goes round the other way and so is left out.
+        // The inner circle has the opposite direction and so is left out.
         '○' => "m.5 8a3.5 3.5 0 1 0 7 0a3.5 3.5 0 1 0-7 0zm1.2 0a2.3 2.3 0 1 1 4.6 0a2.3 2.3 0 1 1-4.6 0z",
         _ => return None,
     })

@@ -11,12 +11,12 @@ pub enum Weight {
     Double,
 }
 
-/// The lines that go from the middle of a cell to its edges.
+/// The lines from the middle of a cell to its edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Strokes {
     /// To the left, the right, up and down.
     pub arms: [Option<Weight>; 4],
-    /// Pieces each line through the cell is cut into; 1 for a whole line.
+    /// Number of pieces of each line through the cell; 1 for a whole line.
     pub pieces: u8,
     /// True if the corner is rounded.
     pub round: bool,
@@ -39,7 +39,7 @@ const ARMS: [&[u8; 4]; 128] = [
     b"0020", b"0200", b"0002", b"1200", b"0012", b"2100", b"0021",
 ];
 
-/// The lines of a character; `None` for one that is no box drawing of level and upright lines.
+/// The lines of a box-drawing character of level and upright lines; `None` for any other.
 pub fn strokes(character: char) -> Option<Strokes> {
     let place = usize::try_from(u32::from(character).checked_sub(0x2500)?).ok()?;
     let arms = ARMS.get(place)?.map(|digit| match digit {

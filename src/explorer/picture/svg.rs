@@ -1,12 +1,11 @@
-//! The screen as a picture that can be scaled, for slides and for pages on the web.
+//! The screen as a scalable picture, for slides and for pages on the web.
 
 use super::sheet::{MARGIN, Part, Pen, Sheet, size};
 use crate::draw::{Document, Palette, hex};
 use ratatui::buffer::Buffer;
 use std::fmt::Write as _;
 
-/// A picture of the screen: a document of SVG 1.1 that needs nothing else. The same screen gives the same
-/// bytes.
+/// A picture of the screen: a self-contained document of SVG 1.1, the same bytes for the same screen.
 #[must_use]
 pub fn svg(buffer: &Buffer, palette: &Palette, title: &str) -> String {
     let ((width, height), ground) = (size(buffer), hex(palette.background));
@@ -97,7 +96,7 @@ mod tests {
             r#"<text x="48" y="12" textLength="8">c</text>"#,
         ];
         assert_eq!(styled("a<b  c", Style::new()), two);
-        // Rare and wide characters take their place by themselves.
+        // Rare and wide characters are set one by one.
         let alone = [
             face,
             r#"<text x="8" y="12" textLength="8">⟨</text>"#,

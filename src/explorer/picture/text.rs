@@ -12,7 +12,7 @@ pub fn text(buffer: &Buffer) -> String {
         let Some(row) = rows.get_mut(usize::from(glyph.row)) else { break };
         match glyph.symbol() {
             " " => row.extend(std::iter::repeat_n(' ', usize::from(glyph.width))),
-            // Its other half is filled too, in the colour of the background, which a text does not have.
+            // The other half is filled by the colour of the background, which a text does not have.
             "▀" | "▄" if glyph.cell.bg != Color::Reset => row.push('█'),
             symbol => row.push_str(symbol),
         }

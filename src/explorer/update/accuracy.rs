@@ -9,7 +9,7 @@ use crate::explorer::text_line::TextLine;
 use crate::scene::format_quantity;
 use crate::text::grouped;
 
-/// Studies of the present scene that are still to be done, in this order.
+/// Remaining studies of the present scene, in this order.
 #[must_use]
 pub fn study_tasks(model: &Model) -> Vec<Task> {
     let Some(computed) = model.current() else { return Vec::new() };
@@ -36,13 +36,13 @@ pub fn type_tolerance(model: &mut Model) {
     }
 }
 
-/// Searches springs for a tolerance that was typed.
+/// Searches springs for a typed tolerance.
 pub fn accept_tolerance(model: &mut Model, typed: &str) -> Vec<Effect> {
     match parse_tolerance(typed) {
         Ok(tolerance) if model.is_current() => {
             model.appraisal.choosing = Some((tolerance, None));
             model.appraisal.answer = None;
-            // A measurement ends for it.
+            // The search ends a measurement.
             model.appraisal.costs.trying = None;
             return vec![Effect::Study];
         }
@@ -52,15 +52,15 @@ pub fn accept_tolerance(model: &mut Model, typed: &str) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Takes in what was found out.
+/// Stores a finding.
 pub fn found(model: &mut Model, found: Found) -> Vec<Effect> {
     if found.generation != model.generation {
-        // Of a scene that has been changed since.
+        // The scene has been changed since.
         return Vec::new();
     }
     match found.finding {
         Finding::Chosen(tolerance, result) => {
-            // Whoever does not wait for it any more has changed the scene.
+            // Without a search under way the choice is no longer wanted.
             if model.appraisal.choosing.take().is_none() {
                 return Vec::new();
             }
@@ -115,7 +115,7 @@ fn take_over(model: &mut Model, choice: &Choice) -> Vec<Effect> {
             return effects;
         }
     }
-    // Of finer solutions than an estimate would be made from.
+    // From finer solutions than those of an estimate.
     let evidence =
         if choice.closed_form { Evidence::ClosedForm } else { Evidence::Solutions(vec![choice.finest]) };
     let known = Estimate { target: choice.target, error: choice.error, evidence };
@@ -127,7 +127,7 @@ fn take_over(model: &mut Model, choice: &Choice) -> Vec<Effect> {
     effects
 }
 
-/// States the accuracy that can be reached instead.
+/// States the accuracy within reach instead.
 fn refuse(model: &mut Model, tolerance: f64, error: &ChoiceError) {
     let sentence = error.to_string();
     let asked = per_cent(tolerance);
@@ -147,7 +147,7 @@ fn refuse(model: &mut Model, tolerance: f64, error: &ChoiceError) {
     model.appraisal.answer = Some(sentence);
 }
 
-/// The long text where the status line has room for it, else the short one.
+/// The long text where the status line has room, else the short one.
 fn fitting(model: &Model, long: String, short: String) -> String {
     if long.chars().count() + 2 <= usize::from(model.size.0) { long } else { short }
 }

@@ -1,4 +1,4 @@
-//! The map: shown or not, and the mark on it, which is the scene.
+//! Commands of the map and of the scene as its mark.
 
 use super::{Effect, edit};
 use crate::explorer::command::Command;
@@ -14,7 +14,7 @@ pub fn is_move(command: Command) -> bool {
     ["move-across", "move-up"].iter().any(|name| command.name.starts_with(name))
 }
 
-/// Explores what has been opened by its path.
+/// Explores a scene or a study opened by its path.
 pub fn open(model: &mut Model, opening: Opening) -> Vec<Effect> {
     let Opening { document, study_map, beside } = opening;
     model.opens_beside = beside;
@@ -25,10 +25,10 @@ pub fn open(model: &mut Model, opening: Opening) -> Vec<Effect> {
     effects
 }
 
-/// Without a study there is nothing to be shown of it.
+/// Message where no study is open.
 const NO_STUDY: &str = "no study is open; o and the path of its folder open one";
 
-/// Shows the map of the study, or the one that is computed here.
+/// Shows the map of the study, or the live map.
 pub fn toggle_study(model: &mut Model) -> Vec<Effect> {
     if model.chart.study.is_none() {
         model.set_error(NO_STUDY);
@@ -51,7 +51,7 @@ pub fn next_parameter(model: &mut Model) -> Vec<Effect> {
     vec![Effect::Study]
 }
 
-/// Shows another map of the study. A scene that is of the map before goes with it.
+/// Shows another map of the study. A scene that belongs to the former map follows.
 pub fn step_slice(model: &mut Model, steps: i32) -> Vec<Effect> {
     let Some(study) = model.chart.shown_study() else {
         let why = if model.chart.study.is_some() {
@@ -106,7 +106,7 @@ pub fn step(model: &mut Model, columns: i32, rows: i32) -> Vec<Effect> {
     }
 }
 
-/// A scene without a quantity of the map's axes has no place on the map.
+/// Message for a scene that lacks a quantity of the axes.
 const NO_PLACE: &str = "the scene has no place on this map: it lacks a quantity of the axes";
 
 /// Axes of the map.
@@ -114,7 +114,7 @@ fn axes(model: &Model) -> (MapAxis, Option<MapAxis>) {
     model.chart.axes(Template::of(model.document.scene()).is_ok_and(|template| template.has_hurst()))
 }
 
-/// Gives the scene the values of a place on the map. Successive moves are one edit.
+/// Sets the scene to the values of a place on the map. Successive moves are one edit.
 pub fn move_to(model: &mut Model, place: Place) -> Vec<Effect> {
     let goes_on = model.chart.moving;
     let effects = match moved_to(model, place) {
@@ -125,7 +125,7 @@ pub fn move_to(model: &mut Model, place: Place) -> Vec<Effect> {
     effects
 }
 
-/// The scene at a place on the map. A preload in units of E* h L may change with it.
+/// The scene at a place on the map. A preload in units of E* h L may change with the place.
 fn moved_to(model: &Model, (to_across, to_up): Place) -> Result<Document, SceneErrors> {
     let (across, up) = axes(model);
     let up = up.as_ref().zip(to_up).map(|(axis, value)| (axis.path.as_str(), value));

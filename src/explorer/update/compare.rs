@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// Most kept curves; more could not be distinguished.
 const MOST_GHOSTS: usize = 8;
 
-/// Changes the ghosts, of which another one may then be the newest, or none.
+/// Changes the ghosts, and so possibly the newest one.
 pub fn change(model: &mut Model, change: fn(&mut Model) -> Vec<Effect>) -> Vec<Effect> {
     let beside = model.beside().map(|_| Effect::Beside);
     let effects = change(model);
@@ -42,13 +42,13 @@ fn toggle(model: &mut Model) {
     }
 }
 
-/// Keeps the scene that has been computed as a ghost and opens another one beside it.
+/// Keeps the computed scene as a ghost and opens another scene beside it.
 pub fn open_beside(model: &mut Model, document: Document) -> Vec<Effect> {
     pin(model);
     model.show(Pane::Beside);
     let effects = edit::open(model, document);
     model.notice = None;
-    // There is no edit to undo: both scenes are as they were opened.
+    // There is no edit to undo: both scenes are as opened.
     model.undo.clear();
     [vec![Effect::Beside], effects].concat()
 }
@@ -75,7 +75,7 @@ pub fn pin(model: &mut Model) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Adds a ghost; returns false where it is there already.
+/// Adds a ghost; returns false if it was kept already.
 fn keep(model: &mut Model, ghost: Ghost) -> bool {
     if model.ghosts.iter().any(|kept| kept.document.scene() == ghost.document.scene()) {
         model.set_done("this loop is kept already");
@@ -89,7 +89,7 @@ fn keep(model: &mut Model, ghost: Ghost) -> bool {
     true
 }
 
-/// Asks for the other use of a measured profile, which becomes a ghost once it is computed.
+/// Requests the other use of a measured profile, which becomes a ghost once computed.
 pub fn pin_other_use(model: &mut Model) -> Vec<Effect> {
     let scene = model.document.scene();
     if !matches!(scene.roughness, Some(Roughness::Measured { .. })) {
@@ -109,7 +109,7 @@ pub fn pin_other_use(model: &mut Model) -> Vec<Effect> {
     }
 }
 
-/// Takes in a scene that was computed to be looked at, or for a ghost.
+/// Stores a computed preview, or keeps it as the requested ghost.
 pub fn previewed(model: &mut Model, preview: Arc<Preview>) -> Vec<Effect> {
     let Some(document) = model.next_ghost.take_if(|document| document.text() == preview.text) else {
         model.preview = Some(preview);
@@ -130,7 +130,7 @@ pub fn previewed(model: &mut Model, preview: Arc<Preview>) -> Vec<Effect> {
     vec![Effect::Show]
 }
 
-/// The scene and the newest ghost change places.
+/// Exchanges the scene and the newest ghost.
 pub fn swap(model: &mut Model) -> Vec<Effect> {
     let Some(present) = ghost(model) else { return Vec::new() };
     let Some(last) = model.ghosts.pop() else {

@@ -1,4 +1,4 @@
-//! Completion of the path that is typed: in the prompts of files, in the library, and in the value of a measured surface.
+//! Completion of the typed path: in the prompts of files, in the library, and in the value of a measured surface.
 
 use super::{Effect, library};
 use crate::explorer::completion::Completion;
@@ -6,19 +6,19 @@ use crate::explorer::mode::Mode;
 use crate::explorer::model::Model;
 use crate::explorer::text_line::{Motion, TextLine};
 
-/// Path that is being typed.
+/// Path being typed.
 struct TypedPath {
     /// Text of the line before the path.
     before: String,
-    /// Folder that a relative path is in; empty for the working folder.
+    /// Folder of a relative path; empty for the working folder.
     folder: String,
     /// The path as typed.
     path: String,
 }
 
 impl TypedPath {
-    /// Path that ends at the end of the line: the whole line, or in the value of a roughness the text behind an open quote
-    /// or a value without brackets.
+    /// Path that ends at the end of the line: the whole line, or in the value of a roughness the text behind an open
+    /// quote or a value without brackets.
     fn of(model: &Model) -> Option<Self> {
         let (line, is_value) = match &model.mode {
             // Title and notice of a scene are no paths.
@@ -67,7 +67,7 @@ pub fn can_complete(model: &Model) -> bool {
     TypedPath::of(model).is_some()
 }
 
-/// Takes the next candidate, or asks for candidates.
+/// Takes the next candidate, or requests candidates.
 pub fn next(model: &mut Model) -> Vec<Effect> {
     let Some(typed) = TypedPath::of(model) else { return Vec::new() };
     match model.completion.as_mut().and_then(Completion::take_next).map(str::to_owned) {
@@ -76,8 +76,8 @@ pub fn next(model: &mut Model) -> Vec<Effect> {
     }
 }
 
-/// Takes in the candidates for what was typed: what they have in common is typed at once, and where that is nothing more
-/// they are shown.
+/// Stores the candidates for a typed path: their common start is typed at once; without a longer start they are
+/// only shown.
 pub fn completed(model: &mut Model, typed: &str, paths: Vec<String>) -> Vec<Effect> {
     let Some(now) = TypedPath::of(model).filter(|now| now.whole() == typed) else { return Vec::new() };
     if let Some(line) = model.mode.line_mut() {
@@ -86,7 +86,7 @@ pub fn completed(model: &mut Model, typed: &str, paths: Vec<String>) -> Vec<Effe
     let completion = Completion::new(typed, paths);
     let (common, is_only) = (completion.common_start(), completion.only().is_some());
     model.completion = Some(completion).filter(|_| !is_only);
-    // Candidates that have the letters elsewhere have nothing in common with them.
+    // Candidates with the letters elsewhere have no start in common with the typed path.
     let adds = common.chars().count() > typed.chars().count() || is_only;
     if adds { put(model, &now, &common) } else { Vec::new() }
 }

@@ -1,5 +1,5 @@
-//! The crosshair: on the force curve it is at the state shown, so that moving it moves the body; on profile and
-//! close-up it reads one position.
+//! The crosshair: on the force curve at the shown state, so that moving the crosshair moves the body; on profile
+//! and close-up at one position, to be read.
 
 use super::{Effect, movement};
 use crate::explorer::layout::inside;
@@ -38,7 +38,7 @@ pub fn go_to_end(model: &mut Model, right: bool) {
     }
 }
 
-/// Moves the crosshair to the mouse; `None` where the pane has none, or where the mouse moves the body manually.
+/// Moves the crosshair to the mouse; `None` for a pane without crosshair, or where the mouse moves the body manually.
 pub fn point_at(model: &mut Model, pane: Pane, area: Rect, here: Position) -> Option<Vec<Effect>> {
     model.crosshair?;
     match pane {
@@ -84,7 +84,7 @@ fn put(model: &mut Model, leg: usize, done: f64) {
     }
 }
 
-/// Goes to another loading stage at the indentation shown, or at the end of the stage that is nearer.
+/// Goes to another loading stage at the shown indentation, or at the nearer end of the stage.
 pub fn go_to_stage(model: &mut Model, stages: i32) {
     let last = model.legs().len().saturating_sub(1);
     let leg = model.player.leg.saturating_add_signed(stages as isize).min(last);
@@ -101,12 +101,12 @@ fn section(model: &Model) -> Option<(&Section, usize)> {
     Some((section, section.columns.len().max(1)))
 }
 
-/// Moves along the profile within the section that is seen.
+/// Moves along the profile within the visible section.
 fn step(model: &mut Model, steps: i32, coarse: bool) {
     let Some((section, columns)) = section(model) else { return };
     let springs = (section.springs / columns).max(1) * if coarse { COARSE } else { 1 };
     let (first, last) = (section.first, section.first + section.springs.saturating_sub(1));
-    // Not the spring that is shown: keys may come faster than moments.
+    // Not the shown spring: keys may come faster than snapshots.
     let now =
         model.crosshair.map_or(first, |crosshair| (crosshair.position * springs_of(model) as f64) as usize);
     let to = now.saturating_add_signed(springs as isize * steps as isize);

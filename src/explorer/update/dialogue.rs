@@ -1,4 +1,4 @@
-//! Dialogues: the line that is typed, the list that is searched, the question that is asked, the help that is read.
+//! Dialogues: typed lines, searched lists, questions, and the help.
 
 use super::{Effect, accuracy, edit, files, library, movement, run, show};
 use crate::explorer::finder::Finder;
@@ -22,7 +22,7 @@ pub fn open_palette(model: &mut Model) {
     model.mode = Mode::Palette(Finder::new(entries(&model.bindings).len()));
 }
 
-/// Inserts text that is typed or pasted.
+/// Inserts typed or pasted text.
 pub fn insert(model: &mut Model, text: &str) -> Vec<Effect> {
     model.completion = None;
     edit_line(model, |line| text.chars().for_each(|character| line.insert(character)))
@@ -109,7 +109,7 @@ pub fn accept(model: &mut Model) -> Vec<Effect> {
     }
 }
 
-/// Leaves the line, list, question or help; all is as before.
+/// Leaves the line, list, question or help without a change.
 pub fn cancel(model: &mut Model) -> Vec<Effect> {
     match std::mem::replace(&mut model.mode, Mode::Explore) {
         Mode::Edit(_) => {

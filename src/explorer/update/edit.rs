@@ -1,4 +1,4 @@
-//! Edits of the scene. Each gives a document of its own; the one before can be brought back.
+//! Edits of the scene. Each results in a document of its own and can be undone.
 
 use super::ghosts::name_ghosts;
 use super::{Effect, show};
@@ -11,7 +11,7 @@ use crate::explorer::request::{Focus, LineView};
 use crate::explorer::text_line::TextLine;
 use crate::scene::{Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, presets};
 
-/// Edits that can be taken back.
+/// Most edits that can be undone.
 const UNDO_DEPTH: usize = 1000;
 
 /// Moves the selection in the list of parameters.
@@ -46,7 +46,7 @@ pub fn open_built_in(model: &mut Model, digit: char) -> Vec<Effect> {
     open_read(model, Document::parse(preset.text, preset.name))
 }
 
-/// Explores a scene that has been read, or states the reason why it is not allowed.
+/// Explores a scene just read, or states the reason why it is not allowed.
 pub fn open_read(model: &mut Model, read: Result<Document, SceneErrors>) -> Vec<Effect> {
     match read {
         Ok(document) => open(model, document),
@@ -66,7 +66,7 @@ pub fn open(model: &mut Model, document: Document) -> Vec<Effect> {
     model.player = Player::START;
     model.look = CloseUpTarget { focus: Focus::Summit, springs: CloseUpTarget::springs_shown(&document) };
     model.profile = LineView::WHOLE;
-    // The map that is shown is that of the scene; a study stays loaded.
+    // The shown map is that of the scene; a study stays loaded.
     model.chart.of_study = false;
     let effects = adopt(model, document);
     model.set_saved();
@@ -84,7 +84,7 @@ pub fn select(model: &mut Model, row: usize) {
     model.first_listed = first_listed(model);
 }
 
-/// Folds the group of the selected parameter, which leaves its first row selected, or unfolds it.
+/// Folds the group of the selected parameter and selects its first row, or unfolds the group.
 fn fold(model: &mut Model, folds: bool) {
     let Some(group) = model.parameter().map(|parameter| parameter.group) else { return };
     if folds {
@@ -97,7 +97,7 @@ fn fold(model: &mut Model, folds: bool) {
     model.first_listed = first_listed(model);
 }
 
-/// Opens the editor on the selected value, which the first character typed replaces.
+/// Opens the editor on the selected value, which the first typed character replaces.
 pub fn edit_value(model: &mut Model, first: Option<char>) -> Vec<Effect> {
     if let Some(parameter) = model.parameter() {
         match parameter.setting {
@@ -122,7 +122,7 @@ pub fn edit_value(model: &mut Model, first: Option<char>) -> Vec<Effect> {
     effects
 }
 
-/// The way to change a parameter that has no number.
+/// The way to change a parameter without a number.
 fn way_of_changing(parameter: &Parameter) -> String {
     let way = match (parameter.setting, parameter.field.step) {
         (Setting::Switch(_), _) => "a switch: t changes it",
@@ -133,7 +133,7 @@ fn way_of_changing(parameter: &Parameter) -> String {
     format!("{} is {way}", parameter.name())
 }
 
-/// Chooses the list of parameters where a small window does not show it: nothing is changed unseen.
+/// Chooses the list of parameters where a small window hides it: no value changes unseen.
 pub fn show_parameters(model: &mut Model) -> Vec<Effect> {
     if Layout::of(model).pane(Pane::Parameters).is_some() {
         return Vec::new();
@@ -173,7 +173,7 @@ fn stepped(model: &mut Model, steps: i32, coarse: bool) -> Vec<Effect> {
     }
 }
 
-/// The value of a parameter as the editor opens with it: in the unit in which it is shown, to its last digit.
+/// The value of a parameter at the start of the editor: in the shown unit, to the last digit.
 fn editable(model: &Model, parameter: &Parameter) -> String {
     let written = model.written(parameter).unwrap_or_default();
     match (parameter.field.range, written.parse()) {
@@ -182,7 +182,7 @@ fn editable(model: &Model, parameter: &Parameter) -> String {
     }
 }
 
-/// Sets the selected parameter to the typed value and closes the editor. A value that is refused stays in the editor.
+/// Sets the selected parameter to the typed value and closes the editor. A refused value stays in the editor.
 pub fn accept_value(model: &mut Model, typed: &str) -> Vec<Effect> {
     model.refused = None;
     let Some(parameter) = model.parameter() else { return Vec::new() };
@@ -200,7 +200,7 @@ pub fn accept_value(model: &mut Model, typed: &str) -> Vec<Effect> {
     effects
 }
 
-/// Sets the selected parameter to a value as it is written in a scene.
+/// Sets the selected parameter to a value in the notation of the scene.
 fn set_selected(model: &mut Model, written: &str) -> Vec<Effect> {
     match with_selected(model, written) {
         Ok(document) => take_over(model, Ok(document)),
@@ -208,7 +208,7 @@ fn set_selected(model: &mut Model, written: &str) -> Vec<Effect> {
     }
 }
 
-/// The scene with another value of the selected parameter, as it is written in a scene; or why there is none.
+/// The scene with another value of the selected parameter, in the notation of the scene; or why there is none.
 fn with_selected(model: &Model, written: &str) -> Result<Document, String> {
     let parameter = model.parameter().ok_or("no parameter is selected")?;
     let document = &model.document;
@@ -220,7 +220,7 @@ fn with_selected(model: &Model, written: &str) -> Result<Document, String> {
             let value = number()?;
             let adhesion = document.scene().adhesion.unwrap_or_default();
             match (adhesion.work.filter(|_| adhesion.parameter().is_none()), model.governing()) {
-                // The scene gives γ alone, which follows from the parameter.
+                // The scene has γ alone, which follows from the parameter.
                 (Some(_), Some(governing)) => {
                     let undefined = || format!("{} is not defined without roughness", parameter.symbol());
                     let work = governing.work_for(parameter, value).ok_or_else(undefined)?;
@@ -239,17 +239,17 @@ fn reasons(errors: &SceneErrors) -> String {
     errors.iter().map(|error| error.what().to_string()).collect::<Vec<_>>().join("; ")
 }
 
-/// Most springs of a scene that is computed for a value while the value is typed: the next character stops it.
+/// Most springs for a preview while a value is typed: the next character stops the computation.
 const MOST_SPRINGS_TRIED: u64 = 1 << 20;
 
-/// A scene of so many springs at most is small enough to be computed only to look at; steps of the stepwise solver may be
-/// any number.
+/// Returns true if a scene is small enough for a preview: at most so many springs, and not the stepwise solver, whose
+/// number of steps has no limit.
 pub fn is_previewed(document: &Document, most_springs: u64) -> bool {
     let numerics = document.scene().numerics;
     numerics.points <= most_springs && numerics.solver == Solver::Exact
 }
 
-/// Asks for the curve with the value as it is typed so far, or for none where that is no allowed value.
+/// Requests the curve with the value typed so far, or none where that is not an allowed value.
 pub fn preview(model: &mut Model) -> Vec<Effect> {
     let tried = match &model.mode {
         Mode::Edit(line) => {
@@ -302,7 +302,7 @@ fn refuse(model: &mut Model, why: String) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Sets a field; a value that is not allowed leaves the scene as it is.
+/// Sets a field; an invalid value leaves the scene unchanged.
 pub fn change(model: &mut Model, path: &str, value: &str) -> Vec<Effect> {
     let changed = model.document.set(path, value);
     take_over(model, changed)
@@ -324,7 +324,7 @@ pub fn take_over(model: &mut Model, changed: Result<Document, SceneErrors>) -> V
     }
 }
 
-/// Makes a document the one that is explored; the one before can be brought back.
+/// Makes a document the explored one; undo returns to the former one.
 pub fn adopt(model: &mut Model, document: Document) -> Vec<Effect> {
     let before = std::mem::replace(&mut model.document, document);
     model.undo.push(before);
@@ -342,7 +342,7 @@ pub fn replace(model: &mut Model, document: Document) -> Vec<Effect> {
     renew(model)
 }
 
-/// Takes back the last edit, or does it again.
+/// Undoes the last edit, or redoes it.
 pub fn undo(model: &mut Model, back: bool) -> Vec<Effect> {
     let (from, to) =
         if back { (&mut model.undo, &mut model.redo) } else { (&mut model.redo, &mut model.undo) };
@@ -356,17 +356,17 @@ pub fn undo(model: &mut Model, back: bool) -> Vec<Effect> {
 }
 
 /// Row of the field at a path, or of the group around it: the selection stays in place when rows come and go, and the
-/// row that has switched an effect off switches the effect on again.
+/// row that switched an effect off can switch the effect on again.
 fn row_of(model: &Model, path: &str) -> usize {
     let around = std::iter::successors(Some(path), |path| path.rsplit_once('.').map(|(group, _)| group));
     let row = |path: &str| model.parameters.iter().position(|parameter| parameter.path == path);
     around.filter_map(row).next().unwrap_or(model.selected).min(model.parameters.len().saturating_sub(1))
 }
 
-/// Asks for the scene as it is now.
+/// Requests the computation of the changed scene.
 fn renew(model: &mut Model) -> Vec<Effect> {
     let selected = model.parameter().map(|parameter| parameter.path.clone()).unwrap_or_default();
-    // The scene itself is shown again.
+    // A scene left before is the present one again.
     let document = &model.document;
     model.left.retain(|_, left| left.name() != document.name() || left.scene() != document.scene());
     model.parameters = parameters(&model.document);

@@ -1,4 +1,4 @@
-//! Output of the explorer: the scene, exports, the command that opens the scene.
+//! Output of the explorer: the scene, exports, the command to open the scene.
 
 use super::{Effect, edit};
 use crate::explorer::action::{Content, WriteFailure, Written};
@@ -17,8 +17,8 @@ pub fn ask_save(model: &mut Model, then_quit: bool) {
     model.mode = Mode::SaveAs(SaveForm { lines, line: 0, then_quit });
 }
 
-/// Saves the scene with the title and the notice that were typed, as an edit where they are others. Comments about changed
-/// values are asked about first.
+/// Saves the scene with the typed title and notice, as an edit where these differ. A question about comments on changed
+/// values comes first.
 pub fn save(model: &mut Model, form: &SaveForm) -> Vec<Effect> {
     let [file, title, notice] = form.lines.each_ref().map(TextLine::text);
     let path = typed_path(&file);
@@ -27,7 +27,7 @@ pub fn save(model: &mut Model, form: &SaveForm) -> Vec<Effect> {
     }
     let scene = model.document.scene();
     let texts = [("title", &scene.title, title), ("notice", &scene.notice, notice)];
-    // The lines have no line breaks; a text that was not touched keeps its own.
+    // The lines have no line breaks; an untouched text keeps its own.
     let changed = texts.into_iter().filter(|(_, before, now)| TextLine::new(before).text() != *now);
     let changed: Vec<_> = changed.map(|(path, _, now)| (path.to_owned(), ron_string(&now))).collect();
     let mut effects = Vec::new();
@@ -61,7 +61,7 @@ pub fn save_with_comments(model: &mut Model) -> Vec<Effect> {
     write(model, path, Content::Scene, then_quit, false)
 }
 
-/// Asks for the file of the scene or, where that is saved, of one that was left with unsaved changes.
+/// Asks for the file of the scene or, where that is saved, of one left with unsaved changes.
 pub fn save_before_leaving(model: &mut Model) -> Vec<Effect> {
     let mut effects = Vec::new();
     if !model.is_unsaved()
@@ -115,7 +115,7 @@ fn content_for(model: &Model, path: &Path) -> Result<Content, String> {
     }
 }
 
-/// Writes a file; `overwrite`: in place of the one that is there.
+/// Writes a file; `overwrite`: in place of an existing one.
 pub fn write(
     model: &mut Model,
     path: PathBuf,
@@ -133,7 +133,7 @@ pub fn write(
     vec![Effect::Write { path, content, overwrite }]
 }
 
-/// Takes in how writing went. It may have taken long: the scene can have been changed meanwhile.
+/// Handles the result of writing; the scene may have been changed meanwhile.
 pub fn written(model: &mut Model, result: Result<Written, WriteFailure>) {
     let Some(writing) = model.writing.take() else { return };
     let then_quit = writing.then_quit;
@@ -172,7 +172,7 @@ pub fn ask_quit(model: &mut Model) {
     }
 }
 
-/// Leaves the explorer, but first has a file written to its end. Asked once more, it leaves without.
+/// Leaves the explorer once a file being written is complete; a second request leaves at once.
 pub fn quit(model: &mut Model) {
     match &mut model.writing {
         Some(writing) if !writing.then_quit => {

@@ -6,7 +6,7 @@ use crate::explorer::mode::{Library, Mode};
 use crate::explorer::model::Model;
 use crate::scene::{Entry, typed_path};
 
-/// Most springs of a scene that is computed to be looked at in the list: its curve is there before the next row.
+/// Most springs for a preview in the list: its curve is complete before the next row.
 const MOST_SPRINGS_SEEN: u64 = 1 << 17;
 
 /// Opens the library.
@@ -15,7 +15,7 @@ pub fn open(model: &mut Model) -> Vec<Effect> {
     vec![Effect::List]
 }
 
-/// Takes in what the library holds.
+/// Stores the entries of the library.
 pub fn listed(model: &mut Model, entries: Vec<Entry>) -> Vec<Effect> {
     if let Mode::Library(library) = &mut model.mode {
         library.entries = Some(entries);
@@ -23,7 +23,7 @@ pub fn listed(model: &mut Model, entries: Vec<Entry>) -> Vec<Effect> {
     search(model)
 }
 
-/// Finds what is searched for, once more.
+/// Searches the library again.
 pub fn search(model: &mut Model) -> Vec<Effect> {
     let Mode::Library(library) = &mut model.mode else { return Vec::new() };
     let Some(entries) = &library.entries else { return Vec::new() };
@@ -51,7 +51,7 @@ pub fn accept(model: &mut Model, library: &Library) -> Vec<Effect> {
     edit::open_read(model, entry.document())
 }
 
-/// Asks for the curve of the selected scene.
+/// Requests the curve of the selected scene.
 pub fn preview(model: &mut Model) -> Vec<Effect> {
     let Mode::Library(library) = &model.mode else { return Vec::new() };
     let Some(entry) = library.entry() else { return Vec::new() };

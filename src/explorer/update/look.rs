@@ -9,13 +9,13 @@ use crate::explorer::theme::Choice;
 /// Fewest springs that fill a pane.
 const FEWEST_SPRINGS: usize = 8;
 
-/// Shows the fragment that a question asks for, starting from the one shown.
+/// Shows the fragment of a question, starting from the shown one.
 pub fn go_to_fragment(model: &mut Model, question: fn(Option<usize>) -> Focus) {
     let fragment = model.snapshot.as_ref().and_then(|snapshot| snapshot.close_up.fragment);
     model.look.focus = question(fragment.map(|fragment| fragment.middle()));
 }
 
-/// Shows the whole profile, and the close-up as it was.
+/// Shows the whole profile, and the close-up in its initial size.
 pub fn reset_zoom(model: &mut Model) {
     model.profile = LineView::WHOLE;
     model.look.springs = CloseUpTarget::springs_shown(&model.document);
@@ -30,7 +30,7 @@ pub fn toggle_follow(model: &mut Model) {
     }
 }
 
-/// Gives the curve logarithmic or linear axes.
+/// Switches the curve between linear and logarithmic axes.
 pub fn toggle_logarithmic(model: &mut Model) {
     model.curve.scale = match model.curve.scale {
         AxisScale::Linear => AxisScale::Logarithmic,
@@ -76,7 +76,7 @@ fn springs(model: &Model) -> usize {
     model.computed.as_ref().map_or(1, |computed| computed.outcome.line.points).max(1)
 }
 
-/// Looks closer in the profile, where it is the chosen pane, or in the close-up.
+/// Zooms the profile, where it is the chosen pane, or the close-up; positive steps are closer.
 pub fn zoom(model: &mut Model, steps: i32) {
     let most = springs(model);
     if model.pane == Pane::Profile {
@@ -93,7 +93,7 @@ pub fn zoom(model: &mut Model, steps: i32) {
     }
 }
 
-/// Looks closer, or from further away, such that the point under the pointer, at a share of the pane, stays there.
+/// Zooms in or out such that the point under the pointer, at a share of the pane, stays there.
 pub fn zoom_at(model: &mut Model, steps: i32, pointer: Option<f64>) {
     let (profile, springs_before) = (model.profile, model.look.springs as f64);
     zoom(model, steps);
@@ -112,7 +112,7 @@ pub fn zoom_at(model: &mut Model, steps: i32, pointer: Option<f64>) {
     }
 }
 
-/// Moves along the line by quarters of what is seen.
+/// Moves along the line by quarters of the visible part.
 pub fn pan(model: &mut Model, quarters: i32) {
     let quarters = f64::from(quarters) / 4.0;
     if model.pane == Pane::Profile {

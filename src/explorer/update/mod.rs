@@ -1,5 +1,5 @@
-//! Effect of each action on the model. Nothing here touches terminal, files or worker: work to be
-//! done outside is returned.
+//! Effect of each action on the model. Nothing here touches terminal, files or worker: work outside
+//! the model is returned.
 
 pub(super) mod accuracy;
 pub(super) mod chart;
@@ -86,16 +86,16 @@ pub(super) fn run(model: &mut Model, command: Command) -> Vec<Effect> {
     command.run(model)
 }
 
-/// Ends what lasts until the next command on scene or panes: successive moves in the map as one edit, and the notice.
+/// Begins a command on scene or panes: ends the notice, and the edit of successive moves in the map.
 pub(super) fn begin(model: &mut Model) {
     model.chart.moving = false;
-    // Why there is no curve stays to be read; all else goes with the next key.
+    // The reason for a missing curve remains; any other notice ends with the next key.
     if model.is_current() || model.is_computing() {
         model.notice = None;
     }
 }
 
-/// Takes in a report of the worker, unless the scene or the text has been changed since.
+/// Stores a report of the worker, unless the scene or the text has been changed since.
 fn reported(model: &mut Model, report: Report) -> Vec<Effect> {
     match report {
         Report::Computed(computed) if computed.generation == model.generation => {
@@ -131,8 +131,8 @@ fn reported(model: &mut Model, report: Report) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Request to the worker that an effect needs; `None` for an effect that is for others, or for a snapshot of a scene that is
-/// not computed yet.
+/// Request to the worker for an effect; `None` for an effect for others, or for a snapshot of a scene that is not
+/// computed yet.
 #[must_use]
 pub fn request(model: &Model, effect: &Effect) -> Option<Request> {
     let generation = model.generation;
@@ -148,7 +148,7 @@ pub fn request(model: &Model, effect: &Effect) -> Option<Request> {
     }
 }
 
-/// The scene as the worker gets it: files it names are found wherever the explorer was started.
+/// The scene for the worker, with files named from the working folder.
 pub(super) fn scene_of(document: &Document) -> Arc<Scene> {
     let mut scene = document.scene().clone();
     scene.rename_measured_files(|file| document.resolve(file).to_string_lossy().into_owned());

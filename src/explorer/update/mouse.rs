@@ -1,4 +1,4 @@
-//! The mouse: it chooses panes and rows, drags the load and scrolls. Everything it does a key does too.
+//! The mouse: chooses panes and rows, drags the load and scrolls. Keys can do all this too.
 
 use super::{Effect, crosshair, dialogue};
 use crate::explorer::action::{Gesture, Mouse};
@@ -7,7 +7,7 @@ use crate::explorer::mode::Mode;
 use crate::explorer::model::Model;
 use ratatui::layout::Position;
 
-/// Does what the mouse asks for.
+/// Performs a gesture of the mouse.
 pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
     match (&model.mode, mouse.gesture) {
         (Mode::Explore, _) => {}

@@ -18,7 +18,7 @@ const LEG_TIME: Duration = Duration::from_secs(6);
 const STEPS: f64 = 120.0;
 /// Small and large steps of manual loading in the whole range of indentations.
 const HAND_STEPS: (f64, f64) = (400.0, 40.0);
-/// Points that are kept of the path of manual loading.
+/// Most kept points of the path of manual loading.
 const PATH_KEPT: usize = 20_000;
 
 /// Begins manual loading, or returns to the loading of the scene.
@@ -38,7 +38,7 @@ pub fn separate(model: &mut Model) -> Vec<Effect> {
     take(model, Some(ManualMove::Separate))
 }
 
-/// Asks for a force to go to.
+/// Asks for a target force.
 pub fn type_force(model: &mut Model) {
     model.mode = Mode::Force(TextLine::new(""));
 }
@@ -69,7 +69,7 @@ pub fn restart(model: &mut Model) -> Vec<Effect> {
     animate(model, |model| model.player = Player::START)
 }
 
-/// Goes to the start of a leg so many after this one; back from inside a leg, to its own start first.
+/// Goes to the start of the leg `legs` after this one; back from inside a leg, to its own start first.
 pub fn go_to_leg(model: &mut Model, legs: i32) -> Vec<Effect> {
     animate(model, |model| {
         let back = legs < 0 && model.player.done > 0.0;
@@ -106,7 +106,7 @@ fn animate(model: &mut Model, change: impl FnOnce(&mut Model)) -> Vec<Effect> {
     gives.into_iter().chain([Effect::Show]).collect()
 }
 
-/// Lets the animation go on by a time.
+/// Advances the animation by a time.
 pub fn elapse(model: &mut Model, time: Duration) -> Vec<Effect> {
     if !model.player.playing || model.legs().is_empty() || !model.is_current() {
         return Vec::new();
@@ -115,7 +115,7 @@ pub fn elapse(model: &mut Model, time: Duration) -> Vec<Effect> {
     let player = &mut model.player;
     let Animation { speed, repeats } = model.animation;
     player.done += speed * time.as_secs_f64() / LEG_TIME.as_secs_f64();
-    // The distance does not depend on the frame rate: the rest of it continues on the next leg.
+    // The distance does not depend on the frame rate: its rest continues on the next leg.
     while player.done > 1.0 && player.leg + 1 < legs {
         player.leg += 1;
         player.done -= 1.0;
@@ -130,7 +130,7 @@ pub fn elapse(model: &mut Model, time: Duration) -> Vec<Effect> {
     vec![Effect::Show]
 }
 
-/// Moves the animation by a share of a leg; on its way to another leg it stops between the two.
+/// Moves the animation by a share of a leg, but not past the boundary to another leg.
 fn advance(player: &mut Player, share: f64, legs: usize) {
     player.done += share;
     if player.done > 1.0 && player.leg + 1 < legs {
@@ -143,16 +143,16 @@ fn advance(player: &mut Player, share: f64, legs: usize) {
     player.done = player.done.clamp(0.0, 1.0);
 }
 
-/// Keeps the animation on the legs there are.
+/// Keeps the animation on existing legs.
 pub fn stay_on_legs(model: &mut Model, last: usize) {
     if model.player.leg > last {
         model.player = Player { leg: last, done: 1.0, playing: false };
     }
 }
 
-/// Takes over a snapshot from the worker.
+/// Stores a snapshot from the worker.
 pub fn shown(model: &mut Model, snapshot: Arc<ContactSnapshot>) {
-    // Another snapshot may have been on its way when the fragment was asked for.
+    // Another snapshot may have been on its way when the fragment was requested.
     if snapshot.focus == model.look.focus && model.look.focus.is_question() {
         let middle = snapshot.close_up.fragment.map(|fragment| fragment.middle());
         model.look.focus = middle.map_or(Focus::Summit, Focus::Spring);
@@ -172,7 +172,7 @@ pub fn shown(model: &mut Model, snapshot: Arc<ContactSnapshot>) {
     model.snapshot = Some(snapshot);
 }
 
-/// Reason why the body was not moved, with forces in the unit of the typed one, rounded into the range that is allowed.
+/// Reason why the body was not moved, with forces in the unit of the typed one, rounded into the allowed range.
 fn refusal(refusal: &Refusal, typed: &str) -> String {
     let force = |value| quantity_as_typed(value, typed, "N");
     match *refusal {
@@ -188,7 +188,7 @@ fn refusal(refusal: &Refusal, typed: &str) -> String {
     }
 }
 
-/// The nearest number of four digits that is not smaller.
+/// The nearest number of four digits not below a value.
 fn rounded_up(value: f64) -> f64 {
     let rounded = |value: f64| format!("{value:.3e}").parse().unwrap_or(value);
     let nearest: f64 = rounded(value);
@@ -214,7 +214,7 @@ pub fn take(model: &mut Model, order: Option<ManualMove>) -> Vec<Effect> {
     effects
 }
 
-/// Moves the body to a force that was typed.
+/// Moves the body to a typed force.
 pub fn accept_force(model: &mut Model, typed: &str) -> Vec<Effect> {
     match parse_quantity(typed.trim(), "N") {
         Ok(force) => {

@@ -1,9 +1,9 @@
-//! Panes that are shown and hidden by a key.
+//! Panes shown and hidden by a key.
 
 use super::Effect;
 use crate::explorer::model::{Model, Pane};
 
-/// Shows and selects a pane, or hides it again. A pane with keys of its own is selected before it is hidden: whoever is in
+/// Shows and selects a pane, or hides it again. A pane with keys of its own is selected before it is hidden: a user in
 /// another pane wants these keys.
 pub fn toggle(model: &mut Model, pane: Pane) -> Vec<Effect> {
     let is_in_use = model.pane == pane || pane.row().keys.is_none();
@@ -19,7 +19,7 @@ pub fn choose(model: &mut Model, pane: Pane) -> Vec<Effect> {
     change(model, |model| model.show(pane))
 }
 
-/// Effects of a change of the shown panes: other data are computed, the scene beside is needed or not.
+/// Changes the shown panes and returns the effects: other data are computed, the scene beside is needed or not.
 pub fn change(model: &mut Model, change: impl FnOnce(&mut Model)) -> Vec<Effect> {
     let before = (model.large, model.lower);
     change(model);

@@ -24,7 +24,7 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Paragraph;
 
-/// Name of the scene, whether it has changed, and what to look at.
+/// Name of the scene, a sign of unsaved changes, and the notice.
 pub fn title(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let scene = model.document.scene();
     let name = if scene.title.is_empty() { model.document.name() } else { &scene.title };
@@ -37,7 +37,7 @@ pub fn title(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     frame.render_widget(Paragraph::new(wrapped_within(&line, area)), area);
 }
 
-/// The headline figures, or a question, an error, or what is being typed.
+/// The headline figures, or a question, an error, or the typed text.
 pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let theme = model.appearance.theme;
     let stated = |line: Line<'static>| fitted(line, area.width);
@@ -115,7 +115,7 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
     if let Some(adhesion) = adhesion {
         part("  ", format!("F_a {}", format_quantity(adhesion, "N")), Meaning::Title);
     } else if let Some(largest) = outcome.figures.preload.filter(|force| *force != 0.0) {
-        // Where nothing pulls.
+        // Without tensile force.
         part("  ", format!("F_max {}", format_quantity(largest, "N")), Meaning::Title);
     }
     // In a narrow window the state of the contact comes first.
@@ -142,10 +142,10 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
     fitting(parts, "", usize::from(width))
 }
 
-/// A part of the status line, after the text between it and the part before.
+/// Part of the status line, with the text before.
 type Part = (&'static str, String, Meaning);
 
-/// The state under manual loading: what the move changed comes before what it led to.
+/// The state under manual loading: the changes by the move come before the resulting contact.
 fn manual(model: &Model, snapshot: &ContactSnapshot, state: &ManualState, title: &str) -> Vec<Part> {
     let dissipated = format!("ΔW {}", format_rounded(state.dissipated_energy, 2, "J"));
     let mut parts = vec![
@@ -224,7 +224,7 @@ fn place(point: CurvePoint) -> String {
     format!("d {} F {}", format_quantity(point.indentation, "m"), format_quantity(point.force, "N"))
 }
 
-/// The estimated error of the headline, `…` until it is known; nothing where it cannot be.
+/// The estimated error of the headline: `…` while awaited, `None` without an estimate.
 fn error(model: &Model) -> Option<String> {
     match &model.appraisal.estimated {
         Estimated::Known(estimate) => {
@@ -236,7 +236,7 @@ fn error(model: &Model) -> Option<String> {
     }
 }
 
-/// That springs are searched for a tolerance, and how far.
+/// Progress of the search of springs for a tolerance.
 fn choosing(model: &Model) -> Line<'static> {
     let Some((tolerance, trying)) = model.appraisal.choosing else { return Line::default() };
     let trying = trying.map_or_else(String::new, |points| format!(": {} springs", grouped(points)));
@@ -254,12 +254,12 @@ fn counted(number: u64, thing: &str) -> String {
     format!("{number} {thing}{plural}")
 }
 
-/// Narrower windows have no room for what the connection carries.
+/// Least columns for the traffic of the connection.
 const TRAFFIC_FROM: u16 = 80;
-/// And more narrow ones none for the frames: the keys come first.
+/// Least columns for the frames as well: the keys come first.
 const TRAFFIC_WITH_FRAMES: u16 = 100;
 
-/// The keys that are valid now, and what the connection carries: the line above is full.
+/// The valid keys, and the traffic of the connection: the line above is full.
 pub fn footer(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let traffic = model.traffic.filter(|_| area.width >= TRAFFIC_FROM).map(|Traffic { frames, bytes }| {
         let bytes = format_rounded(bytes as f64, 2, "B/s");
@@ -295,7 +295,7 @@ pub fn footer(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     }
 }
 
-/// Names that complete a typed path, from the one in its place on.
+/// Names that complete a typed path, starting with the one in its place.
 fn candidates(completion: &Completion, width: u16, model: &Model) -> Line<'static> {
     let theme = model.appearance.theme;
     let names = completion.names().into_iter();
@@ -310,8 +310,7 @@ fn candidates(completion: &Completion, width: u16, model: &Model) -> Line<'stati
     fitting(parts, "  ", usize::from(width))
 }
 
-/// Keys that are valid now with their labels, the most important first; rows beside each other with the same label are
-/// one item.
+/// Valid keys with their labels, the most important first; adjacent rows with the same label are one item.
 fn footer_items(model: &Model) -> Vec<(String, &'static str)> {
     let is_shown = |row: &&Binding| match row.command.name {
         "toggle-manual" => true,
@@ -330,8 +329,8 @@ fn footer_items(model: &Model) -> Vec<(String, &'static str)> {
         .collect()
 }
 
-/// Place of a key in the footer: the way to all others and the way out, which show in the smallest window; what only
-/// the present mode has; what changes what is seen; the rest.
+/// Place of a key in the footer: help and quit, which show in the smallest window; keys of the present mode only; the
+/// main keys for panes, scenes and loops; the rest.
 fn rank(row: &Binding, model: &Model) -> u8 {
     match row.command.name {
         "help" | "close-help" | "quit" => 0,

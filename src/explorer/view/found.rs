@@ -1,11 +1,11 @@
-//! Letters that a search has found, in the texts of its list.
+//! Letters found by a search, in the texts of its list.
 
 use crate::explorer::fuzzy::{Candidate, letters_found};
 use crate::explorer::theme::Theme;
 use ratatui::style::Style;
 use ratatui::text::Span;
 
-/// A text of a candidate with the letters marked that the query has found.
+/// A text of a candidate with the letters found by the query marked.
 pub fn found(
     candidate: &Candidate,
     text: &str,

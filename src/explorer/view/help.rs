@@ -1,4 +1,4 @@
-//! The help: what the scene shows, the table of keys by section, and what the panes show.
+//! The help: the notice of the scene, the contents of the panes, and the table of keys by section.
 
 use crate::explorer::keys::names;
 use crate::explorer::model::Model;
@@ -9,10 +9,10 @@ use ratatui::layout::{Margin, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph};
 
-/// Columns for the keys beside their help, in windows from this width on; in narrower ones they are above it.
+/// Columns for the keys beside their help in windows from a width on; in narrower ones the keys are above the help.
 const KEYS: usize = 18;
 const BESIDE_FROM: u16 = 56;
-/// Columns before the help that is below its keys.
+/// Columns before a help text below its keys.
 const INDENT: usize = 4;
 
 /// Draws the help.
@@ -23,7 +23,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model, scroll: u16) {
     frame.render_widget(Paragraph::new(lines).block(block).scroll((scroll.min(last), 0)), area);
 }
 
-/// Lines it can be scrolled down in this area.
+/// Lines that the help can be scrolled down in an area.
 pub fn last_scroll(area: Rect, model: &Model) -> u16 {
     end(lines(inside(area).width, model).len(), area)
 }
@@ -41,7 +41,7 @@ fn lines(width: u16, model: &Model) -> Vec<Line<'static>> {
     let theme = model.appearance.theme;
     let title = |text| Line::styled(text, theme.style(Meaning::Title));
     let mut lines = vec![title("What you see")];
-    // A small window has no room for it above the panes.
+    // A small window has no room for the notice above the panes.
     let notice = model.document.scene().notice.split_whitespace().collect::<Vec<_>>().join(" ");
     if !notice.is_empty() {
         entry(&mut lines, "This scene", &notice, width, theme);
@@ -61,7 +61,7 @@ fn lines(width: u16, model: &Model) -> Vec<Line<'static>> {
     lines
 }
 
-/// Adds keys and what they do, in as many lines as it takes.
+/// Adds keys and their function, in as many lines as needed.
 fn entry(lines: &mut Vec<Line<'static>>, keys: &str, help: &str, width: u16, theme: Theme) {
     let is_beside = width >= BESIDE_FROM;
     let indent = if is_beside { KEYS + 2 } else { INDENT };

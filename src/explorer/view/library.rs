@@ -78,7 +78,7 @@ fn place_of(source: Source) -> &'static str {
     }
 }
 
-/// Title, what to look at, the curve, and the text of a scene.
+/// Title, notice, curve, and text of a scene.
 fn draw_entry(frame: &mut Frame<'_>, area: Rect, model: &Model, entry: &Entry, query: &TextLine) {
     let theme = model.appearance.theme;
     let (candidate, query) = (Library::candidate(entry), query.text());

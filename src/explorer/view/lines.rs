@@ -1,4 +1,4 @@
-//! Lines of text in panes: as they are, around a plot, and in place of a plot that is not there yet.
+//! Lines of text in panes: alone, around a plot, and in place of a missing plot.
 
 use super::wrap::{fitted, wrapped};
 use crate::explorer::theme::{Meaning, Theme};
@@ -7,7 +7,7 @@ use ratatui::layout::Rect;
 use ratatui::text::Line;
 use ratatui::widgets::Paragraph;
 
-/// Draws lines from the top of an area on, as far as there is room; one that is too wide ends in `…`.
+/// Draws lines from the top of an area on, as far as there is room; too wide a line ends in `…`.
 pub fn draw_lines(frame: &mut Frame<'_>, area: Rect, lines: impl IntoIterator<Item = Line<'static>>) {
     for (y, line) in (area.y..area.bottom()).zip(lines) {
         frame.render_widget(Paragraph::new(fitted(line, area.width)), Rect { y, height: 1, ..area });
@@ -31,7 +31,7 @@ pub fn draw_around(
     plot
 }
 
-/// Draws the reason for which there is nothing else to be drawn.
+/// Draws the reason for a missing plot.
 pub fn draw_reason(frame: &mut Frame<'_>, area: Rect, reason: &str, theme: Theme) {
     draw_lines(
         frame,

@@ -1,4 +1,4 @@
-//! Draws the model. Nothing here changes it or computes anything.
+//! Draws the model. Nothing here changes the model or computes anything.
 
 mod chrome;
 pub mod found;
@@ -25,7 +25,7 @@ use ratatui::widgets::Block;
 
 /// Draws the whole screen.
 pub fn draw(frame: &mut Frame<'_>, model: &Model) {
-    // The window may have another size by now than that of the model.
+    // The window may have another size than the model by now.
     let area = frame.area();
     let layout = Layout::within(model, (area.width, area.height));
     if let Some(area) = layout.title {

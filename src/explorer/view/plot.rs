@@ -19,7 +19,7 @@ pub fn meaning(ink: Ink) -> Meaning {
         Ink::Unloading => Meaning::Retraction,
         Ink::Manual => Meaning::Manual,
         Ink::Kept => Meaning::Ghost,
-        // The colours that the present curve has not.
+        // The colours not used by the present curve.
         Ink::Compared(number) => {
             [Meaning::Surface, Meaning::Manual, Meaning::Text, Meaning::Ghost][number % 4]
         }

@@ -7,10 +7,10 @@ use crate::scene::format_rounded;
 use crate::simulation::{Plan, Stage, Timings};
 use ratatui::text::{Line, Span};
 
-/// A part of a run that is timed.
+/// A timed part of a run.
 struct Part {
     name: &'static str,
-    /// The stages in it; any of them calls for it. A line and a curve there always is.
+    /// Its stages, any of which needs the part. Line and curve always run.
     stages: &'static [Stage],
     seconds: fn(&Timings) -> f64,
 }
@@ -49,7 +49,7 @@ impl Part {
     }
 }
 
-/// The stages in as many lines as there is room for and it takes.
+/// The stages in as many lines as needed, as far as there is room.
 pub fn strip(model: &Model, width: u16, rows: usize) -> Vec<Line<'static>> {
     let Some(computed) = model.current() else { return Vec::new() };
     let theme = model.appearance.theme;

@@ -1,11 +1,11 @@
-//! A line that is being typed, with its cursor.
+//! A line being typed, with its cursor.
 
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::{Meaning, Theme};
 use ratatui::style::Modifier;
 use ratatui::text::Span;
 
-/// The part of a line around its cursor that fits into so many columns.
+/// The part of a line around its cursor, in so many columns.
 pub fn typed(line: &TextLine, columns: usize, theme: Theme) -> Vec<Span<'static>> {
     let reversed = theme.style(Meaning::Text).add_modifier(Modifier::REVERSED);
     if line.is_selected() && !line.text().is_empty() {

@@ -1,15 +1,15 @@
 //! Breaks a line between words.
 //!
 //! ratatui does so as well, but overruns its area, and panics, where a word has wide characters or
-//! begins with a combining mark; titles and typed values may.
+//! begins with a combining mark, as in titles and typed values.
 
 use crate::text::belong_together;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span, StyledGrapheme};
 
-/// A line in as many lines as it takes, none of them wider than so many columns. A word wider than that
-/// is broken anywhere, a number neither at its thousands nor before its unit.
+/// A line in as many lines as needed, none of them wider than so many columns. A wider word is broken
+/// anywhere, a number neither at its thousands nor before its unit.
 pub fn wrapped(line: &Line<'_>, columns: u16) -> Vec<Line<'static>> {
     let mut page = Page { lines: Vec::new(), line: Line::default(), left: columns, columns };
     let graphemes: Vec<_> = line.styled_graphemes(Style::default()).collect();
@@ -33,7 +33,7 @@ pub fn wrapped(line: &Line<'_>, columns: u16) -> Vec<Line<'static>> {
     page.lines
 }
 
-/// A line in as many lines as an area has room for, the last of them with `…` where the text goes on.
+/// A line in as many lines as an area has room for, the last with `…` in place of the rest.
 pub fn wrapped_within(line: &Line<'_>, area: Rect) -> Vec<Line<'static>> {
     let mut lines = wrapped(line, area.width);
     if lines.len() > usize::from(area.height) {
@@ -64,7 +64,7 @@ pub fn fitted(line: Line<'static>, columns: u16) -> Line<'static> {
     if line.width() > usize::from(columns) { clipped(line, columns) } else { line }
 }
 
-/// A line that ends in `…` where its text goes on: at most `columns` wide.
+/// A line with `…` in place of the rest: at most `columns` wide.
 pub fn clipped(line: Line<'static>, columns: u16) -> Line<'static> {
     let room = usize::from(columns).saturating_sub(1);
     let mut clipped = Line { spans: Vec::new(), ..line };
@@ -97,8 +97,8 @@ fn unicode_width(c: char) -> usize {
     Span::raw(c.to_string()).width()
 }
 
-/// Parts in as many lines as they take, with the text between them on a line; a part wider than the columns
-/// is left out.
+/// Parts in as many lines as needed, with the text between them on a line; a part wider than the columns is
+/// left out.
 pub fn filled(parts: Vec<Vec<Span<'static>>>, between: &'static str, columns: usize) -> Vec<Line<'static>> {
     let mut lines: Vec<Line<'static>> = Vec::new();
     for part in parts {
@@ -120,7 +120,7 @@ pub fn filled(parts: Vec<Vec<Span<'static>>>, between: &'static str, columns: us
 struct Page {
     lines: Vec<Line<'static>>,
     line: Line<'static>,
-    /// Columns left on it.
+    /// Columns left on the last line.
     left: u16,
     columns: u16,
 }
