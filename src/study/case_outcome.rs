@@ -12,7 +12,7 @@ pub(super) struct CaseOutcome<'o> {
     pub governing: Governing,
     /// Properties of the profile, as far as they are recorded.
     pub profile: ProfileRecord,
-    /// The scene, whose loading is not looked at.
+    /// The scene; its loading is ignored.
     pub scene: &'o Scene,
     /// F_a(0) by the touch protocol, N.
     pub zero_load: Option<f64>,
@@ -33,7 +33,7 @@ pub(super) struct LoadingOutcome {
 }
 
 impl LoadingOutcome {
-    /// Outcome of these legs.
+    /// Outcome of these loading stages.
     pub fn of_legs(legs: Vec<LegRecord>) -> Self {
         let lengths = legs.iter().flat_map(|leg| &leg.curve).map(|point| point.contact_length);
         let contact_length = lengths.reduce(f64::max);

@@ -1,5 +1,5 @@
-//! A map as it is shown, over two quantities of a scene or along one: the one that is computed while one looks on, and
-//! those of a finished study, fill the same [`MapModel`].
+//! A map for display, over two quantities of a scene or along one: the live map and those of a finished study fill
+//! the same [`MapModel`].
 
 use super::axis::MapAxis;
 use crate::analysis::Regime;
@@ -7,13 +7,13 @@ use crate::study::cell_summary::CellSummary;
 use crate::study::figure::{AxisScale, Boundary, Estimate, Figure, Panel, scale_of};
 use crate::study::quantity::Quantity;
 
-/// A map as it is shown.
+/// A map for display.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapModel {
     across: MapAxis,
     up: Option<MapAxis>,
     layers: Vec<Layer>,
-    /// Row by row, the row of the lowest value first.
+    /// Cells row by row, the row of the lowest value first.
     cells: Vec<Option<Result<MapCell, String>>>,
     /// The cell shown for each: itself, or one of a coarser map.
     stand_ins: Vec<Option<usize>>,
@@ -31,7 +31,7 @@ pub struct Layer {
     pub scale: AxisScale,
     /// Least and largest mean over all maps that share the scale.
     pub range: Option<(f64, f64)>,
-    /// Mean in each cell, row by row, with its confidence where that is known.
+    /// Mean in each cell, row by row, with its confidence where known.
     pub estimates: Vec<Option<Estimate>>,
 }
 
@@ -54,9 +54,9 @@ impl Layer {
 pub struct MapCell {
     /// Regime; `None` where unknown.
     pub regime: Option<Regime>,
-    /// Another regime, where too many of its lines are in that one to call the first the cell's.
+    /// Second regime, where too many profiles are in it for the first to be the cell's alone.
     pub split: Option<Regime>,
-    /// Lines that are in its regime each by itself.
+    /// Number of profiles whose own regime is that of the cell.
     pub agreeing: u64,
     /// Number of profiles.
     pub lines: u64,
