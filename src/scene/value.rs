@@ -32,8 +32,7 @@ pub enum Value<'s> {
 pub(super) struct Access {
     /// Value in a scene; `None` if the field belongs to an unselected choice.
     pub(super) get: fn(&Scene) -> Option<Value<'_>>,
-    /// Sets the field to a value; returns `false`, with the scene unchanged, if the scene has no such field or the
-    /// field no such value.
+    /// Sets the field; returns `false`, with the scene unchanged, if the scene or the field has no such value.
     pub(super) set: fn(&mut Scene, Value<'_>) -> bool,
 }
 

@@ -1,8 +1,7 @@
 //! Tokens of RON text, just fine enough to find values.
 //!
-//! The reader of the `ron` package identifies invalid text; this scanner finds the places of values, so that
-//! messages name them and edits replace them without the comments around them. Nesting of any depth is read without
-//! recursion.
+//! The reader of the `ron` package finds invalid text; this scanner finds the places of values, so that messages name
+//! them and edits replace them without the comments around them. Nesting of any depth is read without recursion.
 
 use std::ops::Range;
 
