@@ -13,7 +13,7 @@ pub struct Profile {
     line: Line,
 }
 
-/// Reason for which a profile is refused.
+/// Reason why a profile is refused.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ProfileError {
     /// The number of points is out of range.

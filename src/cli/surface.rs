@@ -1,4 +1,4 @@
-//! `asperity surface`: measured surfaces, their statistics and spectrum, and the equivalent profile.
+//! `asperity surface`: measured surfaces, their statistics and spectrum, and the equivalent line.
 
 use super::scene::{MOST_LINES, threads};
 use super::{CliError, Format, OutputArguments};
@@ -242,7 +242,7 @@ impl SurfaceArguments {
         }
     }
 
-    /// Error of the equivalent profile, named by the first file.
+    /// Error of the equivalent line, named by the first file.
     fn failed(&self, error: impl Into<Box<dyn Error + Send + Sync>>) -> CliError {
         let file = self.files.first().map(|file| path_name(&self.folder.join(file)));
         CliError::named(file.unwrap_or_default(), error)
@@ -322,7 +322,7 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     })
 }
 
-/// Adhesion of the equivalent profile, if requested or computed in seconds.
+/// Adhesion of the equivalent line, if requested or computed in seconds.
 fn adhesion(
     arguments: &SurfaceArguments,
     faces: &[MeasuredFace],
@@ -338,7 +338,7 @@ fn adhesion(
     Ok(SurfaceAdhesion { scene, computed })
 }
 
-/// Scene of the equivalent profile over the length of the scan, the shorter one of two faces, on springs that
+/// Scene of the equivalent line over the length of the scan, the shorter one of two faces, on springs that
 /// resolve its shortest wave.
 fn scene(
     arguments: &SurfaceArguments,

@@ -1,4 +1,4 @@
-//! Spectra over the wave number: measured, fitted, and those of the equivalent profile.
+//! Spectra over the wave number: measured, fitted, and those of the equivalent line.
 
 use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use crate::spectrum::{Analysis, Direction, End};
@@ -14,7 +14,7 @@ const MOST_DECADES: f64 = 18.0;
 /// Wave number, rad/m, and power spectral density, m³.
 pub type SpectrumPoint = (f64, f64);
 
-/// Spectra of one surface or profile.
+/// Spectra of one surface or line.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spectra {
     /// Measured spectra in bins, with their names.
@@ -23,13 +23,13 @@ pub struct Spectra {
     pub fit: Vec<SpectrumPoint>,
     /// The same spectrum for the self-affine fit, with its Hurst exponent.
     pub self_affine: Option<(f64, Vec<SpectrumPoint>)>,
-    /// Intended spectrum of the profile.
+    /// Intended spectrum of the equivalent line.
     pub line: Vec<SpectrumPoint>,
-    /// Spectrum of the heights of the computed profile, in bins.
+    /// Spectrum of the heights of the computed line, in bins.
     pub heights: Vec<SpectrumPoint>,
     /// Roll-off wave number, rad/m.
     pub roll_off: Option<f64>,
-    /// Largest measured wave number, rad/m, if the spectrum of the profile goes further.
+    /// Largest measured wave number, rad/m, if the spectrum of the line goes further.
     pub last_resolved: Option<f64>,
     /// Wave number beyond which waves may be artefacts of the tip, rad/m.
     pub reliability_cutoff: Option<f64>,
@@ -47,7 +47,7 @@ pub(super) fn wave_numbers([low, high]: [f64; 2], per_decade: f64) -> impl Itera
 }
 
 impl Spectra {
-    /// Spectra of measured surfaces and of their equivalent profile.
+    /// Spectra of measured surfaces and of their equivalent line.
     #[must_use]
     pub fn of_analysis(analysis: &Analysis) -> Self {
         Spectra::of_face(0, analysis)
@@ -78,7 +78,7 @@ impl Spectra {
         }
     }
 
-    /// Spectra of the surfaces of one or both faces: one face with its fit, both with the profile of their sum.
+    /// Spectra of the surfaces of one or both faces: one face with its fit, both with the line of their sum.
     #[must_use]
     pub fn of_faces(faces: &[&Analysis]) -> Self {
         if let [face] = faces {
@@ -125,7 +125,7 @@ impl Spectra {
             let shape = curve(&self.heights, None, Some(Sign::Cross));
             layers.push(Layer::new("heights of the line".into(), Ink::Manual, shape));
         }
-        // Besides the waves of the profile, heights contain only rounding errors.
+        // Besides the waves of the line, heights contain only rounding errors.
         let without_heights = Spectra { heights: Vec::new(), ..self.clone() };
         let shown = if without_heights.points().next().is_some() { &without_heights } else { self };
         let powers: Vec<f64> = shown.points().map(|(_, power)| power).collect();

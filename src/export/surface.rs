@@ -15,10 +15,10 @@ use serde_json::json;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-/// Points per decade of the spectrum of the equivalent profile in CSV.
+/// Points per decade of the spectrum of the equivalent line in CSV.
 const LINE_PER_DECADE: f64 = 10.0;
 
-/// Name of the spectrum of the equivalent profile.
+/// Name of the spectrum of the equivalent line.
 const LINE: &str = "equivalent line";
 
 /// Name of a spectrum, point, waves averaged.
@@ -116,7 +116,7 @@ pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
     Some(format!("{mean} ± {} over {lines} lines{fit}", share(force.standard_deviation)))
 }
 
-/// Adhesion of the equivalent profile.
+/// Adhesion of the equivalent line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceAdhesion {
     /// Computed scene.
@@ -179,11 +179,11 @@ impl SurfaceAdhesion {
 pub struct SurfaceReport<'a> {
     /// The face, and the opposite one if that is rough too.
     pub faces: &'a [MeasuredFace],
-    /// Equivalent profile of the faces.
+    /// Equivalent line of the faces.
     pub line: &'a EquivalentLine,
     /// Constants of the contact.
     pub contact: Option<SurfaceContact>,
-    /// Adhesion of the equivalent profile.
+    /// Adhesion of the equivalent line.
     pub adhesion: Option<&'a SurfaceAdhesion>,
 }
 
@@ -236,7 +236,7 @@ impl SurfaceReport<'_> {
         sheet.into_text()
     }
 
-    /// Writes one JSON object. The opposite face is an object inside, without equivalent profile and adhesion.
+    /// Writes one JSON object. The opposite face is an object inside, without equivalent line and adhesion.
     ///
     /// # Errors
     /// Errors of `out`.

@@ -113,7 +113,7 @@ pub enum Roughness {
         /// Seed of the random phases.
         seed: u64,
     },
-    /// Measured surface, profile or map: its equivalent profile, or the profile itself.
+    /// Measured surface, profile or map: its equivalent line, or the profile itself.
     Measured {
         /// The file, relative to the scene file.
         file: String,

@@ -36,7 +36,7 @@ pub struct ProfileAdhesion {
 }
 
 impl ProfileAdhesion {
-    /// Solves a checked scene of a measured surface on one of its equivalent profiles.
+    /// Solves a checked scene of a measured surface on one random profile of its equivalent line.
     ///
     /// # Errors
     /// When a profile or its contact fails, or `stop` returns true.

@@ -65,8 +65,7 @@ fn scene(edges: Edges) -> Result<Scene, Fault> {
     Ok(scene)
 }
 
-/// The scene with lengths along the profile, heights and stresses multiplied; γ is adapted so that results only
-/// scale.
+/// The scene with lengths along the profile, heights and stresses multiplied, and γ adapted to them.
 fn scaled(scene: &Scene, length: f64, height: f64, stress: f64) -> Scene {
     let mut scene = scene.clone();
     scene.length *= length;
