@@ -197,7 +197,7 @@ mod tests {
         assert_eq!(evidence(0.19, 0.1, 1.0, 4.0), Regime::PressureSensitive);
         assert_eq!(evidence(0.0, 0.04, 4.0, 1.0), Regime::NonAdhesive);
         assert_eq!(evidence(0.0, 0.05, 4.0, 1.0), Regime::PressureSensitive);
-        // Without a preload adhesion below a twentieth has vanished, whatever its ratio to the preload.
+        // Without a preload adhesion below a twentieth has vanished, at any ratio to the preload.
         assert_eq!(evidence(0.01, 0.1, 0.0, 1.0), Regime::NonAdhesive);
         assert_eq!(evidence(0.01, 0.1, -1.0, 1.0), Regime::NonAdhesive);
         assert_eq!(evidence(0.3, 1.0, 0.0, 1.0), Regime::PressureSensitive);

@@ -1,7 +1,7 @@
 //! Tabor number: the range of attraction against the deformation at pull-off.
 //!
-//! The rule of Hess is the limit of short-ranged attraction, like the theory of Johnson, Kendall and Roberts. Attraction
-//! of a finite range dissipates less: in three dimensions the hysteresis vanishes at a Tabor number of about 1.
+//! The rule of Hess is the limit of short-ranged attraction, as is the theory of Johnson, Kendall and Roberts.
+//! Attraction of a finite range dissipates less: in three dimensions the hysteresis vanishes at a Tabor number near 1.
 
 use super::{Governing, tabor_number};
 use crate::scene::{Form, Scene};

@@ -27,7 +27,7 @@ pub trait Disk: Debug + Send + Sync {
     /// system has no such files.
     fn make_nameless_file(&self, folder: &Path) -> Option<Box<dyn DiskFile>>;
 
-    /// Gives a file a second name.
+    /// Adds a second name to a file.
     fn link(&self, file: &Path, name: &Path) -> io::Result<()>;
 
     /// Makes a symbolic link to `target`.
@@ -60,7 +60,7 @@ pub trait DiskFile: Write + Send {
     /// Sets the permissions.
     fn set_permissions(&mut self, permissions: Permissions) -> io::Result<()>;
 
-    /// Gives a nameless file a name that does not exist yet.
+    /// Names a nameless file; the name must not exist yet.
     fn give_name(&self, path: &Path) -> io::Result<()>;
 }
 

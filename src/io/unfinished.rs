@@ -44,7 +44,7 @@ impl<'d> Unfinished<'d> {
         }
     }
 
-    /// Gives the file its name; replaces an existing file only with `overwrite`.
+    /// Names the file; replaces an existing file only with `overwrite`.
     ///
     /// # Errors
     /// Error of the operating system; [`io::ErrorKind::AlreadyExists`] without `overwrite`.

@@ -286,7 +286,7 @@ mod tests {
         let none = off(&stickier, Effect::Adhesion);
         let rough = back(&none);
         assert_eq!((adhesion(&rough), rough.value("roughness.rms_height")), ((None, None), Some("1.5e-7")));
-        // Other legs that press are kept.
+        // Other stages that press are kept.
         let held = off(&document, Effect::Unloading).set("loading.0", "ToForce(3.0e-5)").unwrap();
         let pulled = held.with(Effect::Unloading).unwrap();
         assert_eq!(pulled.scene().loading, [Leg::ToForce(3e-5), Leg::ToSeparation]);
@@ -368,7 +368,7 @@ mod tests {
             (adhesion(&back), back.value("roughness.rms_height")),
             ((Some(0.1), Some(6.0)), Some("None"))
         );
-        // An amplitude that has been given since stays, and κ follows from it and from the same work of adhesion.
+        // A later amplitude is kept, and κ follows from it and from the same work of adhesion.
         let rougher = without.set("roughness.rms_height", "3.0e-7").unwrap();
         let back = rougher.with(Effect::Adhesion).unwrap();
         assert_eq!(
@@ -395,7 +395,7 @@ mod tests {
             adhesion(&off(&work, Effect::Adhesion).with_parameter(RoughnessParameter::Kappa, 3.0).unwrap()),
             (None, Some(3.0))
         );
-        // Where both are given, because they set the amplitude, both stay.
+        // If both are given, because they set the amplitude, both are kept.
         let set = [pair("roughness.rms_height", "None"), pair("adhesion.work", "0.1")];
         let both = document.set_all(&set).unwrap();
         assert_eq!(
@@ -448,8 +448,8 @@ mod tests {
             }
         }
 
-        /// For the table of effects and that of fields alike: an edit made without an effect gives, once the effect is on
-        /// again, the scene of the same edit made with it.
+        /// For the tables of effects and of fields alike: an edit without an effect results, once the effect is on
+        /// again, in the scene of the same edit with the effect.
         #[test]
         fn switching_an_effect_on_undoes_that_switch_alone(
             scene in sound_scenes(),
@@ -481,7 +481,7 @@ mod tests {
             }
         }
 
-        /// Loading stages that pull come back around those that press, whatever these are by then.
+        /// Stages that pull return around those that press, after any change of these.
         #[test]
         fn stages_that_pull_come_back_around_edited_ones(scene in sound_scenes(), other in sound_scenes()) {
             prop_assume!(Effect::Unloading.is_on(&scene));

@@ -28,7 +28,7 @@ pub(super) struct LoadingOutcome {
     pub figures: Figures,
     /// Largest length in contact, m.
     pub contact_length: Option<f64>,
-    /// Point of the largest force on a loading leg.
+    /// Point of the largest force of a loading stage.
     pub preload: Option<CurvePoint>,
 }
 
@@ -43,7 +43,7 @@ impl LoadingOutcome {
         LoadingOutcome { figures, contact_length, preload }
     }
 
-    /// Outcome of a loading from separation to the end of this leg and back.
+    /// Outcome of a loading from separation to the end of this stage and back.
     pub fn of_reversal(leg: Leg, reversal: &Reversal) -> Self {
         LoadingOutcome {
             figures: Figures::of_reversal(leg, reversal),

@@ -101,7 +101,7 @@ fn in_words(column: &str) -> String {
     hyphenated.iter().fold(column.replace('_', " "), |name, (words, word)| name.replace(words, word))
 }
 
-/// A mean over random lines with its confidence.
+/// A mean over random profiles with its confidence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// The mean.

@@ -1,9 +1,9 @@
 //! A sweep as jobs of Slurm: an array with one task for each shard, and a merge that waits for all of them.
 //!
 //! Slurm starts a task at least once: a task whose node is lost is started again, while the lost one may still be
-//! running. That does no harm, as each attempt writes a file of its own and the merge counts a cell once. The
-//! script of the task handles whatever Slurm is slow at: it restarts a killed program at once, which continues
-//! where its results end.
+//! running. That does no harm, as each attempt writes a file of its own and the merge counts a cell once. Slurm
+//! is slow at restarts, so the script of the task restarts a killed program at once, which continues where its
+//! results end.
 
 use super::plan::PLAN_FILE;
 pub use super::sbatch::{SbatchOption, SbatchOptionError, sbatch_options};

@@ -1,4 +1,4 @@
-//! The maps of a finished study: over H and κ, or over other axes; one map for each value of the axes that are left.
+//! The maps of a finished study: over H and κ, or over other axes; one map for each value of the remaining axes.
 
 use super::axis::{MapAxis, force_unit, moved};
 use super::model::{Layer, MapModel};
@@ -15,7 +15,7 @@ use crate::study::target::Target;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Paths of axes that are κ and H.
+/// Paths of the axes of κ.
 const KAPPA: [&str; 2] = ["kappa", "adhesion.kappa"];
 const HURST: [&str; 1] = ["roughness.hurst"];
 
