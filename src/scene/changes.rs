@@ -8,7 +8,7 @@ use super::quantity::format_quantity;
 /// A field with different values in two scenes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Change {
-    /// Symbol of the field, or its name where it has no symbol.
+    /// Symbol of the field, or its name if it has no symbol.
     pub name: String,
     /// Value in the first scene, with its unit.
     pub from: String,

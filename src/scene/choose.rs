@@ -1,4 +1,4 @@
-//! The next choice of a field, as a key selects it.
+//! The next choice of a field for a key press.
 
 use super::computed::Computed;
 use super::document::{Document, pair};

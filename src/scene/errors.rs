@@ -56,7 +56,7 @@ pub struct SceneError {
     pub origin: Origin,
     /// Path of the field, `loading.0` for a loading stage; empty for an error of no single field.
     pub field: String,
-    /// The value as written; empty where there is none.
+    /// The value as written; empty if there is none.
     pub value: String,
     /// Allowed values; empty if `message` contains them.
     pub allowed: String,

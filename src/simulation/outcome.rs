@@ -71,7 +71,7 @@ pub struct Timings {
     pub passes: f64,
     /// Curves and exact extremes of all loading stages.
     pub curve: f64,
-    /// F_a(0) for the regime, as far as not computed during the loading.
+    /// F_a(0) for the regime, unless computed during the loading.
     pub zero_load: f64,
 }
 

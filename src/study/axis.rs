@@ -10,7 +10,7 @@ pub const MOST_VALUES: u64 = 1_000_000;
 /// Significant digits of values between the ends of an axis: 0.15 rather than 0.15000000000000002.
 const DIGITS: usize = 12;
 
-/// An axis as a plan writes it.
+/// An axis in the form of a plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Axis {

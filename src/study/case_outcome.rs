@@ -10,7 +10,7 @@ use crate::scene::{Leg, Scene};
 pub(super) struct CaseOutcome<'o> {
     /// Governing parameters.
     pub governing: Governing,
-    /// Properties of the profile, as far as they are recorded.
+    /// Recorded properties of the profile.
     pub profile: ProfileRecord,
     /// The scene; its loading is ignored.
     pub scene: &'o Scene,

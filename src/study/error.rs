@@ -77,7 +77,7 @@ pub enum StudyError {
         cell: u64,
         /// Coordinates of the cell.
         coordinates: String,
-        /// Seed of the line.
+        /// Seed of the profile.
         seed: u64,
         /// Error of the run.
         error: RunError,
@@ -144,7 +144,7 @@ impl StudyError {
 }
 
 impl From<WriteError> for StudyError {
-    /// The study's own error where that ended the writing of a file.
+    /// The study's own error if that ended the writing of a file.
     fn from(error: WriteError) -> StudyError {
         match error {
             WriteError::Failed { path, reason } => reason

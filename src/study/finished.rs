@@ -25,7 +25,7 @@ pub struct Finished {
 pub struct Row {
     /// Index of the cell.
     pub cell: u64,
-    /// Seed of the line.
+    /// Seed of the profile.
     pub seed: u64,
     /// For each quantity that the plan records, in that order; `None` where the profile has no value, and for the
     /// regime.
@@ -64,7 +64,7 @@ impl Finished {
         self.cells.get(cell as usize)?.as_ref()
     }
 
-    /// The cell at these places on the axes, the preload's last where there are preloads.
+    /// The cell at these places on the axes, the preload's last if there are preloads.
     #[must_use]
     pub fn at(&self, places: &[u64]) -> Option<&CellSummary> {
         self.cell(number_at(places, self.plan.all_axes().into_iter().map(Axis::count))?)

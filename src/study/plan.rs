@@ -76,7 +76,7 @@ impl Plan {
         Scene { title: String::new(), notice: String::new(), observe: Vec::new(), ..self.scene.clone() }
     }
 
-    /// All axes, the preload's last where there are preloads.
+    /// All axes, the preload's last if there are preloads.
     #[must_use]
     pub fn all_axes(&self) -> Vec<&Axis> {
         self.axes.iter().chain(&self.preloads).collect()

@@ -119,7 +119,7 @@ impl<'p> Recorder<'p> {
         self.simulation.run(scene, self.stop, &mut |_, _, _| Ok(()))
     }
 
-    /// Properties of the profile, as far as they are recorded.
+    /// Recorded properties of the profile.
     fn profile_record(&mut self, scene: &Scene) -> Result<ProfileRecord, RunError> {
         let (heights, stiffness) = (self.plan.records(Needs::Heights), self.plan.records(Needs::Stiffness));
         if !heights && !stiffness {

@@ -46,7 +46,7 @@ pub enum FigureError {
     /// The study has no such axis.
     #[error("{option} {path}: this study has no such axis; allowed: {allowed}")]
     NoAxis {
-        /// The option that named it.
+        /// Name of the option.
         option: &'static str,
         /// Path that was given.
         path: String,
@@ -213,7 +213,7 @@ impl Selection {
         Ok(chosen)
     }
 
-    /// The axis across, and the second one where there is one.
+    /// The axis across, and the second one if there is one.
     fn free(&self, chosen: &[Chosen<'_>]) -> Result<(usize, Option<usize>), FigureError> {
         let named = |path: &Option<String>, option: &'static str| {
             let Some(path) = path else { return Ok(None) };

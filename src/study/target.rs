@@ -134,7 +134,7 @@ impl Target {
         Ok(())
     }
 
-    /// Value of the quantity in a scene, as far as the scene states it: κ and the preload follow from several numbers.
+    /// Value of the quantity in a scene, if stated by the scene: κ and the preload depend on several numbers.
     pub fn get(self, scene: &Scene) -> Option<f64> {
         match self {
             Target::RoughnessParameter(_) | Target::Preload => None,

@@ -1,4 +1,4 @@
-//! The live map over H and κ or e_el/γ, as far as it has been computed.
+//! The live map over H and κ or e_el/γ with the cells computed so far.
 
 use super::grid::{COLUMNS, HURSTS, Level, hursts, parameter_values};
 use super::model::{Layer, MapModel};

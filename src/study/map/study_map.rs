@@ -132,7 +132,7 @@ impl StudyMap {
         self.others.iter().map(|&other| axes[other].count()).product()
     }
 
-    /// The axes that no map is over, each with the place that a map has on it.
+    /// The axes outside the maps, each with the place of a map on it.
     fn at(&self, slice: u64) -> Vec<(&Axis, usize, u64)> {
         let axes = self.axes();
         let places = places_of(slice, self.others.iter().map(|&other| axes[other].count()));
@@ -267,7 +267,7 @@ mod tests {
     use crate::study::map::{Charted, MapCell};
     use crate::study::{Changes, Folder, SUMMARY};
 
-    /// κ not in the order of its values, two preloads, another axis, five lines.
+    /// κ not in the order of its values, two preloads, another axis, five profiles.
     const PLAN: &str = r#"(
         version: 1,
         title: "A study",

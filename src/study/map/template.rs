@@ -138,8 +138,7 @@ impl Template {
         plan
     }
 
-    /// κ and H of a scene, as far as the scene itself states them. Those of a measured profile follow only from its
-    /// file.
+    /// κ and H of a scene, if stated by the scene itself. Those of a measured profile follow only from its file.
     #[must_use]
     pub fn place(scene: &Scene) -> Option<(f64, f64)> {
         let Some(Roughness::SelfAffine { hurst, .. }) = scene.roughness else { return None };
