@@ -23,9 +23,9 @@ pub fn scene_tabor_number(scene: &Scene, governing: &Governing) -> Option<f64> {
 
 /// Radius of curvature ρ of the summits of a form and its roughness, m; `None` for flat faces, cones and powers.
 ///
-/// ρ = 2/z″ with the rms curvature z″ of the profile, which is the rms Laplacian of the surface: twice its mean
-/// curvature. A paraboloid of radius R has the profile x²/R and thus ρ = R; crests of a sphere with waves have 1/R
-/// + 4π²A/λ². On a rough form the squares of both curvatures add.
+/// ρ = 2/z″ with the rms curvature z″ of the profile, the rms Laplacian of the surface: twice its mean curvature.
+/// A paraboloid of radius R has the profile x²/R and thus ρ = R; crests of a sphere with waves have 1/R + 4π²A/λ². On a
+/// rough form the squares of both curvatures add.
 #[must_use]
 pub fn curvature_radius(form: Option<&Form>, governing: &Governing) -> Option<f64> {
     // A flat face has the curvature of the flat end of a punch.

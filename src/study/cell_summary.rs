@@ -14,8 +14,7 @@ pub struct CellSummary {
     pub lines: u64,
     /// For each recorded quantity, in the order of the plan; `None` for the regime.
     pub quantities: Vec<Option<Spread>>,
-    /// Share of profiles in each regime, in the order of [`crate::analysis::Regime::ALL`]; `None` if not recorded
-    /// or unknown.
+    /// Share of profiles in each regime, in the order of [`crate::analysis::Regime::ALL`]; `None` if unknown.
     pub regimes: Option<[f64; 3]>,
 }
 

@@ -223,8 +223,7 @@ fn rms_curvature(heights: &[f64], spacing: f64) -> f64 {
     (squares / count as f64).sqrt() / spacing.powi(2)
 }
 
-/// Subtracts a straight line so that the step from the last height to the first is the mean of the neighbouring
-/// steps.
+/// Subtracts a straight line that makes the step from the last height to the first the mean of the steps beside it.
 fn join_ends(heights: &mut [f64]) {
     let last = heights.len() - 1;
     let beside = 0.5 * ((heights[1] - heights[0]) + (heights[last] - heights[last - 1]));
