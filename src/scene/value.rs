@@ -41,9 +41,9 @@ impl Access {
     pub(super) const NONE: Access = Access { get: |_| None, set: |_, _| false };
 }
 
-/// Row of a field with path and access: of a member of the scene, `at!(numerics.points)`; of a member of a group
-/// that is made if missing, `at!(adhesion?.work)`; of a member of a variant, optional or not, `at!(form?,
-/// Form::Cone.angle)` and `at!(numerics.solver, Solver::Stepwise.step)`.
+/// Row of a field with path and access: of a member of the scene, `at!(numerics.points)`; of a member of a group that
+/// is made if missing, `at!(adhesion?.work)`; of a member of a variant, optional or not,
+/// `at!(form?, Form::Cone.angle)` and `at!(numerics.solver, Solver::Stepwise.step)`.
 macro_rules! at {
     ($group:ident ? . $member:ident) => {
         Field::new(
