@@ -97,7 +97,7 @@ pub struct RunArguments {
 const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png];
 
 impl RunArguments {
-    /// Returns true for results that do not belong into a table of preloads or reversals.
+    /// Returns true if a request goes beyond a table of preloads or reversals.
     fn asks_for_more(&self) -> bool {
         self.profile || self.fragments || self.approximate_jkr || !self.more.is_empty()
     }

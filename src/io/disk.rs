@@ -111,7 +111,7 @@ impl Disk for SystemDisk {
         use rustix::fs::{Mode, OFlags, open};
         let mode = Mode::from_raw_mode(0o666);
         let file: File = open(folder, OFlags::TMPFILE | OFlags::WRONLY | OFlags::CLOEXEC, mode).ok()?.into();
-        // Naming the file requires this folder.
+        // The file can be named only through this folder.
         fs::metadata(of_descriptor(&file)).ok()?;
         Some(Box::new(file))
     }

@@ -49,13 +49,13 @@ fn reason(error: &io::Error) -> String {
 /// [`ReadError::Folder`], [`ReadError::NotRegular`] or the error of the system.
 pub(crate) fn open_regular(path: &Path) -> Result<File, ReadError> {
     // Opening a device can have effects on it, and opening a pipe wakes its writer: only a regular file is opened,
-    // if its kind is known before.
+    // as far as its kind is known in advance.
     check_regular(&path.metadata()?)?;
     let mut options = OpenOptions::new();
     options.read(true);
     without_waiting(&mut options);
     let file = options.open(path)?;
-    // Another file may have replaced the name meanwhile.
+    // Another file may have taken the name meanwhile.
     check_regular(&file.metadata()?)?;
     Ok(file)
 }

@@ -37,7 +37,7 @@ pub(super) struct Access {
 }
 
 impl Access {
-    /// Access to nothing, for fields outside the scene as a whole.
+    /// Access to nothing, for fields of loading stages, which not every scene has.
     pub(super) const NONE: Access = Access { get: |_| None, set: |_, _| false };
 }
 
