@@ -200,7 +200,7 @@ pub fn strip(fragments: &[(usize, usize)], count: usize, cells: usize) -> Vec<Sh
         .collect()
 }
 
-/// Counts fragments into lengths that grow by a factor √2, from one spring on; lengths without an
+/// Counts fragments into lengths that grow by a factor √2, from one spring on; ranges without an
 /// integer number of springs have no bin.
 #[must_use]
 pub fn lengths(fragments: &[(usize, usize)]) -> Vec<LengthBin> {
