@@ -1,4 +1,4 @@
-//! Loading cycles for programs: a profile, a material and a work of adhesion, loaded along any history.
+//! Loading cycles for programs: a profile, a material and a work of adhesion under any loading history.
 
 use crate::analysis::{Figures, Governing};
 use crate::contact::{
@@ -32,7 +32,7 @@ pub struct Contact {
     edges: Edges,
     samples: usize,
     memory: AdhesiveMemory,
-    /// Scene of the same contact, against which a loading is checked.
+    /// Scene of the same contact, for the check of a loading.
     scene: Scene,
 }
 
@@ -51,8 +51,8 @@ pub struct Cycle {
 }
 
 impl Contact {
-    /// Contact of a profile with a half-space of this material: without adhesion, with sub-cell edges and 512 samples on
-    /// each leg unless the builder says otherwise.
+    /// Contact of a profile with a half-space of this material: by default without adhesion, with sub-cell edges
+    /// and 512 samples on each loading stage.
     // The properties of a contact are set by name, on a builder.
     #[allow(clippy::new_ret_no_self)]
     #[must_use]
@@ -73,10 +73,10 @@ impl Contact {
         ContactBuilder { profile, scene }
     }
 
-    /// Loads the separated body, leg by leg.
+    /// Loads the separated body, one loading stage after the other.
     ///
     /// # Errors
-    /// [`Error::Values`] for a force or an indentation out of range, or for too many legs;
+    /// [`Error::Values`] for a force or an indentation out of range, or for too many loading stages;
     /// [`Error::Run`] for a force that the contact cannot reach.
     pub fn load(&mut self, legs: &[Leg]) -> Result<Cycle, Error> {
         self.scene.loading = legs.to_vec();
@@ -88,8 +88,8 @@ impl Contact {
         Ok(Cycle { figures: Figures::of(&history), history })
     }
 
-    /// Loads the separated body once and unloads it to separation from the ends of these legs, each of which begins
-    /// separated: what [`Contact::load`] gives for each of them and [`Leg::ToSeparation`], at the cost of a few.
+    /// Loads the separated body once and unloads it from the ends of these stages, each of which begins at separation:
+    /// the results of [`Contact::load`] for each stage followed by [`Leg::ToSeparation`], at the cost of a few.
     ///
     /// # Errors
     /// [`Error::Values`] for a force or an indentation out of range, [`Error::Run`] for an end that the contact cannot
@@ -106,7 +106,7 @@ impl Contact {
         Ok(found.map_err(RunError::Contact)?)
     }
 
-    /// The separated body and the memory to which it gives back its own.
+    /// The separated body and the memory that takes back its arrays.
     fn body(&mut self) -> (&mut AdhesiveMemory, Exact<'_>) {
         let Contact { gaps, foundation, adhesion, edges, samples, memory, .. } = self;
         let adhesion = adhesion.as_ref().map(|(hess, tree)| (*hess, tree));
@@ -123,8 +123,8 @@ impl ContactBuilder<'_> {
         self
     }
 
-    /// Work of adhesion γ₁ on closing, J/m², at most that of [`ContactBuilder::work_of_adhesion`], which then holds on
-    /// opening; both are the same unless this says otherwise.
+    /// Work of adhesion γ₁ on closing, J/m², at most that of [`ContactBuilder::work_of_adhesion`], which then holds
+    /// on opening; by default both are equal.
     #[must_use]
     pub fn closing_work(mut self, work: f64) -> Self {
         self.scene.adhesion =
@@ -139,7 +139,7 @@ impl ContactBuilder<'_> {
         self
     }
 
-    /// Samples of the force curve on each leg; its extremes are exact for any number.
+    /// Samples of the force curve on each loading stage; its extremes are exact for any number.
     #[must_use]
     pub fn samples(mut self, samples: u64) -> Self {
         self.scene.numerics.samples = samples;
@@ -171,7 +171,7 @@ impl ContactBuilder<'_> {
 }
 
 impl Cycle {
-    /// Pull-off force, N: minus the smallest force on the last leg that unloads; `None` where it does not pull.
+    /// Pull-off force, N: minus the smallest force on the last unloading stage; `None` without a tensile force.
     #[must_use]
     pub fn pull_off_force(&self) -> Option<f64> {
         self.figures.adhesion_force
@@ -183,7 +183,7 @@ impl Cycle {
         self.figures.pull_off_indentation
     }
 
-    /// Preload, N: largest force on the legs that load.
+    /// Preload, N: largest force of the loading stages.
     #[must_use]
     pub fn preload(&self) -> Option<f64> {
         self.figures.preload
@@ -195,12 +195,12 @@ impl Cycle {
         self.figures.dissipated_energy
     }
 
-    /// Force curve of all legs in their order.
+    /// Force curve of all loading stages in their order.
     pub fn curve(&self) -> impl Iterator<Item = &CurvePoint> {
         self.history.legs.iter().flat_map(|leg| &leg.curve)
     }
 
-    /// Legs with their curves, exact extremes and dissipated energies.
+    /// Loading stages with their curves, exact extremes and dissipated energies.
     #[must_use]
     pub fn legs(&self) -> &[LegRecord] {
         &self.history.legs

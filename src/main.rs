@@ -1,4 +1,4 @@
-//! The program: the library behind a command line.
+//! The program: command line of the library.
 
 use std::process::ExitCode;
 

@@ -1,38 +1,38 @@
-//! Large arrays whose memory is used again: fresh memory costs about as much as a pass over it, because the
-//! system clears each page when it is first touched.
+//! Reused memory of large arrays: fresh memory costs about as much as a pass over it, because the system clears
+//! each page at its first access.
 //!
 //! Memory in proportion to input is reserved before use: an allocation that fails elsewhere ends the process.
 
 use std::collections::TryReserveError;
 use std::hint::black_box;
 
-/// Memory is given back when it holds more than so many times what is needed.
+/// Factor of the required memory above which a buffer is released.
 const MOST_SPARE: usize = 4;
-/// Smaller arrays are never given back.
+/// Size of arrays that are never released.
 const SMALL: usize = 1 << 16;
 
-/// Bytes asked for beside those that are known: stacks of threads, and what small arrays take. It is larger than
-/// any block that the allocator of glibc keeps for the next, so that asking changes nothing.
+/// Bytes in addition to the known arrays: stacks of threads and small arrays. More than any block that the
+/// allocator of glibc keeps for reuse, so that the check has no side effect.
 const BESIDE: u64 = 33 << 20;
-/// Fewer bytes are not asked for: they are there, or nothing is.
+/// Fewest bytes that are checked.
 const FEW: u64 = 1 << 20;
 
-/// Checks that the system gives so many more bytes at this moment, and gives them back untouched.
+/// Checks that the system can provide this many more bytes now, and releases them untouched.
 ///
 /// # Errors
-/// When it does not.
+/// Insufficient memory.
 pub(crate) fn check_room(bytes: u64) -> Result<(), TryReserveError> {
     if bytes < FEW {
         return Ok(());
     }
     let mut asked = Vec::<u8>::new();
     asked.try_reserve_exact(usize::try_from(bytes.saturating_add(BESIDE)).unwrap_or(usize::MAX))?;
-    // The compiler may leave out an allocation that nothing sees.
+    // The compiler may remove an allocation without an observer.
     black_box(asked.as_ptr());
     Ok(())
 }
 
-/// An empty vector with room for `count` values, in this memory where it suffices.
+/// An empty vector with room for `count` values, in this memory if it suffices.
 pub(crate) fn emptied<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, TryReserveError> {
     values = unless_far_too_large(values, count);
     values.clear();
@@ -40,7 +40,7 @@ pub(crate) fn emptied<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, Try
     Ok(values)
 }
 
-/// `count` values in this memory where it suffices: those that it held, then `fill`.
+/// `count` values in this memory if it suffices: the previous ones, then `fill`.
 pub(crate) fn resized<T: Clone>(
     mut values: Vec<T>,
     count: usize,

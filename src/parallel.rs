@@ -1,4 +1,4 @@
-//! Computations side by side. None sees another, so their results do not depend on the threads that they run on.
+//! Parallel computations, independent of each other, so that their results do not depend on the threads.
 
 use std::cell::Cell;
 use std::num::NonZero;
@@ -7,11 +7,11 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, Scope, ScopedJoinHandle, available_parallelism, scope};
 
 thread_local! {
-    /// True if this thread is one of as many as there are cores.
+    /// True if this thread is one of as many as cores.
     static ONE_OF_MANY: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Does `work` on this thread alone, as one of many threads that keep all cores busy.
+/// Runs `work` on this thread alone, as one of many threads that keep all cores busy.
 pub(crate) fn on_this_thread<A>(work: impl FnOnce() -> A) -> A {
     let before = ONE_OF_MANY.replace(true);
     let result = work();
@@ -19,8 +19,8 @@ pub(crate) fn on_this_thread<A>(work: impl FnOnce() -> A) -> A {
     result
 }
 
-/// Begins `work` on so many threads of a scope, each of which stays alone. Returns the number of threads that the system
-/// gave.
+/// Runs `work` on so many threads of a scope, each without further threads. Returns the number of threads that the
+/// system started.
 pub(crate) fn begin_threads<'scope>(
     scope: &'scope Scope<'scope, '_>,
     count: usize,
@@ -33,12 +33,12 @@ pub(crate) fn begin_threads<'scope>(
     (0..count).filter(|_| begin()).count()
 }
 
-/// Number of threads that work of this thread may be shared among: one for each core, or this one alone.
+/// Number of threads for work of this thread: one for each core, or this one alone.
 pub(crate) fn threads() -> usize {
     if ONE_OF_MANY.get() { 1 } else { available_parallelism().map_or(1, NonZero::get) }
 }
 
-/// Does `work` for each item, side by side.
+/// Runs `work` for each item in parallel.
 pub(crate) fn for_each_in_parallel<T: Send>(items: &mut [T], work: &(impl Fn(&mut T) + Sync)) {
     match items {
         [] => {}
@@ -50,7 +50,7 @@ pub(crate) fn for_each_in_parallel<T: Send>(items: &mut [T], work: &(impl Fn(&mu
     }
 }
 
-/// Does both, the first on a thread of its own if that is `worth` it, the system gives one and the thread begins first.
+/// Runs both, the first on a thread of its own if that is `worth` it, the system has one and the thread begins first.
 pub(crate) fn in_parallel<A: Send, B>(
     worth: bool,
     one: impl FnOnce() -> A + Send,
@@ -64,7 +64,7 @@ pub(crate) fn in_parallel<A: Send, B>(
     scope(|scope| {
         let thread = Builder::new().spawn_scoped(scope, || take().map(|task| task())).ok();
         let other = other();
-        // Done here where no other thread has begun it.
+        // Runs here if no other thread has begun.
         if let Some(task) = take() {
             return (task(), other);
         }
@@ -101,7 +101,7 @@ mod tests {
                 current().id()
             };
             let other = || {
-                // Else this thread may do both before the other is there.
+                // Otherwise this thread may run both before the other has started.
                 let clock = Instant::now();
                 while !begun.load(Ordering::SeqCst) && clock.elapsed() < Duration::from_secs(30) {
                     std::thread::yield_now();

@@ -13,7 +13,7 @@ pub struct Profile {
     line: Line,
 }
 
-/// Reason for which a profile is refused.
+/// Reason why a profile is refused.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ProfileError {
     /// The number of points is out of range.
@@ -79,8 +79,8 @@ impl Profile {
 
     /// Random self-affine profile: cosines with amplitudes ∝ k^(−H−1/2) and random phases, scaled to an rms height (m).
     ///
-    /// `spectrum` holds the Hurst exponent and the modes k, in waves per length. The same seed gives the same phases
-    /// on any machine and for any number of points.
+    /// `spectrum` holds the Hurst exponent and the modes k, in waves per length. A seed determines the phases on
+    /// any machine and for any number of points.
     ///
     /// # Errors
     /// [`ProfileError`] for modes beyond half the number of points, a Hurst exponent outside (0, 1), or lengths that are

@@ -1,13 +1,13 @@
-//! Text: prefixes of units and grouped digits, and foreign text on its way to a terminal, a picture or a message: titles,
-//! names of files, headers, arguments.
+//! Text: prefixes of units, grouped digits, and foreign text for a terminal, a picture or a message: titles, names of
+//! files, headers, arguments.
 //!
-//! A control character can clear a screen, write to the clipboard or make a picture no XML. A bidirectional
-//! control lets text read otherwise than it is. Either is shown by its number; all other characters stay.
+//! A control character can clear a screen, write to the clipboard or invalidate the XML of a picture. A bidirectional
+//! control changes the apparent order of text. Both are shown by their numbers; all other characters are kept.
 
 use std::borrow::Cow;
 use std::path::Path;
 
-/// SI prefixes that are read, with their powers of ten. Every third power is written, with the first of its prefixes.
+/// Accepted SI prefixes, with their powers of ten. Every third power is written, with the first of its prefixes.
 pub(crate) const SI_PREFIXES: &[(&str, i32)] = &[
     ("y", -24),
     ("z", -21),
@@ -29,13 +29,13 @@ pub(crate) const SI_PREFIXES: &[(&str, i32)] = &[
     ("E", 18),
 ];
 
-/// SI prefix of a power of ten as it is written, if there is one.
+/// Written SI prefix of a power of ten, if there is one.
 pub(crate) fn si_prefix(power: i32) -> Option<&'static str> {
     SI_PREFIXES.iter().find(|(_, of)| *of == power).map(|(prefix, _)| *prefix)
 }
 
-/// Returns true for characters that act on what displays them: controls (C0, DEL, C1), bidirectional controls
-/// and marks, and separators of lines and paragraphs.
+/// Returns true for characters with an effect on their display: controls (C0, DEL, C1), bidirectional controls and
+/// marks, and separators of lines and paragraphs.
 pub fn is_control(c: char) -> bool {
     let bidirectional =
         matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
@@ -47,7 +47,7 @@ pub(crate) fn printable(text: &str) -> Cow<'_, str> {
     escaped(text, is_control)
 }
 
-/// Text of several lines, of which only the line breaks stay as they are.
+/// Text of several lines with escaped control characters except for line breaks.
 #[cfg(feature = "tui")]
 pub(crate) fn printable_lines(text: &str) -> Cow<'_, str> {
     escaped(text, |c| is_control(c) && c != '\n')
@@ -73,7 +73,7 @@ fn escaped(text: &str, is_escaped: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// A whole number with its thousands apart.
+/// An integer with separated thousands.
 pub(crate) fn grouped(count: u64) -> String {
     let digits = count.to_string();
     let mut grouped = String::new();
@@ -100,7 +100,7 @@ pub(crate) fn memory_size(bytes: u64) -> String {
     format!("{size:.decimals$} {}", units[unit])
 }
 
-/// A relative error in per cent, with one digit, or two after a leading one: an estimate supports no more.
+/// A relative error in per cent, with one digit, or two after a leading one: the accuracy of an estimate.
 pub(crate) fn per_cent(error: f64) -> String {
     let per_cent = 100.0 * error;
     if per_cent > 100.0 {
@@ -126,14 +126,14 @@ fn is_unit(word: &str) -> bool {
     UNITS.contains(&word) || without_prefix.is_some_and(|word| UNITS.contains(&word.trim_start_matches('i')))
 }
 
-/// Returns true where no line may end between two words: within a number with its thousands apart, and before its unit.
+/// Returns true if no line may end between two words: within a number with separated thousands, and before its unit.
 pub(crate) fn belong_together(word: &str, next: &str) -> bool {
     let digits = next.trim_end_matches([',', ';', ':', '.', ')']);
     let is_group = digits.len() == 3 && digits.bytes().all(|byte| byte.is_ascii_digit());
     word.ends_with(|c: char| c.is_ascii_digit()) && (is_group || is_unit(next))
 }
 
-/// Words of a text, with numbers and their units in one.
+/// Words of a text, with a number and its unit as one.
 fn words(text: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     for next in text.split_whitespace() {
@@ -145,7 +145,7 @@ fn words(text: &str) -> Vec<String> {
     words
 }
 
-/// Lines of at most `width` characters, broken between words and within those that are longer.
+/// Lines of at most `width` characters, broken between words and within longer ones.
 pub(crate) fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     let mut room = width;
@@ -192,7 +192,7 @@ mod tests {
 
     #[test]
     fn ordinary_text_of_any_script_stays() {
-        // A joiner is part of how Persian, Hindi and families of emoji are written.
+        // A joiner is part of the spelling of Persian, Hindi and families of emoji.
         for text in ["κ* = 0.6 µm", "نمونه\u{200c}ها", "क्\u{200d}ष", "👩\u{200d}🔬", "粗糙度", "שלום"]
         {
             assert!(matches!(printable(text), Cow::Borrowed(same) if same == text), "{text}");

@@ -1,15 +1,15 @@
-//! The answer in a sentence or two: how many springs, and how long.
+//! The answer in a sentence or two: number of springs and time.
 
 use super::{CostTable, Knob, Row};
 use crate::scene::format_rounded;
 use crate::text::grouped;
 
-/// Relative errors that are answered for.
+/// Relative errors of the answers.
 const TARGETS: [(f64, &str); 2] = [(0.01, "1 %"), (0.001, "0.1 %")];
 
 impl CostTable {
-    /// Requirements of one per cent and one per mille of the adhesion force, or of the force curve where nothing
-    /// pulls: one sentence for each.
+    /// Requirements of one per cent and one per mille of the adhesion force, or of the force curve without a
+    /// tensile force: one sentence each.
     #[must_use]
     pub fn answer(&self) -> Vec<String> {
         let what =

@@ -9,20 +9,20 @@ use crate::simulation::{RunError, Simulation};
 use std::path::Path;
 use thiserror::Error;
 
-/// Points of all legs of a curve that is compared: many, so that samples blur no error of the springs.
+/// Points of a compared curve, all loading stages together: many, so that sampling hides no error of the springs.
 const COMPARED_POINTS: u64 = 1 << 16;
-/// Samples of a leg that is compared, at most.
+/// Most samples of a compared loading stage.
 const MOST_COMPARED: u64 = 4096;
-/// Errors below this cannot be distinguished from rounding.
+/// Errors below this are indistinguishable from rounding.
 pub(super) const ROUNDING: f64 = 1e-14;
 
-/// Reason for which there is no table.
+/// Reason why there is no table.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum CostError {
     /// The scene could not be computed.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// Fewer than two solutions fit into the budget: nothing is known of their errors.
+    /// Fewer than two solutions fit into the budget, so that their errors are unknown.
     #[error(
         "the budget of {budget} s is spent before two solutions could be compared, of which the coarsest has \
          {springs} springs"
@@ -30,7 +30,7 @@ pub enum CostError {
     BudgetTooShort {
         /// The budget, s.
         budget: f64,
-        /// Fewest springs the scene allows.
+        /// Fewest springs that the scene allows.
         springs: u64,
     },
     /// The measurement was stopped.
@@ -40,11 +40,10 @@ pub enum CostError {
 
 /// Progress of a measurement.
 pub enum Progress<'a> {
-    /// A knob and a setting of it will be tried next.
+    /// A setting of a knob is tried next.
     Trying(Knob, &'a str),
-    /// There is another row. The table so far is made when it is asked for, `None` while there is nothing to
-    /// compare with; until the ladder of edges between springs has ended, errors in it are counted from the
-    /// finest of its solutions so far.
+    /// A row was added. The function makes the table so far, `None` without a comparison; until the ladder of edges
+    /// between springs has ended, errors in it are relative to the finest of its solutions so far.
     Rows(&'a dyn Fn() -> Option<CostTable>),
 }
 
@@ -60,7 +59,7 @@ pub(super) struct Bench<'a> {
     pub left_out: Vec<String>,
 }
 
-/// A setting that was tried.
+/// A tried setting.
 pub(super) struct Tried {
     pub knob: Knob,
     pub setting: f64,
@@ -91,7 +90,7 @@ impl Rows<'_, '_> {
 }
 
 impl Bench<'_> {
-    /// The table as far as it is.
+    /// The table so far.
     pub(super) fn table(&self, reference: Reference, rows: Vec<Row>) -> CostTable {
         CostTable {
             budget: self.budget.seconds(),
@@ -103,17 +102,17 @@ impl Bench<'_> {
         }
     }
 
-    /// Notes settings of a knob that were not tried or not reached.
+    /// Records settings of a knob that were not tried or not reached.
     pub(super) fn leave_out(&mut self, knob: Knob, settings: &str) {
         self.left_out.push(format!("{}: {settings}", knob.name()));
     }
 
-    /// Runs a scene with everything made anew, at most until the budget is over.
+    /// Runs a scene without any reuse, at most until the end of the budget.
     pub fn solve(&self, scene: &Scene) -> Result<Solved, RunError> {
         solve(&mut Simulation::new(self.folder.to_path_buf()), scene, &|| self.budget.is_over())
     }
 
-    /// Solves the scene from which settings of a knob differ; without a solution the settings are left out.
+    /// Solves the reference scene of the settings of a knob; without a solution the settings are left out.
     pub fn reference(
         &mut self,
         scene: &Scene,
@@ -129,12 +128,12 @@ impl Bench<'_> {
         Ok(None)
     }
 
-    /// Times whole runs of a scene.
+    /// Measures the time of whole runs of a scene.
     pub fn time(&self, scene: &Scene) -> Option<Timing> {
         self.budget.time(|| matches!(self.solve(scene), Ok(Solved::Outcome(_))))
     }
 
-    /// The scene with as many samples as curves are compared with.
+    /// The scene with the number of samples for a comparison of curves.
     pub fn compared(&self, scene: &Scene) -> Scene {
         let legs = scene.loading.len().max(1) as u64;
         let mut scene = scene.clone();
@@ -142,7 +141,7 @@ impl Bench<'_> {
         scene
     }
 
-    /// Adds a row; its orders follow from the row before of the same knob.
+    /// Adds a row; its orders are relative to the previous row of the same knob.
     pub(super) fn push(&self, rows: &mut Vec<Row>, tried: Tried, floors: &Measures<Option<f64>>) {
         let Tried { knob, setting, springs, seconds, errors } = tried;
         let before = rows.last().filter(|row| row.knob == knob);

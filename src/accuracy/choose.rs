@@ -12,14 +12,14 @@ use serde::Serialize;
 use std::path::Path;
 use thiserror::Error;
 
-/// Most springs tried, unless the scene needs more for its modes: then four times as many as it needs.
+/// Most springs tried, unless the modes of the scene need more: then four times that number.
 const MOST_SPRINGS: u64 = 1 << 21;
-/// Solutions it takes to believe an estimate.
+/// Fewest solutions for a reliable estimate.
 const FEWEST_SOLUTIONS: usize = 3;
-/// Differences that enter the error of the finest solution, as in the estimate for one scene.
+/// Differences in the error of the finest solution, as in the estimate for one scene.
 const LAST_DIFFERENCES: usize = 3;
 
-/// A tolerance as people write it: `1e-3` or `0.1 %`.
+/// Parses a tolerance: `1e-3` or `0.1 %`.
 ///
 /// # Errors
 /// Allowed values, for text that is no tolerance.
@@ -38,7 +38,7 @@ pub fn parse_tolerance(text: &str) -> Result<f64, String> {
 /// Springs and edges that reach a tolerance.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Choice {
-    /// The relative error allowed.
+    /// Allowed relative error.
     pub tolerance: f64,
     /// Quantity of the error.
     pub target: Target,
@@ -46,12 +46,12 @@ pub struct Choice {
     pub points: u64,
     /// Edge model.
     pub edges: Edges,
-    /// Relative error reached; with a closed form the error itself, else an estimate that includes the
-    /// estimated error of the finest solution.
+    /// Reached relative error: with a closed form the error itself, else an estimate that includes the estimated
+    /// error of the finest solution.
     pub error: f64,
-    /// True if the error is counted from a closed form.
+    /// True if the error is relative to a closed form.
     pub closed_form: bool,
-    /// Springs of the finest solution that was tried for it.
+    /// Springs of the finest solution tried for the choice.
     pub finest: u64,
 }
 
@@ -70,7 +70,7 @@ impl Choice {
         Estimate { target: self.target, error: self.error, evidence }
     }
 
-    /// Choice and reason, in a sentence.
+    /// Choice and reason in one sentence.
     #[must_use]
     pub fn sentence(&self) -> String {
         let edges = self.edges.name();
@@ -89,13 +89,13 @@ impl Choice {
     }
 }
 
-/// Reason for which no springs were chosen.
+/// Reason why no springs were chosen.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ChoiceError {
     /// The scene could not be computed.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// The stepwise solver has an error of its own, which more springs do not change.
+    /// The stepwise solver has an error of its own that is independent of the springs.
     #[error(
         "a tolerance goes with numerics.solver: Exact; the step of the stepwise solver is an error of its own"
     )]
@@ -103,12 +103,12 @@ pub enum ChoiceError {
     /// The search was stopped.
     #[error("the search for springs was stopped")]
     Stopped,
-    /// Not with as many springs as are tried.
+    /// Not reached with the largest number of tried springs.
     #[error("{}", unreached(.tolerance, .best))]
     Unreached {
-        /// The relative error asked for.
+        /// Requested relative error.
         tolerance: f64,
-        /// The best there is, with a tolerance that it reaches; `None` where nothing is known.
+        /// The best choice, with a tolerance that it reaches; `None` if nothing is known.
         best: Option<Box<Choice>>,
     },
 }
@@ -130,15 +130,15 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
     }
 }
 
-/// Springs and edges with which a checked scene, whose files lie in `folder`, reaches a relative error of at
-/// most `tolerance` of its adhesion force, or of its force curve where nothing pulls.
+/// Springs and edges with which a checked scene, with files in `folder`, reaches a relative error of at most
+/// `tolerance` in its adhesion force, or in its force curve without a tensile force.
 ///
-/// Springs are doubled until the estimate of the error, that of the finest solution included, has come below
-/// the tolerance, and once more, since a finer solution is a better reference for the others; then the fewest
-/// are taken from which on it stays there. With as many springs either kind of edges takes about as long, and
-/// edges between springs are taken, whose error falls faster where the estimate was too good.
-/// The choice depends on the scene alone, not on the time anything takes. `stop` is asked now and then whether
-/// to give up; `trying` receives the number of springs that is tried next.
+/// Doubles the springs until the estimate of the error, including that of the finest solution, is below the
+/// tolerance, and once more, since a finer solution is a better reference for the others; then the choice is the
+/// fewest springs from which on the error stays there. With equal springs both kinds of edges take about the same
+/// time, and edges between springs are preferred, whose error falls faster if the estimate was too optimistic. The
+/// choice depends on the scene alone, not on times. `stop` is polled now and then; `trying` receives the next
+/// number of springs.
 ///
 /// # Errors
 /// [`ChoiceError`].
@@ -194,11 +194,11 @@ pub fn choose(
     found.ok_or(ChoiceError::Unreached { tolerance, best })
 }
 
-/// In the order in which they are preferred at the same number of springs.
+/// In the order of preference at the same number of springs.
 const EDGES: [Edges; 2] = [Edges::SubCell, Edges::Grid];
 
-/// The choice among solutions with edges at and between springs, of as many springs each; if none is good
-/// enough, the best of them. `None` where they are too few.
+/// The choice among solutions with edges at and between springs, with equal springs each; if none is good enough,
+/// the best of them. `None` for too few solutions.
 fn judge([sub_cell, grid]: &[Vec<Solution>; 2], closed_form: Option<f64>, tolerance: f64) -> Option<Choice> {
     let finest = sub_cell.last()?;
     let target = Target::of(finest);
@@ -222,7 +222,7 @@ fn judge([sub_cell, grid]: &[Vec<Solution>; 2], closed_form: Option<f64>, tolera
     };
     let candidates = EDGES.into_iter().zip([sub_cell, grid]).filter_map(|(edges, solutions)| {
         let errors: Vec<_> = solutions.iter().map(error).collect();
-        // Where none is good enough, the finest is offered.
+        // If none is good enough, the finest.
         let index = first_within(errors.iter().copied(), tolerance).unwrap_or(errors.len() - 1);
         let (error, points) = ((*errors.get(index)?)?, solutions.get(index)?.points);
         Some(Choice {
@@ -236,7 +236,7 @@ fn judge([sub_cell, grid]: &[Vec<Solution>; 2], closed_form: Option<f64>, tolera
         })
     });
     let (good, others): (Vec<_>, Vec<_>) = candidates.partition(|choice| choice.error <= tolerance);
-    // The first of equals: edges between springs.
+    // The first of equal choices: edges between springs.
     let fewest = good.into_iter().min_by_key(|choice| choice.points);
     fewest.or_else(|| others.into_iter().min_by(|one, other| one.error.total_cmp(&other.error)))
 }
@@ -245,7 +245,7 @@ fn judge([sub_cell, grid]: &[Vec<Solution>; 2], closed_form: Option<f64>, tolera
 mod tests {
     use super::*;
 
-    /// Solutions whose adhesion force converges to 1 with an order.
+    /// Solutions whose adhesion force converges to 1 with a given order.
     fn solutions(count: u32, error: f64, order: i32) -> Vec<Solution> {
         let solution = |k: u32| Solution {
             points: 16 << k,
@@ -274,17 +274,17 @@ mod tests {
         let choice = judge(&tried(5), Some(1.0), 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (64, Edges::SubCell));
         assert!((choice.error - 0.00625).abs() < 1e-12);
-        // Estimated: the true error of 128 springs, 0.0016, is within the stated one.
+        // The estimate includes the true error of 128 springs, 0.0016.
         let choice = judge(&tried(5), None, 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (128, Edges::SubCell));
         assert!((0.0016..0.01).contains(&choice.error), "{choice:?}");
         assert_eq!(judge(&tried(2), None, 0.01), None);
-        // Edges at the springs only where they do with fewer.
+        // Edges at the springs only if fewer springs suffice.
         let choice = judge(&[solutions(5, 0.1, 2), solutions(5, 0.1, 2)], Some(1.0), 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (64, Edges::SubCell));
         let choice = judge(&[solutions(5, 0.5, 1), solutions(5, 0.1, 2)], Some(1.0), 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (64, Edges::Grid));
-        // The best where none will do.
+        // The best choice if none suffices.
         let choice = judge(&tried(3), Some(1.0), 1e-6).unwrap();
         assert_eq!((choice.points, choice.edges), (64, Edges::SubCell));
         assert!(choice.error > 1e-6);

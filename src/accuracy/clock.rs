@@ -1,4 +1,4 @@
-//! Time: a budget, repeated runs, and the unit they are counted in.
+//! Time: a budget, repeated runs, and the unit of time.
 
 use super::Timing;
 use realfft::RealFftPlanner;
@@ -8,10 +8,10 @@ use std::time::{Duration, Instant};
 const TRANSFORM_POINTS: usize = 1 << 20;
 /// Most runs of one setting.
 const MOST_RUNS: usize = 9;
-/// Share of a budget that the runs of one setting may take.
+/// Largest share of a budget for the runs of one setting.
 const SHARE_OF_RUNS: f64 = 0.02;
 
-/// A time that must not be exceeded, and that somebody may end before.
+/// A limit of time, which can be ended early.
 #[derive(Clone, Copy)]
 pub(super) struct Budget<'a> {
     begun: Instant,
@@ -24,33 +24,33 @@ impl<'a> Budget<'a> {
         Budget { begun: Instant::now(), seconds: budget.as_secs_f64(), stop }
     }
 
-    /// Returns true if it was ended before its time.
+    /// Returns true if the budget was ended early.
     pub(super) fn is_stopped(&self) -> bool {
         (self.stop)()
     }
 
-    /// The whole of it, s.
+    /// The whole budget, s.
     pub(super) fn seconds(&self) -> f64 {
         self.seconds
     }
 
-    /// Seconds since it began.
+    /// Seconds since the beginning.
     pub(super) fn spent(&self) -> f64 {
         self.begun.elapsed().as_secs_f64()
     }
 
-    /// Seconds until so large a share of it has passed; negative after that, and once it is stopped.
+    /// Seconds until this share of the budget has passed; negative afterwards, and once the budget is stopped.
     pub(super) fn left_of(&self, share: f64) -> f64 {
         if self.is_stopped() { f64::NEG_INFINITY } else { share * self.seconds - self.spent() }
     }
 
-    /// Returns true if it is over.
+    /// Returns true if the budget is over.
     pub(super) fn is_over(&self) -> bool {
         self.left_of(1.0) <= 0.0
     }
 
-    /// Runs something a few times, at least once, and returns the time of each run; `None` where it does not
-    /// end.
+    /// Runs a function a few times, at least once, and returns the times of the runs; `None` for a run that does
+    /// not end.
     pub(super) fn time(&self, mut run: impl FnMut() -> bool) -> Option<Timing> {
         let (began, mut seconds) = (Instant::now(), Vec::new());
         while seconds.len() < MOST_RUNS

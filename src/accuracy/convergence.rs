@@ -1,10 +1,10 @@
-//! Errors of ever finer solutions, from their differences.
+//! Errors of a sequence of finer solutions, from their differences.
 
 /// Weight of a difference against that of the next finer one.
 const SHARE_OF_COARSER: f64 = 0.2;
 
-/// Estimated distance of the finest of ever finer solutions from the limit; each has half the spacing of the one
-/// before, and `differences` are their distances from it, the coarsest first. NaN without any.
+/// Estimated distance of the finest of a sequence of solutions from the limit; each has half the spacing of the one
+/// before, and `differences` are their distances from it, the coarsest first. NaN for an empty list.
 ///
 /// Twice the sum of the differences, each with a fifth of the weight of the next finer one:
 /// e = 2 (d_n + d_(n−1)/5 + d_(n−2)/25 + …).
@@ -23,14 +23,14 @@ pub fn error_of_finest(differences: &[f64]) -> f64 {
 }
 
 /// Observed order of convergence between two errors, the second of a solution that is `ratio` times as fine:
-/// ln(coarse/fine)/ln(ratio). `None` where it says nothing.
+/// ln(coarse/fine)/ln(ratio). `None` if the order is meaningless.
 #[must_use]
 pub fn observed_order(coarse: f64, fine: f64, ratio: f64) -> Option<f64> {
     let order = (coarse / fine).ln() / ratio.ln();
     (coarse > 0.0 && fine > 0.0 && order.is_finite()).then_some(order)
 }
 
-/// The first of these errors from which on none is above a bound.
+/// Index of the first of these errors from which on none is above a bound.
 #[must_use]
 pub fn first_within(errors: impl DoubleEndedIterator<Item = Option<f64>>, bound: f64) -> Option<usize> {
     let errors: Vec<_> = errors.collect();

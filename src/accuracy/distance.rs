@@ -1,16 +1,16 @@
 //! Distance of two force curves.
 //!
 //! Where contact forms or ends at once, two good solutions jump at slightly different indentations, and the
-//! difference of their forces between the two jumps is the height of the jump, however close they are. So
-//! curves are compared as sets of points: the distance of a point of one to the nearest point of the other,
-//! indentations in units of the range of indentations and forces in units of the largest force; the largest
-//! such distance, either way round, on any leg (the Hausdorff distance of the curves' points from the curves).
-//! A jump that comes late by one hundredth of the range counts one hundredth, and so does a force that is
-//! wrong by one hundredth of the largest.
+//! difference of their forces between the two jumps is the height of the jump, however close they are. So curves
+//! are compared as sets of points: the distance of a point of one curve to the nearest point of the other,
+//! indentations in units of the range of indentations and forces in units of the largest force; the largest such
+//! distance, in both directions, on any loading stage (the Hausdorff distance of the curves' points from the
+//! curves). A jump that is late by one hundredth of the range counts one hundredth, and so does a force with an
+//! error of one hundredth of the largest.
 
 use crate::contact::{Direction, History};
 
-/// The force curve of a loading history: for each leg, points of ascending indentation.
+/// The force curve of a loading history: for each loading stage, points of ascending indentation.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ForceCurve {
     legs: Vec<Vec<[f64; 2]>>,
@@ -39,8 +39,8 @@ impl ForceCurve {
         (low <= high).then_some((low, high))
     }
 
-    /// Distance of this curve from a reference in units of the reference's ranges; see the module. `None`
-    /// where the reference has no range or forces, or another number of legs.
+    /// Distance of this curve from a reference in units of the reference's ranges; see the module. `None` if the
+    /// reference has no range or forces, or another number of loading stages.
     #[must_use]
     pub fn distance(&self, reference: &ForceCurve) -> Option<f64> {
         let (low, high) = reference.indentations()?;
@@ -68,8 +68,8 @@ fn farthest(points: &[[f64; 2]], curve: &[[f64; 2]]) -> f64 {
     points.iter().map(|&point| nearest(point, curve)).fold(0.0, f64::max)
 }
 
-/// Distance of a point from a curve: outwards from where the curve passes by, until what is left is farther
-/// away along the first coordinate alone.
+/// Distance of a point from a curve: outwards from the nearest first coordinate, until the rest is farther away
+/// along that coordinate alone.
 fn nearest(point: [f64; 2], curve: &[[f64; 2]]) -> f64 {
     let middle = curve.partition_point(|other| other[0] < point[0]);
     let mut best = curve.get(middle).map_or(f64::INFINITY, |&other| to_piece(point, other, other));
@@ -148,7 +148,7 @@ mod tests {
             let pieces = || curve.windows(2).map(|pair| to_piece([x, y], pair[0], pair[1]));
             let blind = pieces().fold(to_piece([x, y], curve[0], curve[0]), f64::min);
             let found = nearest([x, y], &curve);
-            // Ends of pieces are looked at by themselves as well.
+            // Ends of pieces are compared separately as well.
             prop_assert!((found - blind).abs() <= 1e-14, "{} for {}", found, blind);
         }
     }

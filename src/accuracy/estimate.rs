@@ -9,15 +9,15 @@ use serde::Serialize;
 use std::collections::VecDeque;
 use std::path::Path;
 
-/// Most springs of a finer solution that is made for an estimate only, and of a coarser one.
+/// Most springs of a finer solution for an estimate only, and of a coarser one.
 const MOST_FINER: u64 = 1 << 20;
 const MOST_COARSER: u64 = 1 << 22;
 /// Fewest springs from which the error with more springs can be estimated.
 const FEWEST_SPRINGS: u64 = 16;
-/// Solutions that an estimate would have, the outcome included: one difference may be small by chance, three
-/// in a row seldom are.
+/// Wanted solutions of an estimate, including the outcome: one difference may be small by chance, three in a row
+/// seldom are.
 const WANTED: usize = 4;
-/// Fewest that are enough, so that no finer ones are needed.
+/// Fewest sufficient solutions, for which no finer ones are computed.
 const ENOUGH: usize = 3;
 
 /// The estimated relative error of an outcome.
@@ -32,14 +32,14 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Absolute error of the adhesion force of an outcome, N; `None` where the estimate is that of the curve.
+    /// Absolute error of the adhesion force of an outcome, N; `None` for an estimate of the curve.
     #[must_use]
     pub fn of_adhesion_force(&self, outcome: &Outcome) -> Option<f64> {
         let force = outcome.figures.adhesion_force.filter(|_| self.target == Target::AdhesionForce)?;
         Some(self.error * force.abs()).filter(|error| error.is_finite())
     }
 
-    /// The error in per cent, with one digit, or two after a leading one: an estimate supports no more.
+    /// The error in per cent, with one digit, or two after a leading one, according to the accuracy of an estimate.
     #[must_use]
     pub fn per_cent(&self) -> String {
         per_cent(self.error)
@@ -50,24 +50,24 @@ impl Estimate {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Evidence {
-    /// The closed form: this is the error itself.
+    /// A closed form: the value is the error itself.
     ClosedForm,
-    /// Solutions of the same line with so many springs, by the same rule of edges.
+    /// Solutions of the same profile with these numbers of springs, by the same rule of edges.
     Solutions(Vec<u64>),
 }
 
-/// Estimates the error of the adhesion force of an outcome, or of its force curve where nothing pulls.
+/// Estimates the error of the adhesion force of an outcome, or of its force curve without a tensile force.
 ///
-/// With a closed form it is the error itself. Otherwise the same line is solved with half, a quarter and an
-/// eighth of the springs by the same rule of edges, and [`error_of_finest`] gives the error from the differences. A line
-/// whose modes need too many springs for that is solved with twice and four times as many instead.
-/// The error of the step of the stepwise solver is its distance from the exact solver on the same springs.
+/// A closed form yields the error itself. Otherwise the same profile is solved with half, a quarter and an eighth
+/// of the springs by the same rule of edges, and [`error_of_finest`] returns the error from the differences. A
+/// profile whose modes need too many springs for that is solved with twice and four times as many instead. The
+/// error of the step of the stepwise solver is its distance from the exact solver on the same springs.
 ///
-/// `None` where nothing is known: there is no figure to be wrong, no other number of springs is allowed,
-/// too many would be needed, or `stop` said to give up.
+/// `None` if the error is unknown: there is no figure, no other number of springs is allowed, too many would be
+/// needed, or `stop` ended the computation.
 ///
 /// # Errors
-/// When one of these solutions fails.
+/// A failure of one of these solutions.
 pub fn estimate(
     scene: &Scene,
     folder: &Path,
@@ -93,7 +93,7 @@ pub fn estimate(
             Solved::TooCoarse | Solved::TooMuch => None,
         })
     };
-    // The stepwise solver follows the exact one as its step shrinks.
+    // The stepwise solver converges to the exact one with its step.
     let (exact, of_step) = if scene.numerics.solver == Solver::Exact {
         (own, 0.0)
     } else {
@@ -101,7 +101,7 @@ pub fn estimate(
         let Some(of_step) = target.difference(&own, &exact) else { return Ok(None) };
         (exact, of_step)
     };
-    // From coarse to fine, the exact solution on the scene's own springs among them.
+    // From coarse to fine, including the exact solution on the scene's own springs.
     let mut solutions = VecDeque::from([exact]);
     let mut coarser = points;
     while solutions.len() < WANTED && coarser.is_multiple_of(2) {
@@ -130,7 +130,7 @@ pub fn estimate(
     Ok(Some(Estimate { target, error, evidence: Evidence::Solutions(others.collect()) }))
 }
 
-/// This scene on so many springs, solved exactly by its own rule of edges.
+/// This scene on so many springs, solved exactly with its own rule of edges.
 fn on_springs(scene: &Scene, points: u64) -> Scene {
     // The stepwise solver has edges at the springs.
     let edges = if scene.numerics.solver == Solver::Exact { scene.numerics.edges } else { Edges::Grid };
@@ -213,7 +213,7 @@ mod tests {
                             error < 10.0 * estimate,
                             "{scene} {seed} {points} {edges}: {estimate} for {error}"
                         );
-                        // Nor are they so careful that they say nothing.
+                        // The estimates are not too large to be useful either.
                         assert!(estimate < 0.2, "{scene} {seed} {points} {edges}: {estimate}");
                     }
                 }
@@ -239,10 +239,10 @@ mod tests {
             &[&few[..], &[("numerics.solver", "Stepwise(step: 2e-9)")]].concat(),
         ));
         assert!(stepwise.unwrap().error > exact.error);
-        // Nothing pulls: the curve.
+        // No tensile force: the curve.
         let bare = with("pressure-sensitive", &[("adhesion", "None"), ("numerics.points", "4096")]);
         assert_eq!(estimated(&bare).unwrap().target, Target::Curve);
-        // Nothing at all happens.
+        // No contact at all.
         let still = with(
             "pressure-sensitive",
             &[("loading", "[ToTouch]"), ("adhesion", "None"), ("numerics.points", "4096")],

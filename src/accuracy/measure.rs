@@ -1,4 +1,4 @@
-//! Measures what accuracy costs for one scene: each knob from coarse to fine, as far as the budget goes.
+//! Measurement of the cost of accuracy for one scene: each knob from coarse to fine, within the budget.
 
 use super::bench::{Bench, CostError, Progress, ROUNDING, Rows, Tried, Watch};
 use super::clock::Budget;
@@ -11,25 +11,25 @@ use crate::simulation::RunError;
 use std::path::Path;
 use std::time::Duration;
 
-/// Assumed ratio of times for twice as many springs, before they are tried.
+/// Assumed ratio of times for twice as many springs, before a measurement.
 const GROWTH: f64 = 2.2;
-/// Shares of the budget by the end of which the ladders have ended.
+/// Shares of the budget at which the ladders end.
 const SUB_CELL_BY: f64 = 0.35;
 const GRID_BY: f64 = 0.65;
 
-/// The ladder of edges between springs, with errors counted from its finest solution or the closed form.
+/// The ladder of edges between springs, with errors relative to its finest solution or the closed form.
 struct Counted {
     reference: Reference,
     target: Solution,
     rows: Vec<Row>,
-    /// Springs of the first row from which on the main error is at most one per cent, or of the finest.
+    /// Springs of the first row from which on the main error is at most one per cent, or of the finest row.
     good: u64,
 }
 
 /// One rung of a ladder of springs.
 struct Rung {
     solution: Solution,
-    /// The adhesion force in closed form, N, where the scene has one.
+    /// The adhesion force in closed form, N, if the scene has one.
     closed_form: Option<f64>,
     seconds: Option<Timing>,
 }
@@ -41,8 +41,8 @@ impl Rung {
     }
 }
 
-/// Measures the table of a checked scene whose files lie in `folder`, within a budget of time. `stop` is asked
-/// now and then whether to give up; `watch` receives each setting and its result.
+/// Measures the table of a checked scene with files in `folder`, within a budget of time. `stop` is polled now and
+/// then; `watch` receives each setting and its result.
 ///
 /// # Errors
 /// [`CostError`].
@@ -104,7 +104,7 @@ impl Bench<'_> {
         let edges = if knob == Knob::GridSprings { Edges::Grid } else { Edges::SubCell };
         let (mut rungs, mut guess) = (Vec::new(), 0.0);
         for points in allowed_points(self.scene) {
-            // The first two of a ladder may take what they need, so that there is something to compare.
+            // The first two of a ladder may exceed their share, so that a comparison is possible.
             let may_take = if rungs.len() < 2 { 1.0 } else { share };
             if self.budget.left_of(may_take) <= guess {
                 self.leave_out(knob, &format!("{points} springs and more"));
@@ -131,7 +131,7 @@ impl Bench<'_> {
         Ok(rungs)
     }
 
-    /// Counts the errors of a ladder with edges between springs; `None` with fewer than two rungs.
+    /// Computes the errors of a ladder with edges between springs; `None` with fewer than two rungs.
     fn count(&self, sub_cell: &[Rung]) -> Option<Counted> {
         let (finest, coarser) = sub_cell.split_last()?;
         let last = coarser.last()?.solution.errors(&finest.solution);
@@ -157,7 +157,7 @@ impl Bench<'_> {
         let known = |rung: &Rung| {
             let own = rung.solution.errors(&target);
             let is_finest = rung.solution.points == target.points;
-            // From itself the finest solution differs by nothing, which is not its error.
+            // The difference of the finest solution from itself is zero, which is not its error.
             own.zip(&errors, |own, floor| if is_finest && *own == Some(0.0) { *floor } else { *own })
         };
         let own: Vec<_> = sub_cell.iter().map(known).collect();

@@ -1,9 +1,9 @@
 //! Errors of a scene, and the cost of smaller ones.
 //!
-//! [`measure()`] tries everything that buys accuracy, from coarse to fine, and sets errors against times. Errors
-//! are relative and counted from a [`Reference`]: the adhesion force in closed form where the scene has one,
-//! otherwise the finest solution with edges between springs, of which the last refinements show how good it
-//! is itself. Runs that are timed are others than those that are compared.
+//! [`measure()`] tries every setting that affects accuracy, from coarse to fine, and compares errors with times.
+//! Errors are relative to a [`Reference`]: the adhesion force in closed form if the scene has one, otherwise the
+//! finest solution with edges between springs, whose own error follows from the last refinements. Timed runs are
+//! separate from compared ones.
 
 mod answer;
 mod bench;

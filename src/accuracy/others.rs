@@ -1,4 +1,4 @@
-//! The knobs beside the number of springs: steps, samples, precision, lines.
+//! The knobs beside the number of springs: steps, samples, precision, profiles.
 
 use super::bench::{Bench, CostError, Rows, Tried};
 use super::solution::{Solution, Solved, allowed_points, refined};
@@ -11,32 +11,32 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
-/// Shares of the budget by the end of which each has ended.
+/// Shares of the budget at which each knob ends.
 const STEPS_BY: f64 = 0.8;
 const SAMPLES_BY: f64 = 0.88;
 const LINES_BY: f64 = 1.0;
 
-/// Coarse settings of a knob that may take what is left of the budget, so that there is something to see.
+/// Number of coarse settings of a knob that may use the rest of the budget, so that there are results.
 const COARSE: usize = 4;
 
 /// Springs of the stepwise solver, unless the scene needs more.
 const STEPWISE_SPRINGS: u64 = 256;
-/// Times as many samples for comparing steps as for comparing springs.
+/// Factor of samples for comparing steps over those for comparing springs.
 const BLURRED: u64 = 4;
-/// Steps that the coarsest run takes over the range of its indentations.
+/// Steps of the coarsest run over the range of its indentations.
 const FEWEST_STEPS: f64 = 16.0;
-/// Halvings of the step, at most.
+/// Most halvings of the step.
 const MOST_HALVINGS: u32 = 20;
-/// Fewest samples, and how many of them the reference has.
+/// Fewest samples, and the samples of the reference.
 const FEWEST_SAMPLES: u64 = 8;
 const REFERENCE_SAMPLES: u64 = 1 << 16;
-/// Springs on which samples are tried, where the scene has more and fewer are good enough.
+/// Most springs for the test of samples, if the scene has more and fewer suffice.
 const MOST_SAMPLED: u64 = 1 << 14;
-/// Fewest lines that make a mean, and most that are tried.
+/// Fewest profiles of a mean, and most that are tried.
 const FEWEST_LINES: u64 = 4;
 const MOST_LINES: u64 = 1 << 14;
 
-/// Adds the rows of all these knobs; `points` springs are good for about one per cent.
+/// Adds the rows of all these knobs; `points` springs reach about one per cent.
 pub(super) fn measure(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>) -> Result<(), CostError> {
     steps(bench, rows)?;
     let own = bench.scene.numerics.points.min(MOST_SAMPLED).max(points);
@@ -53,8 +53,8 @@ fn steps(bench: &mut Bench<'_>, rows: &mut Rows<'_, '_>) -> Result<(), CostError
     };
     let mut timed = refined(bench.scene, points, Edges::Grid);
     let mut scene = bench.compared(&timed);
-    // With few springs each of them is a jump, which samples on either side of it blur: by up to one distance
-    // of samples here, and by up to four where steps are thinned out to samples.
+    // With few springs each of them is a jump, which samples on either side blur: by up to one distance of samples
+    // here, and by up to four where steps are thinned out to samples.
     scene.numerics.samples *= BLURRED;
     let floors =
         Measures { curve: Some((1 + BLURRED) as f64 / scene.numerics.samples as f64), ..Measures::default() };
@@ -83,7 +83,7 @@ fn steps(bench: &mut Bench<'_>, rows: &mut Rows<'_, '_>) -> Result<(), CostError
             break;
         };
         let took = clock.elapsed().as_secs_f64();
-        // Nothing is gained by another run of one that takes seconds already.
+        // No second run of one that takes seconds already.
         let seconds = if took < bench.budget.left_of(STEPS_BY) / 4.0 {
             bench.time(&timed)
         } else {
@@ -96,7 +96,7 @@ fn steps(bench: &mut Bench<'_>, rows: &mut Rows<'_, '_>) -> Result<(), CostError
     Ok(())
 }
 
-/// Samples of the curve, against very many of them: the curve between them is what they change, no figure.
+/// Samples of the curve, against very many of them: samples change the curve between them, but no figure.
 fn samples(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>) -> Result<(), CostError> {
     let knob = Knob::Samples;
     let legs = bench.scene.loading.len().max(1) as u64;
@@ -150,8 +150,8 @@ fn single_precision(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>)
     Ok(())
 }
 
-/// Relative errors of a scene whose gaps are rounded to single precision and then solved in double, against
-/// the same with gaps in double precision. `stop` is asked between legs whether to give up.
+/// Relative errors of a scene with gaps rounded to single precision and then solved in double, against the same
+/// scene with gaps in double precision. `stop` is polled between loading stages.
 fn errors_of_single_precision(
     scene: &Scene,
     folder: &Path,
@@ -176,7 +176,7 @@ fn errors_of_single_precision(
     Ok(solve(&rounded)?.errors(&double))
 }
 
-/// Random profiles: standard error of the mean of their adhesion forces, and the time they take one after the other.
+/// Random profiles: standard error of the mean of their adhesion forces, and their time in sequence.
 fn lines(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>) -> Result<(), CostError> {
     if bench.scene.seed().is_none() {
         return Ok(());

@@ -1,4 +1,4 @@
-//! Measures by which two solutions of one scene are compared.
+//! Measures for the comparison of two solutions of one scene.
 
 use super::ForceCurve;
 use crate::analysis::Figures;
@@ -10,24 +10,24 @@ use crate::surface::SurfaceError;
 use serde::Serialize;
 use std::f64::consts::PI;
 
-/// Fewest springs anything is solved with.
+/// Fewest springs of any solution.
 const FEWEST: u64 = 16;
 
-/// One value for each thing that has an error.
+/// One value for each quantity with an error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Measures<T> {
     /// The adhesion force F_a.
     pub adhesion_force: T,
     /// The whole force curve, see [`ForceCurve::distance`].
     pub curve: T,
-    /// The energy lost.
+    /// The dissipated energy.
     pub dissipated_energy: T,
     /// The largest length in contact.
     pub contact_length: T,
 }
 
 impl<T> Measures<T> {
-    /// All four, in their order.
+    /// All four measures, in their order.
     pub fn each(&self) -> [&T; 4] {
         [&self.adhesion_force, &self.curve, &self.dissipated_energy, &self.contact_length]
     }
@@ -42,20 +42,20 @@ impl<T> Measures<T> {
         }
     }
 
-    /// Applies a function to each.
+    /// Applies a function to each measure.
     pub fn map<V>(&self, make: impl Fn(&T) -> V) -> Measures<V> {
         self.zip(self, |value, _| make(value))
     }
 }
 
-/// Figures and curve of one solution; a figure that is zero has no relative error and is left out.
+/// Figures and curve of one solution; a figure of zero has no relative error and is left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
     /// Springs N.
     pub points: u64,
     /// Adhesion force, N.
     pub adhesion_force: Option<f64>,
-    /// Energy lost, J.
+    /// Dissipated energy, J.
     pub dissipated_energy: Option<f64>,
     /// Largest length in contact, m.
     pub contact_length: Option<f64>,
@@ -85,7 +85,7 @@ impl Solution {
         }
     }
 
-    /// Relative differences from a reference; `None` where the reference has no such figure.
+    /// Relative differences from a reference; `None` if the reference has no such figure.
     #[must_use]
     pub fn errors(&self, reference: &Solution) -> Measures<Option<f64>> {
         let relative = |value: Option<f64>, reference: Option<f64>| {
@@ -106,7 +106,7 @@ impl Solution {
 pub enum Target {
     /// The adhesion force.
     AdhesionForce,
-    /// The force curve, where nothing pulls; see [`ForceCurve::distance`].
+    /// The force curve, without a tensile force; see [`ForceCurve::distance`].
     Curve,
 }
 
@@ -137,25 +137,25 @@ pub(super) fn relative_error(value: f64, reference: f64) -> f64 {
     ((value - reference) / reference).abs()
 }
 
-/// This scene, solved exactly on so many springs with these edges.
+/// This scene, with so many springs, these edges and the exact solver.
 pub(super) fn refined(scene: &Scene, points: u64, edges: Edges) -> Scene {
     let mut scene = scene.clone();
     scene.numerics = Numerics { points, edges, solver: Solver::Exact, ..scene.numerics };
     scene
 }
 
-/// Powers of two that a scene allows as its number of springs, ascending.
+/// Powers of two allowed as the scene's number of springs, ascending.
 pub(super) fn allowed_points(scene: &Scene) -> impl Iterator<Item = u64> {
     let powers = std::iter::successors(Some(FEWEST), |points| points.checked_mul(2));
     let allowed = |points| check(&refined(scene, points, scene.numerics.edges)).is_empty();
-    // Too few for the modes first, too many for the field last.
+    // Skips numbers too small for the modes, then stops at those too large for the field.
     powers.take(40).skip_while(move |&points| !allowed(points)).take_while(move |&points| allowed(points))
 }
 
-/// Runs a scene; solutions by one simulation share the profile where it is the same.
+/// Runs a scene; solutions by one simulation share an unchanged profile.
 ///
 /// # Errors
-/// All but too few springs for the form, and too little time or memory.
+/// All errors but too few springs for the form, and too little time or memory.
 pub(super) fn solve(
     simulation: &mut Simulation,
     scene: &Scene,
@@ -175,7 +175,7 @@ pub(super) enum Solved {
     Outcome(Box<Outcome>),
     /// No spring is under the body.
     TooCoarse,
-    /// There is no time or memory for it.
+    /// Insufficient time or memory.
     TooMuch,
 }
 
@@ -188,8 +188,8 @@ fn is_out_of_memory(error: &RunError) -> bool {
     )
 }
 
-/// The adhesion force of a scene in closed form, N, where it has one: a smooth body that is pulled over the
-/// indentation of its smallest force, on a line longer than its contact. `outcome` has the answer.
+/// The adhesion force of a scene in closed form, N, if there is one: a smooth body that is pulled beyond the
+/// indentation of its smallest force, on a profile longer than its contact. `outcome` is its solution.
 #[must_use]
 pub fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
     let work = outcome.governing.adhesive_work()?;
@@ -206,7 +206,7 @@ pub fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
         (Some(form), _) => {
             let body = PowerLaw::of(form, modulus, work)?;
             let (radius, _) = body.force_controlled_pull_off();
-            // An edge of the contact that has reached the edge of the line is no longer the body's own.
+            // An edge of the contact at the end of the profile is no longer the body's own.
             (body.indentation(radius), length - 2.0 * outcome.line.spacing)
         }
     };
@@ -217,7 +217,7 @@ pub fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
         leg.direction == Direction::Unloading && leg.curve.iter().any(|point| point.springs > 0)
     })?;
     let passes = pulled.start() >= pull_off && pulled.curve.last()?.springs == 0;
-    // Lengths are sums.
+    // Lengths are sums with rounding errors.
     (passes && contact <= widest * (1.0 + 1e-9)).then(|| smooth_adhesion_force(form, length, modulus, work))
 }
 
@@ -244,7 +244,7 @@ mod tests {
         assert!((sphere / (1.5 * PI * 0.05 * 1e-4) - 1.0).abs() < 1e-12, "{sphere}");
         assert!(closed_form("jkr-sphere", &[("loading", "[ToTouch, ToSeparation]")]).is_some());
         assert!(closed_form("kendall-punch", &[]).is_some());
-        // Not pulled off, too short a line, no adhesion, rough.
+        // Not pulled off, a profile that is too short, no adhesion, rough.
         let held = "[ToForce(1e-4), ToIndentation(0.0)]";
         assert_eq!(closed_form("jkr-sphere", &[("loading", held)]), None);
         assert_eq!(closed_form("jkr-sphere", &[("length", "2.0e-5")]), None);

@@ -1,10 +1,10 @@
-//! The table of what accuracy costs.
+//! The table of the cost of accuracy.
 
 use super::Measures;
 use super::convergence::first_within;
 use serde::Serialize;
 
-/// Setting that buys accuracy.
+/// Setting that affects accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Knob {
@@ -14,16 +14,16 @@ pub enum Knob {
     GridSprings,
     /// Step Δd of the stepwise solver.
     Step,
-    /// Samples of the curve on each leg.
+    /// Samples of the curve on each loading stage.
     Samples,
     /// Heights kept in single precision.
     SinglePrecision,
-    /// Random lines in a mean.
+    /// Random profiles of a mean.
     Lines,
 }
 
 impl Knob {
-    /// All of them, in the order of the table.
+    /// All knobs, in the order of the table.
     pub const ALL: [Knob; 6] = [
         Knob::SubCellSprings,
         Knob::GridSprings,
@@ -33,7 +33,7 @@ impl Knob {
         Knob::Lines,
     ];
 
-    /// Its name in words.
+    /// Name of the knob in words.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -46,14 +46,14 @@ impl Knob {
         }
     }
 
-    /// The unit of its setting.
+    /// Unit of the setting.
     #[must_use]
     pub fn unit(self) -> &'static str {
         if self == Knob::Step { "m" } else { "" }
     }
 }
 
-/// Times of repeated runs after one that does not count, s.
+/// Times of repeated runs after a warm-up run, s.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Timing {
     /// The shortest.
@@ -65,7 +65,7 @@ pub struct Timing {
 }
 
 impl Timing {
-    /// Of the times of some runs, s; `None` without one.
+    /// Timing from the times of some runs, s; `None` without any.
     #[must_use]
     pub fn of(mut seconds: Vec<f64>) -> Option<Self> {
         seconds.sort_by(f64::total_cmp);
@@ -79,28 +79,28 @@ impl Timing {
 /// One relative error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ErrorFigure {
-    /// The error; where it is not resolved, that of the reference itself.
+    /// The error; if it is not resolved, that of the reference itself.
     pub error: f64,
-    /// True if it is larger than the error of the reference.
+    /// True if the error is larger than that of the reference.
     pub resolved: bool,
-    /// Observed order of convergence since the row before, where both are resolved.
+    /// Observed order of convergence relative to the previous row, if both errors are resolved.
     pub order: Option<f64>,
 }
 
-/// One setting: what it costs and what it gives.
+/// One setting: its cost and its errors.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
     /// Setting.
     pub knob: Knob,
-    /// To what: a number, or m for a step.
+    /// Value of the setting: a number, or m for a step.
     pub setting: f64,
     /// Springs N.
     pub springs: u64,
-    /// Time of a whole run, everything made anew; `None` where time is not what it buys.
+    /// Time of a whole run without any reuse; `None` if the setting does not affect time.
     pub seconds: Option<Timing>,
     /// The shortest time in Fourier transforms, see [`CostTable::transform_seconds`].
     pub transforms: Option<f64>,
-    /// Relative errors of what the setting changes.
+    /// Relative errors of the affected quantities.
     pub errors: Measures<Option<ErrorFigure>>,
 }
 
@@ -111,7 +111,7 @@ pub struct Reference {
     pub springs: u64,
     /// Adhesion force, N.
     pub adhesion_force: Option<f64>,
-    /// True if that is a closed form; everything else is the finest solution's.
+    /// True if `adhesion_force` is a closed form; all other references are from the finest solution.
     pub closed_form: bool,
     /// Estimated relative errors of the reference itself.
     pub errors: Measures<Option<f64>>,
@@ -120,9 +120,9 @@ pub struct Reference {
 /// Cost of accuracy for one scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CostTable {
-    /// Time that was given, s.
+    /// Time limit, s.
     pub budget: f64,
-    /// Time that was taken, s.
+    /// Time used, s.
     pub spent: f64,
     /// The unit of time: the shortest time of one real Fourier transform of 2^20 points, planned beforehand,
     /// s.
@@ -141,7 +141,7 @@ impl CostTable {
         self.rows.iter().filter(move |row| row.knob == knob)
     }
 
-    /// The error that answers are about: that of the adhesion force, or of the curve where nothing pulls.
+    /// The main error: that of the adhesion force, or of the curve without a tensile force.
     #[must_use]
     pub fn main_error(&self, row: &Row) -> Option<ErrorFigure> {
         let Measures { adhesion_force, curve, .. } = row.errors;
@@ -156,8 +156,8 @@ impl CostTable {
         first_within(errors, bound).map(|index| rows[index])
     }
 
-    /// The order of convergence of a knob over all its rows whose errors are resolved: the slope of the straight
-    /// line that comes nearest to the logarithms of error and setting. `None` with fewer than three of them.
+    /// Order of convergence of a knob over all its rows with resolved errors: the slope of the straight line of
+    /// least squares through the logarithms of error and setting. `None` with fewer than three such rows.
     #[must_use]
     pub fn order(&self, knob: Knob) -> Option<f64> {
         let point = |row: &Row| {
@@ -173,7 +173,7 @@ impl CostTable {
             points.iter().fold((0.0, 0.0), |(x, y), point| (x + point.0 / count, y + point.1 / count));
         let product: f64 = points.iter().map(|point| (point.0 - x) * (point.1 - y)).sum();
         let square: f64 = points.iter().map(|point| (point.0 - x).powi(2)).sum();
-        // A smaller step and more of anything else make it better.
+        // A smaller step or more of any other setting reduces the error.
         Some((product / square).abs()).filter(|order| order.is_finite())
     }
 }

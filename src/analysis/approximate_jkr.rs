@@ -11,8 +11,8 @@
 //! mean length weighted by growth. Where patches merge the area of the circles jumps although nothing attaches: these
 //! jumps do not count.
 //!
-//! A single patch has its exact curve: bodies of revolution. Over many patches the lift is a mean: the curve has no
-//! hysteresis of single patches, and no patch that merged on loading holds longer.
+//! For a single patch of a body of revolution the curve is exact. Over many patches the lift is a mean: the curve
+//! has no hysteresis of single patches, and no patch that merged on loading holds longer.
 
 use crate::contact::NonadhesivePoint;
 use std::f64::consts::PI;
@@ -21,7 +21,7 @@ use std::f64::consts::PI;
 pub const APPROXIMATE_JKR_ASSUMPTIONS: &str =
     "contact areas as without adhesion, patches as circles that never merge, no hysteresis of single patches";
 
-/// Approximate adhesive curve.
+/// Approximate JKR curve.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ApproximateJkr {
     /// Points in the order of their contact areas.
@@ -40,8 +40,8 @@ pub struct ApproximatePoint {
 }
 
 impl ApproximateJkr {
-    /// The curve under a work of adhesion, J/m², of a body with this effective modulus, Pa, from its contact without
-    /// adhesion. A point without a patch that grows is left out.
+    /// The curve under a work of adhesion, J/m², of a body with this effective modulus, Pa, from its contact
+    /// without adhesion. Points without a growing patch are left out.
     #[must_use]
     pub fn new(contact: &[NonadhesivePoint], effective_modulus: f64, work_of_adhesion: f64) -> Self {
         let point = |nonadhesive: &NonadhesivePoint| {
@@ -55,17 +55,17 @@ impl ApproximateJkr {
         ApproximateJkr { points: contact.iter().filter_map(point).collect() }
     }
 
-    /// Point of the smallest force, where the curve pulls.
+    /// Point of the smallest force, if that is tensile.
     #[must_use]
     pub fn pull_off(&self) -> Option<ApproximatePoint> {
         let smallest = self.points.iter().min_by(|one, other| one.force.total_cmp(&other.force));
         smallest.copied().filter(|point| point.force <= 0.0)
     }
 
-    /// Adhesion force F_a, N: minus the smallest force of the curve; `None` where the curve does not pull.
+    /// Adhesion force F_a, N: minus the smallest force of the curve; `None` without a tensile force.
     #[must_use]
     pub fn adhesion_force(&self) -> Option<f64> {
-        // Not −F: that would make a force of zero negative.
+        // Not −F, which would make a force of zero negative.
         self.pull_off().map(|point| 0.0 - point.force)
     }
 }

@@ -1,4 +1,4 @@
-//! Derived quantities of a contact from plain numbers in SI units. Every other part of the program calls these.
+//! Derived quantities of a contact from plain numbers in SI units, the only implementation in the program.
 //!
 //! Adhesion forces of smooth bodies are in [`crate::reference`], the rule of Hess is [`crate::contact::HessRule`], the
 //! elastic energy of conformity [`Amplitude::elastic_energy`].
@@ -7,8 +7,8 @@ use crate::scene::RoughnessParameter;
 use crate::surface::Amplitude;
 use std::f64::consts::PI;
 
-/// Roughness–adhesion parameter κ = √(h⟨∇z⟩E*/γ) of roughness under an effective modulus E*, Pa, and a work of adhesion γ,
-/// J/m²; `None` where κ is beyond all numbers. Popov and Filippov (2012), eq. (11).
+/// Roughness-adhesion parameter κ = √(h⟨∇z⟩E*/γ) of roughness under an effective modulus E*, Pa, and a work of
+/// adhesion γ, J/m²; `None` if κ overflows. Popov and Filippov (2012), eq. (11).
 #[must_use]
 pub fn roughness_adhesion_parameter(
     amplitude: Amplitude,
@@ -19,8 +19,8 @@ pub fn roughness_adhesion_parameter(
     value_of(parameter, energy_of(parameter, amplitude, effective_modulus), work_of_adhesion)
 }
 
-/// Elastic energy of conformity over the work of adhesion, e_el/γ, of roughness under an effective modulus E*, Pa, and a
-/// work of adhesion γ, J/m²; `None` where the ratio is beyond all numbers. Persson and Tosatti (2001).
+/// Elastic energy of conformity over the work of adhesion, e_el/γ, of roughness under an effective modulus E*, Pa,
+/// and a work of adhesion γ, J/m²; `None` if the ratio overflows. Persson and Tosatti (2001).
 #[must_use]
 pub fn elastic_energy_ratio(
     amplitude: Amplitude,
@@ -45,7 +45,7 @@ pub fn tabor_number(curvature_radius: f64, work_of_adhesion: f64, effective_modu
     ((work_of_adhesion / effective_modulus).powi(2) * curvature_radius / range.powi(3)).cbrt()
 }
 
-/// Stiffness dF/dd = E* l, N/m, of a contact of length l, m, whose edges keep their place, under an effective modulus E*, Pa.
+/// Stiffness dF/dd = E* l, N/m, of a contact of length l, m, with fixed edges, under an effective modulus E*, Pa.
 /// Popov and Filippov (2012), eq. (1).
 #[must_use]
 pub fn contact_stiffness(effective_modulus: f64, contact_length: f64) -> f64 {
@@ -65,7 +65,7 @@ pub fn force_unit(effective_modulus: f64, rms_height: f64, length: f64) -> f64 {
     effective_modulus * rms_height * length
 }
 
-/// Energy per area of a line that a parameter compares with the work of adhesion, J/m²: h⟨∇z⟩E* or e_el.
+/// Energy per area of a profile that a parameter compares with the work of adhesion, J/m²: h⟨∇z⟩E* or e_el.
 pub(super) fn energy_of(parameter: RoughnessParameter, amplitude: Amplitude, effective_modulus: f64) -> f64 {
     match parameter {
         RoughnessParameter::Kappa => amplitude.rms_height * amplitude.rms_gradient * effective_modulus,
@@ -73,8 +73,8 @@ pub(super) fn energy_of(parameter: RoughnessParameter, amplitude: Amplitude, eff
     }
 }
 
-/// Value of a parameter at this energy and work of adhesion per area, J/m². So little adhesion that the value is beyond
-/// all numbers is none.
+/// Value of a parameter at this energy and work of adhesion per area, J/m². `None` if adhesion is so small that the
+/// value overflows.
 pub(super) fn value_of(parameter: RoughnessParameter, energy: f64, work: f64) -> Option<f64> {
     Some(parameter.of_energy_over_work(energy / work)).filter(|value| work > 0.0 && value.is_finite())
 }

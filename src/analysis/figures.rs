@@ -3,29 +3,29 @@
 use crate::contact::{CurvePoint, Direction, History, Reversal};
 use crate::scene::{Leg, Scene};
 
-/// Figures of one history; a figure the history does not have is `None`.
+/// Figures of one history; `None` for a figure that the history does not have.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
-    /// Preload F_n: largest force on a loading leg, N.
+    /// Preload F_n: largest force of a loading stage, N.
     pub preload: Option<f64>,
     /// Indentation at the preload, m.
     pub preload_indentation: Option<f64>,
-    /// Adhesion force F_a: minus the smallest force on the last unloading leg, N; only where that leg
-    /// pulls, that is where its smallest force is not above zero.
+    /// Adhesion force F_a: minus the smallest force of the last unloading stage, N; `None` if that force is above
+    /// zero.
     pub adhesion_force: Option<f64>,
     /// Adhesion coefficient F_a/F_n; only under a preload.
     pub adhesion_coefficient: Option<f64>,
     /// Indentation at the smallest force, m.
     pub pull_off_indentation: Option<f64>,
-    /// Energy lost over a history that ends separated, J.
+    /// Dissipated energy of a history that ends separated, J.
     pub dissipated_energy: Option<f64>,
 }
 
 impl Figures {
-    /// The figures of `history`.
+    /// Figures of `history`.
     #[must_use]
     pub fn of(history: &History) -> Self {
-        // Legs of a separated body have no extremes of the contact.
+        // Stages of a separated body have no extremes of the contact.
         let legs = || history.legs.iter().filter(|leg| leg.curve.iter().any(|point| point.springs > 0));
         let pressed = legs()
             .filter(|leg| leg.direction == Direction::Loading)
@@ -40,7 +40,7 @@ impl Figures {
         )
     }
 
-    /// The figures of a loading from separation to the end of this leg, at the turning point of `reversal`, and back.
+    /// Figures of a loading from separation to the end of this stage, at the turning point of `reversal`, and back.
     #[must_use]
     pub fn of_reversal(leg: Leg, reversal: &Reversal) -> Self {
         let touches = reversal.turn.springs > 0;
@@ -51,14 +51,14 @@ impl Figures {
         )
     }
 
-    /// The figures of the point of the largest force with its leg, of the smallest force after it, and of the energy of
-    /// all legs, J.
+    /// Figures from the point of the largest force with its stage, the smallest force after it, and the energy of
+    /// all stages, J.
     fn at(pressed: Option<(Leg, CurvePoint)>, smallest: Option<CurvePoint>, energy: Option<f64>) -> Self {
         let preload = pressed.map(|(_, point)| point.force);
         let smallest = smallest.filter(|point| point.force <= 0.0);
-        // Not −F: that would make a force of zero negative.
+        // Not −F, which would make a force of zero negative.
         let adhesion_force = smallest.map(|point| 0.0 - point.force);
-        // Where the force is to come back to zero, what is left of it is rounding.
+        // For a target force of zero the remaining force is rounding.
         let under_load = pressed.is_some_and(|(leg, _)| leg != Leg::ToForce(0.0));
         Figures {
             preload,
@@ -69,13 +69,12 @@ impl Figures {
                 .map(|(adhesion, preload)| adhesion / preload)
                 .filter(|coefficient| coefficient.is_finite()),
             pull_off_indentation: smallest.map(|point| point.indentation),
-            // From −0 to 0 where nothing is lost.
+            // Changes −0 to 0 without dissipation.
             dissipated_energy: energy.map(|energy| energy + 0.0),
         }
     }
 
-    /// Returns true if a scene's own loading is that of the touch protocol, so that its adhesion force is
-    /// F_a(0).
+    /// Returns true if a scene's own loading is that of the touch protocol, so that its adhesion force is F_a(0).
     #[must_use]
     pub fn is_touch_protocol(scene: &Scene) -> bool {
         scene.loading == [Leg::ToTouch, Leg::ToSeparation]
@@ -108,7 +107,7 @@ mod tests {
         CurvePoint { indentation, force, contact_length: 0.0, springs, fragments: springs.min(1) }
     }
 
-    /// A leg whose extremes are this point, with these springs at its end.
+    /// A stage with this point as its extremes and these springs at its end.
     fn leg(leg: Leg, direction: Direction, extreme: CurvePoint, springs: u64) -> LegRecord {
         let curve = vec![point(0.0, 0.5, 1), extreme, point(extreme.indentation, 0.0, springs)];
         LegRecord {
@@ -147,11 +146,11 @@ mod tests {
             dissipated_energy: Some(1.0),
         };
         assert_eq!(found, expected);
-        // Nothing lost is 0, not −0.
+        // No dissipation is 0, not −0.
         let nothing = |leg: LegRecord| LegRecord { dissipated_energy: -0.0, ..leg };
         let lost = figures(vec![nothing(pressed(7.0)), nothing(pulled(-3.0, 0))]).dissipated_energy;
         assert!(lost.is_some_and(|lost| lost == 0.0 && lost.is_sign_positive()), "{lost:?}");
-        // A contact that still holds has no loss over a loop.
+        // A contact that still holds has not completed a loop.
         assert_eq!(figures(vec![pressed(7.0), pulled(-3.0, 1)]).dissipated_energy, None);
         assert_eq!(figures(vec![]), Figures::default());
     }
@@ -166,7 +165,7 @@ mod tests {
         let legs = vec![pressed(-7.0), pulled(-3.0, 0), free(Direction::Loading), free(Direction::Unloading)];
         let found = figures(legs);
         assert_eq!((found.preload, found.adhesion_force), (Some(-7.0), Some(3.0)));
-        // A body that is pulled all the way has no preload to compare with.
+        // A body that is pulled throughout has no preload for a coefficient.
         assert_eq!(found.adhesion_coefficient, None);
         assert_eq!(figures(vec![free(Direction::Loading), free(Direction::Unloading)]).preload, None);
     }
@@ -180,7 +179,7 @@ mod tests {
         assert_eq!(adhesion(-1e-300), Some(1e-300));
         assert_eq!(figures(vec![pressed(1.0), pulled(1.0, 1)]).pull_off_indentation, None);
         assert_eq!(figures(vec![pressed(0.0), pulled(-1.0, 0)]).adhesion_coefficient, None);
-        // A coefficient beyond all numbers is none.
+        // A coefficient that overflows is `None`.
         assert_eq!(figures(vec![pressed(1e-320), pulled(-1.0, 0)]).adhesion_coefficient, None);
     }
 

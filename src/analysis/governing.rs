@@ -5,16 +5,16 @@ use crate::contact::{Foundation, HessRule};
 use crate::scene::{Adhesion, Roughness, RoughnessParameter, Scene};
 use crate::surface::{Amplitude, Line, WaveNumbers};
 
-/// The parameters that govern a scene, each given or worked out from the others.
+/// The governing parameters of a scene, each given or derived from the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Governing {
     /// Effective modulus E*, Pa.
     pub effective_modulus: f64,
     /// Work of adhesion γ, J/m²; `None` without adhesion.
     pub work_of_adhesion: Option<f64>,
-    /// Work of adhesion γ₁ on closing, J/m²; `None` where that is the same.
+    /// Work of adhesion γ₁ on closing, J/m²; `None` if equal to `work_of_adhesion`.
     pub closing_work: Option<f64>,
-    /// Amplitude of the roughness; `None` where the line is smooth.
+    /// Amplitude of the roughness; `None` for a smooth profile.
     pub amplitude: Option<Amplitude>,
     /// κ = √(h⟨∇z⟩E*/γ), eq. (11); `None` without roughness or adhesion.
     pub kappa: Option<f64>,
@@ -23,17 +23,17 @@ pub struct Governing {
 }
 
 impl Governing {
-    /// The foundation under a line.
+    /// The foundation under a profile.
     #[must_use]
     pub fn foundation(&self, line: &Line) -> Foundation {
         Foundation { spacing: line.spacing, effective_modulus: self.effective_modulus, length: line.length }
     }
 
-    /// Works out the parameters of a checked scene from the wave numbers of its self-affine line or the amplitude of its
-    /// measured profile.
+    /// Derives the parameters of a checked scene from the wave numbers of its self-affine profile or the amplitude
+    /// of its measured one.
     ///
-    /// Given κ alone, γ = h⟨∇z⟩E*/κ²; given γ and κ, h = κ √(γ/(E* ⟨∇z⟩/h)). e_el/γ is used alike, with
-    /// e_el = E* h² q̄/4 and the mean wave number q̄.
+    /// Given κ alone, γ = h⟨∇z⟩E*/κ²; given γ and κ, h = κ √(γ/(E* ⟨∇z⟩/h)). Similarly for e_el/γ, with e_el = E*
+    /// h² q̄/4 and the mean wave number q̄.
     #[must_use]
     pub fn of(scene: &Scene, wave_numbers: Option<WaveNumbers>, measured: Option<Amplitude>) -> Self {
         let effective_modulus = scene.material.effective_modulus();
@@ -66,7 +66,7 @@ impl Governing {
         without.with_adhesion(scene.adhesion)
     }
 
-    /// The same line under another adhesion.
+    /// The same profile with another adhesion.
     #[must_use]
     pub fn with_adhesion(self, adhesion: Option<Adhesion>) -> Self {
         let adhesion = adhesion.unwrap_or_default();
@@ -86,7 +86,7 @@ impl Governing {
         }
     }
 
-    /// The work of adhesion that gives a parameter this value, J/m²; `None` without roughness.
+    /// Work of adhesion for this value of a parameter, J/m²; `None` without roughness.
     #[must_use]
     pub fn work_for(&self, parameter: RoughnessParameter, value: f64) -> Option<f64> {
         Some(self.energy(parameter)? / parameter.energy_over_work(value))
@@ -124,14 +124,14 @@ impl Governing {
         self.amplitude.map(|amplitude| force_unit(self.effective_modulus, amplitude.rms_height, length))
     }
 
-    /// The rule of Hess on the foundation under a line; `None` without adhesion.
+    /// The rule of Hess on the foundation under a profile; `None` without adhesion.
     #[must_use]
     pub fn hess_rule(&self, foundation: Foundation) -> Option<HessRule> {
         let work = self.adhesive_work()?;
         Some(HessRule::from_works(foundation, self.closing_work.unwrap_or(work), work))
     }
 
-    /// The work of adhesion where there is any, J/m².
+    /// The work of adhesion if there is any, J/m².
     #[must_use]
     pub fn adhesive_work(&self) -> Option<f64> {
         self.work_of_adhesion.filter(|&work| work > 0.0)
@@ -143,7 +143,7 @@ mod tests {
     use super::*;
     use crate::scene::Document;
 
-    /// E* = 4 Pa, and of the roughness and adhesion what is given; `None` for no roughness.
+    /// A scene with E* = 4 Pa and the given roughness and adhesion; `None` for no roughness.
     fn scene(amplitude: Option<&str>, adhesion: &str) -> Scene {
         let roughness = amplitude.map_or_else(String::new, |amplitude| {
             format!("roughness: SelfAffine(hurst: 0.5, {amplitude} modes: (1, 8), seed: 1), ")

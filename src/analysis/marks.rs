@@ -17,7 +17,7 @@ pub enum Mark {
 }
 
 impl Mark {
-    /// Name in the terms of the field.
+    /// Technical name.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -29,7 +29,7 @@ impl Mark {
     }
 }
 
-/// Marks of a loading history, as far as it has them, in their order.
+/// Existing marks of a loading history, in their order.
 #[must_use]
 pub fn marks(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
     let mut marks = Vec::new();
@@ -47,7 +47,7 @@ pub fn marks(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
     marks.extend(pull_off.map(|point| (Mark::PullOff, point)));
     let lost = unloading.and_then(|leg| {
         let pair = leg.curve.windows(2).rfind(|pair| pair[0].springs > 0 && pair[1].springs == 0)?;
-        // Both come from different sums, so that equal forces differ by rounding.
+        // The forces are different sums, so equal forces differ by rounding.
         let is_pull_off = pull_off.is_some_and(|least| pair[0].force <= least.force * (1.0 - 1e-9));
         Some(pair[0]).filter(|point| point.force < 0.0 && !is_pull_off)
     });

@@ -1,5 +1,5 @@
-//! Figures drawn from a scene and its history: the governing parameter, adhesion, regime, energy, and what a picture
-//! shows of a profile and its contact.
+//! Figures derived from a scene and its history: the governing parameter, adhesion, regime, energy, and the
+//! sections of a profile and its contact for a picture.
 
 mod approximate_jkr;
 mod derived;

@@ -1,42 +1,42 @@
-//! The three regimes of adhesion of Fig. 4: the rule for one loading and the rule for many random lines.
+//! The three regimes of adhesion of Fig. 4: the rule for one loading and the rule for many random profiles.
 
 use super::Figures;
 use serde::Serialize;
 
-/// Adhesion without a preload is pressure-insensitive when it is at least this share of the adhesion
-/// after the preload: half of it needs no pressing.
+/// Share of the adhesion after the preload from which on adhesion without a preload is pressure-insensitive: half
+/// of the adhesion needs no pressing.
 pub const INSENSITIVE_SHARE: f64 = 0.5;
 
-/// Adhesion without a preload has vanished when it is below this share of that of the smooth body. The
-/// transition from above one half to below one twentieth spans a factor of about three in κ, so the
-/// choice moves the boundary little.
+/// Share of the adhesion of the smooth body below which adhesion without a preload has vanished. The transition
+/// from above one half to below one twentieth spans a factor of about three in κ, so the choice has little effect
+/// on the boundary.
 pub const VANISHING_SHARE: f64 = 0.05;
 
-/// An adhesion coefficient F_a/F_n below this is negligible: the bodies stick with less than a
+/// Adhesion coefficient F_a/F_n below which adhesion is negligible: the bodies adhere with less than a
 /// hundredth of the force that pressed them together.
 pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
 
-/// Smallest share of random lines in one regime for which the lines agree.
+/// Smallest share of random profiles in one regime for which the profiles agree.
 pub const AGREEING_SHARE: f64 = 0.75;
 
 /// Dependence of adhesion on the load, Fig. 4.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Regime {
-    /// (a) Adhesion is there at first contact and hardly depends on the preload.
+    /// (a) Adhesion exists at first contact and hardly depends on the preload.
     PressureInsensitive,
     /// (b) Adhesion appears, or grows considerably, only under a preload.
     PressureSensitive,
-    /// (c) Almost no adhesion, however strongly the bodies are pressed.
+    /// (c) Almost no adhesion under any preload.
     NonAdhesive,
 }
 
 impl Regime {
-    /// All regimes, the one with most adhesion first.
+    /// All regimes in the order of decreasing adhesion.
     pub const ALL: [Regime; 3] =
         [Regime::PressureInsensitive, Regime::PressureSensitive, Regime::NonAdhesive];
 
-    /// Regime of one loading of one line; `None` for a loading that pulls nothing.
+    /// Regime of one loading of one profile; `None` for a loading without a tensile force.
     ///
     /// `smooth_adhesion` and `zero_load_adhesion` are `None` without adhesion, N. See [`RegimeEvidence`].
     #[must_use]
@@ -66,23 +66,23 @@ impl Regime {
     }
 }
 
-/// Regime of many random lines of one scene: a cell of a map.
+/// Regime of many random profiles of one scene: a cell of a map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CellRegime {
-    /// Regime of most lines; of two with as many lines the one with more adhesion.
+    /// Regime of most profiles; of two with equal numbers the one with more adhesion.
     pub regime: Regime,
-    /// Share of the lines in this regime, at most 1.
+    /// Share of the profiles in this regime, at most 1.
     pub share: f64,
-    /// Regime of the second largest share, where the first is below [`AGREEING_SHARE`].
+    /// Regime of the second largest share, if the first is below [`AGREEING_SHARE`].
     pub split: Option<Regime>,
 }
 
 impl CellRegime {
-    /// From the shares of lines in the regimes, in the order of [`Regime::ALL`]; `None` where all are zero.
+    /// From the shares of profiles in the regimes, in the order of [`Regime::ALL`]; `None` if all are zero.
     #[must_use]
     pub fn from_shares(shares: [f64; 3]) -> Option<Self> {
         let mut order = [0, 1, 2];
-        // Stable: of equal shares the one with more adhesion stays first.
+        // Stable: of equal shares the one with more adhesion remains first.
         order.sort_by(|&a, &b| shares[b].total_cmp(&shares[a]));
         let [first, second, _] = order;
         let share = shares[first];
@@ -90,7 +90,7 @@ impl CellRegime {
         (share > 0.0).then_some(CellRegime { regime: Regime::ALL[first], share, split })
     }
 
-    /// From the regimes of the lines; lines without one do not count.
+    /// From the regimes of the profiles; profiles without one do not count.
     #[must_use]
     pub fn from_lines(lines: impl IntoIterator<Item = Option<Regime>>) -> Option<Self> {
         let mut counts = [0_u32; 3];
@@ -102,10 +102,10 @@ impl CellRegime {
     }
 }
 
-/// Forces from which the regime follows, N.
+/// Forces that determine the regime, N.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RegimeEvidence {
-    /// Adhesion force F_a(0) by the touch protocol: turned at first touch.
+    /// Adhesion force F_a(0) by the touch protocol: turning point at first touch.
     pub zero_load_adhesion: f64,
     /// Adhesion force F_a(F_n) of the scene's own loading.
     pub adhesion: f64,
@@ -119,8 +119,8 @@ impl RegimeEvidence {
     /// The regime of these forces.
     ///
     /// Pressure-insensitive: F_a(0) is at least [`INSENSITIVE_SHARE`] of F_a(F_n) and at least
-    /// [`VANISHING_SHARE`] of the smooth body's. Otherwise non-adhesive when F_a(F_n)/F_n is below
-    /// [`NEGLIGIBLE_COEFFICIENT`], or, where there was no preload, because F_a(0) has vanished; and
+    /// [`VANISHING_SHARE`] of the smooth body's. Otherwise non-adhesive if F_a(F_n)/F_n is below
+    /// [`NEGLIGIBLE_COEFFICIENT`], or, without a preload, because F_a(0) has vanished;
     /// pressure-sensitive in all other cases.
     #[must_use]
     pub fn regime(&self) -> Regime {
@@ -182,14 +182,14 @@ mod tests {
         let evidence = |zero_load_adhesion, adhesion, preload, smooth_adhesion| {
             RegimeEvidence { zero_load_adhesion, adhesion, preload, smooth_adhesion }.regime()
         };
-        // Half of the adhesion needs no pressing; a little less does not count.
+        // Half of the adhesion needs no pressing; slightly less does not count.
         assert_eq!(evidence(0.5, 1.0, 5.0, 1.0), Regime::PressureInsensitive);
         assert_eq!(evidence(0.5_f64.next_down(), 1.0, 5.0, 1.0), Regime::PressureSensitive);
-        // A twentieth of the smooth body's is there; a little less has vanished.
+        // A twentieth of the smooth body's adhesion exists; slightly less has vanished.
         assert_eq!(evidence(VANISHING_SHARE, 0.1, 1.0, 1.0), Regime::PressureInsensitive);
         assert_eq!(evidence(VANISHING_SHARE.next_down(), 0.09, 1.0, 1.0), Regime::PressureSensitive);
         assert_eq!(evidence(0.0, 0.0, 0.0, 0.0), Regime::NonAdhesive);
-        // A hundredth of the preload is negligible; a little more is not.
+        // A hundredth of the preload is negligible; slightly more is not.
         assert_eq!(evidence(0.0, NEGLIGIBLE_COEFFICIENT, 1.0, 1.0), Regime::NonAdhesive);
         assert_eq!(evidence(0.0, NEGLIGIBLE_COEFFICIENT.next_up(), 1.0, 1.0), Regime::PressureSensitive);
         // The same shares of other forces.
@@ -197,7 +197,7 @@ mod tests {
         assert_eq!(evidence(0.19, 0.1, 1.0, 4.0), Regime::PressureSensitive);
         assert_eq!(evidence(0.0, 0.04, 4.0, 1.0), Regime::NonAdhesive);
         assert_eq!(evidence(0.0, 0.05, 4.0, 1.0), Regime::PressureSensitive);
-        // Without a preload what is left under a twentieth is none, whatever it is against the preload.
+        // Without a preload adhesion below a twentieth has vanished, at any ratio to the preload.
         assert_eq!(evidence(0.01, 0.1, 0.0, 1.0), Regime::NonAdhesive);
         assert_eq!(evidence(0.01, 0.1, -1.0, 1.0), Regime::NonAdhesive);
         assert_eq!(evidence(0.3, 1.0, 0.0, 1.0), Regime::PressureSensitive);

@@ -3,19 +3,19 @@
 use crate::contact::Reversal;
 use serde::Serialize;
 
-/// Minor loops whose losses differ by more than this share of the larger one are incongruent.
+/// Largest difference of the dissipated energies of congruent minor loops, over the larger energy.
 pub const CONGRUENT_SHARE: f64 = 1e-9;
-/// Minor loops that dissipate less than this share of the whole loop count as loops without loss.
+/// Share of the energy of the whole loop below which a minor loop counts as free of dissipation.
 const LEAST_LOSS: f64 = 1e-12;
 
-/// First-order reversal curves on an even grid of indentations.
+/// First-order reversal curves on a uniform grid of indentations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReversalMap {
-    /// Indentations at equal distances, m; the last ones are the turning points.
+    /// Equally spaced indentations, m; the last ones are the turning points.
     pub points: Vec<f64>,
     /// Number of points below the first turning point.
     pub below: usize,
-    /// The reversal from each turning point, with its forces at the points up to there.
+    /// The reversal from each turning point, with its forces at the points up to the turning point.
     pub reversals: Vec<Reversal>,
 }
 
@@ -33,14 +33,13 @@ impl ReversalMap {
         (self.points[self.points.len() - 1] - self.points[0]) / intervals as f64
     }
 
-    /// Force on the way back from a turning point at a point, both by number, N; `None` above the turning point.
+    /// Force on the reversal from a turning point at a point, both by number, N; `None` above the turning point.
     #[must_use]
     pub fn force(&self, turn: usize, point: usize) -> Option<f64> {
         self.reversals.get(turn)?.forces.get(point).copied()
     }
 
-    /// Everett function E(d_r, d) = ½ (F(d_r) − F(d_r, d)), N: half of what the force has fallen by on the way back from
-    /// the turning point.
+    /// Everett function E(d_r, d) = ½ (F(d_r) − F(d_r, d)), N: half of the fall of the force from the turning point.
     #[must_use]
     pub fn everett(&self, turn: usize, point: usize) -> Option<f64> {
         let reversal = self.reversals.get(turn)?;
@@ -48,10 +47,10 @@ impl ReversalMap {
     }
 
     /// Density ρ(d_r, d) = −½ ∂²F/∂d_r∂d, N/m²: that of the quadratic of least squares through the forces at the
-    /// (2n + 1)² points at most n = `smoothing` steps away in either direction; `None` where one of these is missing.
+    /// (2n + 1)² points at most n = `smoothing` steps away in either direction; `None` if one of these is missing.
     ///
-    /// On an even grid the products of the two distances are orthogonal to all other terms of the quadratic, so that
-    /// the mixed derivative is Σ u v F / Σ u² v².
+    /// On a uniform grid the products of the two distances are orthogonal to all other terms of the quadratic, so
+    /// that the mixed derivative is Σ u v F / Σ u² v².
     #[must_use]
     pub fn density(&self, turn: usize, point: usize, smoothing: usize) -> Option<f64> {
         let reach = smoothing as i64;
@@ -68,17 +67,17 @@ impl ReversalMap {
     }
 }
 
-/// Minor loops between the same indentations, begun in two ways.
+/// Minor loops between the same indentations, started in two ways.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct MinorLoops {
-    /// Loops that dissipate in one of the ways at least.
+    /// Number of loops that dissipate energy in at least one of the ways.
     pub with_loss: usize,
-    /// Loops that dissipate otherwise in the other way.
+    /// Number of loops with different dissipated energies.
     pub incongruent: usize,
 }
 
 impl MinorLoops {
-    /// Counts pairs of losses, J, of loops within one that dissipates so much, J.
+    /// Counts pairs of dissipated energies, J, of minor loops inside one with the dissipated energy `whole`, J.
     #[must_use]
     pub fn new(losses: &[[f64; 2]], whole: f64) -> MinorLoops {
         let larger = |[one, other]: &[f64; 2]| one.max(*other);
@@ -87,7 +86,7 @@ impl MinorLoops {
         MinorLoops { with_loss: with_loss.clone().count(), incongruent: with_loss.filter(differs).count() }
     }
 
-    /// Share of incongruent loops among those with loss.
+    /// Share of incongruent loops among those that dissipate energy.
     #[must_use]
     pub fn incongruent_share(&self) -> Option<f64> {
         (self.with_loss > 0).then(|| self.incongruent as f64 / self.with_loss as f64)
@@ -99,7 +98,7 @@ mod tests {
     use super::*;
     use crate::contact::CurvePoint;
 
-    /// A map of the forces of a function of the turning point and the indentation.
+    /// A map from a force as a function of the turning point and the indentation.
     fn map(force: impl Fn(f64, f64) -> f64) -> ReversalMap {
         let points: Vec<f64> = (0..20).map(|index| 0.25 * f64::from(index) - 2.0).collect();
         let below = 8;

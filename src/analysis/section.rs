@@ -1,13 +1,13 @@
 //! A profile and its contact, reduced to the columns of a pane or a picture.
 
-/// A part of the line, reduced to one column for each column of dots.
+/// A part of the profile, reduced to columns of dots.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Section {
     /// First spring shown.
     pub first: usize,
     /// Springs shown.
     pub springs: usize,
-    /// Lowest and highest z shown by the line over all springs of the section, m.
+    /// Lowest and highest z of the profile over all springs of the section, m.
     pub heights: (f64, f64),
     /// Height of the undeformed elastic surface, m.
     pub level: f64,
@@ -18,15 +18,15 @@ pub struct Section {
 /// One column of dots: the springs in it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Column {
-    /// Lowest and highest point of the rigid line, m.
+    /// Lowest and highest point of the rigid profile, m.
     pub line: (f64, f64),
     /// Lowest and highest point of the elastic surface, m.
     pub surface: (f64, f64),
-    /// Lowest and highest point of the line where it is in contact, m.
+    /// Lowest and highest point of the profile in contact, m.
     pub contact: Option<(f64, f64)>,
 }
 
-/// Part of the springs of a range that is in contact.
+/// Extent of contact of a range of springs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Share {
     /// No spring.
@@ -42,13 +42,13 @@ pub enum Share {
 pub struct LengthBin {
     /// Shortest length, springs.
     pub from: u64,
-    /// The shortest length that is too long, springs.
+    /// The next length after the bin, springs.
     pub to: u64,
-    /// Fragments of these lengths.
+    /// Number of fragments of these lengths.
     pub fragments: u64,
 }
 
-/// The line and its contact at one moment.
+/// The profile and its contact in one state.
 #[derive(Clone, Copy)]
 pub struct Contact<'a> {
     /// Gaps below the summit, m.
@@ -61,7 +61,7 @@ pub struct Contact<'a> {
     pub fragments: &'a [(usize, usize)],
 }
 
-/// Lowest and highest point of the line in each column of a pane: kept from moment to moment, since
+/// Lowest and highest point of the profile in each column of a pane: kept from state to state, since
 /// only the contact changes.
 #[derive(Default)]
 pub struct LineColumns {
@@ -69,26 +69,25 @@ pub struct LineColumns {
     extremes: Vec<(f64, f64)>,
 }
 
-/// The springs that a pane shows, and in how many columns.
+/// The springs of a pane, and its number of columns.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Part {
-    /// The first one.
+    /// First spring.
     pub first: usize,
-    /// Number.
+    /// Number of springs.
     pub springs: usize,
     /// Columns of dots.
     pub columns: usize,
 }
 
 impl Part {
-    /// The part of a line of `count` springs that lies on it.
+    /// The part restricted to a profile of `count` springs.
     fn within(self, count: usize) -> Self {
         let first = self.first.min(count);
         Part { first, springs: self.springs.min(count - first), columns: self.columns }
     }
 
-    /// First spring of a column and the one after its last. Where there are more columns than springs, a
-    /// spring fills several.
+    /// First spring of a column and the one after its last. With more columns than springs, a spring fills several.
     fn springs_of(self, column: usize) -> (usize, usize) {
         let start = |column: usize| {
             self.first + (column as u128 * self.springs as u128 / self.columns.max(1) as u128) as usize
@@ -104,7 +103,7 @@ fn extremes(heights: impl Iterator<Item = f64>) -> (f64, f64) {
 }
 
 impl Contact<'_> {
-    /// Height of the line at a spring, m.
+    /// Height of the profile at a spring, m.
     #[must_use]
     pub fn height(&self, spring: usize) -> f64 {
         self.summit - self.gaps[spring]
@@ -114,8 +113,8 @@ impl Contact<'_> {
         extremes(self.gaps[from..to].iter().map(|gap| self.summit - gap))
     }
 
-    /// Reduces a part of the line to its columns: the lowest and highest of each. `line` keeps what
-    /// depends on the line alone; another line needs another one.
+    /// Reduces a part of the profile to its columns: the lowest and highest point of each. `line`
+    /// caches the part that depends on the profile alone; another profile needs another cache.
     #[must_use]
     pub fn section(&self, part: Part, line: &mut LineColumns) -> Section {
         let part = part.within(self.gaps.len());
@@ -156,12 +155,12 @@ impl Contact<'_> {
             .iter()
             .map(|column| column.line)
             .reduce(|(low, high), (a, b)| (low.min(a), high.max(b)))
-            // A pane that is not shown has no columns, and may be shown before its next picture comes.
+            // A hidden pane has no columns, and may be shown before its next picture is ready.
             .unwrap_or_else(whole);
         section
     }
 
-    /// A column from its springs, `line` their extremes, and the fragments that do not end before it.
+    /// A column from its springs, `line` their extremes, and the fragments that do not end before the column.
     fn column(&self, from: usize, to: usize, line: (f64, f64), fragments: &[(usize, usize)]) -> Column {
         let level = self.summit - self.indentation;
         let mut contact: Option<(f64, f64)> = None;
@@ -172,7 +171,7 @@ impl Contact<'_> {
             let part = if end - first == to - from { line } else { self.line(first, end) };
             contact = Some(contact.map_or(part, |(low, high)| (low.min(part.0), high.max(part.1))));
         }
-        // Where springs are free the surface is at its level, where they touch it follows the line.
+        // The surface is at its level above free springs and follows the profile in contact.
         let surface = match contact {
             Some(contact) if held == to - from => contact,
             Some((low, high)) => (low.min(level), high.max(level)),
@@ -182,7 +181,7 @@ impl Contact<'_> {
     }
 }
 
-/// Share in contact of each of `cells` equal parts of a line of `count` springs.
+/// Share in contact of each of `cells` equal parts of a profile of `count` springs.
 #[must_use]
 pub fn strip(fragments: &[(usize, usize)], count: usize, cells: usize) -> Vec<Share> {
     let part = Part { first: 0, springs: count, columns: cells };
@@ -201,8 +200,8 @@ pub fn strip(fragments: &[(usize, usize)], count: usize, cells: usize) -> Vec<Sh
         .collect()
 }
 
-/// Counts fragments into lengths that grow by a factor √2, from one spring on; lengths of no whole
-/// number of springs have no bin.
+/// Counts fragments into lengths that grow by a factor √2, from one spring on; ranges without an
+/// integer number of springs have no bin.
 #[must_use]
 pub fn lengths(fragments: &[(usize, usize)]) -> Vec<LengthBin> {
     let mut lengths: Vec<u64> = fragments.iter().map(|&(first, last)| (last - first + 1) as u64).collect();
@@ -222,8 +221,7 @@ pub fn lengths(fragments: &[(usize, usize)]) -> Vec<LengthBin> {
     bins
 }
 
-/// Springs that are in one of two contacts and not in the other, each given by its fragments in
-/// ascending order.
+/// Number of springs in exactly one of two contacts, each given by its fragments in ascending order.
 #[must_use]
 pub fn changed(before: &[(usize, usize)], after: &[(usize, usize)]) -> u64 {
     let springs = |fragments: &[(usize, usize)]| -> u64 {

@@ -1,19 +1,19 @@
 //! Tabor number: the range of attraction against the deformation at pull-off.
 //!
-//! The rule of Hess is the limit of short-ranged attraction, as the theory of Johnson, Kendall and Roberts is. Attraction
-//! of a finite range dissipates less: in three dimensions the hysteresis is gone at a Tabor number of about 1.
+//! The rule of Hess is the limit of short-ranged attraction, as is the theory of Johnson, Kendall and Roberts.
+//! Attraction of a finite range dissipates less: in three dimensions the hysteresis vanishes at a Tabor number near 1.
 
 use super::{Governing, tabor_number};
 use crate::scene::{Form, Scene};
 
-/// Range of attraction z₀, m, of a scene that does not state one: a distance between atoms.
+/// Default range of attraction z₀, m, of a scene: an interatomic distance.
 pub const DEFAULT_RANGE: f64 = 0.3e-9;
 
-/// Tabor number below which dissipated energies are too large.
+/// Tabor number below which dissipated energies are overestimated.
 pub const LEAST_TABOR_NUMBER: f64 = 5.0;
 
-/// Tabor number μ of a scene, see [`tabor_number`]; `None` without adhesion, and for bodies without a radius of curvature.
-/// Of two works of adhesion that of opening counts.
+/// Tabor number μ of a scene, see [`tabor_number`]; `None` without adhesion, and for bodies without a radius of
+/// curvature. Of two works of adhesion, that of opening is used.
 #[must_use]
 pub fn scene_tabor_number(scene: &Scene, governing: &Governing) -> Option<f64> {
     let (radius, work) = (curvature_radius(scene.form.as_ref(), governing)?, governing.adhesive_work()?);
@@ -23,12 +23,12 @@ pub fn scene_tabor_number(scene: &Scene, governing: &Governing) -> Option<f64> {
 
 /// Radius of curvature ρ of the summits of a form and its roughness, m; `None` for flat faces, cones and powers.
 ///
-/// ρ = 2/z″ with the rms curvature z″ of the line, which is the rms Laplacian of the surface: twice its mean curvature. A
-/// paraboloid of radius R has the line x²/R and thus ρ = R; crests of a sphere with waves have 1/R + 4π²A/λ². On a rough
-/// form the squares of both curvatures add.
+/// ρ = 2/z″ with the rms curvature z″ of the profile, the rms Laplacian of the surface: twice its mean curvature.
+/// A paraboloid of radius R has the profile x²/R and thus ρ = R; crests of a sphere with waves have 1/R + 4π²A/λ². On a
+/// rough form the squares of both curvatures add.
 #[must_use]
 pub fn curvature_radius(form: Option<&Form>, governing: &Governing) -> Option<f64> {
-    // A flat face is as rough as the flat end of a punch.
+    // A flat face has the curvature of the flat end of a punch.
     let of_form = form.map_or(Some(0.0), Form::summit_curvature)?;
     let of_roughness = governing.amplitude.map_or(0.0, |amplitude| 0.5 * amplitude.rms_curvature);
     Some(of_form.hypot(of_roughness).recip()).filter(|radius| radius.is_finite())
@@ -67,7 +67,7 @@ mod tests {
         // (ργ²/(E*²z₀³))^(1/3)
         let expected = (2e-4 * 0.05_f64.powi(2) / (4e6_f64.powi(2) * 1e-27)).cbrt();
         assert!((of(&sphere).unwrap() / expected - 1.0).abs() < 1e-12);
-        // Without a range it is 0.3 nm: μ ∝ 1/z₀.
+        // The default range is 0.3 nm: μ ∝ 1/z₀.
         let usual = of(&sphere.set("adhesion.range", "None").unwrap()).unwrap();
         assert!((usual * 0.3 / expected - 1.0).abs() < 1e-12);
         let opening = sphere.set("adhesion.closing_work", "0.01").unwrap();
@@ -98,7 +98,7 @@ mod tests {
         let expected =
             (2.0 / curvature * 0.05_f64.powi(2) / (modulus.powi(2) * DEFAULT_RANGE.powi(3))).cbrt();
         assert!((of(&rough).unwrap() / expected - 1.0).abs() < 1e-12);
-        // A sphere of a radius far larger than that of the summits changes next to nothing.
+        // A sphere with a radius far larger than that of the summits has almost no effect.
         let sphere = rough.set("form", "Paraboloid(radius: 10.0)").unwrap();
         assert!((of(&sphere).unwrap() / expected - 1.0).abs() < 1e-6);
     }

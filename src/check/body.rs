@@ -1,4 +1,4 @@
-//! Bodies on springs, and the solver of either kind of edges over them: the one place where the checks meet
+//! Bodies on springs, and the solver for either kind of edges over them: the only interface between the checks and
 //! the engine.
 
 use super::Fault;
@@ -12,7 +12,7 @@ use std::f64::consts::{PI, TAU};
 /// Springs under adhesion.
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// Gaps of its springs, m, the smallest 0.
+    /// Gaps of the springs, m, the smallest 0.
     pub gaps: Vec<f64>,
     /// The springs.
     pub foundation: Foundation,
@@ -20,17 +20,17 @@ pub struct Body {
     pub work: f64,
 }
 
-/// E* of bodies for which another would show nothing else, Pa.
+/// E* of bodies whose modulus does not matter, Pa.
 pub const MODULUS: f64 = 2.0e6;
 
-/// Their length, m.
+/// Length of these bodies, m.
 pub const LENGTH: f64 = 1.0e-4;
 
-/// Their rms height, m.
+/// Rms height of these bodies, m.
 pub const RMS_HEIGHT: f64 = 1.0e-7;
 
 impl Body {
-    /// A body over these gaps or heights of either sign: the highest point becomes gap 0.
+    /// A body from gaps or heights of either sign: the highest point becomes gap 0.
     #[must_use]
     pub fn below(mut heights: Vec<f64>, length: f64, effective_modulus: f64, work: f64) -> Body {
         let summit = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -42,7 +42,7 @@ impl Body {
     /// A self-affine body of [`LENGTH`], [`RMS_HEIGHT`] and [`MODULUS`].
     ///
     /// # Errors
-    /// Those of the synthesis.
+    /// Errors of the synthesis.
     pub fn rough(spectrum: SelfAffine, seed: u64, points: usize, work: f64) -> Result<Body, Fault> {
         let rough = UnitRoughness::synthesize(spectrum, seed, points)?;
         let line = Line::new(LENGTH, points, None, Some(&rough.heights), RMS_HEIGHT)?;
@@ -50,16 +50,16 @@ impl Body {
         Ok(Body { gaps: line.gaps, foundation, work })
     }
 
-    /// A body of one of several kinds: self-affine, noise, a few levels, a random walk. Between hardly any
-    /// adhesion and far more than it takes; the same for a seed everywhere.
+    /// A body of one of several kinds: self-affine, noise, a few levels, a random walk. The adhesion ranges from
+    /// almost none to far more than that of full contact; a seed determines the body everywhere.
     ///
     /// # Errors
-    /// Those of the synthesis.
+    /// Errors of the synthesis.
     pub fn random(seed: u64) -> Result<Body, Fault> {
         let mut numbers = phases(seed, 1).map(|phase| phase / TAU);
         let mut next = || numbers.next().unwrap_or(0.0);
         let points = 20 + (300.0 * next()) as usize;
-        // γ so that the whole line is held from 1e−3 to 3 rms heights away.
+        // γ for which the largest stretch of the whole profile is 1e−3 to 3 rms heights.
         let reach = RMS_HEIGHT * 10.0_f64.powf(-3.0 + 3.5 * next());
         let work = reach * reach * MODULUS / (PI * LENGTH);
         let heights = match seed % 4 {
@@ -95,23 +95,23 @@ impl Body {
         (PI * cells * self.foundation.spacing * self.work / self.foundation.effective_modulus).sqrt()
     }
 
-    /// Largest stretch of a fragment that is the whole line, m.
+    /// Largest stretch of a fragment as long as the whole profile, m.
     #[must_use]
     pub fn largest_stretch(&self) -> f64 {
         self.stretch(self.gaps.len() as f64)
     }
 
-    /// A force of the order of those that act, N.
+    /// A force of the order of the acting ones, N.
     #[must_use]
     pub fn force_scale(&self) -> f64 {
         let stiffness = self.gaps.len() as f64 * self.foundation.spring_stiffness();
         stiffness * (self.deepest() + self.largest_stretch())
     }
 
-    /// Result of `act` with a solver over this separated body and `samples` points on a leg.
+    /// Result of `act` with a solver over this separated body and `samples` points on a loading stage.
     ///
     /// # Errors
-    /// Those of `act`, and when memory does not suffice.
+    /// Errors of `act`, and insufficient memory.
     pub fn with<T>(
         &self,
         edges: Edges,
@@ -128,13 +128,13 @@ impl Body {
     /// A whole loading.
     ///
     /// # Errors
-    /// Those of a leg that cannot be done.
+    /// Errors of a loading stage that cannot be computed.
     pub fn history(&self, edges: Edges, legs: &[Leg], samples: usize) -> Result<History, Fault> {
         self.with(edges, samples, |solver| Ok(run(solver, legs, |_, _| Ok(()))?))
     }
 
-    /// Turning points, as shares of the depth, that go through all of a body: a first contact, minor loops,
-    /// below first touch, full contact and back.
+    /// Turning points, as shares of the depth, that cover all states of a body: a first contact, minor loops, below
+    /// first touch, full contact and back.
     #[must_use]
     pub fn tour(&self) -> Vec<Leg> {
         let depth = self.deepest() + self.largest_stretch();
@@ -144,7 +144,7 @@ impl Body {
     }
 }
 
-/// End of a leg; separated at d = 0 if it has no point.
+/// End of a loading stage; separated at d = 0 if the stage has no point.
 #[must_use]
 pub fn end(record: &LegRecord) -> CurvePoint {
     record.curve.last().copied().unwrap_or_default()

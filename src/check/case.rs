@@ -8,27 +8,27 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Family {
-    /// From no adhesion to adhesion that holds everything.
+    /// From no adhesion to adhesion that keeps full contact.
     Adhesion,
-    /// Units and sizes, up to the ends of the range of numbers.
+    /// Units and sizes, up to the limits of floating-point numbers.
     Scales,
     /// Shapes and numbers of springs.
     Lines,
-    /// Bodies whose loop is known.
+    /// Bodies with a known loop.
     ClosedForms,
-    /// Laws that hold for every body.
+    /// Laws valid for every body.
     Laws,
 }
 
-/// Kind of evidence that a case gives.
+/// Kind of evidence of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Evidence {
     /// A closed form of the literature or of this model.
     ClosedForm,
-    /// The same quantity computed another way: the rules without tree and thresholds, or sums of twice the digits.
+    /// The same quantity computed otherwise: the rules without tree and thresholds, or sums with twice the digits.
     IndependentComputation,
-    /// A law that the result obeys: mirror, scaling, memory, order, refinement, repetition.
+    /// A law for the result: mirror, scaling, memory, order, refinement, repetition.
     SelfConsistency,
 }
 
@@ -49,36 +49,36 @@ impl Evidence {
 pub enum Scope {
     /// Both kinds of edges, each with its own bound: whole springs, edges between springs.
     BothEdges(f64, f64),
-    /// One kind, which the case is about.
+    /// The one kind of edges of the case.
     OneKind(Edges, f64),
-    /// The line alone: no contact, no edges.
+    /// The profile alone: no contact, no edges.
     Line(f64),
 }
 
 /// A hard case.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
-    /// Its name: words with hyphens.
+    /// Name: words with hyphens.
     pub name: &'static str,
-    /// Family: that of the list which holds the case.
+    /// Family, according to the list with the case.
     pub family: Family,
-    /// Claim, in one sentence.
+    /// Claim, one sentence.
     pub holds: &'static str,
     /// Kinds of evidence, the strongest first.
     pub evidence: &'static [Evidence],
-    /// Reason for a known failure: the case stays in the catalogue as a failure.
+    /// Reason for a known failure: the case remains in the catalogue as a failure.
     pub known_failure: Option<&'static str>,
     /// Quantity of the error.
     pub error_of: &'static str,
     /// Edge models and bounds.
     pub scope: Scope,
-    /// True if it takes seconds and hundreds of megabytes.
+    /// True for a case that takes seconds and hundreds of megabytes.
     pub large: bool,
     /// Measures the error.
     pub(super) measure: fn(Edges) -> Result<f64, Fault>,
 }
 
-/// A case of which nothing is known: without a measure of its own it fails.
+/// An unspecified case: without a measure of its own it fails.
 pub(super) const CASE: Case = Case {
     name: "",
     family: Family::Laws,

@@ -1,4 +1,4 @@
-//! The list of cases, and the verdict on one.
+//! The list of cases, and the verdict on each.
 
 use super::Fault;
 use super::case::{Case, Family, Scope};
@@ -11,7 +11,7 @@ use std::time::Instant;
 pub struct Check {
     /// The case.
     pub case: Case,
-    /// With which edges, where it matters.
+    /// Kind of edges, where it matters.
     pub edges: Option<Edges>,
     /// Largest error allowed.
     pub bound: f64,
@@ -22,21 +22,21 @@ pub struct Check {
 pub struct Verdict {
     /// Check.
     pub check: Check,
-    /// The error, or why there is none.
+    /// The error, or the reason why there is none.
     pub error: Result<f64, Fault>,
     /// Time, s.
     pub seconds: f64,
 }
 
 impl Verdict {
-    /// Returns true if it holds.
+    /// Returns true if the case holds.
     #[must_use]
     pub fn passes(&self) -> bool {
-        // Not a number is no error within the bound.
+        // NaN is no error within the bound.
         self.error.as_ref().is_ok_and(|&error| error <= self.check.bound)
     }
 
-    /// Returns true for a case that passes, or fails as it is known to: with an error, but within no bound.
+    /// Returns true for a case that passes, or fails as known: with an error outside the bound.
     #[must_use]
     pub fn is_expected(&self) -> bool {
         match self.check.case.known_failure {
@@ -46,7 +46,7 @@ impl Verdict {
     }
 }
 
-/// All cases, in the order in which they are shown.
+/// All cases, in the order of display.
 #[must_use]
 pub fn catalogue() -> Vec<Case> {
     let families = [
@@ -62,7 +62,7 @@ pub fn catalogue() -> Vec<Case> {
     families.into_iter().flat_map(of).collect()
 }
 
-/// All checks of the cases that `choose` chooses.
+/// All checks of the cases selected by `choose`.
 #[must_use]
 pub fn checks(choose: impl Fn(&Case) -> bool) -> Vec<Check> {
     let of = |case: Case| -> Vec<Check> {

@@ -1,11 +1,11 @@
-//! Numbers of twice the digits: what forces are compared with.
+//! Numbers with twice the digits: the reference of forces.
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 /// An unevaluated sum of two numbers, of about 106 binary digits.
 ///
-/// Each operation errs by a few units of 2⁻¹⁰⁴ (Joldes, Muller and Popescu 2017), as long as nothing leaves
-/// the range in which products of two numbers keep all their digits: about 1e−290 to 1e300.
+/// Each operation errs by a few units of 2⁻¹⁰⁴ (Joldes, Muller and Popescu 2017), within the range in which
+/// products of two numbers keep all their digits: about 1e−290 to 1e300.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 pub struct Extended {
     high: f64,
@@ -16,31 +16,31 @@ impl Extended {
     /// π.
     pub const PI: Extended = Extended { high: std::f64::consts::PI, low: 1.224_646_799_147_353_2e-16 };
 
-    /// The nearest number of single length.
+    /// The nearest double.
     #[must_use]
     pub fn rounded(self) -> f64 {
         self.high + self.low
     }
 
-    /// Its magnitude.
+    /// Magnitude.
     #[must_use]
     pub fn abs(self) -> Extended {
         if self.high < 0.0 { -self } else { self }
     }
 
-    /// Its square root; zero for what is not positive.
+    /// Square root; zero for numbers that are not positive.
     #[must_use]
     pub fn sqrt(self) -> Extended {
         if self.high <= 0.0 {
             return Extended::default();
         }
-        // One step of Newton doubles the digits.
+        // One step of Newton's method doubles the digits.
         let root = self.high.sqrt();
         let left = self - exact_product(root, root);
         quick_sum(root, left.high / (2.0 * root))
     }
 
-    /// The sum of numbers.
+    /// Sum of numbers.
     #[must_use]
     pub fn sum(values: impl IntoIterator<Item = f64>) -> Extended {
         values.into_iter().fold(Extended::default(), |sum, value| sum + Extended::from(value))
@@ -53,7 +53,7 @@ impl From<f64> for Extended {
     }
 }
 
-/// a + b and its rounding error, whichever of them is larger (Knuth).
+/// a + b and its rounding error, in any order of magnitudes (Knuth).
 fn exact_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let added = sum - a;

@@ -1,10 +1,10 @@
-//! The catalogue of hard cases: what must hold however hard it is on the numbers, and whether it does here.
+//! The catalogue of hard cases: claims that must hold for numerically difficult input, and checks on this machine.
 //!
-//! Each case says in one sentence what must hold, computes it with the library as it is, and gives one number:
-//! the error, against a bound that is stated beforehand. References are closed forms; relaxation of the three
-//! rules, written without tree and thresholds; sums of twice the digits; and laws (scales, mirrors, memory,
-//! order, energy) that hold for every body. A case whose contact is another than the rules', or that cannot be
-//! computed, fails with a sentence that says where.
+//! Each case has a claim of one sentence, computes it with the unmodified library, and returns one number: the
+//! error, against a bound that is stated beforehand. References are closed forms; relaxation of the three rules,
+//! written without tree and thresholds; sums with twice the digits; and laws (scales, mirrors, memory, order,
+//! energy) that hold for every body. A case whose contact differs from that of the rules, or that cannot be
+//! computed, fails with a sentence about the place.
 
 mod body;
 mod case;
@@ -28,13 +28,13 @@ use crate::study::LinesError;
 use crate::surface::SurfaceError;
 use thiserror::Error;
 
-/// Reason for which a case gave no number.
+/// Reason why a case returned no number.
 #[derive(Debug, Error)]
 pub enum Fault {
-    /// Something is not as it must be.
+    /// A claim does not hold.
     #[error("{0}")]
     Wrong(String),
-    /// A line could not be made.
+    /// A profile could not be made.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
     /// A body could not be moved.
@@ -43,10 +43,10 @@ pub enum Fault {
     /// A scene could not be computed.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// Several lines could not be computed.
+    /// Several profiles could not be computed.
     #[error(transparent)]
     Lines(#[from] LinesError),
-    /// A scene is not allowed.
+    /// A scene is invalid.
     #[error(transparent)]
     Scene(Box<SceneErrors>),
 }
@@ -57,7 +57,7 @@ impl From<SceneErrors> for Fault {
     }
 }
 
-/// A fault unless something holds.
+/// Returns a fault unless `holds`.
 pub(crate) fn ensure(holds: bool, what: impl FnOnce() -> String) -> Result<(), Fault> {
     if holds { Ok(()) } else { Err(Fault::Wrong(what())) }
 }

@@ -1,5 +1,5 @@
 //! Results of the solvers against the rules alone: contact by relaxation, forces and dissipated energies in
-//! arithmetic of twice the digits.
+//! arithmetic with twice the digits.
 
 use super::body::end;
 use super::relaxation::Relaxation;
@@ -12,13 +12,13 @@ use crate::scene::{Edges, Leg};
 pub struct Agreement {
     /// Largest error of a force, in units of [`follow`].
     pub force: f64,
-    /// Largest relative error of an energy lost on a leg (whole springs only).
+    /// Largest relative error of an energy dissipated on a loading stage (whole springs only).
     pub loss: f64,
     /// Contact states compared.
     pub states: usize,
-    /// Those of them in which some springs are in contact, in more than one fragment, and some are not.
+    /// Number of these states with some springs in contact, in more than one fragment, and some not.
     pub partial: usize,
-    /// Those of them in which rounding decides about a spring.
+    /// Number of these states in which rounding decides about a spring.
     pub undecided: usize,
 }
 
@@ -30,19 +30,19 @@ impl Agreement {
     }
 }
 
-/// Moves a body along legs, by the solver and by the rules.
+/// Moves a body along loading stages, by the solver and by the rules.
 ///
-/// Whole springs: after each leg the contact must be that to which the rules relax. Edges between springs:
-/// each fragment must rest, its level t at t − Δl_max(ℓ(t)) = d, between its own largest gap and the lower of
-/// its two walls, and every free spring must be above the surface. The force there, and where an unloading
-/// leg has its smallest, is then summed up from this contact with twice the digits.
+/// Whole springs: after each stage the contact must be that of the relaxed rules. Edges between springs: each
+/// fragment must be at rest, its level t at t − Δl_max(ℓ(t)) = d, between its own largest gap and the lower of its
+/// two walls, and every free spring must be above the surface. The force at that point, and at the minimum of an
+/// unloading stage, is then summed from this contact with twice the digits.
 ///
-/// Errors of forces are counted in units of |F| and of what the documentation of the sums allows besides: with
-/// whole springs 2⁻⁹ of the force that presses every spring by the largest gap, with edges between springs all
-/// of the forces Σ Δk |d − c| and what a rounding of the level does to the force.
+/// Errors of forces are in units of |F| plus the documented error of the sums: with whole springs 2⁻⁹ of the force
+/// that presses every spring by the largest gap, with edges between springs the sum of the forces Σ Δk |d − c| and
+/// the change of force by a rounding of the level.
 ///
 /// # Errors
-/// [`Fault::Wrong`] where the contact is another, and those of a leg that cannot be done.
+/// [`Fault::Wrong`] if the contact differs, and errors of a loading stage that cannot be computed.
 pub fn follow(body: &Body, edges: Edges, legs: &[Leg]) -> Result<Agreement, Fault> {
     body.with(edges, 64, |solver| {
         let mut agreement = Agreement::default();
@@ -69,7 +69,7 @@ pub fn follow(body: &Body, edges: Edges, legs: &[Leg]) -> Result<Agreement, Faul
     })
 }
 
-/// Returns true if rounding decides about the contact at the end of a leg; an error if it is not that of the rules.
+/// Returns true if rounding decides about the contact at the end of a stage; an error if the rules yield another.
 fn same_contact(
     body: &Body,
     solver: &dyn Solver,
@@ -83,7 +83,7 @@ fn same_contact(
     }
     more.move_to(last.indentation);
     if last.springs == 0 && record.leg == Leg::ToSeparation {
-        // The last indentation still holds; the next number below does not.
+        // The contact still holds at the last indentation, and not at the next number below.
         let size = last.indentation.abs() + body.deepest() + body.largest_stretch();
         let beyond = (32.0 * f64::EPSILON * size).max(f64::from_bits(1));
         less.move_to(last.indentation - beyond);
@@ -115,7 +115,7 @@ fn wrong(point: CurvePoint, what: &str) -> Fault {
     Fault::Wrong(format!("at d = {:e} m {what}", point.indentation))
 }
 
-/// Relative error of the energy of a leg on which what was `held` before has changed.
+/// Relative error of the energy of a loading stage that has changed the earlier contact `held`.
 fn loss_error(
     body: &Body,
     solver: &dyn Solver,
@@ -148,7 +148,7 @@ fn loss_error(
     Ok(if expected == found { 0.0 } else { (found - expected).abs() / expected })
 }
 
-/// Error of the force of a point in contact on the present leg, in units of [`follow`].
+/// Error of the force of a point in contact on the present stage, in units of [`follow`].
 pub fn force_error(body: &Body, edges: Edges, solver: &dyn Solver, point: &CurvePoint) -> Result<f64, Fault> {
     let d = point.indentation;
     let fragments = solver.fragments(d);
@@ -184,16 +184,15 @@ pub fn force_error(body: &Body, edges: Edges, solver: &dyn Solver, point: &Curve
     Ok(if error == 0.0 { 0.0 } else { error / unit })
 }
 
-/// A fragment with edges between springs where it rests.
+/// A fragment at rest, with edges between springs.
 struct Rest {
-    /// ∫ (d − c) dx over it, in cells times metres.
+    /// ∫ (d − c) dx over the fragment, in cells times metres.
     compression: Extended,
     /// Bound on roundings, in cells times metres.
     allowed: f64,
 }
 
-/// The cell in which an edge lies: from the last spring that is held, to one that is not or the foundation's
-/// end.
+/// The cell with an edge: from the last attached spring to a free one or the end of the foundation.
 #[derive(Clone, Copy)]
 struct Edge {
     inside: f64,
@@ -201,7 +200,7 @@ struct Edge {
 }
 
 impl Edge {
-    /// Share of the cell that is held at level t: `constant` + `growth` t.
+    /// Attached share of the cell at level t: `constant` + `growth` t.
     fn share(self) -> (Extended, Extended) {
         match self.outside {
             None => (Extended::from(0.5), Extended::default()),
@@ -240,8 +239,8 @@ impl Rest {
         let at_rest = half * half + a + b * Extended::from(d);
         let root = half + at_rest.sqrt();
         let level = Extended::from(d) + s * root;
-        // No level of its own is at rest, so that the one next to it must be, to rounding. At one number, where an edge
-        // passes a spring and the rest is about to detach, a fragment may end at the end of its levels.
+        // No level inside is at rest, so the nearest one must be, to rounding. At a single indentation, where an
+        // edge passes a spring and the rest is about to detach, a fragment may end at the limit of its levels.
         let clamp = |level: Extended| {
             if level.rounded() > wall {
                 Extended::from(wall)
@@ -278,7 +277,7 @@ impl Rest {
             compression += share * (Extended::from(d) - mean);
             magnitude += (share * (Extended::from(d) - mean)).abs().rounded();
         }
-        // Distance that the edges move for a rounding of the level, and their stretch.
+        // Distance of the edges for a rounding of the level, and their stretch.
         let edges_move = b.rounded() * (scale + level_slope(&half, &root) * scale);
         let stretched = (level - Extended::from(d)).abs().rounded();
         let springs = (last - first + 1) as f64;

@@ -1,15 +1,14 @@
-//! The three rules applied until none applies any more: no tree and no threshold.
+//! The three rules applied until none is applicable: no tree and no threshold.
 
 use super::Body;
 
 /// Relative size of the roundings of a threshold.
 const SLACK: f64 = 8.0 * f64::EPSILON;
 
-/// Whole springs that relax to equilibrium wherever they are moved.
+/// Whole springs that relax to equilibrium after each movement.
 ///
-/// With adhesion stronger or weaker by less than the rounding, so that the contact of a solver must lie
-/// between that of two of them. The order in which rules are applied does not matter, so it moves to each
-/// turning point in one step.
+/// With adhesion stronger or weaker by less than the rounding, so that the contact of a solver must lie between
+/// those of two relaxations. The order of the rules does not matter, so one step leads to each turning point.
 #[derive(Clone, Debug)]
 pub struct Relaxation<'a> {
     body: &'a Body,
@@ -19,10 +18,10 @@ pub struct Relaxation<'a> {
 }
 
 impl<'a> Relaxation<'a> {
-    /// Two bodies, separated: one with hardly less, one with hardly more adhesion.
+    /// Two separated bodies: one with slightly less, one with slightly more adhesion.
     #[must_use]
     pub fn pair(body: &'a Body) -> [Self; 2] {
-        // Without adhesion nothing is stretched and nothing is rounded.
+        // Without adhesion no spring is stretched and nothing is rounded.
         let slack = if body.work > 0.0 { SLACK } else { 0.0 };
         [-slack, slack].map(|slack| Relaxation {
             body,
@@ -32,13 +31,13 @@ impl<'a> Relaxation<'a> {
         })
     }
 
-    /// Returns true if each spring is in contact.
+    /// For each spring, true if it is in contact.
     #[must_use]
     pub fn contact(&self) -> &[bool] {
         &self.contact
     }
 
-    /// Returns true if nothing is in contact.
+    /// Returns true if no spring is in contact.
     #[must_use]
     pub fn is_separated(&self) -> bool {
         !self.contact.contains(&true)
@@ -68,7 +67,7 @@ impl<'a> Relaxation<'a> {
         for (contact, &gap) in self.contact.iter_mut().zip(&self.body.gaps) {
             *contact |= gap <= d;
         }
-        // Grow, until nothing does.
+        // Growth until no spring attaches.
         let count = self.contact.len();
         loop {
             let mut quiet = true;
@@ -117,7 +116,7 @@ impl<'a> Relaxation<'a> {
                 let springs = self.contact[first..].iter().take_while(|&&contact| contact).count();
                 for index in first..first + springs {
                     let gap = self.body.gaps[index];
-                    // Detach: what is stretched too far here is so in each part of the fragment as well.
+                    // Detachment: a spring stretched too far here is so in each part of the fragment as well.
                     if gap > d && gap - d >= self.most(springs, gap) {
                         self.contact[index] = false;
                         quiet = false;

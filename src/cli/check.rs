@@ -36,7 +36,7 @@ pub struct CheckArguments {
 }
 
 impl CheckArguments {
-    /// The cases that are meant; an error for a word that is in no name.
+    /// The selected cases; an error for a word that is in no name.
     fn chosen(&self) -> Result<Vec<Check>, CliError> {
         let has = |case: &Case, word: &String| case.name.contains(word.as_str());
         for word in &self.words {
@@ -74,7 +74,7 @@ pub(super) fn check(arguments: &CheckArguments, stdout: &mut dyn Write) -> Resul
     conclude(&verdicts)
 }
 
-/// An error when a case fails that is not known to fail, or passes although it is.
+/// Returns an error if a case fails without being known to fail, or passes although known to fail.
 fn conclude(verdicts: &[Verdict]) -> Result<(), CliError> {
     let failed = verdicts.iter().filter(|verdict| !verdict.is_expected()).count();
     if failed == 0 { Ok(()) } else { Err(CliError::CasesFail { failed, checks: verdicts.len() }) }

@@ -46,8 +46,8 @@ pub struct CompareArguments {
     pub output: OutputArguments,
 }
 
-/// Opens the explorer on two scenes side by side; without a terminal, or with a format or a file, writes both in words
-/// and figures.
+/// Opens the explorer on two scenes side by side; without a terminal, or with a format or a file, writes both in
+/// words and figures.
 pub(super) fn compare(arguments: &CompareArguments, out: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.output.format(arguments.format, FORMATS, Format::Text)?;
     let open = |name: &str| arguments.overrides.apply(open_argument(name)?);

@@ -21,7 +21,7 @@ pub struct CompletionsArguments {
 
 /// Writes the completion script of a shell.
 pub(super) fn completions(arguments: &CompletionsArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    // Into memory first: the generator panics when what it writes to fails.
+    // Into memory first: the generator panics if writing fails.
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut Arguments::command(), "asperity", &mut script);
     Ok(stdout.write_all(&script)?)

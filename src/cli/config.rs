@@ -25,7 +25,7 @@ pub struct ConfigArguments {
     pub write: bool,
 }
 
-/// Prints the settings in effect, or writes a file to begin with.
+/// Prints the settings in effect, or writes an initial file.
 pub(super) fn config(arguments: &ConfigArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let path = arguments.file.clone().or_else(default_path).ok_or(ConfigError::NoFolder)?;
     if arguments.write {

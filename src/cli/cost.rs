@@ -1,4 +1,4 @@
-//! `asperity cost`: what accuracy costs for a scene.
+//! `asperity cost`: the cost of accuracy for a scene.
 
 use super::output::PICTURES;
 use super::progress::ProgressLine;
@@ -43,10 +43,10 @@ pub struct CostArguments {
     pub output: OutputArguments,
 }
 
-/// Formats of costs: answer and tables, one object, a row for each setting, errors over times.
+/// Formats of costs: answer and tables, one object, one row for each setting, errors over times.
 const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Svg, Format::Png];
 
-/// A time as people write it.
+/// Parses a time with its unit.
 fn budget(text: &str) -> Result<Duration, String> {
     let allowed = || "allowed: a time from 1ms to 24h, such as 500ms, 30s or 2min".to_owned();
     let minutes = [("min", 60.0), ("h", 3600.0)].into_iter().find_map(|(unit, seconds)| {
@@ -56,7 +56,7 @@ fn budget(text: &str) -> Result<Duration, String> {
     if (1e-3..=LONGEST).contains(&seconds) { Ok(Duration::from_secs_f64(seconds)) } else { Err(allowed()) }
 }
 
-/// Measures what accuracy costs and writes it.
+/// Measures the cost of accuracy and writes it.
 pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let output = &arguments.output;
     let format = output.format(arguments.format, FORMATS, Format::Text)?;

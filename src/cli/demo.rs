@@ -1,4 +1,4 @@
-//! `asperity demo`: the explorer plays by itself.
+//! `asperity demo`: automatic play of the explorer.
 
 use super::format::Format;
 use super::output::{OutputArguments, PICTURES};
@@ -25,7 +25,7 @@ Examples:
 
 The same command gives the same frames, whenever and wherever it runs.";
 
-/// Frames in a second, where they are looked at and where they are read.
+/// Frames per second of an animation, and of plain frames.
 const WATCHED: f64 = 12.0;
 const READ: f64 = 1.0;
 
@@ -94,7 +94,7 @@ fn size(text: &str) -> Result<(u16, u16), String> {
     Ok((side(columns)?, side(rows)?))
 }
 
-/// Format and file of a picture, by its name.
+/// Format and file of a picture, by the file name.
 fn picture_file(path: PathBuf, force: bool) -> Result<(PictureFormat, OutputArguments), CliError> {
     let output = OutputArguments { output: Some(path), force };
     let format = output.format(None, PICTURES, Format::Svg)?;
@@ -102,7 +102,7 @@ fn picture_file(path: PathBuf, force: bool) -> Result<(PictureFormat, OutputArgu
     Ok((format.picture().unwrap_or(PictureFormat::Svg), output))
 }
 
-/// Plays the demo to where it is to go.
+/// Plays the demo to its destination.
 pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result<(), CliError> {
     let first = presets().first().map_or("", |preset| preset.name);
     let document = arguments.overrides.apply(open_argument(arguments.scene.as_deref().unwrap_or(first))?)?;
@@ -120,7 +120,7 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
     let recorded = arguments.cast.is_some() || arguments.picture.is_some();
     let environment = Appearance::of_environment();
     let appearance = Appearance {
-        // A file does not depend on where it was made.
+        // A file does not depend on its environment.
         theme: arguments.theme.unwrap_or(if recorded { Theme::Dark } else { environment.theme }),
         marker: match arguments.marker {
             _ if arguments.ascii => Marker::Ascii,
@@ -156,7 +156,7 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
     Ok(())
 }
 
-/// Records the demo as a terminal would have received it.
+/// Records the demo as the output to a terminal.
 fn record(out: &mut dyn Write, demo: &mut Demo, size: (u16, u16), name: &str) -> io::Result<()> {
     let mut cast = Cast::new(out, size.0, size.1, &format!("Asperity: {name}"))?;
     let mut screen = Screen::new(size)?;

@@ -20,22 +20,22 @@ pub enum CliError {
     NeitherSceneNorCommand { errors: Box<SceneErrors>, commands: String },
     #[error("{}", .0.join("\n"))]
     Checked(Vec<String>),
-    /// An error of what has this name: a scene, a file, a word.
+    /// An error in a named object: a scene, a file, a word.
     #[error("{name}: {error}")]
     Named { name: String, error: Box<dyn std::error::Error + Send + Sync> },
     #[error("{path}: not an ending of what is written; allowed: {allowed}")]
     Ending { path: String, allowed: String },
-    /// Several scenes, or the profile or patches of a scene, in a format that cannot hold them.
+    /// Several scenes, or the profile or patches of a scene, in a format that cannot represent them.
     #[error("{what}: only a picture shows {what}; allowed: -o FILE.svg or FILE.png, or --format svg")]
     OnlyInPicture { what: &'static str },
     #[error("--format {format}: not for a terminal; allowed: -o FILE.{format}")]
     BinaryInTerminal { format: &'static str },
     #[error(transparent)]
     Picture(#[from] PngError),
-    /// The points of a map in a format that cannot hold them.
+    /// The points of a map in a format that cannot represent them.
     #[error("{what}: only a table of the map; allowed: --format csv or npy")]
     OnlyInTable { what: &'static str },
-    /// An option with a format that cannot hold what the option asks for.
+    /// An option with a format that cannot represent its result.
     #[error("{what}: {allowed}")]
     NotInFormat { what: &'static str, allowed: &'static str },
     #[error(transparent)]
@@ -54,7 +54,7 @@ pub enum CliError {
     Slurm(#[from] SlurmError),
     #[error(transparent)]
     Figure(#[from] FigureError),
-    /// The signal of this number stopped a study.
+    /// A signal stopped a study.
     #[error("stopped: {done} of {total} records are complete; the same command continues the study")]
     Stopped { signal: usize, done: u64, total: u64 },
     #[error("--memory {most}: this plan takes {least} with one thread; allowed: at least that")]
@@ -93,11 +93,11 @@ impl From<SceneErrors> for CliError {
 /// Exit code of a failed run or wrong input.
 const FAILED: u8 = 1;
 
-/// Exit code of a process ended by a signal, less the number of the signal, as shells count.
+/// Exit code of a process ended by a signal, minus the number of the signal, as in shells.
 const BY_SIGNAL: usize = 128;
 
 impl CliError {
-    /// An error, or a message, behind the name of its cause.
+    /// An error, or a message, after the name of its cause.
     pub fn named(
         name: impl Into<String>,
         error: impl Into<Box<dyn std::error::Error + Send + Sync>>,
@@ -105,7 +105,7 @@ impl CliError {
         CliError::Named { name: name.into(), error: error.into() }
     }
 
-    /// Exit code of the process: 128 and the number of the signal where a signal ended the run, otherwise 1.
+    /// Exit code of the process: 128 plus the number of the signal if a signal ended the run, otherwise 1.
     pub fn exit_code(&self) -> u8 {
         match self {
             CliError::Stopped { signal, .. } => u8::try_from(BY_SIGNAL + signal).unwrap_or(FAILED),
@@ -113,7 +113,7 @@ impl CliError {
         }
     }
 
-    /// Returns true where the reader of the results has closed its end.
+    /// Returns true if the reader of the results has closed its end.
     pub fn is_closed_pipe(&self) -> bool {
         match self {
             CliError::StandardOutput(error) | CliError::Write(WriteError::Failed { reason: error, .. }) => {

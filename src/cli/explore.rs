@@ -106,7 +106,7 @@ fn restored(folder: Option<&Path>) -> Result<Restored, CliError> {
     restore(folder.ok_or_else(none)?).map_err(CliError::Restore)?.ok_or_else(none)
 }
 
-/// The configuration that the arguments name, or that of the user.
+/// The configuration file of the arguments, or that of the user.
 fn config(arguments: &ExploreArguments) -> Result<Config, CliError> {
     match (&arguments.config, default_path()) {
         (Some(path), _) => Ok(Config::read(path, true)?),
@@ -119,7 +119,7 @@ fn opening(arguments: &ExploreArguments, default: Option<&str>) -> Result<Openin
     let name = arguments.scene.as_deref().or(default).unwrap_or(DEFAULT);
     let mut opening = Opening::of_argument(name).map_err(|error| match error {
         OpeningError::Scene(errors) => {
-            // A single word that is no scene may have been meant as a command.
+            // A single word that is no scene may be a misspelt command.
             let is_word = name.chars().all(|c| c.is_ascii_alphabetic());
             if is_word && !std::path::Path::new(name).exists() {
                 let command = Arguments::command();

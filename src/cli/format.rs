@@ -54,7 +54,7 @@ impl Format {
         PossibleValuesParser::new(formats.iter().map(value)).map(named)
     }
 
-    /// Name as it is typed.
+    /// Name on the command line.
     pub(super) fn name(self) -> &'static str {
         FORMATS[self as usize].1
     }
@@ -83,7 +83,7 @@ impl Format {
     }
 }
 
-/// Formats of short answers and of tables without a picture: text for a person, or one object.
+/// Formats of short answers and of tables without a picture: text for a reader, or one object.
 pub(super) const TEXT_OR_JSON: &[Format] = &[Format::Text, Format::Json];
 
 /// Format of a short answer on standard output.

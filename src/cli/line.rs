@@ -1,4 +1,4 @@
-//! `asperity line`: the rigid line of a scene.
+//! `asperity line`: the rigid profile of a scene.
 
 use super::scene::simulation_of;
 use super::{CliError, Format, OutputArguments, SceneArguments};
@@ -25,7 +25,7 @@ pub struct LineArguments {
     pub output: OutputArguments,
 }
 
-/// Makes the line of a scene and writes it.
+/// Makes the profile of a scene and writes it.
 pub(super) fn line(arguments: &LineArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.output.format(None, &[Format::Csv, Format::Npy], Format::Csv)?;
     let format = format.table().unwrap_or(TableFormat::Csv);
@@ -34,7 +34,7 @@ pub(super) fn line(arguments: &LineArguments, stdout: &mut dyn Write) -> Result<
     write(&arguments.output, stdout, (&document, document.scene()), format)
 }
 
-/// Makes the line of a scene of a document and writes it.
+/// Makes the profile of the scene of a document and writes it.
 pub(super) fn write(
     output: &OutputArguments,
     stdout: &mut dyn Write,

@@ -1,4 +1,4 @@
-//! The command line: what may be typed, and one function for each command.
+//! The command line: its arguments, and one function for each command.
 //!
 //! Results go to standard output, everything else to standard error. Exit codes: 0 done, 1 the input
 //! or the run failed, 2 wrong usage.
@@ -53,20 +53,20 @@ use std::ffi::OsString;
 use std::io::{self, BufWriter, Write};
 use std::process::ExitCode;
 
-/// Bytes gathered before they go to standard output.
+/// Bytes gathered before a write to standard output.
 const BUFFER: usize = 1 << 18;
 
 /// Exit code of wrong usage.
 const WRONG_USAGE: u8 = 2;
 
-/// Runs the program with these arguments, the first of them its own name.
+/// Runs the program with these arguments, starting with the program name.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let typed: Vec<OsString> = arguments.into_iter().collect();
     let arguments = match Arguments::try_parse_from(&typed) {
         Ok(arguments) => arguments,
         Err(error) => {
             let error = usage::explained(error, &typed);
-            // Help and version come this way as well. Where nobody reads them, that is all right.
+            // Also for help and version. A failure to print them is ignored.
             let _ = usage::print(&error);
             return if error.use_stderr() { ExitCode::from(WRONG_USAGE) } else { ExitCode::SUCCESS };
         }
@@ -75,11 +75,11 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let done = dispatch(&arguments, &mut stdout).and_then(|()| Ok(stdout.flush()?));
     match done {
         Ok(()) => ExitCode::SUCCESS,
-        // Whoever reads has seen enough: `asperity run … | head`.
+        // The reader has closed the pipe: `asperity run … | head`.
         Err(error) if error.is_closed_pipe() => ExitCode::SUCCESS,
         Err(error) => {
             let _ = stdout.flush();
-            // Errors name files, and repeat what is in them.
+            // Errors contain file names and excerpts of files.
             let _ = writeln!(io::stderr(), "{}", printable_lines(&error.to_string()));
             ExitCode::from(error.exit_code())
         }

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// Formats of pictures.
 pub(super) const PICTURES: &[Format] = &[Format::Svg, Format::Png];
 
-/// Extensions of pictures, those of formats that are not written among them.
+/// Extensions of pictures, including those of unsupported formats.
 const ENDINGS_OF_PICTURES: [&str; 9] = ["svg", "svgz", "png", "pdf", "eps", "ps", "jpg", "jpeg", "gif"];
 
 /// A file for results in place of standard output.
@@ -42,14 +42,13 @@ impl OutputArguments {
         self.file().and_then(Path::parent).unwrap_or(Path::new(""))
     }
 
-    /// Checks, before anything is computed, that the results can be written.
+    /// Checks, before any computation, that the results can be written.
     pub(super) fn check(&self) -> Result<(), CliError> {
         Ok(self.file().map_or(Ok(()), |path| check_writable(path, self.force))?)
     }
 
-    /// The chosen format, else that of the extension of FILE, else the usual one. Under the extension of a picture
-    /// nothing but that picture is written, and a picture under no other extension. A terminal gets no bytes that are
-    /// no text.
+    /// The chosen format, else that of the extension of FILE, else the usual one. Only a picture is written under
+    /// the extension of a picture, and a picture under no other extension. A terminal gets text only.
     pub(super) fn format(
         &self,
         chosen: Option<Format>,
@@ -79,7 +78,7 @@ impl OutputArguments {
         Err(CliError::Ending { path: path_name(path), allowed: allowed.join(", ") })
     }
 
-    /// Writes a figure, as a picture or as text, to where results go.
+    /// Writes a figure, as a picture or as text, to its destination.
     pub(super) fn write_figure(
         &self,
         stdout: &mut dyn Write,
@@ -93,7 +92,7 @@ impl OutputArguments {
         self.write(stdout, |out| out.write_all(&drawn))
     }
 
-    /// Writes a table of a scene with its provenance to where results go.
+    /// Writes a table of a scene with its provenance to its destination.
     pub(super) fn write_table(
         &self,
         stdout: &mut dyn Write,
@@ -106,7 +105,7 @@ impl OutputArguments {
         self.write(stdout, |out| write(out, &provenance))
     }
 
-    /// Writes results to where they go.
+    /// Writes results to their destination.
     pub(super) fn write(
         &self,
         stdout: &mut dyn Write,
@@ -119,7 +118,7 @@ impl OutputArguments {
     }
 }
 
-/// Columns of figures as text where there is no terminal.
+/// Columns of figures as text without a terminal.
 const COLUMNS: usize = 80;
 
 /// A figure as text, in the width and the colours of the terminal if it is for one.
@@ -130,7 +129,7 @@ pub(super) fn text_for_reader(figure: &Figure, to_stdout: bool) -> String {
     figure_text(figure, columns, if terminal { colours() } else { Colours::None })
 }
 
-/// Colours of the terminal by the environment.
+/// Colours of the terminal according to the environment.
 fn colours() -> Colours {
     let value = |name| std::env::var(name).unwrap_or_default();
     if !value("NO_COLOR").is_empty() || value("TERM") == "dumb" {

@@ -1,4 +1,4 @@
-//! `asperity plan`: which stages a scene runs, and what they cost.
+//! `asperity plan`: the stages of a scene and their cost.
 
 use super::{AnswerFormat, CliError, SceneArguments};
 use crate::export::sheet::Sheet;

@@ -1,11 +1,11 @@
-//! Preloads as they are typed: `1uN..20uN`, and their number.
+//! Preloads on the command line: `1uN..20uN`, and their number.
 
 use crate::scene::{PRELOADS, Preloads, parse_quantity};
 
-/// Number of preloads without one that is typed.
+/// Number of preloads by default.
 const USUAL: usize = 64;
 
-/// A range of forces and, after a colon, the number of forces.
+/// Parses a range of forces and, after a colon, the number of forces.
 pub(super) fn parse_preloads(text: &str) -> Result<Preloads, String> {
     let allowed = || {
         format!(

@@ -1,4 +1,4 @@
-//! `asperity presets`: the built-in scenes and the user's own, and checking scene files.
+//! `asperity presets`: the built-in scenes and the user's own, and checks of scene files.
 
 use super::{AnswerFormat, CliError};
 use crate::export::sheet::Sheet;
@@ -46,7 +46,7 @@ pub enum PresetsCommand {
     },
 }
 
-/// Does one of the commands.
+/// Performs one of the commands.
 pub(super) fn presets(command: &PresetsCommand, stdout: &mut dyn Write) -> Result<(), CliError> {
     match command {
         PresetsCommand::List { format } => list(*format, stdout),
@@ -93,7 +93,7 @@ fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
     if wrong.is_empty() { Ok(()) } else { Err(CliError::Checked(wrong)) }
 }
 
-/// The name of a scene in which nothing is wrong, or all that is, line by line.
+/// The name of a valid scene, or all its errors, line by line.
 fn checked(file: &str) -> Result<String, String> {
     let document = of_file(file)?;
     match profile_error(&document) {
@@ -107,7 +107,7 @@ fn of_file(file: &str) -> Result<Document, String> {
         return scene::open_argument(file).map_err(|errors| errors.to_string());
     }
     let path = Path::new(file);
-    // Names of built-in scenes are no files.
+    // Names of built-in scenes are not files.
     match path.metadata() {
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             Err(format!("{file}: there is no such file"))
@@ -118,7 +118,7 @@ fn of_file(file: &str) -> Result<Document, String> {
     }
 }
 
-/// Error of the measured surface that a scene names, with its place in the scene.
+/// Error of the measured surface of a scene, with its place in the scene.
 fn profile_error(document: &Document) -> Option<String> {
     let scene = document.scene();
     let faces = scene.measured_paths(&document.resolve(""));

@@ -9,8 +9,8 @@ pub(super) struct ProgressLine {
 }
 
 impl ProgressLine {
-    /// Shows a text on a terminal, in place of the text before. Where there is no terminal, prints `plain` if there is
-    /// one. A reader that has gone is no failure.
+    /// Shows a text on a terminal in place of the previous one. Without a terminal, prints `plain` if given. A
+    /// closed reader is no failure.
     pub(super) fn show(&mut self, text: &str, plain: Option<&str>) {
         let mut stderr = io::stderr();
         if stderr.is_terminal() {

@@ -24,10 +24,10 @@ from the turning point on; the density is -1/2 of the mixed second derivative of
 
 /// Most steps on either side of the fit of the density.
 const MOST_SMOOTHING: i64 = 16;
-/// Most upper, and lower, indentations of the minor loops.
+/// Most upper, and most lower, indentations of the minor loops.
 const MOST_LEVELS: i64 = 64;
 
-/// Steps of the fit, and ends of minor loops, unless stated.
+/// Default steps of the fit, and ends of minor loops.
 const SMOOTHING: u8 = 3;
 const LOOPS: u8 = 12;
 
@@ -68,8 +68,8 @@ pub struct ReversalOptions {
     pub map: bool,
 }
 
-/// Formats of reversals: text, one object, a row for each turning point or point of the map, and a picture of the adhesion
-/// force over the preload and of both maps.
+/// Formats of reversals: text, one object, one row for each turning point or point of the map, and a picture of the
+/// adhesion force over the preload and of both maps.
 const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png];
 const TABLES: &[Format] = &[Format::Csv, Format::Npy];
 
@@ -81,7 +81,7 @@ fn forces(text: &str) -> Result<(f64, f64), String> {
 }
 
 impl ReversalOptions {
-    /// Options behind a table; those that decide nothing in a table have their defaults.
+    /// Options of a table; options without effect on a table have their defaults.
     pub(super) fn of_table(content: ReversalContent) -> Self {
         let ReversalContent { count, forces, map_smoothing } = content;
         let smoothing = map_smoothing.unwrap_or(SMOOTHING).clamp(1, MOST_SMOOTHING as u8);

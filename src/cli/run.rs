@@ -1,4 +1,4 @@
-//! `asperity run`: computes a scene without a terminal.
+//! `asperity run`: computation of a scene without a terminal.
 
 use super::preloads::parse_preloads;
 use super::reversals::{ReversalOptions, write_reversals};
@@ -92,17 +92,17 @@ pub struct RunArguments {
     pub output: OutputArguments,
 }
 
-/// Formats of a run: text, one object with everything, the force curve, and pictures of the force curve, the profile or
-/// the contact patches.
+/// Formats of a run: text, one object with all results, the force curve, and pictures of the force curve, the
+/// profile or the contact patches.
 const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png];
 
 impl RunArguments {
-    /// Returns true for results that have no table of preloads or reversals.
+    /// Returns true if a request goes beyond a table of preloads or reversals.
     fn asks_for_more(&self) -> bool {
         self.profile || self.fragments || self.approximate_jkr || !self.more.is_empty()
     }
 
-    /// Preloads and number of random profiles that are asked for, or those of a scene from a table of preloads.
+    /// Requested preloads and number of random profiles, or those of a scene from a table of preloads.
     fn asked_preloads(&self, document: &Document) -> Option<(Preloads, Option<u32>)> {
         match (self.preloads, document.table_content()) {
             (Some(preloads), _) => Some((preloads, self.lines)),
@@ -113,7 +113,7 @@ impl RunArguments {
         }
     }
 
-    /// Reversals of a scene from a table of them.
+    /// Reversals of a scene from a table of reversals.
     fn asked_reversals(&self, document: &Document, format: Format) -> Option<ReversalOptions> {
         match document.table_content() {
             Some(TableContent::Reversals(content))
@@ -146,7 +146,7 @@ impl RunArguments {
         Err(CliError::NotInFormat { what, allowed })
     }
 
-    /// The scene of a document, with springs and edges for the tolerance where there is one, which are reported on
+    /// The scene of a document, with springs and edges for the tolerance if one is given; the choice is reported on
     /// standard error.
     fn scene_of(&self, document: &Document) -> Result<(Scene, Option<Choice>), CliError> {
         let Some(tolerance) = self.tolerance else { return Ok((document.scene().clone(), None)) };
@@ -156,7 +156,7 @@ impl RunArguments {
         Ok((choice.apply(document.scene()), Some(choice)))
     }
 
-    /// Writes text, with the choice of springs below it where there is one.
+    /// Writes text, followed by the choice of springs if there is one.
     fn write_text(
         &self,
         stdout: &mut dyn Write,
@@ -170,7 +170,7 @@ impl RunArguments {
     }
 }
 
-/// Computes a scene and writes what it gave.
+/// Computes a scene and writes its results.
 pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.chosen_format()?;
     if let Some(again) = surface_again(arguments, format)? {
@@ -226,7 +226,7 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     arguments.write_text(stdout, &summary(&scene, &outcome, estimate.as_ref()), choice)
 }
 
-/// Computes a scene, and its approximate JKR curve where that is asked for, or the scene is a table of one.
+/// Computes a scene, and its approximate JKR curve if requested or if the scene is from a table of one.
 fn run_with_approximate(
     arguments: &RunArguments,
     document: &Document,
@@ -243,7 +243,7 @@ fn run_with_approximate(
     Ok(outcome)
 }
 
-/// Arguments of `surface` where the scene is a table of spectra.
+/// Arguments of `surface` if the scene is from a table of spectra.
 fn surface_again(arguments: &RunArguments, format: Format) -> Result<Option<SurfaceArguments>, CliError> {
     let path = Path::new(&arguments.scene.scene);
     let Some(SpectraTable { arguments: deciding, measured }) = SpectraTable::open(path) else {
@@ -270,7 +270,7 @@ fn surface_again(arguments: &RunArguments, format: Format) -> Result<Option<Surf
     Ok(Some(SurfaceArguments { format: Some(format), output: arguments.output.clone(), folder, ..surface }))
 }
 
-/// Computes the scenes and draws what is asked for.
+/// Computes the scenes and draws the requested figure.
 fn figure(arguments: &RunArguments, document: Document) -> Result<Figure, CliError> {
     let more = arguments.more.iter().map(|scene| arguments.scene.overrides.apply(open_argument(scene)?));
     let documents = std::iter::once(Ok(document)).chain(more).collect::<Result<Vec<_>, CliError>>()?;
@@ -335,7 +335,7 @@ fn over_preloads(
     }
 }
 
-/// Computes a scene on several lines and writes what they gave.
+/// Computes a scene on several profiles and writes their results.
 fn on_lines(
     arguments: &RunArguments,
     document: &Document,

@@ -47,19 +47,19 @@ impl Overrides {
     }
 }
 
-/// A simulation of one scene that finds the files it names, which are relative to its own.
+/// A simulation of one scene that finds its files, which are relative to the scene's own.
 pub(super) fn simulation_of(document: &Document) -> Simulation {
     Simulation::new(document.resolve("")).for_one_scene()
 }
 
-/// Computes a scene of a document.
+/// Computes the scene of a document.
 pub(super) fn compute(document: &Document, scene: &Scene) -> Result<Outcome, CliError> {
     simulation_of(document)
         .run(scene, &|| false, &mut |_, _, _| Ok(()))
         .map_err(|error| CliError::named(document.name(), error))
 }
 
-/// Threads that share many lines: as many as are asked for, or one for each core.
+/// Threads that share many profiles: the requested number, or one for each core.
 pub(super) fn threads(asked: Option<u16>) -> usize {
     asked.map_or_else(parallel::threads, usize::from)
 }

@@ -37,10 +37,10 @@ Files are profiles or maps: text in columns or as a matrix, SDF, GSF, NumPy, X3P
 NetCDF, and these in gzip. Several files are samples of the same roughness. A profile is a cut
 through the surface; the contact computation needs the equivalent line.";
 
-/// Springs of a scene for each of its shortest waves.
+/// Springs of a scene per period of its shortest wave.
 const SPRINGS_PER_WAVE: f64 = 8.0;
 
-/// Random profiles of the adhesion force, and springs up to which they are computed unasked: some seconds.
+/// Default number of random profiles for the adhesion force, and the largest number of springs for it: some seconds.
 const LINES: u32 = 16;
 const MOST_SPRINGS: u64 = 1 << 17;
 
@@ -163,7 +163,7 @@ pub enum DetrendArgument {
 const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png];
 
 impl AnalysisArguments {
-    /// Part that is removed; `None` for the tilt, which is removed unless something else is chosen.
+    /// Removed part; `None` for the tilt, the default.
     fn detrend(&self) -> Option<Detrend> {
         match self.detrend {
             DetrendArgument::None => Some(Detrend::None),
@@ -175,7 +175,7 @@ impl AnalysisArguments {
 }
 
 impl SurfaceArguments {
-    /// Arguments that decide the spectra, for their table.
+    /// Arguments that determine the spectra, for their table.
     fn deciding(&self) -> Vec<String> {
         let (reading, analysis) = (&self.reading, &self.analysis);
         let length = |value: Option<f64>| value.map(|value| exact_quantity(value, "m"));
@@ -204,12 +204,12 @@ impl SurfaceArguments {
         options.chain(flags).chain(opposite).chain(["--".to_owned()]).chain(files).collect()
     }
 
-    /// Name of a file in a table that goes where results go.
+    /// Name of a file in a table in the destination of the results.
     fn in_table(&self, file: &Path) -> String {
         named_from(&file.to_string_lossy(), &self.folder, self.output.folder())
     }
 
-    /// Roughness of a scene in a file, which names the surfaces from its own folder.
+    /// Roughness of a scene in a file, with the surfaces named from the folder of that file.
     fn roughness(&self, scene: &Path) -> Roughness {
         let beside = |file: &Path| std::path::absolute(file).ok()?.parent().map(Path::to_path_buf);
         let named = |file: &Path| {
@@ -242,13 +242,13 @@ impl SurfaceArguments {
         }
     }
 
-    /// Error of the line, named by the first file.
+    /// Error of the equivalent line, named by the first file.
     fn failed(&self, error: impl Into<Box<dyn Error + Send + Sync>>) -> CliError {
         let file = self.files.first().map(|file| path_name(&self.folder.join(file)));
         CliError::named(file.unwrap_or_default(), error)
     }
 
-    /// Reads and analyses the files of a face. The hashes of the files are added where they are asked for.
+    /// Reads and analyses the files of a face. Adds the hashes of the files if requested.
     fn face(
         &self,
         files: &[PathBuf],
@@ -322,7 +322,7 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     })
 }
 
-/// Adhesion of the equivalent line, computed where that was asked for or takes but seconds.
+/// Adhesion of the equivalent line, if requested or computed in seconds.
 fn adhesion(
     arguments: &SurfaceArguments,
     faces: &[MeasuredFace],
@@ -338,8 +338,8 @@ fn adhesion(
     Ok(SurfaceAdhesion { scene, computed })
 }
 
-/// Scene of the equivalent line over the length of the scan, the shorter one of two faces, on springs that resolve its
-/// shortest wave.
+/// Scene of the equivalent line over the length of the scan, the shorter one of two faces, on springs that
+/// resolve its shortest wave.
 fn scene(
     arguments: &SurfaceArguments,
     path: &Path,
@@ -366,22 +366,22 @@ fn scene(
     }
 }
 
-/// Length above 0, m.
+/// Parses a length above 0, m.
 fn length(text: &str) -> Result<f64, String> {
     positive(text, "m")
 }
 
-/// Energy per area above 0, J/m².
+/// Parses an energy per area above 0, J/m².
 fn energy(text: &str) -> Result<f64, String> {
     positive(text, "J/m²")
 }
 
-/// Force above 0, N.
+/// Parses a force above 0, N.
 fn force(text: &str) -> Result<f64, String> {
     positive(text, "N")
 }
 
-/// Pressure above 0, Pa.
+/// Parses a pressure above 0, Pa.
 fn pressure(text: &str) -> Result<f64, String> {
     positive(text, "Pa")
 }

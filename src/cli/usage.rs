@@ -1,4 +1,4 @@
-//! Messages on arguments that exclude each other.
+//! Messages about arguments that exclude each other.
 
 use super::Arguments;
 use crate::text::printable_lines;
@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use std::ffi::OsString;
 use std::io::{self, Write};
 
-/// Prints an error of the parser. One that repeats control characters loses its colours, and has them escaped.
+/// Prints an error of the parser. An error that repeats control characters loses its colours, and has them escaped.
 pub(super) fn print(error: &Error) -> io::Result<()> {
     let plain = error.render().to_string();
     match printable_lines(&plain) {
@@ -17,8 +17,8 @@ pub(super) fn print(error: &Error) -> io::Result<()> {
     }
 }
 
-/// The error, or a plainer one where a scene and a command got in each other's way: the parser takes
-/// a misspelt command for a scene, and what follows it for another command or for options of none.
+/// The error, or a plainer one if the parser confused a scene and a command: it takes a misspelt command for a
+/// scene, and the next words for another command or for options of none.
 pub(super) fn explained(error: Error, typed: &[OsString]) -> Error {
     let mut command = Arguments::command();
     let names: Vec<String> = command.get_subcommands().map(|command| command.get_name().into()).collect();

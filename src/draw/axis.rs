@@ -24,14 +24,14 @@ impl Axis {
         Axis { scale, span, label: Label::quantity(name, symbol), unit: unit.to_owned() }
     }
 
-    /// Position of a number from 0 at the lower to 1 at the upper end; not finite where the scale has no
-    /// coordinate for the number.
+    /// Position of a number from 0 at the lower to 1 at the upper end; not finite if the scale has no coordinate
+    /// for the number.
     #[must_use]
     pub fn share(&self, number: f64) -> f64 {
         (self.scale.coordinate(number) - self.span.low) / self.span.width()
     }
 
-    /// Divisor of the numbers on the axis and unit with the SI prefix that goes with the divisor.
+    /// Divisor of the numbers on the axis, and the unit with the corresponding SI prefix.
     #[must_use]
     pub fn prefix(&self) -> (f64, String) {
         let ends = self.span.bounds().map(|end| self.scale.number(end).abs());
@@ -44,7 +44,7 @@ impl Axis {
         self.with_unit(self.label.clone())
     }
 
-    /// Symbol with the prefixed unit in brackets; the label where the axis has no symbol.
+    /// Symbol with the prefixed unit in brackets; the label if the axis has no symbol.
     #[must_use]
     pub fn symbol_with_unit(&self) -> Label {
         self.with_unit(self.label.without_name())
@@ -57,7 +57,7 @@ impl Axis {
         }
     }
 
-    /// Ticks, about `most` of which are labelled, at coordinates.
+    /// Ticks at coordinates, about `most` of them labelled.
     #[must_use]
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         ticks(self.scale, self.span, self.prefix().0, most)

@@ -21,7 +21,7 @@ pub struct Figure {
 impl Figure {
     /// Frame of a map or of one of several charts, px.
     pub const SMALL: (f64, f64) = (330.0, 270.0);
-    /// Frame of a chart with the figure to itself, px.
+    /// Frame of a single chart, px.
     pub const WIDE: (f64, f64) = (480.0, 300.0);
 
     /// A figure of one chart.
@@ -47,7 +47,7 @@ impl Figure {
 /// Data over two axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
-    /// Heading, shown where a figure has several charts; may be empty.
+    /// Heading, shown in figures of several charts; may be empty.
     pub heading: Label,
     /// Horizontal axis.
     pub x: Axis,
@@ -55,7 +55,7 @@ pub struct Chart {
     pub y: Axis,
     /// Layers, the lowest first.
     pub layers: Vec<Layer>,
-    /// The same data on other scales, drawn into a corner that the curves leave free.
+    /// The same data on other scales, drawn in a corner without curves.
     pub inset: Option<Box<Chart>>,
 }
 
@@ -75,7 +75,7 @@ impl Chart {
         })
     }
 
-    /// The same, to be changed.
+    /// The heat map of a map, mutable.
     pub fn map_mut(&mut self) -> Option<&mut HeatMap> {
         self.layers.iter_mut().find_map(|layer| match &mut layer.shape {
             Shape::Map(map) => Some(map.as_mut()),
@@ -84,10 +84,10 @@ impl Chart {
     }
 }
 
-/// One kind of data, and its entry in the legend. Layers of the same name share an entry.
+/// One kind of data, and its entry in the legend. Layers with the same name share an entry.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
-    /// Name in the legend; none where empty.
+    /// Name in the legend; no entry if empty.
     pub name: Label,
     /// Colour.
     pub ink: Ink,
@@ -123,7 +123,7 @@ impl Layer {
     }
 }
 
-/// Data of a layer, in numbers on the axes. A point that an axis has no coordinate for interrupts a curve or band.
+/// Data of a layer, in numbers on the axes. A point without a coordinate on an axis interrupts a curve or band.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// A line through points, signs at the points, or both.
@@ -137,11 +137,11 @@ pub enum Shape {
     },
     /// An area between two curves: x, lower and upper y. Ends beyond the axis are drawn at its end.
     Band(Vec<(f64, f64, f64)>),
-    /// A line finer than a picture shows, by its lowest and highest y in columns of equal width.
+    /// A line with more points than a picture resolves, as its lowest and highest y in columns of equal width.
     Envelope {
         /// x at the outer edges of the first and the last column.
         x: (f64, f64),
-        /// Ends of each column; none where the line is interrupted.
+        /// Ends of each column; `None` where the line is interrupted.
         columns: Vec<Option<(f64, f64)>>,
     },
     /// The inside of a closed line.
@@ -159,7 +159,7 @@ pub enum Shape {
 /// Stroke of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stroke {
-    /// Whole.
+    /// Continuous.
     Solid,
     /// Long dashes.
     Dashed,
@@ -215,7 +215,7 @@ pub struct HeatMap {
 pub struct Class {
     /// Sign in a picture.
     pub sign: Sign,
-    /// Letter in wide cells of a terminal; `None` where the shade itself is the class.
+    /// Letter in wide cells of a terminal; `None` if the shade itself is the class.
     pub letter: Option<char>,
     /// Name in the legend.
     pub name: String,
@@ -248,7 +248,7 @@ impl HeatMap {
         [vec![before], between, vec![after]].concat()
     }
 
-    /// Range of an axis that shows cells with these values.
+    /// Range of an axis for cells with these values.
     #[must_use]
     pub fn span(scale: AxisScale, values: &[f64]) -> Span {
         let borders = HeatMap::borders(scale, values);
@@ -270,7 +270,7 @@ pub struct Entry {
 pub enum Sample {
     /// A line with a sign on it.
     Line(Option<Stroke>, Option<Sign>),
-    /// A filled area that shows what is below.
+    /// A filled transparent area.
     Area,
     /// A filled area.
     Solid,
@@ -319,7 +319,7 @@ impl Entry {
                 }
             }
         }
-        // Lines first: an area explains a line.
+        // Lines first: an area belongs to a line.
         entries.sort_by_key(|entry| entry.samples.iter().any(|(_, sample)| *sample == Sample::Area));
         entries
     }

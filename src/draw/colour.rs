@@ -3,7 +3,7 @@
 /// Red, green and blue.
 pub type Rgb = [u8; 3];
 
-/// Colours of hexadecimal numbers, as documents for the web write them.
+/// Colours from hexadecimal numbers, in web notation.
 const fn rgb<const N: usize>(colours: [u32; N]) -> [Rgb; N] {
     let mut found = [[0; 3]; N];
     let mut index = 0;
@@ -55,7 +55,7 @@ impl Palette {
 pub enum Ink {
     /// Text, frames, outlines.
     Text,
-    /// Guides and whatever stays in the background.
+    /// Guides and other marks in the background.
     Quiet,
     /// The rigid profile.
     Profile,
@@ -104,7 +104,7 @@ impl Ink {
 const SHADES: [Rgb; 9] =
     rgb([0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c, 0x28ae80, 0x5ec962, 0xaddc30, 0xfde725]);
 
-/// Colour at a share of the scale of a heat map; the lowest where the share is no number.
+/// Colour at a share of the scale of a heat map; the lowest one for NaN.
 #[must_use]
 pub fn shade(share: f64) -> Rgb {
     let share = if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) };
@@ -128,7 +128,7 @@ pub fn ink_on(colour: Rgb) -> Rgb {
     if lightness(colour) > 0.5 { [0; 3] } else { [255; 3] }
 }
 
-/// A colour as documents for the web write it.
+/// A colour in web notation.
 #[must_use]
 pub fn hex([red, green, blue]: Rgb) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")

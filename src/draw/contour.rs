@@ -3,8 +3,8 @@
 /// A point in the coordinates of the grid.
 type Point = (f64, f64);
 
-/// Level lines of a field that is linear along the edges of the grid. Squares with a missing corner have none.
-/// In a square that the level crosses twice the mean of the corners decides which of them are connected.
+/// Level lines of a field that is linear along the edges of the grid. Squares with a missing corner have none. In a
+/// square that the level crosses twice the mean of the corners decides on their connection.
 pub(super) fn contour(across: &[f64], up: &[f64], field: &[Option<f64>], level: f64) -> Vec<Vec<Point>> {
     let mut pieces = Vec::new();
     for row in 1..up.len() {
@@ -41,7 +41,7 @@ pub(super) fn contour(across: &[f64], up: &[f64], field: &[Option<f64>], level: 
 /// Point of an edge at the level.
 fn cut(from: (f64, f64, f64), to: (f64, f64, f64)) -> Option<Point> {
     ((from.2 < 0.0) != (to.2 < 0.0)).then(|| {
-        // Always from the lower corner, so that two squares find the same point to the last bit.
+        // Always from the lower corner, so that two squares compute the same point to the last bit.
         let (low, high) = if from.2 < to.2 { (from, to) } else { (to, from) };
         let share = low.2 / (low.2 - high.2);
         (low.0 + (high.0 - low.0) * share, low.1 + (high.1 - low.1) * share)
@@ -102,7 +102,7 @@ mod tests {
         assert_eq!(lines.len(), 1);
         assert_eq!(lines[0].first(), lines[0].last());
         assert!(lines[0].iter().all(|(x, y)| (x.hypot(*y) - 7.0_f64.sqrt()).abs() < 0.15), "{lines:?}");
-        // A corner of squares the line goes through.
+        // A corner of squares crossed by the line.
         hill[4 * 9 + 6] = None;
         let lines = contour(&places, &places, &hill, 2.0);
         assert!(lines.iter().all(|line| line.first() != line.last()), "{lines:?}");
@@ -115,7 +115,7 @@ mod tests {
             let lines = contour(&[0.0, 1.0], &[0.0, 1.0], &saddle(other), 0.0);
             assert_eq!(lines.len(), 2);
             let line = lines.iter().find(|line| line.contains(&expected)).unwrap();
-            // High corners hang together where the middle is high: each line cuts off a low one.
+            // High corners are connected where the middle is high: each line cuts off a low one.
             let cuts_low = line.iter().any(|point| point.0 == 1.0);
             assert_eq!(cuts_low, other > 1.0, "{lines:?}");
         }

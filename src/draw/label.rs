@@ -31,7 +31,7 @@ impl Label {
         label
     }
 
-    /// A symbol: its letters in italics, and what follows a `_` as an index: `F_a,max`.
+    /// A symbol: its letters in italics, and the text after `_` as an index: `F_a,max`.
     #[must_use]
     pub fn symbol(text: &str) -> Label {
         let mut label = Label::default();
@@ -65,7 +65,7 @@ impl Label {
         if symbol.is_empty() { Label::plain(name) } else { Label::symbol(symbol) }
     }
 
-    /// The symbol of a quantity that has a name and a symbol; else the whole label.
+    /// The symbol of a quantity with name and symbol; else the whole label.
     #[must_use]
     pub fn without_name(&self) -> Label {
         match self.runs.split_first() {
@@ -238,7 +238,7 @@ pub fn number(value: f64, step: f64) -> String {
     if zero { text.trim_start_matches('-').to_owned() } else { text.replace('-', "−") }
 }
 
-/// A value with its symbol, or with its name where `symbol` is empty: `H = 0.3`, `points 12.5 µN`.
+/// A value with its symbol, or with its name if `symbol` is empty: `H = 0.3`, `points 12.5 µN`.
 #[must_use]
 pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
     let (divisor, unit) = prefixed(unit, value.abs());

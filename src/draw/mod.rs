@@ -1,7 +1,7 @@
 //! Figures: one model of charts, drawn as SVG, as PNG or in the cells of a terminal.
 //!
 //! A [`Figure`] holds [`Chart`]s, a chart two [`Axis`] and [`Layer`]s of data in SI units. Ticks, SI prefixes,
-//! typeset symbols and the legend follow from them, the same for every backend.
+//! typeset symbols and the legend are derived from them, the same for every backend.
 
 mod axis;
 #[cfg(feature = "tui")]

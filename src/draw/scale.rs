@@ -11,14 +11,14 @@ pub enum AxisScale {
 }
 
 impl AxisScale {
-    /// Coordinate of a number; not finite where the number has no logarithm.
+    /// Coordinate of a number; not finite for a number without a logarithm.
     #[must_use]
     pub fn coordinate(self, number: f64) -> f64 {
         if self == AxisScale::Logarithmic { number.log10() } else { number }
     }
 
-    /// Place of a number among ascending values, the first of them at 0: between two by its share of their distance,
-    /// and beyond the ends as the last distance goes on.
+    /// Place of a number among ascending values, the first at 0: linear between two values, extrapolated by the
+    /// last distance beyond the ends.
     #[must_use]
     pub fn place(self, values: &[f64], number: f64) -> f64 {
         let places: Vec<f64> = values.iter().map(|value| self.coordinate(*value)).collect();
@@ -50,8 +50,8 @@ pub struct Span {
 const NO_SPREAD: f64 = 1e-9;
 
 impl Span {
-    /// Range of finite coordinates with the share `room` of its width added at each end; a range around a
-    /// single coordinate, and 0 to 1 without any.
+    /// Range of finite coordinates with the share `room` of its width added at each end; a range around a single
+    /// coordinate, and 0 to 1 without any.
     #[must_use]
     pub fn around(coordinates: impl Iterator<Item = f64>, room: f64) -> Span {
         let finite = coordinates.filter(|coordinate| coordinate.is_finite());
@@ -70,8 +70,8 @@ impl Span {
         Span { low: low - margin, high: high + margin }
     }
 
-    /// Range of values of a quantity, as coordinates of a scale. A linear range begins at zero where no value is
-    /// below zero and the lowest is at most 0.3 of the highest; a logarithmic one has at most `decades`.
+    /// Range of values of a quantity, as coordinates of a scale. A linear range begins at zero if no value is below
+    /// zero and the lowest is at most 0.3 of the highest; a logarithmic one has at most `decades`.
     #[must_use]
     pub fn of_values(scale: AxisScale, values: impl Iterator<Item = f64>, decades: f64) -> Span {
         let span = Span::around(values.map(|value| scale.coordinate(value)), 0.0);

@@ -8,12 +8,12 @@ use super::scale::{AxisScale, Span};
 pub struct Tick {
     /// Coordinate on the axis.
     pub at: f64,
-    /// Number at the tick; none at a minor tick.
+    /// Number at the tick; `None` at a minor tick.
     pub label: Option<Label>,
 }
 
-/// Ticks over a range of coordinates, about `most` of them labelled. Numbers are divided by `divisor`, that of
-/// the prefix of the unit.
+/// Ticks over a range of coordinates, about `most` of them labelled. Numbers are divided by `divisor`, which
+/// belongs to the prefix of the unit.
 pub(super) fn ticks(scale: AxisScale, Span { low, high }: Span, divisor: f64, most: usize) -> Vec<Tick> {
     if high <= low || !(high - low).is_finite() {
         return Vec::new();
@@ -33,7 +33,7 @@ pub(super) fn ticks(scale: AxisScale, Span { low, high }: Span, divisor: f64, mo
     }
 }
 
-/// Step of 1, 2 or 5 times a power of ten that makes about `most` ticks at most, and its number of minor steps.
+/// Step of 1, 2 or 5 times a power of ten for about `most` ticks at most, and its number of minor steps.
 fn step_for(width: f64, most: usize) -> (f64, usize) {
     let least = width / most.max(1) as f64;
     let power = 10_f64.powf(least.log10().floor());
@@ -90,7 +90,7 @@ fn logarithmic(low: f64, high: f64, most: usize) -> Vec<Tick> {
             ticks.push(Tick { at, label: shown.then(label) });
         }
     }
-    // A range of less than a factor of two may hold no round number.
+    // A range of less than a factor of two may contain no round number.
     if ticks.iter().filter(|tick| tick.label.is_some()).count() < 2 {
         let numbers = linear(10_f64.powf(low), 10_f64.powf(high), most);
         return numbers.into_iter().map(|tick| Tick { at: tick.at.log10(), ..tick }).collect();

@@ -6,7 +6,7 @@ use crate::io::{object, write_json_value};
 use crate::scene::Edges;
 use std::io::{self, Write};
 
-/// Writes the verdicts for a person: a row for each check, then the sentences of the cases, then what failed.
+/// The verdicts for a reader: one row for each check, then the claims of the cases, then the failures.
 #[must_use]
 pub fn check_text(verdicts: &[Verdict]) -> String {
     let mut sheet = Sheet::default();
@@ -59,7 +59,7 @@ pub fn check_text(verdicts: &[Verdict]) -> String {
     sheet.into_text()
 }
 
-/// The cases as a Markdown table: what must hold, and within which bounds.
+/// The cases as a Markdown table: claims and bounds.
 #[must_use]
 pub fn check_markdown(checks: &[Check]) -> String {
     let mut rows = vec![["case", "what must hold", "evidence", "error of", "bound"].map(String::from)];
@@ -87,7 +87,7 @@ pub fn check_markdown(checks: &[Check]) -> String {
 /// Writes the verdicts as one object.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_check_json(out: &mut (impl Write + ?Sized), verdicts: &[Verdict]) -> io::Result<()> {
     let row = |verdict: &Verdict| {
         let Check { case, edges, bound } = verdict.check;
@@ -116,7 +116,7 @@ fn evidence(case: &Case) -> String {
     case.evidence.iter().map(|kind| kind.name()).collect::<Vec<_>>().join(", ")
 }
 
-/// A bound or an error: two digits are enough to compare, zero is exact.
+/// A bound or an error: two digits suffice for a comparison, zero is exact.
 fn figure(value: f64) -> String {
     if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
 }

@@ -1,14 +1,14 @@
-//! Two scenes in words: titles, what differs, both adhesion forces.
+//! Two scenes in words: titles, differences, both adhesion forces.
 
 use super::force_figure;
 use crate::draw::Figure;
 use crate::scene::{Document, format_quantity};
 use crate::simulation::Outcome;
 
-/// Two computed scenes, the first and the one it is compared with.
+/// Two computed scenes, in the order of the comparison.
 pub type Pair<'a> = [(&'a Document, &'a Outcome); 2];
 
-/// Titles of two scenes, what differs from the first to the second, both adhesion forces with their ratio.
+/// Titles of two scenes, the changes from the first to the second, both adhesion forces with their ratio.
 #[must_use]
 pub fn comparison_text([first, second]: Pair<'_>) -> String {
     let changes = first.0.changes_to(second.0);

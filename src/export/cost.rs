@@ -11,7 +11,7 @@ use std::io::{self, Write};
 /// Headings of the errors, in the order of `Measures::each`.
 const ERRORS: [&str; 4] = ["F_a", "curve", "energy", "contact"];
 
-/// The table in plain text of at most a hundred columns: the answer first, what was left out last.
+/// The table in plain text of at most a hundred columns: the answer first, omitted settings last.
 #[must_use]
 pub fn cost_text(table: &CostTable) -> String {
     let mut sheet = Sheet::default();
@@ -123,7 +123,7 @@ fn error_cell(figure: ErrorFigure) -> String {
     }
 }
 
-/// The object; its keys have the order of these fields.
+/// The JSON object; its keys have the order of these fields.
 #[derive(Serialize)]
 struct Report<'a> {
     scene: &'a Scene,
@@ -132,18 +132,18 @@ struct Report<'a> {
     table: &'a CostTable,
 }
 
-/// Writes the table as one JSON object, the scene with its defaults filled in first.
+/// Writes the table as one JSON object, beginning with the scene including its defaults.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_cost_json(out: &mut (impl Write + ?Sized), scene: &Scene, table: &CostTable) -> io::Result<()> {
     write_json_value(out, &Report { scene, answer: table.answer(), table })
 }
 
-/// Writes the rows: times in s, errors relative; what is not known is empty.
+/// Writes the rows: times in s, errors relative; unknown values are empty.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_cost_csv(out: &mut (impl Write + ?Sized), table: &CostTable) -> io::Result<()> {
     write!(out, "knob,setting,springs,minimum_seconds,median_seconds,transforms")?;
     for name in ["adhesion_force", "curve", "dissipated_energy", "contact_length"] {

@@ -1,4 +1,4 @@
-//! Results of many random lines as text, JSON and CSV.
+//! Results of many random profiles as text, JSON and CSV.
 
 use super::sheet::Sheet;
 use super::summary::tabor_number;
@@ -12,7 +12,7 @@ use crate::text::grouped;
 use serde::Serialize;
 use std::io::{self, Write};
 
-/// Statistics over the lines in plain text of at most a hundred columns.
+/// Statistics over the profiles in plain text of at most a hundred columns.
 #[must_use]
 pub fn ensemble_text(scene: &Scene, lines: &[LineResult]) -> String {
     let summary = LinesSummary::of(lines);
@@ -35,7 +35,7 @@ pub fn ensemble_text(scene: &Scene, lines: &[LineResult]) -> String {
         rows.extend(statistics.map(|statistics| cells(name, unit, &statistics)));
     }
     sheet.table(&rows);
-    // Lines of one spectrum have one Tabor number.
+    // Profiles of one spectrum have one Tabor number.
     let number =
         lines.iter().filter(|line| line.dissipated_energy.is_some()).find_map(|line| line.tabor_number);
     sheet.row_of("Tabor number μ", number.map(tabor_number));
@@ -63,7 +63,7 @@ fn cells(name: &str, unit: &str, statistics: &Statistics) -> [String; 6] {
     ]
 }
 
-/// The object; its keys have the order of these fields.
+/// The JSON object; its keys have the order of these fields.
 #[derive(Serialize)]
 struct Report<'a> {
     scene: &'a Scene,
@@ -74,11 +74,11 @@ struct Report<'a> {
     lines: &'a [LineResult],
 }
 
-/// Writes statistics and lines as one JSON object, the scene with its defaults filled in first, and what was
-/// chosen for a tolerance where there is one.
+/// Writes statistics and profiles as one JSON object, beginning with the scene including its defaults, with the
+/// choice for a tolerance if there is one.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_ensemble_json(
     out: &mut (impl Write + ?Sized),
     scene: &Scene,
@@ -88,10 +88,10 @@ pub fn write_ensemble_json(
     write_json_value(out, &Report { scene, choice, summary: LinesSummary::of(lines), lines })
 }
 
-/// Writes one row for each line, in SI units; what a line does not have is empty.
+/// Writes one row for each profile, in SI units; missing values are empty.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_ensemble_table(
     out: &mut (impl Write + ?Sized),
     format: TableFormat,

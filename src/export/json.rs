@@ -10,11 +10,11 @@ use crate::simulation::Outcome;
 use serde::{Serialize, Serializer};
 use std::io::{self, Write};
 
-/// Writes the result of a scene: the scene with its defaults filled in, the choice of its springs where they were chosen
-/// for a tolerance, and the estimated error of the adhesion force where there is one.
+/// Writes the result of a scene: the scene including its defaults, the choice of its springs for a tolerance, and
+/// the estimated error of the adhesion force, if there are such.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_json(
     out: &mut (impl Write + ?Sized),
     scene: &Scene,
@@ -77,7 +77,7 @@ fn approximate_jkr(of: &ApproximateJkr) -> impl Serialize {
     }
 }
 
-/// The points of all legs, one after the other, without a copy of them all.
+/// The points of all loading stages in sequence, without a copy of them.
 struct Curve<'a>(&'a Outcome);
 
 impl Serialize for Curve<'_> {

@@ -1,14 +1,14 @@
-//! Cells of a map as comma-separated values, one header line first.
+//! Cells of a map as comma-separated values after one header line.
 
 use crate::study::map::MapModel;
 use std::io::{self, Write};
 
-/// Writes the computed cells of a map: values of the axes by their paths, profiles, regime, and the mean of each quantity
-/// with the ends of its 95 % confidence, in SI units; what is not known is empty. `sections` writes the cells of one column
-/// and one row alone.
+/// Writes the computed cells of a map: values of the axes by their paths, profiles, regime, and the mean of each
+/// quantity with the ends of its 95 % confidence, in SI units; unknown values are empty. `sections` restricts the
+/// cells to one column and one row.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_map(
     out: &mut (impl Write + ?Sized),
     map: &MapModel,
@@ -33,7 +33,7 @@ pub fn write_map(
         write!(out, "{},{}", cell.lines, cell.regime.map_or("", |regime| regime.name()))?;
         for layer in map.layers() {
             match map.estimate(layer, column, row) {
-                // Of one profile or few there is no confidence.
+                // One profile or few have no confidence interval.
                 Some(one) if one.low == one.high => write!(out, ",{:?},,", one.mean)?,
                 Some(one) => write!(out, ",{:?},{:?},{:?}", one.mean, one.low, one.high)?,
                 None => write!(out, ",,,")?,

@@ -1,4 +1,4 @@
-//! Computed scenes, studies, costs and checks as text: JSON and CSV for programs, summaries and pictures for people.
+//! Computed scenes, studies, costs and checks as text: JSON and CSV for programs, summaries and pictures for readers.
 //!
 //! Numbers are written in SI units and in the shortest form that reads back as the same number.
 

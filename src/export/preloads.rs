@@ -21,7 +21,7 @@ pub struct PreloadReport<'a> {
     statistics: Vec<Option<Statistics>>,
 }
 
-/// A seed, and the unloading from one preload.
+/// Columns of a seed and the unloading from one preload.
 const COLUMNS: &[Column<(u64, Preloaded)>] = &[
     Column("seed", Value::Whole(|(seed, _)| *seed)),
     Column("preload", Value::Real(|(_, one)| one.preload)),
@@ -32,7 +32,7 @@ const COLUMNS: &[Column<(u64, Preloaded)>] = &[
 ];
 
 impl<'a> PreloadReport<'a> {
-    /// The results of profiles, each with its seed where it has one.
+    /// The results of profiles, each with its seed if it has one.
     #[must_use]
     pub fn new(scene: &'a Scene, results: Vec<(Option<u64>, Vec<Preloaded>)>) -> Self {
         let (seeds, lines): (Vec<_>, Vec<_>) = results.into_iter().unzip();
@@ -78,7 +78,7 @@ impl<'a> PreloadReport<'a> {
     /// Writes one JSON object in SI units.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// Errors of `out`.
     pub fn write_json(&self, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
         let means = self.first().iter().zip(&self.statistics).map(|(one, statistics)| {
             object! { "preload": one.preload, "adhesion_force": statistics }
@@ -94,10 +94,10 @@ impl<'a> PreloadReport<'a> {
         write_json_value(out, &json)
     }
 
-    /// Writes one row for each preload of each profile, in SI units; the seed comes first where profiles have one.
+    /// Writes one row for each preload of each profile, in SI units, beginning with the seed if profiles have one.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// Errors of `out`.
     pub fn write_table(
         &self,
         out: &mut (impl Write + ?Sized),

@@ -22,11 +22,11 @@ const MOST_CELLS: usize = 128;
 pub struct ReversalReport<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// Its reversals.
+    /// Reversals of the scene.
     pub map: &'a ReversalMap,
-    /// The adhesion force for preloads, each reached exactly.
+    /// The adhesion force for exactly these preloads.
     pub preloads: &'a [Preloaded],
-    /// Minor loops, where they were compared.
+    /// Minor loops, if they were compared.
     pub loops: Option<MinorLoops>,
     /// Steps on either side over which the density is fitted.
     pub smoothing: usize,
@@ -71,11 +71,11 @@ pub fn reversals_text(report: &ReversalReport<'_>) -> String {
     sheet.into_text()
 }
 
-/// Writes all of a map as one JSON object in SI units: for each turning point the forces at the indentations of the
-/// columns up to there, the Everett function and the density.
+/// Writes a map as one JSON object in SI units: for each turning point the forces at the indentations of the
+/// columns up to that point, the Everett function and the density.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_reversals_json(out: &mut (impl Write + ?Sized), report: &ReversalReport<'_>) -> io::Result<()> {
     let ReversalReport { scene, map, preloads, loops, smoothing } = *report;
     let rows = |value: &dyn Fn(usize, usize) -> Option<f64>| -> Vec<Vec<Option<f64>>> {
@@ -113,7 +113,7 @@ const COLUMNS: &[Column<Reversal>] = &[
 /// Writes a table with one row for each turning point, in SI units.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_reversals_table(
     out: &mut (impl Write + ?Sized),
     format: TableFormat,
@@ -123,7 +123,7 @@ pub fn write_reversals_table(
     write_table(out, format, provenance, COLUMNS, map.reversals.len(), map.reversals.iter())
 }
 
-/// A turning point and an indentation, m; the values of the map there.
+/// A turning point and an indentation, m, with the values of the map.
 type MapPoint = ([f64; 2], [Option<f64>; 3]);
 
 const MAP_COLUMNS: &[Column<MapPoint>] = &[
@@ -134,10 +134,10 @@ const MAP_COLUMNS: &[Column<MapPoint>] = &[
     Column("density", Value::Optional(|(_, values)| values[2])),
 ];
 
-/// Writes a table with one row for each turning point and each indentation up to there, in SI units.
+/// Writes a table with one row for each turning point and each indentation up to that point, in SI units.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_reversal_map_table(
     out: &mut (impl Write + ?Sized),
     format: TableFormat,
@@ -185,7 +185,7 @@ fn map_chart(
     (symbol, unit): (&str, &str),
     value: &dyn Fn(usize, usize) -> Option<f64>,
 ) -> Chart {
-    // A part of the points of a fine map: the eye cannot distinguish more cells.
+    // A subset of the points of a fine map: the eye cannot distinguish more cells.
     let every = |count: usize| (0..count).step_by(count.div_ceil(MOST_CELLS).max(1)).collect::<Vec<_>>();
     let (columns, rows) = (every(map.points.len()), every(map.reversals.len()));
     let values: Vec<Option<f64>> =

@@ -9,11 +9,11 @@ use crate::draw::{
 use crate::simulation::Outcome;
 use crate::surface::Line;
 
-/// Columns into which profiles are reduced.
+/// Number of columns of reduced profiles.
 const COLUMNS: usize = 1200;
 /// Indentations of a loading stage at which contact patches are drawn.
 const ROWS: usize = 160;
-/// Most loading stages whose contact patches are drawn.
+/// Most loading stages with drawn contact patches.
 const MOST_STAGES: usize = 4;
 /// Contact patches are merged over gaps below this share of the profile.
 const LEAST_GAP: f64 = 5e-4;
@@ -44,7 +44,7 @@ pub fn force_figure(scenes: &[(&str, &Outcome)]) -> Figure {
                 layers.push(Layer::new(name.clone(), ink, Shape::line(points, stroke)));
             }
         }
-        // A scene that is only pressed has no curve with its title.
+        // A scene without unloading has no curve with its title.
         let unloads = legs.iter().any(|leg| leg.direction == Direction::Unloading);
         if let Some(first) = layers
             .iter_mut()
@@ -128,7 +128,7 @@ pub struct ContactSets {
 }
 
 impl ContactSets {
-    /// Gathers patches over the indentation too if asked.
+    /// Gathers patches over the indentation too if requested.
     #[must_use]
     pub fn new(over_indentation: bool) -> ContactSets {
         ContactSets { over_indentation, ..ContactSets::default() }
@@ -333,7 +333,7 @@ mod tests {
             let drawn: f64 = boxes.iter().map(|((from, to), _)| to - from).sum();
             let springs: usize =
                 rows.iter().flat_map(|row| &row.fragments).map(|(first, last)| last - first + 1).sum();
-            // Gaps of one spring are wider than what is merged.
+            // Gaps of one spring are wider than the merged ones.
             assert!((drawn / (springs as f64 * outcome.line.spacing) - 1.0).abs() < 1e-9);
             assert_eq!(rows.len(), ROWS);
         }

@@ -1,4 +1,4 @@
-//! Tables of a scene: its force curve, the approximate one beside it, and its profile.
+//! Tables of a scene: its force curve, the approximate JKR curve, and its profile.
 
 use super::table::{Column, TableFormat, Value, write_table};
 use crate::analysis::{ApproximateJkr, ApproximatePoint};
@@ -31,17 +31,17 @@ pub(super) const APPROXIMATE_JKR: &[Column<ApproximatePoint>] = &[
 const PROFILE: &[Column<(f64, f64)>] =
     &[Column("x", Value::Real(|point| point.0)), Column("z", Value::Real(|point| point.1))];
 
-/// Points of all legs, one leg after the other.
+/// Points of all loading stages in sequence.
 pub(super) fn curve(outcome: &Outcome) -> impl Iterator<Item = (usize, CurvePoint)> {
     let legs = outcome.history.legs.iter().enumerate();
     legs.flat_map(|(leg, record)| record.curve.iter().map(move |point| (leg, *point)))
 }
 
-/// Writes the force curve: the leg counted from 0, indentation in m, force in N, contact length in m
-/// and the number of contact fragments.
+/// Writes the force curve: number of the loading stage from 0, indentation in m, force in N, contact length in m
+/// and the number of contact patches.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_curve(
     out: &mut (impl Write + ?Sized),
     format: TableFormat,
@@ -52,11 +52,11 @@ pub fn write_curve(
     write_table(out, format, provenance, CURVE, points, curve(outcome))
 }
 
-/// Writes the approximate JKR curve: indentation in m and force in N, and of the contact without adhesion of the same area
-/// its indentation in m, force in N, contact length in m and mean length of the growing patches in m.
+/// Writes the approximate JKR curve: indentation in m and force in N, and of the contact without adhesion of the
+/// same area its indentation in m, force in N, contact length in m and mean length of the growing patches in m.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_approximate_jkr(
     out: &mut (impl Write + ?Sized),
     format: TableFormat,
@@ -66,10 +66,10 @@ pub fn write_approximate_jkr(
     write_table(out, format, provenance, APPROXIMATE_JKR, curve.points.len(), curve.points.iter())
 }
 
-/// Writes the line: position x and height z in m of every spring under the body.
+/// Writes the profile: position x and height z in m of every spring under the body.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_line(
     out: &mut (impl Write + ?Sized),
     format: TableFormat,

@@ -6,7 +6,7 @@ use crate::text::{printable, wrap};
 /// Characters on a line: those of the smallest usual terminal.
 pub(crate) const WIDTH: usize = 80;
 
-/// Fewest characters of a last column, and how far in the column begins on a line of its own.
+/// Fewest characters of a last column, and the indentation of that column on a line of its own.
 const FEWEST_IN_LAST: usize = 20;
 const INDENT: usize = 4;
 
@@ -39,14 +39,14 @@ impl Sheet {
         self.paragraph(heading);
     }
 
-    /// Text on as many lines as it takes; none for an empty text.
+    /// Text wrapped into lines; none for an empty text.
     pub(crate) fn paragraph(&mut self, text: &str) {
         for line in text.lines().flat_map(|line| wrap(line, WIDTH)) {
             self.line(&line);
         }
     }
 
-    /// A row; a value too long for one line goes on below itself.
+    /// A row; a value too long for one line continues below itself.
     pub(crate) fn row(&mut self, label: &str, value: impl AsRef<str>) {
         let mut label = label;
         for line in wrap(value.as_ref(), WIDTH - LABEL) {
@@ -55,20 +55,20 @@ impl Sheet {
         }
     }
 
-    /// A row with a number in this unit, where there is one.
+    /// A row with a number in this unit, if there is one.
     pub(crate) fn quantity(&mut self, label: &str, value: impl Into<Option<f64>>, unit: &str) {
         self.row_of(label, value.into().map(|value| format_quantity(value, unit)));
     }
 
-    /// A row, where there is a value.
+    /// A row, if there is a value.
     pub(crate) fn row_of(&mut self, label: &str, value: Option<String>) {
         if let Some(value) = value {
             self.row(label, value);
         }
     }
 
-    /// Lines of cells below each other, all but the last column as wide as its widest cell. A last cell too long for its
-    /// line goes on below itself, or begins on the next line where the other columns leave too little room.
+    /// Lines of cells below each other, all but the last column as wide as its widest cell. A last cell too long
+    /// for its line continues below itself, or begins on the next line if the other columns leave too little room.
     pub(crate) fn table<R: AsRef<[String]>>(&mut self, rows: &[R]) {
         let cell = |row: &R, column: usize| row.as_ref().get(column).map_or(0, |cell| cell.chars().count());
         let width = |column: usize| rows.iter().map(|row| cell(row, column)).max().unwrap_or(0);
@@ -90,7 +90,7 @@ impl Sheet {
     }
 
     fn line(&mut self, line: &str) {
-        // Titles and names of files, machines and processes are foreign.
+        // Titles and names of files, machines and processes are foreign text.
         self.text.push_str(&printable(line.trim_end()));
         self.text.push('\n');
     }
@@ -110,7 +110,7 @@ pub(crate) fn markdown<R: AsRef<[String]>>(rows: &[R]) -> String {
     lines.concat()
 }
 
-/// At most so many of the rows of a table, at equal distances, with the last one.
+/// At most `most` evenly spaced rows of a table, including the last one.
 pub(super) fn thinned<I: ExactSizeIterator>(rows: I, most: usize) -> impl Iterator<Item = I::Item> {
     let (last, stride) = (rows.len().saturating_sub(1), rows.len().div_ceil(most).max(1));
     rows.skip(last % stride).step_by(stride)

@@ -1,4 +1,4 @@
-//! Spectra over the wave number: as measured, the fit to them, and those of the line.
+//! Spectra over the wave number: measured, fitted, and those of the equivalent line.
 
 use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use crate::spectrum::{Analysis, Direction, End};
@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 /// Points of a curve for each decade of wave numbers.
 const PER_DECADE: f64 = 20.0;
 
-/// Decades of the vertical axis at most: powers far below the others are rounding.
+/// Most decades of the vertical axis: powers far below the others are rounding errors.
 const MOST_DECADES: f64 = 18.0;
 
 /// Wave number, rad/m, and power spectral density, m³.
@@ -17,19 +17,19 @@ pub type SpectrumPoint = (f64, f64);
 /// Spectra of one surface or line.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spectra {
-    /// Measured ones in bins, with their names.
+    /// Measured spectra in bins, with their names.
     pub measured: Vec<(&'static str, Vec<SpectrumPoint>)>,
     /// Spectrum of a cut through the fitted surface.
     pub fit: Vec<SpectrumPoint>,
-    /// The same of the self-affine fit, with its Hurst exponent.
+    /// The same spectrum for the self-affine fit, with its Hurst exponent.
     pub self_affine: Option<(f64, Vec<SpectrumPoint>)>,
-    /// Spectrum that the line is to have.
+    /// Intended spectrum of the equivalent line.
     pub line: Vec<SpectrumPoint>,
-    /// Spectrum of the heights of the line that is computed, in bins.
+    /// Spectrum of the heights of the computed line, in bins.
     pub heights: Vec<SpectrumPoint>,
     /// Roll-off wave number, rad/m.
     pub roll_off: Option<f64>,
-    /// Largest wave number that is measured, rad/m, where the spectrum of the line goes further.
+    /// Largest measured wave number, rad/m, if the spectrum of the line goes further.
     pub last_resolved: Option<f64>,
     /// Wave number beyond which waves may be artefacts of the tip, rad/m.
     pub reliability_cutoff: Option<f64>,
@@ -40,7 +40,7 @@ pub(super) fn spectrum_name(face: usize, direction: Direction) -> &'static str {
     if face == 0 { direction.name() } else { direction.opposite_name() }
 }
 
-/// Wave numbers at even distances of their logarithm, about so many in each decade.
+/// Logarithmically spaced wave numbers, about `per_decade` in each decade.
 pub(super) fn wave_numbers([low, high]: [f64; 2], per_decade: f64) -> impl Iterator<Item = f64> {
     let pieces = (per_decade * (high / low).log10()).ceil().max(1.0);
     (0..=pieces as u32).map(move |piece| (low * (high / low).powf(f64::from(piece) / pieces)).min(high))
@@ -78,7 +78,7 @@ impl Spectra {
         }
     }
 
-    /// Spectra of the surfaces of one or both faces: of one face with the fit, of both with the line of their sum.
+    /// Spectra of the surfaces of one or both faces: one face with its fit, both with the line of their sum.
     #[must_use]
     pub fn of_faces(faces: &[&Analysis]) -> Self {
         if let [face] = faces {
@@ -125,7 +125,7 @@ impl Spectra {
             let shape = curve(&self.heights, None, Some(Sign::Cross));
             layers.push(Layer::new("heights of the line".into(), Ink::Manual, shape));
         }
-        // Heights have waves of rounding alone beside those of the line.
+        // Besides the waves of the line, heights contain only rounding errors.
         let without_heights = Spectra { heights: Vec::new(), ..self.clone() };
         let shown = if without_heights.points().next().is_some() { &without_heights } else { self };
         let powers: Vec<f64> = shown.points().map(|(_, power)| power).collect();
@@ -184,7 +184,7 @@ mod tests {
     fn the_fit_goes_through_the_measured_powers() {
         let analysis = analysis(End::Ends);
         let spectra = Spectra::of_analysis(&analysis);
-        // At the largest likelihood powers over their means are 1 in the mean over the waves; wave 1 is not fitted.
+        // At the largest likelihood the mean over the waves of powers over their means is 1; wave 1 is not fitted.
         let bins = &analysis.spectra[0].1[2..];
         let fit = |q: f64| analysis.isotropic.cut(q);
         let sum: f64 = bins.iter().map(|bin| bin.waves as f64 * bin.power / fit(bin.wave_number)).sum();

@@ -7,9 +7,9 @@ use crate::draw::{
 };
 use crate::study::figure::{Estimate, Figure as Study, FigureAxis, Panel};
 
-/// Decades a quantity must span before an inset shows it on a logarithmic scale.
+/// Fewest decades of a quantity with a logarithmic inset.
 const DECADES_FOR_INSET: f64 = 1.5;
-/// Most decades of a logarithmic axis, and of the scale of colours of a map.
+/// Most decades of a logarithmic axis, and of the colour scale of a map.
 const MOST_DECADES: f64 = 12.0;
 const MOST_DECADES_OF_MAP: f64 = 6.0;
 
@@ -46,7 +46,7 @@ fn heading(panel: &Panel) -> Label {
     Label::quantity(&panel.quantity.name, &panel.quantity.symbol)
 }
 
-/// Axis of a quantity: its symbol, or its name where it has none.
+/// Axis of a quantity: its symbol, or its name if it has none.
 fn axis_of(panel: &Panel, scale: AxisScale, span: Span) -> Axis {
     let quantity = &panel.quantity;
     let name = if quantity.symbol.is_empty() { quantity.name.as_str() } else { "" };
@@ -114,7 +114,7 @@ fn range(panel: &Panel, scale: AxisScale) -> Span {
     let ends = estimates().flat_map(|estimate| [estimate.mean, estimate.low, estimate.high]);
     let all = Span::around(ends.map(|end| scale.coordinate(end)), 0.0);
     match scale {
-        // A confidence interval that reaches below zero says nothing there of a quantity that does not.
+        // A confidence interval below zero has no meaning for a quantity that is never negative.
         AxisScale::Linear if !panel.quantity.signed && from.low == 0.0 => {
             Span { low: -0.03 * all.high, high: 1.05 * all.high }
         }
@@ -123,7 +123,7 @@ fn range(panel: &Panel, scale: AxisScale) -> Span {
     }
 }
 
-/// Returns true if a quantity falls so far that a linear scale does not show it.
+/// Returns true if a quantity falls too far for a linear scale.
 fn spans_decades(panel: &Panel) -> bool {
     let means = || panel.estimates.iter().flatten().map(|estimate| estimate.mean);
     let above = means().filter(|mean| *mean > 0.0);
@@ -156,7 +156,7 @@ fn layers(study: &Study, panel: &Panel) -> Vec<Layer> {
         ));
     };
     match (&study.series, curves.first()) {
-        // Curves that are the same to the last bit do not depend on the axis of the series.
+        // Curves that are equal to the last bit do not depend on the axis of the series.
         (Some(series), Some(first)) if curves.iter().all(|curve| curve == first) => {
             let symbol = Label::symbol_or_name(&series.symbol, &series.name);
             add(Label::plain("any ").join(&symbol), Ink::Quiet, Sign::Dot, first);
@@ -270,7 +270,7 @@ mod tests {
         }
     }
 
-    /// Sections of both at H = 0.3, with a gap.
+    /// Sections of both quantities at H = 0.3, with a gap.
     fn sections() -> Study {
         let cells: Vec<(f64, f64)> = kappas().into_iter().map(|kappa| (kappa, 0.3)).collect();
         study("Sections at H = 0.3", &["H = 0.3", "F_n/(E* h L) = 0.5"], &cells, &[4])
@@ -321,7 +321,7 @@ mod tests {
     fn words_lie_within_the_picture_and_not_on_each_other() {
         let mut large = phase_map();
         large.title = "A title that is a good deal longer than the figure is wide ".repeat(4);
-        // Numbers with many digits, in which alone they differ.
+        // Numbers that differ only in late digits.
         let mut long = [phase_map(), sections()];
         for estimate in long.iter_mut().flat_map(|study| study.panels[0].estimates.iter_mut().flatten()) {
             *estimate = Estimate { mean: 1e5 + estimate.mean, low: 1e5, high: 1e5 + 1.0 };
@@ -374,7 +374,7 @@ mod tests {
         };
         let own = upright(&study, 0);
         assert_eq!(own.len(), 1, "{own:?}");
-        // A quantity that is no share of F_a(0) shows where that vanishes.
+        // A quantity other than a share of F_a(0) shows where F_a(0) vanishes.
         assert_eq!(upright(&study, 1), own);
         let shares = study.panels[0].estimates.clone();
         let twice = |estimate: Option<Estimate>| {

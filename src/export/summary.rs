@@ -1,4 +1,4 @@
-//! A computed scene for a person to read.
+//! Summary of a computed scene for a reader.
 
 use super::sheet::Sheet;
 use super::verdict;
@@ -9,14 +9,14 @@ use crate::scene::{Leg, Scene, format_quantity};
 use crate::simulation::{Outcome, Timings};
 use crate::text::grouped;
 
-/// Legs of a loading that are named; further ones are counted.
+/// Most loading stages of a history that are named; further ones are counted.
 const MOST_LEGS: usize = 8;
 
-/// Said where there is no adhesion force.
+/// Text in place of an adhesion force.
 const NO_PULL: &str = "none: no stage unloads";
 
 /// Result of a scene in plain text of at most 80 columns that ends in a line break, the adhesion force with its
-/// estimated error where there is one.
+/// estimated error if there is one.
 #[must_use]
 pub fn summary(scene: &Scene, outcome: &Outcome, estimate: Option<&Estimate>) -> String {
     let mut sheet = Sheet::default();
@@ -115,7 +115,7 @@ fn approximate_jkr(sheet: &mut Sheet, curve: &ApproximateJkr) {
     sheet.row("assumptions", APPROXIMATE_JKR_ASSUMPTIONS);
 }
 
-/// Dissipated energy, and beside it the Tabor number that says how far to trust it.
+/// Dissipated energy, and the Tabor number as a measure of its validity.
 fn dissipated_energy(sheet: &mut Sheet, outcome: &Outcome) {
     let energy = outcome.figures.dissipated_energy;
     sheet.quantity("dissipated energy", energy, "J");
@@ -132,7 +132,7 @@ pub(super) fn tabor_number(number: f64) -> String {
     format!("{value}, below {LEAST_TABOR_NUMBER}: attraction of finite range dissipates less than this")
 }
 
-/// Adhesion force and its error, or that of the curve where nothing pulls.
+/// Adhesion force and its error, or that of the curve if there is no tensile force.
 fn adhesion_force(outcome: &Outcome, estimate: Option<&Estimate>) -> String {
     let force = quantity(outcome.figures.adhesion_force, "N");
     let (of, error) = match estimate {
@@ -184,7 +184,7 @@ fn cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
     sheet.row("time", format!("{total}: {}", stages.join(", ")));
 }
 
-/// All counts with their labels.
+/// All counts of work with their labels.
 fn counts(work: &Work) -> [(&'static str, u64); 16] {
     [
         ("springs", work.springs),
@@ -238,7 +238,7 @@ mod tests {
         let document = Document::parse(text, "test").unwrap().set_all(&overrides).unwrap();
         let scene = document.scene();
         let mut outcome = Simulation::default().run(scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
-        // Neither times nor what the solver happens to need.
+        // Without times and the solver's own counts of work.
         outcome.timings = Timings { line: 1.5e-3, ..Timings::default() };
         let springs = outcome.history.work.springs;
         outcome.history.work = Work { springs, tree_nodes: springs, attached: 1_234_567, ..Work::default() };

@@ -1,4 +1,4 @@
-//! Analysed surfaces: text for people, JSON and CSV for programs.
+//! Analysed surfaces: text for readers, JSON and CSV for programs.
 
 use super::sheet::Sheet;
 use super::spectrum_figure::{SpectrumPoint, spectrum_name, wave_numbers};
@@ -15,7 +15,7 @@ use serde_json::json;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-/// Points of the equivalent line's spectrum in CSV, for each decade.
+/// Points per decade of the spectrum of the equivalent line in CSV.
 const LINE_PER_DECADE: f64 = 10.0;
 
 /// Name of the spectrum of the equivalent line.
@@ -24,18 +24,18 @@ const LINE: &str = "equivalent line";
 /// Name of a spectrum, point, waves averaged.
 type SpectrumRow = (&'static str, SpectrumPoint, Option<u64>);
 
-/// A surface and the file it came from.
+/// A surface and its file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceFile {
     /// File.
     pub path: PathBuf,
     /// Format.
     pub format: &'static str,
-    /// Points of a row, and rows.
+    /// Points of a row, and number of rows.
     pub points: [usize; 2],
-    /// Lengths along and between rows, m; of a profile the first alone.
+    /// Lengths along and between rows, m; only the first one for a profile.
     pub lengths: [f64; 2],
-    /// Points with heights from their neighbours.
+    /// Number of points with interpolated heights.
     pub interpolated: usize,
 }
 
@@ -44,12 +44,12 @@ pub struct SurfaceFile {
 pub struct MeasuredFace {
     /// Files.
     pub files: Vec<SurfaceFile>,
-    /// Analysis of all of them.
+    /// Common analysis of the files.
     pub analysis: Analysis,
 }
 
 impl SurfaceFile {
-    /// Facts of a surface with points at even distances; lengths of others are 0.
+    /// Facts of a surface with evenly spaced points; lengths of others are 0.
     #[must_use]
     pub fn new(path: PathBuf, surface: &Topography) -> Self {
         let points = [surface.columns(), surface.rows()];
@@ -63,7 +63,7 @@ impl SurfaceFile {
         }
     }
 
-    /// One axis of a profile, two of a map.
+    /// Number of axes: one of a profile, two of a map.
     fn axes(&self) -> usize {
         if self.points[1] > 1 { 2 } else { 1 }
     }
@@ -84,7 +84,7 @@ impl SurfaceContact {
         scaled(moments.energy_per_modulus, self.modulus)
     }
 
-    /// κ = √(h⟨∇z⟩E*/γ), which has half the relative error of h⟨∇z⟩.
+    /// κ = √(h⟨∇z⟩E*/γ), with half the relative error of h⟨∇z⟩.
     fn kappa(self, moments: &LineMoments) -> Option<Estimate> {
         let product = moments.height_gradient;
         let value = (product.value * self.modulus / self.work?).sqrt();
@@ -101,7 +101,7 @@ fn scaled(estimate: Estimate, factor: f64) -> Estimate {
     Estimate { value: factor * estimate.value, error: factor * estimate.error }
 }
 
-/// Adhesion force with its spread over random profiles beside that of the fit; `None` for fewer than two forces.
+/// Adhesion force with its spread over random profiles and that of the fit; `None` for fewer than two forces.
 #[must_use]
 pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
     let force = computed.adhesion_force()?;
@@ -119,14 +119,14 @@ pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
 /// Adhesion of the equivalent line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceAdhesion {
-    /// Scene that is computed.
+    /// Computed scene.
     pub scene: Scene,
-    /// Its random profiles; `None` where nobody asked for so many springs.
+    /// Random profiles of the scene; `None` for many springs without a request.
     pub computed: Option<MeasuredAdhesion>,
 }
 
 impl SurfaceAdhesion {
-    /// Preload, N; `None` for mere touch.
+    /// Preload, N; `None` for touch alone.
     fn preload(&self) -> Option<f64> {
         match self.scene.loading.first() {
             Some(Leg::ToForce(force)) => Some(*force),
@@ -134,7 +134,7 @@ impl SurfaceAdhesion {
         }
     }
 
-    /// Adhesion force with its spread over the profiles beside that by the fit.
+    /// Adhesion force with its spread over the profiles and that of the fit.
     fn force(&self) -> String {
         let Some(computed) = &self.computed else {
             let springs = grouped(self.scene.numerics.points);
@@ -163,7 +163,7 @@ impl SurfaceAdhesion {
         sheet.row_of("regime", regimes.map(|regimes| regimes + " lines"));
     }
 
-    /// Object of JSON.
+    /// JSON object.
     fn json(&self) -> Option<serde_json::Value> {
         let computed = self.computed.as_ref()?;
         Some(json!({
@@ -174,16 +174,16 @@ impl SurfaceAdhesion {
     }
 }
 
-/// Analysed surfaces of one or both faces, with what is known of their contact.
+/// Analysed surfaces of one or both faces, with the known values of their contact.
 #[derive(Clone, Copy, Debug)]
 pub struct SurfaceReport<'a> {
-    /// The face, and the opposite one where that is rough too.
+    /// The face, and the opposite one if that is rough too.
     pub faces: &'a [MeasuredFace],
-    /// Their equivalent line.
+    /// Equivalent line of the faces.
     pub line: &'a EquivalentLine,
     /// Constants of the contact.
     pub contact: Option<SurfaceContact>,
-    /// Adhesion of the line.
+    /// Adhesion of the equivalent line.
     pub adhesion: Option<&'a SurfaceAdhesion>,
 }
 
@@ -236,10 +236,10 @@ impl SurfaceReport<'_> {
         sheet.into_text()
     }
 
-    /// Writes one JSON object. The opposite face has an object of its own in it, without equivalent line and adhesion.
+    /// Writes one JSON object. The opposite face is an object inside, without equivalent line and adhesion.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// Errors of `out`.
     pub fn write_json(&self, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
         let (moments, contact) = (self.line.moments(), self.contact);
         let line = json!({
@@ -317,8 +317,8 @@ fn with_error(estimate: Estimate, unit: &str) -> String {
     format!("{} ± {error}", format_quantity(estimate.value, unit))
 }
 
-/// JSON object of the surfaces of a face in SI units. That of the first face holds what both faces are together, and the
-/// object of the opposite face.
+/// JSON object of the surfaces of a face in SI units. That of the first face holds the results of both faces
+/// together, and the object of the opposite face.
 fn face_json<'a>(
     MeasuredFace { files, analysis }: &'a MeasuredFace,
     [equivalent_line, adhesion]: [Option<serde_json::Value>; 2],
@@ -368,10 +368,10 @@ fn estimate(estimate: Option<Estimate>) -> Option<serde_json::Value> {
     estimate.map(|estimate| json!({"value": estimate.value, "error": estimate.error}))
 }
 
-/// Writes spectra as a table: kind, wave number in rad/m, power in m³, waves averaged (none for the equivalent line).
+/// Writes spectra as a table: kind, wave number in rad/m, power in m³, waves averaged (if any).
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_surface_table(
     out: &mut (impl Write + ?Sized),
     format: TableFormat,

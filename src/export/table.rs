@@ -1,7 +1,7 @@
 //! Tables of results as CSV or as an array of NumPy, each with its provenance.
 //!
 //! CSV begins with the provenance in comments. An array has a field for each column, and the provenance is a second
-//! array in the same file, since the header of an array holds its type and shape alone.
+//! array in the same file, since the header of an array holds only its type and shape.
 
 use crate::io::npy;
 use crate::scene::Provenance;
@@ -18,27 +18,27 @@ pub enum TableFormat {
     Npy,
 }
 
-/// A column of a table and an entry of the objects of JSON that hold the same rows: name and value.
+/// A column of a table and an entry of the JSON objects with the same rows: name and value.
 pub(super) struct Column<T>(pub &'static str, pub Value<T>);
 
 /// Value of a row in a column.
 pub(super) enum Value<T> {
     /// Double precision.
     Real(fn(&T) -> f64),
-    /// Double precision; empty where there is no value, in an array not a number.
+    /// Double precision; empty in CSV and NaN in an array if there is no value.
     Optional(fn(&T) -> Option<f64>),
-    /// Whole numbers from 0 on.
+    /// Integers from 0.
     Whole(fn(&T) -> u64),
-    /// Whole numbers that some rows do not have: double precision in an array.
+    /// Integers missing in some rows: double precision in an array.
     Count(fn(&T) -> Option<u64>),
-    /// Words of at most so many characters.
+    /// Words with a largest number of characters.
     Word(usize, fn(&T) -> &'static str),
 }
 
-/// Writes a table of so many rows.
+/// Writes a table with this number of rows.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub(super) fn write_table<T>(
     out: &mut (impl Write + ?Sized),
     format: TableFormat,
@@ -117,7 +117,7 @@ impl<T> Value<T> {
     }
 }
 
-/// A row as an object of JSON with an entry for each column.
+/// A row as a JSON object with an entry for each column.
 pub(super) struct Record<'a, T, R>(pub &'a [Column<T>], pub R);
 
 impl<T, R: Borrow<T>> Serialize for Record<'_, T, R> {

@@ -1,4 +1,4 @@
-//! The regime in words, with the shares it was read from and their thresholds.
+//! The regime in words, with the deciding shares and their thresholds.
 
 use super::sheet::Sheet;
 use crate::analysis::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, Regime, VANISHING_SHARE};
@@ -22,7 +22,7 @@ pub(super) fn sentence(outcome: &Outcome) -> String {
     format!("{name}: {meaning}")
 }
 
-/// The regime and, one row for each, the shares that decided it.
+/// The regime and, one row each, the deciding shares.
 pub(super) fn rows(sheet: &mut Sheet, outcome: &Outcome) {
     sheet.row("regime", sentence(outcome));
     if outcome.regime.is_none() {
@@ -38,7 +38,7 @@ pub(super) fn rows(sheet: &mut Sheet, outcome: &Outcome) {
     share(sheet, "  F_a/F_n", adhesion, preload, NEGLIGIBLE_COEFFICIENT, says);
 }
 
-/// One share, on which side of its threshold it lies, and what that says: from the threshold on, below.
+/// One share, its side of the threshold, and the conclusion: from the threshold on, below.
 fn share(
     sheet: &mut Sheet,
     label: &str,
@@ -47,9 +47,9 @@ fn share(
     threshold: f64,
     [from_on, below]: [&str; 2],
 ) {
-    // A share of nothing decides nothing.
+    // A share of zero has no meaning.
     let (Some(part), Some(whole)) = (part, whole.filter(|&whole| whole > 0.0)) else { return };
-    // Products, as the regime itself compares them.
+    // Products, as in the comparison of the regime itself.
     let (side, says) = if part >= threshold * whole { ("at least", from_on) } else { ("below", below) };
     let share = format_quantity(part / whole, "1");
     sheet.row(label, format!("{share}, {side} {threshold}: {says}"));

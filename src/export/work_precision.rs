@@ -3,8 +3,8 @@
 use crate::accuracy::{CostTable, ErrorFigure, Knob, Row};
 use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 
-/// Relative errors over the least time of a run, one curve for each setting: errors of the adhesion force, of the
-/// curve where there is no adhesion force.
+/// Relative errors over the least time of a run, one curve for each setting: errors of the adhesion force, or of
+/// the force curve if there is no adhesion force.
 #[must_use]
 pub fn work_precision(title: &str, table: &CostTable) -> Figure {
     let points = |knob: Knob| table.rows_of(knob).filter_map(point).collect::<Vec<_>>();

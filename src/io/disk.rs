@@ -1,8 +1,8 @@
-//! Changes to files that have to outlast a crash, each step by itself.
+//! Changes to files that have to survive a crash, each step separate.
 //!
-//! Content reaches a disk when a file is synchronised, and the name of a file when its folder is. Between
-//! these a crash may leave old, new or torn content under old or new names. Studies and files written whole go
-//! through a [`Disk`], so that tests can let each step fail, or be the last one.
+//! Content reaches a disk when its file is synchronised, and the name of a file when its folder is. Between these a
+//! crash may leave old, new or torn content under old or new names. Studies and files written whole use a [`Disk`],
+//! so that tests can make each step fail, or be the last one.
 
 use std::fmt::Debug;
 use std::fs::{self, File, OpenOptions, Permissions};
@@ -13,27 +13,27 @@ use std::sync::Arc;
 /// Changes of files: [`SystemDisk`], or a simulated disk in tests. Files are read without a disk.
 ///
 /// # Errors
-/// Every function gives on the error of the operating system. Where a name is taken, those that make something under a
+/// Every function returns the error of the operating system. If a name exists, functions that make an entry under a
 /// new name fail with [`io::ErrorKind::AlreadyExists`]; only [`Disk::rename`] replaces a file or a link.
 /// [`Disk::symbolic_link`] fails with [`io::ErrorKind::Unsupported`] on systems without such links.
 pub trait Disk: Debug + Send + Sync {
-    /// Makes a folder within one that is there.
+    /// Makes a folder within an existing one.
     fn make_folder(&self, path: &Path) -> io::Result<()>;
 
-    /// Makes a file to write to.
+    /// Makes a file for writing.
     fn make_file(&self, path: &Path) -> io::Result<Box<dyn DiskFile>>;
 
-    /// Makes a file in a folder that has no name yet, and goes with the process unless it is given one; `None`
-    /// where there are no such files.
+    /// Makes a file without a name in a folder, which vanishes with the process unless it is named; `None` if the
+    /// system has no such files.
     fn make_nameless_file(&self, folder: &Path) -> Option<Box<dyn DiskFile>>;
 
-    /// Gives a file a second name.
+    /// Adds a second name to a file.
     fn link(&self, file: &Path, name: &Path) -> io::Result<()>;
 
-    /// Makes a symbolic link that leads to `target`.
+    /// Makes a symbolic link to `target`.
     fn symbolic_link(&self, target: &Path, name: &Path) -> io::Result<()>;
 
-    /// Renames a file, a link or a folder. A file or link of the new name is replaced.
+    /// Renames a file, a link or a folder. Replaces a file or link of the new name.
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()>;
 
     /// Removes a file or a link.
@@ -42,34 +42,34 @@ pub trait Disk: Debug + Send + Sync {
     /// Removes an empty folder.
     fn remove_folder(&self, path: &Path) -> io::Result<()>;
 
-    /// Paths of all that is in a folder, in no order.
+    /// Paths of all entries of a folder, in no order.
     fn list(&self, folder: &Path) -> io::Result<Vec<PathBuf>>;
 
-    /// Waits until the content of a file that is there has reached the disk, whoever wrote it.
+    /// Waits until the content of an existing file has reached the disk, regardless of its writer.
     fn sync_file(&self, path: &Path) -> io::Result<()>;
 
     /// Waits until the names in a folder have reached the disk.
     fn sync_folder(&self, path: &Path) -> io::Result<()>;
 }
 
-/// A file of a [`Disk`] while it is written, with the errors of a [`Disk`].
+/// A file of a [`Disk`] during writing, with the errors of a [`Disk`].
 pub trait DiskFile: Write + Send {
-    /// Waits until all that was written has reached the disk.
+    /// Waits until all written content has reached the disk.
     fn sync(&mut self) -> io::Result<()>;
 
     /// Sets the permissions.
     fn set_permissions(&mut self, permissions: Permissions) -> io::Result<()>;
 
-    /// Gives a file without a name one that no other has.
+    /// Names a nameless file; the name must not exist yet.
     fn give_name(&self, path: &Path) -> io::Result<()>;
 }
 
-/// The file systems of the machine.
+/// The file systems of the operating system.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SystemDisk;
 
 impl SystemDisk {
-    /// The disk, to be shared.
+    /// The shared disk.
     #[must_use]
     pub fn shared() -> Arc<dyn Disk> {
         Arc::new(SystemDisk)
@@ -111,7 +111,7 @@ impl Disk for SystemDisk {
         use rustix::fs::{Mode, OFlags, open};
         let mode = Mode::from_raw_mode(0o666);
         let file: File = open(folder, OFlags::TMPFILE | OFlags::WRONLY | OFlags::CLOEXEC, mode).ok()?.into();
-        // Without this folder it could not be given a name.
+        // The file can be named only through this folder.
         fs::metadata(of_descriptor(&file)).ok()?;
         Some(Box::new(file))
     }
@@ -152,13 +152,13 @@ impl Disk for SystemDisk {
     }
 
     fn sync_file(&self, path: &Path) -> io::Result<()> {
-        // Windows asks for the right to write.
+        // Windows requires write access.
         OpenOptions::new().read(true).write(cfg!(windows)).open(path)?.sync_all()
     }
 
     fn sync_folder(&self, path: &Path) -> io::Result<()> {
-        // Some systems let no folder be opened, some folders may not be read, and some file systems cannot
-        // synchronise one: there, names are as safe as the system makes them by itself.
+        // Some systems cannot open a folder, some folders may not be read, and some file systems cannot synchronise
+        // one: there, names are as safe as the system makes them.
         let lenient = |error: io::Error| match error.kind() {
             io::ErrorKind::PermissionDenied | io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported => {
                 Ok(())
@@ -175,7 +175,7 @@ fn of_descriptor(file: &File) -> PathBuf {
     PathBuf::from(format!("/proc/self/fd/{}", file.as_raw_fd()))
 }
 
-/// Makes a folder and those it is in, as far as they are not there, so that they outlast a crash.
+/// Makes a folder and its missing parents, so that they survive a crash.
 pub(crate) fn make_folders(disk: &dyn Disk, path: &Path) -> io::Result<()> {
     if path.as_os_str().is_empty() || path.is_dir() {
         return Ok(());
@@ -190,7 +190,7 @@ pub(crate) fn make_folders(disk: &dyn Disk, path: &Path) -> io::Result<()> {
     disk.sync_folder(folder_of(path))
 }
 
-/// The folder that a path is in.
+/// The parent folder of a path.
 pub(crate) fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if folder != Path::new("") => folder,

@@ -1,4 +1,4 @@
-//! SHA-256, with which `sha256sum` says which copy of a file is meant.
+//! SHA-256, comparable with `sha256sum`, which identifies a copy of a file.
 
 use super::{ReadError, open_regular};
 use sha2::{Digest, Sha256};

@@ -1,17 +1,17 @@
-//! JSON that a person can scroll through: outer entries on lines of their own, inner ones together.
+//! Readable JSON: outer entries on lines of their own, inner ones together.
 
 use crate::text::is_control;
 use serde::Serialize;
 use serde_json::ser::{Formatter, Serializer};
 use std::io::{self, Write};
 
-/// Entries nested more deeply than this share one line.
+/// Nesting depth beyond which entries share one line.
 const BROKEN_LEVELS: usize = 2;
 
 /// Writes a value as JSON with a line for every entry of its two outer levels.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_json_value(out: &mut (impl Write + ?Sized), value: &impl Serialize) -> io::Result<()> {
     let mut serializer = Serializer::with_formatter(&mut *out, Lines::default());
     value.serialize(&mut serializer)?;
@@ -21,7 +21,7 @@ pub fn write_json_value(out: &mut (impl Write + ?Sized), value: &impl Serialize)
 #[derive(Default)]
 struct Lines {
     depth: usize,
-    /// True if what was closed or opened last holds anything.
+    /// True if the innermost value, open or just closed, has entries.
     filled: bool,
 }
 
@@ -63,7 +63,7 @@ impl Lines {
 impl Formatter for Lines {
     fn write_string_fragment<W: ?Sized + Write>(&mut self, out: &mut W, fragment: &str) -> io::Result<()> {
         let mut rest = fragment;
-        // Characters that JSON allows and a terminal does not; read back, the text is the same.
+        // Escapes characters that JSON allows and a terminal does not; the text is read back unchanged.
         while let Some((place, c)) = rest.char_indices().find(|(_, c)| is_control(*c)) {
             write!(out, "{}\\u{:04x}", &rest[..place], u32::from(c))?;
             rest = &rest[place + c.len_utf8()..];

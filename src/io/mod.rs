@@ -1,4 +1,4 @@
-//! Files: reading within limits, writing whole or not at all on a disk, JSON text and arrays of NumPy.
+//! Files: reading within limits, atomic writing on a disk, JSON text and arrays of NumPy.
 
 mod disk;
 mod hash;
@@ -9,7 +9,7 @@ mod read;
 mod unfinished;
 mod write;
 
-/// First characters of CSV that begins with the scene behind it.
+/// First characters of CSV that begins with its scene.
 pub(crate) const PROVENANCE: &str = "# asperity ";
 
 pub use disk::{Disk, DiskFile, SystemDisk};

@@ -1,7 +1,7 @@
-//! Arrays of NumPy: the header of a file, and a text as a second array behind the first.
+//! Arrays of NumPy: the header of a file, and a text as a second array after the first.
 //!
-//! A header holds the type, the order and the shape of an array and nothing else, or NumPy refuses the file. But a file
-//! may hold several arrays one after the other: `numpy.load` of the name gives the first, and of an open file the next.
+//! A header holds exactly the type, the order and the shape of an array, or NumPy refuses the file. But a file may
+//! hold several arrays in sequence: `numpy.load` of the name returns the first, and of an open file the next.
 
 use std::io::{self, Write};
 
@@ -20,11 +20,11 @@ const ALIGNMENT: usize = 64;
 /// Most bytes of the header of an appended text.
 const TEXT_HEADER: usize = 2 * ALIGNMENT;
 
-/// Writes the header of an array. `descr` is its type in Python's notation, `shape` the numbers in the brackets of its
-/// shape.
+/// Writes the header of an array. `descr` is its type in Python's notation, `shape` the numbers in the brackets of
+/// its shape.
 ///
 /// # Errors
-/// Those of `out`; a header of more than 65 535 bytes.
+/// Errors of `out`; a header of more than 65 535 bytes.
 pub(crate) fn write_header(out: &mut (impl Write + ?Sized), descr: &str, shape: &str) -> io::Result<()> {
     let mut header = format!("{{'descr': {descr}, 'fortran_order': False, 'shape': ({shape}), }}");
     let length = (PREFIX + header.len() + 1).next_multiple_of(ALIGNMENT) - PREFIX;
@@ -46,14 +46,14 @@ pub(crate) fn write_text(out: &mut (impl Write + ?Sized), text: &str) -> io::Res
     out.write_all(text.as_bytes())
 }
 
-/// Number of bytes at the end of a file that hold an appended text of at most `longest` bytes.
+/// Most bytes at the end of a file that hold an appended text of at most `longest` bytes.
 pub(crate) fn most_appended(longest: usize) -> usize {
     longest + TEXT_HEADER
 }
 
 /// Text at the end of a file, from its last bytes; `None` without one.
 pub(crate) fn appended_text(tail: &[u8]) -> Option<&str> {
-    // Numbers, and the text itself, may hold the signature by chance.
+    // Numbers, and the text itself, may contain the signature by chance.
     let starts = tail.windows(SIGNATURE.len()).enumerate().rev();
     starts.filter(|(_, bytes)| *bytes == SIGNATURE).find_map(|(start, _)| text_of(&tail[start..]))
 }
@@ -79,7 +79,7 @@ mod tests {
         let mut array = Vec::new();
         write_header(&mut array, "'<f8'", "3,").unwrap();
         assert_eq!(array.len() % ALIGNMENT, 0);
-        // As `numpy.save` writes it.
+        // As written by `numpy.save`.
         let expected = b"\x93NUMPY\x01\x00v\x00{'descr': '<f8', 'fortran_order': False, 'shape': (3,), }";
         assert!(array.starts_with(expected) && array.ends_with(b" \n"), "{array:?}");
         assert!(write_header(&mut Vec::new(), &"x".repeat(70_000), "").is_err());

@@ -20,7 +20,7 @@ impl Entries for () {
 /// Key and value.
 pub(crate) struct Entry<T>(pub &'static str, pub T);
 
-/// Key and value, left out where there is no value.
+/// Key and value, omitted without a value.
 pub(crate) struct Optional<T>(pub &'static str, pub Option<T>);
 
 impl<T: Serialize, R: Entries> Entries for (Entry<T>, R) {
@@ -47,7 +47,7 @@ impl<E: Entries> Serialize for Object<E> {
     }
 }
 
-/// An object with these keys and values, to be serialised; an entry `"key"?: option` is left out for `None`.
+/// An object with these keys and values, for serialisation; an entry `"key"?: option` is omitted for `None`.
 macro_rules! object {
     (@entries) => { () };
     (@entries $key:literal: $value:expr $(, $($rest:tt)*)?) => {

@@ -1,24 +1,24 @@
-//! Reading files that others name: regular files only, and only up to a limit.
+//! Reading of files named by users: regular files only, and only up to a limit.
 //!
-//! Opening a pipe waits for its writer, a terminal waits for its user, and a device may never end. What a
-//! file's metadata say is no bound either: a file grows while it is read, and some systems give a size of
-//! zero for what has content.
+//! Opening a pipe waits for its writer, a terminal waits for its user, and a device may never end. The metadata of
+//! a file are no bound either: a file grows while it is read, and some systems state a size of zero for files with
+//! content.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read};
 use std::path::Path;
 use thiserror::Error;
 
-/// Reason why a file was not read. The caller puts the name of the file before it.
+/// Reason why a file was not read. The caller puts the name of the file in front.
 #[derive(Debug, Error)]
 pub(crate) enum ReadError {
-    /// A folder has the name.
+    /// The path is a folder.
     #[error("this is a folder; allowed: a file")]
     Folder,
-    /// A pipe, a socket, a terminal or another device has the name.
+    /// The path is a pipe, a socket, a terminal or another device.
     #[error("this is not a regular file")]
     NotRegular,
-    /// The file has more bytes than are read.
+    /// The file exceeds the limit.
     #[error("longer than {limit} bytes; allowed: at most {limit} bytes")]
     TooLong {
         /// Largest number of bytes allowed.
@@ -27,7 +27,7 @@ pub(crate) enum ReadError {
     /// The bytes are not text.
     #[error("this is not UTF-8 text: byte {byte} is not")]
     NotText {
-        /// Index of the first byte that is not.
+        /// Index of the first invalid byte.
         byte: usize,
     },
     /// The system refused, or has no memory for the content.
@@ -35,7 +35,7 @@ pub(crate) enum ReadError {
     Failed(#[from] io::Error),
 }
 
-/// Reason of the system, without the number of its error where the reason is a plain one.
+/// Reason of the system, without the error number for a plain reason.
 fn reason(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "there is no such file".to_owned(),
@@ -46,10 +46,10 @@ fn reason(error: &io::Error) -> String {
 /// Opens a regular file for reading. Never waits for a writer or for a terminal.
 ///
 /// # Errors
-/// [`ReadError::Folder`], [`ReadError::NotRegular`] or what the system says.
+/// [`ReadError::Folder`], [`ReadError::NotRegular`] or the error of the system.
 pub(crate) fn open_regular(path: &Path) -> Result<File, ReadError> {
-    // Opening a device can do something to it, and opening a pipe wakes its writer: nothing else than a
-    // regular file is opened where that is known before.
+    // Opening a device can have effects on it, and opening a pipe wakes its writer: only a regular file is opened,
+    // as far as its kind is known in advance.
     check_regular(&path.metadata()?)?;
     let mut options = OpenOptions::new();
     options.read(true);
@@ -63,8 +63,7 @@ pub(crate) fn open_regular(path: &Path) -> Result<File, ReadError> {
 /// Content of a regular file of at most `limit` bytes.
 ///
 /// # Errors
-/// As [`open_regular`], and [`ReadError::TooLong`]; memory that the system does not give is
-/// [`ReadError::Failed`].
+/// As [`open_regular`], and [`ReadError::TooLong`]; insufficient memory is [`ReadError::Failed`].
 pub(crate) fn read_regular(path: &Path, limit: usize) -> Result<Vec<u8>, ReadError> {
     read_limited(open_regular(path)?, limit)
 }
@@ -77,19 +76,19 @@ pub(crate) fn read_regular_text(path: &Path, limit: usize) -> Result<String, Rea
     into_text(read_regular(path, limit)?)
 }
 
-/// All that a source gives up to its end, of at most `limit` bytes: for standard input and other streams that
-/// the caller is ready to wait for.
+/// The content of a source up to its end, of at most `limit` bytes: for standard input and other streams that the
+/// caller is ready to wait for.
 ///
 /// # Errors
 /// [`ReadError::TooLong`] or [`ReadError::Failed`].
 pub(crate) fn read_limited(source: impl Read, limit: usize) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
-    // One byte more distinguishes a file of the limit from a longer one.
+    // One more byte distinguishes a file of the limit from a longer one.
     source.take(limit as u64 + 1).read_to_end(&mut bytes)?;
     if bytes.len() > limit { Err(ReadError::TooLong { limit }) } else { Ok(bytes) }
 }
 
-/// Bytes as text, without a copy.
+/// Converts bytes to text without a copy.
 ///
 /// # Errors
 /// [`ReadError::NotText`].
@@ -107,8 +106,8 @@ fn check_regular(found: &std::fs::Metadata) -> Result<(), ReadError> {
     }
 }
 
-/// Opening returns at once, and so does reading what the system calls a regular file and is none, as
-/// `/proc/kmsg`. Regular files on disks are read as without it. A terminal does not become that of the process.
+/// Makes opening return at once, and reading of files such as `/proc/kmsg`, which the system reports as regular
+/// although they are not. Regular files on disks are read as usual. A terminal does not become that of the process.
 #[cfg(unix)]
 pub(crate) fn without_waiting(options: &mut OpenOptions) {
     use rustix::fs::OFlags;
@@ -116,7 +115,7 @@ pub(crate) fn without_waiting(options: &mut OpenOptions) {
     options.custom_flags((OFlags::NONBLOCK | OFlags::NOCTTY).bits().cast_signed());
 }
 
-/// Elsewhere a name that is found to be a regular file is opened at once.
+/// Elsewhere a name found to be a regular file is opened at once.
 #[cfg(not(unix))]
 pub(crate) fn without_waiting(_: &mut OpenOptions) {}
 

@@ -1,7 +1,7 @@
-//! A file that is being written, in the folder where it is to be, and without its name until it is whole.
+//! A file during writing, in its final folder, and without its name until it is complete.
 //!
-//! On systems that have files without a name (Linux, on most file systems) it is one: the system removes
-//! the file with the process, however that ends. Elsewhere it has a temporary name with the number of its process.
+//! On systems with nameless files (Linux, on most file systems) the file has no name: the system removes it with
+//! the process, in any kind of end. Elsewhere it has a temporary name with the number of its process.
 
 use super::WriteError;
 use super::disk::{Disk, DiskFile, folder_of};
@@ -12,20 +12,20 @@ use std::path::{Path, PathBuf};
 /// Names tried for a temporary file.
 const MOST_NAMES: u32 = 1000;
 
-/// Entries of a folder among which temporary files of processes that are gone are looked for.
+/// Most entries of a folder searched for temporary files of ended processes.
 const MOST_LOOKED_AT: usize = 10_000;
 
-/// A file that goes away unless it is published.
+/// A file that is removed unless it is published.
 pub(super) struct Unfinished<'d> {
     disk: &'d dyn Disk,
     pub file: Box<dyn DiskFile>,
     folder: PathBuf,
-    /// Its temporary name; `None` for a file without any.
+    /// Temporary name; `None` for a file without one.
     path: Option<PathBuf>,
 }
 
 impl<'d> Unfinished<'d> {
-    /// A new file in the folder of `target`.
+    /// Makes a new file in the folder of `target`.
     ///
     /// # Errors
     /// [`WriteError::NoFolder`], [`WriteError::Failed`].
@@ -44,7 +44,7 @@ impl<'d> Unfinished<'d> {
         }
     }
 
-    /// Gives the file its name; where another has it, only with `overwrite`.
+    /// Names the file; replaces an existing file only with `overwrite`.
     ///
     /// # Errors
     /// Error of the operating system; [`io::ErrorKind::AlreadyExists`] without `overwrite`.
@@ -53,7 +53,7 @@ impl<'d> Unfinished<'d> {
             if !overwrite {
                 return self.file.give_name(path);
             }
-            // Only a renaming replaces a file, and only a name can be renamed.
+            // Only a renaming replaces a file, and only a named file can be renamed.
             remove_left_behind(&self.folder);
             let ((), name) = named(&self.folder, |name| self.file.give_name(name))?;
             self.path = Some(name);
@@ -62,10 +62,10 @@ impl<'d> Unfinished<'d> {
         if overwrite {
             return self.disk.rename(name, path);
         }
-        // A link cannot be made where there is a file by now, while a renaming would replace it.
+        // A link cannot be made if the file exists by now, while a renaming would replace it.
         match self.disk.link(name, path) {
             Err(error) if error.kind() != io::ErrorKind::AlreadyExists => {
-                // Some file systems have no links: there an empty file claims the name.
+                // On file systems without links an empty file claims the name.
                 drop(self.disk.make_file(path)?);
                 self.disk.rename(name, path).inspect_err(|_| drop(self.disk.remove_file(path)))
             }
@@ -76,18 +76,18 @@ impl<'d> Unfinished<'d> {
 
 impl Drop for Unfinished<'_> {
     fn drop(&mut self) {
-        // After a renaming there is nothing left to remove.
+        // After a renaming there is no temporary name to remove.
         if let Some(path) = &self.path {
             let _ = self.disk.remove_file(path);
         }
     }
 }
 
-/// Makes something under a temporary name that is free.
+/// Makes an entry under a free temporary name.
 fn named<T>(folder: &Path, make: impl Fn(&Path) -> io::Result<T>) -> io::Result<(T, PathBuf)> {
     let mut number = 0;
     loop {
-        // The name does not depend on the target's, which may be as long as names can be.
+        // The name is independent of the target's, which may have the greatest length.
         let path = folder.join(format!("{}{number}.tmp", prefix(std::process::id())));
         match make(&path) {
             Ok(made) => return Ok((made, path)),
@@ -97,13 +97,12 @@ fn named<T>(folder: &Path, make: impl Fn(&Path) -> io::Result<T>) -> io::Result<
     }
 }
 
-/// Beginning of the temporary names of a process, with its number and machine: several machines can share a
-/// folder.
+/// Prefix of the temporary names of a process, with its number and machine: several machines can share a folder.
 fn prefix(process: u32) -> String {
     format!(".asperity-{}-{process}-", machine())
 }
 
-/// Removes the temporary files of processes of this machine that are gone.
+/// Removes the temporary files of ended processes of this machine.
 fn remove_left_behind(folder: &Path) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     for entry in entries.take(MOST_LOOKED_AT).flatten() {
@@ -115,7 +114,7 @@ fn remove_left_behind(folder: &Path) {
     }
 }
 
-/// Number of the process of this machine that a temporary name belongs to.
+/// Number of the process of this machine behind a temporary name.
 fn owner(name: &str) -> Option<u32> {
     let process = name.strip_prefix(".asperity-")?.strip_prefix(&machine())?.strip_prefix('-')?;
     let (process, number) = process.strip_suffix(".tmp")?.split_once('-')?;
@@ -123,8 +122,8 @@ fn owner(name: &str) -> Option<u32> {
     process.parse().ok()
 }
 
-/// Mark of this machine, and of this container on it, among others that use the same folder: a checksum of its
-/// name and of its numbering of processes.
+/// Identifier of this machine, and of this container on it, among the users of a folder: a checksum of its name and
+/// of its process namespace.
 #[cfg(unix)]
 pub fn machine() -> String {
     let mut hash = crc32fast::Hasher::new();
@@ -139,7 +138,7 @@ pub fn machine() -> String {
     "0".into()
 }
 
-/// Returns true for a number that no process of this machine has.
+/// Returns true for a process id that is unused on this machine.
 #[cfg(unix)]
 pub fn is_gone(process: u32) -> bool {
     use rustix::process::{Pid, test_kill_process};
@@ -147,7 +146,7 @@ pub fn is_gone(process: u32) -> bool {
     process.is_some_and(|process| test_kill_process(process) == Err(rustix::io::Errno::SRCH))
 }
 
-/// Elsewhere no process is known to be gone.
+/// Elsewhere no process is known to have ended.
 #[cfg(not(unix))]
 pub fn is_gone(_: u32) -> bool {
     false
@@ -166,7 +165,7 @@ mod tests {
         names
     }
 
-    /// A file with a temporary name, as where no other is to be had.
+    /// A file with a temporary name, as on systems without nameless files.
     fn with_name(folder: &Path) -> Unfinished<'static> {
         let (file, path) = named(folder, |path| SystemDisk.make_file(path)).unwrap();
         Unfinished { disk: &SystemDisk, file, folder: folder.into(), path: Some(path) }

@@ -1,4 +1,4 @@
-//! Writing a file whole or not at all, and never over another one unasked.
+//! Atomic writing of a file, never over an existing one without a request.
 
 use super::disk::{Disk, SystemDisk, folder_of};
 use super::unfinished::Unfinished;
@@ -8,19 +8,19 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Bytes gathered before they go to a file.
+/// Bytes gathered before a write to a file.
 const BUFFER: usize = 1 << 18;
 
-/// Reason for which a file was not written.
+/// Reason why a file was not written.
 #[derive(Debug, Error)]
 pub enum WriteError {
-    /// There is a file of that name, and it was not asked to overwrite it.
+    /// The file exists, and overwriting was not requested.
     #[error("{}: there is a file of that name already", path_name(path))]
     Exists {
         /// The file.
         path: PathBuf,
     },
-    /// The name is that of a folder, or of none.
+    /// The path is that of a folder, or has no file name.
     #[error("{}: this is not the name of a file", path_name(path))]
     NoFileName {
         /// The name.
@@ -34,13 +34,13 @@ pub enum WriteError {
         /// Its folder.
         folder: PathBuf,
     },
-    /// A pipe, a terminal or another device has the name, and a file was asked for.
+    /// The path is a pipe, a terminal or another device instead of a file.
     #[error("{}: this is not a regular file; allowed: the name of a file", path_name(path))]
     NotRegular {
-        /// The name.
+        /// The path.
         path: PathBuf,
     },
-    /// The file may only be read.
+    /// The file is read-only.
     #[error("{}: this file may not be written", path_name(path))]
     ReadOnly {
         /// The file.
@@ -56,8 +56,7 @@ pub enum WriteError {
     },
 }
 
-/// Checks whether [`write_new`] could write a file now, and leaves nothing behind: for before a long
-/// computation.
+/// Checks before a long computation that [`write_new`] could write a file now, without a trace.
 ///
 /// # Errors
 /// Error that [`write_new`] would return.
@@ -68,7 +67,7 @@ pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
     }
 }
 
-/// Checks whether a name can be that of a regular file: it ends in no separator, and no folder, pipe or device has it.
+/// Checks that a path can be that of a regular file: no final separator, and no existing folder, pipe or device.
 ///
 /// # Errors
 /// [`WriteError::NoFileName`] or [`WriteError::NotRegular`].
@@ -80,18 +79,18 @@ pub fn check_file_name(path: &Path) -> Result<(), WriteError> {
     }
 }
 
-/// Writes a file through a temporary one in the same folder: whoever looks sees the old file or the
-/// whole new one, and after a failure nothing is left behind.
+/// Writes a file through a temporary one in the same folder: a reader sees the old file or the whole
+/// new one, and a failure leaves nothing behind.
 ///
-/// An existing file is replaced only when `overwrite` says so; a pipe or a device, which
-/// cannot be overwritten, is written to directly, which waits for a reader.
+/// An existing file is replaced only with `overwrite`; a pipe or a device, which cannot be overwritten,
+/// is written to directly, which waits for a reader.
 ///
-/// On systems that allow it the temporary file has no name until it is whole: whatever ends the process, at any
-/// moment, leaves nothing behind. Elsewhere, and between naming and renaming, a file `.asperity-….tmp` can
-/// stay; the next that is made in the folder removes those of processes that are gone.
+/// On systems that allow this the temporary file has no name until it is complete: any end of the process, at any
+/// time, leaves nothing behind. Elsewhere, and between naming and renaming, a file `.asperity-….tmp` can remain;
+/// the next write in the folder removes those of ended processes.
 ///
 /// # Errors
-/// [`WriteError`]; one of `write` itself comes as [`WriteError::Failed`].
+/// [`WriteError`]; an error of `write` itself becomes [`WriteError::Failed`].
 pub fn write_new(
     path: &Path,
     overwrite: bool,
@@ -119,7 +118,7 @@ pub fn write_new_on(
     write_target(disk, path, target, overwrite, write)
 }
 
-/// The same, and only to a file: a pipe or a device is refused, at once.
+/// The same for files only: a pipe or a device is refused at once.
 ///
 /// # Errors
 /// As [`write_new`], and [`WriteError::NotRegular`].
@@ -153,7 +152,7 @@ fn write_target(
         io::ErrorKind::AlreadyExists => WriteError::Exists { path: path.to_path_buf() },
         _ => failed(reason),
     })?;
-    // The name has to last as well.
+    // The name has to be durable as well.
     disk.sync_folder(folder_of(&place)).map_err(failed)
 }
 
@@ -170,7 +169,7 @@ fn fill(
 enum Target {
     /// A pipe or a device.
     Stream,
-    /// A file, there or not, with the permissions of the one it replaces.
+    /// A file, existing or not, with the permissions of the one it replaces.
     File { path: PathBuf, permissions: Option<Permissions> },
 }
 
@@ -186,12 +185,12 @@ impl Target {
             Ok(found) if !found.is_file() => Ok(Target::Stream),
             Ok(_) if !overwrite => Err(WriteError::Exists { path: own() }),
             Ok(found) if found.permissions().readonly() => Err(WriteError::ReadOnly { path: own() }),
-            // Through a link to the file it names: the link itself stays.
+            // Through a link to its target: the link itself is kept.
             Ok(found) => Ok(Target::File {
                 path: fs::canonicalize(path).map_err(|reason| WriteError::Failed { path: own(), reason })?,
                 permissions: Some(found.permissions()),
             }),
-            // A link that leads nowhere is there all the same.
+            // A dangling link exists all the same.
             Err(_) if !overwrite && fs::symlink_metadata(path).is_ok() => {
                 Err(WriteError::Exists { path: own() })
             }

@@ -1,4 +1,4 @@
-//! Closed forms that the line must reproduce: adhesive contact of bodies of revolution.
+//! Closed forms that the profile must reproduce: adhesive contact of bodies of revolution.
 
 mod power_law;
 mod wavy_sphere;

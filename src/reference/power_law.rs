@@ -1,12 +1,12 @@
-//! Adhesive contact of a power-law body b rⁿ, JKR (n = 2) and the cone (n = 1) among them, and of the
-//! flat punch (Kendall).
+//! Adhesive contact of a power-law body b rⁿ, including JKR (n = 2) and the cone (n = 1), and of the flat punch
+//! (Kendall).
 
 use crate::analysis::ideal_adhesion_force;
 use crate::scene::Form;
 use crate::surface::line_power_law;
 use std::f64::consts::PI;
 
-/// A body whose equivalent line is g(x) = c |x|ⁿ, on a half-space under adhesion.
+/// A body with the equivalent profile g(x) = c |x|ⁿ, on a half-space with adhesion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PowerLaw {
     /// c = κₙ b, m^(1−n).
@@ -20,7 +20,7 @@ pub struct PowerLaw {
 }
 
 impl PowerLaw {
-    /// The closed form of a body, where it is a power law: not the punch, nor a sphere with waves.
+    /// The closed form of a body, if it is a power law: neither the punch nor a sphere with waves.
     #[must_use]
     pub fn of(form: &Form, effective_modulus: f64, work_of_adhesion: f64) -> Option<Self> {
         let (line_coefficient, exponent) = line_power_law(form)?;
@@ -42,8 +42,7 @@ impl PowerLaw {
         pressed - self.detaching(radius)
     }
 
-    /// Contact radius, m, and force, N, of pull-off under force control, where dF/da = 0; the smallest
-    /// force there is.
+    /// Contact radius, m, and force, N, of pull-off under force control, where dF/da = 0; the smallest force.
     #[must_use]
     pub fn force_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
@@ -87,7 +86,7 @@ pub fn flat_punch(radius: f64, effective_modulus: f64, work_of_adhesion: f64) ->
 #[must_use]
 pub fn smooth_adhesion_force(form: Option<&Form>, length: f64, effective_modulus: f64, work: f64) -> f64 {
     let flat = ideal_adhesion_force(work, effective_modulus, length);
-    // Waves make the adhesion force depend on the preload: that of the form without them.
+    // With waves the adhesion force depends on the preload: uses the form without them.
     let Some(form) = form.map(|form| form.without_waves()) else { return flat };
     let of_shape = match form.flat_end() {
         Some(radius) => Some(flat_punch(radius, effective_modulus, work)),

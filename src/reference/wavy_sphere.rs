@@ -1,14 +1,14 @@
-//! Adhesive contact of a sphere with concentric waves (Guduru 2007) under the rule of Hess: the first smooth body whose
-//! hysteresis is its own.
+//! Adhesive contact of a sphere with concentric waves (Guduru 2007) under the rule of Hess: the simplest smooth
+//! body with a hysteresis due to its shape.
 
 use crate::surface::{struve_0, struve_1};
 use std::f64::consts::PI;
 
-/// A sphere of radius R with waves A (1 − cos 2πr/λ) about its axis, on a half-space under adhesion.
+/// A sphere of radius R with waves A (1 − cos 2πr/λ) about its axis, on a half-space with adhesion.
 ///
-/// The closed form is that of a contact in one piece. The equivalent line rises everywhere, and the rule of Hess and JKR
-/// are one, for λ²/(AR) > 12.391; below that an inner spring may be the most stretched one, and the rule detaches earlier
-/// ([`Self::cycle_by_rule`]).
+/// The closed form is that of a contact in one piece. The equivalent profile rises everywhere, and the rule of Hess
+/// and JKR agree, for λ²/(AR) > 12.391; below that an inner spring may be the most stretched one, and the contact
+/// detaches earlier by the rule ([`Self::cycle_by_rule`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WavySphere {
     /// R, m.
@@ -28,7 +28,7 @@ pub struct WavySphere {
 pub struct WavyLoop {
     /// Largest contact radius, m.
     pub contact_radius: f64,
-    /// Smallest force on the way back, N.
+    /// Smallest force during unloading, N.
     pub smallest_force: f64,
     /// Indentation at separation, m.
     pub separation: f64,
@@ -36,14 +36,14 @@ pub struct WavyLoop {
     pub dissipated_energy: f64,
 }
 
-/// Contact radii looked at in one wavelength.
+/// Number of contact radii examined per wavelength.
 const STEPS_PER_WAVE: f64 = 400.0;
 
 impl WavySphere {
-    /// Quotient λ²/(AR), above which the equivalent line rises everywhere.
+    /// Quotient λ²/(AR) above which the equivalent profile rises everywhere.
     pub const MONOTONE: f64 = 12.391;
 
-    /// Returns true if the equivalent line rises everywhere.
+    /// Returns true if the equivalent profile rises everywhere.
     #[must_use]
     pub fn is_monotone(&self) -> bool {
         self.wavelength.powi(2) > Self::MONOTONE * self.amplitude * self.radius
@@ -79,18 +79,18 @@ impl WavySphere {
     /// The loop to an indentation δ_m (m) and back: on loading the edge is at the smallest radius at which δ first
     /// exceeds the indentation, on unloading at the largest one at which δ falls below; `widest` bounds the radius, m.
     ///
-    /// `None` where the contact is wider.
+    /// `None` for a wider contact.
     #[must_use]
     pub fn cycle(&self, deepest: f64, widest: f64) -> Option<WavyLoop> {
         let stable = self.stable(widest);
         self.cycle_within(deepest, &stable, &stable)
     }
 
-    /// The same loop by the rule of Hess: on unloading the edge stays only where the equivalent line is as deep as nowhere
-    /// inside the contact, since deeper springs inside are stretched more and detach first; then the contact has only the
-    /// part inside of them.
+    /// The same loop by the rule of Hess: on unloading the edge is stable only where the equivalent profile is
+    /// deeper than anywhere inside the contact, since deeper springs inside are stretched more and detach first;
+    /// then only the part inside of them remains in contact.
     ///
-    /// `None` where the contact is wider.
+    /// `None` for a wider contact.
     #[must_use]
     pub fn cycle_by_rule(&self, deepest: f64, widest: f64) -> Option<WavyLoop> {
         let stable = self.stable(widest);
@@ -98,9 +98,9 @@ impl WavySphere {
         self.cycle_within(deepest, &stable, &deepest_edges)
     }
 
-    /// Part of a range over which δ rises, where the line is as deep as nowhere inside, m.
+    /// Part of a range over which δ rises, in which the profile is deeper than anywhere inside, m.
     fn deepest_edges(&self, (low, high): (f64, f64)) -> Option<(f64, f64)> {
-        // Where δ rises, so does the line: the stretch grows with the radius.
+        // Where δ rises, so does the profile: the stretch grows with the radius.
         let depth = |radius: f64| self.indentation(radius) + self.stretch(radius);
         let steps = (STEPS_PER_WAVE * (low / self.wavelength).max(1.0)).ceil() as u32;
         let radius = |k: u32| low * f64::from(k) / f64::from(steps);
@@ -145,7 +145,7 @@ impl WavySphere {
         })
     }
 
-    /// Ranges of the contact radius over which δ rises, m: the stable ones.
+    /// Stable ranges of the contact radius, over which δ rises, m.
     fn stable(&self, widest: f64) -> Vec<(f64, f64)> {
         let steps = (STEPS_PER_WAVE * (widest / self.wavelength).max(1.0)).ceil() as u32;
         let radius = |k: u32| widest * f64::from(k) / f64::from(steps);
@@ -176,11 +176,11 @@ impl WavySphere {
         bisected(|radius| self.indentation(radius), indentation, range)
     }
 
-    /// ∫ F dδ over a range of the radius, J: F δ at its ends less ∫ δ dF.
+    /// ∫ F dδ over a range of the radius, J: F δ at its ends minus ∫ δ dF.
     fn work(&self, (low, high): (f64, f64)) -> f64 {
         let steps = 2 * (STEPS_PER_WAVE * ((high - low) / self.wavelength).max(1.0)).ceil() as u32;
         let radius = |k: u32| low + (high - low) * f64::from(k) / f64::from(steps);
-        // Three points of each interval give the slope of δ to the same order as Simpson's rule the area.
+        // Three points of each interval determine the slope of δ to the same order as the area by Simpson's rule.
         let at = |k: u32| (self.indentation(radius(k)), self.force(radius(k)));
         let pairs = (0..steps).step_by(2).map(|k| {
             let [(d0, f0), (d1, f1), (d2, f2)] = [at(k), at(k + 1), at(k + 2)];
@@ -254,12 +254,12 @@ mod tests {
         assert_eq!(gentle.cycle(0.06, 0.5), gentle.cycle_by_rule(0.06, 0.5));
     }
 
-    /// Kesari and Lew (2011): waves short against the contact act as two works of adhesion, and the loss per area is
-    /// A√(8πE*γ/λ). The error falls with λ.
+    /// Kesari and Lew (2011): waves short against the contact are equivalent to two works of adhesion, and the
+    /// dissipated energy per area is A√(8πE*γ/λ). The error falls with λ.
     #[test]
     fn the_loss_per_area_goes_to_that_of_two_works_of_adhesion() {
         let error = |wavelength: f64| {
-            // A²E*/(λγ) stays the same, and with it both works of adhesion.
+            // A²E*/(λγ) is constant, and with it both works of adhesion.
             let amplitude = 1.0e-2 * wavelength.sqrt();
             let body = WavySphere { amplitude, wavelength, ..BODY };
             let [inner, outer] = [0.1, 0.4].map(|deepest| body.cycle(deepest, 0.75).unwrap());

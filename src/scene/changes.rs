@@ -1,4 +1,4 @@
-//! Differences between two scenes, in the terms of the field.
+//! Differences between two scenes, by technical names.
 
 use super::document::Document;
 use super::field::Field;
@@ -8,11 +8,11 @@ use super::quantity::format_quantity;
 /// A field with different values in two scenes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Change {
-    /// Symbol of the field, or its name where it has no symbol.
+    /// Symbol of the field, or its name if it has no symbol.
     pub name: String,
     /// Value in the first scene, with its unit.
     pub from: String,
-    /// Value in the second scene; `…` where the second scene has other fields in its place.
+    /// Value in the second scene; `…` if the second scene has other fields instead.
     pub to: String,
 }
 
@@ -41,7 +41,7 @@ impl Document {
     }
 }
 
-/// The document with the use of its measured profile as the line, which is left out mostly.
+/// The document with an explicit use of its measured profile as the line, which is mostly omitted.
 fn with_stated_use(document: &Document) -> Document {
     let use_as_line = document.scene().measured_as_line().to_string();
     let is_measured = !document.scene().measured_files().is_empty();
@@ -49,7 +49,7 @@ fn with_stated_use(document: &Document) -> Document {
     stated.unwrap_or_else(|| document.clone())
 }
 
-/// Name of a path in the terms of the field, and its field where it has one.
+/// Technical name of a path, and its field if it has one.
 fn name_of(path: &str, scene: &Document) -> (String, Option<&'static Field>) {
     let symbol = |field: &'static Field| if field.symbol.is_empty() { field.name } else { field.symbol };
     let mut parts = path.strip_prefix("loading.").unwrap_or_default().split('.');

@@ -1,8 +1,8 @@
-//! Values that a scene may not have: every field against its range, then the fields against each other, where values
-//! over- or under-determine a scene, or one makes another impossible.
+//! Invalid values of a scene: every field against its range, then the fields against each other, where values over-
+//! or under-determine a scene, or exclude each other.
 //!
-//! Nothing here allocates in proportion to what a scene asks for, so a scene that asks for too much is refused before
-//! anything is built.
+//! No allocation here is proportional to a value of the scene, so an excessive scene is refused before anything is
+//! built.
 
 use super::errors::SceneError;
 use super::fields::{FIELDS, LEG_INDENTATION, field};
@@ -13,16 +13,16 @@ use super::text::ron_float;
 use super::write::leg;
 use crate::topography::{Unit, UnitError};
 
-/// Most samples of all legs together; a curve of this size still fits the memory of a small machine.
+/// Most samples of all loading stages together; a curve of this size still fits the memory of a small machine.
 const MOST_SAMPLES: u64 = 1 << 24;
 
-/// Fewest springs of a wave about the axis of a form.
+/// Fewest springs per wave about the axis of a form.
 const SPRINGS_PER_WAVE: f64 = 4.0;
 
 /// The line carries the transformed profile, which is at most this many times deeper than the profile.
 const MOST_GROWTH: f64 = 20.0;
 
-/// Fields that may give adhesion.
+/// Fields that may specify adhesion.
 const GIVEN_BY: &[&str] = &["adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio"];
 
 /// Fields that determine the amplitude of the roughness.
@@ -35,7 +35,7 @@ const AMPLITUDE: &[&str] = &[
     "adhesion.elastic_energy_ratio",
 ];
 
-/// All that is not allowed in a scene, in the order of its fields; empty for a scene that can be computed.
+/// All errors of a scene, in the order of its fields; empty for a scene that can be computed.
 pub fn check(scene: &Scene) -> Vec<SceneError> {
     let mut found = Found { scene, errors: Vec::new() };
     for field in FIELDS {
@@ -137,7 +137,7 @@ fn check_modes(found: &mut Found) {
     }
 }
 
-/// A profile is one row or one column; several files have a spectrum together and no profile.
+/// A profile is one row or one column; several files have a common spectrum and no profile.
 fn check_measured(found: &mut Found) {
     let Some(Roughness::Measured { unit, height_unit, further_files, opposite, row, column, .. }) =
         &found.scene.roughness
@@ -163,7 +163,7 @@ fn check_measured(found: &mut Found) {
     }
 }
 
-/// A spring that attached with more energy than it detaches with would detach at once.
+/// A spring that attaches with more energy than it detaches with would detach at once.
 fn check_closing_work(found: &mut Found) {
     let Some(Adhesion { work, closing_work: Some(closing), .. }) = found.scene.adhesion else { return };
     if found.has("adhesion") {
@@ -428,7 +428,7 @@ mod tests {
         for points in [1, 2, 3, 4096, 4097] {
             scene.numerics.points = points;
             let spacing = scene.spacing();
-            // Below a quarter of the spacing its diameter is nearer to no cell than to one.
+            // Below a quarter of the spacing the diameter is nearer to no cell than to one.
             for (radius, sound) in
                 [(5e-5, true), (5.1e-5, false), (0.26 * spacing, true), (0.24 * spacing, false)]
             {
@@ -450,7 +450,7 @@ mod tests {
             scene.form = Some(form);
             assert!(only(&scene).1.contains("rises too steeply"));
         }
-        // Waves are named where they are what rises.
+        // The message names the waves if they cause the height.
         scene.length = 1.0;
         for (radius, amplitude, field) in [(1.0, 1e6, "form.amplitude"), (1e-6, 1e-9, "form.radius")] {
             scene.form = Some(Form::WavySphere { radius, amplitude, wavelength: 0.1 });
@@ -472,7 +472,7 @@ mod tests {
             scene.loading = loading;
             assert_eq!(only(&scene).0, field);
         }
-        // No force is no pull.
+        // A zero force does not pull.
         scene.loading = vec![ToForce(1.0), ToForce(-1e-6), ToTouch, ToSeparation, ToForce(0.0), ToZeroForce];
         assert_eq!(check(&scene), vec![]);
     }

@@ -1,4 +1,4 @@
-//! The next choice of a field, as a key selects it.
+//! The next choice of a field for a key press.
 
 use super::computed::Computed;
 use super::document::{Document, pair};
@@ -8,12 +8,12 @@ use super::field::Field;
 use super::range::choice_key;
 use super::roughness_parameter::RoughnessParameter;
 
-/// Significant digits that survive the conversion of adhesion from one of its ways to another and back.
+/// Significant digits that survive the conversion of adhesion from one specification to another and back.
 const DIGITS: usize = 14;
-/// Most significant digits of a value that somebody has typed.
+/// Most significant digits of a typed value.
 const TYPED_DIGITS: usize = 10;
 
-/// A converted value: the typed one that it was before, or all digits, so that converting back gives the typed one.
+/// A converted value: the earlier typed one, or all digits, so that converting back returns the typed one.
 fn converted_value(value: f64) -> f64 {
     let rounded: f64 = format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value);
     let typed: f64 = format!("{value:.*e}", TYPED_DIGITS - 1).parse().unwrap_or(value);
@@ -21,11 +21,11 @@ fn converted_value(value: f64) -> f64 {
 }
 
 impl Document {
-    /// This document with the next choice of a field in this direction that the scene allows; `None` where there is no
+    /// This document with the next choice of a field in this direction that the scene allows; `None` if there is no
     /// other.
     ///
-    /// Leaving an effect out switches the effect off, and the next choice switches it on as it was or as it suits the
-    /// scene. Adhesion by work, by κ and by e_el/γ are the same adhesion: `computed` has the values for this scene.
+    /// Omitting an effect switches it off, and the next choice switches it on as before or as suits the scene.
+    /// Adhesion by work, by κ and by e_el/γ are the same adhesion: `computed` has the values for this scene.
     ///
     /// # Errors
     ///
@@ -62,7 +62,7 @@ impl Document {
         if effect.is_on(self.scene()) {
             return self.set(field.path, next);
         }
-        // All ways to give adhesion are the next choice: the one follows from the other.
+        // Any specification of adhesion counts as the next choice, since each follows from the other.
         let is_next = |document: &Document| {
             let written = field.written(document.scene()).unwrap_or_default();
             effect == Effect::Adhesion || choice_key(&written) == choice_key(next)
@@ -75,7 +75,7 @@ impl Document {
         if is_next(&suited) { Ok(suited) } else { self.set(field.path, next) }
     }
 
-    /// The same adhesion given another way; `None` where adhesion is not switched between its ways.
+    /// The same adhesion specified otherwise; `None` if the next choice is not a specification of adhesion.
     fn converted(
         &self,
         field: &Field,
@@ -155,7 +155,7 @@ mod tests {
         );
         assert_eq!(next(&ratio, "adhesion", false).text(), SCENE);
         assert_eq!(next(&ratio, "adhesion", true).scene().adhesion, None);
-        // Not before the value is known.
+        // Not before the value has been computed.
         let field = field("adhesion", None).unwrap();
         let unknown = document().with_next_choice(field, false, &Computed::default()).unwrap_err();
         assert!(unknown.to_string().contains("compute the scene first"), "{unknown}");
@@ -195,7 +195,7 @@ mod tests {
         let small = document().set_all(&small).unwrap();
         let sphere = next(&small, "form", true);
         assert_eq!(sphere.scene().form, Some(Form::Paraboloid { radius: 1e-9 }));
-        // The punch among the choices is wider than the profile.
+        // The next punch would be wider than the profile.
         let waves = (0..3).fold(sphere, |document, _| next(&document, "form", true));
         assert!(matches!(waves.scene().form, Some(Form::WavySphere { .. })));
         assert_eq!(next(&waves, "form", true).scene().form, None);

@@ -1,8 +1,8 @@
-//! Values of a computed scene, which may replace others in the scene.
+//! Values of a computed scene, as replacements of others in the scene.
 
 use super::roughness_parameter::RoughnessParameter;
 
-/// Values that a scene determines through its profile, known once it is computed.
+/// Values that a scene determines through its profile, known after the computation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Computed {
     /// Work of adhesion γ, J/m².
@@ -16,7 +16,7 @@ pub struct Computed {
 }
 
 impl Computed {
-    /// Values of this scene, and in place of those that are not known the values of another scene.
+    /// Values of this scene, with unknown ones replaced by those of another scene.
     pub(super) fn or(self, other: Computed) -> Computed {
         Computed {
             work_of_adhesion: self.work_of_adhesion.or(other.work_of_adhesion),
@@ -26,7 +26,7 @@ impl Computed {
         }
     }
 
-    /// Value of a parameter of roughness against adhesion.
+    /// Value of a roughness-adhesion parameter.
     pub(super) fn parameter(&self, parameter: RoughnessParameter) -> Option<f64> {
         match parameter {
             RoughnessParameter::Kappa => self.kappa,

@@ -1,4 +1,4 @@
-//! A scene together with the text it came from, changed field by field without losing a comment.
+//! A scene with its text, changed field by field without loss of a comment.
 
 use std::path::{Path, PathBuf};
 
@@ -18,11 +18,11 @@ use super::undo::{Edit, SwitchedOff};
 use super::write::to_ron;
 use crate::text::printable;
 
-/// Longer texts are refused before they are read; scenes are a few hundred bytes.
+/// Longest text; longer ones are refused unread. Scenes are a few hundred bytes.
 pub const LONGEST_TEXT: usize = 1 << 20;
 
-/// A checked scene, its text, and the overrides of its fields. A change gives a new document; a change that is refused
-/// leaves the old one as it was.
+/// A checked scene, its text, and the overrides of its fields. A change returns a new document; a refused change
+/// leaves the old one unchanged.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Document {
     name: String,
@@ -30,32 +30,32 @@ pub struct Document {
     text: String,
     scene: Scene,
     overrides: Vec<(String, String)>,
-    /// Content of the table that the text comes from.
+    /// Content of the source table of the text.
     content: Option<TableContent>,
     /// Measured files behind this table.
     measured: Vec<MeasuredHash>,
-    /// Effects that edits have switched off, in this order.
+    /// Effects switched off by edits, in this order.
     switched_off: Vec<SwitchedOff>,
 }
 
 impl Scene {
-    /// Checks all values of a scene that was made in a program.
+    /// Checks all values of a scene that was not read from text.
     ///
     /// # Errors
     ///
-    /// All values that are not allowed, each with its field and its allowed range.
+    /// All invalid values, each with its field and its allowed range.
     pub fn check(&self) -> Result<(), SceneErrors> {
         SceneErrors::result(check(self), |_| Origin::Scene)
     }
 }
 
 impl Document {
-    /// Reads and checks a scene. `name` is the file's or the built-in scene's; errors carry it.
+    /// Reads and checks a scene. `name` is that of the file or of the built-in scene, for errors.
     ///
     /// # Errors
     ///
-    /// The first place where the text is not a scene, or all values that are not allowed, each with
-    /// line and column. A wrong version is the first of them, whatever else is wrong.
+    /// The first syntax error of the text, or all invalid values, each with line and column. A wrong
+    /// version comes first, before any other error.
     pub fn parse(text: &str, name: &str) -> Result<Document, SceneErrors> {
         // Some editors put a byte order mark before the text.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
@@ -86,11 +86,11 @@ impl Document {
         })
     }
 
-    /// A document for a scene that was made in the program, written in canonical form.
+    /// The document of a scene that was not read from text, in canonical form.
     ///
     /// # Errors
     ///
-    /// All values that are not allowed.
+    /// All invalid values.
     pub fn from_scene(scene: &Scene, name: &str) -> Result<Document, SceneErrors> {
         scene.check()?;
         Document::parse(&to_ron(scene), name)
@@ -105,15 +105,15 @@ impl Document {
         self.set_all(&[pair(path, value)])
     }
 
-    /// This document with fields overridden, one after the other. Values are written in RON; a number may have an SI
-    /// prefix and its unit, `50 mJ/m²`.
+    /// This document with fields overridden, one after the other. Values are in RON; a number may have an SI prefix
+    /// and its unit, `50 mJ/m²`.
     ///
-    /// A field that the text leaves out is inserted, with its group; `None` removes an optional part. Ranges are checked
-    /// once, at the end, so that overrides that are allowed only together may be given in any order.
+    /// A field missing from the text is inserted, with its group; `None` removes an optional part. Ranges are
+    /// checked once, at the end, so that overrides allowed only together may come in any order.
     ///
     /// # Errors
     ///
-    /// Everything that is wrong, each error naming the overrides that caused it.
+    /// All errors, each with the overrides that caused it.
     pub fn set_all(&self, overrides: &[(String, String)]) -> Result<Document, SceneErrors> {
         let mut new = self.clone();
         let mut errors = Vec::new();
@@ -131,8 +131,8 @@ impl Document {
         Ok(new)
     }
 
-    /// As [`Document::set_all`], for overrides that switch an effect off: all of them are undone where the effect is
-    /// switched on again. `computed` has the values of this scene.
+    /// As [`Document::set_all`], for overrides that switch an effect off: switching the effect on again undoes all
+    /// of them. `computed` has the values of this scene.
     pub(super) fn switch_off(
         &self,
         effect: Effect,
@@ -147,11 +147,11 @@ impl Document {
         Ok(new)
     }
 
-    /// This document with an effect as it was before an edit switched it off; `None` where no edit did, or where the
-    /// effect as it was is not allowed in the scene as it is now. What has been changed since stays changed.
+    /// This document with an effect as it was before an edit switched it off; `None` if no edit did, or if the
+    /// earlier effect is invalid in the present scene. Later changes are kept.
     ///
-    /// Effects that were switched off later are undone first and switched off again afterwards: their values may be in
-    /// place of those of this one.
+    /// Effects switched off later are undone first and switched off again afterwards: their values may replace
+    /// values of this effect.
     pub(super) fn restored(&self, effect: Effect) -> Option<Document> {
         let place = self.switched_off.iter().position(|off| off.effect == effect)?;
         let later = &self.switched_off[place + 1..];
@@ -171,9 +171,9 @@ impl Document {
         [edits, &own].into_iter().find_map(|edits| self.undone(edits).filter(|new| effect.is_on(&new.scene)))
     }
 
-    /// This document without these edits, the last of them first; values that have been changed since stay. Where the scene
-    /// is not allowed then, waves that are too short are left out, and of adhesion that has set the amplitude of the
-    /// roughness its work stays.
+    /// This document without these edits, the last of them undone first; values changed since are kept. If the
+    /// scene is then invalid, waves that are too short are removed, and of adhesion that has set the amplitude of
+    /// the roughness only the work is kept.
     fn undone(&self, edits: &[Edit]) -> Option<Document> {
         let mut new = self.clone();
         let mut paths = Vec::new();
@@ -195,7 +195,7 @@ impl Document {
             && let (Some(_), Some((parameter, _))) = (adhesion.work, adhesion.parameter())
             && new.scene.roughness.as_ref().is_some_and(Roughness::has_amplitude)
         {
-            // The amplitude has been given since, so that the parameter follows.
+            // The amplitude has been specified since, so the parameter follows.
             new.text = Text::new(&new.text).ok()?.remove(parameter.path()).ok()?;
             new.scene = read(&new.text).ok()?;
         }
@@ -210,7 +210,7 @@ impl Document {
         check(&new.scene).is_empty().then_some(new)
     }
 
-    /// Records which effects the change from an earlier document has switched off, and forgets those that are on.
+    /// Records the effects that the change from an earlier document has switched off, and removes those that are on.
     fn record_switches(&mut self, before: &Document) {
         for effect in Effect::ALL {
             if effect.is_on(&self.scene) {
@@ -223,7 +223,7 @@ impl Document {
         }
     }
 
-    /// Changes text and scene, leaving both as they are where that fails.
+    /// Changes text and scene; leaves both unchanged on failure.
     fn splice(&mut self, path: &str, value: &str) -> Result<(), SceneErrors> {
         let origin = Origin::Overrides(vec![format!("{path}={value}")]);
         let value = match edit::field_at(&self.text, path) {
@@ -248,13 +248,13 @@ impl Document {
         &self.text
     }
 
-    /// The scene, checked.
+    /// The checked scene.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// Value of a field as it is written, or its default where the field is left out. `None` where the scene has no such
-    /// field, such as the radius of a form that it does not have.
+    /// Value of a field as written, or its default if the field is omitted. `None` if the scene has no such field,
+    /// such as the radius of another form.
     pub fn value(&self, path: &str) -> Option<&str> {
         let outline = Text::new(&self.text).ok()?;
         outline.value(path).or_else(|| {
@@ -264,7 +264,7 @@ impl Document {
         })
     }
 
-    /// Fields that this scene has or could be given: all but those of choices that it does not make.
+    /// Fields that this scene has or could have: all but those of unselected choices.
     pub fn fields(&self) -> Vec<&'static Field> {
         Text::new(&self.text).map_or_else(|_| Vec::new(), |outline| fields_of(&outline).collect())
     }
@@ -274,14 +274,14 @@ impl Document {
         &self.name
     }
 
-    /// Title of the scene, or the name where there is none.
+    /// Title of the scene, or its name if there is none.
     #[must_use]
     pub fn title(&self) -> &str {
         if self.scene.title.is_empty() { self.name() } else { &self.scene.title }
     }
 
-    /// The overrides since the text was opened that still matter, in the order given: applied to
-    /// the opened text they give this document's scene.
+    /// The effective overrides since the text was opened, in order: applied to the opened text they
+    /// result in this document's scene.
     pub fn overrides(&self) -> &[(String, String)] {
         &self.overrides
     }
@@ -291,32 +291,32 @@ impl Document {
         Document { content, measured, ..self }
     }
 
-    /// Checks that the measured files of the scene are those behind the table of results that it was read from.
+    /// Checks that the measured files of the scene are those behind its table of results.
     ///
     /// # Errors
-    /// [`MeasuredHashError`] of the first that is not.
+    /// [`MeasuredHashError`] of the first file that differs.
     pub fn check_measured_files(&self) -> Result<(), MeasuredHashError> {
         let files = self.scene.measured_files();
         let named = self.measured.iter().filter(|hash| files.contains(&hash.file.as_str()));
         named.into_iter().try_for_each(|hash| hash.check(&self.resolve(""), &printable(&self.name)))
     }
 
-    /// Content of the table of results that the scene was read from; `None` for a scene of its own.
+    /// Content of the table of results from which the scene was read; `None` for a scene from another source.
     pub fn table_content(&self) -> Option<TableContent> {
         self.content
     }
 
-    /// Number of comments in the text; fewer after a change that replaces a value with a comment inside.
+    /// Number of comments in the text; smaller after a change that replaces a value with a comment inside.
     pub fn comments(&self) -> usize {
         Text::new(&self.text).map_or(0, |text| text.comments())
     }
 
-    /// Number of comments about values that have been changed since the text was opened.
+    /// Number of comments about values changed since the text was opened.
     pub fn stale_comments(&self) -> usize {
         Text::new(&self.text).map_or(0, |text| self.stale(&text).len())
     }
 
-    /// This document without the comments about values that have been changed.
+    /// This document without the comments about changed values.
     pub fn without_stale_comments(&self) -> Document {
         let mut new = self.clone();
         if let Ok(text) = Text::new(&self.text) {
@@ -334,7 +334,7 @@ impl Document {
         text.comments_about(paths.filter(is_changed))
     }
 
-    /// This document as one that was opened from another text, which these overrides have changed into this one.
+    /// This document with another opened text, from which these overrides have made the present one.
     #[must_use]
     pub fn resumed(self, opened: String, overrides: Vec<(String, String)>) -> Document {
         Document { opened, overrides, ..self }
@@ -345,12 +345,12 @@ impl Document {
         &self.opened
     }
 
-    /// The text differs from the one that was opened.
+    /// Returns true if the text differs from the opened one.
     pub fn is_changed(&self) -> bool {
         self.text != self.opened
     }
 
-    /// Path of a file that the scene names, which is relative to the scene's own file.
+    /// Path of a file named in the scene, relative to the scene's own file.
     pub fn resolve(&self, file: &str) -> PathBuf {
         Path::new(&self.name).parent().unwrap_or(Path::new("")).join(file)
     }
@@ -360,12 +360,12 @@ fn fields_of(outline: &Text) -> impl Iterator<Item = &'static Field> {
     FIELDS.iter().filter(|field| field.variant.is_none() || field.variant == outline.variant(field.parent()))
 }
 
-/// An override: a path and a value, written as RON.
+/// An override: a path and a value in RON.
 pub(super) fn pair(path: &str, value: impl Into<String>) -> (String, String) {
     (path.to_string(), value.into())
 }
 
-/// Adds an override in place of earlier ones of the same field or of fields inside it.
+/// Adds an override, replacing earlier ones of the same field or of fields inside it.
 fn remember(overrides: &mut Vec<(String, String)>, path: &str, value: &str) {
     overrides.retain(|(earlier, _)| !is_within(earlier, path));
     overrides.push(pair(path, value));

@@ -1,4 +1,4 @@
-//! Change of one field of a scene in its text, which leaves every comment in its place.
+//! Change of one field in the text of a scene, with every comment preserved.
 
 use super::field::Field;
 use super::fields::{FIELDS, LEG_FORCE, LEG_INDENTATION, field};
@@ -6,14 +6,14 @@ use super::range::{Range, choice_name};
 use super::suggest::nearest;
 use super::text::{Text, one_value};
 
-/// Gives the field at `path` the value `value`, written as RON, and returns the new text.
+/// Sets the field at `path` to `value`, in RON, and returns the new text.
 ///
-/// A missing field is inserted, with the group around it where that is missing too; a missing part that is set to
-/// `None` stays away. Whatever the value is, it changes this one place.
+/// A missing field is inserted, with its group if that is missing too; a missing part set to `None` is not
+/// inserted. Any value changes this one place only.
 ///
 /// # Errors
 ///
-/// The reason in a sentence: no such field, not one value, or no place for it.
+/// The reason in a sentence: no such field, not a single value, or no place for it.
 pub(super) fn set(text: &str, path: &str, value: &str) -> Result<String, String> {
     let value = one_value(value)?;
     let fields = fields_at(path)?;
@@ -27,7 +27,7 @@ pub(super) fn set(text: &str, path: &str, value: &str) -> Result<String, String>
     }
 }
 
-/// The field at a path of a text, by the variant of the group or loading stage around it; for an end of a pair, the pair.
+/// The field at a path of a text, by the variant of its group or loading stage; for an end of a pair, the pair.
 pub(super) fn field_at(text: &str, path: &str) -> Option<&'static Field> {
     let text = Text::new(text).ok()?;
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
@@ -35,7 +35,7 @@ pub(super) fn field_at(text: &str, path: &str) -> Option<&'static Field> {
     known_field(&text, path).or_else(pair)
 }
 
-/// The field at a path, by the variant of the group or loading stage around it.
+/// The field at a path, by the variant of its group or loading stage.
 pub(super) fn known_field(text: &Text, path: &str) -> Option<&'static Field> {
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
     let variant = text.variant(parent);
@@ -45,8 +45,8 @@ pub(super) fn known_field(text: &Text, path: &str) -> Option<&'static Field> {
     field(path, variant).or_else(|| field(path, None))
 }
 
-/// Fields that a path may mean: more than one where variants of a choice share a name. A position in a list or pair
-/// means that list or pair.
+/// Possible fields of a path: several if variants of a choice share a name. A position in a list or pair refers to
+/// that list or pair.
 fn fields_at(path: &str) -> Result<Vec<&'static Field>, String> {
     let mut base = path;
     while let Some((before, last)) = base.rsplit_once('.')
@@ -95,7 +95,7 @@ fn insert(
     }
 }
 
-/// Message that names the values of the choice that have the field.
+/// Message with the values of the choice that have the field.
 fn wrong_variant(parent: &str, head: Option<&str>, fields: &[&Field]) -> String {
     let choices = FIELDS.iter().find(|field| field.path == parent).map(|field| field.range);
     let Some(Range::Choice(choices)) = choices else {

@@ -1,4 +1,4 @@
-//! Effects of a scene beyond the nonadhesive contact of a flat body, and those that a scene has.
+//! Optional effects of a scene beyond the nonadhesive contact of a flat body.
 
 use super::fields::field;
 use super::model::{Adhesion, Leg, Observer, Scene};
@@ -6,8 +6,8 @@ use super::roughness_parameter::RoughnessParameter;
 use super::text::ron_float;
 use super::write::{legs, observers};
 
-/// An effect that a scene has or not; [`Document::with`](super::Document::with) and
-/// [`Document::without`](super::Document::without) switch it.
+/// Optional effect of a scene, switched by [`Document::with`](super::Document::with) and
+/// [`Document::without`](super::Document::without).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Effect {
     /// A macroscopic form; off: nominally flat.
@@ -16,16 +16,16 @@ pub enum Effect {
     Roughness,
     /// Adhesion; off: the bodies do not attract each other.
     Adhesion,
-    /// Legs of the loading history that pull; off: pressed and held.
+    /// Loading stages that may pull; off: pressed and held.
     Unloading,
-    /// The list of contact fragments.
+    /// The list of contact patches.
     Fragments,
     /// The histogram of heights.
     HeightHistogram,
 }
 
 impl Effect {
-    /// All effects, in the order in which a scene is written.
+    /// All effects, in the order of a scene file.
     pub const ALL: [Effect; 6] = [
         Effect::Form,
         Effect::Roughness,
@@ -35,7 +35,7 @@ impl Effect {
         Effect::HeightHistogram,
     ];
 
-    /// Its name and its field.
+    /// Name and path of the effect.
     const fn row(self) -> (&'static str, &'static str) {
         match self {
             Effect::Form => ("form", "form"),
@@ -47,17 +47,17 @@ impl Effect {
         }
     }
 
-    /// Its name in the terms of the field.
+    /// Technical name.
     pub const fn name(self) -> &'static str {
         self.row().0
     }
 
-    /// Path of the [field](super::FIELDS) it lives in.
+    /// Path of the effect's [field](super::FIELDS).
     pub const fn path(self) -> &'static str {
         self.row().1
     }
 
-    /// The scene has the effect. A work of adhesion of zero is no adhesion.
+    /// Returns true if the scene has the effect. A work of adhesion of zero is no adhesion.
     pub fn is_on(self, scene: &Scene) -> bool {
         match self {
             Effect::Form => scene.form.is_some(),
@@ -70,7 +70,7 @@ impl Effect {
         }
     }
 
-    /// The observed quantity that the effect is.
+    /// Observed quantity of the effect.
     pub(super) const fn observer(self) -> Option<Observer> {
         match self {
             Effect::Fragments => Some(Observer::Fragments),
@@ -79,10 +79,10 @@ impl Effect {
         }
     }
 
-    /// Value of the field with the effect, as RON, that suits a scene without the effect.
+    /// Value of the field, in RON, that suits a scene without the effect.
     pub(super) fn suited(self, scene: &Scene) -> String {
         match self {
-            // At the ends of the line it is an eighth of its length high.
+            // At the ends of the profile its height is an eighth of the length.
             Effect::Form => format!("Paraboloid(radius: {})", ron_float(scene.length)),
             Effect::Roughness => {
                 // Smooth on the scale of a spring and, under a form, on that of the contact.
@@ -104,7 +104,7 @@ impl Effect {
     }
 }
 
-/// Any stage may pull. A first stage cannot, since it begins in separation.
+/// Returns true for a stage that may pull. A first stage cannot, since it begins at separation.
 fn may_pull(loading: &[Leg]) -> bool {
     let mut reached = f64::NEG_INFINITY;
     loading.iter().enumerate().any(|(index, leg)| {
@@ -114,7 +114,7 @@ fn may_pull(loading: &[Leg]) -> bool {
     })
 }
 
-/// A stage may go back from the deepest indentation that can have been reached before it.
+/// Returns true for a stage that may return from the deepest indentation that earlier stages can reach.
 fn goes_back(leg: Leg, reached: f64) -> bool {
     match leg {
         Leg::ToIndentation(to) => to < reached,
@@ -123,7 +123,7 @@ fn goes_back(leg: Leg, reached: f64) -> bool {
     }
 }
 
-/// The deepest indentation a leg can reach, m; what it takes to reach a force is not known.
+/// The deepest indentation that a loading stage can reach, m; infinite for a force, whose indentation is unknown.
 fn deepest(leg: Leg) -> f64 {
     match leg {
         Leg::ToIndentation(to) => to,
@@ -133,15 +133,15 @@ fn deepest(leg: Leg) -> f64 {
     }
 }
 
-/// Indices of the loading stages that are left without those that may pull: the way to the largest force, or the deepest
-/// indentation, that is certain to be a way in. At least the first stage is left, or one that passes its end.
+/// Indices of the loading stages that remain without those that may pull: the path to the largest force, or the
+/// deepest indentation, that certainly leads inwards. Keeps at least the first stage, or one that passes its end.
 pub(super) fn pressing(loading: &[Leg]) -> Vec<usize> {
     let mut kept: Vec<usize> = Vec::new();
     let mut reached = f64::NEG_INFINITY;
     for (index, leg) in loading.iter().enumerate() {
         let replaces = kept.last().is_some_and(|last| passes(*leg, loading[*last]));
         if replaces {
-            // A point passed on the way needs no leg of its own.
+            // A point passed on the path needs no stage of its own.
             kept.clear();
         } else if !kept.is_empty() && goes_back(*leg, reached) {
             continue;
@@ -152,35 +152,35 @@ pub(super) fn pressing(loading: &[Leg]) -> Vec<usize> {
     kept
 }
 
-/// A stage is certain to pass the end of another one on its way in: a larger force.
+/// Returns true for a stage that certainly passes the end of another one on its path inwards: a larger force.
 fn passes(leg: Leg, other: Leg) -> bool {
     let Leg::ToForce(force) = leg else { return false };
     match other {
         Leg::ToForce(before) => force > before,
-        // Up to first touch nothing is pressed, so the force is zero or pulls.
+        // Up to first touch nothing is pressed, so the force is zero or tensile.
         Leg::ToZeroForce | Leg::ToTouch => force > 0.0,
         Leg::ToIndentation(indentation) => indentation <= 0.0 && force > 0.0,
         Leg::ToSeparation => false,
     }
 }
 
-/// An rms height that suits the length of a scene, to two digits: a five-hundredth of it.
+/// An rms height that suits the length of a scene, to two digits: a five-hundredth of the length.
 fn suited_height(scene: &Scene) -> f64 {
     let height = scene.length / 500.0;
     format!("{height:.1e}").parse().unwrap_or(height)
 }
 
-/// Adhesion of a scene by this work, as RON.
+/// Adhesion of a scene by this work, in RON.
 pub(super) fn by_work(scene: &Scene, work: f64) -> String {
     adhesion_as(scene, |adhesion| adhesion.with_work(work))
 }
 
-/// Adhesion of a scene by this value of a parameter, as RON.
+/// Adhesion of a scene by this value of a parameter, in RON.
 pub(super) fn by_parameter(scene: &Scene, parameter: RoughnessParameter, value: f64) -> String {
     adhesion_as(scene, |adhesion| adhesion.with_parameter(parameter, value))
 }
 
-/// Adhesion of a scene with a change, as RON.
+/// Adhesion of a scene with a change, in RON.
 pub(super) fn adhesion_as(scene: &Scene, change: impl Fn(Adhesion) -> Adhesion) -> String {
     let changed = Scene { adhesion: Some(change(scene.adhesion.unwrap_or_default())), ..scene.clone() };
     field("adhesion", None).and_then(|field| field.written(&changed)).unwrap_or_default()
@@ -236,7 +236,7 @@ mod tests {
                 vec![ToTouch, ToIndentation(1.0), ToIndentation(0.5), ToIndentation(2.0), ToTouch],
                 vec![ToTouch, ToIndentation(1.0), ToIndentation(2.0)],
             ),
-            // The force at an indentation is not known here, so the way to a force may go back.
+            // The force at an indentation is unknown here, so a stage to a force may go back.
             (vec![ToIndentation(1.0), ToForce(1.0)], vec![ToIndentation(1.0)]),
             (vec![ToForce(1.0), ToIndentation(1.0)], vec![ToForce(1.0)]),
         ] {
@@ -253,7 +253,7 @@ mod tests {
             if !may_pull(&scene.loading) {
                 prop_assert_eq!(&left, &scene.loading);
             }
-            // No force that was pressed with and nothing that was surely deeper is lost.
+            // Neither the largest force nor the deepest certain indentation is lost.
             let force = |legs: &[Leg]| legs.iter().fold(0.0_f64, |most, leg| match *leg {
                 ToForce(force) => most.max(force),
                 _ => most,

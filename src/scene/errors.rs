@@ -5,10 +5,10 @@ use std::fmt;
 use super::text::{is_within, line_column};
 use crate::text::is_control;
 
-/// Most errors that are listed; further ones are only counted.
+/// Most errors listed; further ones are only counted.
 const MOST_LISTED: usize = 100;
 
-/// Values and names longer than this are shortened in messages.
+/// Longest value or name in messages; longer ones are shortened.
 const MOST_SHOWN: usize = 80;
 
 /// Origin of an error.
@@ -25,12 +25,12 @@ pub enum Origin {
     },
     /// A scene file as a whole.
     File {
-        /// Its name.
+        /// Name of the file.
         name: String,
     },
     /// One or more overrides, as `path=value`.
     Overrides(Vec<String>),
-    /// A scene that was not read from text.
+    /// A scene without a text.
     #[default]
     Scene,
 }
@@ -49,20 +49,20 @@ impl fmt::Display for Origin {
     }
 }
 
-/// One thing that is wrong with a scene.
+/// One error of a scene.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SceneError {
     /// Origin.
     pub origin: Origin,
-    /// Path of the field, `loading.0` for a loading stage; empty where no field is meant.
+    /// Path of the field, `loading.0` for a loading stage; empty for an error of no single field.
     pub field: String,
-    /// The value as written; empty where there is none.
+    /// The value as written; empty if there is none.
     pub value: String,
-    /// Allowed values; empty where `message` says it all.
+    /// Allowed values; empty if `message` contains them.
     pub allowed: String,
     /// Reason, or the name of the field.
     pub message: String,
-    /// Other fields that take part, by path: changing one of them may mend the error as well.
+    /// Paths of other fields involved: changing one of them may also fix the error.
     pub involves: &'static [&'static str],
 }
 
@@ -72,7 +72,7 @@ impl SceneError {
         SceneError { origin, message: message.into(), ..SceneError::default() }
     }
 
-    /// The same error of another origin.
+    /// The same error with another origin.
     pub(super) fn at(self, origin: Origin) -> SceneError {
         SceneError { origin, ..self }
     }
@@ -109,7 +109,7 @@ impl fmt::Display for SceneError {
 
 impl std::error::Error for SceneError {}
 
-/// All that is wrong with a scene: at least one error, each a line of its own.
+/// All errors of a scene, at least one, each a line of its own.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneErrors {
     first: Box<SceneError>,
@@ -117,13 +117,13 @@ pub struct SceneErrors {
 }
 
 impl SceneErrors {
-    /// The errors of a list; `None` where there are none.
+    /// The errors of a list; `None` for an empty list.
     pub fn new(errors: Vec<SceneError>) -> Option<SceneErrors> {
         let mut errors = errors.into_iter();
         Some(SceneErrors { first: Box::new(errors.next()?), rest: errors.collect() })
     }
 
-    /// Returns an error for a list of errors that is not empty: the errors with their origins, a long list shortened.
+    /// Returns `Err` for a list of errors that is not empty: the errors with their origins, a long list shortened.
     pub(super) fn result(
         mut errors: Vec<SceneError>,
         origin: impl Fn(&SceneError) -> Origin,
@@ -137,7 +137,7 @@ impl SceneErrors {
         SceneErrors::new(errors).map_or(Ok(()), Err)
     }
 
-    /// These errors and a further one.
+    /// These errors and another one.
     pub(super) fn and(mut self, error: SceneError) -> SceneErrors {
         self.rest.push(error);
         self
@@ -148,7 +148,7 @@ impl SceneErrors {
         &self.first
     }
 
-    /// All errors, in the order in which they were found.
+    /// All errors, in the order of their detection.
     pub fn iter(&self) -> impl Iterator<Item = &SceneError> {
         std::iter::once(&*self.first).chain(&self.rest)
     }
@@ -169,13 +169,13 @@ impl fmt::Display for SceneErrors {
 
 impl std::error::Error for SceneErrors {}
 
-/// Line and column of a byte in a scene of this name.
+/// Line and column of a byte in a scene with this name.
 pub(super) fn origin_at(text: &str, name: &str, offset: usize) -> Origin {
     let (line, column) = line_column(text, offset);
     Origin::Place { name: name.into(), line, column }
 }
 
-/// Overrides that cause an error: those of its field, else those of the fields that take part, else all of them.
+/// Overrides that cause an error: those of its field, else those of the involved fields, else all of them.
 pub(super) fn overrides_behind(error: &SceneError, overrides: &[(String, String)]) -> Origin {
     let naming = |touches: &dyn Fn(&str) -> bool| {
         let touching = overrides.iter().filter(|(path, _)| touches(path));
@@ -193,7 +193,7 @@ pub(super) fn overrides_behind(error: &SceneError, overrides: &[(String, String)
     Origin::Overrides(source)
 }
 
-/// Foreign text for a message: one line, without control characters, not too long.
+/// Foreign text for a message: one line, shortened, without control characters.
 pub(super) fn shown(text: &str) -> String {
     let mut shown = String::new();
     for (index, c) in text.chars().enumerate() {

@@ -9,12 +9,12 @@ use super::value::{Access, Value};
 pub struct Field {
     /// Path from the top of the scene, components joined by dots: `roughness.hurst`.
     pub path: &'static str,
-    /// Variant of the enclosing choice that has this field: `Paraboloid` for `form.radius`. `None` where the field does
-    /// not depend on a choice.
+    /// Variant of the enclosing choice that has this field: `Paraboloid` for `form.radius`. `None` if the field
+    /// does not depend on a choice.
     pub variant: Option<&'static str>,
-    /// Name in the terms of contact mechanics: `Hurst exponent`.
+    /// Technical name: `Hurst exponent`.
     pub name: &'static str,
-    /// Symbol in the equations, empty where there is none.
+    /// Symbol in the equations; empty if there is none.
     pub symbol: &'static str,
     /// SI unit; `1` for numbers without one, empty for other values.
     pub unit: &'static str,
@@ -22,7 +22,7 @@ pub struct Field {
     pub range: Range,
     /// Steps of the keys.
     pub step: Step,
-    /// Value of a field that is left out, as it would be written; empty where the field is required.
+    /// Value of an omitted field, as written; empty if the field is required.
     pub default: &'static str,
     /// Meaning in one line.
     pub meaning: &'static str,
@@ -30,10 +30,10 @@ pub struct Field {
     pub(super) access: Access,
 }
 
-/// Step of a field by a key.
+/// Step of a field for a key press.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
-    /// By adding; the result is a multiple of `fine`.
+    /// By addition; the result is a multiple of `fine`.
     Linear {
         /// Small step.
         fine: f64,
@@ -43,7 +43,7 @@ pub enum Step {
     /// To the next preferred number: twenty to a decade (the Renard series R20) as the small step,
     /// 1–2–5 as the large one.
     Logarithmic,
-    /// By adding to a whole number.
+    /// By addition to an integer.
     Integer {
         /// Small step.
         fine: u64,
@@ -56,13 +56,13 @@ pub enum Step {
     Band,
     /// To the next choice.
     Choice,
-    /// Not stepped, only typed.
+    /// No steps, only typed values.
     Typed,
 }
 
-/// The row of a field; see `at!` for the path, the variant and the access, which belong together.
+/// The row of a field; see `at!` for the combination of path, variant and access.
 impl Field {
-    /// Required group of fields, named as its path.
+    /// Required group of fields; its name is its path.
     pub(super) const fn new(path: &'static str, variant: Option<&'static str>, access: Access) -> Field {
         let (symbol, unit, default, meaning) = ("", "", "", "");
         let (name, range, step) = (path, Range::Group, Step::Typed);
@@ -110,15 +110,15 @@ impl Field {
 }
 
 impl Field {
-    /// Value in a scene; `None` where the field belongs to a choice that the scene does not make.
+    /// Value in a scene; `None` if the field belongs to an unselected choice.
     pub fn get<'s>(&self, scene: &'s Scene) -> Option<Value<'s>> {
         (self.access.get)(scene)
     }
 
-    /// Gives the field a value, in its range or not. A group that may be left out is made for it.
+    /// Sets the field to a value, valid or not. A missing optional group is made for it.
     ///
-    /// Returns `false`, with the scene as it was, for a value of another kind, for a field of a choice that the scene
-    /// does not make, and for a choice as a whole, which [`Document::set`](super::Document::set) exchanges.
+    /// Returns `false`, with the scene unchanged, for a value of another kind, for a field of an unselected choice,
+    /// and for a whole choice, which [`Document::set`](super::Document::set) replaces.
     #[must_use]
     pub fn set(&self, scene: &mut Scene, value: Value<'_>) -> bool {
         (self.access.set)(scene, value)
@@ -143,7 +143,7 @@ impl Field {
     }
 }
 
-/// Fields are the same where path and variant are.
+/// Fields are equal if path and variant are equal.
 impl PartialEq for Field {
     fn eq(&self, other: &Field) -> bool {
         (self.path, self.variant) == (other.path, other.variant)

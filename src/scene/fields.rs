@@ -1,4 +1,4 @@
-//! The table of everything that a scene holds: paths, symbols, units, ranges, meanings, access.
+//! The table of all fields of a scene: paths, symbols, units, ranges, meanings, access.
 //!
 //! Reading and writing, checks of ranges, overrides, steps of the keys, axes of studies, the explorer's list of
 //! parameters, random scenes of the tests and the reference in docs/scene-file.md are loops over this table.
@@ -14,8 +14,8 @@ use super::value::{Access, Part, at};
 /// Largest number of springs.
 pub const MOST_POINTS: u64 = 1 << 28;
 
-/// The field at a path. Where variants of a choice share the name, `variant` decides; with `None`
-/// the first of them is returned.
+/// The field at a path. If variants of a choice share the name, `variant` decides; with `None` the
+/// first one is returned.
 pub fn field(path: &str, variant: Option<&str>) -> Option<&'static Field> {
     FIELDS.iter().find(|field| {
         field.path == path && (variant.is_none() || field.variant.is_none() || field.variant == variant)
@@ -29,10 +29,10 @@ pub(super) fn fields_inside(path: &str, variant: Option<&str>) -> impl Iterator<
     FIELDS.iter().filter(inside)
 }
 
-/// Names of files.
+/// Range of file names.
 pub(super) const FILE_NAME: Range = Range::Text { least: 1, most: 4096, lines: false };
 
-/// Every field of a scene, in the order in which a scene is written.
+/// Every field of a scene, in the order of a scene file.
 pub const FIELDS: &[Field] = &[
     at!(version)
         .range(Range::whole(*SCENE_VERSIONS.start() as u64, *SCENE_VERSIONS.end() as u64))
@@ -299,21 +299,21 @@ pub const FIELDS: &[Field] = &[
         .meaning("observed quantities beside the force curve"),
 ];
 
-/// The force of a leg [`ToForce`](super::Leg::ToForce), at `loading.0.0` for the first leg.
+/// The force of a loading stage [`ToForce`](super::Leg::ToForce), at `loading.0.0` for the first stage.
 pub const LEG_FORCE: Field = Field::new("loading", Some("ToForce"), Access::NONE)
     .quantity("force of a stage", "F", "N")
     .range(Range::closed(-1e30, 1e30))
     .meaning("target: the stage ends where the force first reaches this value; compression is positive");
 
-/// The indentation of a leg [`ToIndentation`](super::Leg::ToIndentation), at `loading.0.0` for the
-/// first leg.
+/// The indentation of a loading stage [`ToIndentation`](super::Leg::ToIndentation), at `loading.0.0`
+/// for the first stage.
 pub const LEG_INDENTATION: Field = Field::new("loading", Some("ToIndentation"), Access::NONE)
     .quantity("indentation of a stage", "d", "m")
     .range(Range::closed(-1e6, 1e6))
     .meaning("target: the stage ends at this indentation; 0 is first touch, positive is deeper");
 
 impl Field {
-    /// Value of the field in a scene that leaves it out, as it would be written; empty where it is required.
+    /// Default of the field in a scene, as written; empty if the field is required.
     pub fn default_in(&self, scene: &Scene) -> &'static str {
         match (self.path, scene.numerics.solver.usual_edges()) {
             ("numerics.edges", Edges::Grid) => "Grid",
@@ -323,7 +323,7 @@ impl Field {
 }
 
 impl Leg {
-    /// Field and value of the target, where the stage has a number as target.
+    /// Field and value of the target, if the stage has a numeric target.
     pub fn target(&self) -> Option<(&'static Field, f64)> {
         match *self {
             Leg::ToForce(force) => Some((&LEG_FORCE, force)),
@@ -407,7 +407,7 @@ mod tests {
     proptest! {
         #[test]
         fn fields_together_are_the_scene(scene in sound_scenes(), other in sound_scenes()) {
-            // The choices are those of the one scene, all else that both have is taken from the other.
+            // The choices of one scene, with all other fields shared by both taken from the other.
             let mut mixed = scene.clone();
             for field in FIELDS {
                 if let (Some(_), Some(value)) = (unusual(field), field.get(&other))
@@ -439,7 +439,7 @@ mod tests {
                 | (Range::Whole { .. }, Step::Doubling)
                 | (Range::Band { .. }, Step::Band) => true,
                 (Range::Whole { .. }, Step::Integer { fine, coarse }) => fine > 0 && fine < coarse,
-                // The material is no list of shapes to go through: its two choices are the same body.
+                // The material is no list of shapes: its two choices are the same body.
                 (Range::Choice(_), Step::Choice) => field.path != "material",
                 (Range::Choice(_), Step::Typed) => field.path == "material",
                 (Range::Text { .. } | Range::List { .. } | Range::Group, Step::Typed) => true,

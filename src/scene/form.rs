@@ -43,8 +43,8 @@ pub enum Form {
 }
 
 impl Form {
-    /// Index of the spring on the axis of every form, ⌊N/2⌋ of N = `points` springs. With its axis between two springs
-    /// a form would be blunt by half a cell, an error of first order in force, indentation and energy.
+    /// Index of the spring on the axis of every form, ⌊N/2⌋ of N = `points` springs. With the axis between two
+    /// springs a form would be blunt by half a cell, an error of first order in force, indentation and energy.
     pub fn spring_on_axis(points: u64) -> u64 {
         points / 2
     }
@@ -95,8 +95,8 @@ impl Form {
         }
     }
 
-    /// Depth of the surface below its summit at a distance `distance` from the axis, m, with the waves as
-    /// [`Form::wave_depth`] has them.
+    /// Depth of the surface below its summit at a distance `distance` from the axis, m, with waves as in
+    /// [`Form::wave_depth`].
     pub(super) fn depth(&self, distance: f64) -> f64 {
         match *self {
             Form::Paraboloid { radius } => distance * distance / (2.0 * radius),
@@ -109,7 +109,7 @@ impl Form {
         }
     }
 
-    /// Part of the waves in the depth at a distance from the axis, m: on the line they grow to about π A √(r/λ).
+    /// Part of the waves in the depth at a distance from the axis, m: on the profile it grows to about π A √(r/λ).
     pub(super) fn wave_depth(&self, distance: f64) -> f64 {
         match *self {
             Form::WavySphere { amplitude, wavelength, .. } => {
@@ -127,10 +127,10 @@ mod tests {
     #[test]
     fn a_punch_covers_the_nearest_number_of_whole_cells() {
         let under = |radius, points| Form::Punch { radius }.springs_under(1.0, points);
-        // Whole cells, also those that the axis cannot halve.
+        // Whole cells, also numbers that the axis cannot halve.
         assert_eq!((under(0.2, 10), under(0.25, 10), under(0.3, 10)), (3..7, 3..8, 2..8));
         assert_eq!((under(0.2, 5), under(0.3, 5)), (1..3, 1..4));
-        // A quarter of a cell on either side of the axis is the least.
+        // The minimum is a quarter of a cell on either side of the axis.
         assert_eq!((under(0.026, 10).count(), under(0.024, 10).count()), (1, 0));
         for points in 1..20 {
             assert_eq!(under(0.5, points), 0..points);

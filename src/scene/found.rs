@@ -16,13 +16,13 @@ pub(super) struct Found<'s> {
 }
 
 impl Found<'_> {
-    /// An error of this field, or of anything inside it, is among those found.
+    /// Returns true if an error of this field, or of anything inside it, was found.
     pub(super) fn has(&self, path: &str) -> bool {
         self.errors.iter().any(|error| is_within(&error.field, path))
     }
 
-    /// Refuses the value of a field, which no range of a field expresses. `allowed` is empty where `message` says it all;
-    /// of a group no value is repeated.
+    /// Refuses the value of a field for a reason other than its range. `allowed` is empty if `message` contains the
+    /// allowed values; the value of a group is not repeated.
     pub(super) fn refuse(
         &mut self,
         path: &str,
@@ -40,7 +40,7 @@ impl Found<'_> {
         self.refuse_value(path, value, allowed, message, involves);
     }
 
-    /// Refuses a value that is not that of a field as a whole.
+    /// Refuses a value that is only part of a field.
     pub(super) fn refuse_value(
         &mut self,
         path: impl Into<String>,
@@ -84,7 +84,7 @@ impl Found<'_> {
 
     fn check_text(&mut self, field: &Field, text: &str, range: Range) {
         let Range::Text { least, most, lines } = range else { return };
-        // Control characters would reach the terminal of whoever opens the scene.
+        // Control characters would reach the terminal of any reader of the scene.
         let forbidden = |c: &char| is_control(*c) && !(lines && *c == '\n');
         let count = text.chars().count();
         if let Some(c) = text.chars().find(forbidden) {

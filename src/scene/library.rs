@@ -1,4 +1,4 @@
-//! Places of scenes: the program, the user's own folder, and the working folder.
+//! Sources of scenes: the program, the user's own folder, and the working folder.
 
 use std::fs;
 use std::io;
@@ -13,16 +13,16 @@ use super::text::Text;
 use crate::io::{ReadError, read_regular_text};
 use crate::text::is_control;
 
-/// Scene files that are read in one folder; the rest is counted.
+/// Most scene files read in one folder; the rest is counted.
 pub const MOST_FILES: usize = 500;
 
-/// Bytes of scene files that are read in one folder. Scenes are a few hundred bytes.
+/// Most bytes of scene files read in one folder. Scenes are a few hundred bytes.
 pub const MOST_BYTES: usize = 16 * LONGEST_TEXT;
 
-/// Entries of a folder that are looked at.
+/// Most entries of a folder that are examined.
 const MOST_LOOKED_AT: usize = 100_000;
 
-/// A path as people type it: in place of `~` at its beginning the home folder, if there is one.
+/// A typed path: a leading `~` becomes the home folder, if there is one.
 #[must_use]
 pub fn typed_path(text: &str) -> PathBuf {
     let text = text.trim();
@@ -47,24 +47,23 @@ pub enum Source {
 /// A scene of the library, or a file that looked like one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
-    /// Its name: of a built-in scene, of an own one without `.ron`, of a file in the working folder
-    /// with it.
+    /// Name: of a built-in scene, of an own scene without `.ron`, of a file in the working folder with `.ron`.
     pub name: String,
     /// Origin.
     pub origin: Source,
-    /// Its file; `None` for what comes with the program.
+    /// File; `None` for a built-in scene.
     pub path: Option<PathBuf>,
-    /// The scene's title; empty where it has none.
+    /// Title of the scene; empty if it has none.
     pub title: String,
-    /// The scene's notice; empty where it has none.
+    /// Notice of the scene; empty if it has none.
     pub notice: String,
-    /// Its text; empty where it cannot be read.
+    /// Text of the scene; empty if it cannot be read.
     pub text: String,
-    /// Reason for which the file is no scene, on one line.
+    /// Reason why the file is no scene, on one line.
     pub error: Option<String>,
 }
 
-/// The folders in which scenes are looked for, beside those that come with the program.
+/// Folders searched for scenes, in addition to the built-in ones.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Library {
     own: Option<PathBuf>,
@@ -81,18 +80,18 @@ impl Library {
         Library::of(config, PathBuf::from("."))
     }
 
-    /// The library of a configuration folder, where there is one, and of a working folder.
+    /// The library of a configuration folder, if there is one, and of a working folder.
     pub fn of(config: Option<PathBuf>, working: PathBuf) -> Library {
         Library { own: config.map(|config| config.join("asperity").join("presets")), working }
     }
 
-    /// The folder of the user's own scenes, `asperity/presets` in the configuration folder, whether
-    /// or not it is there yet. A scene saved here opens by its name.
+    /// The folder of the user's own scenes, `asperity/presets` in the configuration folder; it may not
+    /// exist yet. A scene saved here opens by its name.
     pub fn own_folder(&self) -> Option<PathBuf> {
         self.own.clone()
     }
 
-    /// The file of an own scene of this name, where there is one.
+    /// The file of an own scene of this name, if it exists.
     pub fn own_scene(&self, name: &str) -> Option<PathBuf> {
         let mut components = Path::new(name).components();
         let (Some(Component::Normal(_)), None) = (components.next(), components.next()) else {
@@ -102,23 +101,23 @@ impl Library {
         path.is_file().then_some(path)
     }
 
-    /// The names of one's own scenes.
+    /// Names of the user's own scenes.
     pub(super) fn own_names(&self) -> Vec<String> {
         let paths = self.own.as_ref().and_then(|own| scene_files(own).ok()).unwrap_or_default();
         paths.iter().map(|path| name_of(path, Source::Own)).collect()
     }
 
-    /// Everything there is: the built-in scenes in their order, then one's own, then those of the
-    /// working folder, each by name.
+    /// All entries: the built-in scenes in their order, then the user's own, then those of the working
+    /// folder, each by name.
     ///
-    /// Files ending in `.ron` are listed, plans of studies aside; folders inside these folders are not looked into. What
-    /// is no scene or cannot be read is listed with its error. In each folder at most [`MOST_FILES`]
-    /// files and [`MOST_BYTES`] bytes are read, and only regular files are opened.
+    /// Lists files ending in `.ron`, except for plans of studies; subfolders are not searched. Files that are no
+    /// scene or cannot be read are listed with their error. In each folder at most [`MOST_FILES`] files and
+    /// [`MOST_BYTES`] bytes are read, and only regular files are opened.
     pub fn list(&self) -> Vec<Entry> {
         [Source::BuiltIn, Source::Own, Source::Working].map(|origin| self.list_of(origin)).concat()
     }
 
-    /// Entries of one place. A working folder that is one's own folder has nothing more.
+    /// Entries of one place; empty for a working folder that is also the user's own folder.
     pub fn list_of(&self, origin: Source) -> Vec<Entry> {
         match origin {
             Source::BuiltIn => {
@@ -134,11 +133,11 @@ impl Library {
 }
 
 impl Entry {
-    /// The scene as a document. Files that a scene of a file names are relative to that file.
+    /// The scene as a document. Files of a scene are relative to its own file.
     ///
     /// # Errors
     ///
-    /// All that is wrong with it.
+    /// All errors of the scene.
     pub fn document(&self) -> Result<Document, SceneErrors> {
         let name = self.document_name();
         match &self.error {
@@ -172,7 +171,7 @@ impl Entry {
     }
 }
 
-/// The first of a file's errors with its place, and how many more there are.
+/// The first error of a file with its place, and the number of further ones.
 fn in_one_line(errors: &SceneErrors) -> String {
     let first = errors.first();
     let place = match &first.origin {
@@ -186,17 +185,17 @@ fn in_one_line(errors: &SceneErrors) -> String {
     format!("{place}{}{more}", first.what())
 }
 
-/// Returns true if a text is the plan of a study: there is a scene in it.
+/// Returns true if a text is the plan of a study: it contains a scene.
 fn is_plan(text: &str) -> bool {
     Text::new(text).is_ok_and(|text| text.span("scene").is_some())
 }
 
-/// Two folders are one.
+/// Returns true if two paths are the same folder.
 fn is_same(one: &Path, other: &Path) -> bool {
     matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
 }
 
-/// The scene files of a folder by name; none where there is none.
+/// The scene files of a folder by name; empty for a missing folder.
 fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
     let about_folder = |error: String| {
         let name = printable(&folder.display().to_string());
@@ -248,7 +247,7 @@ fn entry_of(path: PathBuf, origin: Source, room: &mut usize) -> Entry {
     }
 }
 
-/// Text of a regular file, where there is room for its bytes.
+/// Text of a regular file, if its size is within `room`.
 fn read_within(path: &Path, room: usize) -> Result<String, String> {
     match read_regular_text(path, room.min(LONGEST_TEXT)) {
         Err(ReadError::TooLong { limit }) if limit < LONGEST_TEXT => {
@@ -279,7 +278,7 @@ mod tests {
     const SCENE: &str = "(version: 1, title: \"A title\", notice: \"A notice\", \
                          material: (effective_modulus: 1.0e6), length: 1.0e-4)";
 
-    /// A library with both folders, empty, and its folders.
+    /// A library with both folders, empty, and the paths of these.
     fn library() -> (tempfile::TempDir, Library, PathBuf, PathBuf) {
         let root = tempfile::tempdir().unwrap();
         let working = root.path().join("working");
@@ -346,7 +345,7 @@ mod tests {
         assert_eq!(entry.path, Some(own.join("a.ron")));
         let document = entry.document().unwrap();
         assert_eq!(document.resolve("line.csv"), own.join("line.csv"));
-        // One folder that is both is listed once; missing folders are empty.
+        // A folder in both roles is listed once; missing folders are empty.
         let both = Library { own: Some(own.clone()), working: own.join("../presets") };
         assert_eq!(listed(&both).len(), 4);
         assert_eq!(listed(&Library::of(None, own.join("missing"))), []);
@@ -370,7 +369,7 @@ mod tests {
             two.contains("material.effective_modulus = 0.0: allowed") && two.ends_with("(and 1 more)"),
             "{two}"
         );
-        // To be opened it is refused with all that is wrong, and not with the one line of the list.
+        // Opening reports all errors, not the one line of the list.
         let listed = library.list().into_iter().find(|entry| entry.name == "two.ron").unwrap();
         let errors = listed.document().unwrap_err();
         let fields: Vec<_> = errors.iter().map(|error| error.field.as_str()).collect();

@@ -1,4 +1,4 @@
-//! Hashes of the measured files behind a table of results, which hold part of what was computed.
+//! Hashes of the measured files behind a table of results, which are part of its input.
 
 use super::named_file::named_from;
 use crate::io::{ReadError, sha256_of};
@@ -6,7 +6,7 @@ use crate::text::path_name;
 use std::path::Path;
 use thiserror::Error;
 
-/// Begin of a line in the provenance of a table.
+/// Prefix of a line in the provenance of a table.
 const LINE: &str = "sha256: ";
 
 /// Digits of a hash that a message shows.
@@ -21,7 +21,7 @@ pub struct MeasuredHash {
     pub sha256: String,
 }
 
-/// Reason why a table is not computed again, or has no hash.
+/// Reason why a table cannot be computed again, or has no hash.
 #[derive(Debug, Error)]
 pub enum MeasuredHashError {
     /// The file cannot be read.
@@ -32,7 +32,7 @@ pub enum MeasuredHashError {
         /// Reason.
         reason: String,
     },
-    /// The file has another content than before.
+    /// The content of the file has changed.
     #[error(
         "{file}: the measured file has changed: its SHA-256 is {found}…, {table} has {expected}…; allowed: the file \
          as it was, or its scene in a file of its own"
@@ -85,7 +85,7 @@ impl MeasuredHash {
         })
     }
 
-    /// Line of a provenance. The name is a string of RON, on one line whatever is in it.
+    /// Line of a provenance. The name is a RON string, always on one line.
     pub(super) fn line(&self) -> String {
         format!("{LINE}{} {:?}\n", self.sha256, self.file)
     }

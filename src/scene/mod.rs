@@ -1,7 +1,7 @@
-//! The scene: what its author chose, read from RON, checked, and changed field by field.
+//! The scene: the author's choices, read from RON, checked, and changed field by field.
 //!
-//! [`open()`] gives a [`Document`]: a checked [`Scene`] with the text it came from. [`FIELDS`] is the
-//! table of everything a scene can say; the checks, overrides and the explorer read it.
+//! [`open()`] returns a [`Document`]: a checked [`Scene`] with its text. [`FIELDS`] is the table of all fields of a
+//! scene, used by the checks, the overrides and the explorer.
 //!
 //! ```
 //! use asperity::scene;

@@ -1,6 +1,6 @@
-//! The types of a scene: what its author may choose, in SI units, and what follows from it by one formula.
+//! The types of a scene: the author's choices, in SI units, and quantities that follow from them by one formula.
 //!
-//! These types hold values as written; [`super::check()`] finds those that are not allowed.
+//! These types hold values as written; [`super::check()`] finds the invalid ones.
 
 use super::form::Form;
 use crate::spectrum::Detrend;
@@ -9,17 +9,17 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use strum::IntoStaticStr;
 
-/// Versions of the scene file that are read. In the first one a measured profile is the line itself unless
-/// `roughness.as_line` says otherwise, in the second one its equivalent line is.
+/// Supported versions of the scene file. In version 1 a measured profile is the line itself unless
+/// `roughness.as_line` states otherwise, in version 2 the line is the equivalent one.
 pub const SCENE_VERSIONS: std::ops::RangeInclusive<u32> = 1..=2;
 
-/// A scene: two bodies, how they are pressed and pulled, and how finely that is computed.
+/// A scene: two bodies, their loading, and the resolution of the computation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// Version of the file format, one of [`SCENE_VERSIONS`].
     pub version: u32,
-    /// One line naming the scene.
+    /// Title of the scene, one line.
     #[serde(default)]
     pub title: String,
     /// Notes on the scene.
@@ -29,16 +29,16 @@ pub struct Scene {
     pub material: Material,
     /// Apparent diameter L of the contact, m.
     pub length: f64,
-    /// Macroscopic form; `None` is nominally flat.
+    /// Macroscopic form; `None`: nominally flat.
     #[serde(default)]
     pub form: Option<Form>,
-    /// Roughness; `None` is smooth.
+    /// Roughness; `None`: smooth.
     #[serde(default)]
     pub roughness: Option<Roughness>,
-    /// Adhesion; `None` is none.
+    /// Adhesion; `None`: no adhesion.
     #[serde(default)]
     pub adhesion: Option<Adhesion>,
-    /// Loading history, one leg after the other, from separation.
+    /// Loading history from separation: consecutive loading stages.
     #[serde(default = "default_loading")]
     pub loading: Vec<Leg>,
     /// Resolution and solver.
@@ -81,24 +81,24 @@ impl Material {
         }
     }
 
-    /// Effective modulus E* of eq. (2), Pa. NaN where the material is not determined, which
+    /// Effective modulus E* of eq. (2), Pa. NaN if the material is not determined, which
     /// [`check`](super::check()) refuses.
     pub fn effective_modulus(&self) -> f64 {
         match (self.effective_modulus, self.youngs_modulus, self.poisson_ratio) {
             (Some(modulus), None, None) => modulus,
-            // (1 − ν)(1 + ν) keeps its digits where ν is close to −1; 1 − ν² does not.
+            // (1 − ν)(1 + ν) keeps its digits for ν close to −1; 1 − ν² does not.
             (None, Some(modulus), Some(ratio)) => modulus / ((1.0 - ratio) * (1.0 + ratio)),
             _ => f64::NAN,
         }
     }
 }
 
-/// Roughness of the rigid line.
+/// Roughness of the rigid profile.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Roughness {
-    /// Random-phase self-affine line, eqs. (4)–(9). Its amplitude is set by `rms_height`, by
-    /// `rms_gradient`, or, when neither is given, by work of adhesion and κ together.
+    /// Random-phase self-affine profile, eqs. (4)–(9). Its amplitude is set by `rms_height`, by
+    /// `rms_gradient`, or, if neither is given, by work of adhesion and κ together.
     SelfAffine {
         /// Hurst exponent H.
         hurst: f64,
@@ -120,45 +120,45 @@ pub enum Roughness {
         /// Further files of the same face: samples of one roughness, whose spectrum is estimated from all of them.
         #[serde(default, skip_serializing_if = "Vec::is_empty")]
         further_files: Vec<String>,
-        /// The profile itself is the line. `None`: so in scenes of version 1, and not in those of version 2; see
-        /// [`Scene::measured_as_line`].
+        /// True if the measured profile itself is the line. `None`: true in scenes of version 1, false in those of
+        /// version 2; see [`Scene::measured_as_line`].
         #[serde(default, skip_serializing_if = "Option::is_none")]
         as_line: Option<bool>,
         /// File of the opposite face, relative to the scene file; the spectra of both faces add.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         opposite: Option<String>,
-        /// Row of a map that is the profile, from 1 on.
+        /// Row of a map used as the profile, from 1.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         row: Option<u64>,
-        /// Column of a map that is the profile, from 1 on.
+        /// Column of a map used as the profile, from 1.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         column: Option<u64>,
-        /// Part that is removed of the heights; `None`: the tilt for an equivalent line, nothing for `as_line`.
+        /// Part removed from the heights; `None`: the tilt for an equivalent line, nothing for `as_line`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         detrend: Option<Detrend>,
-        /// True if the surface repeats itself at its borders: then its spectrum is estimated without a window.
+        /// True if the surface repeats itself at its borders: its spectrum is then estimated without a window.
         #[serde(default, skip_serializing_if = "is_false")]
         periodic: bool,
-        /// Unit of lengths where the file states none; empty: none is known, and m for `as_line`.
+        /// Unit of lengths if the file states none; empty: unknown, or m for `as_line`.
         #[serde(default, skip_serializing_if = "String::is_empty")]
         unit: String,
-        /// Unit of heights where the file states none; empty: as `unit`.
+        /// Unit of heights if the file states none; empty: as `unit`.
         #[serde(default, skip_serializing_if = "String::is_empty")]
         height_unit: String,
-        /// Distance between points, m, where the file states none.
+        /// Distance between points, m, if the file states none.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         spacing: Option<f64>,
-        /// True if missing points get heights from their neighbours.
+        /// True if missing heights are interpolated from their neighbours.
         #[serde(default, skip_serializing_if = "is_false")]
         interpolate: bool,
         /// True if uneven profiles are resampled at their mean distance.
         #[serde(default, skip_serializing_if = "is_false")]
         resample: bool,
-        /// Number of the channel of a file that has several.
+        /// Number of the channel of a file with several.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         channel: Option<u64>,
-        /// Shortest wavelength, m, down to which the spectrum of the equivalent line continues as a power law; `None`: the
-        /// last resolved one.
+        /// Shortest wavelength, m, down to which the spectrum of the equivalent line continues as a power law;
+        /// `None`: the last resolved wavelength.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         continue_to: Option<f64>,
         /// Seed of the random phases of the equivalent line.
@@ -180,12 +180,12 @@ fn is_default_seed(seed: &u64) -> bool {
 }
 
 impl Roughness {
-    /// Returns true if the amplitude is given with the roughness, rather than by the adhesion.
+    /// Returns true if the roughness, rather than the adhesion, specifies the amplitude.
     pub(super) fn has_amplitude(&self) -> bool {
         !matches!(self, Roughness::SelfAffine { rms_height: None, rms_gradient: None, .. })
     }
 
-    /// Gives the files of the measured surfaces other names.
+    /// Renames the files of the measured surfaces.
     pub fn rename_files(&mut self, rename: impl Fn(&str) -> String) {
         if let Roughness::Measured { file, further_files, opposite, .. } = self {
             for name in std::iter::once(file).chain(further_files).chain(opposite) {
@@ -194,7 +194,7 @@ impl Roughness {
         }
     }
 
-    /// Measured surface of a file, all else left out.
+    /// Measured surface of a file, all other fields omitted.
     pub fn measured(file: impl Into<String>) -> Self {
         let file = file.into();
         Roughness::Measured {
@@ -256,14 +256,14 @@ impl Scene {
         self.measured_faces().into_iter().map(paths).collect()
     }
 
-    /// Gives the files of the measured surfaces other names.
+    /// Renames the files of the measured surfaces.
     pub fn rename_measured_files(&mut self, rename: impl Fn(&str) -> String) {
         if let Some(roughness) = &mut self.roughness {
             roughness.rename_files(rename);
         }
     }
 
-    /// Seed of the random phases; `None` where the line has none.
+    /// Seed of the random phases; `None` if the profile has none.
     pub fn seed(&self) -> Option<u64> {
         match &self.roughness {
             Some(Roughness::Measured { .. }) if self.measured_as_line() => None,
@@ -272,7 +272,7 @@ impl Scene {
         }
     }
 
-    /// Gives the random phases another seed, where there are any.
+    /// Sets the seed of the random phases, if there are any.
     pub fn set_seed(&mut self, wanted: u64) {
         if let Some(Roughness::SelfAffine { seed, .. } | Roughness::Measured { seed, .. }) =
             &mut self.roughness
@@ -289,7 +289,7 @@ pub struct Adhesion {
     /// Work of adhesion γ, J/m².
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub work: Option<f64>,
-    /// Work of adhesion γ₁ on closing, J/m², at most `work`; left out: the same.
+    /// Work of adhesion γ₁ on closing, J/m², at most `work`; `None`: equal to `work`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub closing_work: Option<f64>,
     /// κ = sqrt(h⟨∇z⟩E*/γ).
@@ -298,7 +298,7 @@ pub struct Adhesion {
     /// Elastic energy of conformity over the work of adhesion, e_el/γ.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub elastic_energy_ratio: Option<f64>,
-    /// Range z₀ of the attraction, m, for the Tabor number alone; left out: 0.3 nm.
+    /// Range z₀ of the attraction, m, for the Tabor number alone; `None`: 0.3 nm.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub range: Option<f64>,
 }
@@ -312,7 +312,7 @@ impl Adhesion {
     }
 }
 
-/// One leg of the loading history.
+/// One loading stage.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Leg {
     /// Until the force first reaches this value, N (compression positive).
@@ -321,9 +321,9 @@ pub enum Leg {
     ToIndentation(f64),
     /// To the indentation of first touch, d = 0.
     ToTouch,
-    /// Until the force is zero: from separation, touch and go on until the force is back at zero.
+    /// Until the force is zero; from separation, beyond touch until the force is back at zero.
     ToZeroForce,
-    /// Pull until nothing touches.
+    /// To separation.
     ToSeparation,
 }
 
@@ -335,9 +335,9 @@ pub struct Numerics {
     pub points: u64,
     /// Exact loop or stepwise relaxation.
     pub solver: Solver,
-    /// Edge model of a fragment.
+    /// Edge model of a contact patch.
     pub edges: Edges,
-    /// Curve samples on each leg.
+    /// Curve samples on each loading stage.
     pub samples: u64,
 }
 
@@ -347,7 +347,7 @@ impl Default for Numerics {
     }
 }
 
-/// The same as it is written: fields that are left out have their defaults.
+/// The same in the form of a file: omitted fields have their defaults.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, default, rename = "Numerics")]
 struct NumericsText {
@@ -369,13 +369,13 @@ impl From<NumericsText> for Numerics {
     }
 }
 
-/// Solver of equilibrium.
+/// Equilibrium solver.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Solver {
-    /// All thresholds at once, no step error.
+    /// All thresholds at once, without a step error.
     Exact,
-    /// The paper's way: move by a step, relax, repeat.
+    /// The method of the paper: move by a step, relax, repeat.
     Stepwise {
         /// Step Δd of the indentation, m.
         step: f64,
@@ -383,7 +383,7 @@ pub enum Solver {
 }
 
 impl Solver {
-    /// The edges of a scene that does not say which: between springs where the solver can find them there.
+    /// The edges of a scene that does not specify them: between springs if the solver can find them there.
     pub fn usual_edges(self) -> Edges {
         match self {
             Solver::Exact => Edges::SubCell,
@@ -392,28 +392,28 @@ impl Solver {
     }
 }
 
-/// Edge model of a contact fragment.
+/// Edge model of a contact patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
 pub enum Edges {
-    /// The paper's rule: a fragment of n springs is n Δx long.
+    /// The rule of the paper: a patch of n springs is n Δx long.
     Grid,
-    /// The line runs straight from spring to spring, and a fragment ends where it crosses the fragment's
-    /// level: the error falls with Δx².
+    /// The profile is straight from spring to spring, and a patch ends where the profile crosses the level of the
+    /// patch: the error falls with Δx².
     SubCell,
 }
 
 impl Edges {
-    /// Name as scene files have it.
+    /// Name in scene files.
     #[must_use]
     pub fn name(self) -> &'static str {
         self.into()
     }
 }
 
-/// Something observed beside the force curve.
+/// A quantity observed beside the force curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Observer {
-    /// The contact fragments and their lengths.
+    /// The contact patches and their lengths.
     Fragments,
     /// The histogram of heights.
     HeightHistogram,

@@ -1,9 +1,9 @@
-//! Names of files in a table of results, which may be in another folder than its scene.
+//! Names of files in a table of results, whose folder may differ from that of its scene.
 
 use std::path::Path;
 
-/// Name of a file relative to `folder` in a table that is written into `destination`: as it is in the same folder, else
-/// its absolute path.
+/// Name of a file relative to `folder` in a table that is written into `destination`: unchanged in the same folder,
+/// else the absolute path.
 #[must_use]
 pub fn named_from(file: &str, folder: &Path, destination: &Path) -> String {
     match std::path::absolute(folder.join(file)) {

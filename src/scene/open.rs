@@ -12,14 +12,14 @@ use super::provenance::{SceneText, SceneTextError};
 use super::suggest::nearest;
 use crate::io::read_regular_text;
 
-/// Opens a scene: a file, where one of that name exists or the name looks like one (it ends in
-/// `.ron` or has a path separator), else a built-in scene, else one of the user's own scenes, see
-/// [`Library::own_folder`]. Only regular files are read: a pipe, a terminal or a device would be waited for. A table of
-/// results, CSV or `.npy`, opens as the scene it was computed from.
+/// Opens a scene: a file if one of that name exists or the name looks like a path (ends in `.ron` or has a path
+/// separator), else a built-in scene, else one of the user's own scenes, see [`Library::own_folder`]. Only regular
+/// files are read, since a pipe, a terminal or a device would block. A table of results, CSV or `.npy`, opens as
+/// its scene.
 ///
 /// # Errors
 ///
-/// No such scene, a file that cannot be read, or what is wrong with the scene in it.
+/// No such scene, an unreadable file, or the errors of its scene.
 pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
     open_in(name_or_path, &Library::of_environment())
 }
@@ -52,11 +52,11 @@ fn open_in(name_or_path: &str, library: &Library) -> Result<Document, SceneError
     Err(whole(name_or_path, message))
 }
 
-/// Opens a scene that the arguments of a command name: as [`open`], but also from a stream. `-` is standard
-/// input, and a pipe or a device, as a shell puts in place of `<(…)`, is read up to its end.
+/// Opens the scene of a command argument: as [`open`], but also from a stream. `-` is standard input, and a pipe or
+/// a device, such as `<(…)` of a shell, is read up to its end.
 ///
-/// Reading a stream waits for whoever writes it, so this is for commands that an interrupt ends, and not for
-/// what is opened while a terminal is taken over.
+/// Reading a stream waits for its writer, so this function is for commands that an interrupt ends, not for an
+/// explorer that has taken over the terminal.
 ///
 /// # Errors
 /// As [`open`].
@@ -95,7 +95,7 @@ fn whole(name: &str, message: String) -> SceneErrors {
     SceneError::whole(Origin::File { name: name.into() }, message).into()
 }
 
-/// Text of a regular file, of which no more than a scene can be long is read.
+/// Text of a regular file, at most as long as a scene can be.
 pub(crate) fn read_file(path: &Path) -> Result<String, String> {
     read_regular_text(path, LONGEST_TEXT).map_err(describe)
 }

@@ -1,4 +1,4 @@
-//! Overrides that make one scene another, and the command that applies them.
+//! Overrides that turn one scene into another, and the command that applies them.
 
 use super::document::{Document, pair};
 use super::edit;
@@ -14,12 +14,12 @@ use super::write::leg;
 type Overrides = Vec<(String, String)>;
 
 impl Document {
-    /// The overrides that make `base` this scene: `base.set_all` of them gives a scene equal to this
-    /// document's, whatever way either text is written.
+    /// The overrides that turn `base` into this scene: `base.set_all` of them results in a scene equal to this
+    /// document's, independent of the layout of either text.
     ///
-    /// Fields are set one by one where both scenes make the same choices, else the group or choice
-    /// they belong to; legs one by one where that is shorter than the whole list. Values are on one
-    /// line each and read back to the last digit. Empty where the scenes are equal.
+    /// Fields are set one by one where both scenes make the same choices, else with their group or
+    /// choice; loading stages one by one where that is shorter than the whole list. Values are on one
+    /// line each and read back to the last digit. Empty for equal scenes.
     pub fn overrides_from(&self, base: &Document) -> Vec<(String, String)> {
         if self.scene() == base.scene() {
             return Vec::new();
@@ -33,7 +33,7 @@ impl Document {
                     .filter(|fine| length(fine) < length(&whole)),
                 _ => Some(differences(field, mine, theirs)),
             };
-            // A field that the base's text leaves out cannot always be set by itself.
+            // A field missing from the base's text cannot always be set by itself.
             let leads =
                 |fine: &Overrides| fine.is_empty() || leads_to(base, fine, field, &value(field, mine));
             overrides.extend(fine.filter(leads).unwrap_or(whole));
@@ -52,12 +52,12 @@ fn top_level() -> impl Iterator<Item = &'static Field> {
     fields_inside("", None)
 }
 
-/// A field's value as it is written.
+/// Value of a field in RON, or its default.
 fn value(field: &Field, scene: &Scene) -> String {
     field.written(scene).unwrap_or_else(|| field.default_in(scene).to_string())
 }
 
-/// The fields inside a field, of the choice that a scene makes there.
+/// The fields inside a field, for the choice of a scene.
 fn inside(field: &Field, scene: &Scene) -> Vec<&'static Field> {
     match field.get(scene) {
         Some(Value::Choice(variant)) => fields_inside(field.path, Some(variant)).collect(),
@@ -65,10 +65,9 @@ fn inside(field: &Field, scene: &Scene) -> Vec<&'static Field> {
     }
 }
 
-/// The fields that differ, each by itself where both scenes have the same fields there, else the
-/// group around them.
+/// The differing fields, each by itself where both scenes have the same fields there, else their group.
 fn differences(field: &Field, mine: &Scene, theirs: &Scene) -> Overrides {
-    // A field that both leave at its default is equal, though the default may depend on another field.
+    // A field at its default in both is equal, though the default may depend on another field.
     let stated = |scene| field.written(scene).filter(|value| value != field.default_in(scene));
     if stated(mine) == stated(theirs) {
         return Vec::new();
@@ -83,7 +82,7 @@ fn differences(field: &Field, mine: &Scene, theirs: &Scene) -> Overrides {
     fields.into_iter().flat_map(|one| differences(one, mine, theirs)).collect()
 }
 
-/// The legs that differ, or the number in them, where there are as many of them.
+/// The differing loading stages, or their numbers, if both have as many stages.
 fn different_legs(mine: &[Leg], theirs: &[Leg]) -> Option<Overrides> {
     let different = |(index, (mine, theirs)): (usize, (&Leg, &Leg))| match (mine, theirs) {
         (mine, theirs) if mine == theirs => None,
@@ -101,7 +100,7 @@ fn length(overrides: &[(String, String)]) -> usize {
     overrides.iter().map(|(path, value)| " --set =".len() + path.len() + value.len()).sum()
 }
 
-/// Overrides of parts of a field give the field this value.
+/// Returns true if overrides of parts of a field set the field to this value.
 fn leads_to(base: &Document, overrides: &[(String, String)], field: &Field, value: &str) -> bool {
     let set = |text: String, (path, value): &(String, String)| edit::set(&text, path, value).ok();
     let text = overrides.iter().try_fold(base.text().to_string(), set);
@@ -109,8 +108,7 @@ fn leads_to(base: &Document, overrides: &[(String, String)], field: &Field, valu
     scene.is_some_and(|scene| field.written(&scene).as_deref() == Some(value))
 }
 
-/// The command that opens a scene with overrides, to be pasted into a POSIX shell: every word is
-/// quoted where it must be, and only there.
+/// The command that opens a scene with overrides, for a POSIX shell; only words that need quotes are quoted.
 ///
 /// ```
 /// let overrides = [("form".to_string(), "Cone(angle: 0.1)".to_string())];
@@ -120,7 +118,7 @@ fn leads_to(base: &Document, overrides: &[(String, String)], field: &Field, valu
 pub fn command_line(name: &str, overrides: &[(String, String)]) -> String {
     let set = |(path, value): &(String, String)| format!(" --set {}", quoted(&format!("{path}={value}")));
     let sets: String = overrides.iter().map(set).collect();
-    // A name that looks like an option follows all options.
+    // A name that looks like an option comes after all options.
     if name.starts_with('-') {
         format!("asperity{sets} -- {}", quoted(name))
     } else {
@@ -128,10 +126,10 @@ pub fn command_line(name: &str, overrides: &[(String, String)]) -> String {
     }
 }
 
-/// A word as a shell reads it.
+/// A word quoted for a shell.
 pub(crate) fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || "_-./:,+@%=".contains(c);
-    // zsh takes a word that starts with = for the place of a command.
+    // zsh takes a word that starts with = for the path of a command.
     if !word.is_empty() && !word.starts_with('=') && word.chars().all(plain) {
         word.to_string()
     } else {
@@ -259,7 +257,7 @@ mod tests {
         assert_eq!(command_line("-a.ron", &sets[..1]), "asperity --set form=None -- -a.ron");
     }
 
-    /// The words a shell makes of a command, by the rules of POSIX for quotes and backslashes.
+    /// The words that a shell makes of a command, by the rules of POSIX for quotes and backslashes.
     fn words(command: &str) -> Vec<String> {
         let (mut words, mut word, mut characters) = (Vec::new(), None::<String>, command.chars());
         while let Some(c) = characters.next() {
@@ -301,7 +299,7 @@ mod tests {
         let reached = base.set_all(&overrides).unwrap_or_else(|errors| panic!("{errors}"));
         assert_eq!(reached.scene(), target.scene());
         assert!(overrides.iter().all(|(_, value)| !value.contains(['\n', '\r'])));
-        // No field is set twice, and a field that is equal in both not at all.
+        // No field is set twice, and an equal field not at all.
         let top = |path: &str| path.split('.').next().unwrap_or_default().to_string();
         for (path, _) in &overrides {
             let others = overrides.iter().filter(|(other, _)| other == path || top(path) == *other);
@@ -319,7 +317,7 @@ mod tests {
             preset in prop::sample::select(presets().to_vec()),
             name in "[^\0]{0,12}",
         ) {
-            // Take some of the parts of the base, so that the pair also shares some.
+            // Takes some parts of the base, so that the pair also shares some.
             let mut near = target.clone();
             if mixed[0] { near.title.clone_from(&base.title); }
             if mixed[1] { near.notice.clone_from(&base.notice); }

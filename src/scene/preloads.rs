@@ -1,11 +1,11 @@
-//! Preloads at equal distances.
+//! Equally spaced preloads.
 
 use std::ops::RangeInclusive;
 
 /// Numbers of preloads.
 pub const PRELOADS: RangeInclusive<usize> = 2..=512;
 
-/// Preloads at equal distances, N.
+/// Equally spaced preloads, N.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Preloads {
     from: f64,
@@ -14,8 +14,8 @@ pub struct Preloads {
 }
 
 impl Preloads {
-    /// Preloads between two forces, N, the first at least 0 and below the second; `None` for other forces, or a number
-    /// outside of [`PRELOADS`].
+    /// Preloads between two forces, N, the first at least 0 and below the second; `None` for other forces, or a
+    /// number outside [`PRELOADS`].
     #[must_use]
     pub fn new(from: f64, to: f64, count: usize) -> Option<Self> {
         let is_allowed = from >= 0.0 && to > from && to.is_finite() && PRELOADS.contains(&count);
@@ -49,7 +49,7 @@ impl Preloads {
     }
 }
 
-/// Words behind a number of preloads.
+/// Words after a number of preloads.
 const PRELOADS_OF: &str = " preloads";
 
 /// Range of forces, N, in the name of a table's content.

@@ -1,14 +1,14 @@
 //! Built-in scenes.
 
-/// Name of the scene that is opened where none is named.
+/// Name of the default scene.
 pub const DEFAULT: &str = "pressure-sensitive";
 
 /// A built-in scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Preset {
-    /// Its name, which opens it.
+    /// Name of the scene on the command line.
     pub name: &'static str,
-    /// Its text in RON.
+    /// Text in RON.
     pub text: &'static str,
 }
 
@@ -38,12 +38,12 @@ const PRESETS: &[Preset] = presets![
     "elastic-energy-above",
 ];
 
-/// All built-in scenes, in the order in which they are best looked at.
+/// All built-in scenes, in the recommended order.
 pub fn presets() -> &'static [Preset] {
     PRESETS
 }
 
-/// The built-in scene of a name.
+/// Built-in scene of this name.
 pub fn find(name: &str) -> Option<&'static Preset> {
     PRESETS.iter().find(|preset| preset.name == name)
 }

@@ -1,6 +1,6 @@
 //! Provenance of results: the version, scene and seed behind a table, written into its file.
 //!
-//! In CSV the text fills the first lines, each after `# `; in `.npy` it is an array behind that of the results.
+//! In CSV the text fills the first lines, each after `# `; in `.npy` it is an array after that of the results.
 
 use super::document::LONGEST_TEXT;
 use super::measured_hash::MeasuredHash;
@@ -13,7 +13,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Cursor, Read, Seek, SeekFrom};
 use std::path::Path;
 
-/// Begin of a comment in CSV.
+/// Prefix of a comment in CSV.
 const COMMENT: &str = "# ";
 
 /// First line of a provenance, before the version; [`PROVENANCE`] without the comment.
@@ -22,19 +22,19 @@ const PROGRAM: &str = "asperity ";
 /// Line before the scene.
 const SCENE: &str = "scene:\n";
 
-/// Content of a table of spectra, and the line before the arguments behind it, one on each line as a string of RON.
+/// Content of a table of spectra, and the line before its arguments, one on each line as a RON string.
 const SPECTRA: &str = "spectra";
 const ARGUMENTS: &str = "arguments:\n";
 
-/// Version, scene and seed behind a table; of spectra, the arguments of `asperity surface`.
+/// Version, scene and seed behind a table; for spectra, the arguments of `asperity surface`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Provenance {
     text: String,
 }
 
 impl Provenance {
-    /// Provenance of a table of a scene. Files that the scene names are relative to `folder`, and the table is written
-    /// into `destination`.
+    /// Provenance of a table of a scene. Files of the scene are relative to `folder`, and the table is written into
+    /// `destination`.
     #[must_use]
     pub fn new(content: TableContent, scene: &Scene, folder: &Path, destination: &Path) -> Self {
         let mut scene = scene.clone();
@@ -44,23 +44,23 @@ impl Provenance {
         Provenance { text }
     }
 
-    /// Provenance of the spectra that `asperity surface` computes from these arguments.
+    /// Provenance of the spectra of `asperity surface` with these arguments.
     #[must_use]
     pub fn of_spectra(arguments: &[String]) -> Self {
         let quoted: String = arguments.iter().map(|argument| format!("{argument:?}\n")).collect();
         Provenance { text: format!("{}{ARGUMENTS}{quoted}", head(SPECTRA)) }
     }
 
-    /// The same with the hashes of its measured files.
+    /// The same provenance with the hashes of its measured files.
     #[must_use]
     pub fn with_hashes(mut self, hashes: &[MeasuredHash]) -> Self {
-        // Behind the first line.
+        // After the first line.
         let place = self.text.find('\n').map_or(0, |end| end + 1);
         self.text.insert_str(place, &hashes.iter().map(MeasuredHash::line).collect::<String>());
         self
     }
 
-    /// The text: version, hashes of measured files, content and seed, a line for each, and the scene.
+    /// The text: version, hashes of measured files, content and seed, one line each, and the scene.
     #[must_use]
     pub fn text(&self) -> &str {
         &self.text
@@ -104,7 +104,7 @@ impl SpectraTable {
 pub(super) enum SceneTextError {
     /// The source cannot be read.
     Unread(ReadError),
-    /// A table without a provenance that can be read.
+    /// A table without a readable provenance.
     NoProvenance(&'static str),
 }
 
@@ -114,7 +114,7 @@ impl<E: Into<ReadError>> From<E> for SceneTextError {
     }
 }
 
-/// Text of a file: that of a scene, or the provenance of a table, of which no more than that is read.
+/// Text of a file: that of a scene, or the provenance of a table, which alone is read.
 enum Raw {
     Scene(String),
     Provenance(String),
@@ -140,7 +140,7 @@ impl Raw {
         if !is_table {
             return Ok(Raw::Scene(into_text(read_limited(whole, LONGEST_TEXT)?)?));
         }
-        // Comments of a scene of the greatest length, which has a line for each byte.
+        // Comments of a scene of the greatest length, with a line for each byte.
         let most = (LONGEST_TEXT * (1 + COMMENT.len())) as u64;
         let mut lines = BufReader::new(whole.take(most));
         let mut text = Vec::new();
@@ -165,7 +165,7 @@ impl Raw {
     }
 }
 
-/// Text of a scene, and the content of the table it comes from.
+/// Text of a scene, and the content of its table.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SceneText {
     pub text: String,
@@ -179,7 +179,7 @@ impl SceneText {
         SceneText::of_raw(Raw::of_file(path)?)
     }
 
-    /// Reads the text of a scene, or CSV with one.
+    /// Reads the text of a scene, or CSV that contains one.
     pub fn of_stream(stream: impl Read) -> Result<Self, SceneTextError> {
         SceneText::of_raw(Raw::of_stream(stream)?)
     }

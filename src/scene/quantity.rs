@@ -1,12 +1,12 @@
-//! Numbers as people type and read them: `2.5 MPa`, `10 µm`, `50 mJ/m²`.
+//! Numbers with prefixes and units: `2.5 MPa`, `10 µm`, `50 mJ/m²`.
 
 use crate::text::{SI_PREFIXES, si_prefix};
 use std::fmt;
 
-/// Digits that are written.
+/// Digits of a written number.
 const DIGITS: usize = 4;
 
-/// Units that are read: the quantity they measure, and units to choose from.
+/// Accepted units: the measured quantity, and units to choose from.
 const DIMENSIONS: &[(&str, &str, &str)] = &[
     ("m", "length", "m, mm, µm, nm"),
     ("N", "force", "N, mN, µN, nN"),
@@ -69,13 +69,12 @@ impl fmt::Display for QuantityError {
 
 impl std::error::Error for QuantityError {}
 
-/// Reads a number as typed for a field of this unit, in SI units: `50m` for J/m² is 0.05, `10um` for
-/// m is 1.0e-5.
+/// Parses a number typed for a field of this unit, in SI units: `50m` for J/m² is 0.05, `10um` for m is 1.0e-5.
 ///
-/// Unit and blanks may be left out. A lone `m` is the prefix milli, except for fields in metres,
-/// where it is the unit: there `50m` is fifty metres and `50mm` fifty millimetres. Angles may also be
-/// in degrees, `30°` or `30 deg`, and counts take `Ki`, `Mi` and `Gi` for powers of 1024. The number
-/// is the one nearest to the typed text; no digit is lost to the prefix.
+/// Unit and blanks are optional. A lone `m` is the prefix milli, except for fields in metres, where it is the unit:
+/// there `50m` is fifty metres and `50mm` fifty millimetres. Angles may also be in degrees, `30°` or `30 deg`, and
+/// counts take `Ki`, `Mi` and `Gi` for powers of 1024. The number is the one nearest to the typed text; no digit is
+/// lost to the prefix.
 ///
 /// # Errors
 ///
@@ -116,7 +115,7 @@ fn split_number(text: &str) -> Option<(&str, i32, &str)> {
         let length = unsigned.find(|c: char| !c.is_ascii_digit()).unwrap_or(unsigned.len());
         if length > 0 {
             let split = after.len() - unsigned.len() + length;
-            // An exponent of more digits than these has: whatever it is, the number is zero or too large.
+            // An exponent with more digits than this makes the number zero or too large.
             let beyond = if after.starts_with('-') { i32::MIN / 2 } else { i32::MAX / 2 };
             let exponent = after[..split].parse().unwrap_or(beyond);
             return Some((digits, exponent, &after[split..]));
@@ -125,7 +124,7 @@ fn split_number(text: &str) -> Option<(&str, i32, &str)> {
     Some((digits, 0, rest))
 }
 
-/// Power of ten and further factor of what follows a number.
+/// Power of ten and further factor of the text after a number.
 fn suffix_factor(suffix: &str, unit: &str) -> Option<(i32, f64)> {
     let suffix = canonical(suffix);
     let unit = canonical(unit);
@@ -155,26 +154,26 @@ fn canonical(unit: &str) -> String {
     unit.replace('²', "2").replace(['^', ' '], "")
 }
 
-/// SI prefixes make sense with a unit: not with the powers of a metre that a power law has.
+/// Returns true for a unit that takes SI prefixes: any but the powers of a metre of a power law.
 fn has_prefixes(unit: &str) -> bool {
     !unit.contains(['−', '('])
 }
 
-/// A value with its unit as people read it, to four digits: `2.67 MPa`, `100 nm`, `50 mJ/m²`, `0.7`.
+/// A value with its unit for readers, to four digits: `2.67 MPa`, `100 nm`, `50 mJ/m²`, `0.7`.
 ///
-/// Numbers without unit take no prefix; those much smaller or larger than one take an exponent.
+/// Numbers without unit have no prefix; those much smaller or larger than one have an exponent.
 pub fn format_quantity(value: f64, unit: &str) -> String {
-    // Rounded first, so that 999.99 becomes 1000 before its prefix is chosen.
+    // Rounded first, so that 999.99 becomes 1000 before the choice of its prefix.
     with_unit(value, &format!("{value:.*e}", DIGITS - 1), unit)
 }
 
-/// The same to fewer digits: for a value that is known less well, or has little room.
+/// The same with fewer digits, for a value of less accuracy or a narrow place.
 pub(crate) fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
     with_unit(value, &format!("{value:.*e}", digits.clamp(1, DIGITS) - 1), unit)
 }
 
-/// A value to four digits in the unit of a typed text: as `-2 µN` is typed, −1.5e-7 N is `-0.15 µN`. Where the text is no
-/// quantity, as [`format_quantity`].
+/// A value to four digits in the unit of a typed text: for the typed `-2 µN`, −1.5e-7 N is `-0.15 µN`. If the text
+/// is no quantity, as [`format_quantity`].
 pub fn quantity_as_typed(value: f64, typed: &str, unit: &str) -> String {
     let suffix = split_number(typed.trim()).map(|(_, _, suffix)| suffix.trim());
     let Some((suffix, (power, factor))) =
@@ -193,12 +192,12 @@ pub fn quantity_as_typed(value: f64, typed: &str, unit: &str) -> String {
     format!("{number} {shown}")
 }
 
-/// A value with its unit and all its digits: [`parse_quantity`] gives the same value.
+/// A value with its unit and all its digits: [`parse_quantity`] returns the same value.
 pub fn exact_quantity(value: f64, unit: &str) -> String {
     with_unit(value, &format!("{value:e}"), unit)
 }
 
-/// A value, and its decimal digits with an exponent, in the unit and prefix that people read.
+/// A value, with its decimal digits and exponent, in the usual unit and prefix.
 fn with_unit(value: f64, scientific: &str, unit: &str) -> String {
     let plain = unit == "1" || unit.is_empty();
     let unit_after = if plain { String::new() } else { format!(" {unit}") };
@@ -216,7 +215,7 @@ fn with_unit(value: f64, scientific: &str, unit: &str) -> String {
     }
 }
 
-/// A decimal mantissa times a power of ten, with an exponent where the number is much smaller or larger than one.
+/// A decimal mantissa times a power of ten, with an exponent if the number is much smaller or larger than one.
 fn decimal(mantissa: &str, exponent: i32) -> String {
     match exponent {
         -3..6 => shifted(mantissa, exponent),

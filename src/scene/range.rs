@@ -1,4 +1,4 @@
-//! Ranges of fields, in a form that checks values and that people can read.
+//! Ranges of fields: checks of values and readable text.
 
 use std::fmt;
 
@@ -50,12 +50,12 @@ pub enum Range {
         least: usize,
         /// Most characters.
         most: usize,
-        /// Line breaks are allowed.
+        /// True if line breaks are allowed.
         lines: bool,
     },
-    /// One of these, each written as a valid value.
+    /// One of these, each a valid value as text.
     Choice(&'static [&'static str]),
-    /// A list of at most `most` of these, each written as a valid value.
+    /// A list of at most `most` of these, each a valid value as text.
     List {
         /// Allowed elements.
         of: &'static [&'static str],
@@ -64,7 +64,7 @@ pub enum Range {
         /// Most elements.
         most: usize,
     },
-    /// A group of fields of its own.
+    /// A group of fields.
     Group,
 }
 
@@ -89,7 +89,7 @@ impl Range {
         Range::Whole { min, max }
     }
 
-    /// A real number is allowed; NaN and the infinities never are.
+    /// Returns true for an allowed real number; NaN and the infinities never are.
     pub fn contains(&self, value: f64) -> bool {
         let Range::Real { min, max } = *self else {
             return false;
@@ -105,7 +105,7 @@ impl Range {
         value.is_finite() && above && below
     }
 
-    /// A whole number is allowed.
+    /// Returns true for an allowed integer.
     pub fn contains_whole(&self, value: u64) -> bool {
         match *self {
             Range::Whole { min, max } | Range::Band { min, max } => (min..=max).contains(&value),
@@ -113,7 +113,7 @@ impl Range {
         }
     }
 
-    /// The smallest number, where the field is one.
+    /// The smallest number, for a numeric field.
     pub fn min(&self) -> Option<f64> {
         match *self {
             Range::Real { min, .. } => Some(min.value()),
@@ -122,7 +122,7 @@ impl Range {
         }
     }
 
-    /// The largest number, where the field is one.
+    /// The largest number, for a numeric field.
     pub fn max(&self) -> Option<f64> {
         match *self {
             Range::Real { max, .. } => Some(max.value()),
@@ -132,7 +132,7 @@ impl Range {
     }
 }
 
-/// The name with which a choice begins: `Cone` of `Cone(angle: 0.1)`, the whole text where there is none.
+/// The name at the beginning of a choice: `Cone` of `Cone(angle: 0.1)`, the whole text without one.
 pub(super) fn choice_name(choice: &str) -> &str {
     match choice.find('(') {
         Some(0) | None => choice,
@@ -140,7 +140,7 @@ pub(super) fn choice_name(choice: &str) -> &str {
     }
 }
 
-/// The part of a choice that distinguishes it from the others: its name, or the first field of a group without a name.
+/// The distinguishing part of a choice: its name, or the first field of a group without a name.
 pub(super) fn choice_key(choice: &str) -> &str {
     let choice = choice.trim();
     let key = choice_name(choice);
@@ -202,7 +202,7 @@ fn write_choices(f: &mut fmt::Formatter<'_>, choices: &[&str], last: &str) -> fm
     Ok(())
 }
 
-/// A bound as a person writes it: `0.5`, `1e13`, `π/2`.
+/// A bound in common notation: `0.5`, `1e13`, `π/2`.
 struct Number(f64);
 
 impl fmt::Display for Number {

@@ -1,4 +1,4 @@
-//! Reading the text of a scene, and saying in the scene's own terms why it cannot be read.
+//! Reader of the text of a scene, with errors in the terms of the scene.
 
 use ron::extensions::Extensions;
 
@@ -10,19 +10,19 @@ use super::range::Range;
 use super::suggest::nearest;
 use super::text::{Text, offset_of};
 
-/// Longer values than this are not repeated in messages.
+/// Longest value that is repeated in messages.
 const MOST_REPEATED: usize = 60;
 
-/// Message about text that does not begin as a scene, such as the table of an instrument.
+/// Message for text that does not begin as a scene, such as the table of an instrument.
 const NO_SCENE: &str = "a scene in ( ) is expected here; a measured surface is read by `asperity surface FILE`, and \
                         is the roughness of a scene by --set roughness=FILE";
 
-/// Reason for which text is no scene.
+/// Reason why text is no scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Unread {
-    /// Byte of the text.
+    /// Byte offset in the text.
     pub(super) offset: usize,
-    /// The error, with no origin yet.
+    /// The error, still without an origin.
     pub(super) error: SceneError,
 }
 
@@ -32,7 +32,7 @@ pub(super) fn read(text: &str) -> Result<Scene, Box<Unread>> {
     options.from_str(text).map_err(|error| Box::new(explain(text, &error)))
 }
 
-/// Error of the version that a text gives, even where the rest of the text cannot be read.
+/// Error of the version in a text, even if the rest of the text cannot be read.
 pub(super) fn wrong_version(text: &str) -> Option<Unread> {
     let outline = Text::new(text).ok()?;
     let opening = outline.opening("")?;
@@ -51,7 +51,7 @@ pub(super) fn wrong_version(text: &str) -> Option<Unread> {
     Some(Unread { offset, error: SceneError { field: "version".into(), value, allowed, ..error } })
 }
 
-/// Place and reason of the error in text that has the form of a scene.
+/// Place and reason of the error in text with the form of a scene.
 pub(crate) fn describe_error(text: &str, error: &ron::error::SpannedError) -> (usize, String) {
     let message = match &error.code {
         ron::Error::NoSuchEnumVariant { expected, found, .. } => {
@@ -72,8 +72,7 @@ pub(crate) fn describe_error(text: &str, error: &ron::error::SpannedError) -> (u
 fn place_of(text: &str, error: &ron::error::SpannedError) -> (usize, usize) {
     let start = offset_of(text, error.span.start.line, error.span.start.col);
     let end = offset_of(text, error.span.end.line, error.span.end.col).max(start);
-    // The span starts before the last thing read; where that was only blank or punctuation, what is
-    // wrong comes after it.
+    // The span starts before the last token read; if that was only blank or punctuation, the error comes after it.
     let something = |c: char| c.is_alphanumeric() || matches!(c, '"' | '\'' | '_' | '-');
     (if text[start..end].contains(something) { start } else { end }, end)
 }
@@ -86,7 +85,7 @@ fn explain(text: &str, error: &ron::error::SpannedError) -> Unread {
     }
     match Text::new(text) {
         Ok(outline) => explain_at(text, &outline, offset, &error.code),
-        // Where the reader only found the end of the text, the bracket that stays open says more.
+        // If the reader reached the end of the text, the open bracket is the better place.
         Err(unreadable) if end >= text.trim_end().len() || is_lost(&error.code) => {
             whole(unreadable.offset, unreadable.reason.into())
         }
@@ -125,7 +124,7 @@ fn explain_at(text: &str, outline: &Text, offset: usize, error: &ron::Error) -> 
     Unread { offset, error }
 }
 
-/// A single value is marked as a whole and repeated, with the values allowed there.
+/// A single value is marked as a whole and repeated, with its allowed values.
 fn explain_value(text: &str, outline: &Text, at: Unread, error: &ron::Error) -> Unread {
     let field = &at.error.field;
     let scalar = outline
@@ -136,7 +135,7 @@ fn explain_value(text: &str, outline: &Text, at: Unread, error: &ron::Error) -> 
         return Unread { error: SceneError { message: plain(error), ..at.error }, ..at };
     };
     let (allowed, message) = match known_field(outline, field) {
-        // Without quotes the contents of a text are not the error.
+        // Without quotes the content of a text is not the error.
         Some(Field { range: Range::Text { .. }, .. }) | None => (String::new(), plain(error)),
         Some(field) => (field.allowed(), field.name.to_string()),
     };
@@ -273,7 +272,7 @@ mod tests {
         assert_eq!(wrong_version("(version: 3, nonsense"), None);
     }
 
-    /// Of two mistakes the first is said, also where a bracket or quote behind it stays open.
+    /// Of two mistakes the first is reported, even if a bracket or quote after it is not closed.
     #[test]
     fn what_stops_the_reader_first_is_said() {
         let (at, .., message) = unread("(version: 1, nonsense: 2, title: \"a)");

@@ -3,7 +3,7 @@
 use super::fields::field;
 use super::model::Adhesion;
 
-/// Dimensionless parameter of roughness against adhesion.
+/// Dimensionless roughness-adhesion parameter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RoughnessParameter {
     /// κ = √(h⟨∇z⟩E*/γ), eq. (11).
@@ -18,7 +18,7 @@ impl RoughnessParameter {
     pub const ALL: [RoughnessParameter; 2] =
         [RoughnessParameter::Kappa, RoughnessParameter::ElasticEnergyRatio];
 
-    /// Path of the scene's field.
+    /// Path of the field in a scene.
     #[must_use]
     pub const fn path(self) -> &'static str {
         match self {
@@ -39,7 +39,7 @@ impl RoughnessParameter {
         field(self.path(), None).map_or("", |field| field.symbol)
     }
 
-    /// The parameter of a name or of the path of its field.
+    /// The parameter with this name or path of its field.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|parameter| [parameter.name(), parameter.path()].contains(&name))
@@ -54,7 +54,7 @@ impl RoughnessParameter {
         }
     }
 
-    /// Value of the parameter at this energy per area over the work of adhesion.
+    /// Value of the parameter for this energy per area over the work of adhesion.
     #[must_use]
     pub fn of_energy_over_work(self, ratio: f64) -> f64 {
         match self {
@@ -65,14 +65,14 @@ impl RoughnessParameter {
 }
 
 impl Adhesion {
-    /// The parameter that the adhesion is given by, and its value; the first where there are two.
+    /// The parameter that specifies the adhesion, and its value; the first of two.
     #[must_use]
     pub fn parameter(&self) -> Option<(RoughnessParameter, f64)> {
         let mut given = RoughnessParameter::ALL.into_iter().zip([self.kappa, self.elastic_energy_ratio]);
         given.find_map(|(parameter, value)| Some((parameter, value?)))
     }
 
-    /// The same adhesion with this value of a parameter in place of the work of adhesion.
+    /// The same adhesion by this value of a parameter instead of the work of adhesion.
     #[must_use]
     pub fn with_parameter(self, parameter: RoughnessParameter, value: f64) -> Self {
         let mut changed = Adhesion { work: None, kappa: None, elastic_energy_ratio: None, ..self };
@@ -83,7 +83,7 @@ impl Adhesion {
         changed
     }
 
-    /// The same adhesion with this κ in place of the work of adhesion.
+    /// The same adhesion by this κ instead of the work of adhesion.
     #[must_use]
     pub fn with_kappa(self, kappa: f64) -> Self {
         self.with_parameter(RoughnessParameter::Kappa, kappa)

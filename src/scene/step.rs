@@ -11,15 +11,15 @@ const FINE_SERIES: &[f64] = &[
 ];
 const COARSE_SERIES: &[f64] = &[1.0, 2.0, 5.0];
 
-/// Values closer than this to a member of a series are that member.
+/// Relative distance below which a value is a member of a series.
 const SAME: f64 = 1e-9;
 
 impl Field {
-    /// The value `steps` key presses away from `value`, both as written in a scene; `None` where there is no other: at
-    /// the end of the range, or where the field is only typed.
+    /// The value `steps` key presses away from `value`, both as in a scene file; `None` if there is no other: at
+    /// the end of the range, or for a field that is only typed.
     ///
-    /// Numbers stay inside the field's range. Choices form a circle, with `None` as one of them where the field may be
-    /// left out, and without those that require a text.
+    /// Numbers stay inside the range of the field. Choices form a circle, including `None` for an optional field,
+    /// and without those that require a text.
     pub fn stepped(&self, value: &str, steps: i32, coarse: bool) -> Option<String> {
         if steps == 0 {
             return None;
@@ -84,7 +84,7 @@ impl Field {
         let Range::Choice(choices) = self.range else {
             return None;
         };
-        // A text such as the name of a file is not invented; where it is required the choice is only typed.
+        // A text such as a file name cannot be stepped to; a choice that requires one is only typed.
         let is_stepped = |choice: &&str| {
             let mut fields = fields_inside(self.path, Some(choice_name(choice)));
             !fields.any(|field| field.default.is_empty() && matches!(field.range, Range::Text { .. }))
@@ -102,13 +102,13 @@ fn number(text: &str) -> Option<f64> {
     ron::from_str(text).ok().filter(|value: &f64| value.is_finite())
 }
 
-/// A multiple of `unit` without the dust of binary arithmetic: 0.71, not 0.7100000000000001.
+/// A multiple of `unit` without rounding errors of binary arithmetic: 0.71, not 0.7100000000000001.
 fn decimal(value: f64, unit: f64) -> f64 {
     let digits = (-unit.log10()).ceil().max(0.0) as usize;
     format!("{value:.digits$}").parse().unwrap_or(value)
 }
 
-/// The next power of two above or below, `times` times.
+/// The power of two `times` steps above or below.
 fn doubled(value: u64, times: i32) -> u64 {
     (0..times.unsigned_abs().min(64)).fold(value, |value, _| match value {
         value if times > 0 => value.saturating_add(1).checked_next_power_of_two().unwrap_or(u64::MAX),

@@ -1,11 +1,11 @@
-//! The nearest of a list of names to one that is not in it.
+//! The name of a list that is nearest to an unknown one.
 
-/// Longer names than this are not compared; nobody mistypes them.
+/// Longest name that is compared; longer ones are not mistyped.
 const LONGEST: usize = 64;
 
-/// The nearest name, where it is near enough to be what was meant.
+/// The nearest name, if it is near enough to be the intended one.
 ///
-/// A name may also be meant by its last component: `hurst` means `roughness.hurst`.
+/// The last component of a name suffices: `hurst` means `roughness.hurst`.
 pub(crate) fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
     if name.is_empty() || name.len() > LONGEST {
         return None;
@@ -13,7 +13,7 @@ pub(crate) fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) 
     let short = last(name);
     let near = |candidate: &'n str| {
         let whole = near_enough(name, candidate).map(|far| 2 * far);
-        // A match of the last component alone counts a little less than one of the whole.
+        // A match of the last component alone counts slightly less than one of the whole.
         let end = near_enough(short, last(candidate)).map(|far| 2 * far + 1);
         Some((whole.into_iter().chain(end).min()?, candidate))
     };
@@ -24,7 +24,7 @@ fn last(path: &str) -> &str {
     path.rsplit('.').next().unwrap_or(path)
 }
 
-/// The distance, where no more than a third of the name is wrong.
+/// The distance, if at most a third of the name is wrong.
 fn near_enough(name: &str, candidate: &str) -> Option<usize> {
     let far = distance(name, candidate);
     (far <= (name.chars().count() / 3).max(1)).then_some(far)

@@ -1,8 +1,8 @@
-//! Effects of a document switched off and on, and the two ways to give adhesion.
+//! Effects of a document switched off and on, and the specifications of adhesion.
 //!
-//! Amplitude of the roughness, work of adhesion and κ or e_el/γ determine each other, so that switching one of them off may need a
-//! value in place of another. That value follows from the profile, which this room does not know: the caller has it from
-//! the computed scene. Switching on undoes the edits of switching off.
+//! Amplitude of the roughness, work of adhesion and κ or e_el/γ determine each other, so that switching one of them
+//! off may require a replacement value. That value follows from the profile, which this module does not know: the
+//! caller passes it from the computed scene. Switching on undoes the edits of switching off.
 
 use super::computed::Computed;
 use super::document::{Document, pair};
@@ -13,15 +13,15 @@ use super::roughness_parameter::RoughnessParameter;
 use super::text::{Text, ron_float};
 
 impl Document {
-    /// This document without an effect; the same where the effect is off.
+    /// This document without an effect; unchanged if the effect is off.
     ///
-    /// Without roughness, adhesion by κ or e_el/γ becomes adhesion by work. Without adhesion, roughness whose amplitude adhesion
-    /// has set keeps the amplitude as an rms height. `computed` has these values for this scene. Without unloading,
-    /// loading stages that may pull are left out, and those that are certain to be passed on the way to a larger force.
+    /// Without roughness, adhesion by κ or e_el/γ becomes adhesion by work. Without adhesion, roughness with
+    /// an amplitude set by adhesion keeps it as an rms height. `computed` has these values for this scene. Without
+    /// unloading, stages that may pull are removed, and those certain to be passed on the way to a larger force.
     ///
     /// # Errors
     ///
-    /// A value that must replace another is not in `computed`, or is not allowed.
+    /// A replacement value is not in `computed`, or is invalid.
     pub fn without(&self, effect: Effect, computed: &Computed) -> Result<Document, SceneErrors> {
         let scene = self.scene();
         if !effect.is_on(scene) {
@@ -39,15 +39,15 @@ impl Document {
         self.switch_off(effect, &overrides, computed)
     }
 
-    /// This document with an effect; the same where the effect is on.
+    /// This document with an effect; unchanged if the effect is on.
     ///
-    /// Undoes the edits that have switched the effect off: the text is as it was before, but for values that have been
-    /// changed since, loading stages among them. Where no edit has, or the effect as it was is not allowed any more, it is
-    /// one that suits the scene.
+    /// Undoes the edits that switched the effect off: the text is as before, but for values changed since, loading
+    /// stages among them. If there is no such edit, or the earlier effect is no longer valid, the effect is set to
+    /// suit the scene.
     ///
     /// # Errors
     ///
-    /// The scene leaves no room for the effect, such as roughness on a single spring.
+    /// The effect is impossible in the scene, such as roughness on a single spring.
     pub fn with(&self, effect: Effect) -> Result<Document, SceneErrors> {
         if effect.is_on(self.scene()) {
             return Ok(self.clone());
@@ -58,12 +58,12 @@ impl Document {
         }
     }
 
-    /// This document with adhesion of this work, J/m². The field is set where adhesion is given by
-    /// work; adhesion given otherwise, and none, become adhesion by work.
+    /// This document with adhesion of this work, J/m². Sets the field of adhesion by work; any other
+    /// adhesion, and none, becomes adhesion by work.
     ///
     /// # Errors
     ///
-    /// The work is not allowed.
+    /// An invalid work of adhesion.
     pub fn with_work_of_adhesion(&self, work: f64) -> Result<Document, SceneErrors> {
         match self.scene().adhesion {
             Some(Adhesion { work: Some(_), .. }) => self.set("adhesion.work", &ron_float(work)),
@@ -71,13 +71,13 @@ impl Document {
         }
     }
 
-    /// This document with adhesion of this κ or e_el/γ. The field is set where adhesion is given by the parameter;
-    /// adhesion given otherwise, and none, become adhesion by the parameter. A work of adhesion that sets the amplitude of
-    /// the roughness together with the other parameter stays.
+    /// This document with adhesion of this κ or e_el/γ. Sets the field of adhesion by this parameter; any other
+    /// adhesion, and none, becomes adhesion by the parameter. A work of adhesion that sets the amplitude of the
+    /// roughness together with the other parameter is kept.
     ///
     /// # Errors
     ///
-    /// The value is not allowed, or there is no roughness.
+    /// An invalid value, or a scene without roughness.
     pub fn with_parameter(&self, parameter: RoughnessParameter, value: f64) -> Result<Document, SceneErrors> {
         match self.scene().adhesion.and_then(|adhesion| adhesion.parameter()) {
             Some((given, _)) if given == parameter => self.set(parameter.path(), &ron_float(value)),
@@ -91,7 +91,7 @@ impl Document {
         }
     }
 
-    /// The list at a path with these of its elements alone, as they are written.
+    /// The list at a path reduced to these elements, as written.
     fn only(&self, path: &str, elements: &[usize]) -> (String, String) {
         let list = self.value(path).unwrap_or_default();
         let all = Text::new(list).ok().and_then(|text| text.elements()).unwrap_or_default();
@@ -222,7 +222,7 @@ mod tests {
     #[test]
     fn effects_come_anew_as_they_suit_the_scene() {
         let bare = Effect::ALL.into_iter().fold(document(), |document, effect| off(&document, effect));
-        // Opened anew, the scene remembers no earlier effects.
+        // A document opened anew has no record of earlier effects.
         let bare = Document::parse(bare.text(), "bare").unwrap();
         let value = |document: &Document, effect: Effect| {
             document.with(effect).unwrap().value(effect.path()).unwrap().to_string()
@@ -238,7 +238,7 @@ mod tests {
         assert_eq!(value(&bare.set("roughness", rough).unwrap(), Effect::Adhesion), "(kappa: 2.0)");
         let sphere = bare.with(Effect::Form).unwrap().set("numerics.points", "40").unwrap();
         assert!(value(&sphere, Effect::Roughness).contains("modes: (4, 5)"));
-        // An observer that is listed twice makes room.
+        // An observer that is listed twice leaves a free place.
         let twice = bare.set("observe", "[Fragments, Fragments]").unwrap();
         assert_eq!(value(&twice, Effect::HeightHistogram), "[Fragments, HeightHistogram]");
         // One spring carries no wave at all.
@@ -257,7 +257,7 @@ mod tests {
         );
         let too_much = Computed { work_of_adhesion: Some(f64::INFINITY), ..Computed::default() };
         assert!(document().without(Effect::Roughness, &too_much).is_err());
-        // Given work is used as it is.
+        // A given work is used unchanged.
         let both = document().set("roughness.rms_height", "None").unwrap_err();
         assert!(both.to_string().contains("the amplitude is missing"));
         let set = [pair("roughness.rms_height", "None"), pair("adhesion.work", "0.1")];
@@ -278,7 +278,7 @@ mod tests {
         assert_eq!(adhesion(&back(&typed)), (Some(0.3), None));
         let unrelated = smooth.set("length", "2.0e-4").unwrap();
         assert_eq!(adhesion(&back(&unrelated)), (None, Some(6.0)));
-        // Where κ had set the amplitude, it sets it again.
+        // If κ had set the amplitude, κ sets it again.
         let set = [pair("roughness.rms_height", "None"), pair("adhesion.work", "0.1")];
         let both = document.set_all(&set).unwrap();
         let stickier = off(&both, Effect::Roughness).with_work_of_adhesion(0.2).unwrap();
@@ -286,7 +286,7 @@ mod tests {
         let none = off(&stickier, Effect::Adhesion);
         let rough = back(&none);
         assert_eq!((adhesion(&rough), rough.value("roughness.rms_height")), ((None, None), Some("1.5e-7")));
-        // Other legs that press are kept.
+        // Other stages that press are kept.
         let held = off(&document, Effect::Unloading).set("loading.0", "ToForce(3.0e-5)").unwrap();
         let pulled = held.with(Effect::Unloading).unwrap();
         assert_eq!(pulled.scene().loading, [Leg::ToForce(3e-5), Leg::ToSeparation]);
@@ -368,7 +368,7 @@ mod tests {
             (adhesion(&back), back.value("roughness.rms_height")),
             ((Some(0.1), Some(6.0)), Some("None"))
         );
-        // An amplitude that has been given since stays, and κ follows from it and from the same work of adhesion.
+        // A later amplitude is kept, and κ follows from it and from the same work of adhesion.
         let rougher = without.set("roughness.rms_height", "3.0e-7").unwrap();
         let back = rougher.with(Effect::Adhesion).unwrap();
         assert_eq!(
@@ -395,7 +395,7 @@ mod tests {
             adhesion(&off(&work, Effect::Adhesion).with_parameter(RoughnessParameter::Kappa, 3.0).unwrap()),
             (None, Some(3.0))
         );
-        // Where both are given, because they set the amplitude, both stay.
+        // If both are given, because they set the amplitude, both are kept.
         let set = [pair("roughness.rms_height", "None"), pair("adhesion.work", "0.1")];
         let both = document.set_all(&set).unwrap();
         assert_eq!(
@@ -448,8 +448,8 @@ mod tests {
             }
         }
 
-        /// For the table of effects and that of fields alike: an edit made without an effect gives, once the effect is on
-        /// again, the scene of the same edit made with it.
+        /// For the tables of effects and of fields alike: an edit without an effect results, once the effect is on
+        /// again, in the scene of the same edit with the effect.
         #[test]
         fn switching_an_effect_on_undoes_that_switch_alone(
             scene in sound_scenes(),
@@ -481,7 +481,7 @@ mod tests {
             }
         }
 
-        /// Loading stages that pull come back around those that press, whatever these are by then.
+        /// Stages that pull return around those that press, after any change of these.
         #[test]
         fn stages_that_pull_come_back_around_edited_ones(scene in sound_scenes(), other in sound_scenes()) {
             prop_assume!(Effect::Unloading.is_on(&scene));

@@ -1,4 +1,4 @@
-//! Content of a table of results: the part of a computation that the table holds.
+//! Content of a table of results: its part of a computation.
 
 use super::preloads::{PRELOADS, Preloads, force_range, parse_force_range};
 
@@ -11,26 +11,26 @@ pub enum TableContent {
     ApproximateJkr,
     /// Positions and heights of the profile.
     Profile,
-    /// Figures of random profiles, a row for each.
+    /// Figures of random profiles, one row each.
     RandomProfiles(u32),
-    /// Adhesion forces for preloads, on the profile of the scene or on so many random profiles.
+    /// Adhesion forces for preloads, on the profile of the scene or on this number of random profiles.
     Preloads(Preloads, Option<u32>),
     /// Reversals of one loading.
     Reversals(ReversalContent),
 }
 
-/// Reversals in a table: a row for each turning point, or for each point of their map.
+/// Reversals in a table: one row for each turning point, or for each point of their map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReversalContent {
     /// Number of turning points.
     pub count: u16,
     /// Forces at the first and the last turning point, N; `None`: from first touch to the preload of the scene.
     pub forces: Option<(f64, f64)>,
-    /// Steps on either side over which the density of a map is fitted; `None`: a row for each turning point.
+    /// Steps on either side over which the density of a map is fitted; `None`: one row for each turning point.
     pub map_smoothing: Option<u8>,
 }
 
-/// Words behind a number of reversals, before the smoothing of their map, and behind that.
+/// Words after a number of reversals: before the smoothing of their map, and after it.
 const REVERSALS: &str = " reversals";
 const MAP: &str = ", map of densities over ";
 const STEPS: &str = " steps";
@@ -56,7 +56,7 @@ impl ReversalContent {
     }
 }
 
-/// Words behind a number of random profiles, and before that number behind preloads.
+/// Words after a number of random profiles, and before that number in a table of preloads.
 const RANDOM_PROFILES: &str = " random profiles";
 const ON: &str = " on ";
 

@@ -1,4 +1,4 @@
-//! Values of fields as people type them, in `--set` and in the explorer alike.
+//! Typed values of fields, in `--set` and in the explorer alike.
 
 use super::field::Field;
 use super::fields::FILE_NAME;
@@ -6,16 +6,16 @@ use super::quantity::{QuantityError, parse_quantity};
 use super::range::Range;
 use super::text::{ron_float, ron_string};
 
-/// Whole numbers from here on are not all exact as floating-point numbers.
+/// Integers from here on are not all exact as floating-point numbers.
 const MOST_EXACT: f64 = 9.0e15;
 
 impl Field {
-    /// The value as RON: a number may have an SI prefix and the unit of the field, `50 mJ/m²` or `16k`. The name of a file
-    /// needs no quotes, and as a roughness it is that of a measured surface, with its equivalent line. Any other text is
-    /// the same, blanks around it aside.
+    /// The value in RON: a number may have an SI prefix and the unit of the field, `50 mJ/m²` or `16k`. The name of
+    /// a file needs no quotes, and as a roughness becomes a measured surface with its equivalent line. Any other
+    /// text is unchanged but for surrounding blanks.
     ///
     /// # Errors
-    /// Text that begins as a number and goes on as another unit, or a number that is too large.
+    /// Text that begins as a number and continues as another unit, or a number that is too large.
     pub fn read_typed(&self, typed: &str) -> Result<String, QuantityError> {
         let typed = typed.trim();
         if self.path == "roughness" && is_file_name(typed) {
@@ -42,7 +42,7 @@ impl Field {
     }
 }
 
-/// Returns true for a name with an ending or a folder, as no choice of a field has.
+/// Returns true for a name with an ending or a folder, unlike any choice of a field.
 fn is_file_name(typed: &str) -> bool {
     typed.contains(['.', '/', '\\']) && !typed.contains(['(', '"'])
 }

@@ -1,10 +1,10 @@
-//! Edits that a document remembers, so that they can be undone one by one, whatever has been edited since.
+//! Recorded edits of a document, which can be undone one by one after any later edits.
 
 use super::computed::Computed;
 use super::effects::Effect;
 use super::text::Text;
 
-/// An effect that edits have switched off, with the edits that bring it back when undone.
+/// An effect switched off by edits, with the edits whose undoing restores it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SwitchedOff {
     pub(super) effect: Effect,
@@ -17,22 +17,22 @@ pub(super) struct SwitchedOff {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Edit {
     pub(super) path: String,
-    /// Value before, as written; `None` where the text had no such entry.
+    /// Value before, as written; `None` if the text had no such entry.
     before: Option<String>,
     /// Value after.
     after: Option<String>,
 }
 
 impl Edit {
-    /// The change at a path from one text to another; `None` where the value is written the same way.
+    /// The change at a path from one text to another; `None` for identical values.
     pub(super) fn between(before: &str, after: &str, path: &str) -> Option<Edit> {
         let written = |text| Text::new(text).ok()?.written(path).map(str::to_string);
         let (before, after) = (written(before), written(after));
         (before != after).then(|| Edit { path: path.to_string(), before, after })
     }
 
-    /// The text with the value before; `None` where the value has been changed since and no part of the edit can be
-    /// undone. Of a list or a group, elements that have been changed since stay changed.
+    /// The text with the value before; `None` if the value has been changed since and no part of the edit can be
+    /// undone. Elements of a list or a group changed since are kept.
     pub(super) fn undone(&self, text: &str) -> Option<String> {
         let read = Text::new(text).ok()?;
         let present = read.written(&self.path);
@@ -48,8 +48,7 @@ impl Edit {
     }
 }
 
-/// The group before an edit, with the changes that have been made to its fields after the edit; `None` where one of them is
-/// no group.
+/// The group before an edit, with the later changes of its fields; `None` if one of the values is no group.
 fn merged_group(before: &str, after: &str, present: &str) -> Option<String> {
     let (edited, now) = (Text::new(after).ok()?, Text::new(present).ok()?);
     let names = [Text::new(before).ok()?.names()?, edited.names()?, now.names()?].concat();
@@ -68,13 +67,13 @@ fn merged_group(before: &str, after: &str, present: &str) -> Option<String> {
     Some(group)
 }
 
-/// The list before an edit that has left elements out, with the changes that have been made to the list after the edit;
-/// `None` where one of them is no list, or the edit has done more than leaving out.
+/// The list before an edit that has removed elements, with the later changes of the list; `None` if one of the
+/// values is no list, or the edit has done more than remove elements.
 fn merged_list(before: &str, after: &str, present: &str) -> Option<String> {
     let elements = |list| Text::new(list).ok()?.elements();
     let (all, kept, now): (Vec<&str>, Vec<&str>, Vec<&str>) =
         (elements(before)?, elements(after)?, elements(present)?);
-    // Places of the elements that the edit has left.
+    // Places of the elements left by the edit.
     let mut left = kept.iter().peekable();
     let places: Vec<usize> =
         (0..all.len()).filter(|place| left.next_if_eq(&&all[*place]).is_some()).collect();
@@ -86,7 +85,7 @@ fn merged_list(before: &str, after: &str, present: &str) -> Option<String> {
     let shorter = kept.len().min(now.len()) - start;
     let end = kept.iter().rev().zip(now.iter().rev()).take(shorter).take_while(is_same).count();
     let (gone, come) = (&places[start..places.len() - end], &now[start..now.len() - end]);
-    // Elements that take the place of each one.
+    // Elements that replace each one.
     let mut slots: Vec<Vec<&str>> = all.iter().map(|element| vec![*element]).collect();
     if gone.len() == come.len() {
         gone.iter().zip(come).for_each(|(place, element)| slots[*place] = vec![*element]);
@@ -100,10 +99,10 @@ fn merged_list(before: &str, after: &str, present: &str) -> Option<String> {
     with_slots(before, &slots)
 }
 
-/// A list with other elements in the place of each one.
+/// A list with each element replaced by others.
 fn with_slots(list: &str, slots: &[Vec<&str>]) -> Option<String> {
     let mut list = list.to_string();
-    // From the end, so that places before stay what they are.
+    // From the end, so that earlier places remain valid.
     for (place, slot) in slots.iter().enumerate().rev() {
         let (text, path) = (Text::new(&list).ok()?, place.to_string());
         let span = text.span(&path)?.value;

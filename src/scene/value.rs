@@ -1,4 +1,4 @@
-//! Values of a scene's fields, read and written one by one.
+//! Values of the fields of a scene: reading and writing one by one.
 
 use super::form::Form;
 use super::model::{Adhesion, Edges, Leg, Material, Numerics, Observer, Roughness, Scene, Solver};
@@ -7,7 +7,7 @@ use crate::spectrum::Detrend;
 /// Value of a field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Value<'s> {
-    /// An optional field that is left out.
+    /// An omitted optional field.
     None,
     /// Real number.
     Real(f64),
@@ -27,22 +27,22 @@ pub enum Value<'s> {
     Observers(&'s [Observer]),
 }
 
-/// Access to one field of a scene; [`at!`] makes it.
+/// Access to one field of a scene; made by [`at!`].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Access {
-    /// Value in a scene; `None` where the field belongs to a choice that the scene does not make.
+    /// Value in a scene; `None` if the field belongs to an unselected choice.
     pub(super) get: fn(&Scene) -> Option<Value<'_>>,
-    /// Gives the field a value; `false`, with the scene as it was, where the scene or the field has no such value.
+    /// Sets the field; returns `false`, with the scene unchanged, if the scene or the field has no such value.
     pub(super) set: fn(&mut Scene, Value<'_>) -> bool,
 }
 
 impl Access {
-    /// Access to nothing, for what is no field of every scene.
+    /// Access to nothing, for fields of loading stages, which not every scene has.
     pub(super) const NONE: Access = Access { get: |_| None, set: |_, _| false };
 }
 
-/// Row of a field with path and access: of a member of the scene, `at!(numerics.points)`; of a member of a group that is
-/// made where it is missing, `at!(adhesion?.work)`; of a member of a variant, which may be left out or not,
+/// Row of a field with path and access: of a member of the scene, `at!(numerics.points)`; of a member of a group that
+/// is made if missing, `at!(adhesion?.work)`; of a member of a variant, optional or not,
 /// `at!(form?, Form::Cone.angle)` and `at!(numerics.solver, Solver::Stepwise.step)`.
 macro_rules! at {
     ($group:ident ? . $member:ident) => {
@@ -99,11 +99,11 @@ pub(super) use at;
 
 /// A type of the scene's members.
 pub(super) trait Part: Sized {
-    /// The value it holds.
+    /// The contained value.
     fn get(&self) -> Value<'_>;
     /// The part with this value; `None` for a value of another kind.
     fn from_value(value: Value<'_>) -> Option<Self>;
-    /// Takes a value of its kind; `false` for one of another kind.
+    /// Sets a value of the same kind; returns `false` for one of another kind.
     fn set(&mut self, value: Value<'_>) -> bool {
         Self::from_value(value).map(|made| *self = made).is_some()
     }
@@ -119,8 +119,8 @@ impl<T: Part> Part for Option<T> {
     }
 }
 
-/// Types that hold one kind of value: how it is read, and how it is made of the value. A choice or a group is only read
-/// as a whole; its parts are fields of their own.
+/// Types with one kind of value: conversion to the value and from the value. A choice or a group is only read as a
+/// whole; its parts are fields of their own.
 macro_rules! parts {
     ($($type:ty: $part:ident => $get:expr, $kind:pat => $made:expr;)+) => {$(
         impl Part for $type {

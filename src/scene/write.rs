@@ -1,4 +1,4 @@
-//! Writing a scene as RON: every field that differs from its default, in the order of the table.
+//! Writing of a scene in RON: every field that differs from its default, in the order of the table.
 
 use super::field::Field;
 use super::fields::fields_inside;
@@ -6,15 +6,15 @@ use super::model::{Leg, Observer, Scene};
 use super::text::{ron_float, ron_string};
 use super::value::Value;
 
-/// The scene as canonical RON text, ending in a line break; reading the text gives the same scene.
+/// The scene as canonical RON text, ending in a line break; parsing the text returns the same scene.
 pub fn to_ron(scene: &Scene) -> String {
     let lines: String = entries("", None, scene).map(|entry| format!("    {entry},\n")).collect();
     format!("(\n{lines})\n")
 }
 
 impl Field {
-    /// Value in a scene as RON, `None` for an optional field that is left out. Nothing where the field belongs to a
-    /// choice that the scene does not make.
+    /// Value in a scene as RON, the text `None` for an omitted optional field. No value if the field belongs to an
+    /// unselected choice.
     pub fn written(&self, scene: &Scene) -> Option<String> {
         Some(match self.get(scene)? {
             Value::None => "None".to_string(),
@@ -44,12 +44,12 @@ fn entries(path: &str, variant: Option<&str>, scene: &Scene) -> impl Iterator<It
     })
 }
 
-/// Loading stages as RON.
+/// Loading stages in RON.
 pub(super) fn legs(legs: &[Leg]) -> String {
     list(legs.iter().map(leg))
 }
 
-/// Observed quantities as RON.
+/// Observed quantities in RON.
 pub(super) fn observers(observers: &[Observer]) -> String {
     list(observers.iter().map(|observer| format!("{observer:?}")))
 }
@@ -58,7 +58,7 @@ fn list(items: impl Iterator<Item = String>) -> String {
     format!("[{}]", items.collect::<Vec<_>>().join(", "))
 }
 
-/// One loading stage as RON.
+/// One loading stage in RON.
 pub(super) fn leg(leg: &Leg) -> String {
     match (leg.target(), leg) {
         (Some((field, value)), _) => format!("{}({})", field.variant.unwrap_or_default(), ron_float(value)),

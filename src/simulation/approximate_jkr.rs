@@ -5,18 +5,18 @@ use crate::analysis::ApproximateJkr;
 use crate::contact::{ContactError, History, nonadhesive_curve};
 use crate::scene::Scene;
 
-/// Contacts without adhesion of the curve.
+/// Number of contacts without adhesion for the curve.
 const POINTS: usize = 256;
-/// Bisections of the largest one.
+/// Bisections for the largest contact.
 const BISECTIONS: usize = 40;
 
 impl Simulation {
-    /// Approximate JKR solution of a checked scene, up to the largest contact length of its computed loading. Of two
-    /// works of adhesion that of opening counts.
+    /// Approximate JKR solution of a checked scene, up to the largest contact length of its computed loading. Of
+    /// two works of adhesion, that of opening is used.
     ///
     /// # Errors
-    /// [`RunError::NoApproximateJkr`] without adhesion, contact or growth of the contact; when the profile fails, memory
-    /// is short or `stop` says so.
+    /// [`RunError::NoApproximateJkr`] without adhesion, contact or growth of the contact; a failure of the profile,
+    /// insufficient memory or a stop.
     pub fn approximate_jkr(
         &mut self,
         scene: &Scene,
@@ -43,7 +43,7 @@ impl Simulation {
             let is_short = contact(&[middle])?.iter().any(|point| point.contact_length < longest);
             (low, high) = if is_short { (middle, high) } else { (low, middle) };
         }
-        // The contact of a sphere grows evenly from point to point.
+        // The contact of a sphere then grows evenly from point to point.
         let at = |index: usize| high * (index as f64 / POINTS as f64).powi(2);
         let mut points = Vec::with_capacity(POINTS + 1);
         for index in 0..=POINTS {

@@ -1,4 +1,4 @@
-//! The contact stage of a run: the loading by the solver of the scene and, beside it, F_a(0).
+//! The contact stage of a run: the loading by the solver of the scene and F_a(0).
 
 use super::AfterLeg;
 use crate::analysis::Figures;
@@ -20,7 +20,7 @@ pub(super) struct ContactStage<'a> {
     pub stop: &'a dyn Fn() -> bool,
 }
 
-/// Memory that one run leaves to the next.
+/// Memory reused from run to run.
 pub(super) type ContactMemory = AdhesiveMemory;
 
 /// Result of the contact stage.
@@ -28,14 +28,14 @@ pub(super) struct Contacted {
     pub history: History,
     /// Seconds spent on curves and extremes.
     pub curve_seconds: f64,
-    /// F_a(0), N, if it was asked for and the contact of first touch pulls.
+    /// F_a(0), N, if requested and if the contact of first touch pulls.
     pub zero_load_adhesion_force: Option<f64>,
-    /// Seconds the run took longer for it.
+    /// Additional seconds of the run for F_a(0).
     pub zero_load_seconds: f64,
 }
 
 impl ContactStage<'_> {
-    /// Runs the loading of the scene with its solver, and the touch protocol if F_a(0) is asked for.
+    /// Runs the loading of the scene with its solver, and the touch protocol if F_a(0) is requested.
     pub fn run(
         &self,
         zero_load: bool,
@@ -65,7 +65,7 @@ impl ContactStage<'_> {
                         let clock = Instant::now();
                         let (force, work) = body.pull_off_at_touch()?;
                         contacted.history.work.add_effort(&work);
-                        // Not −F: that would make a force of zero negative.
+                        // Not −F, which would make a force of zero negative.
                         contacted.zero_load_adhesion_force =
                             Some(force).filter(|&force| force <= 0.0).map(|force| 0.0 - force);
                         contacted.zero_load_seconds = clock.elapsed().as_secs_f64();
@@ -78,7 +78,7 @@ impl ContactStage<'_> {
         }
     }
 
-    /// The separated body of the exact solver; under adhesion it works in this memory.
+    /// The separated body of the exact solver; with adhesion it works in this memory.
     pub fn body(&self, memory: &mut ContactMemory) -> Exact<'_> {
         let numerics = &self.scene.numerics;
         let adhesion = self.hess.zip(self.tree);
@@ -108,7 +108,7 @@ impl ContactStage<'_> {
         })
     }
 
-    /// The fragments in contact where a leg ended.
+    /// The fragments in contact at the end of a loading stage.
     pub fn fragments_after(&self, record: &LegRecord, solver: &dyn Solver) -> Vec<(usize, usize)> {
         match record.curve.last() {
             Some(end) if end.springs > 0 => {
@@ -118,7 +118,7 @@ impl ContactStage<'_> {
         }
     }
 
-    /// Springs under the body counted from the first spring of the foundation.
+    /// Springs under the body, numbered from the first spring of the foundation.
     fn on_foundation(&self, (first, last): (usize, usize)) -> (usize, usize) {
         (first + self.line.first, last + self.line.first)
     }

@@ -1,10 +1,10 @@
-//! Reasons for which a scene could not be computed.
+//! Reasons why a scene could not be computed.
 
 use crate::contact::ContactError;
 use crate::surface::SurfaceError;
 use thiserror::Error;
 
-/// Reason for which a checked scene could not be computed.
+/// Reason why a checked scene could not be computed.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum RunError {
     /// The scene does not fit into memory.
@@ -13,13 +13,13 @@ pub enum RunError {
         bytes.div_ceil(1 << 20)
     )]
     OutOfMemory {
-        /// Bytes it takes.
+        /// Required bytes.
         bytes: u64,
     },
-    /// The line could not be made.
+    /// The profile could not be made.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
-    /// Reversals under the stepwise solver.
+    /// Reversals with the stepwise solver.
     #[error("numerics.solver = Stepwise: reversals need the exact solver; allowed: numerics.solver = Exact")]
     NeedsExactSolver,
     /// Turning points of a loading that does not press.

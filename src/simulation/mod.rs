@@ -1,4 +1,4 @@
-//! From a scene to its curve: the stages, which of them a scene calls for, and what they give.
+//! From a scene to its force curve: the stages, their selection by the scene, and their results.
 
 mod approximate_jkr;
 mod contact_stage;

@@ -5,38 +5,38 @@ use crate::contact::History;
 use crate::surface::Histogram;
 use serde::Serialize;
 
-/// Everything computed for one scene.
+/// All results of one scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
-    /// The line.
+    /// Facts about the profile.
     pub line: LineFacts,
-    /// Governing parameters, worked out.
+    /// Governing parameters.
     pub governing: Governing,
     /// Ideal adhesion force F_a,max, eq. (14), N; `None` without adhesion.
     pub ideal_adhesion_force: Option<f64>,
     /// Adhesion force of the same body without roughness (closed form), N; `None` without adhesion.
     pub smooth_adhesion_force: Option<f64>,
-    /// Adhesion force F_a(0) by the touch protocol, N; `None` without adhesion or a leg back.
+    /// Adhesion force F_a(0) by the touch protocol, N; `None` without adhesion or an unloading stage.
     pub zero_load_adhesion_force: Option<f64>,
     /// Tabor number μ; `None` without adhesion or radius of curvature.
     pub tabor_number: Option<f64>,
-    /// Regime of Fig. 4; `None` where nothing is pulled.
+    /// Regime of Fig. 4; `None` without a tensile force.
     pub regime: Option<Regime>,
     /// Headline figures of the loading history.
     pub figures: Figures,
     /// The loading history itself.
     pub history: History,
-    /// First and last spring of each fragment in contact after each leg, where they are observed.
+    /// First and last spring of each fragment in contact after each loading stage, if observed.
     pub fragments: Vec<Vec<(usize, usize)>>,
-    /// Histogram of the line's heights, where it is observed.
+    /// Histogram of the heights of the profile, if observed.
     pub histogram: Option<Histogram>,
-    /// Approximate JKR curve, where [`super::Simulation::approximate_jkr`] has been asked for one.
+    /// Approximate JKR curve, if requested from [`super::Simulation::approximate_jkr`].
     pub approximate_jkr: Option<ApproximateJkr>,
     /// Times of the stages.
     pub timings: Timings,
 }
 
-/// Facts about a line beside its heights.
+/// Facts about a profile besides its heights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineFacts {
     /// Springs N of the foundation.
@@ -55,28 +55,28 @@ pub struct LineFacts {
     pub modes: Option<(u64, u64)>,
     /// Seed of the roughness.
     pub seed: Option<u64>,
-    /// The rms gradient that the integrals of eq. (12) give for the same rms height.
+    /// The rms gradient by the integrals of eq. (12) for the same rms height.
     pub continuum_rms_gradient: Option<f64>,
 }
 
 /// Times of the stages, s; zero for a stage that did not run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Timings {
-    /// Making the line.
+    /// Making the profile.
     pub line: f64,
     /// Building the tree and counting heights into the histogram.
     pub tree: f64,
-    /// Thresholds of all legs, or the steps of the stepwise solver.
+    /// Thresholds of all loading stages, or the steps of the stepwise solver.
     #[serde(rename = "loop")]
     pub passes: f64,
-    /// Curves and exact extremes of all legs.
+    /// Curves and exact extremes of all loading stages.
     pub curve: f64,
-    /// F_a(0) for the regime, as far as it was not worked out while the loading went on.
+    /// F_a(0) for the regime, unless computed during the loading.
     pub zero_load: f64,
 }
 
 impl Timings {
-    /// All stages together, s.
+    /// Time of all stages, s.
     #[must_use]
     pub fn total(&self) -> f64 {
         self.line + self.tree + self.passes + self.curve + self.zero_load

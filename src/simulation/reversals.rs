@@ -1,4 +1,4 @@
-//! Reversals of a scene: the unloadings from many turning points of one loading, and the minor loops beside them.
+//! Reversals of a scene: the unloadings from many turning points of one loading, and the minor loops.
 
 use super::stages::Prepared;
 use super::{Plan, RunError, Simulation};
@@ -9,9 +9,9 @@ use std::ops::RangeInclusive;
 
 /// Turning points of a map.
 pub const TURNING_POINTS: RangeInclusive<usize> = 8..=512;
-/// Most points of a map below its first turning point, for each turning point.
+/// Most points of a map below its first turning point, over the number of turning points.
 const MOST_BELOW: usize = 4;
-/// Samples of a leg whose curve is not looked at.
+/// Samples of a loading stage whose curve is not used.
 const FEW_SAMPLES: u64 = 2;
 
 /// Receiver of reversals and the numbers of their turning points.
@@ -27,12 +27,12 @@ pub enum TurningPoints {
 }
 
 impl Simulation {
-    /// Unloads a checked scene from the ends of these legs, each of which begins separated, to separation. `see` takes
-    /// each reversal with the number of its leg, from the shallowest on, with the forces at `points`, ascending
-    /// indentations in m. `stop` is asked between two.
+    /// Unloads a checked scene to separation from the ends of these stages, each of which begins at separation.
+    /// `see` receives each reversal with the number of its stage, from the shallowest on, with the forces at
+    /// `points`, ascending indentations in m. `stop` is polled between two reversals.
     ///
     /// # Errors
-    /// When the scene asks for the stepwise solver, an end is out of reach, memory is short or `stop` says so.
+    /// A scene with the stepwise solver, an end out of reach, insufficient memory or a stop.
     pub fn reverse(
         &mut self,
         scene: &Scene,
@@ -55,11 +55,11 @@ impl Simulation {
         Ok(done?)
     }
 
-    /// First-order reversal curves of a checked scene from so many turning points at equal distances, at indentations of
-    /// the same distance down to separation.
+    /// First-order reversal curves of a checked scene from so many equally spaced turning points, at indentations
+    /// with the same spacing down to separation.
     ///
     /// # Errors
-    /// Those of [`Simulation::reverse`], and for a loading that never presses.
+    /// Errors of [`Simulation::reverse`], and a loading that never presses.
     pub fn reversal_map(
         &mut self,
         scene: &Scene,
@@ -112,7 +112,7 @@ impl Simulation {
     /// on the way back from the deepest turning point of a map, for `levels` upper and as many lower indentations.
     ///
     /// # Errors
-    /// Those of [`Simulation::run`].
+    /// Errors of [`Simulation::run`].
     pub fn minor_loops(
         &mut self,
         scene: &Scene,
@@ -153,7 +153,7 @@ impl Simulation {
         let outcome = self.run(&scene, stop, &mut |_, _, _| Ok(()))?;
         let loss = |legs: &[LegRecord]| legs.iter().map(|leg| leg.dissipated_energy).sum::<f64>();
         let loops = outcome.history.legs.chunks_exact(9);
-        // Of a body that separates, a loop is no minor loop.
+        // A loop with separation is no minor loop.
         let holds = |leg: &LegRecord| leg.curve.last().is_some_and(|point| point.springs > 0);
         let held = loops.filter(|legs| holds(&legs[1]));
         let pairs = held.map(|legs| [loss(&legs[1..3]), loss(&legs[6..8])]).collect::<Vec<_>>();
@@ -161,7 +161,7 @@ impl Simulation {
     }
 }
 
-/// Refuses a scene that asks for the stepwise solver.
+/// Refuses a scene with the stepwise solver.
 fn needs_exact_solver(scene: &Scene) -> Result<(), RunError> {
     if scene.numerics.solver == SolverChoice::Exact { Ok(()) } else { Err(RunError::NeedsExactSolver) }
 }

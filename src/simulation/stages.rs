@@ -1,4 +1,4 @@
-//! Runs the stages of a scene, and only those whose input has changed since the last run.
+//! Execution of the stages of a scene whose input has changed since the last run.
 
 use super::contact_stage::{ContactMemory, ContactStage};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
@@ -20,39 +20,38 @@ use std::time::Instant;
 
 /// Bins of the height histogram.
 const HISTOGRAM_BINS: usize = 64;
-/// With fewer springs than these another thread takes longer to begin than it saves.
+/// Number of springs below which another thread takes longer to start than it saves.
 pub(super) const MANY_SPRINGS: usize = 1 << 15;
 
-/// Memory of a run before is given back when it had more than so many times the springs of the next.
+/// Factor of the springs of the next run above which the memory of the last one is released.
 const MOST_SPARE: usize = 4;
-/// Fewer bytes are kept in any case.
+/// Bytes that are always kept.
 const SMALL: u64 = 32 << 20;
 
-/// The line, the tree and what they were made from: kept from run to run, so that a changed parameter
-/// repeats the stages from the first one it touches and no other. Those that are repeated work in the memory
-/// they had before.
+/// The profile, the tree and their inputs: kept from run to run, so that a changed parameter repeats only the
+/// stages that depend on it. Repeated stages reuse their memory.
 ///
-/// Between runs no more is kept than a scene with four times the springs of the last one takes
-/// ([`Plan::peak_bytes`], and 20 bytes for each spring of a Fourier transform), or 32 MiB. What is given back
-/// goes to the allocator; that of glibc keeps blocks of less than 32 MiB, up to 64 MiB for each thread.
+/// Between runs at most the memory is kept that a scene with four times the springs of the last one takes
+/// ([`Plan::peak_bytes`], and 20 bytes for each spring of a Fourier transform), or 32 MiB. Released memory returns
+/// to the allocator; that of glibc keeps blocks of less than 32 MiB, up to 64 MiB for each thread.
 #[derive(Default)]
 pub struct Simulation {
     folder: PathBuf,
-    /// True for a single scene: what only another one would use is given back at once.
+    /// True for a single scene: memory for another one is released at once.
     single: bool,
-    /// A measured surface in place of the files that scenes name.
+    /// A measured surface in place of the scenes' files.
     measured: Option<Arc<MeasuredRoughness>>,
-    /// The equivalent line of the file read last: it is small, and serves all seeds.
+    /// The equivalent line of the last file: it is small, and serves all seeds.
     equivalent: Option<(Vec<Vec<PathBuf>>, MeasuredOptions, EquivalentLine)>,
     synthesizer: Synthesizer,
-    /// Random phases drawn so far.
+    /// Number of random phases drawn so far.
     phases_drawn: u64,
     roughness: Option<(RoughnessKey, Rough)>,
     line: Option<(LineKey, Line)>,
-    /// That of the line's heights, once it has been observed.
+    /// Histogram of the heights of the profile, once observed.
     histogram: Option<Histogram>,
     tree: Option<Arc<ContactTree>>,
-    /// True if the tree is that of the line, rather than of one before.
+    /// True if the tree is that of the present profile.
     tree_is_current: bool,
     memory: ContactMemory,
     kept: Kept,
@@ -86,19 +85,19 @@ enum RoughnessKey {
     },
 }
 
-/// Heights of the roughness, before they are scaled.
+/// Heights of the roughness before scaling.
 struct Rough {
-    /// Empty once they have become the gaps of the line.
+    /// Empty once they have become the gaps of the profile.
     heights: Vec<f64>,
-    /// Wave numbers of the self-affine line on a length of 1 m.
+    /// Wave numbers of the self-affine profile on a length of 1 m.
     wave_numbers: Option<WaveNumbers>,
     /// Amplitude of a measured surface.
     measured: Option<Amplitude>,
-    /// First and last mode of a random line.
+    /// First and last mode of a random profile.
     modes: Option<(u64, u64)>,
 }
 
-/// Parameters of the line.
+/// Parameters of the profile.
 #[derive(Clone, PartialEq)]
 struct LineKey {
     roughness: Option<RoughnessKey>,
@@ -108,7 +107,7 @@ struct LineKey {
     form: Option<Form>,
 }
 
-/// Contact of a scene before its stage, and the making of its profile and tree.
+/// Contact of a scene before its stage, with the results of making its profile and tree.
 pub(super) struct Prepared<'a> {
     pub contact: ContactStage<'a>,
     pub memory: &'a mut ContactMemory,
@@ -120,47 +119,45 @@ pub(super) struct Prepared<'a> {
     timings: Timings,
 }
 
-/// Called after each leg with its index, its record and the solver at the end of the leg; an error stops
-/// the run.
+/// Called after each loading stage with its index, its record and the solver at its end; an error stops the run.
 pub type AfterLeg<'a> = dyn FnMut(usize, &LegRecord, &dyn Solver) -> Result<(), ContactError> + 'a;
 
 impl Simulation {
-    /// A simulation that looks for measured profiles in `folder`.
+    /// A simulation with measured profiles in `folder`.
     #[must_use]
     pub fn new(folder: PathBuf) -> Self {
         Simulation { folder, ..Simulation::default() }
     }
 
-    /// Frees the memory of the Fourier transform before the contact is solved, and makes the gaps of the line in the
-    /// memory of its heights: less memory for a single scene, more time for each further line.
+    /// Frees the memory of the Fourier transform before the contact is solved, and makes the gaps of the profile in
+    /// the memory of its heights: less memory for a single scene, more time for each further profile.
     #[must_use]
     pub fn for_one_scene(self) -> Self {
         Simulation { single: true, ..self }
     }
 
-    /// Uses a measured surface that has been read already, whichever file a scene names.
+    /// Uses a measured surface in memory instead of the file of any scene.
     #[must_use]
     pub fn with_measured(self, measured: Arc<MeasuredRoughness>) -> Self {
         Simulation { measured: Some(measured), ..self }
     }
 
-    /// The line of the last scene made.
+    /// The profile of the last scene.
     #[must_use]
     pub fn line(&self) -> Option<&Line> {
         self.line.as_ref().map(|(_, line)| line)
     }
 
-    /// The tree of this line, if the last scene run has adhesion and the exact solver.
+    /// The tree of this profile, if the last scene has adhesion and the exact solver.
     #[must_use]
     pub fn tree(&self) -> Option<&Arc<ContactTree>> {
         self.tree.as_ref().filter(|_| self.tree_is_current)
     }
 
-    /// Makes the line of a checked scene, unless the last one was the same, and returns the values known
-    /// of it.
+    /// Makes the profile of a checked scene, unless unchanged since the last one, and returns its known values.
     ///
     /// # Errors
-    /// When it does not fit into memory or a measured profile cannot be read.
+    /// Insufficient memory or an unreadable measured profile.
     pub fn make_line(&mut self, scene: &Scene) -> Result<(&Line, LineFacts, Governing), RunError> {
         let points = scene.numerics.points as usize;
         let spectrum = spectrum(scene);
@@ -176,7 +173,7 @@ impl Simulation {
         let wave_numbers = wave_numbers.map(|wave_numbers| wave_numbers.stretched(scene.length));
         let governing = Governing::of(scene, wave_numbers, rough.and_then(|rough| rough.measured));
         let scale = match &key {
-            // Measured heights are metres already.
+            // Measured heights are already in metres.
             Some(RoughnessKey::Measured { .. }) => 1.0,
             _ => governing.amplitude.map_or(0.0, |amplitude| amplitude.rms_height),
         };
@@ -202,7 +199,7 @@ impl Simulation {
         Ok((line, facts, governing))
     }
 
-    /// Makes a line of the heights of its roughness.
+    /// Makes a profile from the heights of its roughness.
     fn lay_line(&mut self, scene: &Scene, key: &LineKey) -> Result<Line, RunError> {
         let LineKey { scale, length, points, .. } = *key;
         self.tree_is_current = false;
@@ -226,10 +223,10 @@ impl Simulation {
         Ok(line?)
     }
 
-    /// Makes the heights of a roughness; those that are synthesized, in this memory.
+    /// Makes the heights of a roughness; synthesised ones in this memory.
     fn roughen(&mut self, scene: &Scene, key: &RoughnessKey, memory: Vec<f64>) -> Result<(), RunError> {
         let points = scene.numerics.points as usize;
-        // The transform allocates what it needs by itself, and would end the process.
+        // The transform allocates its own memory, and would end the process on failure.
         check_room(Plan::of(scene).line_bytes()).map_err(|_| SurfaceError::OutOfMemory { points })?;
         self.roughness = Some((key.clone(), self.make_roughness(key, memory)?));
         if self.single {
@@ -261,7 +258,7 @@ impl Simulation {
         }
     }
 
-    /// Makes of the line what the plan calls for and is not there yet: its histogram and its tree. Returns the number
+    /// Makes the missing parts of the profile required by the plan: its histogram and its tree. Returns the number
     /// of heights sorted into bins.
     fn look_at_line(&mut self, plan: &Plan, edges: Edges) -> Result<u64, ContactError> {
         let Some((_, line)) = &self.line else { return Err(ContactError::Interrupted) };
@@ -285,8 +282,8 @@ impl Simulation {
         Ok(if count { springs as u64 } else { 0 })
     }
 
-    /// Makes sure that there is memory for a run, before anything of it is allocated: what is kept counts, and
-    /// is given back where it is far too large or in the way.
+    /// Checks the memory of a run before any allocation: kept memory counts, and is released if it is far too large
+    /// or in the way.
     fn make_room(&mut self, plan: &Plan, points: usize) -> Result<(), RunError> {
         let needed = plan.peak_bytes;
         if self.kept.points / MOST_SPARE > points && self.kept.bytes > SMALL {
@@ -300,7 +297,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Keeps nothing of the runs before.
+    /// Releases the memory of earlier runs.
     fn give_back(&mut self) {
         let (single, measured) = (self.single, self.measured.take());
         *self = Simulation { single, measured, ..Simulation::new(take(&mut self.folder)) };
@@ -337,11 +334,11 @@ impl Simulation {
         Ok(Prepared { contact, memory, facts, governing, random_phases, heights_binned, timings })
     }
 
-    /// Runs a checked scene by its plan. `stop` is asked now and then whether to give up; `after` sees
-    /// each leg of the scene's own loading.
+    /// Runs a checked scene by its plan. `stop` is polled now and then; `after` sees each stage of the scene's own
+    /// loading.
     ///
     /// # Errors
-    /// When a stage fails or `stop` says so; what was made before is kept for the next run.
+    /// A failure of a stage or a stop; earlier results are kept for the next run.
     pub fn run(
         &mut self,
         scene: &Scene,
@@ -409,7 +406,7 @@ fn spectrum(scene: &Scene) -> Option<(SelfAffine, u64)> {
     }
 }
 
-/// The tree of these gaps, in the memory of one before unless somebody else holds it still.
+/// The tree of these gaps, in the memory of the previous one unless another owner still holds it.
 fn build_tree(
     before: Option<Arc<ContactTree>>,
     gaps: &[f64],
@@ -418,19 +415,19 @@ fn build_tree(
     before.and_then(Arc::into_inner).unwrap_or_default().rebuild(gaps, edges)
 }
 
-/// File of the first face, which errors about all of them name.
+/// File of the first face, the name in errors about all of them.
 fn first(faces: &[Vec<PathBuf>]) -> &Path {
     faces.iter().flatten().next().map_or(Path::new(""), PathBuf::as_path)
 }
 
-/// Choices of a checked scene for its measured surface.
+/// Options of a checked scene for its measured surface.
 #[must_use]
 pub fn measured_options(scene: &Scene) -> MeasuredOptions {
     let of_roughness = |roughness| measured_roughness_options(roughness, scene.measured_as_line());
     scene.roughness.as_ref().map_or_else(MeasuredOptions::default, of_roughness)
 }
 
-/// Choices of a checked roughness, of which a measured profile is the line itself or not.
+/// Options of a checked roughness, whose measured profile is the line itself or not.
 #[must_use]
 pub fn measured_roughness_options(roughness: &Roughness, as_line: bool) -> MeasuredOptions {
     let Roughness::Measured {
@@ -469,7 +466,7 @@ pub fn measured_roughness_options(roughness: &Roughness, as_line: bool) -> Measu
 }
 
 impl Simulation {
-    /// Heights of a roughness and what is known of them.
+    /// Heights of a roughness and their known values.
     fn make_roughness(&mut self, key: &RoughnessKey, memory: Vec<f64>) -> Result<Rough, RunError> {
         match key {
             RoughnessKey::SelfAffine { spectrum, seed, points, shift } => {
@@ -512,7 +509,7 @@ impl Simulation {
         }
     }
 
-    /// The equivalent line of the faces: the one that is known, the one read last, or a new one.
+    /// The equivalent line of the faces: the given one, the last one, or a new one.
     fn equivalent_line(
         &mut self,
         faces: &[Vec<PathBuf>],

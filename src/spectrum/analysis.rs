@@ -1,4 +1,4 @@
-//! Analysis of measured surfaces: statistics, spectra, equivalent line, and what limits them.
+//! Analysis of measured surfaces: statistics, spectra, equivalent line, and their limits.
 
 use super::Detrend;
 use super::error::{LEAST_POINTS, SpectrumError};
@@ -12,15 +12,15 @@ use super::statistics::{Statistics, Sums};
 use crate::topography::Topography;
 use std::f64::consts::{PI, TAU};
 
-/// Profiles from which on the moments are as good as those of a map.
+/// Number of profiles from which on the moments are as accurate as those of a map.
 const MANY_PROFILES: u64 = 100;
 
 /// Choices of an analysis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Options {
-    /// Part that is removed before.
+    /// Part removed before the analysis.
     pub detrend: Detrend,
-    /// True if the surface repeats itself at its borders: then without a window.
+    /// True if the surface repeats itself at its borders: then no window is used.
     pub periodic: bool,
     /// End of the spectrum.
     pub end: End,
@@ -33,19 +33,19 @@ pub struct Options {
 pub struct Analysis {
     /// Statistics of the points.
     pub statistics: Statistics,
-    /// Spectra of the surfaces as measured, in bins.
+    /// Spectra of the measured surfaces, in bins.
     pub spectra: Vec<(Direction, Vec<Bin>)>,
-    /// Isotropic spectrum behind them.
+    /// Underlying isotropic spectrum.
     pub isotropic: IsotropicSpectrum,
-    /// Self-affine fit; `None` where it does not converge.
+    /// Self-affine fit; `None` if it does not converge.
     pub power_law: Option<PowerLaw>,
     /// Moments of the equivalent line.
     pub line: LineMoments,
     /// Shortest reliable wavelength for the tip, m: the largest of all surfaces.
     pub reliability_cutoff: Option<f64>,
-    /// Profiles.
+    /// Number of profiles.
     pub profiles: u64,
-    /// Maps.
+    /// Number of maps.
     pub maps: u64,
     /// Largest length along a row, m.
     pub length: f64,
@@ -55,7 +55,7 @@ pub struct Analysis {
     pub end: End,
 }
 
-/// Powers of all surfaces, profiles of the same points together.
+/// Powers of all surfaces, profiles of equal points together.
 struct Powers {
     profiles: Vec<ProfilePower>,
     maps: Vec<MapPower>,
@@ -64,10 +64,10 @@ struct Powers {
     columns: Vec<ProfilePower>,
 }
 
-/// Analyses surfaces: all are taken for samples of the same isotropic roughness.
+/// Analyses surfaces as samples of the same isotropic roughness.
 ///
 /// # Errors
-/// [`SpectrumError`] for a surface with uneven or few points, without roughness, or an end that is resolved already.
+/// [`SpectrumError`] for a surface with uneven or few points, without roughness, or an end that is already resolved.
 pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, SpectrumError> {
     if surfaces.is_empty() {
         return Err(SpectrumError::Nothing);
@@ -135,7 +135,7 @@ fn check_points(surface: &Topography, index: usize) -> Result<(), SpectrumError>
     if points < LEAST_POINTS { Err(SpectrumError::TooFew { index, points }) } else { Ok(()) }
 }
 
-/// Checks that the heights after detrending exceed the rounding of those before.
+/// Checks that the heights after detrending exceed the rounding errors of the original ones.
 fn check_rough(before: &[f64], after: &[f64]) -> Result<(), SpectrumError> {
     let largest = |heights: &[f64]| heights.iter().fold(0.0_f64, |largest, z| largest.max(z.abs()));
     let left = largest(after);
@@ -202,7 +202,7 @@ impl Powers {
     }
 }
 
-/// The powers of profiles of these points, a new one if there is none yet.
+/// The powers of profiles of these points, newly made if there are none yet.
 fn group(powers: &mut Vec<ProfilePower>, points: usize, spacing: f64, windowed: bool) -> &mut ProfilePower {
     let same = |power: &ProfilePower| power.points == points && (power.spacing / spacing - 1.0).abs() < 1e-6;
     let index = powers.iter().position(same).unwrap_or_else(|| {
@@ -213,8 +213,8 @@ fn group(powers: &mut Vec<ProfilePower>, points: usize, spacing: f64, windowed: 
 }
 
 impl Analysis {
-    /// Returns true if a roll-off is found well inside the range of waves: then the longest waves carry little of the
-    /// height.
+    /// Returns true if a roll-off is found well inside the range of waves: then the longest waves carry little of
+    /// the height.
     #[must_use]
     pub fn has_roll_off(&self) -> bool {
         let roll_off = self.power_law.and_then(|fit| fit.roll_off);
@@ -240,7 +240,7 @@ impl Analysis {
         }
     }
 
-    /// Limits of the analysis that a user has to know.
+    /// Limits of the analysis that affect the user.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();

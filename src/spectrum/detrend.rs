@@ -4,10 +4,10 @@ use super::linear::Cholesky;
 use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
 
-/// Part of a surface that is removed before analysis.
+/// Part of a surface removed before analysis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
 pub enum Detrend {
-    /// None; in scenes `Nothing`, since `None` leaves a field out.
+    /// None; in scenes `Nothing`, since `None` omits a field.
     #[serde(rename = "Nothing")]
     #[strum(serialize = "Nothing")]
     None,
@@ -21,7 +21,7 @@ pub enum Detrend {
 }
 
 impl Detrend {
-    /// Monomials (powers of x and y) that are removed from a profile or a map.
+    /// Monomials (powers of x and y) removed from a profile or a map.
     fn monomials(self, is_map: bool) -> &'static [[i32; 2]] {
         match (self, is_map) {
             (Detrend::None, _) => &[],
@@ -33,11 +33,11 @@ impl Detrend {
         }
     }
 
-    /// Removes the polynomial nearest to the heights of rows of so many columns.
+    /// Removes the polynomial of least squares from the heights of rows of so many columns.
     pub fn remove(self, heights: &mut [f64], columns: usize) {
         let rows = heights.len() / columns.max(1);
         let monomials = self.monomials(rows > 1);
-        // From −1 to 1, and against the first height: powers and sums keep their digits.
+        // From −1 to 1, and relative to the first height: powers and sums keep their digits.
         let place = |index: usize, count: usize| 2.0 * index as f64 / (count.max(2) - 1) as f64 - 1.0;
         let level = heights.first().copied().filter(|_| !monomials.is_empty()).unwrap_or_default();
         heights.iter_mut().for_each(|height| *height -= level);

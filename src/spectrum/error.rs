@@ -3,16 +3,16 @@
 use crate::topography::TopographyError;
 use thiserror::Error;
 
-/// Least points along a row, and rows of a map.
+/// Fewest points along a row, and rows of a map.
 pub const LEAST_POINTS: usize = 32;
 
-/// Reason for which surfaces are not analysed.
+/// Reason why surfaces are not analysed.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SpectrumError {
-    /// There is nothing to analyse.
+    /// There is no surface.
     #[error("no surface; allowed: at least one")]
     Nothing,
-    /// A surface is refused; counted from 0.
+    /// A surface is refused; numbered from 0.
     #[error("{error}")]
     Surface {
         /// Index of the surface.
@@ -20,7 +20,7 @@ pub enum SpectrumError {
         /// Reason.
         error: TopographyError,
     },
-    /// A surface has too few points; counted from 0.
+    /// A surface has too few points; numbered from 0.
     #[error("{points} points along an axis; allowed: at least {LEAST_POINTS}")]
     TooFew {
         /// Index of the surface.
@@ -31,12 +31,12 @@ pub enum SpectrumError {
     /// All heights are equal.
     #[error("no roughness is left after detrending; allowed: heights that differ")]
     Smooth,
-    /// The spectrum is to continue up to a wave number that is resolved already.
+    /// The spectrum would continue up to a wave number that is already resolved.
     #[error(
         "the spectrum continues up to q = {to:e} rad/m; allowed: above the last resolved wave, q = {last:e} rad/m"
     )]
     End {
-        /// Wave number asked for, rad/m.
+        /// Requested wave number, rad/m.
         to: f64,
         /// Last resolved wave number, rad/m.
         last: f64,
@@ -46,7 +46,7 @@ pub enum SpectrumError {
         "the likelihood has no maximum: heights without noise or with few digits; allowed: measured heights"
     )]
     NoMaximum,
-    /// The memory does not suffice.
+    /// Insufficient memory.
     #[error("not enough memory for the transform of {points} points")]
     OutOfMemory {
         /// Points.
@@ -58,7 +58,7 @@ pub enum SpectrumError {
 }
 
 impl SpectrumError {
-    /// Index of the surface that is refused, where the error is of one; counted from 0.
+    /// Index of the refused surface, if the error is that of one; numbered from 0.
     #[must_use]
     pub fn surface(&self) -> Option<usize> {
         match self {

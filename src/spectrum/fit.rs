@@ -10,10 +10,10 @@ use super::observation::{Observation, Term};
 /// Weight λ of the second differences.
 const SMOOTHNESS: f64 = 1.0;
 
-/// Nodes of a decade.
+/// Nodes per decade.
 const NODES_PER_DECADE: f64 = 6.0;
 
-/// Most steps, and the decrease of the objective at which the search ends.
+/// Most steps, and the decrease of the objective that ends the search.
 const MOST_STEPS: usize = 200;
 const SMALL_DECREASE: f64 = 1e-9;
 
@@ -28,14 +28,14 @@ pub(super) struct Model<'a> {
 }
 
 impl<'a> Model<'a> {
-    /// Model with nodes from the smallest to the largest observed wave number, half a wave included.
+    /// Model with nodes from the smallest to the largest observed wave number, including half a wave.
     pub fn new(observations: &'a [Observation], [low, high]: [f64; 2], end: End) -> Self {
         let nodes = Nodes::new(low, high, NODES_PER_DECADE, end);
         let terms = observations.iter().map(|observation| observation.terms(&nodes, end)).collect();
         Model { observations, terms, nodes }
     }
 
-    /// Objective without the penalty, of means.
+    /// Objective for given means, without the penalty.
     pub fn misfit(&self, means: impl Iterator<Item = f64>) -> f64 {
         let each = self.observations.iter().zip(means);
         each.map(|(observed, mean)| observed.waves * (observed.power / mean + mean.ln())).sum()
@@ -85,13 +85,13 @@ impl<'a> Model<'a> {
         (gradient, information)
     }
 
-    /// Values to begin with: powers of cuts as if C2D were a power law with the exponent −3, level where nothing is
-    /// observed.
+    /// Initial values: powers of cuts as if C2D were a power law with the exponent −3, constant outside the
+    /// observations.
     fn start(&self) -> Vec<f64> {
         let count = self.nodes.count;
         let mut sums = vec![(0.0, 0.0); count];
         for (observed, terms) in self.observations.iter().zip(&self.terms) {
-            // The mean of a spectrum of ones normalises.
+            // The mean of a spectrum of ones is the normalisation.
             let weight: f64 = terms
                 .iter()
                 .map(|term| term.weight * ((observed.wave_number.ln() - term.ln_q) * 3.0).exp())
@@ -121,7 +121,7 @@ impl<'a> Model<'a> {
         (0..count).map(between).collect()
     }
 
-    /// Spectrum of the smallest objective; `None` where the information matrix is not positive definite, as for powers
+    /// Spectrum of the smallest objective; `None` if the information matrix is not positive definite, as for powers
     /// that are zero or not finite.
     pub fn fit(&self) -> Option<IsotropicSpectrum> {
         let mut values = self.start();

@@ -5,17 +5,17 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 
-/// Separates this use of the generator from any other.
+/// Separates this use of the random generator from others.
 const PURPOSE: &[u8; 24] = b"asperity-spectrum-draws\0";
 
-/// Nodes and weights of Gauss and Legendre's rule on (−1, 1), half of them: errors below 1e-9 for the pieces used here.
+/// Half of the nodes and weights of Gauss-Legendre quadrature on (−1, 1): errors below 1e-9 for the pieces used here.
 const GAUSS: [(f64, f64); 3] = [
     (0.238_619_186_083_196_9, 0.467_913_934_572_691),
     (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
     (0.932_469_514_203_152, 0.171_324_492_379_170_36),
 ];
 
-/// Pieces of the integral over u in [`cut`] for each unit.
+/// Pieces of the integral over u in [`cut`] per unit.
 const CUT_PIECES: f64 = 8.0;
 
 /// Points and weights of the rule on a piece.
@@ -39,7 +39,7 @@ pub(super) fn cut(c2d: impl Fn(f64) -> f64, wave_number: f64, end: f64) -> f64 {
 /// End of a spectrum beyond the last resolved wave.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum End {
-    /// No waves beyond it.
+    /// No waves beyond the last resolved one.
     #[default]
     Ends,
     /// Waves continue as the power law of the last decade part up to a wave number, rad/m.
@@ -83,7 +83,7 @@ impl LineMoments {
     }
 }
 
-/// Nodes at even distances of ln q.
+/// Nodes at equal distances of ln q.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Nodes {
     /// ln q of the first node.
@@ -91,12 +91,12 @@ pub(super) struct Nodes {
     /// Distance of ln q.
     pub step: f64,
     pub count: usize,
-    /// Largest wave number of the spectrum, rad/m; beyond the last node where the spectrum continues.
+    /// Largest wave number of the spectrum, rad/m; beyond the last node for a spectrum that continues.
     pub end: f64,
 }
 
 impl Nodes {
-    /// Nodes from a wave number to another, so many for each decade, of a spectrum with this end.
+    /// Nodes between two wave numbers, so many per decade, of a spectrum with this end.
     pub fn new(low: f64, high: f64, per_decade: f64, end: End) -> Self {
         let decades = (high / low).log10();
         let pieces = (per_decade * decades).ceil().max(2.0);
@@ -113,15 +113,15 @@ impl Nodes {
         (self.first + index as f64 * self.step).exp()
     }
 
-    /// Node below ln q and the share of the node above: below 0 is the value of the first node, beyond the last node the
-    /// last piece goes on.
+    /// Node below ln q and the share of the node above: constant below the first node, extrapolated beyond the last
+    /// one.
     pub fn place(&self, ln_q: f64) -> (usize, f64) {
         let place = ((ln_q - self.first) / self.step).max(0.0);
         let index = (place as usize).min(self.count - 2);
         (index, place - index as f64)
     }
 
-    /// Wave numbers between which the spectrum is one power law: the given one, nodes, the end.
+    /// Limits of the wave numbers between which the spectrum is a power law: the given one, nodes, the end.
     pub fn pieces_from(&self, low: f64) -> impl Iterator<Item = (f64, f64)> {
         let last = ((self.end.ln() - self.first) / self.step).ceil() as usize;
         let first = if low > 0.0 {
@@ -141,7 +141,7 @@ impl Nodes {
     }
 }
 
-/// Isotropic spectrum C2D(q), m⁴, of which ln C2D is linear in ln q between nodes.
+/// Isotropic spectrum C2D(q), m⁴; ln C2D is linear in ln q between nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IsotropicSpectrum {
     pub(super) nodes: Nodes,
@@ -152,7 +152,7 @@ pub struct IsotropicSpectrum {
 }
 
 impl IsotropicSpectrum {
-    /// C2D, m⁴, at a wave number, rad/m. Zero beyond the end; the value of the first node before.
+    /// C2D, m⁴, at a wave number, rad/m. Zero beyond the end; constant below the first node.
     #[must_use]
     pub fn c2d(&self, wave_number: f64) -> f64 {
         if wave_number > self.nodes.end { 0.0 } else { self.value(wave_number.ln()) }
@@ -191,15 +191,15 @@ impl IsotropicSpectrum {
         })
     }
 
-    /// The spectrum with its values of ln C2D moved by a share of steps drawn from the normal distribution of the fit. The
-    /// same steps for the same number.
+    /// The spectrum with its values of ln C2D moved by a share of steps drawn from the normal distribution of the
+    /// fit. Equal numbers have equal steps.
     #[must_use]
     pub fn drawn(&self, number: u64, share: f64) -> IsotropicSpectrum {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&number.to_le_bytes());
         key[8..].copy_from_slice(PURPOSE);
         let mut generator = ChaCha8Rng::from_seed(key);
-        // From 0, left out, to 1: by Box and Muller.
+        // From above 0 to 1, by Box and Muller.
         let mut uniform = || ((generator.next_u64() >> 11) + 1) as f64 / (1_u64 << 53) as f64;
         let mut normal = || (-2.0 * uniform().ln()).sqrt() * (TAU * uniform()).cos();
         let steps = self.information.solve_transposed(self.values.iter().map(|_| normal()).collect());
@@ -227,15 +227,15 @@ impl IsotropicSpectrum {
         (sum, gradient)
     }
 
-    /// Moments of the equivalent line, with the waves that begin at half the first wave number.
+    /// Moments of the equivalent line, with waves from half the first wave number on.
     #[must_use]
     pub fn line_moments(&self) -> LineMoments {
         line_moments(std::slice::from_ref(self))
     }
 }
 
-/// Moments of the equivalent line of faces whose spectra add and are independent of each other. The waves begin at half the
-/// first wave number that is known of all faces: wave 1 of a length covers the range from ½ to 1½.
+/// Moments of the equivalent line of faces with independent spectra, which add. The waves begin at half the first
+/// wave number known of all faces: wave 1 of a length covers the range from ½ to 1½.
 #[must_use]
 pub(crate) fn line_moments(faces: &[IsotropicSpectrum]) -> LineMoments {
     let from = faces.iter().map(|face| 0.5 * face.nodes.wave_number(0)).fold(0.0, f64::max);
@@ -315,7 +315,7 @@ pub(super) mod tests {
 
     #[test]
     fn moments_of_a_power_law_are_those_of_its_integrals() {
-        // C2D = q⁻³ from 1 on, level below.
+        // C2D = q⁻³ from 1 on, constant below.
         let spectrum = known(Nodes::new(1.0, 100.0, 6.0, End::Ends), |q| q.powi(-3));
         let moments = spectrum.line_moments();
         // ∫ q C2D from ½ to 1 is 3/8, from 1 to 100 it is 1 − 1/100.
@@ -375,7 +375,7 @@ pub(super) mod tests {
         for (moment, estimate) in errors.into_iter().enumerate() {
             let spread = (square[moment] - mean[moment].powi(2)).sqrt();
             let expected = estimate.error / estimate.value;
-            // To second order in the errors, and a hundredth by chance.
+            // To second order in the errors, and a hundredth for chance.
             assert!((spread / expected - 1.0).abs() < 0.1, "{moment}: {spread} {expected}");
             assert!(mean[moment].abs() < 0.3 * expected, "{moment}: {}", mean[moment]);
         }

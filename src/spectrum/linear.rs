@@ -9,7 +9,7 @@ pub(super) struct Cholesky {
 }
 
 impl Cholesky {
-    /// Factor of a matrix of `size` rows, of which the lower triangle is read. `None` unless it is positive definite.
+    /// Factor of a matrix of `size` rows, from its lower triangle. `None` unless the matrix is positive definite.
     pub fn new(mut matrix: Vec<f64>, size: usize) -> Option<Self> {
         for row in 0..size {
             for column in 0..=row {
@@ -37,7 +37,7 @@ impl Cholesky {
         self.solve_transposed(right)
     }
 
-    /// Solution of Lᵀ x = b with the factor L. Of independent normal numbers b of variance 1 it has the covariance M⁻¹.
+    /// Solution of Lᵀ x = b with the factor L. For independent normal b of variance 1 it has the covariance M⁻¹.
     pub fn solve_transposed(&self, mut right: Vec<f64>) -> Vec<f64> {
         let at = |row: usize, column: usize| self.factor[row * self.size + column];
         for row in (0..self.size).rev() {

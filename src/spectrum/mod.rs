@@ -1,5 +1,5 @@
-//! Spectrum of a measured surface: from profiles and maps to the isotropic spectrum C2D(q) behind them, its equivalent
-//! line, and their uncertainty.
+//! Spectrum of a measured surface: from profiles and maps to the underlying isotropic spectrum C2D(q), its
+//! equivalent line, and their uncertainty.
 //!
 //! A measured profile is a cut through a surface, not the line of the method of dimensionality reduction. For an isotropic
 //! surface both follow from one spectrum,

@@ -4,20 +4,20 @@ use super::isotropic::{End, Nodes, gauss};
 use super::periodogram::{MapPower, ProfilePower};
 use std::f64::consts::PI;
 
-/// Waves of a profile that are observed one by one; those beyond are averaged in bands.
+/// Number of waves of a profile that are single observations; those beyond are averaged in bands.
 const SINGLE: usize = 32;
 
-/// Bands of a decade: within one a power law with the exponent −3 departs from its mean by 0.1 %.
+/// Bands per decade: within one a power law with the exponent −3 departs from its mean by 0.1 %.
 const BANDS_PER_DECADE: f64 = 60.0;
 
-/// Waves of a window of Hann are correlated: powers with the squares of 2/3 and 1/6 at distances of 1 and 2 waves. So
-/// many waves count as one.
+/// Number of waves of a window of Hann that count as one, because of correlation: powers with the squares of 2/3
+/// and 1/6 at distances of 1 and 2 waves.
 const HANN_CORRELATED: f64 = 1.0 + 2.0 * (4.0 / 9.0 + 1.0 / 36.0);
 
 /// Shares of its neighbours in the mean power of a wave under a window of Hann.
 const HANN_SHARES: [(f64, f64); 3] = [(-1.0, 1.0 / 6.0), (0.0, 2.0 / 3.0), (1.0, 1.0 / 6.0)];
 
-/// Most aliases of a wave of which the power is added.
+/// Most aliases of a wave whose power is added.
 const MOST_ALIASES: u32 = 4;
 
 /// Mean power of the waves of a band.
@@ -35,7 +35,7 @@ pub(super) struct Observation {
 /// Kind of a power.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
-    /// Of a cut: C1D.
+    /// Power of a cut: C1D.
     Cut {
         /// Wave number of wave 1, rad/m.
         step: f64,
@@ -43,7 +43,7 @@ pub(super) enum Kind {
         /// Nyquist wave number, rad/m.
         nyquist: f64,
     },
-    /// Of a map: C2D.
+    /// Power of a map: C2D.
     Plane {
         /// Wave numbers of wave 1 along and between rows, rad/m.
         steps: [f64; 2],
@@ -51,7 +51,7 @@ pub(super) enum Kind {
     },
 }
 
-/// Bands of the powers of profiles, from wave 1 on, or from wave 2 on under a window: detrending takes from wave 1.
+/// Bands of the powers of profiles, from wave 1 on, or from wave 2 on under a window: detrending reduces wave 1.
 pub(super) fn of_profiles(power: &ProfilePower) -> Vec<Observation> {
     let kind = Kind::Cut { step: power.step(), windowed: power.windowed, nyquist: PI / power.spacing };
     let correlated = if power.windowed { HANN_CORRELATED } else { 1.0 };
@@ -80,7 +80,7 @@ pub(super) fn of_profiles(power: &ProfilePower) -> Vec<Observation> {
 pub(super) fn of_map(power: &MapPower) -> Vec<Observation> {
     let kind = Kind::Plane { steps: power.steps, windowed: power.windowed };
     let correlated = if power.windowed { HANN_CORRELATED * HANN_CORRELATED } else { 1.0 };
-    // Under a window detrending takes from waves around wave 1.
+    // Under a window detrending reduces waves around wave 1.
     let least = if power.windowed { 2.0 * power.steps[0].max(power.steps[1]) } else { 0.0 };
     let mut observed: Vec<Observation> = Vec::new();
     let mut band = None;
@@ -106,7 +106,7 @@ pub(super) fn of_map(power: &MapPower) -> Vec<Observation> {
     observed
 }
 
-/// A term of the mean of an observation: a weight times C2D at ln q, which lies between two nodes.
+/// A term of the mean of an observation: a weight times C2D at ln q, between two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Term {
     pub weight: f64,
@@ -116,7 +116,7 @@ pub(super) struct Term {
 }
 
 impl Observation {
-    /// Terms of the mean of the power for a spectrum with these nodes.
+    /// Terms of the mean power for a spectrum with these nodes.
     pub fn terms(&self, nodes: &Nodes, end: End) -> Vec<Term> {
         let mut terms = Vec::new();
         match self.kind {
@@ -201,8 +201,8 @@ mod tests {
         for hurst in [0.3, 0.8] {
             // Roll-off at 10.
             let spectrum = known(nodes, |q: f64| (q / 10.0).max(1.0).powf(-2.0 - 2.0 * hurst));
-            // Moments of the cut from its own spectrum; below half the first wave number the line has no waves, but the
-            // cut has the projections of waves across it.
+            // Moments of the cut from its own spectrum; below half the first wave number the line has no waves, but
+            // the cut has the projections of waves across it.
             let mut sums = [0.0; 3];
             let wave_numbers: Vec<f64> =
                 (0..=600).map(|i| 0.5e-3 * 600_000_f64.powf(f64::from(i) / 600.0)).collect();
@@ -225,7 +225,7 @@ mod tests {
             ];
             let expected = [1.0, 2.0_f64.sqrt(), 0.5 * PI];
             for (ratio, expected) in ratios.into_iter().zip(expected) {
-                // The line leaves out the waves below half the first wave number, 0.1 % of the height.
+                // The line omits the waves below half the first wave number, 0.1 % of the height.
                 assert!((ratio / expected - 1.0).abs() < 2e-3, "H = {hurst}: {ratios:?}");
             }
         }

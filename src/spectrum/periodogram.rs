@@ -7,7 +7,7 @@ use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 
-/// Bins of a decade of wave numbers for display.
+/// Bins per decade of wave numbers for display.
 const BINS_PER_DECADE: f64 = 10.0;
 
 /// Direction of a spectrum.
@@ -22,7 +22,7 @@ pub enum Direction {
 }
 
 impl Direction {
-    /// Name for people.
+    /// Name for readers.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -50,7 +50,7 @@ pub struct Bin {
     pub wave_number: f64,
     /// Mean power, m³.
     pub power: f64,
-    /// Waves of the bin.
+    /// Number of waves in the bin.
     pub waves: u64,
 }
 
@@ -60,7 +60,7 @@ pub(super) struct ProfilePower {
     pub points: usize,
     pub spacing: f64,
     pub windowed: bool,
-    /// Profiles summed.
+    /// Number of summed profiles.
     pub profiles: u64,
     /// C1D, m³, of the waves 1, 2, … below half the number of points, summed.
     pub power: Vec<f64>,
@@ -76,7 +76,7 @@ impl ProfilePower {
         TAU / (self.points as f64 * self.spacing)
     }
 
-    /// Adds the power of profiles of the same points: rows one behind the other.
+    /// Adds the power of profiles of equal points: consecutive rows.
     pub fn add(
         &mut self,
         rows: impl Iterator<Item = impl Iterator<Item = f64>>,
@@ -101,7 +101,7 @@ impl ProfilePower {
     }
 }
 
-/// Spectrum of the heights (m) of a line in bins: C1D, m³. A line that does not repeat itself is windowed.
+/// Spectrum of the heights (m) of a line in bins: C1D, m³. A line that is not periodic is windowed.
 ///
 /// # Errors
 /// [`SpectrumError::Transform`].
@@ -121,8 +121,8 @@ pub(super) struct MapPower {
     pub windowed: bool,
     /// Wave numbers of wave 1 along and between rows, rad/m.
     pub steps: [f64; 2],
-    /// Wave number and C2D, m⁴, of the waves of half the plane up to the smaller of the Nyquist wave numbers, in order of
-    /// wave numbers.
+    /// Wave number and C2D, m⁴, of the waves of half the plane up to the smaller of the Nyquist wave numbers,
+    /// sorted by wave number.
     pub waves: Vec<(f64, f64)>,
 }
 
@@ -157,7 +157,7 @@ impl MapPower {
             plan.process_with_scratch(&mut column, &mut scratch);
             for (y, value) in column.iter().enumerate() {
                 let y = if 2 * y > rows { y as f64 - rows as f64 } else { y as f64 };
-                // Waves and their mirror images have the same power: one of them counts.
+                // Waves and their mirror images have equal power: only one of them counts.
                 let is_first = x > 0 || y > 0.0;
                 let q = (x as f64 * steps[0]).hypot(y * steps[1]);
                 if is_first && q < largest {
@@ -202,7 +202,7 @@ fn window(points: usize, windowed: bool) -> Vec<f64> {
     (0..points).map(|index| scale * hann(index)).collect()
 }
 
-/// Mean power in 10 bins for each decade of wave numbers, from waves of (wave number, power, number).
+/// Mean power in 10 bins per decade of wave numbers, from waves of (wave number, power, number).
 pub(super) fn bins(waves: impl Iterator<Item = (f64, f64, u64)>) -> Vec<Bin> {
     let mut bins: std::collections::BTreeMap<i64, (f64, f64, u64)> = std::collections::BTreeMap::new();
     for (wave_number, power, count) in waves {

@@ -1,17 +1,17 @@
-//! Self-affine fit: C2D level below a roll-off wave number, ∝ q^(−2−2H) above.
+//! Self-affine fit: C2D constant below a roll-off wave number, ∝ q^(−2−2H) above.
 
 use super::fit::Model;
 use super::isotropic::{Estimate, cut};
 use super::linear::Cholesky;
 
-/// Least gain of the log-likelihood at which a roll-off counts as found: for one more parameter, chance exceeds this once
-/// in a hundred times.
+/// Least gain of the log-likelihood for a roll-off: for one more parameter, chance exceeds this once in a hundred
+/// times.
 const LEAST_GAIN: f64 = 3.3;
 
-/// First wave numbers of the roll-off, for each decade.
+/// Initial wave numbers of the roll-off per decade.
 const STARTS_PER_DECADE: f64 = 4.0;
 
-/// Steps from each start, and from the best.
+/// Steps from each start, and from the best one.
 const FEW_STEPS: usize = 6;
 const MOST_STEPS: usize = 60;
 
@@ -23,7 +23,7 @@ const HURST: [f64; 2] = [-0.5, 1.5];
 pub struct PowerLaw {
     /// Hurst exponent H.
     pub hurst: Estimate,
-    /// Roll-off wave number, rad/m; `None` where no roll-off is found.
+    /// Roll-off wave number, rad/m; `None` without a roll-off.
     pub roll_off: Option<Estimate>,
     /// C2D at the roll-off, or at the first wave number without one, m⁴.
     pub level: Estimate,
@@ -67,11 +67,11 @@ impl Parameters {
     }
 }
 
-/// Fit to the observations of a model; `None` where it does not converge.
+/// Fit to the observations of a model; `None` if it does not converge.
 pub(super) fn fit(model: &Model<'_>) -> Option<PowerLaw> {
     let low = model.nodes.first;
     let high = low + model.nodes.step * (model.nodes.count - 1) as f64;
-    // Above a third of the range no exponent could be seen.
+    // Above a third of the range no exponent could be determined.
     let bounds = [low, low + 0.67 * (high - low)];
     let count = (STARTS_PER_DECADE * (bounds[1] - low) / std::f64::consts::LN_10).ceil().max(1.0);
     let without = search(model, start(model, low), 2, bounds, MOST_STEPS)?;

@@ -7,7 +7,7 @@ const SAFETY: f64 = 0.5;
 /// (z(x − sΔx) − 2z(x) + z(x + sΔx))/(sΔx)² of all rows is at least −1/(2R) for a tip radius R, m. Shorter waves may be
 /// artefacts of the tip.
 ///
-/// `None` where the condition holds at the distance between points already. Half the length of a row where it holds
+/// `None` if the condition already holds at the distance between points. Half the length of a row if it holds
 /// nowhere: no wave is reliable.
 #[must_use]
 pub fn reliability_cutoff(heights: &[f64], columns: usize, spacing: f64, tip_radius: f64) -> Option<f64> {
@@ -19,7 +19,7 @@ pub fn reliability_cutoff(heights: &[f64], columns: usize, spacing: f64, tip_rad
     let most = (columns - 1) / 4;
     let (mut bad, mut good) = (1, None);
     while good.is_none() && bad < most {
-        // By a fifth, at least by one.
+        // In steps of a fifth, at least of one.
         let next = (bad + bad / 5 + 1).min(most);
         if is_reliable(next) { good = Some(next) } else { bad = next }
     }

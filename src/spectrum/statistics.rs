@@ -3,7 +3,7 @@
 /// Statistics of the points of one or more surfaces, after detrending.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Statistics {
-    /// Points.
+    /// Number of points.
     pub points: usize,
     /// Root mean square height about the mean (Rq of profiles, Sq of maps), m.
     pub rms_height: f64,
@@ -17,21 +17,21 @@ pub struct Statistics {
     pub kurtosis: f64,
 }
 
-/// Sums from which statistics follow.
+/// Sums for the statistics.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Sums {
     points: usize,
     squares: f64,
     cubes: f64,
     fourths: f64,
-    /// Squares of slopes along and between rows and their numbers.
+    /// Squares of slopes along and between rows, and their numbers.
     slopes: [(f64, usize); 2],
     has_profile: bool,
 }
 
 impl Sums {
-    /// Adds the heights (m) of rows of so many columns at distances (m) along and between rows. The mean of each surface
-    /// is taken out.
+    /// Adds the heights (m) of rows of so many columns at distances (m) along and between rows, relative to the
+    /// mean of each surface.
     pub fn add(&mut self, heights: &[f64], columns: usize, [along, between]: [f64; 2]) {
         let level = heights[0];
         let mean = level + heights.iter().map(|z| z - level).sum::<f64>() / heights.len() as f64;

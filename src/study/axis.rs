@@ -1,4 +1,4 @@
-//! Axes of a parameter study: which number of a scene is varied, and which values it takes.
+//! Axes of a parameter study: the varied number of a scene and its values.
 
 use super::target::{Target, TargetError};
 use crate::text::printable;
@@ -10,7 +10,7 @@ pub const MOST_VALUES: u64 = 1_000_000;
 /// Significant digits of values between the ends of an axis: 0.15 rather than 0.15000000000000002.
 const DIGITS: usize = 12;
 
-/// An axis as a plan writes it.
+/// An axis in the form of a plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Axis {
@@ -94,20 +94,20 @@ impl Axis {
         }
     }
 
-    /// All its values.
+    /// All values of the axis.
     #[must_use]
     pub fn values(&self) -> Vec<f64> {
         (0..self.count()).map(|index| self.value(index)).collect()
     }
 
-    /// Places of the values, by ascending values.
+    /// Places of the values in the order of ascending values.
     pub(super) fn ascending(&self) -> Vec<u64> {
         let mut places: Vec<u64> = (0..self.count()).collect();
         places.sort_by(|a, b| self.value(*a).total_cmp(&self.value(*b)));
         places
     }
 
-    /// Error of this axis by itself.
+    /// Error of this axis alone.
     pub(super) fn wrong(&self) -> Option<String> {
         let path = &*printable(self.path());
         let target = match Target::of(path) {

@@ -1,10 +1,10 @@
 //! Boundary of vanishing zero-load adhesion: the boundary between pressure-insensitive and pressure-sensitive
 //! adhesion, eq. (15), with its statistical error.
 //!
-//! F_a(0) falls with κ about exponentially and never quite to zero, since a single spring still sticks. So the
-//! boundary κ* is where its mean over the lines falls below a share of the ideal adhesion force F_a,max; what
-//! that share is moves it, and several are asked for at a time. A boundary in κ is one in e_el/γ as well: on lines of
-//! one spectrum either determines the other.
+//! F_a(0) falls with κ about exponentially and never quite to zero, since a single spring still adheres. So the
+//! boundary κ* is where the mean of F_a(0) over the profiles falls below a share of the ideal adhesion force
+//! F_a,max; κ* depends on that share, and several shares are evaluated at a time. A boundary in κ is also one in
+//! e_el/γ: on profiles of one spectrum either determines the other.
 
 use super::axis::Axis;
 use super::finished::Finished;
@@ -19,30 +19,30 @@ use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Shares of F_a,max that are usual.
+/// Usual shares of F_a,max.
 pub const USUAL_LEVELS: [f64; 4] = [0.5, 0.1, 0.05, 0.01];
-/// Random choices of lines from which an interval of confidence is taken.
+/// Random choices of profiles for the confidence interval.
 const RESAMPLES: usize = 1000;
-/// Seed of these choices: the same table each time.
+/// Seed of these choices: the same table in each run.
 const RESAMPLING_SEED: u64 = 2012;
 
-/// The boundary at one place on the other axes, by one protocol, at one share.
+/// The boundary at one place on the other axes, by one protocol, for one share.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Boundary {
     /// Values on the axes other than κ or e_el/γ, in their order.
     pub others: Vec<f64>,
-    /// The share that is recorded: which protocol.
+    /// The recorded share, which identifies the protocol.
     pub protocol: Quantity,
     /// The share of F_a,max below which adhesion counts as vanished.
     pub level: f64,
-    /// The boundary, and its 95 % confidence interval by resampling of lines.
+    /// The boundary and its 95 % confidence interval by resampling of profiles.
     pub crossing: Crossing,
 }
 
 /// κ or e_el/γ at which a mean falls below a share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Crossing {
-    /// Here, with the interval of confidence where lines could be resampled and all of them cross.
+    /// At this value, with the confidence interval where profiles could be resampled and all samples cross.
     At(f64, Option<(f64, f64)>),
     /// Below the smallest value of the study.
     Below(f64),
@@ -66,17 +66,17 @@ impl Crossing {
 /// The boundaries of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Boundaries {
-    /// Parameter in which boundaries are given.
+    /// Parameter of the boundaries.
     pub over: RoughnessParameter,
     /// Names of the axes other than κ or e_el/γ, with symbols.
     pub others: Vec<String>,
-    /// Random lines of each cell.
+    /// Random profiles of each cell.
     pub lines: u64,
-    /// In the order of the cells, then of protocols, then of levels.
+    /// Boundaries in the order of the cells, then of protocols, then of levels.
     pub found: Vec<Boundary>,
 }
 
-/// By how much κ is another number under other definitions of what it is made of: a name and a factor.
+/// Factors of κ under other definitions of its constituents: name and factor.
 pub const DEFINITIONS: [(&str, f64); 3] = [
     ("kappa", 1.0),
     // Wave numbers in 1/m: ⟨∇z⟩ is 2π times smaller, κ by its root, 1/√(2π).
@@ -140,7 +140,7 @@ pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Resu
     Ok(Boundaries { over, others: others.collect(), lines: plan.lines, found })
 }
 
-/// Conversion of a parameter into another on the lines of a cell.
+/// Conversion of a parameter into another on the profiles of a cell.
 fn conversion(
     plan: &Plan,
     cell: u64,
@@ -158,7 +158,7 @@ fn conversion(
 /// Spread of the boundaries of one protocol and share.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundarySpread {
-    /// The share that is recorded: which protocol.
+    /// The recorded share, which identifies the protocol.
     pub protocol: Quantity,
     /// The share of F_a,max below which adhesion counts as vanished.
     pub level: f64,
@@ -221,14 +221,14 @@ impl Boundaries {
     }
 }
 
-/// F_a(0) over κ or e_el/γ, line by line, for each place on the other axes and each protocol.
+/// F_a(0) over κ or e_el/γ, profile by profile, for each place on the other axes and each protocol.
 #[derive(Default)]
 struct Sections(BTreeMap<(u64, usize), Section>);
 
 #[derive(Default)]
 struct Section {
     others: Vec<f64>,
-    /// For each κ the shares of the lines, by their seeds.
+    /// For each κ the shares of the profiles, by their seeds.
     shares: BTreeMap<u64, (f64, BTreeMap<u64, f64>)>,
 }
 
@@ -251,7 +251,7 @@ impl Sections {
 
 impl Section {
     fn crossing(&self, level: f64) -> Crossing {
-        // Lines that all cells have; those of one seed are the same line in each.
+        // Profiles common to all cells; a seed is the same profile in each.
         let mut seeds: Vec<u64> =
             self.shares.values().next().map_or_else(Vec::new, |(_, shares)| shares.keys().copied().collect());
         seeds.retain(|seed| self.shares.values().all(|(_, shares)| shares.contains_key(seed)));
@@ -273,7 +273,7 @@ impl Section {
             let chosen: Vec<usize> = every.iter().map(|_| random.random_range(0..seeds.len())).collect();
             match crossing_of(&curve, &chosen, level) {
                 Crossing::At(kappa, _) => resampled.push(kappa),
-                // An interval that reaches beyond the study is not known.
+                // An interval that reaches beyond the study is unknown.
                 _ => return Crossing::At(kappa, None),
             }
         }
@@ -283,8 +283,8 @@ impl Section {
     }
 }
 
-/// κ beyond which the mean over the chosen lines stays below a share, straight between neighbours in its
-/// logarithm.
+/// κ beyond which the mean over the chosen profiles stays below a share, linearly interpolated in the logarithm of
+/// the share.
 fn crossing_of(curve: &[(f64, Vec<f64>)], chosen: &[usize], level: f64) -> Crossing {
     let mean = |shares: &[f64]| chosen.iter().map(|&line| shares[line]).sum::<f64>() / chosen.len() as f64;
     let means: Vec<(f64, f64)> = curve.iter().map(|(kappa, shares)| (*kappa, mean(shares))).collect();
@@ -303,7 +303,7 @@ fn crossing_of(curve: &[(f64, Vec<f64>)], chosen: &[usize], level: f64) -> Cross
 mod tests {
     use super::*;
 
-    /// Lines that fall as exp(−κ/c).
+    /// Shares of profiles that fall as exp(−κ/c).
     fn falling(rates: &[f64]) -> Vec<(f64, Vec<f64>)> {
         let kappas = (0..40).map(|k| 0.25 * f64::from(k));
         kappas.map(|kappa| (kappa, rates.iter().map(|rate| (-kappa * rate).exp()).collect())).collect()

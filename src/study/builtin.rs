@@ -1,9 +1,9 @@
-//! The plans that come with the program.
+//! Built-in plans.
 
 /// A built-in plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BuiltInPlan {
-    /// Name that opens the plan.
+    /// Name of the plan on the command line.
     pub name: &'static str,
     /// Text in RON.
     pub text: &'static str,
@@ -34,7 +34,7 @@ pub fn plans() -> &'static [BuiltInPlan] {
     PLANS
 }
 
-/// The built-in plan of a name.
+/// Built-in plan of this name.
 #[must_use]
 pub fn find(name: &str) -> Option<&'static BuiltInPlan> {
     PLANS.iter().find(|plan| plan.name == name)

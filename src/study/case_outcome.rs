@@ -10,9 +10,9 @@ use crate::scene::{Leg, Scene};
 pub(super) struct CaseOutcome<'o> {
     /// Governing parameters.
     pub governing: Governing,
-    /// Properties of the profile, as far as they are recorded.
+    /// Recorded properties of the profile.
     pub profile: ProfileRecord,
-    /// The scene, whose loading is not looked at.
+    /// The scene; its loading is ignored.
     pub scene: &'o Scene,
     /// F_a(0) by the touch protocol, N.
     pub zero_load: Option<f64>,
@@ -28,12 +28,12 @@ pub(super) struct LoadingOutcome {
     pub figures: Figures,
     /// Largest length in contact, m.
     pub contact_length: Option<f64>,
-    /// Point of the largest force on a loading leg.
+    /// Point of the largest force of a loading stage.
     pub preload: Option<CurvePoint>,
 }
 
 impl LoadingOutcome {
-    /// Outcome of these legs.
+    /// Outcome of these loading stages.
     pub fn of_legs(legs: Vec<LegRecord>) -> Self {
         let lengths = legs.iter().flat_map(|leg| &leg.curve).map(|point| point.contact_length);
         let contact_length = lengths.reduce(f64::max);
@@ -43,7 +43,7 @@ impl LoadingOutcome {
         LoadingOutcome { figures, contact_length, preload }
     }
 
-    /// Outcome of a loading from separation to the end of this leg and back.
+    /// Outcome of a loading from separation to the end of this stage and back.
     pub fn of_reversal(leg: Leg, reversal: &Reversal) -> Self {
         LoadingOutcome {
             figures: Figures::of_reversal(leg, reversal),

@@ -14,7 +14,7 @@ pub struct CellSummary {
     pub lines: u64,
     /// For each recorded quantity, in the order of the plan; `None` for the regime.
     pub quantities: Vec<Option<Spread>>,
-    /// Share of profiles in each regime, in the order of [`crate::analysis::Regime::ALL`]; where it is recorded and known.
+    /// Share of profiles in each regime, in the order of [`crate::analysis::Regime::ALL`]; `None` if unknown.
     pub regimes: Option<[f64; 3]>,
 }
 
@@ -71,7 +71,7 @@ impl CellSummary {
         mean.is_finite().then_some(Estimate { mean, low, high })
     }
 
-    /// Regime of the cell and of its profiles; `None` where it was not recorded.
+    /// Regime of the cell and of its profiles; `None` if not recorded.
     #[must_use]
     pub fn regime(&self) -> Option<CellRegime> {
         CellRegime::from_shares(self.regimes?)

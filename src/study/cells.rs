@@ -1,8 +1,8 @@
-//! The cells of a plan, and in which order and parts they are computed.
+//! The cells of a plan, with the order and the parts of their computation.
 //!
-//! A *run* is one loading: all cells that differ in the preload alone. A *unit* is a piece of work that one
-//! thread does from end to end: runs on one random line whose roughness is the same, so that the line and its
-//! tree are made once. Within it the numbers that shape the line vary slowest.
+//! A *run* is one loading: all cells that differ in the preload alone. A *unit* is the work of one thread from end
+//! to end: runs on one random profile with the same roughness, so that the profile and its tree are made once.
+//! Within a unit the numbers that shape the profile vary slowest.
 
 use super::axis::Axis;
 use super::numbering::{number_at, places_of};
@@ -11,10 +11,10 @@ use super::target::{Shapes, Target};
 use crate::scene::Scene;
 use std::ops::Range;
 
-/// Lines are divided into several units until there are so many units, so that many processes can share a plan
-/// of few lines.
+/// Number of units up to which profiles are divided into several, so that many processes can share a plan of few
+/// profiles.
 const ENOUGH_UNITS: u64 = 256;
-/// Fewest runs of a divided line: below it, making the line would cost more than the runs.
+/// Fewest runs of a divided profile: with fewer, making the profile would cost more than the runs.
 const LEAST_RUNS: u64 = 16;
 
 /// Numbering of the runs, units and cells of a plan.
@@ -24,19 +24,19 @@ pub(super) struct Cells {
     targets: Vec<Target>,
     /// Axes that shape the roughness, in the order of the plan.
     outer: Vec<usize>,
-    /// The others, those that shape the line first.
+    /// The other axes, those that shape the profile first.
     inner: Vec<usize>,
     preloads: u64,
     lines: u64,
-    /// Runs of one unit, and units of one line.
+    /// Runs of one unit, and units of one profile.
     chunk: u64,
     chunks: u64,
 }
 
-/// Runs on one line.
+/// Runs on one profile.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Unit {
-    /// Index of the line, from 0.
+    /// Index of the profile, from 0.
     pub line: u64,
     group: u64,
     steps: Range<u64>,
@@ -68,12 +68,12 @@ impl Cells {
         self.counts(axes).product()
     }
 
-    /// Number of runs, whatever their lines.
+    /// Number of runs, the same for each profile.
     pub fn runs(&self) -> u64 {
         self.values.iter().map(|values| values.len() as u64).product()
     }
 
-    /// Cells of one run.
+    /// Number of cells of one run.
     pub fn preloads(&self) -> u64 {
         self.preloads
     }
@@ -83,7 +83,7 @@ impl Cells {
         self.count(&self.outer) * self.lines * self.chunks
     }
 
-    /// A unit; those of one spectrum follow each other.
+    /// The unit of an index; units of one spectrum are consecutive.
     pub fn unit(&self, index: u64) -> Unit {
         let (rest, chunk) = (index / self.chunks, index % self.chunks);
         let steps = self.count(&self.inner);
@@ -95,12 +95,12 @@ impl Cells {
         }
     }
 
-    /// All runs of one line whose roughness is the same, by the number of the roughness.
+    /// All runs of one profile with the same roughness, by the number of the roughness.
     pub fn whole_unit(&self, group: u64, line: u64) -> Unit {
         Unit { group, line, steps: 0..self.count(&self.inner) }
     }
 
-    /// The runs of a unit, in the order in which they are best done.
+    /// The runs of a unit, in the most efficient order.
     pub fn runs_of(&self, unit: &Unit) -> impl Iterator<Item = u64> + use<'_> {
         let group = unit.group;
         unit.steps.clone().filter_map(move |step| {
@@ -124,10 +124,10 @@ impl Cells {
         run * self.preloads..(run + 1) * self.preloads
     }
 
-    /// Makes `scene` that of a run: the base with its values, with the loading it has there.
+    /// Turns `scene` into that of a run: the base with the values of the run and its loading.
     ///
     /// # Errors
-    /// The index of an axis whose number the scene does not have, and why.
+    /// The index of an axis whose number the scene does not have, and the reason.
     pub fn shape(&self, run: u64, base: &Scene, scene: &mut Scene) -> Result<(), (usize, String)> {
         restore(base, scene);
         let places = places_of(run, self.values.iter().map(|values| values.len() as u64));
@@ -136,7 +136,7 @@ impl Cells {
     }
 }
 
-/// Takes back what an axis may have changed.
+/// Restores the fields that an axis may have changed.
 fn restore(base: &Scene, scene: &mut Scene) {
     scene.material = base.material;
     scene.length = base.length;

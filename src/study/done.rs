@@ -1,6 +1,6 @@
-//! The records of a study that there are, one bit for each.
+//! The existing records of a study, one bit for each.
 
-/// Set of the records that there are, by their places.
+/// Set of the existing records, by their places.
 pub(super) struct Done(Vec<u64>);
 
 impl Done {

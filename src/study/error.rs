@@ -10,13 +10,13 @@ use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Error that ends work on a study; records that were written before are kept.
+/// Error that ends work on a study; earlier records are kept.
 #[derive(Debug, Error)]
 pub enum StudyError {
     /// The plan is wrong.
     #[error(transparent)]
     Plan(#[from] PlanErrors),
-    /// A folder or file of the study cannot be read, or is none.
+    /// A folder or file of the study cannot be read, or is not one.
     #[error("{}: {reason}", path_name(path))]
     Folder {
         /// The folder or file.
@@ -38,7 +38,7 @@ pub enum StudyError {
     /// The measured file of the study cannot be read.
     #[error(transparent)]
     Measured(#[from] SurfaceError),
-    /// The measured file is not the one the study began with.
+    /// The content of the measured file differs from that at the beginning of the study.
     #[error(
         "{}: the content of this measured file has changed: its SHA-256 is {found}, {plan} has {expected}; bring \
          back the file the study began with, or begin another study in another folder",
@@ -49,9 +49,9 @@ pub enum StudyError {
         file: PathBuf,
         /// Hash of its content now.
         found: String,
-        /// The plan that expects another, by its name.
+        /// Name of the plan that expects another hash.
         plan: String,
-        /// Hash it expects.
+        /// Expected hash.
         expected: String,
     },
     /// The study began without a hash of its measured file.
@@ -77,12 +77,12 @@ pub enum StudyError {
         cell: u64,
         /// Coordinates of the cell.
         coordinates: String,
-        /// Seed of the line.
+        /// Seed of the profile.
         seed: u64,
         /// Error of the run.
         error: RunError,
     },
-    /// Two processes have given different results for the same cell and line.
+    /// Two processes computed different results for the same cell and profile.
     #[error(
         "{key} ({coordinates}): two records differ, in {} and {}; remove the one that is wrong",
         path_name(one),
@@ -108,20 +108,20 @@ pub enum StudyError {
     Missing {
         /// Number of records.
         records: u64,
-        /// Of how many.
+        /// Number of records of the study.
         total: u64,
-        /// Cells of which lines are missing.
+        /// Number of cells with missing profiles.
         cells: u64,
-        /// The first of them.
+        /// The first of these cells.
         named: Vec<String>,
     },
-    /// There is no memory for the table of records.
+    /// The memory does not hold the table of records.
     #[error("there is not enough memory for {records} records")]
     OutOfMemory {
         /// Number of records.
         records: u64,
     },
-    /// The system gives no thread.
+    /// The system starts no thread.
     #[error("the system gives no thread to compute on")]
     NoThread,
 }
@@ -144,7 +144,7 @@ impl StudyError {
 }
 
 impl From<WriteError> for StudyError {
-    /// The error of the study itself, where that ended the writing of a file.
+    /// The study's own error if that ended the writing of a file.
     fn from(error: WriteError) -> StudyError {
         match error {
             WriteError::Failed { path, reason } => reason

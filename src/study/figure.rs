@@ -1,4 +1,4 @@
-//! Figure of a study: a map over two axes or a section along one, as numbers and their names, without any drawing.
+//! Figure of a study as numbers and names, without any drawing: a map over two axes or a section along one.
 
 use super::axis::Axis;
 use super::plan::Plan;
@@ -8,13 +8,13 @@ use crate::analysis::{Regime, VANISHING_SHARE};
 pub use crate::draw::AxisScale;
 use crate::scene::{Leg, field, format_quantity};
 
-/// Ratio of values from which on a scale is logarithmic.
+/// Smallest ratio of the values on a logarithmic scale.
 const LOGARITHMIC_RATIO: f64 = 50.0;
 
 /// An axis of a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FigureAxis {
-    /// Name in the terms of the field: `Hurst exponent`.
+    /// Technical name: `Hurst exponent`.
     pub name: String,
     /// Symbol, with `_` before an index: `F_n`. May be empty.
     pub symbol: String,
@@ -63,18 +63,18 @@ impl FigureAxis {
         self.values.iter().map(|value| self.scale.coordinate(*value)).collect()
     }
 
-    /// Place of a number among the values, the first of them at 0: between two by its share of their
-    /// distance, and beyond the ends as the last distance goes on.
+    /// Place of a number among the values, the first at 0: linear between two values, extrapolated by the last
+    /// distance beyond the ends.
     #[must_use]
     pub fn place(&self, number: f64) -> f64 {
         self.scale.place(&self.values, number)
     }
 }
 
-/// A quantity that is shown.
+/// A shown quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FigureQuantity {
-    /// Name in the terms of the field.
+    /// Technical name.
     pub name: String,
     /// Symbol, as in [`FigureAxis::symbol`].
     pub symbol: String,
@@ -95,13 +95,13 @@ impl From<Quantity> for FigureQuantity {
     }
 }
 
-/// Name of a column as people write it.
+/// Name of a column in words.
 fn in_words(column: &str) -> String {
     let hyphenated = [("zero load", "zero-load"), ("zero force", "zero-force"), ("pull off", "pull-off")];
     hyphenated.iter().fold(column.replace('_', " "), |name, (words, word)| name.replace(words, word))
 }
 
-/// A mean over random lines with its confidence.
+/// A mean over random profiles with its confidence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// The mean.
@@ -112,8 +112,8 @@ pub struct Estimate {
     pub high: f64,
 }
 
-/// One quantity in all cells; `None` in those that are missing or do not have it. In a map row by row, the
-/// row of the first value of the axis up first; in a section curve by curve.
+/// One quantity in all cells; `None` in cells that are missing or do not have it. In a map row by row, the row of
+/// the first value of the axis up first; in a section curve by curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
     /// Quantity of the panel.
@@ -122,18 +122,18 @@ pub struct Panel {
     pub estimates: Vec<Option<Estimate>>,
     /// Scale of the values.
     pub scale: AxisScale,
-    /// Ends of the scale of several figures; `None` where they follow from the values.
+    /// Common range of several figures; `None` for the range of the values.
     pub range: Option<(f64, f64)>,
-    /// True for F_a(0)/F_a,max by either protocol, whose own values have the boundary.
+    /// True for F_a(0)/F_a,max by either protocol, which has a boundary of its own.
     pub vanishes: bool,
 }
 
-/// Boundary of vanishing zero-load adhesion: these values fall through the level.
+/// Boundary of vanishing zero-load adhesion: the values fall through the level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Boundary {
     /// F_a(0) in all cells, in the order of [`Panel::estimates`].
     pub values: Vec<Option<f64>>,
-    /// Below this it has vanished.
+    /// Level below which adhesion has vanished.
     pub level: f64,
     /// Label of the line: `F_a(0) = 0.05 F_a,max`.
     pub label: String,
@@ -162,26 +162,26 @@ impl Panel {
 /// A figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// One line above it; may be empty.
+    /// One line above the figure; may be empty.
     pub title: String,
-    /// Axes that are fixed, as `H = 0.3`.
+    /// Fixed axes, as `H = 0.3`.
     pub fixed: Vec<String>,
     /// The axis across.
     pub across: FigureAxis,
     /// The axis up; a section has none.
     pub up: Option<FigureAxis>,
-    /// The axis of the curves of a section, where there are several: one for each value.
+    /// The axis of several curves of a section, one for each value.
     pub series: Option<FigureAxis>,
     /// Panels, side by side.
     pub panels: Vec<Panel>,
     /// Boundary of vanishing zero-load adhesion; `None` where not recorded.
     pub boundary: Option<Boundary>,
-    /// The regime of most lines of each cell, where that is known; empty otherwise.
+    /// The regime of most profiles of each cell, where known; empty otherwise.
     pub regimes: Vec<Option<Regime>>,
 }
 
 impl Figure {
-    /// The boundary as a panel shows it: where its own F_a(0) vanishes, if that is what it shows.
+    /// The boundary on a panel: that of the panel's own F_a(0) where the panel shows it.
     #[must_use]
     pub fn boundary_of(&self, panel: &Panel) -> Option<Boundary> {
         let boundary = self.boundary.clone()?;
@@ -197,7 +197,7 @@ impl Figure {
         }
         let Some(boundary) = self.boundary_of(panel) else { return Vec::new() };
         let places = self.across.coordinates();
-        // Without a load all curves have the same; where they do not, there is no one place.
+        // At zero load all curves are equal; curves that differ have no single crossing.
         let mut curves = boundary.values.chunks(places.len().max(1));
         let first = curves.next();
         if curves.any(|curve| Some(curve) != first) {
@@ -213,14 +213,14 @@ impl Figure {
     }
 }
 
-/// An axis at one of its values, as people read it: `H = 0.3`.
+/// An axis at one of its values, for readers: `H = 0.3`.
 pub(super) fn fixed(plan: &Plan, axis: &Axis, place: u64) -> String {
     let FigureAxis { name, symbol, unit, .. } = FigureAxis::new(plan, axis);
     let value = format_quantity(axis.value(place), &unit);
     if symbol.is_empty() { format!("{name} {value}") } else { format!("{symbol} = {value}") }
 }
 
-/// Logarithmic where all means are above zero and half of them below a fiftieth of the largest.
+/// Logarithmic scale where all means are above zero and half of them below a fiftieth of the largest.
 pub(super) fn scale_of(estimates: &[Option<Estimate>]) -> AxisScale {
     let means: Vec<f64> = estimates.iter().flatten().map(|estimate| estimate.mean).collect();
     let largest = means.iter().copied().fold(0.0, f64::max);

@@ -1,4 +1,4 @@
-//! The merged results of a study, read back: for plots and views.
+//! Reader of the merged results of a study, for plots and views.
 
 use super::StudyError;
 use super::axis::Axis;
@@ -13,24 +13,24 @@ use crate::io::{ReadError, open_regular};
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
-/// A study whose tables have been published, cell by cell.
+/// A study with published tables, cell by cell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finished {
     plan: Plan,
     cells: Vec<Option<CellSummary>>,
 }
 
-/// One row of the results: one cell on one line.
+/// One row of the results: one cell on one profile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// Index of the cell.
     pub cell: u64,
-    /// Seed of the line.
+    /// Seed of the profile.
     pub seed: u64,
-    /// For each quantity that the plan records, in that order; nothing for what there is not, and for the
+    /// For each quantity that the plan records, in that order; `None` where the profile has no value, and for the
     /// regime.
     pub values: Vec<Option<f64>>,
-    /// The regime, where it is recorded and known.
+    /// The regime, where recorded and known.
     pub regime: Option<Regime>,
 }
 
@@ -57,21 +57,21 @@ impl Finished {
         &self.plan
     }
 
-    /// Summary of a cell; `None` where the tables were published without it. Cells are counted with the last
-    /// axis fastest, and the preload faster than that; [`Plan::values`] has their coordinates.
+    /// Summary of a cell; `None` where the tables were published without it. In the numbering of cells the last
+    /// axis is the fastest but for the preload; [`Plan::values`] has their coordinates.
     #[must_use]
     pub fn cell(&self, cell: u64) -> Option<&CellSummary> {
         self.cells.get(cell as usize)?.as_ref()
     }
 
-    /// The cell at these places on the axes, the preload's last where there are preloads.
+    /// The cell at these places on the axes, the preload's last if there are preloads.
     #[must_use]
     pub fn at(&self, places: &[u64]) -> Option<&CellSummary> {
         self.cell(number_at(places, self.plan.all_axes().into_iter().map(Axis::count))?)
     }
 
-    /// The cells over one axis or two, by their numbers, at these places on the others: row by row, both by ascending
-    /// values.
+    /// The cells over one axis or two, by their numbers, at these places on the others: row by row, both axes by
+    /// ascending values.
     pub(super) fn grid(
         &self,
         across: usize,
@@ -93,12 +93,12 @@ impl Finished {
         cells
     }
 
-    /// Place of a quantity among the recorded.
+    /// Place of a quantity among the recorded quantities.
     pub(super) fn column(&self, quantity: Quantity) -> Option<usize> {
         self.plan.record.iter().position(|one| *one == quantity)
     }
 
-    /// A quantity in a cell.
+    /// Mean and spread of a quantity in a cell.
     #[must_use]
     pub fn spread(&self, cell: u64, quantity: Quantity) -> Option<Spread> {
         self.cell(cell)?.quantities[self.column(quantity)?]
@@ -117,7 +117,7 @@ impl Finished {
     }
 }
 
-/// Calls `each` with the columns of every row but the first, which is checked to have as many.
+/// Calls `each` with the columns of every row but the first, whose number of columns is checked.
 fn each_row(path: &Path, plan: &Plan, mut each: impl FnMut(&[&str]) -> Option<()>) -> Result<(), StudyError> {
     let wrong = |reason: String| StudyError::folder(path, reason);
     let file = open_regular(path).map_err(|error| match error {
@@ -134,7 +134,7 @@ fn each_row(path: &Path, plan: &Plan, mut each: impl FnMut(&[&str]) -> Option<()
         if read.map_err(StudyError::unreadable(path))? == 0 {
             break;
         }
-        // A line that is too long, torn or no text has no columns that would be accepted.
+        // A line that is too long, torn or not text has no acceptable columns.
         let text =
             line.strip_suffix(b"\n").and_then(|line| std::str::from_utf8(line).ok()).unwrap_or_default();
         let columns: Vec<&str> = text.trim_end_matches('\r').split(',').collect();

@@ -1,8 +1,8 @@
-//! Deviation of the heights of one profile from a bell curve.
+//! Deviation of the heights of one profile from a normal distribution.
 
 use serde::Serialize;
 
-/// Shape of a line's own distribution of heights; both are zero for the ensemble's bell curve.
+/// Shape of a profile's own distribution of heights; both values are zero for the ensemble's normal distribution.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct HeightShape {
     /// ⟨z³⟩/⟨z²⟩^(3/2), heights counted from their mean.
@@ -12,7 +12,7 @@ pub struct HeightShape {
 }
 
 impl HeightShape {
-    /// Of these heights; `None` where they are all alike.
+    /// Shape of these heights; `None` where all are equal.
     #[must_use]
     pub fn of(heights: impl Iterator<Item = f64> + Clone) -> Option<Self> {
         let (count, sum) =
@@ -40,7 +40,7 @@ mod tests {
         let sine = (0..1000).map(|k| 3e-9 * (std::f64::consts::TAU * f64::from(k) / 1000.0).sin() + 1e-9);
         let shape = HeightShape::of(sine).unwrap();
         assert!(shape.skewness.abs() < 1e-12 && (shape.excess_kurtosis + 1.5).abs() < 1e-12, "{shape:?}");
-        // One of four is far off: deviations −1, −1, −1, 3 from the mean.
+        // One height of four is far off: deviations −1, −1, −1, 3 from the mean.
         let shape = HeightShape::of([0.0, 0.0, 0.0, 4.0].into_iter()).unwrap();
         assert!((shape.skewness - 6.0 / 3.0_f64.powf(1.5)).abs() < 1e-12);
         assert!((shape.excess_kurtosis - (21.0 / 9.0 - 3.0)).abs() < 1e-12);

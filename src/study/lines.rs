@@ -1,7 +1,7 @@
-//! One scene on many random lines: the mean of what they give, and how far they differ.
+//! One scene on many random profiles: mean results and their spread.
 //!
-//! Heights of self-affine lines do not average themselves: long waves carry most of them, and there are few of
-//! those however many springs a line has. So one line is one sample, and a mean needs many.
+//! Heights of a self-affine profile do not average out: a few long waves carry most of them, on any number of
+//! springs. So one profile is one sample, and a mean needs many.
 
 use super::cells::Cells;
 use super::height_shape::HeightShape;
@@ -29,27 +29,27 @@ pub struct LineResult {
     pub adhesion_force: Option<f64>,
     /// Indentation at the preload, m.
     pub preload_indentation: Option<f64>,
-    /// Energy lost, J.
+    /// Dissipated energy, J.
     pub dissipated_energy: Option<f64>,
     /// Tabor number μ.
     pub tabor_number: Option<f64>,
-    /// Largest length in contact over the length of the line.
+    /// Largest length in contact over the length of the profile.
     pub contact_fraction: f64,
     /// Regime of Fig. 4.
     pub regime: Option<Regime>,
-    /// Shape of the distribution of its heights, without the form.
+    /// Shape of the distribution of the heights, without the form.
     pub heights: Option<HeightShape>,
 }
 
 /// Reason why profiles could not be solved.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum LinesError {
-    /// There is but one line.
+    /// The scene has a single profile.
     #[error(
         "several lines go with roughness: SelfAffine or an equivalent line, which have seeds; this scene has but one line"
     )]
     OneLine,
-    /// A line could not be computed.
+    /// A profile could not be computed.
     #[error("seed {seed}: {error}")]
     Run {
         /// Seed of the profile.
@@ -71,8 +71,8 @@ const RECORD: [Quantity; 8] = [
     Quantity::ExcessKurtosis,
 ];
 
-/// Solves a checked scene on `lines` profiles: its seed and the seeds that follow, after the last of all seeds the
-/// first. `jobs` threads share them; no bit of a result depends on their number.
+/// Solves a checked scene on `lines` profiles: its seed and the seeds that follow, cyclically after the last of all
+/// seeds. `jobs` threads share the profiles; no bit of a result depends on their number.
 ///
 /// # Errors
 /// [`LinesError`]; of several profiles that fail, the first.
@@ -91,7 +91,7 @@ pub fn solve_lines(
 }
 
 /// Solves the only cell of a plan on all of its profiles: the seed of each with its result, in the order of the
-/// profiles. `jobs` threads share the profiles, each with a solver of its own.
+/// profiles. `jobs` threads share the profiles, each with its own solver.
 ///
 /// # Errors
 /// [`LinesError`]; of several profiles that fail, the first.
@@ -126,8 +126,8 @@ where
     solved.into_iter().map(result).collect()
 }
 
-/// Solves a checked scene on profile after profile, on this thread and those that a simulation uses. `stop` is asked
-/// within a profile; `sink` is given the values of `record`.
+/// Solves a checked scene on profile after profile, on this thread and those of a simulation. `stop` is polled
+/// within a profile; `sink` receives the values of `record`.
 pub(crate) fn solve_in_turn(
     scene: &Scene,
     simulation: Simulation,
@@ -144,7 +144,7 @@ pub(crate) fn solve_in_turn(
     let _ = units.try_for_each(|unit| solver.solve(&unit, sink));
 }
 
-/// Profiles that have been solved, by their numbers.
+/// Solved profiles, by their numbers.
 type Solved<R> = Mutex<Vec<(u64, Result<R, RunError>)>>;
 
 impl<R> Sink<R> for &Solved<R> {
@@ -153,7 +153,7 @@ impl<R> Sink<R> for &Solved<R> {
     }
 
     fn take(&mut self, case: Case, records: Result<R, RunError>) -> ControlFlow<()> {
-        // After a failure the profiles that follow are of no use; those before are under way or done.
+        // After a failure the profiles that follow are not needed; those before are under way or done.
         let flow = if records.is_err() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
         self.lock().unwrap_or_else(PoisonError::into_inner).push((case.line, records));
         flow
@@ -161,7 +161,7 @@ impl<R> Sink<R> for &Solved<R> {
 }
 
 impl LineResult {
-    /// The result of a seed from the values of [`RECORD`].
+    /// Result of a seed from the values of [`RECORD`].
     fn new(seed: u64, values: &[f64]) -> Self {
         let value = |quantity| {
             let column = RECORD.iter().position(|one| *one == quantity)?;
@@ -181,20 +181,20 @@ impl LineResult {
     }
 }
 
-/// Statistics over lines; a figure that fewer than two of them have is `None`.
+/// Statistics over profiles; `None` for a figure with values on fewer than two of them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LinesSummary {
-    /// Of the adhesion force, N.
+    /// Statistics of the adhesion force, N.
     pub adhesion_force: Option<Statistics>,
-    /// Of the indentation at the preload, m.
+    /// Statistics of the indentation at the preload, m.
     pub preload_indentation: Option<Statistics>,
-    /// Of the energy lost, J.
+    /// Statistics of the dissipated energy, J.
     pub dissipated_energy: Option<Statistics>,
-    /// Of the largest length in contact over the length of the line.
+    /// Statistics of the largest length in contact over the length of the profile.
     pub contact_fraction: Option<Statistics>,
-    /// Lines of each regime.
+    /// Number of profiles in each regime.
     pub regimes: RegimeCounts,
-    /// Root mean square over the lines of the skewness of their heights; zero if they averaged themselves.
+    /// Root mean square over the profiles of the skewness of their heights; zero if the heights averaged out.
     pub rms_skewness: Option<f64>,
     /// Root mean square of the excess kurtosis.
     pub rms_excess_kurtosis: Option<f64>,
@@ -209,12 +209,12 @@ pub struct RegimeCounts {
     pub pressure_sensitive: usize,
     /// No adhesion.
     pub non_adhesive: usize,
-    /// Nothing is pulled.
+    /// Regime unknown: no tensile force.
     pub none: usize,
 }
 
 impl RegimeCounts {
-    /// Counts regimes of profiles.
+    /// Counts the regimes of profiles.
     pub(super) fn of(regimes: impl Iterator<Item = Option<Regime>>) -> Self {
         let mut counts = RegimeCounts::default();
         for regime in regimes {
@@ -242,7 +242,7 @@ impl RegimeCounts {
 }
 
 impl LinesSummary {
-    /// Of what the lines gave.
+    /// Statistics of these results.
     #[must_use]
     pub fn of(lines: &[LineResult]) -> Self {
         let statistics = |figure: fn(&LineResult) -> Option<f64>| {
@@ -284,7 +284,7 @@ mod tests {
         );
         assert_eq!(of(3), alone);
         assert_eq!(of(64), alone);
-        // Each is the scene itself with that seed.
+        // Each result is that of the scene itself with that seed.
         scene.set_seed(0);
         let outcome =
             Simulation::new(document.resolve("")).run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();

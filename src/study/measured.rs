@@ -1,8 +1,8 @@
-//! The measured file of a study. Its content decides the results as much as the plan does, so the plan has its
-//! hash, and a run computes with the bytes that were hashed and no others.
+//! The measured file of a study. Its content determines the results as much as the plan does, so the plan holds its
+//! hash, and a run computes with exactly the bytes that were hashed.
 //!
 //! SHA-256 rather than the checksum of records: one in 4e9 accidental changes would pass a CRC of 32 bits, and
-//! anyone can find out which copy of a file is meant, with `sha256sum`.
+//! `sha256sum` identifies the right copy of a file.
 
 use super::StudyError;
 use super::plan::{PLAN_FILE, Plan};
@@ -15,20 +15,20 @@ use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Returns true for a hash as plans write it.
+/// Returns true for a hash in the form of a plan.
 pub(super) fn is_hash(text: &str) -> bool {
     text.len() == 64 && text.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f'))
 }
 
-/// The measured file of a plan, that of the first face, where its scene has one.
+/// The measured file of a plan, that of the first face, if its scene has one.
 pub(super) fn file_of(plan: &Plan) -> Option<PathBuf> {
     plan.scene.measured_files().first().map(PathBuf::from)
 }
 
-/// The plan with the hash of its measured file as the file is now.
+/// The plan with the present hash of its measured file.
 ///
 /// # Errors
-/// A file that cannot be read, or that has another hash than the plan states.
+/// A file that cannot be read, or whose hash differs from that in the plan.
 pub(super) fn with_hash(plan: &Plan) -> Result<Plan, StudyError> {
     let Some(file) = file_of(plan) else { return Ok(plan.clone()) };
     let (_, found) = read(&plan.scene)?;
@@ -36,10 +36,10 @@ pub(super) fn with_hash(plan: &Plan) -> Result<Plan, StudyError> {
     Ok(Plan { measured_sha256: Some(found), ..plan.clone() })
 }
 
-/// The measured profile of a study in a folder, where it has one.
+/// The measured profile of a study in a folder, if the study has one.
 ///
 /// # Errors
-/// A file that cannot be read, is no profile, or has another hash than the plan states.
+/// A file that cannot be read, is no profile, or whose hash differs from that in the plan.
 pub(super) fn profile(plan: &Plan, folder: &Path) -> Result<Option<Arc<MeasuredRoughness>>, StudyError> {
     let Some(file) = file_of(plan) else { return Ok(None) };
     let (profile, found) = read(&plan.scene)?;
@@ -59,7 +59,7 @@ fn expect(plan: &Plan, file: &Path, found: &str, origin: impl Fn() -> String) ->
     }
 }
 
-/// A surface, and the hash of the bytes it was read from; of several files one behind the other.
+/// A surface, and the hash of its bytes; several files are hashed one after the other.
 fn read(scene: &Scene) -> Result<(MeasuredRoughness, String), StudyError> {
     let mut hasher = Sha256::new();
     let profile = MeasuredRoughness::read(
@@ -81,7 +81,7 @@ mod tests {
     fn hashes_are_those_of_sha256sum() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("line.csv");
-        // A mark, a comment, both kinds of line breaks, and none at the end.
+        // A byte order mark, a comment, both kinds of line breaks, and none at the end.
         std::fs::write(&file, "\u{feff}# heights\r\n0 0\n1e-6 1e-9").unwrap();
         let known = "3301e005145807de31f1e613c0705281eacbe8fc66deec574eba4d53402a7e71";
         let scene = crate::scene::open("rough-sphere").unwrap().scene().clone();

@@ -15,11 +15,11 @@ use crate::surface::{EquivalentLine, MeasuredRoughness};
 use serde::Serialize;
 use std::sync::Arc;
 
-/// Curve samples on a leg: the figures are exact extremes.
+/// Curve samples on a loading stage: the figures are exact extremes.
 const SAMPLES: u64 = 2;
 
-/// Share of a drawn step by which a spectrum is moved. Errors of the fit are stated to first order; of its longest waves
-/// nearly nothing is known, and whole steps of their logarithms would be powers of ten.
+/// Share of a drawn step by which a spectrum is moved. Errors of the fit are stated to first order; its longest
+/// waves are nearly unknown, and whole steps of their logarithms would be powers of ten.
 const SHARE: f64 = 1.0 / 32.0;
 
 /// Adhesion of one random profile.
@@ -27,16 +27,16 @@ const SHARE: f64 = 1.0 / 32.0;
 pub struct ProfileAdhesion {
     /// Seed of the profile.
     pub seed: u64,
-    /// Adhesion force F_a on the fitted spectrum, N; `None` where nothing is pulled.
+    /// Adhesion force F_a on the fitted spectrum, N; `None` without a tensile force.
     pub adhesion_force: Option<f64>,
-    /// Its change with the spectrum, to first order, by a step drawn from the uncertainty of the fit, N.
+    /// Change of F_a, to first order, by a step of the spectrum drawn from the uncertainty of the fit, N.
     pub fit_change: Option<f64>,
     /// Regime on the fitted spectrum.
     pub regime: Option<Regime>,
 }
 
 impl ProfileAdhesion {
-    /// Solves a checked scene of a measured surface on one profile of its equivalent line.
+    /// Solves a checked scene of a measured surface on one random profile of its equivalent line.
     ///
     /// # Errors
     /// When a profile or its contact fails, or `stop` returns true.
@@ -55,7 +55,7 @@ impl ProfileAdhesion {
             Simulation::default().with_measured(measured).run(scene, stop, &mut |_, _, _| Ok(()))
         };
         let fitted = on(&scene, line.clone())?;
-        // Where κ or e_el/γ is given, the work of adhesion is that of the fitted spectrum.
+        // If κ or e_el/γ is given, the work of adhesion is that of the fitted spectrum.
         if let Some(work) = fitted.governing.work_of_adhesion {
             scene.adhesion = scene.adhesion.map(|adhesion| adhesion.with_work(work));
         }
@@ -78,8 +78,8 @@ pub struct MeasuredAdhesion {
 }
 
 impl MeasuredAdhesion {
-    /// Solves a checked scene on `count` profiles: its seed and the seeds that follow. `jobs` threads share them; no bit of
-    /// a result depends on their number.
+    /// Solves a checked scene on `count` profiles: its seed and the seeds that follow. `jobs` threads share the
+    /// profiles; no bit of a result depends on their number.
     ///
     /// # Errors
     /// [`LinesError`]; of several profiles that fail, the first.
@@ -98,8 +98,8 @@ impl MeasuredAdhesion {
         Statistics::of(&forces)
     }
 
-    /// Standard deviation of the adhesion force by the uncertainty of the spectrum, N: root mean square of the changes of the
-    /// profiles. `None` for fewer than two.
+    /// Standard deviation of the adhesion force due to the uncertainty of the spectrum, N: root mean square of the
+    /// changes of the profiles. `None` for fewer than two.
     #[must_use]
     pub fn fit_deviation(&self) -> Option<f64> {
         let changes: Vec<f64> = self.profiles.iter().filter_map(|profile| profile.fit_change).collect();

@@ -1,4 +1,4 @@
-//! All records of a study as tables: each once, sorted, and what the lines of a cell have in common.
+//! Merge of all records of a study into tables: each record once, sorted, with statistics over the profiles.
 
 use super::StudyError;
 use super::cell_summary::CellSummary;
@@ -16,9 +16,9 @@ use std::collections::BTreeSet;
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Missing cells that are named.
+/// Most missing cells that are named.
 const MOST_NAMED: usize = 8;
-/// Bits of a place with the number of the file; the others are the place in that file.
+/// Bits of a place for the number of the file; the others hold the place in that file.
 const FILE_BITS: u32 = 24;
 const NOWHERE: u64 = u64::MAX;
 
@@ -29,13 +29,13 @@ struct Index {
     merged: Merged,
 }
 
-/// Merges the shard files of a study and publishes its tables, all of them or none: whoever looks, and whatever
-/// ends the process or the machine, finds those of this merge or those of the one before. With `partial`, tables
-/// of what there is. [`super::PARQUET`] of an earlier merge goes.
+/// Merges the shard files of a study and publishes its tables, all or none: after any end of the process or the
+/// machine, a reader finds those of this merge or those of the one before. With `partial`, tables of the existing
+/// records. Removes [`super::PARQUET`] of an earlier merge.
 ///
 /// # Errors
-/// [`StudyError::Missing`] where records are missing and `partial` is not set; [`StudyError::Disagree`] where
-/// two records of one cell and line differ.
+/// [`StudyError::Missing`] if records are missing and `partial` is not set; [`StudyError::Disagree`] if two records
+/// of one cell and profile differ.
 pub fn merge(folder: &Folder, partial: bool) -> Result<Merged, StudyError> {
     let index = Index::of(folder)?;
     if index.merged.records < index.merged.total && !partial {
@@ -64,7 +64,7 @@ impl Index {
         let files = folder.files()?;
         let (mut records, mut duplicates, mut damaged, mut holding) = (0, 0, 0, 0);
         let mut programs = BTreeSet::new();
-        // Those that a file repeats are mostly of one other file.
+        // Repeated records of a file are mostly in one other file.
         let mut others = OneOpen::new(&files, plan.record.len());
         for (number, file) in files.iter().enumerate() {
             let mut here = 0;
@@ -118,7 +118,7 @@ impl Index {
     }
 
     fn publish(&self, folder: &Folder) -> Result<(), StudyError> {
-        // A study that has a summary counts as merged: where files are published one by one, that is the last.
+        // A study with a summary counts as merged, so the summary is last where files are published one by one.
         publish(folder.disk(), folder.path(), &[RESULTS, SIDECAR, SUMMARY], &mut |place| {
             let [results, summary] = [RESULTS, SUMMARY].map(|name| place.join(name));
             write_new_on(folder.disk(), &results, false, |results| {
@@ -140,8 +140,7 @@ impl Index {
     }
 
     /// Writes results and summary together, so that each record is read once, `cells` cells at a time. The records
-    /// of these are read in the order in which the files have them: one file is open at a time, however many
-    /// there are.
+    /// of these cells are read in file order: a single file is open at a time.
     fn write_tables(
         &self,
         plan: &Plan,
@@ -193,16 +192,16 @@ impl Index {
     }
 }
 
-/// Bytes of the records that are held while tables are written; those of one cell at least.
+/// Bytes of the records held while tables are written; at least those of one cell.
 const HELD: usize = 8 << 20;
 
 fn cells_at_once(lines: usize, columns: usize) -> usize {
-    // The values of a row, its place in the order, and the values' place in the summary.
+    // The values of a row, its place in the order, and the place of the values in the summary.
     let row = size_of::<f64>() * columns + size_of::<usize>() + size_of::<&[f64]>();
     (HELD / (row * lines)).max(1)
 }
 
-/// Reads records from any of many files, of which the last one read is open and no other.
+/// Reader of records from any of many files; only the last file is open.
 struct OneOpen<'f> {
     files: &'f [ShardFile],
     open: Option<(usize, Lines)>,
@@ -221,7 +220,7 @@ impl<'f> OneOpen<'f> {
         let file = &self.files[number];
         let unreadable = StudyError::unreadable(&file.path);
         if self.open.as_ref().is_none_or(|(open, _)| *open != number) {
-            // The one before is closed first.
+            // The previous file is closed first.
             self.open = None;
         }
         let (_, lines) = match &mut self.open {
@@ -242,7 +241,7 @@ fn changed() -> io::Error {
     io::Error::new(io::ErrorKind::InvalidData, "a record has changed while it was read")
 }
 
-/// A file and an offset in it as one number; `None` where they are too large for that.
+/// A file and an offset as one number; `None` if they are too large.
 fn place_of(file: usize, offset: u64) -> Option<u64> {
     let bits = u64::BITS - FILE_BITS;
     ((file as u64) < (1 << FILE_BITS) - 1 && offset < 1 << bits).then_some((file as u64) << bits | offset)
@@ -283,7 +282,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// A study of twelve cells and three lines without records.
+    /// A study of twelve cells and three profiles without records.
     fn empty(place: &Path) -> Folder {
         let text = r#"(
             version: 1,
@@ -305,7 +304,7 @@ mod tests {
         Folder::create(&place.join("study"), &plan).unwrap()
     }
 
-    /// Half of its records in one file and half in another.
+    /// A study with half of its records in one file and half in another.
     fn study(place: &Path) -> Folder {
         let folder = empty(place);
         for number in [1, 2] {
@@ -350,7 +349,7 @@ mod tests {
         let folder = study(place.path());
         let merged = Index::of(&folder).unwrap().merged;
         assert_eq!((merged.files, merged.programs.len(), merged.records), (2, 1, 36));
-        // A file of another program, stopped before its first record.
+        // A file of another program version, stopped before its first record.
         let file = &folder.files().unwrap()[0].path;
         let text = std::fs::read_to_string(file).unwrap();
         let header = text.lines().next().unwrap().split_once(',').unwrap().1;
@@ -374,7 +373,7 @@ mod tests {
     }
 
     proptest! {
-        /// A place gives its file and offset again, and places are in the order of files and offsets.
+        /// A place returns its file and offset, and places are in the order of files and offsets.
         #[test]
         fn places_are_files_and_offsets(
             files in [0_usize..(1 << FILE_BITS) - 1, 0_usize..(1 << FILE_BITS) - 1],

@@ -1,11 +1,11 @@
-//! Parameter studies: many cells on many random lines, computed once, kept safely and put into tables.
+//! Parameter studies: many cells on many random profiles, computed once, stored safely and tabulated.
 //!
-//! A [`Plan`] names a scene, the [`Axis`]es along which numbers of it vary, a number of random lines, and what
-//! is recorded. [`run()`] computes what is missing of it in a [`Folder`], by as many threads and processes as
-//! there are; [`merge()`] publishes the tables, and [`Finished`] reads them back.
+//! A [`Plan`] names a scene, the [`Axis`]es along which its numbers vary, a number of random profiles, and the
+//! recorded quantities. [`run()`] computes the missing records in a [`Folder`], by any number of threads and
+//! processes; [`merge()`] publishes the tables, and [`Finished`] reads them.
 //!
-//! Lines have the same seeds in all cells, so a curve over an axis is as smooth as that of a single line. What
-//! cells share is made once: a line and its tree serve every κ, γ and load.
+//! Profiles have the same seeds in all cells, so a curve over an axis is as smooth as that of a single profile.
+//! Shared data of cells are computed once: a profile and its tree serve every κ, γ and load.
 //!
 //! ```
 //! use asperity::study::{Changes, Finished, Folder, Options, Plan, Quantity, Shard, merge, run};

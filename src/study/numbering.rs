@@ -1,4 +1,4 @@
-//! Numbers of the cells of a grid: the place on the last axis is counted fastest.
+//! Numbers of the cells of a grid: the last axis is the fastest.
 
 /// Places of a cell on axes with so many values.
 pub(super) fn places_of(number: u64, counts: impl DoubleEndedIterator<Item = u64>) -> Vec<u64> {

@@ -1,7 +1,7 @@
-//! The results of a study as Parquet: the rows of `results.csv` with types, in about a quarter of the room.
+//! The results of a study as Parquet: the rows of `results.csv` with types, in about a quarter of the space.
 //!
-//! Numbers without a value are null. Cells, seeds and whole axes are unsigned integers, all else has the bits of
-//! the CSV. The plan is in the metadata of the file.
+//! Missing numbers are null. Cells, seeds and integer axes are unsigned integers, all other columns have the bits
+//! of the CSV. The metadata of the file hold the plan.
 
 use super::StudyError;
 use super::finished::{Finished, Row};
@@ -22,7 +22,7 @@ use parquet::schema::types::{Type, TypePtr};
 use std::io::{self, Write};
 use std::sync::Arc;
 
-/// Rows that are gathered before they are written; each column holds them in memory.
+/// Rows gathered before they are written; each column holds them in memory.
 const ROWS: usize = 1 << 17;
 /// Key of the plan in the metadata.
 const PLAN: &str = "asperity.plan";
@@ -32,7 +32,7 @@ const PLAN: &str = "asperity.plan";
 /// # Errors
 /// A study that is not merged, or a file that cannot be written.
 pub fn write_parquet(folder: &Folder) -> Result<(), StudyError> {
-    // In the folder of the tables it belongs to, which it goes with.
+    // In the folder of its tables, so that a later merge removes both.
     let place = place_of(folder.path());
     write_new(&place.join(PARQUET), true, |out| {
         let mut table = Table::new(out, folder.plan()).map_err(io::Error::other)?;
@@ -47,14 +47,14 @@ pub fn write_parquet(folder: &Folder) -> Result<(), StudyError> {
     show(folder.disk(), folder.path(), PARQUET)
 }
 
-/// The values of a column, as far as they have been gathered.
+/// Gathered values of a column.
 enum Column {
     Whole(Vec<i64>),
     Number(Nullable<f64>),
     Text(Nullable<ByteArray>),
 }
 
-/// Values there are, and for each row whether it has one.
+/// Existing values, and for each row true if it has one.
 struct Nullable<T> {
     values: Vec<T>,
     levels: Vec<i16>,
@@ -76,7 +76,7 @@ impl<T> Nullable<T> {
     }
 }
 
-/// A table while it is written.
+/// A table being written.
 struct Table<'a, W: Write + Send> {
     plan: &'a Plan,
     writer: SerializedFileWriter<W>,
@@ -131,7 +131,7 @@ impl<'a, W: Write + Send> Table<'a, W> {
         let before = 1 + axes + 2;
         for (index, column) in self.columns.iter_mut().enumerate() {
             match column {
-                // Unsigned numbers are kept by their bits.
+                // Unsigned numbers are stored by their bits.
                 Column::Whole(whole) => whole.push(match index {
                     0 => cell.cast_signed(),
                     _ if index <= axes => (places[index - 1] as u64).cast_signed(),
@@ -139,7 +139,7 @@ impl<'a, W: Write + Send> Table<'a, W> {
                 }),
                 Column::Number(number) => number.push(match index.checked_sub(before) {
                     Some(quantity) => values[quantity],
-                    // The last place is the preload's, where there are preloads.
+                    // The last place is that of the preload, if there are preloads.
                     None => places.get(index - 1).copied(),
                 }),
                 Column::Text(text) => text.push(regime.map(|regime| regime.name().into())),
@@ -149,7 +149,7 @@ impl<'a, W: Write + Send> Table<'a, W> {
         if self.rows < ROWS { Ok(()) } else { self.flush() }
     }
 
-    /// Writes what has been gathered.
+    /// Writes the gathered rows.
     fn flush(&mut self) -> Result<(), ParquetError> {
         if self.rows == 0 {
             return Ok(());

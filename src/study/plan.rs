@@ -7,31 +7,31 @@ use super::target::Target;
 use crate::scene::{Scene, ron_float};
 use serde::{Deserialize, Serialize};
 
-/// Name of the plan's file in the folder of a study.
+/// File name of the plan in the folder of a study.
 pub(super) const PLAN_FILE: &str = "plan.ron";
 
 /// A checked plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// One line naming the study.
+    /// Title of the study, one line.
     pub title: String,
     /// Notice for the reader of the results.
     pub notice: String,
-    /// The scene in which numbers are varied. Files it names are named from the root.
+    /// The scene whose numbers vary; its files have absolute paths.
     pub scene: Scene,
-    /// Axes, the last fastest; without the preload.
+    /// Axes without the preload, the last one fastest.
     pub axes: Vec<Axis>,
-    /// Preloads in units of E* h L, the fastest axis of all; none: the loading of the scene.
+    /// Preloads in units of E* h L, the fastest axis; `None`: the loading of the scene.
     pub preloads: Option<Axis>,
-    /// Random lines of each cell.
+    /// Random profiles of each cell.
     pub lines: u64,
-    /// Seed of the first line; those that follow have the next, the same in all cells.
+    /// Seed of the first profile; the next ones follow consecutively, the same in all cells.
     pub seed: u64,
     /// Recorded quantities.
     pub record: Vec<Quantity>,
-    /// Forces between which exponents are fitted.
+    /// Forces between which the exponents are fitted.
     pub stiffness: StiffnessRange,
-    /// SHA-256 of the measured file's content, in 64 hexadecimal digits; the folder of a study has it.
+    /// SHA-256 of the content of the measured file, 64 hexadecimal digits; set in the folder of a study.
     pub measured_sha256: Option<String>,
 }
 
@@ -43,19 +43,19 @@ pub struct StiffnessRange {
     pub from: f64,
     /// Largest force.
     pub to: f64,
-    /// Forces at equal ratios, at least 2.
+    /// Number of forces at equal ratios, at least 2.
     pub count: u64,
 }
 
 impl Default for StiffnessRange {
-    /// Between what a few waves carry and what flattens the long ones.
+    /// Between the forces carried by a few waves and those that flatten the long waves.
     fn default() -> Self {
         StiffnessRange { from: 1.0e-4, to: 1.0e-2, count: 17 }
     }
 }
 
 impl Plan {
-    /// The plan of a checked scene without axes: one cell on so many profiles, from the seed of the scene on.
+    /// The plan of a checked scene without axes: one cell on so many profiles, starting at the seed of the scene.
     pub(super) fn of_scene(scene: &Scene, lines: u64, record: &[Quantity]) -> Plan {
         Plan {
             title: String::new(),
@@ -71,12 +71,12 @@ impl Plan {
         }
     }
 
-    /// The scene without the texts that no cell needs.
+    /// The scene without the texts, which no cell needs.
     pub(super) fn prototype(&self) -> Scene {
         Scene { title: String::new(), notice: String::new(), observe: Vec::new(), ..self.scene.clone() }
     }
 
-    /// All axes, the preload's last where there are preloads.
+    /// All axes, the preload's last if there are preloads.
     #[must_use]
     pub fn all_axes(&self) -> Vec<&Axis> {
         self.axes.iter().chain(&self.preloads).collect()
@@ -88,13 +88,13 @@ impl Plan {
         self.all_axes().into_iter().map(Axis::count).product()
     }
 
-    /// Number of records: cells times lines.
+    /// Number of records: cells times profiles.
     #[must_use]
     pub fn records_in_all(&self) -> u64 {
         self.cells() * self.lines
     }
 
-    /// Values of the axes in a cell, and after them its preload where there is one.
+    /// Values of the axes in a cell, then its preload if there is one.
     #[must_use]
     pub fn values(&self, cell: u64) -> Vec<f64> {
         let axes = self.all_axes();
@@ -102,7 +102,7 @@ impl Plan {
         axes.iter().zip(places).map(|(axis, place)| axis.value(place)).collect()
     }
 
-    /// A cell's coordinates as people read them.
+    /// Coordinates of a cell for readers.
     #[must_use]
     pub fn coordinates(&self, cell: u64) -> String {
         let one = |(axis, value): (&Axis, f64)| format!("{} = {}", axis.path(), ron_float(value));
@@ -110,7 +110,7 @@ impl Plan {
         if all.is_empty() { "the scene itself".into() } else { all.join(", ") }
     }
 
-    /// Seed of a line.
+    /// Seed of a profile.
     #[must_use]
     pub fn seed_of(&self, line: u64) -> u64 {
         self.seed.wrapping_add(line)

@@ -1,4 +1,4 @@
-//! Everything that can be checked of a plan before anything runs.
+//! All checks of a plan before a run.
 
 use super::axis::Axis;
 use super::cells::Cells;
@@ -9,16 +9,16 @@ use crate::scene::{Roughness, Scene, SceneError, check, ron_string};
 
 /// Most cells of a plan.
 pub const MOST_CELLS: u64 = 10_000_000;
-/// Most lines of a plan.
+/// Most profiles of a plan.
 pub const MOST_LINES: u64 = 1_000_000;
-/// Most records, cells times lines, of a plan.
+/// Most records of a plan: cells times profiles.
 pub const MOST_RECORDS: u64 = 100_000_000;
 /// Most axes of a plan.
 const MOST_AXES: usize = 16;
-/// Cells with invalid scenes that are named; the rest is counted.
+/// Most cells with invalid scenes that are named; the rest is counted.
 const MOST_NAMED: usize = 8;
 
-/// Axes of which the first sets what the second does.
+/// Pairs of axes that set the same quantity.
 const SAME: [(&str, &str); 8] = [
     ("springs_per_wave", "roughness.modes.1"),
     ("kappa", "adhesion.kappa"),
@@ -33,8 +33,7 @@ const SAME: [(&str, &str); 8] = [
 const MOST_FORCES: u64 = 1000;
 
 impl Plan {
-    /// Everything that can be checked before anything runs. Counts come first, so nothing is made in
-    /// proportion to what is too large.
+    /// Checks the plan before a run. Counts come first, so that no allocation is proportional to an excessive count.
     pub(super) fn check(&self) -> Result<(), Vec<String>> {
         let mut wrong: Vec<String> = Vec::new();
         if self.axes.len() > MOST_AXES {
@@ -133,7 +132,7 @@ impl Plan {
         wrong
     }
 
-    /// The scene of every cell.
+    /// Checks the scene of every cell.
     fn check_cells(&self) -> Result<(), Vec<String>> {
         let cells = Cells::of(self);
         let (mut wrong, mut count) = (Vec::new(), 0_u64);
@@ -156,8 +155,8 @@ impl Plan {
         if wrong.is_empty() { Ok(()) } else { Err(wrong) }
     }
 
-    /// Calls `each` with the scene of every run: of every cell, but that those which differ in the preload
-    /// alone are one. Preloads, which need the line, are not in them.
+    /// Calls `each` with the scene of every run: one for all cells that differ only in the preload. Preloads depend
+    /// on the profile and are not set.
     pub fn each_scene(&self, mut each: impl FnMut(&Scene)) {
         let cells = Cells::of(self);
         let mut scene = self.prototype();

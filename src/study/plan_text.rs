@@ -1,4 +1,4 @@
-//! The text of a plan: reading, with the scene that the plan names, and writing.
+//! The text of a plan: reading, including the named scene, and writing.
 
 use super::axis::Axis;
 use super::builtin;
@@ -14,10 +14,10 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 
-/// The only version of the plan file this program reads.
+/// The only supported version of the plan file.
 pub const PLAN_VERSION: u32 = 1;
 
-/// All that is wrong with a plan, each a line of its own.
+/// All errors of a plan, one line each.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlanErrors(pub Vec<String>);
 
@@ -29,16 +29,16 @@ impl fmt::Display for PlanErrors {
 
 impl std::error::Error for PlanErrors {}
 
-/// Changes of a plan for one study, beside the text.
+/// Changes of a plan for one study, in addition to the text.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Changes {
     /// Overrides of the scene: path and value.
     pub set: Vec<(String, String)>,
-    /// Number of lines.
+    /// Number of profiles.
     pub lines: Option<u64>,
 }
 
-/// A plan as it is written.
+/// A plan in the form of its file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename = "Plan")]
 struct PlanText {
@@ -69,11 +69,11 @@ struct PlanText {
 }
 
 impl Plan {
-    /// Opens and checks a plan: a file, where one of that name exists or the name looks like one, else a
-    /// built-in plan. Scenes it names by a path are relative to its file.
+    /// Opens and checks a plan: a file if one of that name exists or the name looks like a path, else a built-in
+    /// plan. Scenes given by a path are relative to its file.
     ///
     /// # Errors
-    /// All that is wrong, up to the scene of every single cell.
+    /// All errors, up to those of the scene of every single cell.
     pub fn open(name_or_path: &str, changes: &Changes) -> Result<Plan, PlanErrors> {
         let path = Path::new(name_or_path);
         let looks_like_file =
@@ -96,7 +96,7 @@ impl Plan {
         )]))
     }
 
-    /// Reads and checks a plan; `name` is its file's, and errors carry it.
+    /// Reads and checks a plan; `name` is that of its file, for errors.
     ///
     /// # Errors
     /// As [`Plan::open`].
@@ -140,7 +140,7 @@ impl Plan {
         Ok(Plan { title, notice, scene, axes, preloads, lines, seed, record, stiffness, measured_sha256 })
     }
 
-    /// The plan as canonical text with its scene in it; reading it gives the same plan.
+    /// The plan as canonical text including its scene; parsing the text returns the same plan.
     #[must_use]
     pub fn to_ron(&self) -> String {
         let mut lines = vec![format!("    version: {PLAN_VERSION},\n")];
@@ -184,7 +184,7 @@ fn in_plan(wrong: Vec<String>, name: &str) -> PlanErrors {
     PlanErrors(wrong.into_iter().map(|wrong| format!("{name}: {wrong}")).collect())
 }
 
-/// The scene of a plan with all overrides; what it names by a path is named from the root.
+/// The scene of a plan with all overrides; its paths are made absolute.
 fn resolved_scene(read: &PlanText, name: &str, set: &[(String, String)]) -> Result<Scene, PlanErrors> {
     let in_scene = |errors: SceneErrors| {
         let lines = errors.to_string();

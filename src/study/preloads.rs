@@ -25,7 +25,7 @@ pub struct Preloaded {
 }
 
 impl Preloaded {
-    /// The figures of a reversal from this preload, N.
+    /// Figures of a reversal at this preload, N.
     #[must_use]
     pub fn new(preload: f64, reversal: &Reversal) -> Self {
         Preloaded {
@@ -38,8 +38,8 @@ impl Preloaded {
     }
 }
 
-/// Solves a checked scene for these preloads, N, in place of its own loading: one loading, one unloading from each. `see`
-/// takes each as soon as it is done, from the smallest preload on.
+/// Solves a checked scene for these preloads, N, in place of its own loading: one loading, one unloading from each.
+/// `see` receives each result as soon as it is ready, in the order of ascending preloads.
 ///
 /// # Errors
 /// Those of [`Simulation::reverse`].
@@ -81,8 +81,8 @@ pub fn solve_preloads_on_lines(
     })
 }
 
-/// Statistics of the adhesion force over profiles for each preload; a profile that does not pull counts with 0 N, since
-/// the mean is that of what holds the bodies together. `None` for fewer than two profiles.
+/// Statistics of the adhesion force over profiles for each preload; a profile without a tensile force counts as 0
+/// N, so that the mean is the mean adhesion force. `None` for fewer than two profiles.
 #[must_use]
 pub fn preload_statistics(lines: &[Vec<Preloaded>]) -> Vec<Option<Statistics>> {
     let count = lines.iter().map(Vec::len).min().unwrap_or(0);
@@ -127,7 +127,7 @@ mod tests {
         }
         let means: Vec<f64> = preload_statistics(&curves).iter().map(|one| one.unwrap().mean).collect();
         assert!(means.windows(2).all(|pair| pair[0] < pair[1]), "{means:?}");
-        // Pressing with twice the force about doubles the mean.
+        // Twice the preload about doubles the mean.
         assert!(means[8] > 1.5 * means[4] && means[4] > 1.5 * means[2], "{means:?}");
         assert!(means[0] < 0.1 * means[8], "{means:?}");
         assert_eq!(of(1), lines);

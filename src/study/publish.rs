@@ -1,7 +1,7 @@
-//! Publishing several files as one.
+//! Publication of several files as one.
 //!
-//! Tables are in a folder of their own. `tables` is a link that leads there, and the names that users know are
-//! links through it, so one renaming of one link changes all of them at once:
+//! Tables are in a folder of their own. `tables` is a link to that folder, and the public names are links through
+//! it, so one renaming of one link changes all of them at once:
 //!
 //! ```text
 //! results.csv   -> tables/results.csv
@@ -11,8 +11,8 @@
 //! .tables-7/
 //! ```
 //!
-//! On systems without such links the files of an earlier merge go before new ones come: there, a crash may leave
-//! fewer files, never new ones beside old.
+//! On systems without such links the files of an earlier merge are removed before new ones are placed: a crash may
+//! leave fewer files there, never new ones beside old.
 
 use super::StudyError;
 use crate::io::{Disk, make_folders, without_waiting};
@@ -21,16 +21,16 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The link to the folder of the tables there are.
+/// The link to the folder of the current tables.
 pub(super) const TABLES: &str = "tables";
-/// Beginning of the names of such folders, and of a link that is not in place yet.
+/// Prefix of the names of such folders, and of a link that is not in place yet.
 const BEGINNING: &str = ".tables-";
 const NEXT_LINK: &str = ".tables-link";
-/// File that a merge holds a lock on, so that it does not take the unfinished tables of another for remains.
+/// File locked by a merge, so that the unfinished tables of another merge are not removed as remains.
 const LOCK: &str = ".merge.lock";
 
-/// Lets `write` make these files in a folder that is given to it, and publishes them in `study`. What else had
-/// been published goes.
+/// Calls `write` to make these files in a given folder, and publishes them in `study`. Other files published before
+/// are removed.
 pub(super) fn publish(
     disk: &dyn Disk,
     study: &Path,
@@ -42,14 +42,14 @@ pub(super) fn publish(
     let failed = StudyError::unwritable(study);
     let place = publication.new_place().map_err(&failed)?;
     write(&place).and_then(|()| publication.put_in_place(&place).map_err(&failed)).inspect_err(|_| {
-        // An unpublished file, or a part of it, is of no use.
+        // An unpublished file, or a part of it, is removed.
         if publication.current().as_deref() != place.file_name() {
             let _ = remove(disk, &place);
         }
     })
 }
 
-/// Makes a file of a published folder known in the study by its own name.
+/// Links a file of a published folder in the study under its own name.
 #[cfg(feature = "parquet")]
 pub(super) fn show(disk: &dyn Disk, study: &Path, name: &str) -> Result<(), StudyError> {
     if !is_link(&study.join(TABLES)) {
@@ -60,7 +60,7 @@ pub(super) fn show(disk: &dyn Disk, study: &Path, name: &str) -> Result<(), Stud
     shown.map_err(StudyError::unwritable(study))
 }
 
-/// The folder in which published files are.
+/// The folder of published files.
 #[cfg(feature = "parquet")]
 pub(super) fn place_of(study: &Path) -> PathBuf {
     let tables = study.join(TABLES);
@@ -74,14 +74,14 @@ struct Publication<'a> {
 }
 
 impl Publication<'_> {
-    /// Name of the folder that `tables` leads to, where a merge has made it.
+    /// Name of the folder behind the link `tables`, if a merge has made it.
     fn current(&self) -> Option<OsString> {
         let name = fs::read_link(self.study.join(TABLES)).ok()?.into_os_string();
         let number = name.to_str()?.strip_prefix(BEGINNING)?;
         number.bytes().all(|byte| byte.is_ascii_digit()).then_some(name)
     }
 
-    /// A new folder beside those there are, which goes without what earlier merges have left behind.
+    /// Makes a new folder beside the others and removes the remains of earlier merges.
     fn new_place(&self) -> io::Result<PathBuf> {
         let current = self.current();
         let mut number = 0;
@@ -90,7 +90,7 @@ impl Publication<'_> {
             let Some(rest) = name.and_then(|name| name.strip_prefix(BEGINNING)) else { continue };
             number = rest.parse().map_or(number, |other: u64| number.max(other));
             if current.as_deref() != path.file_name() {
-                // Where it cannot be removed, it takes room and does no other harm.
+                // Remains that cannot be removed take room and do no other harm.
                 let _ = remove(self.disk, &path);
             }
         }
@@ -106,7 +106,7 @@ impl Publication<'_> {
         let next = study.join(NEXT_LINK);
         let (before, linked) = (self.current(), is_link(&tables));
         if let Err(error) = disk.symbolic_link(Path::new(place.file_name().unwrap_or_default()), &next) {
-            // Where there is one, there could be another, and tables there are stay.
+            // Where one link exists, another could be made; current tables stay.
             return if linked { Err(error) } else { self.move_files(place) };
         }
         if !linked {
@@ -117,14 +117,14 @@ impl Publication<'_> {
         disk.rename(&next, &tables)?;
         disk.sync_folder(study)?;
         self.remove_others()?;
-        // Whatever cannot be removed is removed by the next merge.
+        // The next merge removes a folder that cannot be removed now.
         if let Some(before) = before {
             let _ = remove(disk, &study.join(before));
         }
         Ok(())
     }
 
-    /// Links of the names to the files behind `tables`, as far as they are not there.
+    /// Links the names to the files behind `tables`, where such links are missing.
     fn link_names(&self) -> io::Result<()> {
         for name in self.names {
             let (path, target) = (self.study.join(name), Path::new(TABLES).join(name));
@@ -137,7 +137,7 @@ impl Publication<'_> {
         Ok(())
     }
 
-    /// The files themselves in place of links.
+    /// Moves the files themselves into place instead of links.
     fn move_files(&self, place: &Path) -> io::Result<()> {
         self.clear()?;
         for name in self.names {
@@ -148,8 +148,8 @@ impl Publication<'_> {
         self.disk.remove_folder(place)
     }
 
-    /// Removes tables that are no links: those of earlier versions, and of copies without links. The last one that
-    /// is published goes first: without it, the others are not taken for a whole.
+    /// Removes tables that are no links: those of earlier versions, and of copies without links. The last published
+    /// one is removed first: without it, the others do not count as a whole.
     fn clear(&self) -> io::Result<()> {
         let Publication { disk, study, names } = *self;
         for name in names.iter().rev() {
@@ -162,13 +162,13 @@ impl Publication<'_> {
         disk.sync_folder(study)
     }
 
-    /// Removes what is published beside these files and belonged to those before.
+    /// Removes other published files, which belong to earlier tables.
     fn remove_others(&self) -> io::Result<()> {
         let other = self.study.join(super::PARQUET);
         if !self.names.contains(&super::PARQUET) { self.remove_table(&other) } else { Ok(()) }
     }
 
-    /// Removes a table or a link to one, where there is one, and nothing else.
+    /// Removes a table or a link to one, if it exists, and nothing else.
     fn remove_table(&self, path: &Path) -> io::Result<()> {
         match fs::symlink_metadata(path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
@@ -197,8 +197,8 @@ fn remove(disk: &dyn Disk, path: &Path) -> io::Result<()> {
     disk.remove_folder(path)
 }
 
-/// Waits for other merges of the study and keeps them waiting until it is dropped, or the process ends. Where
-/// files cannot be locked there is no waiting: of two merges at a time, one may then fail.
+/// Waits for other merges of the study and blocks them until the lock is dropped or the process ends. Without file
+/// locking there is no waiting: of two merges at a time, one may then fail.
 fn lock(study: &Path) -> Option<File> {
     let mut options = fs::OpenOptions::new();
     options.create(true).append(true);

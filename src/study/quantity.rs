@@ -3,7 +3,7 @@
 use super::case_outcome::CaseOutcome;
 use serde::{Deserialize, Serialize};
 
-/// All that is known of a quantity.
+/// All properties of a quantity.
 struct Row {
     /// Name in plans and of columns.
     name: &'static str,
@@ -15,22 +15,22 @@ struct Row {
     meaning: &'static str,
     /// Returns true for a quantity that may be negative.
     signed: bool,
-    /// Computation that the quantity calls for.
+    /// Computation required by the quantity.
     needs: Needs,
-    /// Value of a case, if the case has one.
+    /// Value of a case, if any.
     of: fn(&CaseOutcome<'_>) -> Option<f64>,
 }
 
-/// Computation that a quantity calls for.
+/// Computation required by a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Needs {
     /// The profile and its governing parameters.
     Profile,
     /// Statistics of the heights without the form.
     Heights,
-    /// F_a(0) by the touch protocol: turned at first touch.
+    /// F_a(0) by the touch protocol: turning point at first touch.
     Touch,
-    /// F_a(0) by the zero-force protocol: turned where the force is back at zero.
+    /// F_a(0) by the zero-force protocol: turning point where the force is back at zero.
     ZeroForce,
     /// The loading to the preload, or the scene's own.
     Loading,
@@ -222,7 +222,7 @@ impl Quantity {
         self.row().needs
     }
 
-    /// Finite value of a case, SI unit; NaN where the case has none. The regime is its place in
+    /// Finite value of a case, SI unit; NaN if the case has none. The regime is its place in
     /// [`crate::analysis::Regime::ALL`].
     pub(super) fn of(self, case: &CaseOutcome<'_>) -> f64 {
         (self.row().of)(case).filter(|value| value.is_finite()).unwrap_or(f64::NAN)

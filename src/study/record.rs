@@ -5,45 +5,45 @@ use std::fmt::Write;
 /// Characters of the checksum and the comma behind it.
 const CHECKSUM: usize = 9;
 
-/// Cell and seed: what a record is the only one of.
+/// Unique key of a record: cell and seed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Key {
     /// Index of the cell.
     pub cell: u64,
-    /// Seed of the line.
+    /// Seed of the profile.
     pub seed: u64,
 }
 
 /// Appends a line with its checksum in front; the payload holds no line break.
 pub(super) fn seal(payload: &str, into: &mut String) {
-    // A string can be written to without fail.
+    // Writing to a string cannot fail.
     let _ = writeln!(into, "{:08x},{payload}", crc32fast::hash(payload.as_bytes()));
 }
 
-/// The payload of a line without its break; `None` where it is not what was written.
+/// The payload of a line without its break; `None` if the line was changed.
 pub(super) fn unseal(line: &[u8]) -> Option<&str> {
     let line = std::str::from_utf8(line).ok()?;
     let (checksum, payload) = (line.get(..CHECKSUM)?, line.get(CHECKSUM..)?);
     let checksum = checksum.strip_suffix(',')?;
-    // One way of writing it, so that equal records are equal text.
+    // One way of writing, so that equal records are equal text.
     let is_ours = checksum == format!("{:08x}", crc32fast::hash(payload.as_bytes()));
     is_ours.then_some(payload)
 }
 
-/// Appends a record. NaN, a missing value, is written as nothing.
+/// Appends a record. NaN, a missing value, becomes an empty column.
 pub(super) fn encode(key: Key, values: &[f64], into: &mut String) {
     let mut payload = format!("{},{}", key.cell, key.seed);
     for value in values {
         payload.push(',');
         if !value.is_nan() {
-            // The shortest text that reads back bit for bit.
+            // The shortest text that is read back bit for bit.
             let _ = write!(payload, "{value:?}");
         }
     }
     seal(&payload, into);
 }
 
-/// The key of a payload and where its values begin.
+/// The key of a payload and the text of its values.
 pub(super) fn key_of(payload: &str) -> Option<(Key, &str)> {
     let mut parts = payload.splitn(3, ',');
     let cell = parts.next()?.parse().ok()?;
@@ -51,7 +51,7 @@ pub(super) fn key_of(payload: &str) -> Option<(Key, &str)> {
     Some((Key { cell, seed }, parts.next()?))
 }
 
-/// Reads the values of a payload: so many, NaN for what is not there. False where it has other values.
+/// Reads so many values of a payload, NaN for empty columns. Returns false if the payload has other columns.
 pub(super) fn values_into(text: &str, count: usize, values: &mut Vec<f64>) -> bool {
     values.clear();
     for text in text.split(',') {
@@ -89,7 +89,7 @@ mod tests {
             for (read, value) in read.iter().zip(&values) {
                 prop_assert!(read.to_bits() == value.to_bits() || (read.is_nan() && value.is_nan()));
             }
-            // Whatever is cut off or changed is noticed.
+            // Every cut or change is noticed.
             let line = text.trim_end_matches('\n').as_bytes();
             for end in 0..line.len() {
                 prop_assert_eq!(unseal(&line[..end]), None);

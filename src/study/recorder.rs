@@ -8,24 +8,24 @@ use crate::analysis::Governing;
 use crate::scene::{Leg, Roughness, Scene, Solver};
 use crate::simulation::{Outcome, RunError, Simulation};
 
-/// Curve samples on a leg: all that is recorded is at the ends of legs or an exact extreme.
+/// Curve samples on a loading stage: all recorded quantities are at the ends of stages or exact extremes.
 const SAMPLES: u64 = 2;
 
-/// Values of the recorded quantities, in the order of the plan, for each preload; NaN for a quantity that the case does
-/// not have.
+/// Values of the recorded quantities, in the order of the plan, for each preload; NaN for a quantity that the case
+/// does not have.
 pub(crate) type Records = Vec<Vec<f64>>;
 
 /// Recorder of the cases of a plan. Keeps the profile, its tree and the properties of the profile from case to case.
 pub(super) struct Recorder<'p> {
     plan: &'p Plan,
     simulation: Simulation,
-    /// The properties of the last profile, and the scene without adhesion and loading that they belong to.
+    /// Properties of the last profile, and their scene without adhesion and loading.
     profile: Option<(Scene, ProfileRecord)>,
     stop: &'p dyn Fn() -> bool,
 }
 
 impl<'p> Recorder<'p> {
-    /// A recorder that gives up within a case as soon as `stop` returns true.
+    /// A recorder that stops within a case as soon as `stop` returns true.
     pub fn new(plan: &'p Plan, simulation: Simulation, stop: &'p dyn Fn() -> bool) -> Self {
         Recorder { plan, simulation, profile: None, stop }
     }
@@ -33,7 +33,7 @@ impl<'p> Recorder<'p> {
     /// Solves a scene of the plan on the profile of a seed.
     ///
     /// # Errors
-    /// When the profile or the contact fails, or when stopped.
+    /// A failure of the profile or the contact, or a stop.
     pub fn record(&mut self, scene: &mut Scene, seed: u64) -> Result<Records, RunError> {
         let plan = self.plan;
         scene.set_seed(seed);
@@ -74,7 +74,7 @@ impl<'p> Recorder<'p> {
         Ok(each.into_iter().map(values).collect())
     }
 
-    /// Outcomes of loadings, each of which begins separated, and F_a(0) by the touch protocol.
+    /// Outcomes of loadings, each of which begins at separation, and F_a(0) by the touch protocol.
     fn solve(
         &mut self,
         scene: &mut Scene,
@@ -87,7 +87,7 @@ impl<'p> Recorder<'p> {
         };
         let turned: Option<Vec<Leg>> = loops.iter().map(press).collect();
         if let (Some(turned), Solver::Exact) = (turned, scene.numerics.solver) {
-            // One loading serves all of them.
+            // One loading serves all reversals.
             let ends = [&[Leg::ToTouch], turned.as_slice()].concat();
             let mut each = vec![LoadingOutcome::default(); ends.len()];
             self.simulation.reverse(scene, (&ends, &[]), self.stop, &mut |index, reversal| {
@@ -98,7 +98,7 @@ impl<'p> Recorder<'p> {
             return Ok((each, at_touch.filter(|_| governing.adhesive_work().is_some())));
         }
         let loops = if loops.is_empty() { vec![vec![Leg::ToTouch, Leg::ToSeparation]] } else { loops };
-        // From separation each loading is the same as by itself.
+        // A loading that begins at separation equals the same loading alone.
         let ends_apart = loops.iter().all(|legs| legs.last() == Some(&Leg::ToSeparation));
         let together = if ends_apart { loops.len() } else { 1 };
         let mut zero_load = None;
@@ -119,7 +119,7 @@ impl<'p> Recorder<'p> {
         self.simulation.run(scene, self.stop, &mut |_, _, _| Ok(()))
     }
 
-    /// Properties of the profile, as far as they are recorded.
+    /// Recorded properties of the profile.
     fn profile_record(&mut self, scene: &Scene) -> Result<ProfileRecord, RunError> {
         let (heights, stiffness) = (self.plan.records(Needs::Heights), self.plan.records(Needs::Stiffness));
         if !heights && !stiffness {
@@ -130,7 +130,7 @@ impl<'p> Recorder<'p> {
         if let (Some(Roughness::SelfAffine { rms_height, rms_gradient, .. }), Some(amplitude)) =
             (&mut nonadhesive.roughness, amplitude)
         {
-            // The amplitude may follow from the adhesion.
+            // The amplitude may depend on the adhesion.
             (*rms_height, *rms_gradient) = (Some(amplitude.rms_height), None);
         }
         if let Some((known, record)) = &self.profile
@@ -181,7 +181,7 @@ impl<'p> Recorder<'p> {
     }
 }
 
-/// Slope of the straight line of least squares; `None` for fewer than two different points.
+/// Slope of the least-squares line; `None` for fewer than two different points.
 fn slope(x: &[f64], y: &[f64]) -> Option<f64> {
     let count = x.len() as f64;
     let mean = |values: &[f64]| values.iter().sum::<f64>() / count;

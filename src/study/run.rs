@@ -1,4 +1,4 @@
-//! Computes what is missing of a plan: all cores, the same bits however many there are.
+//! Computation of the missing records of a plan on all cores, with the same bits for any number of them.
 
 use super::StudyError;
 use super::cells::Cells;
@@ -20,14 +20,14 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Longest wait of written records for the disk; records lost by a power cut are computed again.
-/// Syncing each costs tenths of a millisecond or, on network file systems, many of them: on a local disk 100 000
-/// records of 256 springs take 11 s with this, 12 s where each sync takes what has come during the one before,
-/// and 190 s where each record has its own. Cells of thousands of springs show no difference.
+/// Longest wait of written records for the disk; records lost by a power cut are computed again. One sync costs
+/// tenths of a millisecond or, on network file systems, many of them: on a local disk 100 000 records of 256
+/// springs take 11 s with this wait, 12 s if each sync takes the records of the time of the one before, and 190 s
+/// with a sync for each record. Cells of thousands of springs show no difference.
 const SYNC: Duration = Duration::from_millis(50);
 /// Records on their way to the file.
 const WAITING: usize = 4096;
-/// Bytes that are gathered before they are written.
+/// Bytes gathered before they are written.
 const BUFFER: usize = 1 << 16;
 /// Interval between reports of progress.
 const TICK: Duration = Duration::from_millis(200);
@@ -44,24 +44,24 @@ pub struct Options {
 /// Progress of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// Records that there are, of this part of the plan.
+    /// Existing records of this part of the plan.
     pub done: u64,
-    /// Those that were there before.
+    /// Records that existed before this run.
     pub before: u64,
-    /// Those there are to be.
+    /// All records of this part of the plan.
     pub total: u64,
     /// Time from the beginning of the file of this run to the last records in it.
     pub elapsed: Duration,
 }
 
 impl Progress {
-    /// Records each second, as [`super::Attempt::rate`]; `None` before the first record.
+    /// Records per second, as [`super::Attempt::rate`]; `None` before the first record.
     #[must_use]
     pub fn rate(&self) -> Option<f64> {
         rate(self.done - self.before, self.elapsed.as_secs_f64())
     }
 
-    /// Time left, by the rate so far; `None` before the first record.
+    /// Time left, at the rate so far; `None` before the first record.
     #[must_use]
     pub fn left(&self) -> Option<Duration> {
         let seconds = (self.total - self.done) as f64 / self.rate()?;
@@ -74,16 +74,16 @@ impl Progress {
 pub struct Ended {
     /// Progress at the end.
     pub progress: Progress,
-    /// True where every record of this part of the plan is there.
+    /// True if every record of this part of the plan exists.
     pub complete: bool,
 }
 
-/// State of a run that all of its threads see.
+/// Shared state of all threads of a run.
 struct Shared<'a> {
     folder: &'a Folder,
     cells: &'a Cells,
     done: Done,
-    /// Records that have reached the disk so far, and the time they took since the file was made, ns.
+    /// Records on the disk so far, and their time since the file was made, ns.
     written: AtomicU64,
     elapsed: AtomicU64,
     failed: AtomicBool,
@@ -91,11 +91,11 @@ struct Shared<'a> {
     stop: &'a (dyn Fn() -> bool + Sync),
 }
 
-/// Computes the records of a part of the plan that are not in the folder yet. `stop` is asked after each run;
-/// `report` is called now and then and at the end.
+/// Computes the missing records of a part of the plan. `stop` is polled after each run; `report` is called now and
+/// then and at the end.
 ///
 /// # Errors
-/// When a record cannot be computed or written. What was written before stays.
+/// A record that cannot be computed or written. Earlier records are kept.
 pub fn run(
     folder: &Folder,
     options: Options,
@@ -115,7 +115,7 @@ pub fn run(
     if before == total {
         return Ok(Ended { progress: progress(0, 0), complete: true });
     }
-    // Read once, so that all threads compute from the same bytes, whatever becomes of the file meanwhile.
+    // Read once, so that all threads compute from the same bytes, even if the file changes meanwhile.
     let profile = profile(folder.plan(), folder.path())?;
     let clock = Instant::now();
     let (path, file) = folder.new_file(options.shard)?;
@@ -136,7 +136,7 @@ pub fn run(
             let mut recorder = Recorder::new(folder.plan(), simulation, &|| false);
             work.solve(|scene, seed| recorder.record(scene, seed), &mut FolderSink { shared, sender });
         });
-        // A system that gives fewer threads than asked for has those do all.
+        // If the system starts fewer threads than requested, those do all the work.
         if begun == 0 {
             shared.fail(StudyError::NoThread);
         }
@@ -161,8 +161,8 @@ impl Shared<'_> {
         self.failed.load(Ordering::SeqCst) || (self.stop)()
     }
 
-    /// Writes records as they come. It waits for the disk when it has not done so for a while, and at the end.
-    /// Only what has reached the disk is counted.
+    /// Writes records as they arrive. Syncs with the disk after the longest wait and at the end. Counts only
+    /// records that have reached the disk.
     fn write(
         &self,
         (path, mut file): (&Path, Box<dyn DiskFile>),
@@ -219,7 +219,7 @@ struct FolderSink<'a> {
 }
 
 impl FolderSink<'_> {
-    /// The cells of a case that have no record yet.
+    /// The cells of a case without a record.
     fn missing(&self, case: Case) -> impl Fn(u64) -> bool + '_ {
         let lines = self.shared.folder.plan().lines;
         move |cell| !self.shared.done.has(cell * lines + case.line)
@@ -254,7 +254,7 @@ impl Sink for FolderSink<'_> {
                 encode(Key { cell, seed }, values, &mut text);
             }
         }
-        // The writer has ended where nothing receives the text.
+        // The writer has ended if the text has no receiver.
         if self.sender.send(text).is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     }
 }

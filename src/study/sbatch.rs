@@ -1,15 +1,15 @@
-//! Options of sbatch that a study may be submitted with.
+//! Options of sbatch for the submission of a study.
 //!
-//! sbatch takes abbreviations, bundles of letters, and the first word that is no option for the script. So what
-//! is given to it is neither passed on as it is nor searched for what is wrong: options that are known to leave
-//! array and merge what they are, are read in full and written anew.
+//! sbatch takes abbreviations, bundles of letters, and the first word that is no option for the script. So words of
+//! the user are neither passed on unchanged nor searched for errors: only options that are known to preserve array
+//! and merge are accepted, read in full and written anew.
 
 use crate::text::is_control;
 use std::ffi::OsString;
 use std::fmt;
 use thiserror::Error;
 
-/// An option of sbatch, known and written in full: `--partition=short`.
+/// A known option of sbatch, written in full: `--partition=short`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SbatchOption(String);
 
@@ -22,7 +22,7 @@ impl fmt::Display for SbatchOption {
 /// Error in options for sbatch.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum SbatchOptionError {
-    /// The word is none of the options.
+    /// The word is no such option.
     #[error(
         "{word}: this is not for sbatch here; allowed: {}, with values as in --time=2:00:00. For the array there \
          are --shards and --at-once",
@@ -43,7 +43,7 @@ pub enum SbatchOptionError {
     Valued {
         /// The option.
         option: &'static str,
-        /// Value that was given.
+        /// The given value.
         value: String,
     },
     /// The value cannot be passed on.
@@ -108,7 +108,7 @@ fn names() -> Vec<&'static str> {
 /// Reads words as options: `--name=value`, `--name value`, `-n value`, and those without a value.
 ///
 /// # Errors
-/// The first word that is none, and what is allowed.
+/// The first invalid word, and the allowed options.
 pub fn sbatch_options(words: &[OsString]) -> Result<Vec<SbatchOption>, SbatchOptionError> {
     let mut words = words.iter();
     let mut options = Vec::new();
@@ -125,7 +125,7 @@ pub fn sbatch_options(words: &[OsString]) -> Result<Vec<SbatchOption>, SbatchOpt
                 let missing = || SbatchOptionError::NoValue { option: name };
                 let next = words.next().ok_or_else(missing)?;
                 let next = text(next, word.as_ref())?;
-                // Rather a value that has to be written with = than an option taken for one.
+                // A value with a leading hyphen requires =, so that no option is taken for a value.
                 if next.starts_with('-') {
                     return Err(missing());
                 }

@@ -8,49 +8,49 @@ use super::quantity::Quantity;
 use crate::scene::parse_quantity;
 use thiserror::Error;
 
-/// A second axis of at most so many values makes curves of a section rather than rows of a map.
+/// Most values of a second axis that makes curves of a section rather than rows of a map.
 const MOST_CURVES: usize = 5;
 /// F_a(0)/F_a,max by the two protocols.
 const SHARES: [Quantity; 2] = Quantity::ADHESION_SHARES;
-/// Values that are named in a message.
+/// Most values named in a message.
 const MOST_NAMED: usize = 12;
 
 /// Selection by the user.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selection {
-    /// Names of quantities; where there are none, F_a(0) and the adhesion coefficient if they were recorded, or
-    /// F_a(0) by both protocols, else the first that was.
+    /// Names of quantities; if empty, F_a(0) and the adhesion coefficient if they were recorded, or F_a(0) by both
+    /// protocols, else the first recorded one.
     pub quantities: Vec<String>,
     /// Path of the axis across.
     pub across: Option<String>,
     /// Path of the axis up.
     pub up: Option<String>,
-    /// Axes that are fixed, with their values.
+    /// Fixed axes, with their values.
     pub at: Vec<(String, String)>,
-    /// Scale of the quantities; by default, a map or several curves are logarithmic where a
-    /// linear scale would show next to nothing but its lowest end.
+    /// Scale of the quantities; by default, a map or several curves are logarithmic if a linear scale
+    /// would show little but its lowest end.
     pub scale: Option<AxisScale>,
 }
 
-/// Reason why there is no such figure.
+/// Reason why the figure cannot be made.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum FigureError {
     /// The study has no such quantity.
     #[error("--quantity {name}: this study has no such quantity; allowed: {allowed}")]
     NoQuantity {
-        /// Name that was given.
+        /// The given name.
         name: String,
-        /// Those it has.
+        /// Quantities of the study.
         allowed: String,
     },
     /// The study has no such axis.
     #[error("{option} {path}: this study has no such axis; allowed: {allowed}")]
     NoAxis {
-        /// The option that named it.
+        /// Name of the option.
         option: &'static str,
         /// Path that was given.
         path: String,
-        /// Those it has.
+        /// Axes of the study.
         allowed: String,
     },
     /// The axis has no such value.
@@ -60,10 +60,10 @@ pub enum FigureError {
         path: String,
         /// The value.
         value: String,
-        /// Those it has.
+        /// Values of the axis.
         allowed: String,
     },
-    /// An axis is asked for twice.
+    /// An axis is selected twice.
     #[error("{path}: named by {one} and by {other}; allowed: one of them")]
     Twice {
         /// The axis.
@@ -73,12 +73,12 @@ pub enum FigureError {
         /// Another.
         other: &'static str,
     },
-    /// More axes are free than a figure has.
+    /// More free axes than a figure has.
     #[error("{} axes are free: {}; a figure has two. Fix {}, such as {example}", free.len(), free.join(", "), if free.len() == 3 { "one of them" } else { "the others" })]
     TooManyAxes {
         /// The axes, each with its values.
         free: Vec<String>,
-        /// Example of an option that fixes one.
+        /// Example of an option that fixes an axis.
         example: String,
     },
     /// All axes are fixed or have one value.
@@ -86,15 +86,15 @@ pub enum FigureError {
         "no axis is free: the study has one cell{fixed}; a section needs an axis with two values at least"
     )]
     NoAxes {
-        /// Cause, in the words of the message.
+        /// Cause, in the wording of the message.
         fixed: &'static str,
     },
 }
 
-/// An axis of the study, and what is done with it.
+/// An axis of the study and its use.
 struct Chosen<'a> {
     axis: &'a Axis,
-    /// The place it is fixed at.
+    /// The place at which the axis is fixed.
     at: Option<u64>,
 }
 
@@ -109,7 +109,7 @@ impl Selection {
         let chosen = self.chosen(plan)?;
         let (across, second) = self.free(&chosen)?;
         let few = |index: usize| chosen[index].axis.count() as usize <= MOST_CURVES;
-        // Curves lie along the longer axis, unless it was said which one goes across.
+        // Curves lie along the longer axis, unless the axis across was given.
         let turned =
             |second: &usize| self.across.is_none() && self.up.is_none() && few(across) && !few(*second);
         let (across, second) = match second.filter(turned) {
@@ -127,7 +127,7 @@ impl Selection {
         let fixed = chosen.iter().filter_map(|one| Some(fixed(plan, one.axis, one.at?)));
         let panel = |&quantity: &Quantity| {
             let estimates = estimates(quantity);
-            // A single curve has an inset for what is small; of several the highest would hide the others.
+            // A single curve has an inset for its small values; of several the highest would hide the others.
             let mut curves = estimates.chunks(chosen[across].axis.count().max(1) as usize);
             let first = curves.next();
             let several = curves.any(|curve| Some(curve) != first);
@@ -167,7 +167,7 @@ impl Selection {
         if self.quantities.is_empty() {
             let paper = [Quantity::ZeroLoadAdhesionShare, Quantity::AdhesionCoefficient];
             let recorded = |one: &Quantity| plan.record.contains(one);
-            // Without a preload there is no coefficient, and the two protocols are side by side.
+            // Without a preload there is no coefficient, and both protocols are side by side.
             let usual = if recorded(&paper[1]) { paper } else { SHARES };
             let mut all: Vec<_> = usual.into_iter().filter(recorded).collect();
             if all.is_empty() {
@@ -201,7 +201,7 @@ impl Selection {
             let axis = chosen[index].axis;
             let unit = FigureAxis::new(plan, axis).unit;
             let wanted = parse_quantity(value, &unit).ok();
-            // Values are written with 12 digits, and 0.3 is what people type for them.
+            // Values are written with 12 digits, and 0.3 is typed for them.
             let same = |there: f64| wanted.is_some_and(|wanted| (there - wanted).abs() <= 1e-9 * there.abs());
             let place = (0..axis.count()).find(|&place| same(axis.value(place)));
             chosen[index].at = Some(place.ok_or_else(|| FigureError::NoValue {
@@ -213,7 +213,7 @@ impl Selection {
         Ok(chosen)
     }
 
-    /// The axis across, and the second one where there is one.
+    /// The axis across, and the second one if there is one.
     fn free(&self, chosen: &[Chosen<'_>]) -> Result<(usize, Option<usize>), FigureError> {
         let named = |path: &Option<String>, option: &'static str| {
             let Some(path) = path else { return Ok(None) };
@@ -236,7 +236,7 @@ impl Selection {
             (Some(across), up, []) => (across, up),
             (Some(across), None, [second]) => (across, Some(*second)),
             (None, Some(up), [across]) => (*across, Some(up)),
-            // One axis named to go up, and no other: it is the only one there is.
+            // Only one axis, and named to go up.
             (None, Some(only), []) => (only, None),
             (None, None, [across]) => (*across, None),
             (None, None, [across, second]) => (*across, Some(*second)),

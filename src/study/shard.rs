@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// Most parts.
+/// Largest number of parts.
 const MOST: u32 = 1_000_000;
 
 /// The `number`-th of `count` parts, counted from 1.
@@ -17,7 +17,7 @@ pub struct Shard {
     pub count: u32,
 }
 
-/// A shard as a header has it, before it is checked.
+/// A shard of a header before the check.
 #[derive(Deserialize)]
 struct Parts {
     number: u32,
@@ -39,7 +39,7 @@ impl Shard {
     /// The whole plan.
     pub const WHOLE: Shard = Shard { number: 1, count: 1 };
 
-    /// The units of work that belong to this part, of so many.
+    /// The units of work of this part, out of so many.
     pub(super) fn units(self, units: u64) -> impl Iterator<Item = u64> {
         (u64::from(self.number) - 1..units).step_by(self.count as usize)
     }

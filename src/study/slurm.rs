@@ -1,9 +1,9 @@
 //! A sweep as jobs of Slurm: an array with one task for each shard, and a merge that waits for all of them.
 //!
-//! Slurm starts a task at least once: a task whose node is lost is started again, and it may turn out that
-//! the lost one was still running. That does no harm, as each attempt writes a file of its own and the merge
-//! counts a cell once. What Slurm is slow at is done in the script of the task: a program that was killed
-//! is started again at once, and goes on where its results end.
+//! Slurm starts a task at least once: a task whose node is lost is started again, while the lost one may still be
+//! running. That does no harm, as each attempt writes a file of its own and the merge counts a cell once. Slurm
+//! is slow at restarts, so the script of the task restarts a killed program at once, which continues where its
+//! results end.
 
 use super::plan::PLAN_FILE;
 pub use super::sbatch::{SbatchOption, SbatchOptionError, sbatch_options};
@@ -14,30 +14,30 @@ use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 use thiserror::Error;
 
-/// Tasks of an array where the cluster does not say: Slurm's own `MaxArraySize`, one more than the largest
-/// number of a task.
+/// Tasks of an array if the cluster does not state their number: Slurm's own `MaxArraySize`, one more than the
+/// largest number of a task.
 const USUAL_ARRAY_SIZE: u64 = 1001;
 
-/// A sweep to be computed by a cluster. All paths are those on its nodes, and absolute.
+/// A sweep for a cluster. All paths are absolute paths on its nodes.
 #[derive(Clone, Debug)]
 pub struct Submission {
     /// The program.
     pub program: PathBuf,
-    /// The folder of the study, which keeps the plan as well.
+    /// The folder of the study, which also holds the plan.
     pub folder: PathBuf,
     /// Shards, each a task of the array.
     pub shards: u64,
-    /// Tasks that run at the same time, where they are limited.
+    /// Most tasks at the same time, if limited.
     pub at_once: Option<u64>,
     /// Largest number of restarts of a killed program by its task.
     pub retries: u32,
     /// Further arguments of the program, such as `--memory`.
     pub arguments: Vec<OsString>,
-    /// Options of sbatch, given to both jobs.
+    /// Options of sbatch for both jobs.
     pub options: Vec<SbatchOption>,
 }
 
-/// The two jobs of a sweep, as Slurm numbers them.
+/// The two jobs of a sweep, by their numbers in Slurm.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Jobs {
     /// The array.
@@ -57,14 +57,14 @@ pub enum SlurmError {
              allowed: 1 to {most}, each shard computes as many cells as it takes"
     )]
     TooManyShards {
-        /// Shards asked for.
+        /// Requested shards.
         shards: u64,
         /// The largest number of a task.
         most: u64,
-        /// One more.
+        /// The cluster's `MaxArraySize`, one more.
         size: u64,
     },
-    /// An option of sbatch that is not the user's to give.
+    /// An option of sbatch that the user cannot set.
     #[error(transparent)]
     Option(#[from] SbatchOptionError),
     /// A path cannot be given to a job.
@@ -81,7 +81,7 @@ pub enum SlurmError {
         "sbatch: there is no such program here; a login node of a Slurm cluster has it. Without a scheduler: {instead}"
     )]
     NoSlurm {
-        /// Command to run instead.
+        /// Alternative command.
         instead: String,
     },
     /// A program of Slurm cannot be started.
@@ -95,7 +95,7 @@ pub enum SlurmError {
         /// Message of sbatch.
         reason: String,
     },
-    /// The array was taken, and nobody knows its number.
+    /// The array was submitted, but its number is unknown.
     #[error(
         "sbatch took the array and did not answer with the number of a job, but: {answer}\n\
          The merge was not submitted. squeue --me lists the array, scancel ends it"
@@ -104,7 +104,7 @@ pub enum SlurmError {
         /// Message of sbatch.
         answer: String,
     },
-    /// The merge was refused after the array had been taken, which was cancelled.
+    /// The merge was refused, and the array submitted before was cancelled.
     #[error("sbatch refuses the merge: {reason}\nThe array {array} {cancelled}")]
     MergeRefused {
         /// The array.
@@ -117,17 +117,17 @@ pub enum SlurmError {
 }
 
 impl Submission {
-    /// Checks what can be checked without asking for a job; `array_size` is that of [`array_size`].
+    /// Checks everything that needs no job; `array_size` is that of [`array_size`].
     ///
     /// # Errors
-    /// More shards than the cluster's arrays have tasks; paths that a job of Slurm cannot have.
+    /// More shards than tasks in the cluster's arrays; paths that a job of Slurm cannot have.
     pub fn check(&self, array_size: u64) -> Result<(), SlurmError> {
         let most = array_size.saturating_sub(1);
         if self.shards > most {
             return Err(SlurmError::TooManyShards { shards: self.shards, most, size: array_size });
         }
         for path in [&self.program, &self.folder] {
-            // Slurm reads patterns in the names of its output files, and takes a backslash for the end of them.
+            // Slurm expands patterns in the names of its output files and ends them at a backslash.
             if path.to_str().is_none_or(|path| path.contains(|c| c == '\\' || is_control(c))) {
                 return Err(SlurmError::Path { path: path.clone() });
             }
@@ -184,7 +184,7 @@ done
         format!("#!/bin/sh\n# {what}\nprogram={program}\nfolder={folder}")
     }
 
-    /// Folder of the scripts and of the jobs' messages.
+    /// Folder of the scripts and of the messages of the jobs.
     #[must_use]
     pub fn own_folder(&self) -> PathBuf {
         self.folder.join("slurm")
@@ -198,8 +198,8 @@ done
         self.own_folder().join("merge.sh")
     }
 
-    /// Arguments of sbatch for the array. The user's options come after those they may change and before
-    /// those they may not.
+    /// Arguments of sbatch for the array. The user's options follow those they may override and precede those they
+    /// may not.
     #[must_use]
     pub fn array_arguments(&self) -> Vec<OsString> {
         let mut arguments = self.first_arguments("asperity-sweep", "%A_%a.log");
@@ -241,10 +241,10 @@ done
         )
     }
 
-    /// Submits the array and the merge; their scripts must be in place.
+    /// Submits the array and the merge; their scripts must exist.
     ///
     /// # Errors
-    /// There is no Slurm, or it refuses one of the two. An array whose merge is refused is cancelled.
+    /// Slurm is missing or refuses one of the two. An array whose merge is refused is cancelled.
     pub fn submit(&self) -> Result<Jobs, SlurmError> {
         let (array, mut notes) = self.sbatch("the array", &self.array_arguments())?;
         match self.sbatch("the merge", &self.merge_arguments(&array.number)) {
@@ -291,16 +291,16 @@ done
     }
 }
 
-/// A job that sbatch has taken.
+/// A job accepted by sbatch.
 #[derive(Debug, PartialEq, Eq)]
 struct Job {
     number: String,
-    /// Name of the cluster, where there are several.
+    /// Name of the cluster, if there are several.
     cluster: Option<String>,
 }
 
 impl Job {
-    /// Job of the answer of `sbatch --parsable`, `number` or `number;cluster`, and nothing else.
+    /// Job of the answer of `sbatch --parsable`: exactly `number` or `number;cluster`.
     fn of(answer: &str) -> Option<Job> {
         let (number, cluster) = match answer.split_once(';') {
             Some((number, cluster)) => (number, Some(cluster)),
@@ -321,7 +321,7 @@ impl Job {
     }
 }
 
-/// A program of Slurm that does what its arguments say: without the variables that would be options besides.
+/// A program of Slurm controlled by its arguments alone, without the variables that would act as options.
 fn command(program: &str) -> Command {
     let mut command = Command::new(program);
     for name in variables_of(program) {
@@ -338,7 +338,7 @@ fn variables_of(program: &str) -> Vec<OsString> {
     std::env::vars_os().map(|(name, _)| name).filter(is_option).collect()
 }
 
-/// Names of the environment variables that sbatch would read, and does not.
+/// Names of the environment variables of sbatch that are removed.
 #[must_use]
 pub fn ignored_variables() -> Vec<String> {
     let mut names: Vec<_> =
@@ -347,7 +347,7 @@ pub fn ignored_variables() -> Vec<String> {
     names
 }
 
-/// The cluster's `MaxArraySize`, one more than the largest number of a task; Slurm's own where it does not say.
+/// The cluster's `MaxArraySize`, one more than the largest number of a task; Slurm's own if the cluster states none.
 #[must_use]
 pub fn array_size() -> u64 {
     let output = command("scontrol").args(["show", "config"]).output();
@@ -361,7 +361,7 @@ fn size_in(config: &str) -> Option<u64> {
     value?.trim().parse().ok()
 }
 
-/// A word for a shell, whatever is in it.
+/// A word quoted for a shell.
 #[must_use]
 pub fn word(word: impl AsRef<OsStr>) -> String {
     let word = word.as_ref().to_string_lossy();

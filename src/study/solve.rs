@@ -1,4 +1,4 @@
-//! The runner of studies: solves cases unit by unit and hands each record to a sink.
+//! The runner of studies: solves cases unit by unit and passes each record to a sink.
 //!
 //! `run --lines` is one cell on many profiles, a sweep many cells with a folder as sink, the live map a sequence of
 //! units from coarse to fine.
@@ -25,7 +25,7 @@ pub(crate) struct Case {
 pub(crate) enum Next {
     /// Solves the case.
     Solve,
-    /// Leaves the case out.
+    /// Skips the case.
     Skip,
     /// Ends the work.
     End,
@@ -36,7 +36,7 @@ pub(crate) trait Sink<R = Records> {
     /// Next step before a case.
     fn next(&mut self, case: Case) -> Next;
 
-    /// Takes the records of a case, or the reason why there are none; `Break` ends the work.
+    /// Takes the records of a case, or the reason of their absence; `Break` ends the work.
     fn take(&mut self, case: Case, records: Result<R, RunError>) -> ControlFlow<()>;
 }
 
@@ -58,7 +58,7 @@ impl<'p, C> Solver<'p, C> {
         Solver { plan, cells, of_case, scene: plan.prototype() }
     }
 
-    /// Solves the cases of a unit that the sink wants; `Break` where the sink ends the work.
+    /// Solves the cases of a unit that the sink requests; `Break` if the sink ends the work.
     pub fn solve<R>(&mut self, unit: &Unit, sink: &mut dyn Sink<R>) -> ControlFlow<()>
     where
         C: FnMut(&mut Scene, u64) -> Result<R, RunError>,
@@ -84,7 +84,7 @@ impl<'p, C> Solver<'p, C> {
 pub(super) struct SharedWork<'p, I> {
     plan: &'p Plan,
     cells: &'p Cells,
-    /// The units that no thread has taken; `None` once a sink has ended the work.
+    /// The remaining units; `None` once a sink has ended the work.
     units: Mutex<Option<I>>,
 }
 
@@ -124,7 +124,7 @@ mod tests {
     use std::sync::atomic::{AtomicUsize, Ordering};
     use std::time::{Duration, Instant};
 
-    /// Waits for other sinks before its first case and ends the work after a number of cases of all.
+    /// Sink that waits for others before its first case and ends the work after a total number of cases.
     struct Meeting<'a> {
         met: &'a AtomicUsize,
         threads: usize,

@@ -9,7 +9,7 @@ pub(crate) const CONFIDENCE: f64 = 0.95;
 /// Mean, spread and confidence of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Statistics {
-    /// Number of values; those a line does not have are left out.
+    /// Number of values; profiles without a value are left out.
     pub count: usize,
     /// Mean.
     pub mean: f64,
@@ -22,19 +22,19 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Of these values; `None` for fewer than two.
+    /// Statistics of these values; `None` for fewer than two.
     #[must_use]
     pub fn of(values: &[f64]) -> Option<Self> {
         Statistics::with(values, &mut StudentT::default())
     }
 
-    /// The same for one of many samples of the same size, whose quantile is worked out once.
+    /// The same for one of many samples of equal size, whose quantile is computed once.
     pub(crate) fn with(values: &[f64], quantiles: &mut StudentT) -> Option<Self> {
         if values.len() < 2 {
             return None;
         }
         let count = values.len() as f64;
-        // In units of the largest, so that no square is lost at either end of the numbers.
+        // In units of the largest value, so that no square overflows or underflows.
         let scale = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
         let unit = if scale > 0.0 { scale } else { 1.0 };
         let mean = values.iter().map(|value| value / unit).sum::<f64>() / count;
@@ -53,7 +53,7 @@ impl Statistics {
     }
 }
 
-/// Quantiles of Student's distribution, the last of them kept.
+/// Quantiles of Student's distribution; the last one is kept.
 #[derive(Default)]
 pub(crate) struct StudentT {
     known: Option<(u32, f64)>,
@@ -68,8 +68,7 @@ impl StudentT {
     }
 }
 
-/// The t that Student's distribution with so many degrees of freedom exceeds either way with a probability of
-/// 5 %.
+/// The two-sided 5 % quantile of Student's distribution: the t that |t| exceeds with a probability of 5 %.
 fn student_t(freedom: u32) -> f64 {
     let (mut low, mut high) = (0.0, 16.0);
     for _ in 0..200 {
@@ -83,13 +82,12 @@ fn student_t(freedom: u32) -> f64 {
     f64::midpoint(low, high)
 }
 
-/// Probability that |t| is at most this with so many degrees of freedom (Abramowitz and Stegun, 26.7.3 and
-/// 26.7.4).
+/// Probability that |t| of Student's distribution is at most this (Abramowitz and Stegun, 26.7.3 and 26.7.4).
 fn share_within(t: f64, freedom: u32) -> f64 {
     let angle = (t / f64::from(freedom).sqrt()).atan();
     let (sine, cosine) = angle.sin_cos();
     let odd = freedom % 2 == 1;
-    // Of cosines to the powers 1, 3, … up to freedom − 2, or 0, 2, …
+    // Sum over cosines to the powers 1, 3, … up to freedom − 2, or 0, 2, …
     let (mut term, mut power) = if odd { (cosine, 1) } else { (1.0, 0) };
     let mut sum = 0.0;
     while power + 2 <= freedom {

@@ -14,15 +14,15 @@ use std::path::Path;
 /// Progress of a study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Status {
-    /// Records there are.
+    /// Existing records.
     pub done: u64,
-    /// Records there are to be.
+    /// All records of the study.
     pub total: u64,
     /// Records that are missing.
     pub missing: u64,
     /// Lines of shard files that are torn or damaged.
     pub damaged: u64,
-    /// The parts that processes were given.
+    /// The parts assigned to processes.
     pub shards: Vec<ShardStatus>,
 }
 
@@ -31,11 +31,11 @@ pub struct Status {
 pub struct ShardStatus {
     /// Part, as `3/8`.
     pub shard: String,
-    /// Records there are to be in it.
+    /// All records of the part.
     pub total: u64,
-    /// Records of it that are there, whoever wrote them.
+    /// Existing records of the part, by any process.
     pub done: u64,
-    /// The processes that were given it.
+    /// The processes assigned to the part.
     pub attempts: Vec<Attempt>,
 }
 
@@ -46,20 +46,20 @@ pub struct Attempt {
     pub file: String,
     /// Name of the machine.
     pub host: String,
-    /// Number of the process on it.
+    /// Process id on that machine.
     pub process: u32,
-    /// When it began, s since 1970.
+    /// Time of the beginning, s since 1970.
     pub started: u64,
-    /// When it last wrote, s since 1970.
+    /// Time of the last write, s since 1970.
     pub written: f64,
-    /// Records it wrote.
+    /// Records written by the process.
     pub records: u64,
-    /// Records each second, from its beginning to what it last wrote.
+    /// Records per second, from the beginning to the last write.
     pub rate: Option<f64>,
 }
 
 impl Status {
-    /// Of the present content of the folder.
+    /// Status of the present content of the folder.
     ///
     /// # Errors
     /// A folder that cannot be read.
@@ -100,13 +100,13 @@ impl Status {
     }
 }
 
-/// Records each second, of a process that began this time, s, before it last wrote; `None` for no time.
+/// Records per second over this time, s, from the beginning to the last write; `None` for zero time.
 pub(super) fn rate(records: u64, seconds: f64) -> Option<f64> {
     (seconds > 0.0).then(|| records as f64 / seconds)
 }
 
-/// The records of a part of a plan, and those of them that are there. All parts of a division together take as
-/// long as the whole plan.
+/// All records of a part of a plan, and the existing ones. All parts of a division together take as long as the
+/// whole plan.
 pub(super) fn count(plan: &Plan, cells: &Cells, done: &Done, shard: Shard) -> (u64, u64) {
     let (mut total, mut there) = (0, 0);
     for unit in shard.units(cells.units()) {

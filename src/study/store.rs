@@ -1,8 +1,8 @@
 //! The folder of a study: its plan, and one file for each process that has worked on it.
 //!
-//! A shard file is only ever appended to, by the one process that made it; each record is a line with a
-//! checksum. So whatever ends a process, what it wrote before stays, and a line torn by that is left out. What
-//! ends the machine takes what had not reached the disk as well: the records of a moment, which are computed again.
+//! A shard file is only ever appended to, by the process that made it; each record is a line with a checksum. After
+//! any end of a process its written records stay, and a torn line is left out. After a crash of the machine the
+//! records not yet on the disk, those of a moment, are lost and computed again.
 
 use super::StudyError;
 use super::done::Done;
@@ -48,20 +48,20 @@ pub struct Header {
     pub format: u32,
     /// Checksum of the plan.
     pub plan: String,
-    /// The part of the plan that the process was given.
+    /// The part of the plan assigned to the process.
     pub shard: Shard,
     /// Name of the machine.
     pub host: String,
-    /// Number of the process on it.
+    /// Process id on that machine.
     pub process: u32,
-    /// When it began, s since 1970.
+    /// Time of the beginning, s since 1970.
     pub started: u64,
-    /// The same with fractions of a second; files of earlier versions do not have it.
+    /// `started` with fractions of a second; files of earlier versions do not have it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub begun: Option<f64>,
     /// Version of the program.
     pub program: String,
-    /// SHA-256 of the content of the study's measured file, where it has one.
+    /// SHA-256 of the content of the study's measured file, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measured_sha256: Option<String>,
 }
@@ -77,23 +77,23 @@ struct AnyHeader {
 pub struct ShardFile {
     /// Path.
     pub path: PathBuf,
-    /// Header; `None` where the process ended before writing it.
+    /// Header; `None` if the process ended before writing it.
     pub header: Option<Header>,
-    /// When something was last written to it, s since 1970.
+    /// Time of the last write, s since 1970.
     pub written: f64,
 }
 
-/// A record as it was found.
+/// A record of a file.
 pub(super) struct Found<'l> {
     pub key: Key,
-    /// Place of its line in the file.
+    /// Byte offset of its line in the file.
     pub offset: u64,
-    /// A value for each quantity of the plan, NaN for what is not there.
+    /// One value for each quantity of the plan, NaN for missing ones.
     pub values: &'l [f64],
 }
 
 impl Folder {
-    /// Makes the folder of a plan, or opens it where it has the same plan already.
+    /// Makes the folder of a plan, or opens one that holds the same plan.
     ///
     /// # Errors
     /// A folder with another plan, a measured file that has changed or cannot be read, or a
@@ -124,14 +124,14 @@ impl Folder {
             return Err(refusal(path, &there, &plan));
         }
         make_folders(&*disk, &shards).map_err(StudyError::unwritable(&shards))?;
-        // A process that was killed may have made them without waiting for the disk.
+        // A killed process may have made them without waiting for the disk.
         for folder in [folder_of(path), path] {
             disk.sync_folder(folder).map_err(StudyError::unwritable(folder))?;
         }
         Ok(Folder { path: path.to_path_buf(), plan, disk })
     }
 
-    /// Returns true for the folder of a study, sound or not.
+    /// Returns true for the folder of a study, valid or not.
     #[must_use]
     pub fn is_at(path: &Path) -> bool {
         path.join(PLAN_FILE).is_file()
@@ -140,7 +140,7 @@ impl Folder {
     /// Opens the folder of a study.
     ///
     /// # Errors
-    /// No study, or a plan that cannot be read.
+    /// No study, or an unreadable plan.
     pub fn open(path: &Path) -> Result<Folder, StudyError> {
         Folder::open_on(SystemDisk::shared(), path)
     }
@@ -172,17 +172,17 @@ impl Folder {
         &self.plan
     }
 
-    /// The disk it is on.
+    /// The disk of the folder.
     pub(super) fn disk(&self) -> &dyn Disk {
         &*self.disk
     }
 
-    /// Checksum of its plan.
+    /// Checksum of the plan.
     fn checksum(&self) -> String {
         format!("{:08x}", crc32fast::hash(self.plan.to_ron().as_bytes()))
     }
 
-    /// A new shard file for this process, with its header.
+    /// Makes a new shard file for this process, with its header.
     pub(super) fn new_file(&self, shard: Shard) -> Result<(PathBuf, Box<dyn DiskFile>), StudyError> {
         let begun = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
         let started = begun.as_secs();
@@ -208,7 +208,7 @@ impl Folder {
             let mut file = self.disk.make_file(&path)?;
             file.write_all(text.as_bytes())?;
             file.sync()?;
-            // The name in the folder has to last as well.
+            // The name in the folder has to be durable as well.
             self.disk.sync_folder(&self.path.join(SHARDS))?;
             Ok(file)
         };
@@ -219,7 +219,7 @@ impl Folder {
     /// All shard files, by name.
     ///
     /// # Errors
-    /// Files that cannot be read, or are of another plan, another measured file or another version.
+    /// Files that cannot be read, or that belong to another plan, another measured file or another version.
     pub fn files(&self) -> Result<Vec<ShardFile>, StudyError> {
         let shards = self.path.join(SHARDS);
         let mut paths = match self.disk.list(&shards) {
@@ -245,7 +245,7 @@ impl Folder {
         Ok(ShardFile { path: path.to_path_buf(), header, written })
     }
 
-    /// A whole header, which no crash has made: what is wrong with it was written so.
+    /// Reads a whole header, which no crash can have made: an error in it was written so.
     fn header(&self, payload: &str, checksum: &str) -> Result<Header, String> {
         let unknown = |error: serde_json::Error| {
             format!(
@@ -270,8 +270,8 @@ impl Folder {
         Ok(header)
     }
 
-    /// Calls `each` with every whole record of a file, in the order in which they were written, and gives the
-    /// number of lines that are damaged: torn, changed since, or no records of this plan.
+    /// Calls `each` with every whole record of a file, in the order of writing, and returns the number of damaged
+    /// lines: torn, changed since, or no records of this plan.
     pub(super) fn records(
         &self,
         file: &ShardFile,
@@ -303,19 +303,19 @@ impl Folder {
         Ok(damaged)
     }
 
-    /// Index of the line with a seed.
+    /// Index of the profile of a seed.
     pub(super) fn line_of(&self, seed: u64) -> Option<u64> {
         let line = seed.wrapping_sub(self.plan.seed);
         (line < self.plan.lines).then_some(line)
     }
 
-    /// Place of a record among all there are to be, by cell, then by seed.
+    /// Place of a record among all records of the plan, by cell, then by seed.
     pub(super) fn place(&self, key: Key) -> Option<u64> {
         Some(key.cell * self.plan.lines + self.line_of(key.seed)?)
     }
 
-    /// The records that there are, and will be after a power cut: what a killed process has written without
-    /// waiting for the disk would be counted on and lost.
+    /// The records that exist and survive a power cut: records that a killed process left unsynced would be counted
+    /// and lost.
     pub(super) fn done(&self) -> Result<Done, StudyError> {
         let mut done = Done::none(self.plan.records_in_all());
         for file in self.files()? {
@@ -336,7 +336,7 @@ impl Folder {
 /// Error for a folder that holds the text `there` of another plan than `plan`.
 fn refusal(path: &Path, there: &str, plan: &Plan) -> StudyError {
     let file = path.join(PLAN_FILE);
-    // Where nothing but the content of the measured file is another, that is said.
+    // If only the content of the measured file differs, the error is specific.
     if let (Ok(of_folder), Some(measured)) =
         (Plan::parse(there, PLAN_FILE, &Changes::default()), file_of(plan))
         && (Plan { measured_sha256: plan.measured_sha256.clone(), ..of_folder.clone() }) == *plan
@@ -362,7 +362,7 @@ fn difference(there: &str, asked: &str) -> String {
     first.map_or_else(String::new, |(a, b)| format!("there: {}\nhere:  {}", shown(a), shown(b)))
 }
 
-/// Sealed lines of a shard file, one after the other or from any place, cheaply where they follow each other.
+/// Reader of the sealed lines of a shard file, in sequence or from any offset; cheap in sequence.
 pub(super) struct Lines {
     reader: BufReader<File>,
     here: u64,
@@ -370,12 +370,12 @@ pub(super) struct Lines {
 }
 
 impl Lines {
-    /// Lines of a file that is read by so many bytes at a time.
+    /// Lines of a file, read in blocks of so many bytes.
     pub fn new(file: File, bytes: usize) -> Lines {
         Lines { reader: BufReader::with_capacity(bytes, file), here: 0, line: Vec::new() }
     }
 
-    /// The next line: its offset and, where it is whole, its payload; `None` at the end.
+    /// Next line: its offset and, if it is whole, its payload; `None` at the end.
     pub fn next(&mut self) -> io::Result<Option<(u64, Option<&str>)>> {
         let offset = self.here;
         self.line.clear();
@@ -386,7 +386,7 @@ impl Lines {
 
     /// The payload of the line at an offset.
     pub fn at(&mut self, offset: u64) -> io::Result<&str> {
-        // Within what has been read this moves nothing.
+        // Within the buffer this moves nothing.
         let by = offset as i64 - self.here as i64;
         self.reader.seek_relative(by).or_else(|_| self.reader.seek(SeekFrom::Start(offset)).map(drop))?;
         self.here = offset;
@@ -395,7 +395,7 @@ impl Lines {
     }
 }
 
-/// Name of this machine, in letters that a file name can hold.
+/// Name of this machine, in letters allowed in a file name.
 fn host() -> String {
     #[cfg(unix)]
     let name = rustix::system::uname().nodename().to_string_lossy().into_owned();

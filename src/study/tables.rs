@@ -12,21 +12,21 @@ use serde::Serialize;
 
 /// Version of the merged files.
 pub const RESULTS_VERSION: u32 = 1;
-/// One row for each cell and line.
+/// One row for each cell and profile.
 pub const RESULTS: &str = "results.csv";
 /// One row for each cell.
 pub const SUMMARY: &str = "summary.csv";
-/// The results with types, where they are asked for.
+/// The results with types, if requested.
 pub const PARQUET: &str = "results.parquet";
 /// Name of the file with the meanings of the columns.
 pub const SIDECAR: &str = "results.json";
 
-/// A number in the shortest form that reads back bit for bit; nothing for what there is not.
+/// A number in the shortest form that is read back bit for bit; empty for `None`.
 pub(super) fn number(value: Option<f64>) -> String {
     value.filter(|value| !value.is_nan()).map_or_else(String::new, |value| format!("{value:?}"))
 }
 
-/// A value of an axis: whole where it is.
+/// A value of an axis, as an integer if it is one.
 fn coordinate(path: &str, value: f64) -> String {
     match Target::of(path) {
         Ok(target) if target.is_whole() => format!("{}", value as u64),
@@ -34,7 +34,7 @@ fn coordinate(path: &str, value: f64) -> String {
     }
 }
 
-/// Cell, axes and preload.
+/// Start of a row: cell, axes and preload.
 pub(super) fn row_start(plan: &Plan, cell: u64) -> String {
     let mut row = cell.to_string();
     let values = plan.values(cell);
@@ -67,7 +67,7 @@ pub(super) fn header(plan: &Plan, single: bool) -> String {
     columns.join(",")
 }
 
-/// Columns of the summary for the share of lines in each regime.
+/// Columns of the summary for the share of profiles in each regime.
 pub(super) const REGIME_COLUMNS: [&str; 3] =
     ["regime_pressure_insensitive", "regime_pressure_sensitive", "regime_non_adhesive"];
 
@@ -77,7 +77,7 @@ pub(super) fn regime_name(quantity: Quantity, value: f64) -> Option<&'static str
     Some(regime.name())
 }
 
-/// Number of lines and, for each quantity, mean, standard deviation and confidence interval.
+/// Number of profiles and, for each quantity, mean, standard deviation and confidence interval.
 pub(super) fn summary_row(plan: &Plan, summary: &CellSummary) -> String {
     let mut row = summary.lines.to_string();
     let mut add = |value: Option<f64>| {
@@ -101,21 +101,21 @@ pub(super) fn summary_row(plan: &Plan, summary: &CellSummary) -> String {
 /// Contents found by a merge.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Merged {
-    /// Records there are, each counted once.
+    /// Existing records, each counted once.
     pub records: u64,
-    /// Records there are to be.
+    /// All records of the study.
     pub total: u64,
-    /// Records that were there more than once, bit for bit the same.
+    /// Records that occurred more than once, bit for bit the same.
     pub duplicates: u64,
-    /// Lines of shard files that were torn or damaged, and left out.
+    /// Torn or damaged lines of shard files, left out.
     pub damaged: u64,
-    /// Cells of which lines are missing.
+    /// Number of cells with missing profiles.
     pub missing_cells: u64,
-    /// The first of them.
+    /// The first of these cells.
     pub first_missing: Vec<u64>,
-    /// Files that hold records.
+    /// Number of files with records.
     pub files: usize,
-    /// Versions of the program that wrote them.
+    /// Versions of the program that wrote the records.
     pub programs: Vec<String>,
 }
 

@@ -4,10 +4,10 @@ use crate::analysis::Governing;
 use crate::scene::{FIELDS, Field, Leg, Range, Roughness, RoughnessParameter, Scene, Value, field, nearest};
 use crate::surface::SelfAffine;
 
-/// Quantities that are no fields of a scene.
+/// Quantities that are not fields of a scene.
 pub const DERIVED: &[&str] = &["kappa", "elastic_energy_ratio", "preload", "springs_per_wave"];
 
-/// Numbers that no axis varies: the version is no parameter, and seeds are counted from the plan's.
+/// Numbers that cannot be varied: the version is no parameter, and seeds are counted from the plan's.
 const FIXED: &[&str] = &["version", "roughness.seed"];
 
 /// A quantity that an axis varies.
@@ -21,7 +21,7 @@ pub enum Target {
     RoughnessParameter(RoughnessParameter),
     /// Preload F_n in units of E* h L.
     Preload,
-    /// Springs for each of the shortest waves: the last mode is points over this number.
+    /// Springs per period of the shortest wave: the last mode is points over this number.
     SpringsPerWave,
 }
 
@@ -47,7 +47,7 @@ impl Part {
     }
 }
 
-/// Every number of a scene that an axis may vary, with its path.
+/// All numbers of a scene that an axis may vary, with their paths.
 fn numbers() -> impl Iterator<Item = (String, &'static Field, Part)> {
     let parts = |field: &'static Field| match field.range {
         _ if FIXED.contains(&field.path) => &[][..],
@@ -61,23 +61,23 @@ fn numbers() -> impl Iterator<Item = (String, &'static Field, Part)> {
 
 /// No number of a scene has this path.
 pub struct TargetError {
-    /// The nearest path that a number has.
+    /// The nearest valid path.
     pub near: Option<String>,
 }
 
-/// Part of a computation that a changed number repeats; later ones need least.
+/// Part of a computation that a changed number repeats; later variants repeat least.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Shapes {
     /// The heights of the roughness, by a transform.
     Roughness,
     /// The profile, from known heights.
     Line,
-    /// Nothing but the passes over the tree.
+    /// The passes over the tree alone.
     Passes,
 }
 
 impl Target {
-    /// The quantity at a path.
+    /// Quantity of a path.
     pub fn of(path: &str) -> Result<Target, TargetError> {
         match path {
             "preload" => return Ok(Target::Preload),
@@ -96,12 +96,12 @@ impl Target {
         })
     }
 
-    /// The quantity is a whole number.
+    /// Returns true for an integer quantity.
     pub fn is_whole(self) -> bool {
         matches!(self, Target::Field(field, _) if !matches!(field.range, Range::Real { .. }))
     }
 
-    /// Part of the computation that is repeated where the quantity changes.
+    /// Part of the computation that a change of the quantity repeats.
     pub fn shapes(self) -> Shapes {
         let field = match self {
             Target::SpringsPerWave => return Shapes::Roughness,
@@ -116,7 +116,7 @@ impl Target {
         }
     }
 
-    /// Gives quantities their values in a scene, each of which has a place; quantities that follow from others are last.
+    /// Sets quantities to their values in a scene; quantities that depend on others are set last.
     ///
     /// # Errors
     /// The place of a number that the scene does not have, and the reason.
@@ -134,7 +134,7 @@ impl Target {
         Ok(())
     }
 
-    /// Value of the quantity in a scene, as far as the scene states it: κ and the preload follow from several numbers.
+    /// Value of the quantity in a scene, if stated by the scene: κ and the preload depend on several numbers.
     pub fn get(self, scene: &Scene) -> Option<f64> {
         match self {
             Target::RoughnessParameter(_) | Target::Preload => None,
@@ -159,7 +159,7 @@ impl Target {
         }
     }
 
-    /// Gives the quantity a value in a scene; the preload, which is no part of a scene, is left to the run.
+    /// Sets the quantity to a value in a scene; the preload, which is no part of a scene, is left to the run.
     ///
     /// # Errors
     /// The scene has no such number.
@@ -184,7 +184,7 @@ impl Target {
     }
 }
 
-/// Sets the number at a path in the variant that the scene has.
+/// Sets the number at a path in the scene's variant.
 fn set(scene: &mut Scene, path: &str, part: Part, number: f64) -> Result<(), String> {
     let whole = number as u64;
     let done = FIELDS.iter().filter(|field| field.path == path).any(|field| {
@@ -208,7 +208,7 @@ pub(super) fn governing(scene: &Scene) -> Option<Governing> {
     Some(Governing::of(scene, Some(wave_numbers), None))
 }
 
-/// Symbol and SI unit of the quantity at a path; `1` for numbers without a unit, empty where there is no symbol.
+/// Symbol and SI unit of the quantity at a path; `1` for numbers without a unit, empty without a symbol.
 #[must_use]
 pub fn symbol_and_unit(path: &str) -> (&'static str, &'static str) {
     match Target::of(path) {

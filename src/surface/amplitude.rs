@@ -1,8 +1,8 @@
-//! Amplitude of a line: root mean square height, gradient and curvature, and its mean wave number.
+//! Amplitude of a profile: root mean square height, gradient and curvature, and its mean wave number.
 
 use std::f64::consts::TAU;
 
-/// Wave numbers of a line of modes A_k cos(q_k x + φ_k), q_k = 2πk/L.
+/// Wave numbers of a profile with modes A_k cos(q_k x + φ_k), q_k = 2πk/L.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WaveNumbers {
     /// Root mean square √(Σ q_k²A_k²/Σ A_k²), rad/m: rms gradient over rms height.
@@ -14,7 +14,7 @@ pub struct WaveNumbers {
 }
 
 impl WaveNumbers {
-    /// Wave numbers of the same modes on a length of so many times this one.
+    /// Wave numbers of the same modes on a length `times` as large.
     #[must_use]
     pub fn stretched(self, times: f64) -> Self {
         WaveNumbers {
@@ -25,7 +25,7 @@ impl WaveNumbers {
     }
 }
 
-/// Roughness amplitude of a line.
+/// Roughness amplitude of a profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Amplitude {
     /// Root mean square height h, m.
@@ -34,12 +34,12 @@ pub struct Amplitude {
     pub rms_gradient: f64,
     /// Root mean square curvature, 1/m.
     pub rms_curvature: f64,
-    /// Mean wave number Σ q_k A_k²/Σ A_k², rad/m; 0 of a flat line.
+    /// Mean wave number Σ q_k A_k²/Σ A_k², rad/m; 0 for a flat profile.
     pub mean_wave_number: f64,
 }
 
 impl Amplitude {
-    /// Amplitude of a line of this rms height, m.
+    /// Amplitude of a profile with this rms height, m.
     #[must_use]
     pub fn from_height(rms_height: f64, wave_numbers: WaveNumbers) -> Self {
         let WaveNumbers { rms, mean, rms_square } = wave_numbers;
@@ -51,7 +51,7 @@ impl Amplitude {
         }
     }
 
-    /// Amplitude of the modes k with these mean squares A_k²/2, m², on a length (m); the smallest first keep most digits.
+    /// Amplitude of the modes k with these mean squares A_k²/2, m², on a length (m); smallest first for accuracy.
     #[must_use]
     pub fn from_modes(squares: impl Iterator<Item = (u64, f64)>, length: f64) -> Self {
         let (mut height, mut slope, mut gradient, mut curvature) = (0.0, 0.0, 0.0, 0.0);
@@ -71,9 +71,9 @@ impl Amplitude {
         }
     }
 
-    /// Elastic energy of conformity per area, J/m²: e_el = (E*/8) Σ q_k A_k², the energy of a half-space of effective
-    /// modulus E* (Pa) that follows an isotropic surface with the rms height, rms gradient and mean wave number of the
-    /// line everywhere (Persson and Tosatti, 2001).
+    /// Elastic energy of conformity per area, J/m²: e_el = (E*/8) Σ q_k A_k², the energy of a half-space of
+    /// effective modulus E* (Pa) in full contact with an isotropic surface with the rms height, rms gradient and
+    /// mean wave number of the profile (Persson and Tosatti, 2001).
     #[must_use]
     pub fn elastic_energy(&self, effective_modulus: f64) -> f64 {
         effective_modulus * self.rms_height.powi(2) * self.mean_wave_number / 4.0

@@ -9,21 +9,21 @@ use crate::topography::{Cut, ReadOptions, Topography, TopographyError, read_obse
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
-/// Share by which a wave may be longer than the scan, for want of digits.
+/// Relative excess of a wavelength over the scan that counts as rounding.
 const ROUNDING: f64 = 1.0e-9;
 
-/// Choices of a scene for its measured surface.
+/// Options of a scene for its measured surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MeasuredOptions {
-    /// The profile itself is the line.
+    /// True if the profile itself is the line.
     pub as_line: bool,
-    /// Choices where a file leaves something open.
+    /// Values that a file may omit.
     pub reading: ReadOptions,
     /// True if uneven profiles are resampled at their mean distance.
     pub resample: bool,
-    /// Row or column of a map that is the profile.
+    /// Row or column of a map used as the profile.
     pub cut: Option<Cut>,
-    /// Part that is removed; `None`: the tilt for an equivalent line, nothing of a profile as the line.
+    /// Removed part; `None`: the tilt for an equivalent line, nothing for a profile as the line.
     pub detrend: Option<Detrend>,
     /// True if the surface repeats itself at its borders: then its spectrum is estimated without a window.
     pub periodic: bool,
@@ -32,10 +32,10 @@ pub struct MeasuredOptions {
 }
 
 impl MeasuredOptions {
-    /// Reads and analyses the files of a face, samples of one roughness, with all bytes of the files shown to `seen`.
+    /// Reads and analyses the files of a face, samples of one roughness; `seen` receives all bytes of the files.
     ///
     /// # Errors
-    /// [`SurfaceError::Measured`] when there is no file, or one cannot be read, is no surface, or has no spectrum.
+    /// [`SurfaceError::Measured`] without a file, or if a file cannot be read, is no surface, or has no spectrum.
     pub fn analyse(
         &self,
         face: &[impl AsRef<Path>],
@@ -60,10 +60,10 @@ impl MeasuredOptions {
         Options { detrend, periodic, end, tip_radius: None }
     }
 
-    /// Reads a surface, with all bytes of the file shown to `seen`.
+    /// Reads a surface; `seen` receives all bytes of the file.
     ///
     /// # Errors
-    /// [`TopographyError`] when the file cannot be read, is no surface, or has no such row or column.
+    /// [`TopographyError`] if the file cannot be read, is no surface, or has no such row or column.
     pub fn read(
         &self,
         path: &Path,
@@ -88,10 +88,10 @@ pub enum MeasuredRoughness {
 }
 
 impl MeasuredRoughness {
-    /// Reads the measured surfaces of one or both faces, with all bytes of the files shown to `seen`.
+    /// Reads the measured surfaces of one or both faces; `seen` receives all bytes of the files.
     ///
     /// # Errors
-    /// [`SurfaceError::Measured`] when a file cannot be read, is no surface, or has no spectrum.
+    /// [`SurfaceError::Measured`] if a file cannot be read, is no surface, or has no spectrum.
     pub fn read(
         faces: &[Vec<PathBuf>],
         options: &MeasuredOptions,
@@ -106,7 +106,7 @@ impl MeasuredRoughness {
         EquivalentLine::read(faces, options, seen).map(MeasuredRoughness::Equivalent)
     }
 
-    /// Checks that a line of a length (m) on so many springs can be made.
+    /// Checks that a line of a length (m) can be made on so many springs.
     ///
     /// # Errors
     /// The reason, in one line.
@@ -125,18 +125,18 @@ pub struct EquivalentLine {
 }
 
 impl EquivalentLine {
-    /// Line of the surface of one face.
+    /// Equivalent line of the surface of one face.
     ///
     /// # Errors
-    /// The reason for which the surface has no spectrum.
+    /// The reason why the surface has no spectrum.
     pub fn new(surface: Topography, options: &MeasuredOptions) -> Result<Self, SpectrumError> {
         Ok(EquivalentLine { faces: vec![analyse(&[surface], &options.analysis())?.isotropic] })
     }
 
-    /// Line of the faces with these spectra; at least one.
+    /// Equivalent line of the faces with these spectra; at least one.
     ///
     /// # Errors
-    /// [`SurfaceError::Measured`] when there is none.
+    /// [`SurfaceError::Measured`] without a spectrum.
     pub fn from_spectra(faces: Vec<IsotropicSpectrum>) -> Result<Self, SurfaceError> {
         if faces.is_empty() {
             return Err(SurfaceError::measured(Path::new(""), "no file; allowed: one for each face"));
@@ -144,8 +144,8 @@ impl EquivalentLine {
         Ok(EquivalentLine { faces })
     }
 
-    /// Line of spectra that are moved by a share of steps drawn from the uncertainty of their fits; the same steps for the same
-    /// number.
+    /// Equivalent line of spectra moved by a share of steps drawn from the uncertainty of their fits; equal numbers
+    /// have equal steps.
     #[must_use]
     pub fn drawn(&self, number: u64, share: f64) -> EquivalentLine {
         let of_face = |(face, spectrum): (u64, &IsotropicSpectrum)| {
@@ -155,17 +155,17 @@ impl EquivalentLine {
         EquivalentLine { faces: (0..).zip(&self.faces).map(of_face).collect() }
     }
 
-    /// Line of both faces, whose roughnesses are independent of each other.
+    /// Equivalent line of both faces, whose roughnesses are independent.
     #[must_use]
     pub fn with_opposite(mut self, other: EquivalentLine) -> Self {
         self.faces.extend(other.faces);
         self
     }
 
-    /// Reads the surfaces of all faces for their equivalent line, with all bytes of the files shown to `seen`.
+    /// Reads the surfaces of all faces for their equivalent line; `seen` receives all bytes of the files.
     ///
     /// # Errors
-    /// [`SurfaceError::Measured`] when there is no file, or one cannot be read, is no surface, or has no spectrum.
+    /// [`SurfaceError::Measured`] without a file, or if a file cannot be read, is no surface, or has no spectrum.
     pub fn read(
         faces: &[Vec<PathBuf>],
         options: &MeasuredOptions,
@@ -175,7 +175,7 @@ impl EquivalentLine {
         EquivalentLine::from_spectra(spectra.collect::<Result<_, SurfaceError>>()?)
     }
 
-    /// Moments of the line, over the waves that are known of all faces, with their standard errors.
+    /// Moments of the line, over the waves known of all faces, with their standard errors.
     #[must_use]
     pub fn moments(&self) -> LineMoments {
         line_moments(&self.faces)
@@ -187,18 +187,18 @@ impl EquivalentLine {
         self.faces.iter().map(|face| face.line(wave_number)).sum()
     }
 
-    /// First and last wave number, rad/m, that are known of all faces. Each spectrum ends where it does.
+    /// First and last wave number, rad/m, known of all faces. Each spectrum ends at its own limit.
     #[must_use]
     pub fn range(&self) -> [f64; 2] {
         let ranges = self.faces.iter().map(IsotropicSpectrum::range);
         ranges.fold([0.0, 0.0], |[first, last], [low, high]| [first.max(low), last.max(high)])
     }
 
-    /// First and last mode k, q = 2πk/L, of a line of a length (m) on so many springs: the waves of the spectrum that the
-    /// line holds and the springs resolve. Waves longer than the scan are unknown and left out.
+    /// First and last mode k, q = 2πk/L, of a line of a length (m) on so many springs: the waves of the spectrum
+    /// that fit the line and are resolved by the springs. Waves longer than the scan are unknown and omitted.
     ///
     /// # Errors
-    /// When there is none.
+    /// No such mode.
     pub fn modes(&self, length: f64, points: usize) -> Result<(u64, u64), String> {
         let [low, high] = self.range();
         let waves = length / TAU;
@@ -220,7 +220,7 @@ impl EquivalentLine {
     pub fn amplitude(&self, mode: u64, length: f64) -> f64 {
         let wave_number = TAU * mode as f64 / length;
         let power = |face: &IsotropicSpectrum| {
-            // A wave may be beyond the end by rounding alone.
+            // A wave may exceed the end by rounding.
             let end = face.range()[1];
             face.line(if wave_number <= end * (1.0 + ROUNDING) { wave_number.min(end) } else { wave_number })
         };
@@ -231,7 +231,7 @@ impl EquivalentLine {
     #[must_use]
     pub fn amplitude_of_modes(&self, length: f64, (first, last): (u64, u64)) -> Amplitude {
         let squares = |mode: u64| (mode, 0.5 * self.amplitude(mode, length).powi(2));
-        // From the smallest amplitudes on.
+        // Starts with the smallest amplitudes.
         Amplitude::from_modes((first..=last).rev().map(squares), length)
     }
 }
@@ -277,13 +277,13 @@ mod tests {
             assert!((sum - a - b).abs() <= 1e-12 * sum && sum > 0.0, "{mode}: {a} {b} {sum}");
             assert_eq!(a == 0.0, mode > 127, "{mode}");
         }
-        // Twice the same face has √2 times its height and gradient.
+        // Two equal faces have √2 times the height and gradient of one.
         let twice = one.clone().with_opposite(one.clone());
         let modes = one.modes(length, 4096).unwrap();
         let [before, after] = [&one, &twice].map(|line| line.amplitude_of_modes(length, modes));
         assert!((after.rms_height / before.rms_height - std::f64::consts::SQRT_2).abs() < 1e-12);
         assert!((after.rms_gradient / before.rms_gradient - std::f64::consts::SQRT_2).abs() < 1e-12);
-        // Moments too, over the waves that both scans hold.
+        // Also moments, over the waves common to both scans.
         let [one, other, both] =
             [&one, &other, &one.clone().with_opposite(other.clone())].map(|line| line.moments());
         let squares = |a: Estimate, b: Estimate, sum: Estimate| {
@@ -308,7 +308,7 @@ mod tests {
         let modes = line.modes(length, 4096).unwrap();
         let Amplitude { rms_height: height, rms_gradient: gradient, .. } =
             line.amplitude_of_modes(length, modes);
-        // Sums of modes for integrals.
+        // Sums of modes approximate integrals.
         assert!((height / analysis.line.rms_height.value - 1.0).abs() < 0.02, "{height}");
         assert!((gradient / analysis.line.rms_gradient.value - 1.0).abs() < 0.02, "{gradient}");
         let amplitude = |mode: u64| line.amplitude(mode, length);

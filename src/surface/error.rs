@@ -4,19 +4,19 @@ use thiserror::Error;
 
 use std::path::Path;
 
-/// Reason for which a profile could not be made.
+/// Reason why a profile could not be made.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SurfaceError {
     /// An array does not fit into memory.
     #[error("numerics.points: not enough memory for {points} springs")]
     OutOfMemory {
-        /// Springs asked for.
+        /// Requested springs.
         points: usize,
     },
     /// The Fourier transform refused its input.
     #[error("roughness: the Fourier transform failed: {0}")]
     Transform(String),
-    /// A height came out as no finite number.
+    /// A height is not finite.
     #[error("the line has a height that is not finite at spring {index}; form and roughness are too large")]
     NotFinite {
         /// First such spring.
@@ -27,7 +27,7 @@ pub enum SurfaceError {
     Measured {
         /// The file.
         file: String,
-        /// Fault, with its row where there is one.
+        /// Fault, with its row if known.
         reason: String,
     },
     /// No spring lies under the body.
@@ -35,13 +35,13 @@ pub enum SurfaceError {
         "form.radius: no spring lies under the punch; allowed: at least a quarter of the spacing, {least:e} m"
     )]
     NoSprings {
-        /// Smallest radius allowed, m: the diameter is rounded to whole cells.
+        /// Smallest allowed radius, m: the diameter is rounded to whole cells.
         least: f64,
     },
 }
 
 impl SurfaceError {
-    /// A measured surface that is refused.
+    /// A refused measured surface.
     pub(crate) fn measured(file: &Path, reason: &(impl ToString + ?Sized)) -> Self {
         SurfaceError::Measured { file: file.display().to_string(), reason: reason.to_string() }
     }

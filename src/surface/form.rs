@@ -1,11 +1,11 @@
-//! Macroscopic forms on the line: the MDR transform g(x) of a profile f(r).
+//! Macroscopic forms on the equivalent profile: the MDR transform g(x) of a profile f(r).
 
 use super::struve::struve_0;
 use crate::scene::Form;
 use std::f64::consts::PI;
 
-/// Depth g(|x|) in m of the equivalent line below its apex, at distance `distance` m from the axis; of a punch that
-/// under its flat face ([`Form::springs_under`]).
+/// Depth g(|x|) in m of the equivalent profile below its apex, at distance `distance` m from the axis; for a punch
+/// that under its flat face ([`Form::springs_under`]).
 ///
 /// g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr: a paraboloid r²/2R becomes x²/R, a cone r tan θ becomes
 /// (π/2)|x| tan θ, a power law b rⁿ becomes κₙ b |x|ⁿ ([`power_law_factor`]), and waves A (1 − cos 2πr/λ) become
@@ -24,7 +24,7 @@ pub fn mdr_profile(form: &Form, distance: f64) -> f64 {
     }
 }
 
-/// Coefficient c, m^(1−n), and exponent n of a form whose line is g(x) = c |x|ⁿ; `None` for a punch and for waves.
+/// Coefficient c, m^(1−n), and exponent n of a form with the profile g(x) = c |x|ⁿ; `None` for a punch and for waves.
 #[must_use]
 pub fn line_power_law(form: &Form) -> Option<(f64, f64)> {
     match *form {
@@ -35,10 +35,10 @@ pub fn line_power_law(form: &Form) -> Option<(f64, f64)> {
     }
 }
 
-/// κₙ = (√π/2) n Γ(n/2)/Γ((n+1)/2), the factor by which a power law rⁿ grows on the line.
+/// κₙ = (√π/2) n Γ(n/2)/Γ((n+1)/2), the factor of a power law rⁿ on the equivalent profile.
 #[must_use]
 pub fn power_law_factor(exponent: f64) -> f64 {
-    // Logarithms of Γ: the quotient stays finite where its parts would not.
+    // Logarithms of Γ: the quotient remains finite where its parts would overflow.
     let quotient = (libm::lgamma(exponent / 2.0) - libm::lgamma((exponent + 1.0) / 2.0)).exp();
     std::f64::consts::PI.sqrt() / 2.0 * exponent * quotient
 }

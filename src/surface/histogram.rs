@@ -12,21 +12,21 @@ pub struct Histogram {
 }
 
 impl Histogram {
-    /// Counts `heights` (m, finite) into `bins` bins between `low` and `high`, ends included; heights
-    /// outside are left out. A range of no width has all in its first bin.
+    /// Counts `heights` (m, finite) into `bins` bins between `low` and `high`, ends included; heights outside are
+    /// omitted. For a range of zero width all are in the first bin.
     #[must_use]
     pub fn new(heights: impl Iterator<Item = f64>, low: f64, high: f64, bins: usize) -> Self {
         let mut counts = vec![0; bins.max(1)];
         let last = counts.len() - 1;
         let scale = counts.len() as f64 / (high - low);
         for height in heights.filter(|height| (low..=high).contains(height)) {
-            // A conversion to an integer takes what is no number, 0/0 here, as zero.
+            // The conversion to an integer maps NaN, 0/0 here, to zero.
             counts[(((height - low) * scale) as usize).min(last)] += 1;
         }
         Histogram { low, high, counts }
     }
 
-    /// Number of heights counted.
+    /// Number of counted heights.
     #[must_use]
     pub fn total(&self) -> u64 {
         self.counts.iter().sum()

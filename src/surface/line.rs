@@ -1,15 +1,15 @@
-//! The rigid line as the contact sees it: gaps below its highest point.
+//! The rigid profile as the input of the contact: gaps below its highest point.
 
 use super::{SurfaceError, mdr_profile};
 use crate::memory;
 use crate::scene::Form;
 
-/// The rigid line above springs at x = (i + ½)Δx.
+/// The rigid profile above springs at x = (i + ½)Δx.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
     /// Gaps c_i = max z − z_i ≥ 0, m, of the springs under the body.
     pub gaps: Vec<f64>,
-    /// Index on the foundation of the first of them: above zero only under a punch.
+    /// Index of the first of these springs on the foundation: above zero only under a punch.
     pub first: usize,
     /// Springs N of the whole foundation.
     pub points: usize,
@@ -23,10 +23,10 @@ pub struct Line {
 }
 
 impl Line {
-    /// The line of a form (`None`: flat) with heights of roughness added: one for each point, times `scale` m, or
-    /// none where the line is smooth. The axis of the form is on the spring ⌊N/2⌋, at x = L/2 if N is odd and half a
-    /// cell further if N is even; roughness is to be sampled with the same [`Form::shift`]. See
-    /// [`Form::springs_under`] for a punch.
+    /// The profile of a form (`None`: flat) plus heights of roughness: one for each point, times `scale` m, or none
+    /// for a smooth profile. The axis of the form is on the spring ⌊N/2⌋, at x = L/2 if N is odd and half a cell
+    /// further if N is even; roughness has to be sampled with the same [`Form::shift`]. See [`Form::springs_under`]
+    /// for a punch.
     ///
     /// # Errors
     /// [`SurfaceError::OutOfMemory`], [`SurfaceError::NotFinite`], [`SurfaceError::NoSprings`].
@@ -40,10 +40,10 @@ impl Line {
         Line::new_in(Vec::new(), length, points, form, roughness, scale)
     }
 
-    /// The same with the gaps in this memory.
+    /// The same profile with the gaps in this memory.
     ///
     /// # Errors
-    /// Those of [`Line::new`].
+    /// Errors of [`Line::new`].
     pub fn new_in(
         memory: Vec<f64>,
         length: f64,
@@ -67,7 +67,7 @@ impl Line {
         springs.line(heights)
     }
 
-    /// The same of a form and roughness, the memory of which becomes that of the gaps.
+    /// The same for a form and roughness, whose memory becomes that of the gaps.
     ///
     /// # Errors
     /// [`SurfaceError::NotFinite`], [`SurfaceError::NoSprings`].
@@ -90,7 +90,7 @@ impl Line {
         springs.line(heights)
     }
 
-    /// Heights z, m, of the points under the body, such that summit − z is their gap, bit for bit.
+    /// Heights z, m, of the points under the body; summit − z is their gap, bit for bit.
     pub fn heights(&self) -> impl Iterator<Item = f64> {
         self.gaps.iter().map(|gap| self.height(*gap))
     }
@@ -98,7 +98,7 @@ impl Line {
     /// Height, m, of a point with this gap.
     fn height(&self, gap: f64) -> f64 {
         let height = self.summit - gap;
-        // The gap of the rounded height may be one digit off; that of a number beside it is then right.
+        // The gap of the rounded height may be one digit off; then that of a neighbouring number is exact.
         let nearby = [height, height.next_up(), height.next_down()];
         nearby.into_iter().find(|height| self.summit - height == gap).unwrap_or(height)
     }
@@ -143,12 +143,12 @@ impl Springs {
 
     /// Depth of a form below its apex at a spring, m.
     fn depth(&self, form: &Form, index: usize) -> f64 {
-        // Whole cells from the axis: exact, so that the line is as symmetric as its form.
+        // Whole cells from the axis: exact, so that the profile is as symmetric as its form.
         let axis = Form::spring_on_axis(self.points as u64) as f64;
         mdr_profile(form, (index as f64 - axis) * self.spacing)
     }
 
-    /// The line of these heights of the springs under the form, m, in their memory.
+    /// The profile of these heights of the springs under the form, m, in their memory.
     fn line(self, mut gaps: Vec<f64>) -> Result<Line, SurfaceError> {
         let Springs { length, points, spacing, first, .. } = self;
         let not_finite = |index| SurfaceError::NotFinite { index: first + index };
@@ -159,9 +159,9 @@ impl Springs {
     }
 }
 
-/// Largest of finite numbers, or the index of the first number that is not finite as the error.
+/// Largest value; `Err(index)` of the first non-finite value.
 fn largest(values: &[f64]) -> Result<f64, usize> {
-    // Side by side: one after the other, each comparison would wait for the one before.
+    // In parallel: a sequence of comparisons would wait for each one.
     let mut largest = [f64::NEG_INFINITY; 8];
     let mut all_finite = true;
     let mut take = |values: &[f64]| {
@@ -227,7 +227,7 @@ mod tests {
         let rough = [0.0, 0.0, 1e308, 0.0, -1e308, 0.0];
         let line = |form: Option<&Form>| Line::new(1.0, 6, form, Some(&rough), 1.0);
         assert_eq!(line(None), Err(SurfaceError::NotFinite { index: 4 }));
-        // The first spring under the punch is the second of the line.
+        // The first spring under the punch is the second of the foundation.
         assert_eq!(line(Some(&Form::Punch { radius: 0.3 })), Err(SurfaceError::NotFinite { index: 4 }));
     }
 
@@ -265,7 +265,7 @@ mod tests {
     fn gaps_follow_from_heights_bit_for_bit() {
         let written = |line: &Line| line.heights().collect::<Vec<f64>>();
         let digit = f64::EPSILON;
-        // The gap is 1, and summit − 1 = −1 gives one of 1 − ε/2.
+        // The gap is 1, and summit − 1 = −1 would have a gap of 1 − ε/2.
         let line = Line::new(1.0, 2, None, Some(&[-0.5 * digit, -1.0 - digit]), 1.0).unwrap();
         assert_eq!((line.gaps[1], line.summit - (line.summit - 1.0)), (1.0, 1.0 - 0.5 * digit));
         assert_eq!(Line::new(1.0, 2, None, Some(&written(&line)), 1.0).unwrap(), line);

@@ -1,4 +1,4 @@
-//! Measured profiles that are used as the line themselves.
+//! Measured profiles used as the line themselves.
 
 use super::{Amplitude, MeasuredOptions, SurfaceError};
 use crate::memory::check_room;
@@ -7,15 +7,14 @@ use crate::topography::{ReadOptions, Topography, TopographyError, UNEVEN, Unit, 
 use realfft::RealFftPlanner;
 use std::path::Path;
 
-/// Bytes for each point of the transform and its arrays, at the most: an odd number of points transforms at twice the
-/// length.
+/// Most bytes per point of the transform and its arrays: an odd number of points transforms at twice the length.
 const TRANSFORM_BYTES: u64 = 96;
 
-/// A profile measured along a line.
+/// A measured profile.
 ///
-/// Points at x = Δx/2, 3Δx/2, …, as `asperity line` writes them, are middles of cells: N points cover N Δx from x = 0 on,
-/// the first and the last half cell at the height of the point next to it. Any other profile covers the distance from
-/// its first to its last point, and on request, at even distances, half a distance more at both ends.
+/// Points at x = Δx/2, 3Δx/2, …, as written by `asperity line`, are centres of cells: N points cover N Δx from x =
+/// 0 on, the first and the last half cell at the height of the nearest point. Any other profile covers the distance
+/// from its first to its last point, and on request, if equally spaced, half a distance more at both ends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredProfile {
     positions: Vec<f64>,
@@ -26,15 +25,15 @@ impl MeasuredProfile {
     /// Reads a profile from a regular file of at most 1 GiB; see [`Self::parse`].
     ///
     /// # Errors
-    /// [`SurfaceError::Measured`] when the file cannot be read or is no profile.
+    /// [`SurfaceError::Measured`] if the file cannot be read or is no profile.
     pub fn read(path: &Path) -> Result<Self, SurfaceError> {
         let reading = ReadOptions { convention: Some(Unit::METRE), ..ReadOptions::default() };
         let options = MeasuredOptions { as_line: true, reading, ..MeasuredOptions::default() };
         Self::read_observed(path, &options, &mut |_| ())
     }
 
-    /// Reads a profile, or a row or column of a map, with all bytes of the file shown to `seen`. What is removed of the
-    /// heights is removed of points at even distances.
+    /// Reads a profile, or a row or column of a map; `seen` receives all bytes of the file. Detrending
+    /// requires equally spaced points.
     ///
     /// # Errors
     /// As [`Self::read`].
@@ -53,11 +52,11 @@ impl MeasuredProfile {
         read.and_then(Self::from_topography).map_err(|error| SurfaceError::measured(path, &error))
     }
 
-    /// Reads a profile from text or another format of [`crate::topography`]. By convention lengths are in m where no unit
-    /// is stated, as `asperity line` writes them.
+    /// Reads a profile from text or another format of [`crate::topography`]. By convention lengths without a stated
+    /// unit are in m, as written by `asperity line`.
     ///
     /// # Errors
-    /// [`TopographyError`], a map included.
+    /// [`TopographyError`], also for a map.
     pub fn parse(content: &str) -> Result<Self, TopographyError> {
         let in_metres = ReadOptions { convention: Some(Unit::METRE), ..ReadOptions::default() };
         parse(content.as_bytes(), &in_metres).and_then(Self::from_topography)
@@ -66,7 +65,7 @@ impl MeasuredProfile {
     /// The profile of a surface.
     ///
     /// # Errors
-    /// [`TopographyError`] of a map.
+    /// [`TopographyError`] for a map.
     pub fn from_topography(surface: Topography) -> Result<Self, TopographyError> {
         let (positions, heights) = surface.into_profile()?;
         Ok(MeasuredProfile { positions, heights })
@@ -95,7 +94,7 @@ impl MeasuredProfile {
         self.positions[self.positions.len() - 1] - self.positions[0]
     }
 
-    /// Distance between points, m, where these are the middles of cells that begin at x = 0.
+    /// Distance between points, m, if these are the centres of cells that begin at x = 0.
     fn cell(&self) -> Option<f64> {
         let cell = self.span() / (self.positions.len() - 1) as f64;
         self.are_even(0.5 * cell, cell).then_some(cell)
@@ -106,7 +105,7 @@ impl MeasuredProfile {
     #[must_use]
     pub fn rms_height_and_gradient(&self) -> (f64, f64) {
         let length = self.span();
-        // Against an offset far larger than the roughness: differences of heights, not heights.
+        // Differences of heights, not heights: an offset may be far larger than the roughness.
         let level = self.heights[0];
         let pieces = || {
             let heights = self.heights.windows(2).map(|z| (z[0] - level, z[1] - level));
@@ -121,8 +120,8 @@ impl MeasuredProfile {
         ((square / length).sqrt(), (gradient / length).sqrt())
     }
 
-    /// Amplitude of the profile. Its mean wave number is Σ q_k A_k²/2h² over the modes of the profile on its own length
-    /// with its end joined to its beginning: where the ends do not meet, the straight line that lets them meet is
+    /// Amplitude of the profile. Its mean wave number is Σ q_k A_k²/2h² over the modes of the profile on its own
+    /// length with its end joined to its beginning: if the ends do not meet, the straight line between them is
     /// subtracted first, because a step has energy in every wave and a tilt has none.
     ///
     /// # Errors
@@ -139,7 +138,7 @@ impl MeasuredProfile {
         let mut modes = plan.make_output_vec();
         plan.process(&mut heights, &mut modes).map_err(|error| SurfaceError::Transform(error.to_string()))?;
         let squares = (1_u64..).zip(&modes[1..]).map(|(mode, coefficient)| {
-            // A wave of two points has both its exponentials in one coefficient.
+            // For a wave of two points both exponentials are in one coefficient.
             let exponentials = if 2 * mode == points as u64 { 1.0 } else { 2.0 };
             (mode, exponentials * (coefficient / points as f64).norm_sqr())
         });
@@ -151,12 +150,12 @@ impl MeasuredProfile {
         Ok(Amplitude { rms_height, rms_gradient, rms_curvature: curvature, mean_wave_number })
     }
 
-    /// Heights, m, at x = (i + ½ − `shift`)L/N from the beginning of the profile, by linear interpolation; at a measured
-    /// point its own height, bit for bit. If all heights of the profile are from half to twice the first, the first is
-    /// subtracted: the differences are then exact, and roughness on a large offset keeps its digits.
+    /// Heights, m, at x = (i + ½ − `shift`)L/N from the beginning of the profile, by linear interpolation; at a
+    /// measured point its own height, bit for bit. If all heights of the profile are from half to twice the first,
+    /// the first is subtracted: the differences are then exact, and roughness with a large offset keeps its digits.
     ///
     /// # Errors
-    /// When the profile is shorter than `length` m.
+    /// A profile shorter than `length` m.
     pub fn sample(&self, length: f64, points: usize, shift: f64) -> Result<Vec<f64>, String> {
         let begins = self.begins(length).map_err(|covers| {
             format!("the profile covers {covers:e} m; allowed: at least length = {length:e} m")
@@ -183,10 +182,10 @@ impl MeasuredProfile {
         Ok(heights)
     }
 
-    /// Position, m, at which a line of a length, m, begins.
+    /// Position, m, of the beginning of a line of a length, m.
     ///
     /// # Errors
-    /// The length, m, that the profile covers.
+    /// The covered length, m.
     fn begins(&self, length: f64) -> Result<f64, f64> {
         let points = self.positions.len() as f64;
         let (first, distance) = (self.positions[0], self.span() / (points - 1.0));
@@ -197,11 +196,11 @@ impl MeasuredProfile {
         } else {
             return if length <= self.span() { Ok(first) } else { Err(self.span()) };
         };
-        // The last half cell may be as far out as points are.
+        // The last half cell may be displaced as far as points may.
         if length <= covers + UNEVEN * distance { Ok(begins) } else { Err(covers) }
     }
 
-    /// Returns true for points at an even distance, m, from a first position, m, on.
+    /// Returns true for equally spaced points, m, from a first position, m, on.
     fn are_even(&self, first: f64, distance: f64) -> bool {
         let middles = (0..self.positions.len()).map(|index| first + index as f64 * distance);
         self.positions.iter().zip(middles).all(|(x, middle)| (x - middle).abs() <= UNEVEN * distance)
@@ -224,7 +223,7 @@ fn rms_curvature(heights: &[f64], spacing: f64) -> f64 {
     (squares / count as f64).sqrt() / spacing.powi(2)
 }
 
-/// Subtracts the straight line after which the step from the last height to the first is the mean of the steps beside it.
+/// Subtracts a straight line that makes the step from the last height to the first the mean of the steps beside it.
 fn join_ends(heights: &mut [f64]) {
     let last = heights.len() - 1;
     let beside = 0.5 * ((heights[1] - heights[0]) + (heights[last] - heights[last - 1]));
@@ -259,17 +258,17 @@ mod tests {
         assert_eq!(profile.sample(3.0, 12, 0.0).unwrap()[11], -1.0);
         assert_eq!(profile.sample(1.0, 1, 0.0).unwrap(), [3.0]);
         assert!(profile.sample(3.01, 3, 0.0).unwrap_err().contains("covers 3e0 m"));
-        // With so many digits as a file has.
+        // With the digits of a file.
         let rounded = MeasuredProfile::parse("0.1667 3\n0.5 4\n0.8333 -1").unwrap();
         assert!((rounded.length() - 1.0).abs() < 1e-3 && rounded.sample(1.0, 3, 0.0).is_ok());
-        // Anything else covers what lies between its points.
+        // Any other profile covers the distance between its points.
         for (text, length) in
             [("0 3\n1 4\n2 -1", 2.0), ("0.5 3\n1.5 4\n2.4 -1", 1.9), ("1 3\n2 4\n3 -1", 2.0)]
         {
             let profile = MeasuredProfile::parse(text).unwrap();
             assert!((profile.length() - length).abs() < 1e-15);
             assert!(profile.sample(length, 3, 0.0).is_ok());
-            // At even distances, half a distance beyond each end.
+            // If equally spaced, half a distance beyond each end.
             let longest = if length == 1.9 { length } else { 3.0 };
             assert!(
                 profile.sample(longest, 3, 0.0).is_ok() && profile.sample(1.01 * longest, 3, 0.0).is_err()
@@ -392,7 +391,7 @@ mod tests {
             assert!((level.mean_wave_number / (15.0 * TAU) - 1.0).abs() < 0.01, "{level:?}");
             let curvature = 2e-3 * 0.5_f64.sqrt() * (15.0 * TAU).powi(2);
             assert!((level.rms_curvature / curvature - 1.0).abs() < 0.01, "{level:?}");
-            // A tilt is no energy.
+            // A tilt has no energy.
             let tilted = MeasuredProfile::parse(&text(points, middles, 0.1)).unwrap().amplitude().unwrap();
             assert!(tilted.rms_height > 10.0 * level.rms_height);
             let change = tilted.elastic_energy(1.0) / level.elastic_energy(1.0) - 1.0;
@@ -426,7 +425,7 @@ mod tests {
         let (height, gradient) = profile.rms_height_and_gradient();
         assert!((height - (1.0_f64 / 12.0).sqrt()).abs() < 1e-15);
         assert!((gradient - 1.0).abs() < 1e-15);
-        // A level is no roughness.
+        // A constant height is no roughness.
         let level = MeasuredProfile::parse("6e-5 5\n1 5\n3 5").unwrap();
         assert_eq!(level.rms_height_and_gradient(), (0.0, 0.0));
     }

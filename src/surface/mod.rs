@@ -1,4 +1,4 @@
-//! The rigid line: macroscopic form, self-affine or measured roughness, and its statistics.
+//! The rigid profile: macroscopic form, self-affine or measured roughness, and its statistics.
 
 mod amplitude;
 mod equivalent;

@@ -1,21 +1,21 @@
-//! Fourier coefficients of a self-affine line, 64 modes at a time: loops over them have no branch, so the compiler
-//! computes several modes in one instruction.
+//! Fourier coefficients of a self-affine profile, 64 modes at a time: loops over them have no branch, so the
+//! compiler computes several modes in one instruction.
 
 use super::SelfAffine;
 use super::phases::{fraction, phase_words};
 use rand::Rng;
 use rustfft::num_complex::Complex64;
 
-/// Modes of a block. Block b holds the modes 64 b + 1 … 64 b + 64, wherever drawing begins: no result depends on the
-/// number of threads.
+/// Modes of a block. Block b holds the modes 64 b + 1 … 64 b + 64, independent of the first drawn mode: no result
+/// depends on the number of threads.
 const BLOCK: usize = 64;
 
-/// Most terms of the series (1 + x)^p − 1 that are used. With |x| ≤ 1/64 and |p| ≤ 3/2 the first term left out is below
-/// 1e-18, and with |x| ≤ 1/1024 already after 6 terms.
+/// Most terms of the series (1 + x)^p − 1. With |x| ≤ 1/64 and |p| ≤ 3/2 the first omitted term is below 1e-18, and
+/// with |x| ≤ 1/1024 already after 6 terms.
 const TERMS: usize = 10;
 
-/// (sin y − y)/y³ and (cos y − 1 + y²/2)/y⁴ as polynomials in y² for |y| ≤ π/4 (1 + 2⁻⁹), lowest power first. Minimax
-/// approximations: errors of sine and cosine at most 4e-18 beside rounding.
+/// (sin y − y)/y³ and (cos y − 1 + y²/2)/y⁴ as polynomials in y² for |y| ≤ π/4 (1 + 2⁻⁹), lowest power first.
+/// Minimax approximations: errors of sine and cosine at most 4e-18 in addition to rounding.
 const SINE: [f64; 6] = [
     -0.166_666_666_666_666_32,
     0.008_333_333_333_322_418,
@@ -33,7 +33,7 @@ const COSINE: [f64; 6] = [
     -1.135_965_883_378_375_8e-11,
 ];
 
-/// Coefficients of the inverse transform that gives the line on a grid.
+/// Coefficients of the inverse transform that returns the profile on a grid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Modes {
     /// Exponent −H − 1/2 of the amplitudes.
@@ -48,8 +48,8 @@ pub(super) struct Modes {
 }
 
 impl Modes {
-    /// The modes of a spectrum and a seed of a line of rms height 1, on `points` points, the first of them `start`
-    /// cells along the line.
+    /// The modes of a spectrum and a seed for a profile of rms height 1, on `points` points, the first of them
+    /// `start` cells along the profile.
     pub fn new(spectrum: SelfAffine, seed: u64, points: usize, start: f64) -> Self {
         let exponent = spectrum.amplitude_exponent();
         let mut binomial = 1.0;
@@ -66,7 +66,7 @@ impl Modes {
         }
     }
 
-    /// Fills in the coefficients ½ A_k e^(iφ) of the modes k = `first`, `first` + 1, …, with the phases φ at the first
+    /// Fills the coefficients ½ A_k e^(iφ) of the modes k = `first`, `first` + 1, …, with the phases φ at the first
     /// point of the grid.
     pub fn draw(&self, first: u64, mut coefficients: &mut [Complex64]) {
         let mut generator = phase_words(self.seed, first);
@@ -107,7 +107,7 @@ impl Modes {
         }
     }
 
-    /// The same, each from that in the middle of its `SPAN` modes by the first `COUNT` terms of the series.
+    /// The same, each from the middle of its `SPAN` modes by the first `COUNT` terms of the series.
     #[inline(always)]
     fn half_amplitudes_in_series<const SPAN: usize, const COUNT: usize>(&self, before: u64) -> [f64; BLOCK] {
         let mut amplitudes = [0.0; BLOCK];
@@ -131,8 +131,8 @@ impl Modes {
 /// Sine and cosine of `turns` times 2π, for `turns` from 0 to 2.
 #[inline(always)]
 fn sine_and_cosine(turns: f64) -> (f64, f64) {
-    // The sum with 3·2⁴¹ has quarters of a turn and 10 bits of their fraction as its lowest bits. So the nearest quarter is
-    // found to 2⁻¹⁰ whichever way the sum is rounded.
+    // The sum with 3·2⁴¹ has quarters of a turn and 10 bits of their fraction as its lowest bits. So the nearest
+    // quarter is found to 2⁻¹⁰ in any rounding of the sum.
     const ALIGN: f64 = 6_597_069_766_656.0;
     let aligned = (4.0 * turns + (ALIGN + 0.5)).to_bits();
     let nearest = f64::from_bits(aligned & !0x3ff) - ALIGN;
@@ -149,8 +149,8 @@ fn sine_and_cosine(turns: f64) -> (f64, f64) {
     (f64::from_bits(chosen(sine, cosine) ^ sine_sign), f64::from_bits(chosen(cosine, sine) ^ cosine_sign))
 }
 
-/// Σ c_i x^i for an even number of coefficients. Even and odd powers are summed apart, so that one step need not wait
-/// for the other.
+/// Σ c_i x^i for an even number of coefficients. Even and odd powers are summed separately, so that the steps of
+/// both are independent.
 #[inline(always)]
 fn polynomial(coefficients: &[f64], x: f64) -> f64 {
     let square = x * x;
@@ -163,7 +163,7 @@ fn polynomial(coefficients: &[f64], x: f64) -> f64 {
     even + x * odd
 }
 
-/// 1, 2, … as numbers: conversions would be made one at a time.
+/// 1, 2, … as numbers, since conversions would not be vectorised.
 const COUNTS: [f64; BLOCK] = {
     let mut counts = [0.0; BLOCK];
     let mut lane = 0;
@@ -186,7 +186,7 @@ mod tests {
         for word in (0..200_000_u64).map(|index| index.wrapping_mul(0x9e37_79b9_7f4a_7c15)) {
             let turns = fraction(word) + (word & 1) as f64 * 0.75;
             let (sine, cosine) = sine_and_cosine(turns);
-            // Within an eighth of a turn the angle is as exact as its turns are.
+            // Within an eighth of a turn the angle is as exact as its turns.
             let quarters = (4.0 * turns).round();
             let (s, c) = (TAU * (turns - 0.25 * quarters)).sin_cos();
             let expected = [(s, c), (c, -s), (-s, -c), (-c, s)][quarters as usize % 4];

@@ -1,9 +1,9 @@
-//! Random phases that belong to modes: the same for every grid, number of modes and platform.
+//! Random phases of modes: independent of the grid, the number of modes and the platform.
 
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Separates this use of the generator from any other; a change of how phases are drawn changes it.
+/// Separates this use of the generator from others; a change of the drawing of phases changes this text.
 const PURPOSE: &[u8; 24] = b"asperity-line-phases-v1\0";
 
 /// Phases φ_k of the modes k = `first`, `first` + 1, … of a seed, rad, uniform in [0, 2π).
@@ -30,8 +30,8 @@ pub(super) fn phase_words(seed: u64, first: u64) -> ChaCha8Rng {
 
 /// Phase of a mode over 2π, from 0 to below 1: the upper 53 bits of its word.
 ///
-/// 52 bits become the digits of a number from 1 to 2, the last bit adds half a digit. Any processor does this for
-/// several words in one instruction; few convert whole numbers so.
+/// 52 bits become the digits of a number from 1 to 2, the last bit adds half a digit. Any processor computes this
+/// for several words in one instruction; few have such an instruction for the conversion of integers.
 #[inline(always)]
 pub(super) fn fraction(word: u64) -> f64 {
     const ONE: u64 = 1.0_f64.to_bits();

@@ -1,4 +1,4 @@
-//! Random-phase synthesis of a self-affine line of rms height 1 by one inverse real Fourier transform.
+//! Random-phase synthesis of a self-affine profile of rms height 1 by one inverse real Fourier transform.
 
 use super::modes::Modes;
 use super::phases::phases;
@@ -10,32 +10,32 @@ use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// With fewer modes than these another thread takes longer to begin than it saves.
+/// Number of modes below which another thread takes longer to start than it saves.
 const MANY_MODES: usize = 1 << 16;
 
-/// Largest number of springs whose transform is kept for the next line. A kept transform takes 20 bytes per spring,
-/// which on longer lines is worth more than the time saved.
+/// Largest number of springs whose transform is kept for the next profile. A kept transform takes 20 bytes per
+/// spring, which on longer profiles are worth more than the time saved.
 const LONGEST_KEPT: usize = 1 << 22;
 
-/// Heights of a self-affine line of rms height 1, eqs. (8) and (9).
+/// Heights of a self-affine profile of rms height 1, eqs. (8) and (9).
 ///
-/// Length and rms height scale them; nothing but spectrum, seed, number and position of the points enters here.
+/// Length and rms height scale the heights; they depend only on spectrum, seed, number and position of the points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnitRoughness {
     /// Heights in units of the rms height.
     pub heights: Vec<f64>,
-    /// Random phases drawn.
+    /// Number of random phases drawn.
     pub random_phases: u64,
-    /// Rms and mean wave number of the line on a length of 1 m.
+    /// Rms and mean wave number of the profile on a length of 1 m.
     pub wave_numbers: WaveNumbers,
 }
 
 impl UnitRoughness {
-    /// The line of a spectrum and a seed on `points` springs at x = (i + ½)L/N; `spectrum.last` must not exceed
+    /// The profile of a spectrum and a seed on `points` springs at x = (i + ½)L/N; `spectrum.last` must not exceed
     /// `points`/2.
     ///
-    /// The rms height is that of the sum of cosines over the whole length. Two grids sample the same
-    /// line, to the rounding of the transform.
+    /// The rms height is that of the sum of cosines over the whole length. Two grids sample the same profile, to
+    /// the rounding of the transform.
     ///
     /// # Errors
     /// [`SurfaceError::OutOfMemory`], [`SurfaceError::Transform`].
@@ -44,13 +44,13 @@ impl UnitRoughness {
     }
 }
 
-/// Synthesizes lines one after the other, and keeps the planned transform and its memory between them.
+/// Synthesises profiles in sequence, and keeps the planned transform and its memory between them.
 #[derive(Default)]
 pub struct Synthesizer {
     transform: Option<Transform>,
 }
 
-/// An inverse transform, planned, with its memory.
+/// A planned inverse transform with its memory.
 struct Transform {
     points: usize,
     plan: Arc<dyn ComplexToReal<f64>>,
@@ -70,8 +70,8 @@ impl Transform {
 }
 
 impl Synthesizer {
-    /// Synthesizes the line of [`UnitRoughness::synthesize`], displaced by `shift` cells along the springs, in `memory`:
-    /// heights at x = (i + ½ − `shift`)L/N. Without displacement the heights are the same bit for bit.
+    /// Synthesises the profile of [`UnitRoughness::synthesize`], displaced by `shift` cells along the springs, in
+    /// `memory`: heights at x = (i + ½ − `shift`)L/N. Without displacement the heights are the same bit for bit.
     ///
     /// # Errors
     /// [`SurfaceError::OutOfMemory`], [`SurfaceError::Transform`].
@@ -85,7 +85,7 @@ impl Synthesizer {
     ) -> Result<UnitRoughness, SurfaceError> {
         let modes = Modes::new(spectrum, seed, points, 0.5 - shift);
         let draw = |first: usize, drawn: &mut [Complex64]| {
-            // Those from the middle on by another thread.
+            // Another thread draws the modes from the middle on.
             let middle = drawn.len() / 2;
             let (lower, upper) = drawn.split_at_mut(middle);
             in_parallel(
@@ -115,7 +115,7 @@ impl Synthesizer {
         shift: f64,
         memory: Vec<f64>,
     ) -> Result<Vec<f64>, SurfaceError> {
-        // Phase by which the first point of the grid advances mode 1.
+        // Phase advance of mode 1 at the first point of the grid.
         let advance = TAU * (0.5 - shift) / points as f64;
         self.transform((first, last), points, memory, |_, drawn| {
             for ((mode, phase), coefficient) in (first..).zip(phases(seed, first)).zip(drawn) {
@@ -124,8 +124,8 @@ impl Synthesizer {
         })
     }
 
-    /// Heights of the modes from a first to a last one, whose coefficients ½ A_k e^(iφ) `draw` fills in, from the first
-    /// mode on.
+    /// Heights of the modes from a first to a last one; `draw` fills their coefficients ½ A_k e^(iφ), from the
+    /// first mode on.
     fn transform(
         &mut self,
         (first, last): (u64, u64),
@@ -147,7 +147,7 @@ impl Synthesizer {
         coefficients[end..].fill(Complex64::ZERO);
         draw(first, &mut coefficients[first..end]);
         if nyquist {
-            // At the grid's Nyquist wave vector both exponentials of the cosine fall together.
+            // At the grid's Nyquist wave vector both exponentials of the cosine coincide.
             coefficients[end - 1] = Complex64::new(2.0 * coefficients[end - 1].re, 0.0);
         }
 
@@ -191,7 +191,7 @@ mod tests {
         }
     }
 
-    /// Heights by direct sums, powers and sines, one mode after the other.
+    /// Heights by direct sums, powers and sines, mode by mode.
     fn mode_by_mode(spectrum: SelfAffine, seed: u64, points: usize, shift: f64) -> Vec<f64> {
         let mut squares: Vec<f64> =
             (spectrum.first..=spectrum.last).map(|k| (k as f64).powf(-1.0 - 2.0 * spectrum.hurst)).collect();
@@ -203,7 +203,7 @@ mod tests {
             let amplitude = scale * (k as f64).powf(-spectrum.hurst - 0.5);
             let advanced = phase + std::f64::consts::TAU * (0.5 - shift) * k as f64 / points as f64;
             let (sine, cosine) = advanced.sin_cos();
-            // At the grid's Nyquist wave vector both exponentials of the cosine fall together.
+            // At the grid's Nyquist wave vector both exponentials of the cosine coincide.
             coefficients[k as usize] = if 2 * k == points as u64 {
                 Complex64::new(amplitude * cosine, 0.0)
             } else {
@@ -266,7 +266,7 @@ mod tests {
             let kept = synthesizer.synthesize(spectrum, seed, points, 0.0, memory).unwrap();
             assert_eq!(kept, UnitRoughness::synthesize(spectrum, seed, points).unwrap());
             assert_eq!(kept.wave_numbers, spectrum.wave_numbers(1.0));
-            // As on one thread and by another plan.
+            // The same as on one thread and by another plan.
             let alone = on_this_thread(|| UnitRoughness::synthesize(spectrum, seed, points).unwrap());
             assert_eq!(kept, alone);
             memory = kept.heights;
@@ -292,7 +292,7 @@ mod tests {
     fn has_rms_one_and_refines_to_the_same_line() {
         let spectrum = SelfAffine { hurst: 0.8, first: 1, last: 100 };
         let coarse = UnitRoughness::synthesize(spectrum, 3, 1000).unwrap().heights;
-        // Three times the points: every third, from the second on, lies where one of the coarse lies.
+        // Three times the points: every third, from the second on, coincides with a coarse one.
         let fine = UnitRoughness::synthesize(spectrum, 3, 3000).unwrap().heights;
         for (i, &height) in coarse.iter().enumerate() {
             assert!((height - fine[3 * i + 1]).abs() < 1e-12);

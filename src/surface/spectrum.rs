@@ -1,11 +1,11 @@
-//! The self-affine spectrum of the equivalent line, eqs. (4)–(9), and its mean squares.
+//! The self-affine spectrum of the equivalent profile, eqs. (4)–(9), and its mean squares.
 
 use super::WaveNumbers;
 
-/// Terms of a sum of powers that are added one by one; the formula of Euler and Maclaurin gives the others.
+/// Terms of a sum of powers that are added directly; the Euler-Maclaurin formula yields the others.
 const DIRECT_TERMS: u64 = 64;
 
-/// B₂/2!, B₄/4!, …: with 64 terms before, the first one left out is below 1e-18 of the sum.
+/// B₂/2!, B₄/4!, …: after 64 terms the first omitted one is below 1e-18 of the sum.
 const EULER_MACLAURIN: [f64; 5] =
     [1.0 / 12.0, -1.0 / 720.0, 1.0 / 30_240.0, -1.0 / 1_209_600.0, 1.0 / 47_900_160.0];
 
@@ -41,11 +41,10 @@ impl SelfAffine {
         (self.moment(0) / 2.0).sqrt()
     }
 
-    /// Rms gradient over rms height, 1/m, of a line of length L in m:
-    /// ⟨∇z⟩/h = √(Σ A_k² q_k² / Σ A_k²), the sums over the modes of the line itself.
+    /// Rms gradient over rms height, 1/m, of a profile of length L in m: ⟨∇z⟩/h = √(Σ A_k² q_k² / Σ
+    /// A_k²), the sums over the modes of the profile.
     ///
-    /// Finite sums of positive terms: nothing special happens at H → 1, where the integrals of
-    /// eqs. (12) and (13) change their form.
+    /// Finite sums of positive terms: H → 1 is no special case, unlike in the integrals of eqs. (12) and (13).
     #[must_use]
     pub fn gradient_per_height(&self, length: f64) -> f64 {
         std::f64::consts::TAU / length * (self.moment(2) / self.moment(0)).sqrt()
@@ -62,11 +61,11 @@ impl SelfAffine {
         }
     }
 
-    /// The same ratio as [`Self::gradient_per_height`] by the integrals of eqs. (5)–(7) and (12), in which modes are dense:
-    /// ⟨∇z⟩²/h² = ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq between q_min and q_max.
+    /// The same ratio as [`Self::gradient_per_height`] by the integrals of eqs. (5)–(7) and (12) over a continuum
+    /// of modes: ⟨∇z⟩²/h² = ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq between q_min and q_max.
     ///
-    /// It differs from [`Self::gradient_per_height`], which belongs to the modes as they are, because
-    /// the first modes carry most of the height. Zero when there is only one mode.
+    /// Differs from [`Self::gradient_per_height`] of the discrete modes because the first modes carry most of the
+    /// height. Zero for a single mode.
     #[must_use]
     pub fn continuum_gradient_per_height(&self, length: f64) -> f64 {
         let (low, high) = (self.first as f64, self.last as f64);
@@ -84,8 +83,8 @@ impl SelfAffine {
     }
 }
 
-/// Σ k^exponent for k = `first` … `last`, relative error a few units in the last place, in a time that does not
-/// depend on how many terms there are.
+/// Σ k^exponent for k = `first` … `last`, relative error a few units in the last place, in a time independent of
+/// the number of terms.
 fn sum_of_powers(exponent: f64, first: u64, last: u64) -> f64 {
     let end = last.min(first.saturating_add(DIRECT_TERMS - 1));
     let mut sum = Compensated::default();
@@ -115,7 +114,7 @@ fn sum_of_powers(exponent: f64, first: u64, last: u64) -> f64 {
     sum.total()
 }
 
-/// A sum that keeps what rounding takes from each step.
+/// A sum with compensation of the rounding of each step.
 #[derive(Default)]
 struct Compensated {
     sum: f64,
@@ -141,7 +140,7 @@ impl Compensated {
 /// differ much and `expm1` where they do not, with the logarithm as the limit at s = 0.
 fn integral_of_power(power: f64, low: f64, high: f64) -> f64 {
     let s = power + 1.0;
-    // Where both are near each other their quotient would have lost the digits that count.
+    // For neighbouring ends their quotient would lose significant digits.
     let ratio = ((high - low) / low).ln_1p();
     if (s * ratio).abs() > 1.0 {
         return (high.powf(s) - low.powf(s)) / s;
@@ -164,7 +163,7 @@ mod tests {
         assert!((limit - exact).abs() < 4.0 * f64::EPSILON * exact);
         for distance in [1e-3, 1e-6, 1e-9, 1e-12, 1e-15] {
             let found = spectrum(1.0 - distance).continuum_gradient_per_height(1.0);
-            // The ratio's logarithm changes by about ln 4096 for a unit change of H.
+            // The logarithm of the ratio changes by about ln 4096 for a unit change of H.
             assert!((found / limit - 1.0).abs() < 10.0 * distance + 1e-14, "{distance}: {found}");
         }
     }
@@ -238,7 +237,7 @@ mod tests {
 
     #[test]
     fn sums_keep_what_single_additions_lose() {
-        // Each k⁻² is a whole multiple of 2⁻⁹⁰, and so is their sum.
+        // Each k⁻² is an integer multiple of 2⁻⁹⁰, and so is their sum.
         let unit = 2.0_f64.powi(90);
         for last in [1000, 100_000, 300_000] {
             let exact: u128 = (1..=last).map(|k| ((k as f64).powf(-2.0) * unit) as u128).sum();

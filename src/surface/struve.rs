@@ -1,14 +1,14 @@
-//! Struve functions H₀ and H₁, which carry a wave about an axis of revolution over to the equivalent line.
+//! Struve functions H₀ and H₁, which transform a wave about an axis of revolution into the equivalent profile.
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 use std::sync::LazyLock;
 
-/// Argument from which on the asymptotic series has all digits: its smallest term is about e^−z.
+/// Argument from which on the asymptotic series is fully accurate: its smallest term is about e^−z.
 const LARGE: f64 = 40.0;
 /// Nodes of the integral below: enough for the waves of its integrand up to `LARGE`.
 const NODES: usize = 56;
 
-/// Nodes in (0, π/2) and weights of the rule of Gauss and Legendre.
+/// Nodes in (0, π/2) and weights of Gauss-Legendre quadrature.
 static RULE: LazyLock<[(f64, f64); NODES]> = LazyLock::new(|| std::array::from_fn(node));
 
 /// H₀(z), z ≥ 0.
@@ -38,7 +38,7 @@ fn integral(of: impl Fn(f64) -> f64) -> f64 {
     RULE.iter().map(|&(angle, weight)| weight * of(angle)).sum()
 }
 
-/// Σ of the terms from the first one on, each by the factor after term k, down to rounding.
+/// Sum of a series from its first term and the factor after term k, down to rounding.
 fn asymptotic(first: f64, factor: impl Fn(f64) -> f64) -> f64 {
     let (mut sum, mut term) = (0.0, first);
     for k in 0..LARGE as u32 {
@@ -74,7 +74,7 @@ fn node(index: usize) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// Power series, summed as long as it keeps its digits.
+    /// Power series, accurate for small arguments.
     fn series(order: u32, z: f64) -> f64 {
         // The terms of H₀ begin with (2/π) z, those of H₁ with (2/π) z²/3.
         let (mut term, shift) = if order == 0 { (z, 0.0) } else { (z * z / 3.0, 1.0) };

@@ -1,8 +1,8 @@
-//! Numbers of binary files, each read only where the file has its bytes.
+//! Numbers of binary files, each read only if the file has its bytes.
 
 use super::error::{Place, TopographyError, gathered, refused};
 
-/// Part of a binary file that is read from its beginning to its end.
+/// Part of a binary file, read in sequence.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bytes<'a> {
     bytes: &'a [u8],
@@ -115,7 +115,7 @@ pub(super) enum Number {
 }
 
 impl Number {
-    /// Bytes.
+    /// Number of bytes.
     pub fn size(self) -> usize {
         match self {
             Number::U8 | Number::I8 => 1,
@@ -125,7 +125,7 @@ impl Number {
         }
     }
 
-    /// Value of the bytes, as many as [`Self::size`] says.
+    /// Value of the bytes, [`Self::size`] of them.
     fn value(self, bytes: &[u8], order: Order) -> f64 {
         let mut little = [0; 8];
         little[..bytes.len()].copy_from_slice(bytes);

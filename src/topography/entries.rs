@@ -2,14 +2,14 @@
 
 use super::error::{Place, TopographyError, refused, shown};
 
-/// Entries of a header with the numbers of their lines. Keys are the same in capital and small letters.
+/// Entries of a header with their line numbers. Keys are case-insensitive.
 #[derive(Default)]
 pub(super) struct Entries {
     entries: Vec<(String, String, usize)>,
 }
 
 impl Entries {
-    /// Takes a line with its number; `allowed` is for the message.
+    /// Reads a line with its number; `allowed` is for the message.
     pub fn take(&mut self, number: usize, line: &str, allowed: &str) -> Result<(), TopographyError> {
         let Some((key, value)) = line.split_once('=') else {
             return Err(refused(Place::Line(number), format!("{:?}", shown(line)), allowed));
@@ -33,7 +33,7 @@ impl Entries {
         }
     }
 
-    /// Whole number above 0 of a key. Without one the message has all keys that are `required`.
+    /// Integer above 0 of a key. The error of a missing key lists all `required` keys.
     pub fn count(&self, key: &str, required: &str) -> Result<usize, TopographyError> {
         let Some((value, place)) = self.text(key) else { return Err(missing(key, required)) };
         match value.parse::<f64>() {
@@ -45,7 +45,7 @@ impl Entries {
     }
 }
 
-/// Error of a key that a header has not.
+/// Error of a key missing from a header.
 pub(super) fn missing(key: &str, required: &str) -> TopographyError {
     refused(Place::File, format!("no {key} in the header"), required)
 }

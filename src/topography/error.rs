@@ -1,11 +1,11 @@
-//! Reasons for which a file is no surface.
+//! Reasons why a file is no surface.
 
 use crate::io::ReadError;
 use crate::text::printable;
 use std::fmt;
 use thiserror::Error;
 
-/// Longer texts of a file are shortened in messages, characters.
+/// Longest text of a file in messages, characters.
 const MOST_SHOWN: usize = 40;
 
 /// Place of a fault within a file.
@@ -13,11 +13,11 @@ const MOST_SHOWN: usize = 40;
 pub enum Place {
     /// The file as a whole.
     File,
-    /// Line of a text, from 1 on.
+    /// Line of a text, from 1.
     Line(usize),
-    /// Point of a profile or a list of points, from 1 on.
+    /// Point of a profile or a list of points, from 1.
     Point(usize),
-    /// Byte of a binary file (after decompression), from 0 on.
+    /// Byte of a binary file (after decompression), from 0.
     Byte(usize),
     /// Named part of a container: a file of an archive, an element, a channel.
     Part(String),
@@ -35,13 +35,13 @@ impl fmt::Display for Place {
     }
 }
 
-/// Reason for which a file is no surface. The caller puts the name of the file before the message.
+/// Reason why a file is no surface. The caller puts the name of the file before the message.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum TopographyError {
-    /// The system does not give the content, or the file is too long.
+    /// The content cannot be read, or the file is too long.
     #[error("{0}")]
     Read(String),
-    /// The content is refused.
+    /// The content is invalid.
     #[error("{place}{fault}; allowed: {allowed}")]
     Content {
         /// Place within the file.
@@ -51,7 +51,7 @@ pub enum TopographyError {
         /// Allowed content.
         allowed: String,
     },
-    /// The memory does not suffice.
+    /// Insufficient memory.
     #[error("not enough memory for {points} points")]
     OutOfMemory {
         /// Points of the surface.
@@ -71,12 +71,12 @@ impl From<std::io::Error> for TopographyError {
     }
 }
 
-/// Refused content.
+/// Error of invalid content.
 pub(super) fn refused(place: Place, fault: impl Into<String>, allowed: impl Into<String>) -> TopographyError {
     TopographyError::Content { place, fault: fault.into(), allowed: allowed.into() }
 }
 
-/// All values of an iterator of so many points, where there is memory for them.
+/// All values of an iterator of so many points, if the memory suffices.
 pub(super) fn gathered(
     points: usize,
     values: impl Iterator<Item = f64>,
@@ -87,7 +87,7 @@ pub(super) fn gathered(
     Ok(gathered)
 }
 
-/// Text of a file for a message: on one line, of limited length.
+/// Text of a file for a message: one line of limited length.
 pub(super) fn shown(text: &str) -> String {
     let short = match text.char_indices().nth(MOST_SHOWN) {
         Some((end, _)) => format!("{}…", &text[..end]),

@@ -8,7 +8,7 @@ use super::reading::{Format, RawGrid, Reading};
 
 pub(super) const SIGNATURE: &[u8] = b"Gwyddion Simple Field 1.0\n";
 
-/// Reads `key = value` lines up to a zero byte, then XRes × YRes numbers from the next multiple of four bytes on.
+/// Reads `key = value` lines up to a zero byte, then XRes × YRes numbers from the next multiple of four bytes.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     let end = bytes.iter().position(|byte| *byte == 0).ok_or_else(|| {
         refused(Place::Byte(bytes.len()), "a header without an end", "a header that ends with a zero byte")

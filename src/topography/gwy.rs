@@ -1,4 +1,4 @@
-//! Gwyddion's own format: nested objects of named components, of which data fields are read.
+//! Gwyddion's own format: nested objects of named components; only data fields are read.
 
 use super::Unit;
 use super::bytes::{Bytes, Number, Order};
@@ -7,8 +7,8 @@ use super::reading::{Format, RawGrid, Reading};
 
 pub(super) const SIGNATURE: &[u8] = b"GWYP";
 
-/// Reads the data field of a channel: `/N/data` of number N; without a number, of the only channel whose heights have a
-/// unit of length.
+/// Reads the data field of a channel: `/N/data` for number N; without a number, of the only channel whose heights
+/// have a unit of length.
 pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, TopographyError> {
     let mut file = Bytes::new(bytes);
     file.take(SIGNATURE.len())?;
@@ -44,7 +44,7 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Topogr
     }
 }
 
-/// Value of a component, as far as it is needed.
+/// Value of a component, as far as needed.
 enum Value<'a> {
     Object(Bytes<'a>),
     Integer(i32),
@@ -54,7 +54,7 @@ enum Value<'a> {
     Other,
 }
 
-/// Content of the next object, behind its name and its size.
+/// Content of the next object, after its name and its size.
 fn object<'a>(bytes: &mut Bytes<'a>) -> Result<Bytes<'a>, TopographyError> {
     bytes.text()?;
     let size = bytes.u32()? as usize;
@@ -72,7 +72,7 @@ fn skipped_list<'a>(content: &mut Bytes<'a>, size: usize) -> Result<Value<'a>, T
     skipped(content, count.saturating_mul(size))
 }
 
-/// Calls `each` for the components of an object, not for those of objects inside.
+/// Calls `each` for the components of an object, without those of nested objects.
 fn for_each_component<'a>(
     mut content: Bytes<'a>,
     each: &mut dyn FnMut(&str, Value<'a>) -> Result<(), TopographyError>,
@@ -217,7 +217,7 @@ pub(super) mod tests {
         object("GwyDataField", &content.concat())
     }
 
-    /// A file of channels 0, 1, … with the units of their numbers.
+    /// A file with channels 0, 1, … with the units of their numbers.
     pub fn file(units: &[&str]) -> Vec<u8> {
         let channels = units.iter().enumerate().map(|(number, unit)| {
             component(

@@ -1,8 +1,8 @@
-//! Missing points: heights from neighbours.
+//! Interpolation of missing points from neighbours.
 
 use super::error::{Place, TopographyError, refused};
 
-/// Least share of points that are measured, for interpolation.
+/// Smallest share of measured points for interpolation.
 const LEAST_MEASURED: f64 = 0.5;
 
 /// Number of heights that are not finite.
@@ -12,12 +12,12 @@ pub(super) fn count(heights: &[f64]) -> usize {
 
 /// Fills in missing heights of a map of so many columns, or of a profile, which is one row.
 ///
-/// A missing point gets the mean of two straight lines, one along its row and one along its column, each from the
-/// nearest measured point before to the nearest one behind. Before the first or behind the last measured point
-/// of a row or column the line is level; a row or column without any measured point has no line.
+/// A missing height is the mean of two linear interpolations, one along its row and one along its column, each from
+/// the nearest measured point before to the nearest one behind. Before the first or behind the last measured point
+/// of a row or column the height is constant; a row or column without any measured point does not contribute.
 ///
 /// # Errors
-/// When fewer than half of the points are measured, or a point has no measured one in its row or column.
+/// Fewer than half of the points are measured, or a point has no measured one in its row or column.
 pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<(), TopographyError> {
     let missing = count(heights);
     let share = 1.0 - missing as f64 / heights.len() as f64;
@@ -38,7 +38,7 @@ pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<(), Top
             },
         );
     }
-    // Sums of lines along rows are in order; those along columns are added to them, or put behind.
+    // Heights along rows are in order; those along columns are added to them, or appended.
     let along_rows = filled.len();
     if rows > 1 {
         for column in 0..columns {
@@ -66,7 +66,7 @@ pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<(), Top
     }
 }
 
-/// Calls `fill` for each missing one of `count` values with its height on the line between its neighbours.
+/// Calls `fill` for each missing one of `count` values with its interpolated height.
 fn for_each_gap(count: usize, value: impl Fn(usize) -> f64, mut fill: impl FnMut(usize, f64)) {
     let mut before = None;
     let mut index = 0;
@@ -109,7 +109,7 @@ mod tests {
         let mut heights = [0.0, 1.0, 2.0, 3.0, NONE, 7.0, 6.0, 9.0, 8.0];
         assert!(interpolate(&mut heights, 3).is_ok());
         assert_eq!(heights[4], 0.5 * (5.0 + 5.0));
-        // A row without any measured point follows its columns.
+        // A row without any measured point is interpolated from its columns.
         let mut heights = [0.0, 1.0, NONE, NONE, 4.0, 5.0];
         assert!(interpolate(&mut heights, 2).is_ok());
         assert_eq!(heights, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);

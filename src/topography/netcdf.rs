@@ -1,5 +1,5 @@
-//! NetCDF in its classic format (CDF-1 and CDF-2), in which contact.engineering and SurfaceTopography write surfaces: a
-//! variable `heights` over positions `x`, and `y` of a map.
+//! NetCDF in its classic format (CDF-1 and CDF-2), as written by contact.engineering and SurfaceTopography: a
+//! variable `heights` over positions `x`, and `y` for a map.
 
 use super::UNEVEN;
 use super::bytes::{Bytes, Number, Order};
@@ -10,7 +10,7 @@ use super::unit::Unit;
 /// First bytes, without the version.
 pub(super) const SIGNATURE: &[u8] = b"CDF";
 
-/// Marks of the lists of dimensions, variables and attributes.
+/// Tags of the lists of dimensions, variables and attributes.
 const DIMENSIONS: u32 = 10;
 const VARIABLES: u32 = 11;
 const ATTRIBUTES: u32 = 12;
@@ -24,7 +24,7 @@ struct Variable<'a> {
     /// Indices of its dimensions, the fastest last.
     dimensions: Vec<u32>,
     unit: Option<Unit>,
-    /// Values of points that are missing.
+    /// Values that mark missing points.
     missing: Vec<f64>,
     scale: f64,
     offset: f64,
@@ -32,7 +32,7 @@ struct Variable<'a> {
     begin: usize,
 }
 
-/// A file behind its header.
+/// A file after its header.
 struct Dataset<'a> {
     bytes: &'a [u8],
     /// Lengths.
@@ -51,7 +51,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
         let mask = dataset.values(mask)?;
         values.iter_mut().zip(mask).filter(|(_, mask)| *mask != 0.0).for_each(|(value, _)| *value = f64::NAN);
     }
-    // Positions over a dimension have its name, or that of the axis.
+    // The positions of a dimension have its name, or that of the axis.
     let over = |dimension: u32| {
         let is_over = |variable: &&Variable| {
             variable.dimensions == [dimension] && [&b"x"[..], b"y"].contains(&variable.name)
@@ -72,7 +72,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
             let (rows, columns) = (rows?, columns?);
             let spacings = spacing(fast)?.zip(spacing(slow)?).map(|(fast, slow)| [fast, slow]);
             if over(slow).is_some_and(|variable| variable.name == b"x") {
-                // Rows run along x.
+                // Rows are along x.
                 values = transposed(&values, columns)?;
                 RawGrid::of(rows, columns, spacings.map(|[fast, slow]| [slow, fast]))
             } else {
@@ -143,7 +143,7 @@ impl<'a> Dataset<'a> {
         }
     }
 
-    /// Values of a variable; those of missing points are not numbers.
+    /// Values of a variable; NaN for missing points.
     fn values(&self, variable: &Variable) -> Result<Vec<f64>, TopographyError> {
         let mut count = 1_usize;
         for dimension in &variable.dimensions {
@@ -170,7 +170,7 @@ fn list(header: &mut Bytes, mark: u32) -> Result<u32, TopographyError> {
     }
 }
 
-/// Bytes, of which a multiple of four is there.
+/// Bytes padded to a multiple of four.
 fn padded<'a>(header: &mut Bytes<'a>, count: usize) -> Result<&'a [u8], TopographyError> {
     let bytes = header.take(count)?;
     header.take(count.next_multiple_of(4) - count)?;
@@ -242,11 +242,11 @@ fn variable<'a>(header: &mut Bytes<'a>, is_wide: bool) -> Result<Variable<'a>, T
     let begin = if is_wide { header.big_u64()? } else { u64::from(header.big_u32()?) };
     let begin = usize::try_from(begin)
         .map_err(|_| refused(place, format!("values from byte {begin} on"), "bytes of the file"))?;
-    // Of text no value is asked for.
+    // The values of text are never read.
     Ok(Variable { name, dimensions, unit, missing, scale, offset, of: of.unwrap_or(Number::U8), begin })
 }
 
-/// Distance between positions at an even distance.
+/// Distance between equally spaced positions.
 fn even_distance(positions: &[f64]) -> Result<f64, TopographyError> {
     let ([first, .., last], count) = (positions, positions.len()) else {
         return Err(refused(Place::File, "a map of one row", "at least 2 positions along each axis"));
@@ -262,7 +262,7 @@ fn even_distance(positions: &[f64]) -> Result<f64, TopographyError> {
     }
 }
 
-/// Rows for columns.
+/// Exchanges rows and columns.
 fn transposed(values: &[f64], columns: usize) -> Result<Vec<f64>, TopographyError> {
     let turned = (0..columns).flat_map(|column| values.iter().skip(column).step_by(columns).copied());
     gathered(values.len(), turned)

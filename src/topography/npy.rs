@@ -1,7 +1,7 @@
 //! Arrays of NumPy: a header in Python's notation, then the numbers.
 //!
-//! An array of n heights is a profile, one of n × 2 or of n pairs of fields the columns x z of a profile, any other with
-//! two axes a map of rows.
+//! An array of n heights is a profile, one of n × 2 or of n pairs of fields the columns x z of a profile, any other
+//! with two axes a map of rows.
 
 use super::bytes::{Bytes, Number, Order};
 use super::error::{Place, TopographyError, refused, shown};
@@ -99,7 +99,7 @@ impl Header {
             axes.map(|axis| axis.parse().map_err(|_| wrong("no shape"))).collect::<Result<_, _>>()?;
         match fields {
             Some(_) if shape.len() != 1 => return Err(wrong("fields along several axes")),
-            // Fields of a point are one behind the other, as the columns of a row are.
+            // Fields of a point are consecutive, like the columns of a row.
             Some(2) => shape.push(2),
             _ => {}
         }
@@ -129,7 +129,7 @@ impl Header {
                     positions.reverse();
                     heights.reverse();
                 }
-                // Not a number compares as false.
+                // NaN compares as false.
                 let ascends = |pair: &[f64]| pair[0] < pair[1];
                 match positions.windows(2).position(|pair| !ascends(pair)) {
                     Some(index) => Err(refused(
@@ -140,7 +140,7 @@ impl Header {
                     None => Ok(reading(heights, RawGrid::Positions(positions))),
                 }
             }
-            // The axes of a transposed array change places, and with them rows and columns.
+            // A transposed array has exchanged axes, and with them rows and columns.
             [rows, columns] if self.column_major => Ok(reading(values, RawGrid::of(rows, columns, None))),
             [rows, columns] => Ok(reading(values, RawGrid::of(columns, rows, None))),
             _ => {

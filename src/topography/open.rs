@@ -1,4 +1,4 @@
-//! The format of a file, found by its first bytes, and its reader.
+//! The format of a file, determined by its first bytes, and its reader.
 
 use super::error::{Place, TopographyError, refused};
 use super::expansion::{MOST_EXPANSION, most_expanded};
@@ -19,10 +19,10 @@ pub const MOST_BYTES: u64 = 1 << 30;
 /// First bytes of gzip.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
-/// Bytes gathered from a file.
+/// Size of the read buffer, bytes.
 const BUFFER: usize = 1 << 16;
 
-/// Bytes from which on another thread reads a file ahead, and shows its bytes.
+/// Size from which on another thread reads a file ahead, and passes its bytes on.
 const LARGE: u64 = 1 << 24;
 
 /// A reader of a whole binary file.
@@ -45,12 +45,12 @@ const SIGNATURES: [(&[u8], BinaryReader); 10] = [
 /// Reads a surface from a regular file of at most 1 GiB.
 ///
 /// # Errors
-/// [`TopographyError`] when the file cannot be read or is no surface.
+/// [`TopographyError`] if the file cannot be read or is no surface.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Topography, TopographyError> {
     read_observed(path, options, &mut |_| ())
 }
 
-/// [`read`], with all bytes of the file shown to `seen`, in order; those of a large file on another thread.
+/// [`read`] with all bytes of the file passed to `seen`, in order; for a large file on another thread.
 ///
 /// # Errors
 /// As [`read`].
@@ -77,7 +77,7 @@ fn read_up_to(
         Some(surface) => surface?,
         None => from_source(BufReader::with_capacity(BUFFER, &mut source), options)?,
     };
-    // Bytes behind the surface belong to the file as well.
+    // Bytes after the surface belong to the file as well.
     io::copy(&mut source, &mut io::sink())?;
     Ok(surface)
 }
@@ -114,13 +114,13 @@ fn from_content(mut source: impl BufRead, options: &ReadOptions) -> Result<Readi
     text::read(source)
 }
 
-/// Returns true if the next bytes are these. A source shorter than the signature, or one that gives its first bytes
-/// in pieces, is looked at as far as it goes.
+/// Returns true if the next bytes are these. A source that is shorter than the signature, or returns its first
+/// bytes in pieces, is compared as far as possible.
 fn starts_with(source: &mut impl BufRead, signature: &[u8]) -> io::Result<bool> {
     Ok(source.fill_buf()?.starts_with(signature))
 }
 
-/// File whose bytes are shown to an observer, up to a limit.
+/// File whose bytes are passed to an observer, up to a limit.
 struct Observed<'a, R> {
     source: R,
     left: u64,
@@ -209,7 +209,7 @@ mod tests {
         let bomb = gzip(&b"1 1\n".repeat(1 << 20));
         assert!(bomb.len() < 10_000);
         let error = parse(&bomb, &metres()).unwrap_err().to_string();
-        // The second line already is not above the first; with a comment the reader goes on to the limit.
+        // The second line already does not ascend; with a comment the reader continues to the limit.
         assert!(error.contains("line 2"), "{error}");
         let bomb = gzip(&b"# 1\n".repeat(1 << 20));
         let error = parse(&bomb, &metres()).unwrap_err().to_string();

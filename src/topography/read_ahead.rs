@@ -1,4 +1,4 @@
-//! Blocks of a large file that another thread reads while their content is parsed.
+//! Blocks of a large file, read by another thread while their content is parsed.
 
 use std::io::{self, BufRead, Read};
 use std::mem::take;
@@ -8,7 +8,7 @@ use std::thread::{Builder, scope};
 /// Bytes of a block.
 const BLOCK: usize = 1 << 22;
 
-/// Blocks in memory: one that is read, one that is parsed, one between them.
+/// Blocks in memory: one being read, one being parsed, one between them.
 const BLOCKS: usize = 3;
 
 /// Bytes at the beginning of a buffer.
@@ -38,12 +38,12 @@ impl Block {
     }
 }
 
-/// Content of a source in blocks that another thread reads.
+/// Content of a source in blocks read by another thread.
 pub(super) struct ReadAhead {
     blocks: Receiver<io::Result<Block>>,
     spent: Sender<Block>,
     block: Block,
-    /// Bytes of the block that have been taken.
+    /// Number of parsed bytes of the block.
     taken: usize,
 }
 
@@ -72,8 +72,8 @@ impl Read for ReadAhead {
     }
 }
 
-/// Calls `parse` with the content of a source that another thread reads. Returns `None`, with nothing read, if the system
-/// gives no thread.
+/// Calls `parse` with the content of a source, read by another thread. Returns `None`, with nothing read, if the
+/// system starts no thread.
 pub(super) fn read_ahead<A>(
     source: &mut (impl Read + Send),
     parse: impl FnOnce(ReadAhead) -> A,
@@ -100,7 +100,7 @@ pub(super) fn read_ahead<A>(
 mod tests {
     use super::*;
 
-    /// Source of so many bytes, in pieces of odd lengths, with an error behind them if it fails.
+    /// Source of so many bytes, in pieces of odd lengths, ending with an error if it fails.
     struct Pieces {
         at: usize,
         count: usize,
@@ -127,7 +127,7 @@ mod tests {
                 let mut bytes = Vec::new();
                 let result = read_ahead(&mut source, |mut content| content.read_to_end(&mut bytes)).unwrap();
                 assert_eq!(result.is_err(), fails, "{count}");
-                // Behind an error the block that it interrupts is missing.
+                // Before an error the interrupted block is missing.
                 let expected = if fails { count - count % BLOCK } else { count };
                 assert_eq!(bytes.len(), expected, "{fails}");
                 assert!(bytes.iter().enumerate().all(|(index, byte)| *byte == (index % 251) as u8));

@@ -5,30 +5,30 @@ use super::{Grid, Topography, Unit, missing};
 use crate::parallel::in_parallel;
 use std::fmt;
 
-/// Largest position and height, m, and largest slope between neighbours: beyond these, lengths and mean squares would
-/// leave the range of numbers.
+/// Largest position and height, m, and largest slope between neighbours: beyond these, lengths and mean squares
+/// could overflow.
 pub(super) const LARGEST: f64 = 1.0e9;
 
 /// Most points of a surface: 2 GiB of heights.
 const MOST_POINTS: usize = 1 << 28;
 
-/// Points from which on heights and positions are converted side by side.
+/// Number of points from which on heights and positions are converted in parallel.
 const MANY_POINTS: usize = 1 << 20;
 
-/// Choices of a user where a file leaves something open.
+/// Values of the user that a file may omit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ReadOptions {
-    /// Unit of positions and heights where the file states none.
+    /// Unit of positions and heights if the file states none.
     pub unit: Option<Unit>,
-    /// Unit of heights where the file states none; `None`: as `unit`.
+    /// Unit of heights if the file states none; `None`: as `unit`.
     pub height_unit: Option<Unit>,
-    /// Unit by convention, where neither the file nor the user states one.
+    /// Unit by convention, if neither the file nor the user states one.
     pub convention: Option<Unit>,
-    /// Distance between points, m, where the file states none.
+    /// Distance between points, m, if the file states none.
     pub spacing: Option<f64>,
     /// Treatment of missing points.
     pub missing: Missing,
-    /// Number of the channel of a file that has several.
+    /// Number of the channel of a file with several.
     pub channel: Option<u32>,
 }
 
@@ -38,7 +38,7 @@ pub enum Missing {
     /// A missing point is an error.
     #[default]
     Refuse,
-    /// A missing point gets a height from its neighbours along its row and its column.
+    /// A missing height is interpolated from its neighbours along its row and its column.
     Interpolate,
 }
 
@@ -66,7 +66,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// Name for people.
+    /// Name for readers.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -94,9 +94,9 @@ impl fmt::Display for Format {
 pub(super) enum RawGrid {
     /// Position of each height, ascending.
     Positions(Vec<f64>),
-    /// Profile at an even distance, where the file states one.
+    /// Equally spaced profile, with the distance if the file states one.
     Profile(Option<f64>),
-    /// Rows of so many columns at even distances along and between rows, where the file states them.
+    /// Equally spaced rows of so many columns, with the distances along and between rows if the file states them.
     Map { columns: usize, spacing: Option<[f64; 2]> },
 }
 
@@ -113,7 +113,7 @@ impl RawGrid {
     /// The grid in m.
     ///
     /// # Errors
-    /// A unit or a distance that is unknown, positions out of range.
+    /// An unknown unit or distance, positions out of range.
     fn in_metres(
         self,
         format: Format,
@@ -146,17 +146,17 @@ impl RawGrid {
     }
 }
 
-/// Numbers of a file before units.
+/// Numbers of a file before conversion.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Reading {
     pub format: Format,
-    /// Row by row; not finite where a point is missing.
+    /// Heights row by row; not finite for a missing point.
     pub heights: Vec<f64>,
     pub grid: RawGrid,
-    /// Unit of positions and distances; `None` where the file states none.
+    /// Unit of positions and distances; `None` if the file states none.
     pub lateral_unit: Option<Unit>,
     pub height_unit: Option<Unit>,
-    /// Place of the first missing point, where the reader knows a better one than its number.
+    /// Place of the first missing point, if the reader knows a better one than its number.
     pub first_missing: Option<Place>,
 }
 
@@ -164,7 +164,7 @@ impl Reading {
     /// Heights and positions in m.
     ///
     /// # Errors
-    /// A unit or a distance that is unknown, points that are missing or too many, values out of range.
+    /// An unknown unit or distance, missing or too many points, values out of range.
     pub fn resolve(self, options: &ReadOptions) -> Result<Topography, TopographyError> {
         let Reading { format, mut heights, grid, lateral_unit, height_unit, first_missing } = self;
         check_points(&heights, &grid)?;
@@ -188,7 +188,7 @@ impl Reading {
 /// Converts heights to m. Returns the number of missing ones.
 ///
 /// # Errors
-/// Missing points that are refused, heights out of range.
+/// Missing points if refused, heights out of range.
 fn heights_in_metres(
     heights: &mut [f64],
     unit: Unit,
@@ -233,7 +233,7 @@ fn check_points(heights: &[f64], grid: &RawGrid) -> Result<(), TopographyError> 
     }
 }
 
-/// Positions, m, that ascend lie within the range if both ends do.
+/// Checks ascending positions, m: they lie within the range if both ends do.
 fn check_positions(positions: &[f64]) -> Result<(), TopographyError> {
     for index in [0, positions.len() - 1] {
         let x = positions[index];
@@ -246,7 +246,7 @@ fn check_positions(positions: &[f64]) -> Result<(), TopographyError> {
             ));
         }
     }
-    // Units divide, and neighbours beyond all digits fall together.
+    // Units divide, and neighbours closer than the last digit coincide.
     match positions.windows(2).position(|pair| pair[0] >= pair[1]) {
         Some(index) => {
             Err(refused(Place::Point(index + 2), "the position of the point before", "ascending positions"))
@@ -255,8 +255,8 @@ fn check_positions(positions: &[f64]) -> Result<(), TopographyError> {
     }
 }
 
-/// Index of the first value with a property. All values are looked at first without a branch for each: a tenth of the time
-/// for the many files in which there is none.
+/// Index of the first value with a property. First examines all values without a branch for each: a tenth of the
+/// time for most files, in which there is none.
 fn first_of<T>(values: &[T], has: impl Fn(&T) -> bool) -> Option<usize> {
     let any = values.iter().fold(false, |any, value| any | has(value));
     if any { values.iter().position(has) } else { None }

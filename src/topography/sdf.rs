@@ -1,4 +1,4 @@
-//! SDF of ISO 25178-71, as text and binary: header, heights in whole or real numbers, scales in m.
+//! SDF of ISO 25178-71, as text and binary: header, heights as integers or real numbers, scales in m.
 
 use super::Unit;
 use super::bytes::{Bytes, Number, Order};
@@ -6,7 +6,7 @@ use super::entries::{Entries, missing};
 use super::error::{Place, TopographyError, refused, shown};
 use super::reading::{Format, RawGrid, Reading};
 
-/// Types of heights by their number in the header, with the whole number that marks a missing point.
+/// Types of heights by their number in the header, with the integer that marks a missing point.
 const TYPES: [(Number, Option<f64>); 8] = [
     (Number::U8, None),
     (Number::U16, Some(65_535.0)),

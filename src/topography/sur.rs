@@ -1,4 +1,4 @@
-//! Digital Surf SUR: a header of 512 bytes, comments, and whole numbers, plain or compressed.
+//! Digital Surf SUR: a header of 512 bytes, comments, and integers, plain or compressed.
 
 use super::Unit;
 use super::bytes::{Bytes, Number, Order};
@@ -9,10 +9,10 @@ use crate::io::read_limited;
 use encoding_rs::WINDOWS_1252;
 use flate2::read::ZlibDecoder;
 
-/// Missing points have a height of the smallest one less this.
+/// Distance of the mark of missing points below the smallest height.
 const MISSING_BELOW: i64 = 2;
 
-/// Types of studies that are one profile or one map of heights.
+/// Types of studies with one profile or one map of heights.
 const PROFILE: u16 = 1;
 const MAP: u16 = 2;
 
@@ -69,7 +69,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
         .into_iter()
         .map(|height| if Some(height) == missing { f64::NAN } else { height * scale })
         .collect();
-    // Distances in the unit of the rows; another one between them is rare, and converted.
+    // Distances in the unit of the rows; another unit between rows is rare, and converted.
     let between_factor = match (along, between) {
         (Some(along), Some(between)) => between.to_metres(1.0) / along.to_metres(1.0),
         _ => 1.0,
@@ -93,7 +93,7 @@ fn count(data: &mut Bytes<'_>) -> Result<usize, TopographyError> {
     }
 }
 
-/// Unit in a field padded with spaces or zeros. Old files write µ in a code page of MS-DOS, where Windows-1252 has æ.
+/// Unit in a field padded with spaces or zeros. Old files write µ in an MS-DOS code page, read as æ in Windows-1252.
 fn unit_of(field: &[u8], place: Place) -> Result<Option<Unit>, TopographyError> {
     let end = field.iter().position(|byte| *byte == 0).unwrap_or(field.len());
     let text = match str::from_utf8(&field[..end]) {
@@ -107,7 +107,7 @@ fn unit_of(field: &[u8], place: Place) -> Result<Option<Unit>, TopographyError> 
     }
 }
 
-/// Compressed heights: a table of the sizes of the parts before and after, then the parts.
+/// Decompresses heights: a table of the sizes of the parts before and after, then the parts.
 fn expand(data: &mut Bytes<'_>, points: usize, number: Number) -> Result<Vec<u8>, TopographyError> {
     let expected = points.saturating_mul(number.size());
     let most = most_expanded(data.left() as u64);

@@ -4,7 +4,7 @@ use super::Format;
 use super::error::{Place, TopographyError, gathered, refused};
 use super::reading::LARGEST;
 
-/// Share of the distance between points by which points of an even grid may be displaced, for want of digits.
+/// Share of the distance between points by which points of an even grid may be displaced due to rounding.
 pub(crate) const UNEVEN: f64 = 1.0e-3;
 
 /// Positions of heights.
@@ -12,7 +12,7 @@ pub(crate) const UNEVEN: f64 = 1.0e-3;
 pub enum Grid {
     /// Positions of a profile, m, ascending.
     Positions(Vec<f64>),
-    /// Profile with points at an even distance.
+    /// Profile with equally spaced points.
     Profile {
         /// Distance, m.
         spacing: f64,
@@ -26,7 +26,7 @@ pub enum Grid {
     },
 }
 
-/// Row or column of a map, counted from 1.
+/// Row or column of a map, from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cut {
     /// A row.
@@ -45,7 +45,7 @@ pub struct Topography {
 }
 
 impl Topography {
-    /// Heights (m) row by row on a grid, `interpolated` of them made up from neighbours.
+    /// Heights (m) row by row on a grid, `interpolated` of them from neighbours.
     ///
     /// # Errors
     /// Slopes of a profile above 1e9.
@@ -63,7 +63,7 @@ impl Topography {
         Ok(surface)
     }
 
-    /// Index of the first point of a row behind a slope that is not allowed, and the slope.
+    /// Index of the first point of a row after an excessive slope, and the slope.
     fn first_steep(&self) -> Option<(usize, f64)> {
         let slope = |heights: &[f64], distance: f64| (heights[1] - heights[0]).abs() / distance;
         let spacing = match &self.grid {
@@ -98,13 +98,13 @@ impl Topography {
         &self.grid
     }
 
-    /// Number of points with heights from their neighbours.
+    /// Number of points with interpolated heights.
     #[must_use]
     pub fn interpolated(&self) -> usize {
         self.interpolated
     }
 
-    /// Points of a row: all points of a profile.
+    /// Points of a row; all points of a profile.
     #[must_use]
     pub fn columns(&self) -> usize {
         match &self.grid {
@@ -113,13 +113,13 @@ impl Topography {
         }
     }
 
-    /// Rows: one of a profile.
+    /// Number of rows; one for a profile.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.heights.len() / self.columns()
     }
 
-    /// Positions of a profile, m, and its heights, m; points at an even distance begin at x = 0.
+    /// Positions of a profile, m, and its heights, m; equally spaced points begin at x = 0.
     ///
     /// # Errors
     /// A map.
@@ -162,7 +162,7 @@ impl Topography {
         Ok(Topography { heights, grid: Grid::Profile { spacing }, ..self })
     }
 
-    /// The same surface with other heights, m, as many as before.
+    /// The same surface with the same number of other heights, m.
     pub(crate) fn with_heights(self, change: impl FnOnce(&mut [f64], usize)) -> Self {
         let columns = self.columns();
         let mut changed = self;
@@ -173,8 +173,8 @@ impl Topography {
     /// Distances between points along and between rows, m; those of a profile are equal.
     ///
     /// # Errors
-    /// A profile with points at uneven distances: the first that lies off the even grid from the first to the last
-    /// point by more than 0.1 % of the mean distance.
+    /// A profile with unequal spacing: the first point that lies off the even grid from the first to the last point
+    /// by more than 0.1 % of the mean distance.
     pub fn spacing(&self) -> Result<[f64; 2], TopographyError> {
         match &self.grid {
             Grid::Map { spacing, .. } => Ok(*spacing),
@@ -200,11 +200,11 @@ impl Topography {
         }
     }
 
-    /// The same profile with points at an even distance, the mean one: heights by linear interpolation. A profile that
-    /// is even already, or a map, stays as it is.
+    /// The same profile equally spaced at the mean distance: heights by linear interpolation. An equally spaced
+    /// profile, or a map, is unchanged.
     ///
     /// # Errors
-    /// Not enough memory.
+    /// Insufficient memory.
     pub fn resampled(mut self) -> Result<Self, TopographyError> {
         let Grid::Positions(positions) = &self.grid else { return Ok(self) };
         let (first, spacing, points) = (positions[0], mean_distance(positions), positions.len());
@@ -224,8 +224,8 @@ impl Topography {
     }
 }
 
-/// The first slope that is not allowed, and the index of the point behind it. All slopes are looked at first without a
-/// branch for each.
+/// The first excessive slope, and the index of the point after it. First examines all slopes without a branch for
+/// each.
 fn first_steep(slopes: impl Iterator<Item = f64> + Clone) -> Option<(usize, f64)> {
     let is_steep = |slope: f64| slope.is_nan() || slope > LARGEST;
     if !slopes.clone().fold(false, |any, slope| any | is_steep(slope)) {

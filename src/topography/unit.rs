@@ -1,12 +1,12 @@
-//! Units of length that files state.
+//! Units of length in files.
 
 use super::error::{Place, TopographyError, refused, shown};
 use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// Spellings of each unit, the first of them the usual one, and how many make one metre: powers of ten that are exact
-/// numbers, so that a division by them rounds once.
+/// Spellings of each unit, the usual one first, and their number per metre: powers of ten that are exact numbers,
+/// so that a division by them rounds once.
 const UNITS: [(&[&str], f64); 7] = [
     (&["m", "meter", "metre", "meters", "metres"], 1.0),
     (&["cm", "centimeter", "centimetre"], 1e2),
@@ -44,7 +44,7 @@ pub struct Unit {
 pub struct UnitError(String);
 
 impl UnitError {
-    /// Units that are read.
+    /// Accepted units.
     pub const ALLOWED: &str = "m, cm, mm, µm (or um), nm, Å, pm";
 }
 
@@ -58,7 +58,7 @@ impl Unit {
         self.name
     }
 
-    /// Unit that a file states at a place.
+    /// Unit stated by a file at a place.
     pub(super) fn stated(text: &str, place: Place) -> Result<Unit, TopographyError> {
         let fault = || format!("{:?} is no unit of length", shown(text));
         text.parse().map_err(|_| refused(place, fault(), UnitError::ALLOWED))
@@ -74,7 +74,7 @@ impl Unit {
 impl FromStr for Unit {
     type Err = UnitError;
 
-    /// Reads the name of a unit. Symbols keep their case, since `Mm` is no `mm`; words do not.
+    /// Parses the name of a unit. Symbols are case-sensitive, since `Mm` is not `mm`; words are not.
     fn from_str(text: &str) -> Result<Unit, UnitError> {
         let text = text.trim();
         let is_name =

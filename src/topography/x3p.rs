@@ -1,4 +1,4 @@
-//! X3P of ISO 25178-72: an archive with `main.xml` and, as a rule, a binary file of heights. Lengths are in m.
+//! X3P of ISO 25178-72: an archive with `main.xml` and usually a binary file of heights. Lengths are in m.
 
 use super::Unit;
 use super::bytes::{Bytes, Number, Order};
@@ -66,14 +66,14 @@ fn part(name: &str) -> Place {
     Place::Part(name.to_owned())
 }
 
-/// Archive with a limit for what it expands to.
+/// Archive with a limit of its expanded size.
 struct Archive<'a> {
     archive: ZipArchive<Cursor<&'a [u8]>>,
     most: u64,
 }
 
 impl Archive<'_> {
-    /// Content of a file of the archive, of at most so many bytes.
+    /// Content of a file of the archive, at most `most` bytes.
     fn read(&mut self, name: &str, most: u64) -> Result<Vec<u8>, TopographyError> {
         let damaged = |error: &dyn std::fmt::Display| {
             refused(part(name), format!("cannot be unpacked ({error})"), "a file stored or deflated")
@@ -121,7 +121,7 @@ fn axis(root: Node<'_, '_>, name: &str) -> Result<Axis, TopographyError> {
     })
 }
 
-/// Heights of a binary file of the archive; those that its bit field calls invalid are missing.
+/// Heights of a binary file of the archive; those marked invalid in its bit field are missing.
 fn linked(
     archive: &mut Archive<'_>,
     root: Node<'_, '_>,
@@ -155,7 +155,7 @@ fn linked(
     Ok(heights)
 }
 
-/// Heights of a list in the index: of each entry the last number; an empty entry is a missing point.
+/// Heights of a list in the index: the last number of each entry; an empty entry is a missing point.
 fn listed(root: Node<'_, '_>, points: usize) -> Result<Vec<f64>, TopographyError> {
     let list = find(root, "DataList")
         .ok_or_else(|| refused(part(INDEX), "neither PointDataLink nor DataList", "one of them"))?;
@@ -175,7 +175,7 @@ fn listed(root: Node<'_, '_>, points: usize) -> Result<Vec<f64>, TopographyError
     Ok(heights)
 }
 
-/// The first element of this name below a node, whatever its namespace.
+/// The first element of this name below a node, in any namespace.
 fn find<'a, 'input>(node: Node<'a, 'input>, name: &str) -> Option<Node<'a, 'input>> {
     node.descendants().find(|node| node.is_element() && node.tag_name().name() == name)
 }

@@ -1,4 +1,4 @@
-//! From no adhesion to adhesion that holds everything, and where forces or decisions hang by a hair.
+//! From no adhesion to adhesion that keeps full contact, and forces or decisions that depend on rounding.
 
 use super::{RULES, WORK, ensure, on_tour, press_and_pull, relative_error, rough, two_legs};
 use crate::check::case::{CASE, Case, Evidence, Scope};
@@ -84,7 +84,7 @@ fn vanishing_adhesion(edges: Edges) -> Result<f64, Fault> {
         worst = worst.max(on_tour(&body, edges)?);
         let with = body.history(edges, &[deepest], 2)?;
         let pulls = end(&without.legs[0]).force - end(&with.legs[0]).force;
-        // Nothing that adhesion adds is stretched further than a fragment as long as the line can be.
+        // No stretch by adhesion exceeds that of a fragment as long as the profile.
         let stiffness = body.gaps.len() as f64 * body.foundation.spring_stiffness();
         let most = stiffness * body.largest_stretch() + 1e-14 * end(&without.legs[0]).force;
         ensure((-1e-14 * most..=most).contains(&pulls), || {
@@ -98,7 +98,7 @@ fn everything_sticks(edges: Edges) -> Result<f64, Fault> {
     let mut worst = 0.0_f64;
     for points in [3, 10, 999] {
         let bare = rough(points, 0.0)?;
-        // One spring alone is held far beyond the depth, whatever its neighbours do.
+        // A single spring is held far beyond the depth, independent of its neighbours.
         for reach in [1e4, 1e8, 1e15] {
             let stretch = reach * bare.deepest();
             let work = stretch * stretch * bare.foundation.effective_modulus / (PI * bare.foundation.spacing);
@@ -132,7 +132,7 @@ fn everything_sticks(edges: Edges) -> Result<f64, Fault> {
 
 fn balance(edges: Edges) -> Result<f64, Fault> {
     let bare = rough(10_007, 0.0)?;
-    // All of it is held at ten times its depth.
+    // The whole profile is held at ten times its depth.
     let stretch = 10.0 * bare.deepest();
     let length = bare.gaps.len() as f64 * bare.foundation.spacing;
     let work = stretch * stretch * bare.foundation.effective_modulus / (PI * length);
@@ -173,7 +173,7 @@ fn preload_at_an_event(edges: Edges) -> Result<f64, Fault> {
     })
 }
 
-/// Presses a separated body to an indentation on a leg of its own.
+/// Presses a separated body to an indentation on a single loading stage.
 fn press_exactly_to(body: &Body, edges: Edges, at: f64, whole: &dyn Solver) -> Result<f64, Fault> {
     body.with(edges, 9, |solver| {
         let point = end(&solver.advance(Leg::ToIndentation(at))?);
@@ -183,8 +183,8 @@ fn press_exactly_to(body: &Body, edges: Edges, at: f64, whole: &dyn Solver) -> R
         ensure(end(&back).springs == 0 && back.detached == point.springs, || {
             format!("at {at:e} m some springs stay attached")
         })?;
-        // Nothing separated can be pulled. And just before a jump the force is as large as it gets for a
-        // while: a rounding more is reached only beyond.
+        // Nothing separated can be pulled. Just before a jump the force has a local maximum: a force larger by a
+        // rounding is reached only beyond it.
         if point.force > 0.0 {
             let wanted = point.force * (1.0 - 4.0 * f64::EPSILON);
             let again = end(&solver.advance(Leg::ToForce(wanted))?);

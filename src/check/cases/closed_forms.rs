@@ -1,4 +1,4 @@
-//! Bodies whose loop is known in closed form.
+//! Bodies whose loop has a closed form.
 
 use super::{ensure, press_and_pull, two_legs};
 use crate::check::case::{CASE, Case, Evidence, Scope};
@@ -8,7 +8,7 @@ use crate::reference::{PowerLaw, WavyLoop, WavySphere};
 use crate::scene::{Edges, Form, Leg};
 use crate::surface::Line;
 
-/// Shared fields of the cases whose pull-off is compared with a closed form.
+/// Shared fields of the cases that compare a pull-off with a closed form.
 const PULL_OFF: Case = Case {
     evidence: &[Evidence::ClosedForm],
     error_of: "force and place of pull-off",
@@ -79,9 +79,9 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// λ²/(AR) = 20: the equivalent line rises everywhere.
+/// λ²/(AR) = 20: the equivalent profile rises everywhere.
 const GENTLE_WAVES: f64 = 5e-4;
-/// λ²/(AR) = 5: the equivalent line has maxima inside.
+/// λ²/(AR) = 5: the equivalent profile has maxima inside.
 const STEEP_WAVES: f64 = 2e-3;
 
 const POINTS: usize = 4001;

@@ -1,4 +1,4 @@
-//! Laws that hold for every body: mirrors, finer grids, memory, order, energy, and any number of threads.
+//! Laws valid for every body: mirrors, finer grids, memory, order, energy, and any number of threads.
 
 use super::{RULES, WORK, ensure, indices, largest, points, press_and_pull, rough};
 use crate::check::case::{CASE, Case, Evidence, Scope};
@@ -11,7 +11,7 @@ use std::cell::Cell;
 use std::f64::consts::TAU;
 use std::path::Path;
 
-/// Bodies on which a law is tried.
+/// Number of bodies for each law.
 const BODIES: u64 = 48;
 
 pub const CASES: &[Case] = &[
@@ -94,7 +94,7 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// The worst of all bodies.
+/// Largest error over all bodies.
 fn worst(measure: impl Fn(&Body) -> Result<f64, Fault>) -> Result<f64, Fault> {
     largest((0..BODIES).map(|seed| {
         let error = measure(&Body::random(seed)?);
@@ -115,7 +115,7 @@ fn random_bodies(edges: Edges) -> Result<f64, Fault> {
     Ok(error)
 }
 
-/// Indentations from just before separation to full contact, without a pattern.
+/// Irregular indentations from just before separation to full contact.
 fn turns(body: &Body, seed: u64) -> impl Iterator<Item = f64> + use<> {
     let (low, high) = (-0.9 * body.largest_stretch(), 1.1 * body.deepest() + 1e-3 * body.largest_stretch());
     phases(seed, 1).map(move |phase| low + (high - low) * phase / TAU)
@@ -205,8 +205,8 @@ fn energy(edges: Edges) -> Result<f64, Fault> {
         let legs = [to(&[high, low, high]), vec![Leg::ToSeparation]].concat();
         let history = body.history(edges, &legs, 20_000)?;
         let lost: f64 = history.legs.iter().map(|leg| leg.dissipated_energy).sum();
-        // Between two points of the curve a jump may lie anywhere: what is left of the error of the trapezia
-        // falls with their number.
+        // A jump may lie anywhere between two points of the curve: the remaining error of the trapezia falls with
+        // their number.
         let trapezium = |pair: &[CurvePoint]| {
             0.5 * (pair[0].force + pair[1].force) * (pair[1].indentation - pair[0].indentation)
         };
@@ -243,7 +243,7 @@ fn refined_line() -> Result<f64, Fault> {
     let spectrum = SelfAffine { hurst: 0.4, first: 1, last: points as u64 / 2 };
     let coarse = UnitRoughness::synthesize(spectrum, 13, points)?;
     largest([3, 5, 9].map(|factor| {
-        // Every spring is at the place of one of the finer line, in the middle of a cell.
+        // Every spring is at the place of one of the finer profile, in the middle of a cell.
         let fine = UnitRoughness::synthesize(spectrum, 13, factor * points)?;
         let fine = fine.heights.iter().skip(factor / 2).step_by(factor);
         largest(coarse.heights.iter().zip(fine).map(|(height, finer)| Ok((finer - height).abs())))
@@ -257,7 +257,7 @@ fn refined(body: &Body, factor: usize) -> Body {
         let (cell, part) = (index / factor, index % factor);
         let beside = if part < factor / 2 { cell.checked_sub(1) } else { Some(cell + 1) };
         let here = body.gaps[cell];
-        // Beyond the first and the last spring the line is level.
+        // Beyond the first and the last spring the profile is level.
         let there = beside.and_then(|beside| body.gaps.get(beside)).copied().unwrap_or(here);
         let share = part.abs_diff(factor / 2) as f64 / factor as f64;
         here + share * (there - here)

@@ -1,4 +1,4 @@
-//! Lines: spectra at their ends, few springs and many, ties, chains, and heights on a large offset.
+//! Profiles: spectra at their limits, few springs and many, ties, chains, and heights with a large offset.
 
 use super::{
     RULES, SPECTRUM, WORK, ensure, largest, on_tour, press_and_pull, relative_error, rough, two_legs,
@@ -163,7 +163,7 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// Heights of a spectrum by their cosines: angles reduced as whole numbers, sums with twice the digits.
+/// Heights of a spectrum by their cosines: angles reduced as integers, sums with twice the digits.
 fn cosines(spectrum: SelfAffine, seed: u64, points: usize) -> Vec<f64> {
     let SelfAffine { hurst, first, last } = spectrum;
     let amplitude = |mode: u64| (-(hurst + 0.5) * (mode as f64).ln()).exp();
@@ -181,7 +181,7 @@ fn cosines(spectrum: SelfAffine, seed: u64, points: usize) -> Vec<f64> {
     (0..points).map(height).collect()
 }
 
-/// Largest error of a synthesised line, over its rms height.
+/// Largest error of a synthesised profile, over its rms height.
 fn height_error(spectrum: SelfAffine, seed: u64, points: usize) -> Result<f64, Fault> {
     let line = UnitRoughness::synthesize(spectrum, seed, points)?;
     let expected = cosines(spectrum, seed, points);
@@ -199,7 +199,7 @@ fn hurst_to(limit: f64, exponents: &[f64]) -> Result<f64, Fault> {
     for &hurst in exponents {
         worst = worst.max(height_error(of(hurst), 4, 1000)?);
         for (found, limit_of) in gradients(hurst).into_iter().zip(limits) {
-            // Its logarithm changes with H by no more than ln of the ratio of the modes.
+            // The logarithm of the gradient changes with H by at most ln of the ratio of the modes.
             let most = (SPECTRUM.last as f64).ln() * (hurst - limit).abs() + 1e-14;
             ensure((found / limit_of - 1.0).abs() <= most, || {
                 format!("H = {hurst:e}: rms gradient {found:e}, in the limit {limit_of:e}")
@@ -282,14 +282,14 @@ fn flat(edges: Edges) -> Result<f64, Fault> {
     Ok(worst)
 }
 
-/// Heights of a shape, of which the largest magnitude is [`RMS_HEIGHT`].
+/// Heights of a shape with the largest magnitude [`RMS_HEIGHT`].
 fn heights_of(points: usize, shape: impl Fn(usize) -> f64) -> Vec<f64> {
     let heights: Vec<f64> = (0..points).map(shape).collect();
     let largest = heights.iter().fold(0.0, |most: f64, height| most.max(height.abs()));
     heights.iter().map(|height| height * (RMS_HEIGHT / largest)).collect()
 }
 
-/// Follows bodies of these shapes, from hardly any adhesion to much.
+/// Follows bodies of these shapes, from almost no adhesion to much.
 fn shapes(edges: Edges, shapes: &[fn(usize, usize) -> f64]) -> Result<f64, Fault> {
     let points = 1024;
     largest(shapes.iter().flat_map(|shape| {
@@ -306,7 +306,7 @@ fn near_ties(edges: Edges) -> Result<f64, Fault> {
         let tent = |index: usize| -(index as f64 + 0.5 - points as f64 / 2.0).abs();
         let plateau = |index: usize| (index * 8 / points % 2) as f64;
         for shape in [&tent as &dyn Fn(usize) -> f64, &plateau] {
-            // A few units in the last place of the largest height, and far less for those near zero.
+            // A few units in the last place of the largest height, and far less for heights near zero.
             let mut jitter = |height: f64| {
                 height + (height + 1e-6 * RMS_HEIGHT) * f64::EPSILON * 4.0 * noise.next().unwrap_or(0.0)
             };
@@ -336,10 +336,10 @@ fn far_beyond_roughness(edges: Edges) -> Result<f64, Fault> {
     Ok(worst)
 }
 
-/// Presses a body to an indentation, back, and by the force found there; the error of the force over that of one
-/// rounding of the indentation for all springs.
+/// Presses a body to an indentation, back, and by the force found there; the error of the force over the change of
+/// force by one rounding of the indentation for all springs.
 fn pressed_far(body: &Body, edges: Edges, indentation: f64) -> Result<f64, Fault> {
-    // Between springs as well: half a cell at each end makes the integral over straight cells this sum.
+    // Also between springs: half a cell at each end makes the integral over straight cells this sum.
     let whole = Extended::sum(body.gaps.iter().map(|&gap| indentation - gap)).rounded();
     let stiffness = body.foundation.spring_stiffness();
     let most = LENGTH * (1.0 + 2.0 * f64::EPSILON);
@@ -367,7 +367,7 @@ fn pressed_far(body: &Body, edges: Edges, indentation: f64) -> Result<f64, Fault
 }
 
 fn offset() -> Result<f64, Fault> {
-    // As many points as instruments write: sums over them are where an offset shows.
+    // As many points as in files of instruments: an offset affects sums over many points.
     let points = 200_000;
     let rough = UnitRoughness::synthesize(SPECTRUM, 8, points)?;
     let mut text = String::new();
@@ -376,7 +376,7 @@ fn offset() -> Result<f64, Fault> {
         rough.heights.iter().map(|height| RMS_HEIGHT * OFFSET + RMS_HEIGHT * height).collect();
     let positions: Vec<f64> = (0..points).map(|index| index as f64 * spacing).collect();
     for (x, z) in positions.iter().zip(&on_offset) {
-        // Writing to a string does not fail, and the shortest digits give the same number again.
+        // Writing to a string cannot fail, and the shortest digits are read back as the same number.
         let _ = writeln!(text, "{x:e},{z:e}");
     }
     let profile = MeasuredProfile::parse(&text).map_err(|error| Fault::Wrong(error.to_string()))?;

@@ -1,4 +1,4 @@
-//! The cases, family by family, and what several of them share.
+//! The cases, family by family, and their shared parts.
 
 pub mod adhesion;
 pub mod closed_forms;
@@ -12,18 +12,18 @@ use crate::contact::{CurvePoint, History, LegRecord};
 use crate::scene::{Edges, Leg};
 use crate::surface::SelfAffine;
 
-/// The spectrum of lines for which another would show nothing else.
+/// Spectrum of profiles whose spectrum does not matter.
 const SPECTRUM: SelfAffine = SelfAffine { hurst: 0.7, first: 1, last: 256 };
 
-/// Work of adhesion with which a line of [`SPECTRUM`] is on the way from sticking to not sticking, J/m².
+/// Work of adhesion in the transition of a profile of [`SPECTRUM`] from adhesive to non-adhesive, J/m².
 const WORK: f64 = 2.0e-5;
 
-/// A line of [`SPECTRUM`].
+/// A profile of [`SPECTRUM`].
 fn rough(points: usize, work: f64) -> Result<Body, Fault> {
     Body::rough(SelfAffine { last: (points as u64 / 2).min(SPECTRUM.last), ..SPECTRUM }, 1, points, work)
 }
 
-/// Shared fields of the cases whose contact and forces are compared with the rules.
+/// Shared fields of the cases that compare contact and forces with the rules.
 const RULES: Case = Case {
     evidence: &[Evidence::IndependentComputation],
     error_of: "force and energy",
@@ -31,7 +31,7 @@ const RULES: Case = Case {
     ..CASE
 };
 
-/// The largest of errors; not a number if one of them is not.
+/// The largest error; NaN if one of them is NaN.
 fn largest(errors: impl IntoIterator<Item = Result<f64, Fault>>) -> Result<f64, Fault> {
     errors.into_iter().try_fold(0.0, |worst: f64, error| {
         let error = error?;
@@ -49,7 +49,7 @@ fn relative_error(found: f64, expected: Extended) -> f64 {
     (Extended::from(found) - expected).abs().rounded() / expected.abs().rounded()
 }
 
-/// Two legs of a history.
+/// The two loading stages of a history.
 fn two_legs(history: &History) -> Result<[&LegRecord; 2], Fault> {
     match &history.legs[..] {
         [loading, unloading] => Ok([loading, unloading]),
@@ -62,12 +62,12 @@ fn press_and_pull(indentation: f64) -> [Leg; 2] {
     [Leg::ToIndentation(indentation), Leg::ToSeparation]
 }
 
-/// All numbers of a leg.
+/// All points of a loading stage.
 fn points(record: &LegRecord) -> impl Iterator<Item = &CurvePoint> {
     record.curve.iter().chain([&record.largest, &record.smallest])
 }
 
-/// Checks that a history is another with indentations, forces and energies multiplied, to the last bit.
+/// Checks that a history equals another with indentations, forces and energies multiplied, to the last bit.
 fn same_bits(one: &History, other: &History, length: f64, force: f64) -> Result<(), Fault> {
     ensure(one.legs.len() == other.legs.len(), || "another number of legs".into())?;
     for (index, (one, other)) in one.legs.iter().zip(&other.legs).enumerate() {

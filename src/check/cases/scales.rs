@@ -1,4 +1,4 @@
-//! Units and sizes: results scale with their units, up to the ends of the range of numbers.
+//! Units and sizes: results scale with their units, up to the limits of floating-point numbers.
 
 use super::{Body, RULES, WORK, ensure, largest, on_tour, points, press_and_pull, rough, same_bits};
 use crate::check::case::{CASE, Case, Evidence, Scope};
@@ -65,7 +65,7 @@ fn scene(edges: Edges) -> Result<Scene, Fault> {
     Ok(scene)
 }
 
-/// The scene with lengths along the line, heights and stresses multiplied; γ so that they only scale.
+/// The scene with lengths along the profile, heights and stresses multiplied, and γ adapted to them.
 fn scaled(scene: &Scene, length: f64, height: f64, stress: f64) -> Scene {
     let mut scene = scene.clone();
     scene.length *= length;
@@ -75,7 +75,7 @@ fn scaled(scene: &Scene, length: f64, height: f64, stress: f64) -> Scene {
     if let Some(Roughness::SelfAffine { rms_height: Some(rms_height), .. }) = &mut scene.roughness {
         *rms_height *= height;
     }
-    // Δl² = π ℓ γ/E* must scale as the square of heights.
+    // Δl² = π ℓ γ/E* must scale with the square of heights.
     if let Some(Adhesion { work: Some(work), .. }) = &mut scene.adhesion {
         *work *= height * height / length * stress;
     }
@@ -128,7 +128,7 @@ fn lengths(edges: Edges) -> Result<f64, Fault> {
 }
 
 fn heights(edges: Edges) -> Result<f64, Fault> {
-    // From 1e−15 L on.
+    // From 1e−15 L upwards.
     let mut low = scene(edges)?;
     low = scaled(&low, 2.0_f64.powi(30), 1.0, 1.0);
     let height = 2.0_f64.powi(-10);
@@ -148,14 +148,14 @@ fn heights(edges: Edges) -> Result<f64, Fault> {
     }))
 }
 
-/// Compares the tour of a body with those of the body whose heights are multiplied by powers of two.
+/// Compares the tour of a body with those of the same body with heights multiplied by powers of two.
 fn only_heights_scale(body: &Body, edges: Edges, powers: &[i32]) -> Result<(), Fault> {
     let tour = |body: &Body| body.history(edges, &body.tour(), 33);
     let one = tour(body)?;
     for &power in powers {
         let lambda = 2.0_f64.powi(power);
         let gaps = body.gaps.iter().map(|gap| lambda * gap).collect();
-        // One factor after the other: their product alone may be no number.
+        // One factor after the other: their product alone may overflow or underflow.
         let other = Body { gaps, work: lambda * (lambda * body.work), ..body.clone() };
         same_bits(&one, &tour(&other)?, lambda, lambda)?;
     }
@@ -165,7 +165,7 @@ fn only_heights_scale(body: &Body, edges: Edges, powers: &[i32]) -> Result<(), F
 fn subnormal(edges: Edges) -> Result<f64, Fault> {
     let body = rough(500, WORK)?;
     only_heights_scale(&body, edges, &[-100, -200, -300, -400])?;
-    // Beyond, γ is no number any more. Gaps lose digits, so the reference is their own exact multiple.
+    // Beyond, γ is out of range. Gaps lose digits, so the reference is their own exact multiple.
     let mut worst = 0.0_f64;
     for k in [850, 900, 950, 980, 1000, 1020, 1040] {
         let lambda = 2.0_f64.powi(-k / 2);
@@ -190,7 +190,7 @@ fn subnormal(edges: Edges) -> Result<f64, Fault> {
             let expected = end(&large.history(edges, &[Leg::ToIndentation(up(to))], 33)?.legs[0]);
             let found = end(&found.legs[0]);
             ensure(found.springs == expected.springs, || format!("heights times 2^−{k}: another contact"))?;
-            // In units in which nothing is subnormal.
+            // In units without subnormal numbers.
             let unit = body.gaps.len() as f64 * body.foundation.spring_stiffness() * 2.0_f64.powi(-1000);
             worst = worst.max((up(found.force) - expected.force).abs() / up(unit));
         }

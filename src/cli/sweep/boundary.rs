@@ -1,4 +1,4 @@
-//! `asperity sweep boundary`: where adhesion without a preload vanishes.
+//! `asperity sweep boundary`: the boundary of vanishing zero-load adhesion.
 
 use super::spread;
 use crate::cli::{CliError, Format};
@@ -48,7 +48,7 @@ pub struct BoundaryArguments {
     pub format: Format,
 }
 
-/// Formats of boundaries: a table, one object, a row for each boundary, tables for a document.
+/// Formats of boundaries: a table, one object, one row for each boundary, tables for a document.
 const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Markdown];
 
 fn level(text: &str) -> Result<f64, String> {
@@ -90,7 +90,7 @@ fn columns(over: RoughnessParameter) -> Vec<(&'static str, f64)> {
     }
 }
 
-/// A boundary, and its interval where there is one.
+/// A boundary, and its interval if there is one.
 fn shown(crossing: Crossing) -> (String, String) {
     match crossing {
         Crossing::At(value, interval) => {
@@ -154,7 +154,7 @@ fn object(boundaries: &Boundaries) -> Value {
     json!({ "lines": boundaries.lines, "boundaries": found.collect::<Vec<_>>() })
 }
 
-/// For each share a table: the first axis goes down, protocols and other axes go across.
+/// One table for each share: the first axis down, protocols and other axes across.
 fn markdown(boundaries: &Boundaries, levels: &[f64]) -> String {
     let Boundaries { others, found, .. } = boundaries;
     let down = |boundary: &Boundary| boundary.others.first().copied();

@@ -67,7 +67,7 @@ pub enum SweepCommand {
     Plans(PlansArguments),
 }
 
-/// Does one of the commands, or computes a plan.
+/// Performs one of the commands, or computes a plan.
 pub(super) fn sweep(arguments: &SweepArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     match &arguments.command {
         Some(SweepCommand::Merge(arguments)) => merge::merge(arguments, stdout),

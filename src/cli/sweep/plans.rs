@@ -1,4 +1,4 @@
-//! `asperity sweep plans`: what comes with the program.
+//! `asperity sweep plans`: the built-in plans.
 
 use crate::cli::{AnswerFormat, CliError};
 use crate::export::sheet::Sheet;

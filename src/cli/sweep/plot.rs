@@ -74,7 +74,7 @@ fn fixed(text: &str) -> Result<(String, String), String> {
 
 /// Draws a study.
 pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    // `-o -` is an SVG into a pipe.
+    // `-o -` writes an SVG into a pipe.
     let is_text = arguments.text || arguments.output.output.is_none();
     let usual = if is_text { Format::Text } else { Format::Svg };
     let format = arguments.output.format(arguments.text.then_some(Format::Text), FORMATS, usual)?;

@@ -1,10 +1,10 @@
-//! Progress of a study: a line of text, printed now and then where there is no terminal.
+//! Progress of a study: a line of text, printed now and then without a terminal.
 
 use crate::cli::progress::ProgressLine;
 use crate::study::Progress;
 use std::time::{Duration, Instant};
 
-/// Time between two lines where there is no terminal.
+/// Time between two lines without a terminal.
 const BETWEEN: Duration = Duration::from_secs(10);
 
 /// Progress of a study on standard error.

@@ -1,4 +1,4 @@
-//! `asperity sweep PLAN`: computes a study, or what is missing of it.
+//! `asperity sweep PLAN`: computation of a study, or of its missing records.
 
 use super::merge::write_merged;
 use super::progress::StudyProgress;
@@ -44,13 +44,13 @@ pub struct SweepRunArguments {
     pub overrides: Overrides,
 }
 
-/// Bytes beside those of a scene's arrays: code, stacks, files and what the allocator keeps.
+/// Bytes in addition to those of a scene's arrays: code, stacks, files and the reserve of the allocator.
 const BESIDE: u64 = 16 << 20;
-/// Bytes for each spring of a transform that is kept for the next line, up to [`LONGEST_KEPT`] springs.
+/// Bytes per spring of a transform that is kept for the next profile, up to [`LONGEST_KEPT`] springs.
 const KEPT: u64 = 20;
 const LONGEST_KEPT: u64 = 1 << 22;
 
-/// Bytes as people write them.
+/// Parses a number of bytes with its unit.
 pub(super) fn size(text: &str) -> Result<u64, String> {
     let allowed = || "allowed: a size such as 500M, 2G or 1.5GiB".to_owned();
     let text = text.trim();
@@ -70,7 +70,7 @@ pub(super) fn size(text: &str) -> Result<u64, String> {
     if (1.0..=1e18).contains(&bytes) { Ok(bytes as u64) } else { Err(allowed()) }
 }
 
-/// Memory of a whole study: what one thread takes at the most, and what all share.
+/// Memory of a whole study: the largest memory of one thread, and the shared memory.
 struct Memory {
     job: u64,
     shared: u64,
@@ -83,12 +83,12 @@ impl Memory {
         plan.each_scene(|scene: &Scene| {
             let points = scene.numerics.points;
             let kept = if points <= LONGEST_KEPT { KEPT * points } else { 0 };
-            // The contact without adhesion or at zero force may come on top of what the scene itself takes.
+            // The contact without adhesion or at zero force may add to the memory of the scene itself.
             let peak = simulation::Plan::of(scene).peak_bytes + kept;
             job = job.max(peak);
             spare = spare.max(16 * scene.numerics.samples * scene.loading.len() as u64);
         });
-        // One bit for each record, and each axis written out by every thread.
+        // One bit for each record, and all values of each axis in every thread.
         let values: u64 = plan.axes.iter().map(crate::study::Axis::count).sum();
         Memory { job: job + spare + 8 * values, shared: BESIDE + plan.records_in_all() / 8 }
     }
@@ -98,10 +98,10 @@ impl Memory {
     }
 }
 
-/// Computes a plan, or what is missing of it, and merges where that makes it whole.
+/// Computes the missing records of a plan, and merges once the plan is complete.
 pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let changes = Changes { set: arguments.overrides.set.clone(), lines: arguments.lines };
-    // The parser asks for a plan where there is no command.
+    // The parser requires a plan if there is no command.
     let plan =
         Plan::open(arguments.plan.as_deref().unwrap_or_default(), &changes).map_err(StudyError::from)?;
     let memory = Memory::of(&plan);

@@ -1,4 +1,4 @@
-//! `asperity sweep boundary --spread`: how far the boundaries of a study lie apart.
+//! `asperity sweep boundary --spread`: the spread of the boundaries of a study.
 
 use crate::cli::{CliError, Format};
 use crate::export::sheet::{Sheet, csv, markdown};
@@ -27,7 +27,7 @@ pub(super) fn write(stdout: &mut dyn Write, found: &[Boundaries], format: Format
     Ok(())
 }
 
-/// A heading, and a row for each protocol, share and parameter.
+/// A heading, and one row for each protocol, share and parameter.
 fn table(found: &[Boundaries]) -> Vec<Vec<String>> {
     let others = found.first().map_or(&[][..], |boundaries| &boundaries.others);
     let mut heading =
@@ -50,8 +50,7 @@ fn table(found: &[Boundaries]) -> Vec<Vec<String>> {
     rows
 }
 
-/// Ends of the range and ratios to two digits behind the point; those of a study that does not hold all boundaries are
-/// bounds.
+/// Ends of the range and ratios to two decimals; bounds if the study does not contain all boundaries.
 fn numbers(spread: &BoundarySpread) -> Vec<String> {
     let bound = if spread.outside > 0 { "> " } else { "" };
     let (smallest, largest) = match spread.range {

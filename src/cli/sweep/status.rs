@@ -1,4 +1,4 @@
-//! `asperity sweep status`: how far a study is.
+//! `asperity sweep status`: the progress of a study.
 
 use crate::cli::{AnswerFormat, CliError};
 use crate::export::sheet::Sheet;

@@ -65,7 +65,7 @@ pub struct SubmitArguments {
     pub options: Vec<OsString>,
 }
 
-/// Submits a study, or prints the commands that would do so.
+/// Submits a study, or prints the commands of the submission.
 pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let changes = Changes { set: arguments.overrides.set.clone(), lines: arguments.lines };
     let plan = Plan::open(&arguments.plan, &changes).map_err(StudyError::from)?;
@@ -101,7 +101,7 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
         write_new(&path, true, |out| out.write_all(script.as_bytes()))?;
     }
     let jobs = submission.submit()?;
-    // Warnings of sbatch are no result.
+    // Warnings of sbatch are not a result.
     let _ = write!(io::stderr(), "{}", printable_lines(&jobs.notes));
     let (array, merge) = (&jobs.array, &jobs.merge);
     let path = path_name(folder.path());
@@ -111,7 +111,7 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
     Ok(())
 }
 
-/// Prints what would be written and run.
+/// Prints the scripts and commands of a submission.
 fn print_submission(submission: &Submission, stdout: &mut dyn Write) -> io::Result<()> {
     for (path, script) in submission.scripts() {
         writeln!(stdout, "==> {} <==\n{script}", path.display())?;

@@ -9,17 +9,17 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 
-/// Shades from low to high where there are no colours; a cell without a value is blank.
+/// Shades from low to high without colours; a cell without a value is blank.
 pub const SHADES: [&str; 5] = ["·", "░", "▒", "▓", "█"];
-/// Least columns of a cell with the letter of its class.
+/// Fewest columns of a cell with the letter of its class.
 const WITH_LETTER: usize = 3;
 
-/// Index of the value that a column or row of the screen shows.
+/// Index of the value in a column or row of the screen.
 pub(super) fn index(at: usize, cells: u16, values: usize) -> usize {
     at * values / usize::from(cells.max(1))
 }
 
-/// Columns or rows of the screen that show a value; empty for values without room.
+/// Columns or rows of the screen with a value; empty for values without room.
 fn cells_of(value: usize, cells: u16, values: usize) -> std::ops::Range<usize> {
     let first = |value: usize| (value * usize::from(cells)).div_ceil(values.max(1));
     first(value)..first(value + 1)
@@ -56,7 +56,7 @@ pub(super) fn draw(buffer: &mut Buffer, area: Rect, map: &HeatMap, style: &CellS
     }
 }
 
-/// A cell of the screen, counted from the lower left, and the value it shows.
+/// A cell of the screen, counted from the lower left, and its value.
 struct Within {
     row: usize,
     column: usize,
@@ -85,9 +85,9 @@ fn sign_at(map: &HeatMap, place: &Within, has_value: bool) -> Option<char> {
     class(map, cell).and_then(|class| class.letter).filter(|_| has_value && is_wide && is_middle)
 }
 
-/// Step of the characters at a share of the scale.
+/// Step of the characters for a share of the scale.
 fn step(share: f64) -> usize {
-    // A share that is no number is the lowest.
+    // NaN is the lowest step.
     ((share * SHADES.len() as f64) as usize).min(SHADES.len() - 1)
 }
 
@@ -95,8 +95,8 @@ fn class(map: &HeatMap, cell: usize) -> Option<&Class> {
     map.class_names.get(map.classes.get(cell).copied().flatten()?)
 }
 
-/// Column or row of the screen with a place among the values, or that at the end nearest to the place: the middle of the
-/// cells of a value, and between values in proportion.
+/// Column or row of the screen for a place among the values, clamped to the ends: the middle of the cells of a
+/// value, interpolated between values.
 pub(super) fn cell_of(place: f64, cells: u16, values: usize) -> u16 {
     let middle = |value: usize| {
         let cells = cells_of(value, cells, values);
@@ -105,7 +105,7 @@ pub(super) fn cell_of(place: f64, cells: u16, values: usize) -> u16 {
     let place = place.clamp(0.0, values.saturating_sub(1) as f64);
     let (before, share) = (place.floor() as usize, place.fract());
     let at = middle(before) + if share > 0.0 { share * (middle(before + 1) - middle(before)) } else { 0.0 };
-    // A place that is one of the values but for rounding is in its cells.
+    // A place that equals a value but for rounding is in the cells of that value.
     (at + 1e-6).floor().clamp(0.0, f64::from(cells.max(1) - 1)) as u16
 }
 
@@ -136,7 +136,7 @@ pub(super) fn row_labels(y: &Axis, map: &HeatMap, height: u16) -> Vec<(u16, Stri
     texts.into_iter().map(|(row, text)| (height - 1 - row, text)).collect()
 }
 
-/// Scale of shades: numbers between samples of the shades.
+/// Scale of shades: samples of the shades with numbers between them.
 #[must_use]
 pub fn key(map: &HeatMap, columns: usize, colours: Colours) -> Vec<(String, Style)> {
     let (divisor, _) = map.key.prefix();
@@ -145,7 +145,7 @@ pub fn key(map: &HeatMap, columns: usize, colours: Colours) -> Vec<(String, Styl
         let share = step as f64 / steps as f64;
         short(map.key.scale.number(map.key.span.low + share * map.key.span.width()) / divisor)
     };
-    // Where there is no room for all numbers, those at the ends are given.
+    // Without room for all numbers, only those at the ends are shown.
     let all = (0..=steps).map(|step| number(step).chars().count()).sum::<usize>() + 5 * steps <= columns;
     let mut parts = vec![(number(0), Style::new())];
     for (step, character) in SHADES.into_iter().enumerate() {

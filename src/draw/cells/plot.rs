@@ -14,13 +14,13 @@ use ratatui::widgets::Widget;
 use ratatui::widgets::canvas::Canvas;
 use std::ops::RangeInclusive;
 
-/// Least size of an area whose plot has a scale on the left: columns and rows.
+/// Smallest area whose plot has a scale on the left: columns and rows.
 pub(super) const WITH_LEFT_SCALE: (u16, u16) = (26, 6);
-/// Least rows of an area whose plot has a scale below, and those of one with a line between plot and scale.
+/// Fewest rows of an area whose plot has a scale below, and of one with a line between plot and scale.
 const WITH_SCALE_BELOW: u16 = 5;
 const WITH_LINE_BELOW: u16 = 12;
-/// Least rows of an area where the label below has a row of its own, if it hides a number: of a curve, and of a map, which
-/// says little without the values of its columns.
+/// Fewest rows of an area where the label below has a row of its own if it would hide a number: for a curve, and
+/// for a map, which needs the values of its columns.
 const WITH_LABEL_BELOW: (u16, u16) = (16, 10);
 
 /// Place of a chart in an area: plot and scales.
@@ -65,8 +65,8 @@ impl CellPlot {
         x.scale.number(x.span.low + share.clamp(0.0, 1.0) * x.span.width())
     }
 
-    /// Cell of a point; `None` outside the chart. On a map all values have as many columns and rows, and a point beyond the
-    /// map is at its edge.
+    /// Cell of a point; `None` outside the chart. On a map all values have equal columns and rows, and a point
+    /// beyond the map is at its edge.
     #[must_use]
     pub fn cell(&self, chart: &Chart, marker: Marker, (x, y): (f64, f64)) -> Option<(u16, u16)> {
         if let Some(map) = chart.map() {
@@ -84,7 +84,7 @@ impl CellPlot {
         })
     }
 
-    /// Values on both axes of the cell of a map that a cell of the screen shows; `None` outside the map.
+    /// Values on both axes for the cell of a map behind a cell of the screen; `None` outside the map.
     #[must_use]
     pub fn values_at(&self, map: &HeatMap, (column, row): (u16, u16)) -> Option<(f64, f64)> {
         if !self.plot.contains((column, row).into()) {
@@ -124,7 +124,7 @@ impl CellPlot {
         self.draw_signs(buffer, chart, style);
     }
 
-    /// Writes each name beside its point where the plot is blank; gives the names that found room.
+    /// Writes each name beside its point where the plot is blank; returns the written names.
     pub fn draw_names<'n>(
         &self,
         buffer: &mut Buffer,
@@ -177,7 +177,7 @@ impl CellPlot {
     fn draw_signs(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
         for layer in &chart.layers {
             let Shape::Curve { points, sign: Some(sign), .. } = &layer.shape else { continue };
-            // No more signs than every other column.
+            // At most one sign in every other column.
             let every = (2 * points.len()).div_ceil(usize::from(self.plot.width)).max(1);
             for point in points.iter().step_by(every) {
                 if let Some((column, row)) = self.cell(chart, style.marker, *point) {
@@ -243,7 +243,7 @@ fn dots_of(marker: Marker) -> (u16, u16) {
     }
 }
 
-/// Cell at a share of a plot, as the canvas rounds to dots, so that signs and ticks are in cells of their curves.
+/// Cell at a share of a plot, rounded to dots as on the canvas, so that signs and ticks fit their curves.
 fn cell_at(share: f64, cells: u16, dots: u16) -> u16 {
     let last = f64::from(cells) * f64::from(dots) - 1.0;
     (share * last).round().max(0.0) as u16 / dots.max(1)
@@ -262,7 +262,7 @@ fn scale_beside(chart: &Chart, height: u16, marker: Marker) -> Vec<(u16, String)
     numbers_at(&chart.y, fewest..=fewest.max(height.into()), place, |_| true)
 }
 
-/// Numbers of an axis with the fewest ticks of which two can be seen, or with the fewest of all: one number gives no scale.
+/// Numbers of an axis with the fewest ticks of which two are visible, or with the fewest of all.
 fn numbers_at(
     axis: &Axis,
     ticks: RangeInclusive<usize>,
@@ -271,7 +271,7 @@ fn numbers_at(
 ) -> Vec<(u16, String)> {
     let numbers = |most: usize| axis.ticks(most).into_iter().filter_map(&place).collect::<Vec<_>>();
     let fewest = *ticks.start();
-    // Those of one cell are one.
+    // Numbers in one cell count as one.
     let two = |numbers: &Vec<(u16, String)>| {
         let mut seen = numbers.iter().filter(|number| is_seen(number)).map(|number| number.0);
         seen.next().is_some_and(|first| seen.any(|other| other != first))
@@ -279,8 +279,8 @@ fn numbers_at(
     ticks.map(numbers).find(two).unwrap_or_else(|| numbers(fewest))
 }
 
-/// Columns of a plot of this width with their numbers, and the label of the axis: in full in a row of its own, else with
-/// the symbol alone where the name would take more than half of the columns.
+/// Columns of a plot of this width with their numbers, and the label of the axis: in full in a row of its own, else
+/// only the symbol if the name would take more than half of the columns.
 fn scale_below(chart: &Chart, width: u16, marker: Marker, own_row: bool) -> (Vec<(u16, String)>, String) {
     let mut label = chart.x.label_with_unit().to_string();
     let room = if own_row { width } else { width / 2 };
@@ -387,14 +387,14 @@ mod tests {
             for (x, y) in columns.iter().flat_map(|x| rows.iter().map(move |y| (*x, *y))) {
                 let cell = place.cell(&chart, MARKERS[0], (x, y)).unwrap();
                 let (across, up) = place.values_at(&map, cell).unwrap();
-                // Of several values in one cell it is one whose middle is there or in the next.
+                // Of several values in one cell, one whose middle is in that cell or the next.
                 let (column, row) = place.cell(&chart, MARKERS[0], (across, up)).unwrap();
                 assert!(column.abs_diff(cell.0) <= 1 && row.abs_diff(cell.1) <= 1, "{x} {y} {across} {up}");
                 let has_room = |cells: u16, values: &[f64]| usize::from(cells) >= values.len();
                 assert!(!has_room(place.plot.width, &columns) || across == x, "{x} {across}");
                 assert!(!has_room(place.plot.height, &rows) || up == y, "{y} {up}");
             }
-            // Beyond the map it is at its edge, and outside the plot there is nothing.
+            // A point beyond the map is at its edge, and there is none outside the plot.
             let corner = place.cell(&chart, MARKERS[0], (columns[columns.len() - 1], rows[rows.len() - 1]));
             assert_eq!(place.cell(&chart, MARKERS[0], (9.0, 1e9)), corner);
             assert_eq!(place.values_at(&map, (place.plot.right(), place.plot.y)), None);

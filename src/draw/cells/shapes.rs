@@ -5,14 +5,14 @@ use ratatui::buffer::Buffer;
 use ratatui::style::Color;
 use ratatui::widgets::canvas::{Painter, Shape as CanvasShape};
 
-/// Represents on a canvas the colour of the terminal's text, which the grid of half blocks would take for
-/// that of its background where it meets another colour. No theme has it.
+/// Represents the text colour of the terminal on a canvas, since the grid of half blocks would take the text colour
+/// for the background where it meets another colour. No theme uses this index.
 const INK: Color = Color::Indexed(16);
 
-/// Gives what was drawn on canvases the colour of the terminal's text where the text has that colour.
+/// Replaces the substitute colour on canvases by the text colour of the terminal.
 pub fn dry(buffer: &mut Buffer) {
     for cell in &mut buffer.content {
-        // Of a cell in two colours the one of the text can only be that of the foreground.
+        // In a cell of two colours the text colour can only be the foreground.
         let other = match cell.symbol() {
             "▀" => "▄",
             "▄" => "▀",
@@ -41,7 +41,7 @@ pub(super) struct LayerShape<'a> {
 type Dot = (usize, usize);
 
 impl LayerShape<'_> {
-    /// Dot of a point, at the edge where the point is outside; `None` without coordinates.
+    /// Dot of a point, at the edge for a point outside; `None` without coordinates.
     fn dot(&self, painter: &Painter<'_, '_>, (x, y): (f64, f64)) -> Option<Dot> {
         let (x, y) = (self.chart.x.share(x), self.chart.y.share(y));
         let known = x.is_finite() && !y.is_nan();
@@ -90,7 +90,7 @@ impl LayerShape<'_> {
                 continue;
             };
             let (mut low, mut high) = ends;
-            // Up to the end of the neighbour, so that steep flanks are whole.
+            // Up to the end of the neighbour, so that steep flanks are continuous.
             if let Some((other_low, other_high)) = before {
                 (low, high) = (low.min(other_high), high.max(other_low));
             }
@@ -107,8 +107,7 @@ impl LayerShape<'_> {
         }
     }
 
-    /// Every other dot of the inside of a closed line: where an upright line meets the border an odd number of times
-    /// below.
+    /// Every other dot of the inside of a closed line: dots with an odd number of crossings of the border below them.
     fn inside(&self, painter: &mut Painter<'_, '_>, border: &[(f64, f64)]) {
         let Some((last, _)) = painter.get_point(1.0, 0.0) else { return };
         let shares: Vec<(f64, f64)> =
@@ -139,7 +138,7 @@ impl CanvasShape for LayerShape<'_> {
         match self.shape {
             Shape::Curve { points, stroke: Some(stroke), .. } => {
                 self.line(painter, points.iter().copied(), *stroke);
-                // A point alone between gaps is no line.
+                // A single point between gaps is no line.
                 points.iter().for_each(|point| {
                     if let (Stroke::Solid, Some(dot)) = (stroke, self.dot(painter, *point)) {
                         self.paint(painter, dot);
@@ -180,7 +179,7 @@ impl CanvasShape for LayerShape<'_> {
     }
 }
 
-/// Dots of a line that are painted: lines differ without colours.
+/// Returns true for the painted dots of a stroke: lines differ without colours.
 fn paints(stroke: Stroke, dot: usize) -> bool {
     match stroke {
         Stroke::Solid => true,
@@ -190,7 +189,7 @@ fn paints(stroke: Stroke, dot: usize) -> bool {
     }
 }
 
-/// The dots from one to another, without the first unless they are the same.
+/// The dots from one to another, without the first unless both are the same.
 fn between(from: Dot, to: Dot) -> impl Iterator<Item = Dot> {
     let (dx, dy) = (to.0 as f64 - from.0 as f64, to.1 as f64 - from.1 as f64);
     let steps = dx.abs().max(dy.abs()).max(1.0) as usize;

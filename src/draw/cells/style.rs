@@ -18,16 +18,16 @@ pub struct CellStyle<'a> {
 /// Colours of a terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colours {
-    /// None: shades are characters.
+    /// No colours: shades are characters.
     None,
-    /// 256 fixed ones.
+    /// 256 fixed colours.
     Palette,
-    /// Any.
+    /// Any colour.
     All,
 }
 
 impl Colours {
-    /// A colour as the terminal has it.
+    /// A colour in the palette of the terminal.
     #[must_use]
     pub fn colour(self, [red, green, blue]: Rgb) -> Color {
         // The cube of 6 × 6 × 6 colours: 0, 95, 135, … 255.

@@ -60,7 +60,7 @@ fn heading(chart: &Chart) -> Label {
 fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<'_>) {
     let mut area = Rect::new(0, 0, columns.min(WIDEST_PLOT), ROWS);
     if let Some(map) = chart.map() {
-        // Every value has as many columns and rows as the others, where there is room.
+        // Every value has equal columns and rows, if there is room.
         let rows = map.rows.len().max(1);
         let rows = rows.div_ceil(rows.div_ceil(MOST_ROWS)) * FEWEST_ROWS.div_ceil(rows);
         let left = area.width - CellPlot::within(area, chart).plot.width;
@@ -114,7 +114,7 @@ fn push_legend(text: &mut String, chart: &Chart, columns: usize, style: &CellSty
     }
 }
 
-/// Adds a line without the blanks at its end, with what a terminal takes for its colours.
+/// Adds a line without trailing blanks, with the escape sequences of its colours.
 fn push_line<S: AsRef<str>>(text: &mut String, runs: &[(S, Style)]) {
     let is_blank = |(text, style): &&(S, Style)| {
         text.as_ref().trim_matches([' ', '\u{2800}']).is_empty() && code(style).is_empty()
@@ -145,7 +145,7 @@ fn code(style: &Style) -> String {
     if both.is_empty() { String::new() } else { format!("\x1b[{}m", both.join(";")) }
 }
 
-/// Adds words, on as many lines as they take.
+/// Adds words, broken into lines.
 fn push_words(text: &mut String, words: &str, columns: usize) {
     for line in wrap(words, columns).iter().filter(|line| !line.is_empty()) {
         text.push_str(line);

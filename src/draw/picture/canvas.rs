@@ -1,4 +1,4 @@
-//! Operations that draw figures, the same for every format of pictures.
+//! Drawing operations for figures, common to all formats of pictures.
 
 use crate::draw::chart::Stroke;
 use crate::draw::colour::Rgb;
@@ -41,7 +41,7 @@ impl Pen {
     }
 }
 
-/// A picture on which figures are drawn.
+/// A picture as a drawing surface for figures.
 pub(super) trait Canvas {
     /// Fills a rectangle.
     fn rectangle(&mut self, from: Place, to: Place, fill: Rgb);

@@ -1,4 +1,4 @@
-//! Letters of pictures that are made of pixels: outlines of two fonts, the same on every machine.
+//! Letters of raster pictures: outlines of two fonts, the same on every machine.
 
 use super::canvas::set;
 use crate::draw::label::{Face as Set, Label};
@@ -7,7 +7,7 @@ use ttf_parser::{Face, FaceParsingError, OutlineBuilder};
 
 /// Latin, Greek, Cyrillic and mathematical characters; see LICENSE beside the files.
 const SANS: &[u8] = include_bytes!("font/sans.ttf");
-/// Characters of one width, with arrows and geometric shapes.
+/// Monospaced characters, with arrows and geometric shapes.
 const MONO: &[u8] = include_bytes!("font/mono.ttf");
 /// Slope of italics.
 const SLANT: f32 = 0.2;
@@ -26,7 +26,7 @@ impl Font {
         Font::read(SANS)
     }
 
-    /// The font of one width of screens.
+    /// The monospaced font of screens.
     ///
     /// # Errors
     /// An unreadable outline.
@@ -38,8 +38,8 @@ impl Font {
         Ok(Font { face: Face::parse(file, 0)? })
     }
 
-    /// Outlines of a label, the base line at y = 0 from x = 0 on, with their width. A character that the font does not
-    /// have is a box.
+    /// Outlines of a label, the base line at y = 0 from x = 0 on, with their width. A character missing from the
+    /// font is a box.
     pub(crate) fn outlines(&self, label: &Label, size: f64) -> (Option<Path>, f64) {
         let mut outlines = Outlines { path: PathBuilder::new(), place: Transform::identity() };
         let mut x = 0.0;
@@ -131,7 +131,7 @@ mod tests {
             assert!((0.75..1.3).contains(&(width / (10.0 * label.width()))), "{label}: {width}");
             let bounds = path.unwrap().bounds();
             assert!(f64::from(bounds.right()) < width + 2.0 && bounds.left() > -1.0, "{label}");
-            // Above the base line but for an index.
+            // Above the base line except for an index.
             assert!(bounds.top() < -5.0 && bounds.bottom() < 5.0, "{label}");
         }
         assert!(font.outlines(&Label::default(), 10.0).0.is_none());

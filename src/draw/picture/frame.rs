@@ -1,4 +1,4 @@
-//! The frame of a chart: from numbers to places, and axes around it.
+//! The frame of a chart: conversion of numbers to places, and the axes.
 
 use super::canvas::{Anchor, Canvas, Pen, Place};
 use crate::draw::axis::Axis;
@@ -10,7 +10,7 @@ use crate::draw::ticks::Tick;
 pub(super) const LABEL: f64 = 13.0;
 /// Size of numbers at ticks, px.
 pub(super) const NUMBER: f64 = 11.5;
-/// Labelled ticks of an axis, about.
+/// Approximate number of labelled ticks of an axis.
 const TICKS: usize = 6;
 
 /// A rectangle in a picture with two axes.
@@ -48,14 +48,14 @@ impl Frame<'_> {
         (self.from.0 + x * self.width(), self.to.1 - y * self.height())
     }
 
-    /// Place of a point, moved to the border where the point is outside; `None` without coordinates.
+    /// Place of a point, at the border for a point outside; `None` without coordinates.
     pub(super) fn place(&self, (x, y): (f64, f64)) -> Option<Place> {
         let shares = (self.x.share(x), self.y.share(y));
         let is_finite = shares.0.is_finite() && shares.1.is_finite();
         is_finite.then(|| self.at((shares.0.clamp(0.0, 1.0), shares.1.clamp(0.0, 1.0))))
     }
 
-    /// Place of a point whose y may lie beyond all coordinates.
+    /// Place of a point; a y without a coordinate is at the end of the axis.
     pub(super) fn place_at_end(&self, (x, y): (f64, f64)) -> Option<Place> {
         let y = self.y.share(y);
         let y = if y.is_nan() { 0.0 } else { y.clamp(0.0, 1.0) };
@@ -63,7 +63,7 @@ impl Frame<'_> {
         x.is_finite().then(|| self.at((x.clamp(0.0, 1.0), y)))
     }
 
-    /// Place of coordinates of the axes.
+    /// Place for coordinates of the axes.
     pub(super) fn place_of_coordinates(&self, (x, y): (f64, f64)) -> Place {
         let share = |axis: &Axis, at: f64| (at - axis.span.low) / axis.span.width();
         self.at((share(self.x, x), share(self.y, y)))
@@ -74,7 +74,7 @@ impl Frame<'_> {
         let size = self.size;
         let axis = if side == Side::Below { self.x } else { self.y };
         let ticks = axis.ticks(self.ticks(side));
-        // Outwards from the frame, and the edge of the frame.
+        // Direction outwards from the frame, and the edge of the frame.
         let (outwards, edge) = match side {
             Side::Below => (1.0, self.to.1),
             Side::Left => (-1.0, self.from.0),
@@ -104,17 +104,17 @@ impl Frame<'_> {
         }
     }
 
-    /// Labelled ticks for which a side has room.
+    /// Number of labelled ticks that fit a side.
     fn ticks(&self, side: Side) -> usize {
         if self.size < NUMBER {
             return 4;
         }
-        // Wide charts have room for more, low ones for fewer.
+        // Wide charts have more ticks, low ones fewer.
         let room = if side == Side::Below { self.width() / 55.0 } else { self.height() / 40.0 };
         (room as usize).clamp(3, if side == Side::Below { 9 } else { TICKS })
     }
 
-    /// Room that an upright axis takes beside the frame, px.
+    /// Width of an upright axis beside the frame, px.
     pub(super) fn room(&self, side: Side) -> f64 {
         let ticks = self.y.ticks(self.ticks(side));
         beside(&ticks, self.size) + 0.7 * LABEL * self.size / NUMBER

@@ -1,4 +1,4 @@
-//! Place of an inset: a corner of its chart that the curves leave free.
+//! Place of an inset: a corner of its chart without curves.
 
 use super::canvas::Place;
 use super::frame::Frame;
@@ -6,9 +6,9 @@ use crate::draw::axis::Axis;
 use crate::draw::chart::{Chart, Shape};
 use crate::draw::scale::Span;
 
-/// Widths and heights of insets in shares of the chart; the first that fits is taken.
+/// Widths and heights of insets in shares of the chart; the first that fits is used.
 const SIZES: [(f64, f64); 4] = [(0.46, 0.42), (0.4, 0.4), (0.36, 0.48), (0.32, 0.34)];
-/// Largest factor by which the vertical axis grows to make room.
+/// Largest factor by which the vertical axis grows for an inset.
 const MOST_ROOM: f64 = 2.2;
 /// Room for numbers on the left of an inset and below it, px.
 pub(super) const AXES: (f64, f64) = (40.0, 20.0);
@@ -25,7 +25,7 @@ pub(super) fn axis_with_room(chart: &Chart, frame: &Frame<'_>) -> Axis {
     axis
 }
 
-/// Corners of the inset in a frame; in the upper right where none is free.
+/// Corners of the inset in a frame; in the upper right if no corner is free.
 pub(super) fn place(chart: &Chart, frame: &Frame<'_>) -> (Place, Place) {
     corner(chart, frame).unwrap_or_else(|| in_corner(frame, SIZES[3], true))
 }
@@ -37,7 +37,7 @@ fn in_corner(frame: &Frame<'_>, size: (f64, f64), right: bool) -> (Place, Place)
     ((left, top), (left + width, top + height))
 }
 
-/// The largest inset in a corner that curves and bands leave free.
+/// The largest inset in a corner without curves and bands.
 fn corner(chart: &Chart, frame: &Frame<'_>) -> Option<(Place, Place)> {
     let tops: Vec<Vec<Place>> = chart
         .layers
@@ -54,7 +54,7 @@ fn corner(chart: &Chart, frame: &Frame<'_>) -> Option<(Place, Place)> {
     sizes.map(|(size, right)| in_corner(frame, size, right)).find(|(from, to)| {
         let (left, bottom) = (from.0 - AXES.0 - 4.0, to.1 + AXES.1 + 4.0);
         let in_the_way = |(x, y): &Place| (left..=to.0 + 10.0).contains(x) && *y < bottom;
-        // A segment is in the way where an end of it is, or where it passes over the corner.
+        // A segment is in the way if one of its ends is, or if it crosses the corner.
         let passes = |pair: &[Place]| {
             (0..=16).any(|step| {
                 let at = |a: f64, b: f64| a + (b - a) * f64::from(step) / 16.0;

@@ -11,7 +11,7 @@ pub(super) const TEXT: Rgb = Palette::LIGHT.foreground;
 pub(super) const QUIET: Rgb = [0x96, 0x9c, 0xa2];
 pub(super) const PAPER: Rgb = Palette::LIGHT.background;
 
-/// Share of its colour that an area lets through to what is below.
+/// Opacity of an area.
 pub(super) const AREA_OPACITY: f64 = 0.25;
 /// Least distance of two signs on a map, px.
 const SIGN_DISTANCE: f64 = 13.0;
@@ -62,13 +62,13 @@ fn inside(axis: &Axis, number: f64) -> bool {
     (0.0..=1.0).contains(&axis.share(number))
 }
 
-/// Pen of lines that only guide the eye.
+/// Pen of guide lines.
 pub(super) fn guide(ink: Ink) -> Pen {
     let colour = if ink == Ink::Quiet { QUIET } else { ink.on_paper() };
     Pen { colour, width: 1.0, stroke: Stroke::Dashed }
 }
 
-/// Half the size of signs: those of neighbours do not touch where there are many.
+/// Half the size of signs; smaller for many, so that neighbours do not touch.
 fn radius(frame: &Frame<'_>, points: usize) -> f64 {
     let usual = if frame.size < super::frame::NUMBER { 1.7 } else { SIGN };
     usual.min(0.3 * frame.width() / points.max(1) as f64).max(0.9)
@@ -109,7 +109,7 @@ fn envelope(
             last = None;
             continue;
         };
-        // From the end that is nearer to where the line comes from.
+        // From the end nearer to the previous point of the line.
         let falls = last.is_some_and(|last| (last - high).abs() < (last - low).abs());
         let ends = if falls { [high, low] } else { [low, high] };
         points.extend(ends.map(|end| (middle(column), end)));
@@ -187,7 +187,7 @@ fn heat_map(canvas: &mut dyn Canvas, frame: &Frame<'_>, map: &HeatMap) {
             let lower = frame.place_of_coordinates((across[0], up[0]));
             let upper = frame.place_of_coordinates((across[1], up[1]));
             match map.values.get(row * map.columns.len() + column).copied().flatten() {
-                // Half a pixel over the next ones, so that no seam is seen between them.
+                // Half a pixel over the next cells, to avoid visible seams.
                 Some(value) => {
                     let to = ((upper.0 + 0.5).min(frame.to.0), lower.1);
                     let from = (lower.0, (upper.1 - 0.5).max(frame.from.1));

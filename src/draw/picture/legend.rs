@@ -17,7 +17,7 @@ pub(super) struct Legend {
 }
 
 impl Legend {
-    /// Rows no wider than `most`, as far as entries are not.
+    /// Rows no wider than `most`, unless a single entry is.
     pub(super) fn new(entries: Vec<Entry>, most: f64) -> Legend {
         let mut rows: Vec<(f64, Vec<Entry>)> = Vec::new();
         for entry in entries {

@@ -1,4 +1,4 @@
-//! Figures as pictures: SVG and PNG. The same figure gives the same bytes.
+//! Figures as pictures: SVG and PNG. Equal figures have equal bytes.
 
 mod canvas;
 #[cfg(feature = "tui")]
@@ -31,15 +31,15 @@ use legend::Legend;
 #[cfg(feature = "tui")]
 use png::Raster;
 
-/// Least room on the left of a chart and room below it for the axes, px.
+/// Least room on the left of a chart and below it for the axes, px.
 const AXES: (f64, f64) = (78.0, 50.0);
-/// Least room on the right of a map for its scale of colours, and of another chart, px.
+/// Least room on the right of a map for its colour scale, and of another chart, px.
 const SCALE: f64 = 104.0;
 const BESIDE: f64 = 22.0;
-/// Distance of the scale of colours from its map, and its width, px.
+/// Distance of the colour scale from its map, and its width, px.
 const FROM_MAP: f64 = 14.0;
 const BAR: f64 = 13.0;
-/// Stripes of the scale of colours.
+/// Stripes of the colour scale.
 const STRIPES: u32 = 128;
 /// Least distance of text from the border, px.
 const MARGIN: f64 = 6.0;
@@ -50,9 +50,9 @@ const TITLE: f64 = 14.5;
 #[cfg(feature = "tui")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PictureFormat {
-    /// Lines, in SVG.
+    /// Vector picture, SVG.
     Svg,
-    /// Pixels, two for each px of the SVG.
+    /// Raster picture, two pixels for each px of the SVG.
     Png,
 }
 
@@ -68,10 +68,10 @@ impl Figure {
         document.finish()
     }
 
-    /// The figure as the file of a picture.
+    /// The figure as the content of a picture file.
     ///
     /// # Errors
-    /// For a picture of more pixels than are allowed.
+    /// A picture with more pixels than allowed.
     #[cfg(feature = "tui")]
     pub fn picture(&self, format: PictureFormat) -> Result<Vec<u8>, PngError> {
         if format == PictureFormat::Svg {
@@ -92,10 +92,10 @@ struct Page<'a> {
     notes: Vec<Label>,
     width: f64,
     height: f64,
-    /// Width of a chart with the rooms beside it, and the room on its left.
+    /// Width of a chart with its margins, and its left margin.
     wide: f64,
     before: f64,
-    /// Upper and lower ends of the charts, the lower one with the axes.
+    /// Upper and lower ends of the charts, including the axes below.
     top: f64,
     bottom: f64,
 }
@@ -203,7 +203,7 @@ pub(crate) mod tests {
     use crate::draw::chart::{Layer, Shape, Sign, Stroke};
     use crate::draw::colour::{Ink, hex};
 
-    /// Elements of a document, names with attributes, and its text. Panics where the document is not well-formed.
+    /// Elements of a document, names with attributes, and its text. Panics if the document is not well-formed.
     pub(crate) fn parsed(svg: &str) -> (Vec<String>, String) {
         let (mut elements, mut open, mut text) = (Vec::new(), Vec::new(), String::new());
         let mut rest = svg;
@@ -219,7 +219,7 @@ pub(crate) mod tests {
             let (tag, empty) = tag.strip_suffix('/').map_or((tag, false), |tag| (tag, true));
             let (name, attributes) = tag.split_once(' ').unwrap_or((tag, ""));
             assert!(name.chars().all(char::is_alphabetic), "{tag}");
-            // Names and values in turns; values in quotes.
+            // Names and values alternate; values are in quotes.
             let mut pieces = attributes.split('"');
             while let Some(name) = pieces.next().filter(|name| !name.is_empty()) {
                 let name = name.trim_start().strip_suffix('=').expect(tag);
@@ -326,7 +326,7 @@ pub(crate) mod tests {
         let svg = figure.svg();
         let looks = |element: &String| element.split_once("fill=").unwrap().1.to_owned();
         let areas: Vec<String> = elements(&svg, "polygon").iter().map(looks).collect();
-        // Both bands, and a sample of each in the legend, which looks the same.
+        // Both bands, and a sample of each in the legend, of the same appearance.
         assert_eq!(areas.len(), 4);
         assert_eq!(areas[..2], areas[2..]);
         for ink in inks {
@@ -335,7 +335,7 @@ pub(crate) mod tests {
             let dashes = lines.filter(|line| line.contains("stroke-dasharray")).count();
             assert_eq!(dashes, 2, "a line and its sample");
         }
-        // The end that has no logarithm is at the bottom.
+        // The end without a logarithm is at the bottom.
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
         assert!(small(Vec::new()).svg().len() < svg.len());
     }

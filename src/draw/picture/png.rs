@@ -17,10 +17,10 @@ use tiny_skia::{
 const SCALE: f64 = 2.0;
 /// Most pixels of a picture.
 const MOST_PIXELS: f64 = (1_u32 << 26) as f64;
-/// Pixels in a metre of a print on which a px is 1/96 inch.
+/// Pixels per metre of a print on which a px is 1/96 inch.
 const PER_METRE: u32 = 7559;
 
-/// Error of a picture in pixels.
+/// Error of a raster picture.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum PngError {
     /// Too many pixels.
@@ -44,25 +44,25 @@ impl From<ttf_parser::FaceParsingError> for PngError {
     }
 }
 
-/// A picture as pixels, drawn in px.
+/// A raster picture, drawn in px.
 pub(crate) struct Pixels(Pixmap);
 
 impl Pixels {
     /// An empty picture of the size in px.
     ///
     /// # Errors
-    /// For more pixels than are allowed, before they are stored.
+    /// More pixels than allowed; detected before the allocation.
     pub(crate) fn new(width: f64, height: f64) -> Result<Pixels, PngError> {
         let [width, height] = [width, height].map(|side| (SCALE * side).ceil());
         let too_large = PngError::TooLarge { width, height };
-        // Not a number is no size either.
+        // NaN is no size either.
         if (width * height).is_nan() || width * height > MOST_PIXELS {
             return Err(too_large);
         }
         Ok(Pixels(Pixmap::new(width as u32, height as u32).ok_or(too_large)?))
     }
 
-    /// Fills a path, `smooth` with borders between pixels.
+    /// Fills a path, antialiased if `smooth`.
     pub(crate) fn fill(&mut self, path: Option<Path>, colour: Rgb, opacity: f64, smooth: bool) {
         let Some(path) = path else { return };
         let paint = Paint { anti_alias: smooth, ..paint(colour, opacity) };
@@ -75,16 +75,16 @@ impl Pixels {
         self.0.stroke_path(&path, &paint(colour, 1.0), stroke, scale(), None);
     }
 
-    /// The picture as a file.
+    /// The picture as the content of a file.
     ///
     /// # Errors
-    /// When the data cannot be packed.
+    /// Failed compression of the data.
     pub(crate) fn finish(self) -> Result<Vec<u8>, PngError> {
         let (width, height) = (self.0.width(), self.0.height());
         let mut rows = ZlibEncoder::new(Vec::new(), Compression::default());
         let mut encode = || -> std::io::Result<()> {
             for row in self.0.data().chunks_exact(4 * width as usize) {
-                // No filter: large areas of one colour are packed as they are.
+                // No filter: large areas of one colour compress without.
                 let mut line = vec![0];
                 line.extend(row.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]));
                 rows.write_all(&line)?;
@@ -142,7 +142,7 @@ fn through(places: &[Place], closed: bool) -> Option<Path> {
     path.finish()
 }
 
-/// A figure as pixels.
+/// A figure in pixels.
 pub(super) struct Raster {
     pixels: Pixels,
     font: Font,
@@ -154,7 +154,7 @@ impl Raster {
         Ok(Raster { pixels: Pixels::new(width, height)?, font: Font::sans()? })
     }
 
-    /// The picture as a file.
+    /// The picture as the content of a file.
     pub(super) fn finish(self) -> Result<Vec<u8>, PngError> {
         self.pixels.finish()
     }

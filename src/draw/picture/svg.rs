@@ -5,7 +5,7 @@ use crate::draw::colour::{Rgb, hex};
 use crate::draw::label::{Face, Label};
 use std::fmt::Write;
 
-/// Fonts of figures, of nearly the same letters on all systems.
+/// Fonts of figures, with nearly the same letters on all systems.
 const FONTS: &str = "Helvetica, Arial, Liberation Sans, DejaVu Sans, sans-serif";
 
 /// An SVG document of version 1.1 without references to other files.
@@ -39,7 +39,7 @@ impl Document {
     }
 
     fn element(&mut self, element: std::fmt::Arguments<'_>) {
-        // Writing to a string does not fail.
+        // Writing to a string cannot fail.
         let _ = self.text.write_fmt(element);
         self.text.push('\n');
     }
@@ -167,7 +167,7 @@ fn px(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// Text without markup. Characters that XML cannot hold become U+FFFD.
+/// Text with markup escaped. Characters invalid in XML become U+FFFD.
 #[must_use]
 pub fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());

@@ -1,4 +1,4 @@
-//! Edits of one entry in a text, which leave every comment in its place.
+//! Edits of one entry in a text, with every comment preserved.
 
 use std::ops::Range;
 
@@ -6,10 +6,10 @@ use super::outline::{Entry, Text};
 
 const NOT_ONE_VALUE: &str = "not one RON value by itself, such as 1.0e-3 or (1, 512)";
 
-/// A value without the blanks around it, where it is one RON value and nothing else.
+/// A value without the surrounding blanks, if it is exactly one RON value.
 ///
 /// # Errors
-/// The reason why it is not.
+/// The reason why the text is not one value.
 pub(in crate::scene) fn one_value(value: &str) -> Result<&str, String> {
     let value = value.trim();
     if value.is_empty() {
@@ -23,17 +23,17 @@ impl Text<'_> {
     /// The text with another value at a path.
     ///
     /// # Errors
-    /// No entry has the path, or the value is not one value by itself.
+    /// No entry with this path, or text that is not one value.
     pub fn replace(&self, path: &str, value: &str) -> Result<String, String> {
         let span = self.span(path).ok_or("there is no such element")?;
         checked(apply(self.text, vec![(span.value, value.to_string())]), path, value)
     }
 
-    /// The text with the entry `name: value` in the group at a path, empty for the whole: after the last of the entries
-    /// that come before the name in this order.
+    /// The text with the entry `name: value` in the group at a path, empty for the whole: after the last of the
+    /// entries that precede the name in this order.
     ///
     /// # Errors
-    /// No group has the path, or the value is not one value by itself.
+    /// No group with this path, or text that is not one value.
     pub fn insert(&self, group: &str, name: &str, value: &str, order: &[&str]) -> Result<String, String> {
         let body = self.body(group).ok_or_else(|| format!("{group} has no fields here"))?;
         let rank = |name: &str| order.iter().position(|other| *other == name);
@@ -57,7 +57,7 @@ impl Text<'_> {
     /// The text without the entry at a path: undoes [`Text::insert`].
     ///
     /// # Errors
-    /// No entry has the path.
+    /// No entry with this path.
     pub fn remove(&self, path: &str) -> Result<String, String> {
         let missing = "there is no such element";
         let group = path.rsplit_once('.').map_or("", |(group, _)| group);
@@ -74,19 +74,19 @@ impl Text<'_> {
             (Some(comma), None) if self.text[comma..span.entry.start].trim().is_empty() => comma,
             _ => span.entry.start,
         };
-        // Without the first entry the next one begins where it began.
+        // Without the first entry the next one begins at its place.
         let blanks = &self.text[end..next];
         let is_same_line = index + 1 < entries.len() && blanks.trim().is_empty() && !blanks.contains('\n');
         let end = if before.is_none() && is_same_line { next } else { end };
         let mut edits = vec![(start..end, String::new())];
-        // The last entry without a comma leaves the one before it without a comma.
+        // The last entry without a comma leaves the previous one without a comma.
         if let (None, Some(comma)) = (entry.comma, comma) {
             edits.push((comma - 1..comma, String::new()));
         }
         Ok(apply(self.text, edits))
     }
 
-    /// The text without these comments, and without the lines that hold nothing else.
+    /// The text without these comments, and without lines that hold nothing else.
     pub(in crate::scene) fn without_comments(&self, comments: &[Range<usize>]) -> String {
         let stretch = |comment: &Range<usize>| {
             let before = self.text[..comment.start].trim_end_matches([' ', '\t']).len();
@@ -102,14 +102,14 @@ impl Text<'_> {
         apply(self.text, comments.iter().map(stretch).collect())
     }
 
-    /// The line break before an entry, where nothing else but comments is on its line; `gap` is the stretch behind it.
+    /// The line break before an entry, if only comments share its line; `gap` is the stretch after it.
     fn line_of_its_own(&self, start: usize, gap: Range<usize>) -> Option<usize> {
         let line_break = start - indentation(self.text, start)?.len() - 1;
         self.line_break_in(gap)?;
         Some(if self.text[..line_break].ends_with('\r') { line_break - 1 } else { line_break })
     }
 
-    /// Edits that put an entry after another one, written in the same way: on a line of its own, after the comment on the
+    /// Edits that put an entry after another one, in the same style: on a line of its own, after the comment on the
     /// line before, or on the same line.
     fn edits_after(&self, anchor: &Entry, gap: Range<usize>, new: &str) -> Vec<(Range<usize>, String)> {
         let comma = if anchor.comma.is_some() { "," } else { "" };
@@ -138,21 +138,21 @@ impl Text<'_> {
     }
 }
 
-/// The edited text, where the value is now that of the entry, all of it and nothing else: a comment in the value must
-/// not swallow the text behind it.
+/// The edited text, if the value at the path is now exactly the given one: a comment in the value must not swallow
+/// the text behind it.
 fn checked(text: String, path: &str, value: &str) -> Result<String, String> {
     let is_whole = Text::new(&text).is_ok_and(|text| text.written(path) == Some(value));
     if is_whole { Ok(text) } else { Err(NOT_ONE_VALUE.into()) }
 }
 
-/// The blanks before a byte that is the first of its line but for them; `None` on the first line.
+/// The blanks before the first byte of a line; `None` on the first line, or if other bytes precede it.
 fn indentation(text: &str, offset: usize) -> Option<&str> {
     let line = text[..offset].rfind('\n')? + 1;
     let before = &text[line..offset];
     before.chars().all(|c| matches!(c, ' ' | '\t')).then_some(before)
 }
 
-/// Applies edits that do not overlap.
+/// Applies edits without overlap.
 fn apply(text: &str, mut edits: Vec<(Range<usize>, String)>) -> String {
     edits.sort_by_key(|(range, _)| range.start);
     let mut text = text.to_string();

@@ -1,9 +1,9 @@
-//! Numbers and strings as RON writes them.
+//! Numbers and strings in RON notation.
 
 use crate::text::is_control;
 
-/// A number as RON: the shortest text that reads back as the same number, always with a decimal
-/// point, with an exponent where it is much smaller or larger than one.
+/// A number in RON: the shortest text that reads back as the same number, always with a decimal point,
+/// with an exponent if the number is much smaller or larger than one.
 pub fn ron_float(value: f64) -> String {
     let size = value.abs();
     if !value.is_finite() || size == 0.0 || (size > 1e-3 && size < 1e5) {
@@ -16,7 +16,7 @@ pub fn ron_float(value: f64) -> String {
     }
 }
 
-/// Text as a RON string; only what RON cannot carry in the open is escaped.
+/// Text as a RON string; only characters that RON cannot contain literally are escaped.
 pub fn ron_string(text: &str) -> String {
     let mut string = String::with_capacity(text.len() + 2);
     string.push('"');

@@ -1,6 +1,6 @@
-//! Text of RON values: places by path, and edits that keep the comments. Knows no field of any scene.
+//! Text of RON values: places by path, and edits that keep the comments. Independent of the fields of a scene.
 //!
-//! [`Text::span`] finds an entry; [`Text::replace`], [`Text::insert`] and [`Text::remove`] give a new text.
+//! [`Text::span`] finds an entry; [`Text::replace`], [`Text::insert`] and [`Text::remove`] return a new text.
 
 mod edit;
 mod literal;

@@ -11,7 +11,7 @@ use super::scan::{Kind, Scan, Token, Unreadable, scan};
 /// Place of an entry, in bytes of the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Span {
-    /// The whole entry, `name: value`; the same as `value` in a list.
+    /// The whole entry, `name: value`; equal to `value` in a list.
     pub entry: Range<usize>,
     /// The value alone.
     pub value: Range<usize>,
@@ -28,7 +28,7 @@ pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
     (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }
 
-/// The byte at a line and column, the end of the line or of the text where there is none.
+/// The byte at a line and column, or the end of the line or text before it.
 pub(in crate::scene) fn offset_of(text: &str, line: usize, column: usize) -> usize {
     let mut start = 0;
     for _ in 1..line {
@@ -42,7 +42,7 @@ pub(in crate::scene) fn offset_of(text: &str, line: usize, column: usize) -> usi
     start + within.map_or(line.len(), |(offset, _)| offset)
 }
 
-/// A path is another path or inside it.
+/// Returns true if a path equals another path or lies inside it.
 pub(in crate::scene) fn is_within(path: &str, other: &str) -> bool {
     path.strip_prefix(other).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
@@ -102,7 +102,7 @@ impl<'t> Text<'t> {
         self.nearest(path).map(|span| span.value.start).or_else(|| self.opening(""))
     }
 
-    /// The value at a path as it is written, with any `Some(…)` around it.
+    /// The value at a path as written, with any `Some(…)` around it.
     pub(in crate::scene) fn written(&self, path: &str) -> Option<&'t str> {
         self.text.get(self.span(path)?.value)
     }
@@ -120,8 +120,8 @@ impl<'t> Text<'t> {
         self.text.get(self.tokens[first].start..self.tokens[end - 1].end)
     }
 
-    /// Byte of the bracket that opens the value at a path, of the whole for an empty path; `None` for a value without
-    /// brackets.
+    /// Byte of the opening bracket of the value at a path, of the whole for an empty path; `None` for a value
+    /// without brackets.
     pub(in crate::scene) fn opening(&self, path: &str) -> Option<usize> {
         self.body(path).map(|body| self.tokens[body.open].start)
     }
@@ -131,8 +131,8 @@ impl<'t> Text<'t> {
         self.comments.len()
     }
 
-    /// Comments about the entries at these paths: behind an entry on its last line, and on lines of their own above it.
-    /// Of an entry that the text does not have, those about the group around it.
+    /// Comments about the entries at these paths: behind an entry on its last line, and on lines of their own above
+    /// it. For a missing entry, the comments about its group.
     pub(in crate::scene) fn comments_about<'p>(
         &self,
         paths: impl Iterator<Item = &'p str>,
@@ -159,7 +159,7 @@ impl<'t> Text<'t> {
         chosen.map(|(comment, _)| comment.clone()).collect()
     }
 
-    /// The elements of a text that is one list, as they are written; `None` for any other value.
+    /// The elements of a text that is one list, as written; `None` for any other value.
     pub(in crate::scene) fn elements(&self) -> Option<Vec<&'t str>> {
         self.whole('[')?.map(|entry| self.text.get(entry.span.value)).collect()
     }
@@ -175,7 +175,7 @@ impl<'t> Text<'t> {
         Some(self.entries(body))
     }
 
-    /// The text is one value and nothing else.
+    /// Returns true if the text is exactly one value.
     pub(super) fn is_one_value(&self) -> bool {
         let ends = self.tokens.first().zip(self.tokens.last());
         let fills = ends.is_some_and(|(first, last)| first.start == 0 && last.end == self.text.len());
@@ -188,7 +188,7 @@ impl<'t> Text<'t> {
         self.body_of(first)
     }
 
-    /// The entries of a body, up to the first that cannot be read.
+    /// The entries of a body, up to the first unreadable one.
     pub(super) fn entries(&self, body: Body) -> impl Iterator<Item = Entry<'t>> {
         let mut next = body.open + 1;
         std::iter::from_fn(move || {
@@ -201,18 +201,18 @@ impl<'t> Text<'t> {
             let value = self.tokens[first].start..self.tokens[end - 1].end;
             let entry = self.tokens[next].start..value.end;
             let comma = self.is(end, Kind::Comma).then(|| self.tokens[end].end);
-            // Without a comma this is the last entry, whatever follows it.
+            // Without a comma this is the last entry, regardless of the text after it.
             next = if comma.is_some() { end + 1 } else { body.close };
             Some(Entry { name, span: Span { entry, value }, comma, first })
         })
     }
 
-    /// Byte after the opening bracket and that of the closing one.
+    /// Range from the byte after the opening bracket to the closing one.
     pub(super) fn inside(&self, body: Body) -> Range<usize> {
         self.tokens[body.open].end..self.tokens[body.close].start
     }
 
-    /// Path of the innermost entry that contains a byte; empty where none does.
+    /// Path of the innermost entry that contains a byte; empty if there is none.
     pub(in crate::scene) fn path_at(&self, offset: usize) -> String {
         let mut path = String::new();
         let mut body = self.root().and_then(|root| self.body_of(root));
@@ -296,7 +296,7 @@ impl<'t> Text<'t> {
         let mut first = first;
         while self.word(first) == Some("Some")
             && matches!(self.tokens.get(first + 1), Some(Token { kind: Kind::Open('(', _), .. }))
-            // With the extension that unwraps variants, `Some(work: 0.1)` is a struct itself.
+            // With the extension that unwraps variants, `Some(work: 0.1)` is itself a struct.
             && !self.is(first + 3, Kind::Colon)
         {
             first += 2;

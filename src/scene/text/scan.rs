@@ -1,7 +1,7 @@
-//! Tokens of RON text, just fine enough to find values in it.
+//! Tokens of RON text, just fine enough to find values.
 //!
-//! The reader of the `ron` package says which text is wrong; this scanner finds the places of values, so that messages
-//! name them and edits exchange them without the comments around them. Nesting of any depth is read without recursion.
+//! The reader of the `ron` package finds invalid text; this scanner finds the places of values, so that messages name
+//! them and edits replace them without the comments around them. Nesting of any depth is read without recursion.
 
 use std::ops::Range;
 
@@ -101,7 +101,7 @@ fn closing(bracket: char) -> char {
     }
 }
 
-/// The first byte at or after `at` that is neither white space nor comment. Comments on the way are added.
+/// The first byte at or after `at` that is neither white space nor comment. Adds comments in between.
 fn skip_blank(text: &str, at: usize, comments: &mut Vec<Range<usize>>) -> Result<usize, Unreadable> {
     let mut at = at;
     loop {
@@ -117,8 +117,8 @@ fn skip_blank(text: &str, at: usize, comments: &mut Vec<Range<usize>>) -> Result
     }
 }
 
-/// The end of the comment that starts at this byte, if one does: for `//` the byte of the line
-/// break, for `/* */` the byte after it. Block comments nest.
+/// End of a comment that starts at this byte: for `//` the byte of the line break, for `/* */` the byte
+/// after it; `None` without a comment. Block comments nest.
 fn comment_end(text: &str, at: usize) -> Result<Option<usize>, Unreadable> {
     let rest = &text[at..];
     if rest.starts_with("//") {
@@ -148,7 +148,7 @@ fn comment_end(text: &str, at: usize) -> Result<Option<usize>, Unreadable> {
     Err(Unreadable { offset: at, reason: "this comment is not closed" })
 }
 
-/// The end of the string or character that starts at this byte, if one does.
+/// End of a string or character that starts at this byte; `None` without one.
 fn quoted_end(text: &str, at: usize) -> Option<Result<usize, &'static str>> {
     let rest = &text[at..];
     let unprefixed = rest.strip_prefix('b').unwrap_or(rest);
@@ -181,7 +181,7 @@ fn escaped_end(text: &str, inside: usize, quote: char) -> Result<usize, &'static
     Err("this string is not closed")
 }
 
-/// The end of an identifier or a number: everything up to what means something else.
+/// The end of an identifier or a number: the next byte with another meaning.
 fn word_end(text: &str, at: usize) -> usize {
     let rest = &text[at..];
     let mut characters = rest.char_indices().skip(1);

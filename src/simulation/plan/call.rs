@@ -1,27 +1,27 @@
-//! Questions of the stages to a scene, and their answers.
+//! Requirements and costs of the stages of a scene.
 
 use super::legs::Legs;
 use crate::scene::{Edges, Effect, Roughness, Scene, Solver};
 use serde::Serialize;
 
-/// Bytes for each spring: a height of the roughness, or a gap of the line.
+/// Bytes per spring: a height of the roughness, or a gap of the profile.
 pub const HEIGHT: u64 = 8;
-/// Bytes for each sample of the leg that is under way, beside its curve: grid of indentations, what is in contact at
-/// each, and where the force is looked for. As measured.
+/// Bytes per sample of the present loading stage, in addition to its curve: grid of indentations, the contact at
+/// each, and the search for the force. As measured.
 const SAMPLED: u64 = 64;
-/// The same with edges between springs, which are summed for each sample as well.
+/// The same with edges between springs, which are also summed for each sample.
 const SAMPLED_WITH_EDGES: u64 = 120;
 
 /// Decision on a stage of a scene.
 pub enum Called {
-    /// Called for by this field.
+    /// Required by this field.
     For(&'static str),
     /// Skipped for this reason.
     Not(&'static str),
 }
 
 impl Called {
-    /// By `field` if it does, else for this reason.
+    /// Required by `field` if `does`, else skipped for this reason.
     pub fn when(does: bool, field: &'static str, reason: &'static str) -> Self {
         if does { Called::For(field) } else { Called::Not(reason) }
     }
@@ -30,16 +30,16 @@ impl Called {
 /// Cost of one stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct StageCost {
-    /// Passes over the line or its tree; `None` where only the run shows it.
+    /// Passes over the profile or its tree; `None` if known only after the run.
     pub passes: Option<u64>,
-    /// Springs looked at in all of them, at the most; `None` where only the run shows it.
+    /// Most springs visited in all passes; `None` if known only after the run.
     pub springs_touched: Option<u64>,
-    /// Bytes of the arrays it adds while it runs.
+    /// Bytes of the arrays added during the stage.
     pub bytes: u64,
 }
 
 impl StageCost {
-    /// That of a stage that is skipped.
+    /// Cost of a skipped stage.
     pub const NOTHING: StageCost = StageCost { passes: Some(0), springs_touched: Some(0), bytes: 0 };
 }
 
@@ -54,9 +54,9 @@ pub struct Call<'a> {
     pub curve_points: u64,
     pub legs: Legs,
     pub adhesive: bool,
-    /// Solved exactly, not step by step.
+    /// True for the exact solver, false for the stepwise one.
     pub exact: bool,
-    /// Edges between springs.
+    /// True for edges between springs.
     pub between: bool,
     /// True if the loading may turn back.
     pub pulls: bool,
@@ -90,18 +90,18 @@ impl<'a> Call<'a> {
         matches!(self.scene.roughness, Some(Roughness::Measured { .. }))
     }
 
-    /// Bytes that sampling the curve of one leg takes while it is under way.
+    /// Bytes for sampling the curve of one loading stage.
     pub fn bytes_of_sampling(&self) -> u64 {
         let each = if self.between && self.exact { SAMPLED_WITH_EDGES } else { SAMPLED };
         self.scene.numerics.samples.saturating_mul(each)
     }
 
-    /// Passes over the springs under the body, with arrays of so many bytes for each.
+    /// Cost of passes over the springs under the body, with arrays of so many bytes per spring.
     pub fn passes(&self, passes: Option<u64>, bytes_per_spring: u64) -> StageCost {
         self.passes_over(self.springs, passes, bytes_per_spring)
     }
 
-    /// Passes over so many springs, with arrays of so many bytes for each.
+    /// Cost of passes over so many springs, with arrays of so many bytes per spring.
     pub fn passes_over(&self, springs: u64, passes: Option<u64>, bytes_per_spring: u64) -> StageCost {
         let springs_touched = passes.map(|passes| passes.saturating_mul(springs));
         StageCost { passes, springs_touched, bytes: bytes_per_spring.saturating_mul(springs) }

@@ -1,24 +1,24 @@
-//! Directions of the legs of a loading, as far as they are known without a run.
+//! Directions of the stages of a loading, as far as known without a run.
 
 use crate::contact::Target;
 use crate::scene::Leg;
 
-/// Numbers of legs of either direction.
+/// Numbers of loading stages of either direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Legs {
     loading: u64,
     unloading: u64,
-    /// Legs that move nothing that touches.
+    /// Stages that move no spring in contact.
     idle: u64,
     unclear: u64,
-    /// Loading legs that form the contact.
+    /// Loading stages that form the contact.
     from_separation: u64,
 }
 
-/// State of the body before a leg, as far as known without a run.
+/// State of the body before a stage, as far as known without a run.
 #[derive(Clone, Copy)]
 struct BodyState {
-    /// True if the body touches; `None` where only the run decides.
+    /// True if the body is in contact; `None` if known only after the run.
     touches: Option<bool>,
     force: Option<f64>,
     indentation: Option<f64>,
@@ -52,22 +52,22 @@ impl Legs {
         legs
     }
 
-    /// All legs.
+    /// Number of all stages.
     pub fn all(self) -> u64 {
         self.loading + self.unloading + self.idle + self.unclear
     }
 
-    /// Loading legs, where that is clear for all.
+    /// Number of loading stages, if known for all.
     pub fn loading(self) -> Option<u64> {
         (self.unclear == 0).then_some(self.loading)
     }
 
-    /// Passes over the tree for loading legs, where that is clear: a contact that forms again needs none.
+    /// Passes over the tree for loading stages, if known: a contact that forms again needs none.
     pub fn loading_passes(self) -> Option<u64> {
         self.loading().map(|loading| loading - self.from_separation.saturating_sub(1))
     }
 
-    /// Unloading legs, where that is clear for all.
+    /// Number of unloading stages, if known for all.
     pub fn unloading(self) -> Option<u64> {
         (self.unclear == 0).then_some(self.unloading)
     }
@@ -83,7 +83,7 @@ impl BodyState {
             (Some(true), Target::Separation) => Way::Unloading,
             (Some(true), Target::Force(wanted)) => from_to(self.force, wanted),
             (Some(true), Target::Indentation(wanted)) => match (self.force, self.indentation) {
-                // A pressing force needs an indentation.
+                // A pressing force requires an indentation.
                 (Some(force), None) if force > 0.0 && wanted <= 0.0 => Way::Unloading,
                 (_, indentation) => from_to(indentation, wanted),
             },
@@ -94,7 +94,7 @@ impl BodyState {
         match Target::from(*leg) {
             Target::Force(force) => BodyState { touches: Some(true), force: Some(force), indentation: None },
             Target::Indentation(indentation) => {
-                // The highest spring touches from d = 0 on; below, adhesion decides.
+                // The highest spring is in contact from d = 0 on; below, adhesion decides.
                 let touches =
                     if indentation >= 0.0 { Some(true) } else { self.touches.filter(|touches| !touches) };
                 BodyState { touches, force: None, indentation: Some(indentation) }
@@ -104,7 +104,7 @@ impl BodyState {
     }
 }
 
-/// Equal numbers leave it unclear: rounding decides on which side of its target a leg has ended.
+/// Equal numbers are undecided: rounding decides on which side of its target a stage has ended.
 fn from_to(from: Option<f64>, to: f64) -> Way {
     match from {
         Some(from) if to > from => Way::Loading,

@@ -1,4 +1,4 @@
-//! Stages that a scene calls for, the fields that call for them, and their costs. The run follows this plan.
+//! Stages of a scene, the fields that require them, and their costs. The run follows this plan.
 
 mod call;
 mod legs;
@@ -13,38 +13,38 @@ use table::TABLE;
 pub use call::StageCost;
 pub use table::Stage;
 
-/// A stage, whether a scene calls for it, and what it then costs.
+/// A stage, its selection by a scene, and its cost.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PlannedStage {
     /// The stage.
     pub stage: Stage,
-    /// True if it runs.
+    /// True if the stage runs.
     pub runs: bool,
-    /// The field that calls for it, or why it is skipped.
+    /// The field that requires the stage, or the reason why it is skipped.
     pub because: &'static str,
-    /// Cost; zero where the stage is skipped.
+    /// Cost; zero for a skipped stage.
     #[serde(flatten)]
     pub cost: StageCost,
 }
 
-/// The stages of a scene, in the order in which they run.
+/// The stages of a scene, in the order of execution.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Plan {
     /// Springs under the body.
     pub springs: u64,
-    /// About the most memory that a run takes at any one time beside the program itself, bytes: all its arrays,
-    /// and the curves it leaves. The content of a measured file is not known here and comes on top, 16 bytes for
-    /// each of its points, and so do lists of fragments.
+    /// Approximate peak memory of a run beside the program itself, bytes: all its arrays, and the resulting curves.
+    /// Additional memory, unknown here: the content of a measured file, 16 bytes for each of its points, and lists
+    /// of fragments.
     pub peak_bytes: u64,
-    /// About the largest resident memory of `asperity run`, bytes: with the program itself, and without the heights of
-    /// roughness, in whose memory a single scene makes its gaps.
+    /// Approximate largest resident memory of `asperity run`, bytes: with the program itself, and without the
+    /// heights of roughness, whose memory a single scene reuses for its gaps.
     pub resident_bytes: u64,
-    /// All stages, those that are skipped as well.
+    /// All stages, including skipped ones.
     pub stages: Vec<PlannedStage>,
 }
 
 impl Plan {
-    /// Resident bytes of the program that has computed a small scene: code, tables and stacks.
+    /// Resident bytes of the program after a small scene: code, tables and stacks.
     pub const PROGRAM: u64 = 14 << 20;
 
     /// The plan of a checked scene.
@@ -77,19 +77,19 @@ impl Plan {
         self.stages.iter().find(|planned| planned.stage == stage).map_or(0, |planned| planned.cost.bytes)
     }
 
-    /// Bytes of all that making the line takes.
+    /// Bytes of all stages that make the profile.
     pub(super) fn line_bytes(&self) -> u64 {
         HEIGHT * self.springs + self.bytes(Stage::Synthesis).max(self.bytes(Stage::MeasuredProfile))
     }
 
-    /// The line is made before the contact is solved: what the larger of both takes, with so many bytes kept of the line
-    /// beside its gaps.
+    /// The profile is made before the contact is solved: the larger of both amounts of memory, with so many bytes
+    /// of the profile kept beside its gaps.
     fn peak_of(&self, call: &Call<'_>, kept: u64) -> u64 {
         let contact = [
             Stage::Tree,
             Stage::LoadingPass,
             Stage::Relaxation,
-            // At the most, where all that touches under load touches at first touch as well.
+            // At most, if the whole contact under load also exists at first touch.
             Stage::ZeroLoadAdhesion,
         ];
         let curves = call.curve_points * size_of::<CurvePoint>() as u64 + call.bytes_of_sampling();

@@ -1,33 +1,33 @@
-//! Stages of a computation: the fields that call for each, and its cost. The only list of all stages.
+//! Stages of a computation: the fields that require each, and its cost. The only list of all stages.
 
 use super::call::{Call, Called, HEIGHT, StageCost};
 use crate::analysis::Figures;
 use crate::scene::Effect;
 use serde::Serialize;
 
-/// Bytes for each spring: its indentation of attachment or detachment.
+/// Bytes per spring: its indentation of attachment or detachment.
 const THRESHOLD: u64 = 8;
-/// Bytes for each spring of the passes: thresholds of a quarter of the springs, and runs of the present leg and of the
-/// one before. Runs are few but where hardly anything sticks.
+/// Bytes per spring of the passes: thresholds of a quarter of the springs, and runs of the present stage and of the
+/// one before. Runs are few except with almost no adhesion.
 const PASSED: u64 = 12;
-/// Bytes for each spring of the stepwise solver: its threshold and whether it touches.
+/// Bytes per spring of the stepwise solver: its threshold and its contact.
 const RELAXED: u64 = THRESHOLD + 1;
-/// Bytes for each spring of a line with modes up to Nyquist's: a quarter of the springs are local maxima of the gap, with
-/// a node and two turning points each, and each fourth spring has a sum.
+/// Bytes per spring of a profile with modes up to Nyquist's: a quarter of the springs are local maxima of the gap,
+/// with a node and two turning points each, and each fourth spring has a sum.
 const NODE: u64 = 16;
 
-/// Reasons for which several stages are skipped.
+/// Reasons to skip several stages.
 const NO_ADHESION: &str = "no adhesion: each spring touches and leaves at its own gap";
 const STEPWISE: &str = "solver: Stepwise";
 const NEVER_BACK: &str = "loading never goes back";
 
-/// A stage on the way from a scene to its curve.
+/// A stage of the computation of a curve from a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stage {
     /// Adding the macroscopic form.
     Form,
-    /// Drawing random phases and transforming them into a line.
+    /// Drawing random phases and transforming them into a profile.
     Synthesis,
     /// Reading a measured profile.
     MeasuredProfile,
@@ -35,29 +35,29 @@ pub enum Stage {
     Tree,
     /// Evaluating the rule of Hess.
     RuleOfHess,
-    /// Runs of loading legs.
+    /// Runs of stages that load.
     LoadingPass,
-    /// Runs of unloading legs.
+    /// Runs of stages that unload.
     UnloadingPass,
     /// Steps and relaxation sweeps.
     Relaxation,
-    /// The loop turned at first touch, for F_a(0) and the regime.
+    /// The loop with its turning point at first touch, for F_a(0) and the regime.
     ZeroLoadAdhesion,
-    /// The list of contact fragments.
+    /// The list of contact patches.
     Fragments,
     /// The histogram of heights.
     HeightHistogram,
 }
 
 impl Stage {
-    /// The stage in words.
+    /// Name of the stage in words.
     #[must_use]
     pub fn name(self) -> &'static str {
         TABLE.iter().find(|row| row.stage == self).map_or("", |row| row.name)
     }
 }
 
-/// A stage: its name, the fields that call for it, and its cost where something does.
+/// A stage: its name, the fields that require it, and its cost if one does.
 pub(super) struct Row {
     pub stage: Stage,
     pub name: &'static str,
@@ -65,7 +65,7 @@ pub(super) struct Row {
     pub cost: fn(&Call<'_>) -> StageCost,
 }
 
-/// All stages, in the order in which they run.
+/// All stages, in the order of execution.
 pub(super) const TABLE: [Row; 11] = [
     Row {
         stage: Stage::Form,
@@ -171,16 +171,16 @@ fn observed(call: &Call<'_>, effect: Effect, field: &'static str) -> Called {
     Called::when(effect.is_on(call.scene), field, "not in observe")
 }
 
-/// Largest prime factor of a number of springs that the Fourier transform takes in its stride.
+/// Largest prime factor of a number of springs that the Fourier transform handles directly.
 const LARGEST_FACTOR: u64 = 31;
 
-/// Bytes for each spring of the transform's coefficients, scratch space and twiddle factors, as measured. Odd
-/// numbers of springs transform at twice the length.
+/// Bytes per spring of the transform's coefficients, scratch space and twiddle factors, as measured. Odd numbers of
+/// springs transform at twice the length.
 fn transform(points: u64) -> u64 {
     if points.is_multiple_of(2) { 20 } else { 56 }
 }
 
-/// Bytes of the convolution by way of which a large prime factor is transformed, as measured.
+/// Bytes of the convolution that transforms a large prime factor, as measured.
 fn convolution(points: u64) -> u64 {
     let factor = largest_prime_factor(points);
     if factor > LARGEST_FACTOR { 152 * factor } else { 0 }

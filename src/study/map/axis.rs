@@ -1,4 +1,4 @@
-//! Axes of maps: quantities of a scene, which a scene has a value of and can be given another one.
+//! Axes of maps: quantities of a scene that can be read and changed.
 
 use crate::analysis::Governing;
 use crate::scene::{Adhesion, Document, Leg, RoughnessParameter, Scene, SceneErrors, ron_float};
@@ -8,9 +8,9 @@ use crate::study::target::{Target, governing};
 /// Axis of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapAxis {
-    /// Path of the quantity, as axes of plans have it.
+    /// Path of the quantity, as in the axes of plans.
     pub path: String,
-    /// Names and values.
+    /// Name, symbol and values.
     pub figure: FigureAxis,
 }
 
@@ -21,8 +21,8 @@ impl MapAxis {
         if self.figure.symbol.is_empty() { &self.figure.name } else { &self.figure.symbol }
     }
 
-    /// Value of the quantity in a scene; `None` where the scene has none. `computed` are the governing parameters of a
-    /// scene whose file has to be read for them.
+    /// Value of the quantity in a scene; `None` where the scene has none. `computed` are the governing parameters
+    /// of a scene whose file has to be read to obtain them.
     #[must_use]
     pub fn value(&self, scene: &Scene, computed: Option<&Governing>) -> Option<f64> {
         let target = Target::of(&self.path).ok()?;
@@ -39,7 +39,7 @@ impl MapAxis {
     }
 }
 
-/// κ or e_el/γ, if the quantity is one of them: a scene may state it by its work of adhesion.
+/// κ or e_el/γ, if the quantity is one of them: a scene may specify it by its work of adhesion.
 fn parameter_of(target: Target, path: &str) -> Option<RoughnessParameter> {
     match target {
         Target::RoughnessParameter(parameter) => Some(parameter),
@@ -52,8 +52,8 @@ pub(super) fn force_unit(scene: &Scene) -> Option<f64> {
     governing(scene)?.force_unit(scene.length)
 }
 
-/// A document with other values of quantities, by their paths. κ or e_el/γ changes the work of adhesion of a scene that states it,
-/// and a preload replaces the loading; both are set last, since they follow from the others.
+/// Document with other values of quantities, by their paths. κ or e_el/γ changes the work of adhesion of a scene
+/// that specifies it, and a preload replaces the loading; both are set last, since they depend on the others.
 ///
 /// # Errors
 /// A value that is not allowed.

@@ -1,4 +1,4 @@
-//! Computes the live map: its cells from coarse to fine, by the runner of studies.
+//! Computation of the live map by the runner of studies, from coarse to fine.
 
 use super::grid::Level;
 use super::live_map::LiveMap;
@@ -13,11 +13,11 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Computes the cells that a map lacks, from coarse to fine and row by row: all κ of a row are on the same profiles.
-/// `report` sees the map after each row. Files that the scene names are looked for in `folder`. Gives up as soon as `stop`
-/// returns true; the row under way is then lost.
+/// Computes the missing cells of a map, from coarse to fine and row by row: all κ of a row are on the same
+/// profiles. `report` sees the map after each row. Files of the scene are looked up in `folder`. Stops as soon as
+/// `stop` returns true; the unfinished row is then discarded.
 ///
-/// A cell that cannot be computed has the reason in its place.
+/// A cell that cannot be computed holds the reason.
 pub fn compute(map: &mut LiveMap, folder: &Path, stop: &dyn Fn() -> bool, report: &mut dyn FnMut(&LiveMap)) {
     let template = Arc::clone(map.template());
     let plan = template.plan();
@@ -43,7 +43,7 @@ pub fn compute(map: &mut LiveMap, folder: &Path, stop: &dyn Fn() -> bool, report
                 let Some(lines) = sink.solved.remove(&run) else { continue };
                 let cell = lines.map(|lines| {
                     let lines: Vec<&[f64]> = lines.iter().map(Vec::as_slice).collect();
-                    // Of so few profiles no confidence is stated.
+                    // Too few profiles for a confidence interval.
                     CellSummary::new(run, &plan.record, &lines, &mut quantiles).of_means()
                 });
                 map.set(column, row, cell.map_err(|error: RunError| error.to_string()));
@@ -53,7 +53,7 @@ pub fn compute(map: &mut LiveMap, folder: &Path, stop: &dyn Fn() -> bool, report
     }
 }
 
-/// Sink of the missing cells of a row: by the number of the run the values of each profile so far, or a failure.
+/// Sink of the missing cells of a row: the values of each profile so far, or a failure, by the number of the run.
 struct RowSink<'a> {
     solved: BTreeMap<u64, Result<Vec<Vec<f64>>, RunError>>,
     stop: &'a dyn Fn() -> bool,
@@ -93,7 +93,7 @@ mod tests {
         parameter_value(RoughnessParameter::Kappa, column)
     }
 
-    /// The map of a small scene over κ.
+    /// Map of a small scene over κ.
     fn map() -> LiveMap {
         map_over(RoughnessParameter::Kappa)
     }
@@ -106,7 +106,7 @@ mod tests {
         LiveMap::new(Arc::new(Template::of(document.scene()).unwrap().over(parameter)))
     }
 
-    /// The scene of a cell on one of its profiles.
+    /// Scene of a cell on one of its profiles.
     fn scene(map: &LiveMap, kappa: f64, wanted: f64, line: u64) -> Scene {
         let mut scene = map.template().plan().scene;
         scene.adhesion.as_mut().unwrap().kappa = Some(kappa);
@@ -143,7 +143,7 @@ mod tests {
         }
         let place = shown.nearest((1.02, Some(0.31))).unwrap();
         assert_eq!((kappa(place.column), hurst(place.row)), (1.0, 0.3));
-        // The cell is the mean over the scenes that it is made of.
+        // The cell is the mean over its scenes.
         let mut shares = Vec::new();
         for line in 0..map.template().lines() {
             let scene = scene(&map, 1.0, 0.3, line);
@@ -234,7 +234,7 @@ mod tests {
             let place = shown.shown(asked.0, asked.1).unwrap();
             assert_eq!((place.column, place.row), expected, "{asked:?}");
         }
-        // A section has what was computed, and no cell in place of another.
+        // A section shows computed cells only, none in place of another.
         assert_eq!(shown.along_row(&shown.layers()[0], 0).len(), 5);
         assert_eq!((shown.shown(COLUMNS, 0), shown.shown(0, 19)), (None, None));
     }

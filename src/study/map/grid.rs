@@ -1,4 +1,4 @@
-//! The values of κ or e_el/γ and of H that a map has, and the order in which it gets them.
+//! The values of κ or e_el/γ and of H on a map, and the order of their computation.
 
 use super::axis::MapAxis;
 use crate::scene::RoughnessParameter;
@@ -9,7 +9,7 @@ pub const COLUMNS: usize = 33;
 /// Values of H, from 0.05 to 0.95.
 pub const HURSTS: usize = 19;
 
-/// The κ or e_el/γ of a column, to three digits: what a scene is set to is what the map has been computed for.
+/// The κ or e_el/γ of a column, to three digits, so that a scene set to a shown value is that of the cell.
 #[must_use]
 pub fn parameter_value(parameter: RoughnessParameter, column: usize) -> f64 {
     let per_octave = match parameter {
@@ -26,7 +26,7 @@ pub fn hurst(row: usize) -> f64 {
     (row + 1) as f64 * 5.0 / 100.0
 }
 
-/// A value differs from another on a grid, rather than by rounding.
+/// Smallest relative difference of two values of a grid; a smaller one is rounding.
 const APART: f64 = 1e-6;
 
 /// The κ or e_el/γ of all columns.
@@ -51,8 +51,8 @@ fn axis(path: &str, name: &str, symbol: &str, scale: AxisScale, values: Vec<f64>
     MapAxis { path: path.into(), figure: FigureAxis { name, symbol, unit, scale, values } }
 }
 
-/// The one of ascending values so many steps above `value`, or below it; the first or last of them where they
-/// go no further, and `None` where `value` is there already.
+/// The value so many steps above `value`, or below, in an ascending list; the first or last value beyond the ends,
+/// and `None` where `value` is already there.
 #[must_use]
 pub fn next_beyond(value: f64, steps: i32, values: &[f64]) -> Option<f64> {
     let apart = APART * value.abs();
@@ -71,7 +71,7 @@ pub fn next_beyond(value: f64, steps: i32, values: &[f64]) -> Option<f64> {
     values.get(index).copied().filter(|_| steps != 0)
 }
 
-/// Resolution of a map. Every level has the cells of the one before.
+/// Resolution of a map. Every level contains the cells of the one before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
     /// 5 × 5 cells.
@@ -146,7 +146,7 @@ mod tests {
             next_beyond(value, steps, &parameter_values(RoughnessParameter::Kappa).figure.values)
         };
         assert_eq!((to(6.0, 1), to(6.0, -1), to(6.0, 4)), (Some(6.73), Some(5.66), Some(11.3)));
-        // A value that is one of the grid but for rounding.
+        // A value of the grid but for rounding.
         assert_eq!((to(1.0 + 1e-12, 1), to(1.0 - 1e-12, -1)), (Some(1.19), Some(0.841)));
         assert_eq!((to(31.0, 100), to(32.0, 1), to(0.125, -1)), (Some(32.0), None, None));
         assert_eq!((to(100.0, -1), to(100.0, 1), to(1e-3, 1)), (Some(32.0), None, Some(0.125)));

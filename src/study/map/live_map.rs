@@ -1,4 +1,4 @@
-//! The live map over H and κ or e_el/γ, as far as it has been computed.
+//! The live map over H and κ or e_el/γ with the cells computed so far.
 
 use super::grid::{COLUMNS, HURSTS, Level, hursts, parameter_values};
 use super::model::{Layer, MapModel};
@@ -7,16 +7,16 @@ use crate::study::cell_summary::CellSummary;
 use crate::study::quantity::Quantity;
 use std::sync::Arc;
 
-/// A map, as far as it has been computed.
+/// A map with the cells computed so far.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveMap {
     template: Arc<Template>,
-    /// Row by row; a cell that could not be computed has the reason.
+    /// Cells row by row; a cell that could not be computed holds the reason.
     cells: Vec<Option<Result<CellSummary, String>>>,
 }
 
 impl LiveMap {
-    /// A map of which nothing is known.
+    /// A map without cells.
     #[must_use]
     pub fn new(template: Arc<Template>) -> Self {
         let rows = if template.has_hurst() { HURSTS } else { 1 };
@@ -29,19 +29,19 @@ impl LiveMap {
         &self.template
     }
 
-    /// Number of rows: one where there is no H.
+    /// Number of rows: one for a scene without H.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.cells.len() / COLUMNS
     }
 
-    /// The rows that a level has of it.
+    /// The rows of a level on this map.
     #[must_use]
     pub fn rows_of(&self, level: Level) -> &'static [usize] {
         if self.template.has_hurst() { level.rows() } else { &[0] }
     }
 
-    /// A cell, once it has been computed, or why it could not be.
+    /// A computed cell, or the reason why it could not be computed.
     #[must_use]
     pub fn cell(&self, column: usize, row: usize) -> Option<&Result<CellSummary, String>> {
         self.cells.get(row * COLUMNS + column).filter(|_| column < COLUMNS)?.as_ref()
@@ -59,13 +59,13 @@ impl LiveMap {
         }
     }
 
-    /// Returns true where all cells of a level are known.
+    /// Returns true if all cells of a level are known.
     #[must_use]
     pub fn has(&self, level: Level) -> bool {
         self.rows_of(level).iter().all(|&row| level.columns().all(|column| self.cell(column, row).is_some()))
     }
 
-    /// The finest level that is there whole.
+    /// The finest complete level.
     #[must_use]
     pub fn level(&self) -> Option<Level> {
         Level::ALL.into_iter().take_while(|level| self.has(*level)).last()
@@ -77,8 +77,7 @@ impl LiveMap {
         self.has(self.template.finest())
     }
 
-    /// The computed cell shown for one: itself or, while it has not been computed, one of a coarser
-    /// level.
+    /// The computed cell shown for this cell: itself or, until it is computed, one of a coarser level.
     fn stand_in(&self, column: usize, row: usize) -> Option<usize> {
         let near = |all: &mut dyn Iterator<Item = usize>, wanted: usize| {
             all.min_by_key(|one| one.abs_diff(wanted)).unwrap_or(wanted)
@@ -90,7 +89,7 @@ impl LiveMap {
         })
     }
 
-    /// The map as it is shown.
+    /// The map for display.
     #[must_use]
     pub fn model(&self) -> MapModel {
         let cells: Vec<_> = self.cells.iter().map(|cell| cell.as_ref().map(Result::as_ref)).collect();

@@ -1,10 +1,10 @@
 //! Maps of adhesion: the regime of a scene, and forces, under other values of two of its quantities.
 //!
-//! The live map is over H and κ or e_el/γ. [`Template`] has all else of its scene, [`LiveMap`] its cells so far, and [`compute()`]
-//! computes those that are missing, from coarse to fine. The live map shows where the boundaries run; it is computed on
-//! fewer springs than the scene may have and is the mean of a few random profiles.
+//! The live map is over H and κ or e_el/γ. [`Template`] is the scene but for these, [`LiveMap`] holds the cells so
+//! far, and [`compute()`] computes the missing ones, from coarse to fine. The live map shows the course of the
+//! boundaries; it is computed on fewer springs than the scene may have and is the mean over a few random profiles.
 //!
-//! [`StudyMap`] holds the maps of a finished study, over any of its axes. Either kind is shown as a [`MapModel`].
+//! [`StudyMap`] holds the maps of a finished study, over any of its axes. Both kinds are shown as a [`MapModel`].
 
 mod axis;
 mod compute;

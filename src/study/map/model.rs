@@ -1,5 +1,5 @@
-//! A map as it is shown, over two quantities of a scene or along one: the one that is computed while one looks on, and
-//! those of a finished study, fill the same [`MapModel`].
+//! A map for display, over two quantities of a scene or along one: the live map and those of a finished study fill
+//! the same [`MapModel`].
 
 use super::axis::MapAxis;
 use crate::analysis::Regime;
@@ -7,13 +7,13 @@ use crate::study::cell_summary::CellSummary;
 use crate::study::figure::{AxisScale, Boundary, Estimate, Figure, Panel, scale_of};
 use crate::study::quantity::Quantity;
 
-/// A map as it is shown.
+/// A map for display.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapModel {
     across: MapAxis,
     up: Option<MapAxis>,
     layers: Vec<Layer>,
-    /// Row by row, the row of the lowest value first.
+    /// Cells row by row, the row of the lowest value first.
     cells: Vec<Option<Result<MapCell, String>>>,
     /// The cell shown for each: itself, or one of a coarser map.
     stand_ins: Vec<Option<usize>>,
@@ -31,7 +31,7 @@ pub struct Layer {
     pub scale: AxisScale,
     /// Least and largest mean over all maps that share the scale.
     pub range: Option<(f64, f64)>,
-    /// Mean in each cell, row by row, with its confidence where that is known.
+    /// Mean in each cell, row by row, with its confidence where known.
     pub estimates: Vec<Option<Estimate>>,
 }
 
@@ -54,9 +54,9 @@ impl Layer {
 pub struct MapCell {
     /// Regime; `None` where unknown.
     pub regime: Option<Regime>,
-    /// Another regime, where too many of its lines are in that one to call the first the cell's.
+    /// Second regime, where too many profiles are in it for the first to be the cell's alone.
     pub split: Option<Regime>,
-    /// Lines that are in its regime each by itself.
+    /// Number of profiles whose own regime is that of the cell.
     pub agreeing: u64,
     /// Number of profiles.
     pub lines: u64,
@@ -76,8 +76,8 @@ impl MapCell {
         }
     }
 
-    /// Place of the regime from 0, non-adhesive, to 1, pressure-insensitive; halfway between two regimes where profiles
-    /// are divided between them.
+    /// Place of the regime from 0, non-adhesive, to 1, pressure-insensitive; halfway between two regimes if
+    /// profiles are divided between them.
     fn rank(&self) -> Option<Estimate> {
         let rank = |regime: Regime| 1.0 - regime as u8 as f64 / 2.0;
         let regime = rank(self.regime?);
@@ -86,10 +86,10 @@ impl MapCell {
     }
 }
 
-/// Values of a place on the axes of a map: across and, where the map has two axes, up.
+/// A place in values of the axes of a map: across and, if the map has two axes, up.
 pub type Place = (f64, Option<f64>);
 
-/// A cell that is shown, and its place on the map.
+/// A shown cell and its place on the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShownCell<'p> {
     /// Column of the cell.
@@ -100,7 +100,7 @@ pub struct ShownCell<'p> {
     pub cell: &'p Result<MapCell, String>,
 }
 
-/// Quantity of the glyphs of a map. Colours show the regime, where it is known.
+/// Quantity of the glyphs of a map. Colours show the regime, if known.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Charted {
     /// The regime.
@@ -111,8 +111,8 @@ pub enum Charted {
 }
 
 impl MapModel {
-    /// A map from the summaries of its cells, row by row, or the reasons why they could not be computed, and the cell
-    /// shown for each. The layers are the quantities beside the regime.
+    /// A map from the summaries of its cells, row by row, or the reasons for their absence, and the cell shown for
+    /// each. The layers are the quantities beside the regime.
     pub(super) fn new(
         (across, up): (MapAxis, Option<MapAxis>),
         layers: Vec<Layer>,
@@ -135,7 +135,7 @@ impl MapModel {
         }
     }
 
-    /// The map with columns and rows exchanged; a map along one axis stays as it is.
+    /// The map with columns and rows exchanged; a map along one axis is unchanged.
     #[must_use]
     pub fn transposed(&self) -> MapModel {
         let Some(up) = self.up.clone() else { return self.clone() };
@@ -185,21 +185,20 @@ impl MapModel {
         self.layers.iter().find(|layer| layer.quantity == quantity)
     }
 
-    /// Choices for the glyphs, the regime first where it is known.
+    /// Choices for the glyphs, the regime first if known.
     #[must_use]
     pub fn charted(&self) -> Vec<Charted> {
         let regime = self.has_regimes.then_some(Charted::Regime);
         regime.into_iter().chain(self.layers.iter().map(|layer| Charted::Quantity(layer.quantity))).collect()
     }
 
-    /// Returns true where profiles of a cell are divided between regimes.
+    /// Returns true if profiles of a cell are divided between regimes.
     #[must_use]
     pub fn is_split(&self) -> bool {
         self.is_split
     }
 
-    /// The cell that is shown at a column and a row: itself or, while it has not been computed, one shown
-    /// for it.
+    /// The cell shown at a column and a row: itself or, until it is computed, its substitute.
     #[must_use]
     pub fn shown(&self, column: usize, row: usize) -> Option<ShownCell<'_>> {
         let columns = self.across.figure.values.len();
@@ -208,7 +207,7 @@ impl MapModel {
         Some(ShownCell { column: index % columns, row: index / columns, cell })
     }
 
-    /// Returns true for a place on the map, half a cell beyond the outermost values included.
+    /// Returns true for a place on the map, including half a cell beyond the outermost values.
     #[must_use]
     pub fn contains(&self, at: Place) -> bool {
         let (column, row) = self.coordinates(at);
@@ -217,13 +216,13 @@ impl MapModel {
         within(column, columns) && within(row, rows)
     }
 
-    /// The column and the row of a place, between whole ones where it lies between cells.
+    /// The column and the row of a place, fractional between cells.
     fn coordinates(&self, (across, up): Place) -> (f64, f64) {
         let row = self.up.as_ref().zip(up).map_or(0.0, |(axis, value)| axis.figure.place(value));
         (self.across.figure.place(across), row)
     }
 
-    /// The cell that is shown for a place or, beyond the map, the one at its edge.
+    /// The cell shown for a place or, beyond the map, the one at its edge.
     #[must_use]
     pub fn nearest(&self, at: Place) -> Option<ShownCell<'_>> {
         let (column, row) = self.nearest_cell(at);
@@ -245,26 +244,26 @@ impl MapModel {
         *layer.estimates.get(row * self.across.figure.values.len() + column)?
     }
 
-    /// A layer along a row, as far as it is known, by the values across.
+    /// The known values of a layer along a row, by the values across.
     pub fn along_row(&self, layer: &Layer, row: usize) -> Vec<(f64, Estimate)> {
         let values = self.across.figure.values.iter().enumerate();
         values.filter_map(|(column, value)| Some((*value, self.estimate(layer, column, row)?))).collect()
     }
 
-    /// A layer along a column, as far as it is known, by the values up.
+    /// The known values of a layer along a column, by the values up.
     pub fn along_column(&self, layer: &Layer, column: usize) -> Vec<(f64, Estimate)> {
         let values = self.up.iter().flat_map(|up| &up.figure.values).enumerate();
         values.filter_map(|(row, value)| Some((*value, self.estimate(layer, column, row)?))).collect()
     }
 
-    /// A cell that has been computed, or why it could not be; not one shown in its place.
+    /// A computed cell, or the reason for its absence; never a substitute.
     #[must_use]
     pub fn computed(&self, column: usize, row: usize) -> Option<&Result<MapCell, String>> {
         self.cells.get(row * self.across.figure.values.len() + column)?.as_ref()
     }
 
-    /// The figure of what is charted: a map, or a section along the only axis. `whole` has the cells shown for those
-    /// that have not been computed yet.
+    /// The figure of the charted quantities: a map, or a section along the only axis. `whole` adds substitutes for
+    /// cells that have not been computed yet.
     #[must_use]
     pub fn figure(&self, charted: &[Charted], whole: bool) -> Figure {
         let cells =

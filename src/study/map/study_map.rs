@@ -1,4 +1,4 @@
-//! The maps of a finished study: over H and κ, or over other axes; one map for each value of the axes that are left.
+//! The maps of a finished study: over H and κ, or over other axes; one map for each value of the remaining axes.
 
 use super::axis::{MapAxis, force_unit, moved};
 use super::model::{Layer, MapModel};
@@ -15,11 +15,11 @@ use crate::study::target::Target;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Paths of axes that are κ and H.
+/// Paths of the axes of κ.
 const KAPPA: [&str; 2] = ["kappa", "adhesion.kappa"];
 const HURST: [&str; 1] = ["roughness.hurst"];
 
-/// Reason why a folder opens as no maps.
+/// Reason why a folder has no maps.
 #[derive(Debug, Error)]
 pub enum StudyMapError {
     /// The folder holds no merged study.
@@ -32,7 +32,7 @@ pub enum StudyMapError {
     OneCell {
         /// The folder.
         folder: String,
-        /// The axes it has, each with its number of values.
+        /// Axes of the study, each with its number of values.
         axes: String,
     },
     /// The scene cannot be explored.
@@ -49,7 +49,7 @@ pub struct StudyMap {
     across: usize,
     up: Option<usize>,
     others: Vec<usize>,
-    /// Quantities beside the regime in all cells of the study, each with its place among the recorded.
+    /// Quantities beside the regime in all cells of the study, each with its place among the recorded quantities.
     layers: Vec<(usize, Layer)>,
 }
 
@@ -72,7 +72,7 @@ impl StudyMap {
         let find = |paths: &[&str]| free.iter().copied().find(|axis| paths.contains(&axes[*axis].path()));
         let (hurst, kappa) = (find(&HURST), find(&KAPPA));
         let other = |one: usize| free.iter().copied().find(|axis| *axis != one);
-        // H goes across and κ up, whichever else the study varies; of other axes the first goes across.
+        // H goes across and κ up on every study with both; of other axes the first goes across.
         let (across, up) = match (hurst, kappa, free.first()) {
             (Some(hurst), Some(kappa), _) => (hurst, Some(kappa)),
             (None, Some(kappa), _) => other(kappa).map_or((kappa, None), |across| (across, Some(kappa))),
@@ -108,7 +108,7 @@ impl StudyMap {
         &self.folder
     }
 
-    /// Name of the folder, without those above it.
+    /// Name of the folder without its parents.
     #[must_use]
     pub fn name(&self) -> String {
         let whole = std::path::absolute(&self.folder).unwrap_or_else(|_| self.folder.clone());
@@ -132,20 +132,20 @@ impl StudyMap {
         self.others.iter().map(|&other| axes[other].count()).product()
     }
 
-    /// The axes that no map is over, each with the place that a map has on it.
+    /// The axes outside the maps, each with the place of a map on it.
     fn at(&self, slice: u64) -> Vec<(&Axis, usize, u64)> {
         let axes = self.axes();
         let places = places_of(slice, self.others.iter().map(|&other| axes[other].count()));
         self.others.iter().zip(places).map(|(&other, place)| (axes[other], other, place)).collect()
     }
 
-    /// Place of a map on the axes that no map is over, in words: `F_n/(E* h L) = 0.1`.
+    /// Place of a map on the axes outside it, in words: `F_n/(E* h L) = 0.1`.
     #[must_use]
     pub fn stands_at(&self, slice: u64) -> Vec<String> {
         self.at(slice).into_iter().map(|(axis, _, place)| fixed(self.plan(), axis, place)).collect()
     }
 
-    /// One of its maps.
+    /// Map of this number.
     #[must_use]
     pub fn model(&self, slice: u64) -> MapModel {
         let (plan, axes) = (self.plan(), self.axes());
@@ -169,14 +169,14 @@ impl StudyMap {
         )
     }
 
-    /// Paths of the axes that the maps are over.
+    /// Paths of the axes of the maps.
     fn over(&self) -> Vec<&Axis> {
         let axes = self.axes();
         [Some(self.across), self.up].into_iter().flatten().map(|axis| axes[axis]).collect()
     }
 
-    /// The scene of a map on the first line of the study, with these values of the axes that the maps are over; of those
-    /// that are left out, the value of the plan's scene.
+    /// The scene of a map on the first profile of the study, with these values on the axes of the maps; axes
+    /// without a value here keep that of the plan's scene.
     fn scene(&self, slice: u64, over: &[(&str, f64)]) -> Scene {
         let plan = self.plan();
         let mut scene = plan.scene.clone();
@@ -204,12 +204,12 @@ impl StudyMap {
         scene
     }
 
-    /// The scene of the study to be explored, named by its folder.
+    /// The scene of the study for the explorer, named by its folder.
     ///
     /// # Errors
-    /// A scene that is not allowed.
+    /// An invalid scene.
     pub fn document(&self) -> Result<Document, SceneErrors> {
-        // As it is typed, so that the command that opens it again is this name.
+        // As typed, so that this name in a command opens the study again.
         let name = self.folder.display().to_string();
         Document::from_scene(&self.scene(0, &[]), &name)
     }
@@ -231,10 +231,10 @@ impl StudyMap {
         }
     }
 
-    /// A document with all that makes its scene that of a map, but for the axes that the map is over.
+    /// Document with the scene of a map, but for the axes of the map.
     ///
     /// # Errors
-    /// Values that are not allowed in the scene.
+    /// Values that are invalid in the scene.
     pub fn follow(&self, slice: u64, document: &Document) -> Result<Document, SceneErrors> {
         let at = self.at(slice);
         let values: Vec<_> = at.iter().map(|(axis, _, place)| (axis.path(), axis.value(*place))).collect();
@@ -242,13 +242,13 @@ impl StudyMap {
     }
 }
 
-/// Returns true if κ and H are the same but for rounding; those that are not known are not compared.
+/// Returns true if κ and H are equal but for rounding; unknown values are not compared.
 fn is_close(one: Option<(f64, f64)>, other: Option<(f64, f64)>) -> bool {
     let is_close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
     one.zip(other).is_none_or(|((a, b), (c, d))| is_close(a, c) && is_close(b, d))
 }
 
-/// A scene without what changes no result but the resolution of a curve.
+/// A scene without the fields that change no result but the resolution of a curve.
 fn without_texts(scene: &Scene) -> Scene {
     Scene {
         title: String::new(),
@@ -267,7 +267,7 @@ mod tests {
     use crate::study::map::{Charted, MapCell};
     use crate::study::{Changes, Folder, SUMMARY};
 
-    /// κ not in the order of its values, two preloads, another axis, five lines.
+    /// κ not in the order of its values, two preloads, another axis, five profiles.
     const PLAN: &str = r#"(
         version: 1,
         title: "A study",
@@ -289,8 +289,8 @@ mod tests {
         record: [adhesion_coefficient, regime, preload_force],
     )"#;
 
-    /// Its tables: the coefficient of a cell is its number, and all but a fifth of its lines are in the regime of
-    /// that number.
+    /// Tables of the study: the coefficient of a cell is its number, and all but a fifth of its profiles are in the
+    /// regime of that number.
     fn merged(plan: &str) -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
         let plan = Plan::parse(plan, "plan", &Changes::default()).unwrap();
@@ -366,7 +366,7 @@ mod tests {
                 Charted::Quantity(Quantity::PreloadForce)
             ]
         );
-        // From 0 to 23 µN over all maps, whichever is shown.
+        // From 0 to 23 µN over all maps, independent of the shown one.
         let force = map_model.layer(Quantity::PreloadForce).unwrap();
         assert_eq!((force.scale, force.range), (AxisScale::Linear, Some((0.0, 2.3e-5))));
         let transposed = map_model.transposed();
@@ -376,7 +376,7 @@ mod tests {
             map_model.shown(1, 2).map(|shown| shown.cell)
         );
         assert_eq!(transposed.transposed(), map_model);
-        // Without regimes, and with nothing else.
+        // Without regimes, and without any quantity.
         let map_model = |record: &str| {
             let plan = PLAN.replace("record: [adhesion_coefficient, regime, preload_force]", record);
             let plan = Plan::parse(&plan, "plan", &Changes::default()).unwrap();
@@ -435,12 +435,12 @@ mod tests {
                 plan.replace("numerics: (points: 128)", "numerics: (points: 128), adhesion: (kappa: 1.0)");
             let study_map = StudyMap::open(merged(&plan).path())?;
             let map_model = study_map.model(0);
-            // The first scene is that of the study, and stays so on the map.
+            // The first scene is that of the study, and remains so on the map.
             let document = study_map.document()?;
             let axes: Vec<&MapAxis> =
                 [Some(map_model.across()), map_model.up()].into_iter().flatten().collect();
             let last = axes.iter().map(|axis| (axis.path.as_str(), *axis.figure.values.last().unwrap()));
-            // The preload is in units that change with the length.
+            // The unit of the preload changes with the length.
             let moved = study_map.follow(0, &moved(&document, &last.collect::<Vec<_>>())?)?;
             for document in [&document, &moved] {
                 assert!(study_map.is_of(0, document.scene()), "{}", document.text());

@@ -9,16 +9,16 @@ use crate::study::quantity::Quantity;
 use crate::study::target::governing;
 use thiserror::Error;
 
-/// Random lines of each cell.
+/// Random profiles of each cell.
 pub const LINES: u64 = 4;
 /// Quantities of each cell.
 pub const RECORD: [Quantity; 3] =
     [Quantity::ZeroLoadAdhesionShare, Quantity::AdhesionCoefficient, Quantity::Regime];
-/// Fewest and most springs of a map; a scene with fewer has its own number, shorter waves need more.
+/// Fewest and most springs of a map; a scene with fewer keeps its own number, shorter waves need more.
 const SPRINGS: (u64, u64) = (1 << 10, 1 << 12);
-/// Springs for each period of the shortest wave, where that is not too many.
+/// Springs per period of the shortest wave, up to the limit.
 const SPRINGS_PER_WAVE: u64 = 4;
-/// With more springs than these a map gets fewer cells, and with more than those fewer still.
+/// Number of springs above which a map gets fewer cells, and still fewer far above.
 const MANY: u64 = 1 << 14;
 const VERY_MANY: u64 = 1 << 17;
 /// Representatives of all κ or e_el/γ and all H.
@@ -27,18 +27,18 @@ const ANY: (f64, f64) = (1.0, 0.5);
 /// Reason why a scene has no map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum NoMap {
-    /// Nothing attracts.
+    /// The scene has no adhesion.
     #[error("no map: the scene has no adhesion, so no κ; switch adhesion on with t in its row")]
     NoAdhesion,
     /// Two works of adhesion.
     #[error("no map: κ is defined by one work of adhesion; leave adhesion.closing_work out")]
     TwoWorks,
-    /// Nothing is rough.
+    /// The scene has no roughness.
     #[error("no map: a smooth body has neither κ nor H; switch roughness on with t in its row")]
     Smooth,
 }
 
-/// Template of a map. Scenes that differ in κ and H alone, or in the resolution of their curve, have the same.
+/// Template of a map. Scenes that differ only in κ, H or the resolution of their curve share it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Template {
     scene: Scene,
@@ -61,7 +61,7 @@ impl Template {
             Some(Roughness::SelfAffine { hurst, rms_height, rms_gradient, modes, .. }) => {
                 *hurst = ANY.1;
                 let last = modes.1;
-                // Without an amplitude of its own it follows from γ and κ.
+                // Without a given amplitude the amplitude follows from γ and κ.
                 let work = adhesion.work.filter(|_| rms_height.is_none() && rms_gradient.is_none());
                 scene.adhesion = Some(Adhesion { work, ..Adhesion::default().with_kappa(ANY.0) });
                 last.saturating_mul(SPRINGS_PER_WAVE).clamp(SPRINGS.0, SPRINGS.1).max(last.saturating_mul(2))
@@ -75,12 +75,12 @@ impl Template {
         scene.notice.clear();
         scene.observe.clear();
         let points = points.min(scene.numerics.points);
-        // Edges between springs: a map of few springs is then as good as one of very many.
+        // Edges between springs: a map of few springs is then as accurate as one of very many.
         scene.numerics = Numerics { points, solver: Solver::Exact, edges: Edges::SubCell, samples: 2 };
         Ok(Template { scene, parameter: RoughnessParameter::Kappa })
     }
 
-    /// The same over this parameter.
+    /// The same template over this parameter.
     #[must_use]
     pub fn over(mut self, parameter: RoughnessParameter) -> Self {
         self.scene.adhesion = self
@@ -96,13 +96,13 @@ impl Template {
         self.parameter
     }
 
-    /// Springs of each of its lines.
+    /// Springs of each profile.
     #[must_use]
     pub fn springs(&self) -> u64 {
         self.scene.numerics.points
     }
 
-    /// Finest level of its maps: waves that need very many springs have fewer cells.
+    /// Finest level of the maps: waves that need very many springs have fewer cells.
     #[must_use]
     pub fn finest(&self) -> Level {
         let springs = self.springs();
@@ -115,13 +115,13 @@ impl Template {
         }
     }
 
-    /// Returns true for a roughness with an H, which a measured one has not.
+    /// Returns true for a roughness with an H; a measured one has none.
     #[must_use]
     pub fn has_hurst(&self) -> bool {
         matches!(self.scene.roughness, Some(Roughness::SelfAffine { .. }))
     }
 
-    /// Random lines of each cell.
+    /// Random profiles of each cell.
     #[must_use]
     pub fn lines(&self) -> u64 {
         if self.has_hurst() { LINES } else { 1 }
@@ -138,8 +138,7 @@ impl Template {
         plan
     }
 
-    /// κ and H of a scene, as far as the scene itself says them. Those of a measured profile follow only
-    /// from its file.
+    /// κ and H of a scene, if stated by the scene itself. Those of a measured profile follow only from its file.
     #[must_use]
     pub fn place(scene: &Scene) -> Option<(f64, f64)> {
         let Some(Roughness::SelfAffine { hurst, .. }) = scene.roughness else { return None };
@@ -186,7 +185,7 @@ mod tests {
         ] {
             assert_ne!(of(&document.set(path, value).unwrap()), template, "{path}");
         }
-        // Short waves have their springs, and very many springs have fewer cells.
+        // Short waves get enough springs, and very many springs fewer cells.
         let short = [("numerics.points", "1048576"), ("roughness.modes", "(1, 131072)")];
         let short = short.map(|(path, value)| (path.to_owned(), value.to_owned()));
         let short = of(&document.set_all(&short).unwrap());

@@ -11,7 +11,7 @@ pub(super) fn from_points([x, y]: &[Vec<f64>; 2]) -> Result<RawGrid, TopographyE
     if points < 2 {
         return Err(refused(Place::File, format!("{points} points"), "at least 2"));
     }
-    // The position that changes from the first point to the second runs along the rows.
+    // The position that changes from the first point to the second is along the rows.
     let (along, between) = match (x[1] != x[0], y[1] != y[0]) {
         (true, false) => (x, y),
         (false, true) => (y, x),

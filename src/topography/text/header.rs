@@ -3,13 +3,13 @@
 use super::super::Unit;
 use super::layout::{Cell, Decimal, Separator};
 
-/// Longest header line that is looked at, bytes.
+/// Longest header line that is examined, bytes.
 const LONGEST: usize = 4096;
 
 /// Content of the lines before the numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Header {
-    /// Units in the order of the columns, from the last line that has some.
+    /// Units in the order of the columns, from the last line with units.
     columns: Vec<Unit>,
     lateral: Option<Unit>,
     height: Option<Unit>,
@@ -18,7 +18,7 @@ pub(super) struct Header {
 }
 
 impl Header {
-    /// Takes a line: `key: value` or `key = value` with a unit or a size, or names of columns with units, such as
+    /// Reads a line: `key: value` or `key = value` with a unit or a size, or names of columns with units, such as
     /// `x [µm]`, `z (nm)` or `x/mm`, or a row of units alone.
     pub fn take(&mut self, line: &str) {
         if line.len() > LONGEST {
@@ -56,7 +56,7 @@ impl Header {
             1 => (None, self.columns.first().copied()),
             2 | 3 if self.columns.len() == columns => {
                 let of_x = self.columns[0];
-                // Of a map both positions share a unit, or none is known.
+                // In a map both positions share a unit, or none is known.
                 let lateral = self.columns[..columns - 1].iter().all(|unit| *unit == of_x).then_some(of_x);
                 (lateral, self.columns.last().copied())
             }
@@ -76,7 +76,7 @@ fn size(text: &str) -> Option<f64> {
     }
 }
 
-/// Units of a line of names: those in brackets; else those behind a slash; else all words, if each is a unit.
+/// Units of a line of names: those in brackets; else those after a slash; else all words, if each is a unit.
 fn units_of(line: &str) -> Vec<Unit> {
     let in_brackets = |open: char, close: char| -> Vec<Unit> {
         let parts = line.split(open).skip(1);

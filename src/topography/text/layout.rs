@@ -1,6 +1,6 @@
 //! Columns of a line of numbers: separators and decimal marks.
 
-/// Separator of the columns of a text, found in its first line of numbers.
+/// Separator of the columns of a text, from its first line of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Separator {
     Semicolon,
@@ -11,8 +11,8 @@ pub(super) enum Separator {
 
 impl Separator {
     /// Separator of a line of numbers: a semicolon if there is one, else a tab, else a comma, else spaces. Commas
-    /// are decimal marks beside semicolons and tabs, and where each word between spaces is a number with a comma inside,
-    /// as in `0,5 1,25`; `0.5, 1.25` and `0,5` are two columns.
+    /// are decimal marks beside semicolons and tabs, and if each word between spaces is a number with a comma
+    /// inside, as in `0,5 1,25`; `0.5, 1.25` and `0,5` are two columns.
     pub fn of(line: &str) -> Separator {
         if line.contains(';') {
             Separator::Semicolon
@@ -56,17 +56,17 @@ fn has_decimal_commas(line: &str) -> bool {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Cell {
     Number(f64),
-    /// A mark of a point that was not measured, or an empty column.
+    /// A mark of a missing point, or an empty column.
     Missing,
     /// A number with a decimal comma, in a text with decimal points, or the other way round.
     OtherMark,
     NoNumber,
 }
 
-/// Marks of points that were not measured, beside an empty column and `NaN`.
+/// Marks of missing points, in addition to an empty column and `NaN`.
 const MISSING: [&str; 9] = ["bad", "missing", "void", "n/a", "#n/a", "--", "---", "***", "*"];
 
-/// Decimal mark of a text: the first that is found.
+/// Decimal mark of a text: the first one found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Decimal {
     found: Option<u8>,
@@ -78,7 +78,7 @@ impl Decimal {
         self.found == Some(b',')
     }
 
-    /// Looks for the mark of numbers that have no comma.
+    /// Searches numbers without a comma for a decimal point.
     pub fn look_for_point(&mut self, numbers: &[u8]) {
         if self.found.is_none() && numbers.contains(&b'.') {
             self.found = Some(b'.');
@@ -87,7 +87,7 @@ impl Decimal {
 
     /// Reads a column.
     pub fn read(&mut self, cell: &str, separator: Separator) -> Cell {
-        // Most numbers take this way alone.
+        // Fast path of most numbers.
         if let Ok(value) = cell.parse::<f64>() {
             if value.is_nan() {
                 return Cell::Missing;

@@ -1,4 +1,4 @@
-//! Lines of a text one after the other, whatever its encoding.
+//! Lines of a text in sequence, in any supported encoding.
 
 use super::super::error::{Place, TopographyError, refused};
 use encoding_rs::{CoderResult, Decoder, UTF_16BE, UTF_16LE, WINDOWS_1252};
@@ -8,9 +8,9 @@ use std::io::{self, BufRead, BufReader, Read};
 /// Longest line, bytes: a row of a large matrix.
 pub(super) const LONGEST_LINE: usize = 1 << 24;
 
-/// Lines of a text in UTF-8, in UTF-16 with a byte order mark, or, where bytes are not UTF-8, in Windows-1252, in which
-/// older programs write µ and °. A byte order mark is skipped. Lines end with a line feed, with or without a carriage
-/// return before.
+/// Lines of a text in UTF-8, in UTF-16 with a byte order mark, or, for invalid UTF-8, in Windows-1252, in which
+/// older programs write µ and °. A byte order mark is skipped. Lines end with a line feed, with or without a
+/// carriage return before.
 pub(super) struct Lines<R: BufRead> {
     source: Source<R>,
     line: Vec<u8>,
@@ -45,8 +45,8 @@ impl<R: BufRead> Lines<R> {
         Ok(Lines { source, line: Vec::new(), number: 0 })
     }
 
-    /// Shows the next bytes that are there to `take`, which takes whole lines from their beginning and returns their bytes
-    /// and number.
+    /// Passes the next buffered bytes to `take`, which reads whole lines from their beginning and returns their
+    /// bytes and number.
     pub fn take_block(&mut self, take: impl FnOnce(&[u8]) -> (usize, usize)) -> io::Result<()> {
         if let Source::Bytes(source) = &mut self.source {
             let (bytes, lines) = take(source.fill_buf()?);
@@ -56,7 +56,7 @@ impl<R: BufRead> Lines<R> {
         Ok(())
     }
 
-    /// The next line without its end and its number from 1 on, or `None` behind the last.
+    /// The next line without its end, and its number from 1, or `None` after the last.
     pub fn next(&mut self) -> Result<Option<(usize, Cow<'_, str>)>, TopographyError> {
         self.line.clear();
         let most = LONGEST_LINE as u64 + 1;
@@ -88,7 +88,7 @@ impl<R: BufRead> Lines<R> {
     }
 }
 
-/// UTF-16 as UTF-8; what is no character becomes U+FFFD.
+/// UTF-16 as UTF-8; invalid characters become U+FFFD.
 struct Recoded<R> {
     source: R,
     decoder: Decoder,

@@ -74,7 +74,7 @@ struct Rows {
 }
 
 impl Rows {
-    /// Rows like this first one.
+    /// Rows in the form of this first one.
     fn new(line: &str) -> Self {
         let separator = Separator::of(line);
         Rows {
@@ -92,7 +92,7 @@ impl Rows {
         PlainForm { separator: self.separator, has_commas, columns: self.columns }
     }
 
-    /// Takes the plain lines at the beginning of a block. Returns their bytes and their number.
+    /// Reads the plain lines at the beginning of a block. Returns their bytes and their number.
     fn take_plain(&mut self, block: &[u8]) -> (usize, usize) {
         let read = self.points.read_shared(block, self.form(), &mut self.spare);
         if self.separator != Separator::Comma {
@@ -101,7 +101,7 @@ impl Rows {
         read
     }
 
-    /// Takes a line without spaces around it.
+    /// Reads a line without spaces around it.
     fn take(&mut self, number: usize, line: &str) -> Result<(), TopographyError> {
         let positions = self.form().position_columns();
         let mut found = 0;
@@ -151,7 +151,7 @@ impl Rows {
         }
     }
 
-    /// Positions of a profile either ascend or descend.
+    /// Checks that the positions of a profile either ascend or descend.
     fn check_order(&mut self, number: usize) -> Result<(), TopographyError> {
         let [.., before, x] = self.points.positions[0][..] else { return Ok(()) };
         let now = if x > before { Direction::Ascending } else { Direction::Descending };
@@ -210,7 +210,7 @@ mod tests {
     use proptest::prelude::*;
     use std::io::BufReader;
 
-    /// A line of a text, mostly of two numbers that ascend.
+    /// A line of a text, mostly of two ascending numbers.
     fn line(index: usize) -> impl Strategy<Value = String> {
         let x = index as f64 * 0.5;
         prop_oneof![

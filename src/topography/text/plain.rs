@@ -1,13 +1,13 @@
-//! Plain lines of numbers, read where they are in the buffer: most lines of large files.
+//! Plain lines of numbers, read in the buffer itself: most lines of large files.
 //!
-//! A plain line has finite decimal numbers, separators between them, spaces and nothing else. Any other line is left to the
-//! general reader.
+//! A plain line consists of finite decimal numbers, separators between them, and spaces. Any other line is left to
+//! the general reader.
 
 use super::super::reading::LARGEST;
 use super::layout::Separator;
 use crate::parallel::{for_each_in_parallel, threads};
 
-/// Fewest bytes of a block that a thread reads.
+/// Fewest bytes of a block for a thread.
 const LEAST_SHARE: usize = 1 << 19;
 
 /// Most bytes of a number with a decimal comma.
@@ -17,7 +17,7 @@ const LONGEST_WITH_COMMA: usize = 32;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlainForm {
     pub separator: Separator,
-    /// True for decimal commas in place of points.
+    /// True for decimal commas instead of points.
     pub has_commas: bool,
     pub columns: usize,
 }
@@ -31,12 +31,12 @@ pub(super) enum Direction {
     Descending,
 }
 
-/// Numbers of lines, file unit.
+/// Numbers of lines, in the units of the file.
 #[derive(Debug, Default)]
 pub(super) struct Points {
     /// Columns of positions: none, x, or x and y.
     pub positions: [Vec<f64>; 2],
-    /// Row by row.
+    /// Heights row by row.
     pub heights: Vec<f64>,
     /// Order of the positions of a profile.
     pub direction: Direction,
@@ -61,7 +61,7 @@ impl PlainForm {
         Some(before + 1 + spaces(behind))
     }
 
-    /// A number and its bytes; `None` where another rule is needed.
+    /// A number and its bytes; `None` if another rule is needed.
     fn read_number(self, bytes: &[u8]) -> Option<(f64, usize)> {
         let (value, length) = if self.has_commas {
             let mut copy = [0; LONGEST_WITH_COMMA];
@@ -72,24 +72,24 @@ impl PlainForm {
         } else {
             fast_float2::parse_partial(bytes).ok()?
         };
-        // No word for what is not a number, and none beyond all lengths.
+        // Neither words such as NaN, nor numbers beyond all lengths.
         (f64::abs(value) <= LARGEST * 1e12).then_some((value, length))
     }
 }
 
 impl Points {
-    /// Reads plain lines from the beginning of a block, until one is not plain, not whole, or its position is not in order.
-    /// Returns the bytes and the number of lines read. All cores share a large block; `spare` is memory for their points.
+    /// Reads plain lines from the beginning of a block, until one is not plain, not whole, or out of order. Returns
+    /// the bytes and the number of lines read. All cores share a large block; `spare` is memory for their points.
     pub fn read_shared(&mut self, block: &[u8], form: PlainForm, spare: &mut Vec<Points>) -> (usize, usize) {
         let parts = block.len() / LEAST_SHARE;
         if parts < 2 {
-            // Most blocks: the system is not asked for its cores.
+            // Most blocks: without a query of the number of cores.
             return self.read(block, form);
         }
         self.read_in_parts(whole_lines(block, parts.min(threads())), form, spare)
     }
 
-    /// Reads parts of whole lines side by side, and joins what they hold in order.
+    /// Reads parts of whole lines in parallel, and joins their content in order.
     fn read_in_parts<'b>(
         &mut self,
         parts: impl Iterator<Item = &'b [u8]>,
@@ -111,7 +111,7 @@ impl Points {
         let read: Vec<(usize, usize)> = parts.into_iter().map(|(.., read)| read).collect();
         let (mut bytes, mut count) = read.first().copied().unwrap_or_default();
         for (index, points) in spare.iter().enumerate() {
-            // Behind a part that is not whole nothing is known of what follows.
+            // After an incomplete part the position of the next one is unknown.
             if read[index].0 < lines[index].len() || !self.append(points, form) {
                 break;
             }
@@ -121,12 +121,12 @@ impl Points {
     }
 
     fn read(&mut self, block: &[u8], form: PlainForm) -> (usize, usize) {
-        // A number has a digit and a mark behind it.
+        // A number has a digit and a mark after it.
         let most = 1 + block.len() / 2 / form.columns.min(3);
         let mut columns =
             std::iter::once(&mut self.heights).chain(&mut self.positions[..form.position_columns()]);
         if columns.any(|values| values.try_reserve(most).is_err()) {
-            // Line by line there may be room still.
+            // Line by line the memory may still suffice.
             return (0, 0);
         }
         let (mut bytes, mut lines) = (0, 0);
@@ -142,7 +142,7 @@ impl Points {
         let count = self.heights.len();
         let length = self.read_numbers(bytes, form).filter(|_| self.is_in_order(count, form));
         if length.is_none() {
-            // Both columns of positions have as many values as there are heights.
+            // Truncates both columns of positions to the number of heights.
             self.positions.iter_mut().for_each(|positions| positions.truncate(count));
             self.heights.truncate(count);
         }
@@ -172,7 +172,7 @@ impl Points {
         }
     }
 
-    /// Returns true if the position with this number goes on in the direction of a profile.
+    /// Returns true if the position with this number continues the direction of a profile.
     fn is_in_order(&self, number: usize, form: PlainForm) -> bool {
         if form.columns != 2 || number == 0 {
             return true;
@@ -185,8 +185,8 @@ impl Points {
         }
     }
 
-    /// Adds points behind these. Returns false, and adds nothing, where there is no room, or their first position is not in
-    /// order.
+    /// Appends points. Returns false, and appends nothing, if the memory does not suffice, or their first position
+    /// is out of order.
     fn append(&mut self, behind: &Points, form: PlainForm) -> bool {
         let count = self.heights.len();
         let more = behind.heights.len();
@@ -215,7 +215,7 @@ impl Points {
     }
 }
 
-/// At most so many parts of a block, about equal in length, each of whole lines but for the last one.
+/// At most so many parts of a block, of about equal length, each of whole lines except for the last one.
 fn whole_lines(block: &[u8], parts: usize) -> impl Iterator<Item = &[u8]> {
     let mut begin = 0;
     (1..=parts).filter_map(move |part| {
@@ -343,7 +343,7 @@ mod tests {
     fn large_blocks_are_read_as_their_lines_are() {
         let line = |index: usize| format!("{index} {:.9}\n", (index as f64).sin());
         let lines = 4 * LEAST_SHARE / 18;
-        // Whole, and with one line that ends it, in either half or where both meet.
+        // Whole, and with one line that ends the reading, in either half or at their border.
         for wrong in
             [lines, lines / 3, lines / 2, lines - 1].into_iter().chain(lines / 2 - 40..lines / 2 + 40)
         {
