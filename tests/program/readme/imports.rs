@@ -205,6 +205,48 @@ fn three_files_name_a_form() {
     }
 }
 
+#[test]
+fn eight_files_name_an_effect() {
+    // A second work of adhesion: fields, check, rule and force, summary, builder of the library, and the maps, which refuse.
+    let files = [
+        "analysis::governing",
+        "contact::foundation",
+        "contact_cycle",
+        "export::summary",
+        "scene::check",
+        "scene::fields",
+        "scene::model",
+        "study::map::template",
+    ];
+    assert_eq!(files_that_name("closing_work"), files);
+}
+
+/// Words that the glossary replaces.
+const REPLACED: [&str; 8] = ["tell", "tells", "told", "owe", "owes", "owed", "stands", "stood"];
+
+#[test]
+fn replaced_words_are_not_used() {
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/");
+    let mut folders: Vec<PathBuf> =
+        ["src", "presets"].map(|folder| PathBuf::from(format!("{root}{folder}"))).into();
+    let mut words = 0;
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            let text = fs::read_to_string(&path).unwrap_or_default();
+            for word in text.split(|c: char| !c.is_alphabetic()) {
+                words += 1;
+                assert!(!REPLACED.contains(&word), "{}: {word}", path.display());
+            }
+        }
+    }
+    assert!(words > 100_000, "{words} words");
+}
+
 /// First words that make a sentence of a comment an indirect question.
 const QUESTIONS: [&str; 6] = ["What ", "Whether ", "How ", "Why ", "Who ", "See the module"];
 
