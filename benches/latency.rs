@@ -198,10 +198,12 @@ mod measure {
         rows.iter().any(|row| row.contains("computing"))
     }
 
-    /// The headline: adhesion force, regime and coefficient, of which each edit changes one.
-    fn headline(rows: &[String]) -> Option<String> {
+    /// Adhesion force and adhesion coefficient of the headline, one of which each edit changes.
+    fn headline(rows: &[String]) -> Option<[String; 2]> {
         let row = rows.iter().find(|row| row.starts_with("F_a "))?;
-        row.split("  ").next().map(str::to_owned)
+        let force = row.split("  ").next()?;
+        let coefficient = row.split("F_a/F_n ").nth(1)?.split(' ').next()?;
+        Some([force.to_owned(), coefficient.to_owned()])
     }
 
     /// Selects a parameter by its name, by keys.
