@@ -274,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn a_strip_tells_what_touches() {
+    fn a_strip_shows_the_contact() {
         use Share::{Everything, Nothing, Something};
         assert_eq!(strip(&[(0, 3), (5, 5)], 8, 4), [Everything, Everything, Something, Nothing]);
         assert_eq!(strip(&[(1, 1)], 2, 4), [Nothing, Nothing, Everything, Everything]);

@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn every_theme_with_colours_tells_profile_from_surface_and_contact() {
+    fn every_theme_with_colours_separates_profile_surface_and_contact() {
         for theme in Theme::value_variants().iter().filter(|theme| **theme != Theme::Plain) {
             let [line, surface, contact] =
                 [Meaning::Line, Meaning::Surface, Meaning::Contact].map(|meaning| theme.colour(meaning));

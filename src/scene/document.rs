@@ -407,7 +407,7 @@ mod tests {
     }
 
     #[test]
-    fn several_errors_are_told_with_their_places() {
+    fn several_errors_are_stated_with_their_places() {
         let text = SCENE.replace("0.7", "1.4").replace("1.0e-4", "NaN").replace("ToForce(1.0e-5), ", "");
         assert_eq!(
             lines(&Document::parse(&text, "a/scene.ron").unwrap_err()),
@@ -421,7 +421,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wrong_version_is_told_first() {
+    fn a_wrong_version_is_stated_first() {
         let text = SCENE.replace("version: 1", "version: 3").replace("hurst", "hurts");
         let errors = Document::parse(&text, "x").unwrap_err();
         assert_eq!(

@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn errors_are_told_in_the_terms_of_the_scene() {
+    fn errors_are_stated_in_the_terms_of_the_scene() {
         let rough = |fields: &str| scene(&format!("    roughness: SelfAffine({fields}),"));
         for (text, place, field, value, said) in [
             (scene("    lenght: 1,"), (5, 5), "lenght", "", "did you mean length?"),
@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn the_version_is_told_whatever_else_is_wrong() {
+    fn the_version_is_stated_whatever_else_is_wrong() {
         assert_eq!(wrong_version("(version: 1, nonsense)"), None);
         assert_eq!(wrong_version("(version: 3, nonsense)").unwrap().error.value, "3");
         assert!(wrong_version("(length: 1)").unwrap().error.message.contains("missing"));

@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn without_roughness_kappa_becomes_the_work_it_stood_for() {
+    fn without_roughness_kappa_becomes_its_work() {
         assert_eq!(adhesion(&off(&document(), Effect::Roughness)), (Some(0.0123), None));
         let unknown = document().without(Effect::Roughness, &Computed::default()).unwrap_err();
         assert_eq!(

@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_told() {
+    fn errors_are_stated() {
         let list = |values: &[f64]| Axis::List { path: "kappa".into(), values: values.to_vec() };
         for (axis, said) in [
             (linear("roughness.hurts", 0.1, 0.9, 3), "did you mean roughness.hurst?"),

@@ -275,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_scene_does_not_have_is_told() {
+    fn fields_that_a_scene_does_not_have_are_stated() {
         let mut scene = open("jkr-sphere").unwrap().scene().clone();
         for path in
             ["roughness.hurst", "form.angle", "loading.7.0", "numerics.solver.step", "springs_per_wave"]

@@ -49,6 +49,8 @@ const BESIDE: u64 = 16 << 20;
 /// Bytes per spring of a transform that is kept for the next profile, up to [`LONGEST_KEPT`] springs.
 const KEPT: u64 = 20;
 const LONGEST_KEPT: u64 = 1 << 22;
+/// Bytes per spring of the unloadings from several preloads, where nearly every spring is an event.
+const REVERSED: u64 = 128;
 
 /// Parses a number of bytes with its unit.
 pub(super) fn size(text: &str) -> Result<u64, String> {
@@ -84,7 +86,9 @@ impl Memory {
             let points = scene.numerics.points;
             let kept = if points <= LONGEST_KEPT { KEPT * points } else { 0 };
             // The contact without adhesion or at zero force may add to the memory of the scene itself.
-            let peak = simulation::Plan::of(scene).peak_bytes + kept;
+            let turns = plan.preloads.is_some() && scene.adhesion.is_some();
+            let reversed = if turns { REVERSED * points } else { 0 };
+            let peak = simulation::Plan::of(scene).peak_bytes + kept + reversed;
             job = job.max(peak);
             spare = spare.max(16 * scene.numerics.samples * scene.loading.len() as u64);
         });

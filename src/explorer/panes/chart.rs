@@ -91,7 +91,7 @@ pub fn map_figure(model: &Model, map_model: &MapModel) -> Figure {
     let study = model.chart.shown_study();
     let title = study.map_or(&model.document.scene().title, |study| &study.study_map.plan().title);
     figure.title.clone_from(title);
-    let fixed = study.map_or_else(Vec::new, |study| study.study_map.stands_at(study.slice));
+    let fixed = study.map_or_else(Vec::new, |study| study.study_map.fixed_values(study.slice));
     let fixed = fixed.iter().map(|fixed| Label::statement(fixed));
     figure.notes = fixed.reduce(|line, fixed| line.then(", ").join(&fixed)).into_iter().collect();
     figure

@@ -114,14 +114,14 @@ fn slice(model: &Model, study: &OpenStudy, width: usize) -> Vec<Line<'static>> {
     let (theme, slices) = (model.appearance.theme, study.study_map.slices());
     if slices == 1 {
         // Axes of one value.
-        let at = study.study_map.stands_at(0).into_iter();
+        let at = study.study_map.fixed_values(0).into_iter();
         return filled(
             at.map(|at| vec![Text::styled(at, theme.style(Meaning::Title))]).collect(),
             "  ",
             width,
         );
     }
-    let at = study.study_map.stands_at(study.slice).into_iter();
+    let at = study.study_map.fixed_values(study.slice).into_iter();
     let which = Text::styled(
         format!("{} of {}, P: the next", grouped(study.slice + 1), grouped(slices)),
         theme.style(Meaning::Key),

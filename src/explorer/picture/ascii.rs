@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn no_character_stands_for_two_things() {
+    fn no_character_has_two_meanings() {
         let mut all: Vec<char> = ALIKE.iter().flat_map(|(_, characters)| characters.chars()).collect();
         all.extend(MARKED.iter().flat_map(|(marked, _)| marked.chars()));
         for (marked, plain) in MARKED {

@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn dashes_and_arcs_are_told_apart() {
+    fn dashes_and_arcs_differ() {
         let pieces = |character| strokes(character).unwrap().pieces;
         assert_eq!(['─', '╌', '┄', '┈', '┋', '╏', '┇', '╋'].map(pieces), [1, 2, 3, 4, 4, 2, 3, 1]);
         let round = |character| strokes(character).unwrap().round;

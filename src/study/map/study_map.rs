@@ -141,7 +141,7 @@ impl StudyMap {
 
     /// Place of a map on the axes outside it, in words: `F_n/(E* h L) = 0.1`.
     #[must_use]
-    pub fn stands_at(&self, slice: u64) -> Vec<String> {
+    pub fn fixed_values(&self, slice: u64) -> Vec<String> {
         self.at(slice).into_iter().map(|(axis, _, place)| fixed(self.plan(), axis, place)).collect()
     }
 
@@ -322,9 +322,9 @@ mod tests {
     fn maps_have_the_cells_of_the_study() {
         let study_map = study_map();
         assert_eq!(study_map.slices(), 4);
-        assert_eq!(study_map.stands_at(0), ["k_max = 16", "F_n/(E* h L) = 0.5"]);
-        assert_eq!(study_map.stands_at(1), ["k_max = 16", "F_n/(E* h L) = 2"]);
-        assert_eq!(study_map.stands_at(2), ["k_max = 32", "F_n/(E* h L) = 0.5"]);
+        assert_eq!(study_map.fixed_values(0), ["k_max = 16", "F_n/(E* h L) = 0.5"]);
+        assert_eq!(study_map.fixed_values(1), ["k_max = 16", "F_n/(E* h L) = 2"]);
+        assert_eq!(study_map.fixed_values(2), ["k_max = 32", "F_n/(E* h L) = 0.5"]);
         for (slice, modes, preload) in [(0, 0, 0), (1, 0, 1), (2, 1, 0), (3, 1, 1)] {
             let map_model = study_map.model(slice);
             assert_eq!(map_model.across().figure.values, [0.25, 0.75], "H across");
@@ -419,7 +419,7 @@ mod tests {
         let unpressed = StudyMap::open(merged(&without).path()).unwrap();
         let legs = unpressed.document().unwrap().scene().loading.clone();
         assert_eq!(legs, unpressed.plan().scene.loading, "that of the plan");
-        assert_eq!(unpressed.stands_at(0), ["k_max = 16"]);
+        assert_eq!(unpressed.fixed_values(0), ["k_max = 16"]);
         let other = document.set("material.effective_modulus", "3.0e6").unwrap();
         assert!(!study_map.is_of(0, other.scene()));
         assert!(!study_map.is_of(0, crate::scene::open("jkr-sphere").unwrap().scene()));

@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn separators_and_decimal_marks_are_told_apart() {
+    fn separators_and_decimal_marks_differ() {
         use Cell::{Missing, NoNumber, Number, OtherMark};
         for (line, expected) in [
             ("0.5 1.25", vec![Number(0.5), Number(1.25)]),
