@@ -209,7 +209,7 @@ proptest! {
     #![proptest_config(cases(1000))]
 
     #[test]
-    fn it_stands_where_the_exact_solver_stands(body in body(), goals in goals()) {
+    fn its_state_is_that_of_the_exact_solver(body in body(), goals in goals()) {
         let tree = body.tree();
         let (mut solver, mut manual) = (body.exact(&tree), body.separated(&tree));
         for (index, goal) in goals.iter().enumerate() {

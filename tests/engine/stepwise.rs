@@ -157,7 +157,7 @@ proptest! {
     }
 
     #[test]
-    fn a_refused_leg_leaves_the_body_where_it_stood(
+    fn a_refused_leg_leaves_the_body_at_its_place(
         seed in any::<u64>(),
         range in -4.0..0.0_f64,
         to in 0.0..0.5_f64,
@@ -179,7 +179,7 @@ proptest! {
     }
 
     #[test]
-    fn legs_without_motion_are_told_alike(seed in any::<u64>(), to in 0.0..0.5_f64, below in 0.1..1.0_f64) {
+    fn legs_without_motion_are_stated_alike(seed in any::<u64>(), to in 0.0..0.5_f64, below in 0.1..1.0_f64) {
         let gaps = rough(32, seed);
         let legs = [
             Leg::ToSeparation,

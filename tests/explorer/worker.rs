@@ -269,7 +269,7 @@ fn a_newer_scene_stops_the_one_that_is_being_computed() {
                 return None;
             }
             started.send(()).unwrap();
-            Some(stop_when_told(&words, stop))
+            Some(stop_when_asked(&words, stop))
         }));
         served.compute(1, &rough().set("title", "\"endless\"").unwrap());
         wait.recv_timeout(PATIENCE).expect("the first scene is begun");
@@ -310,7 +310,7 @@ fn a_scene_beside_is_computed_only_in_sight_and_gives_way_to_a_newer_scene() {
 }
 
 /// A run that waits for a message, and then stops if asked to.
-fn stop_when_told(words: &Receiver<()>, stop: &dyn Fn() -> bool) -> RunError {
+fn stop_when_asked(words: &Receiver<()>, stop: &dyn Fn() -> bool) -> RunError {
     words.recv_timeout(PATIENCE).expect("a word to go on");
     assert!(stop(), "the run is asked to stop");
     ContactError::Interrupted.into()
@@ -339,7 +339,7 @@ fn the_worker_ends_with_the_explorer() {
 }
 
 #[test]
-fn a_panic_is_told_and_the_next_scene_is_computed() {
+fn a_panic_is_stated_and_the_next_scene_is_computed() {
     within(30, || {
         let served = Served::by(Double::new(|scene, _| match scene.title.as_str() {
             "text" => panic!("no such spring"),
@@ -362,7 +362,7 @@ fn a_panic_is_told_and_the_next_scene_is_computed() {
 }
 
 #[test]
-fn a_leg_that_cannot_be_gone_is_told_in_one_line() {
+fn a_leg_that_cannot_be_gone_is_stated_in_one_line() {
     within(30, || {
         let served = Served::by(Simulation::default());
         let beyond = rough().set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]").unwrap();

@@ -163,6 +163,8 @@ fn with_whatever_memory_there_is_the_terminal_is_given_back() {
             let limited = format!("ulimit -v {}; exec '{ASPERITY}' million-springs", mebibytes << 10);
             let mut terminal =
                 Program::new("/bin/sh").argument("-c").argument(limited).folder(folder.path()).start();
+            // Without an animation, which would go on for twelve seconds.
+            terminal.send_if_open(".");
             terminal.settle_for(std::time::Duration::from_millis(1500));
             computed += u32::from(terminal.text().contains("F_a "));
             terminal.send_if_open("q");

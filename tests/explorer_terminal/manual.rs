@@ -75,7 +75,7 @@ fn the_body_is_pressed_and_pulled_by_keys() {
 }
 
 #[test]
-fn a_force_that_is_none_or_out_of_reach_is_told() {
+fn a_force_that_is_none_or_out_of_reach_is_stated() {
     within(40, || {
         let (program, _folder) = explorer();
         let mut terminal = paused(program);

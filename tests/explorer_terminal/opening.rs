@@ -101,7 +101,7 @@ fn fields_are_overridden_from_the_command_line() {
 }
 
 #[test]
-fn a_misspelt_scene_is_told_without_taking_the_terminal() {
+fn a_misspelt_scene_is_stated_without_taking_the_terminal() {
     within(40, || {
         for (name, expected) in [("jkr-spere", "did you mean jkr-sphere?"), ("none.ron", "none.ron")] {
             let home = tempfile::tempdir().unwrap();
@@ -195,7 +195,7 @@ fn a_terminal_that_places_nothing_is_refused() {
 }
 
 #[test]
-fn over_a_connection_it_tells_what_it_sends() {
+fn over_a_connection_it_shows_what_it_sends() {
     within(40, || {
         let (program, _folder) = explorer();
         let mut terminal = paused(program.env("SSH_CONNECTION", "192.0.2.1 50000 192.0.2.2 22"));

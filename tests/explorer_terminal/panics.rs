@@ -47,7 +47,7 @@ fn a_panic_of_the_engine_is_a_line_and_the_explorer_goes_on() {
 }
 
 #[test]
-fn a_panic_while_drawing_gives_the_terminal_back_and_tells_why() {
+fn a_panic_while_drawing_gives_the_terminal_back_and_shows_why() {
     within(60, || {
         let mut terminal = paused(panicking().argument("draw"));
         select(&mut terminal, "seed");

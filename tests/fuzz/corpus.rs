@@ -129,7 +129,7 @@ fn every_target_has_a_file_seeds_and_a_place_in_the_package() {
 
 /// A property that cannot fail proves nothing.
 #[test]
-fn what_does_not_hold_is_told() {
+fn what_does_not_hold_is_stated() {
     let panics: Property = |input| assert!(!input.contains(&b'x'));
     check(panics, "sound", b"a");
     assert!(catch_unwind(|| check(panics, "a panic", b"x")).is_err());

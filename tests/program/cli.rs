@@ -505,7 +505,7 @@ fn a_line_that_is_written_and_measured_gives_the_same_loop() {
 }
 
 #[test]
-fn a_line_holds_only_what_stands_under_the_body() {
+fn a_line_holds_only_what_is_under_the_body() {
     let punch = line("kendall-punch", 1000);
     assert_eq!(punch.len(), 400);
     assert!(punch.iter().all(|&(x, z)| (x - 0.5e-4).abs() <= 2.0e-5 && z == 0.0));

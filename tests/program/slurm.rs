@@ -474,7 +474,7 @@ fn an_answer_that_is_no_number_of_a_job_is_an_error() {
 }
 
 #[test]
-fn a_dry_run_tells_and_touches_nothing() {
+fn a_dry_run_shows_and_touches_nothing() {
     let folder = stand_ins(&[("sbatch", "touch submitted; echo 1")]);
     let (code, stdout, message) =
         submit_to(folder.path(), &["--shards", "12", "--memory", "2G", "--dry-run"]);

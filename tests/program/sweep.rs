@@ -190,7 +190,7 @@ fn the_same_shard_twice_is_one() {
 }
 
 #[test]
-fn results_that_differ_are_told() {
+fn results_that_differ_are_stated() {
     let plan = plan(SMALL);
     let (_place, folder) = study(&plan);
     compute(&folder, 1, Shard::WHOLE);

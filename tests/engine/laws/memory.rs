@@ -81,7 +81,7 @@ proptest! {
         let tree = body.tree();
         let mut solver = body.on(&tree, 2);
         let mut thresholds = Vec::new();
-        let (mut stands_at, mut stored, mut lost) = (0.0_f64, 0.0, 0.0);
+        let (mut position, mut stored, mut lost) = (0.0_f64, 0.0, 0.0);
         for leg in to_indentations(&turns).into_iter().chain([Leg::ToSeparation]) {
             let record = solver.advance(leg).unwrap();
             solver.thresholds_along_line(&mut thresholds);
@@ -89,19 +89,19 @@ proptest! {
             let steps = Steps::new(&thresholds, &body);
             let stored_now = if end.springs > 0 { steps.stored_energy(end.indentation) } else { 0.0 };
             // ∫F dd = stored + dissipated energy, to the rounding of the larger energies.
-            let done = if stands_at < end.indentation {
-                steps.work(stands_at, end.indentation)
+            let done = if position < end.indentation {
+                steps.work(position, end.indentation)
             } else {
-                -steps.work(end.indentation, stands_at)
+                -steps.work(end.indentation, position)
             };
             let expected = done - (stored_now - stored);
-            let reach = body.deepest() + body.largest_stretch() + end.indentation.abs() + stands_at.abs();
+            let reach = body.deepest() + body.largest_stretch() + end.indentation.abs() + position.abs();
             let springs = body.gaps.len() as f64 * body.foundation.spring_stiffness();
             prop_assert!(
                 (record.dissipated_energy - expected).abs() <= 1e-14 * springs * reach * reach,
                 "{} against {} on {:?}", record.dissipated_energy, expected, leg
             );
-            (stands_at, stored) = (end.indentation, stored_now);
+            (position, stored) = (end.indentation, stored_now);
             lost += record.dissipated_energy;
         }
         // From separation to separation.

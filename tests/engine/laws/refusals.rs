@@ -92,7 +92,7 @@ proptest! {
     }
 
     #[test]
-    fn a_leg_to_where_the_body_stands_does_nothing(body in body(), to in 0.0..1.0_f64) {
+    fn a_leg_to_where_the_body_is_does_nothing(body in body(), to in 0.0..1.0_f64) {
         let tree = body.tree();
         let mut solver = body.on(&tree, 17);
         let there = *solver.advance(Leg::ToIndentation(to)).unwrap().curve.last().unwrap();

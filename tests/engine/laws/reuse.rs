@@ -11,7 +11,7 @@ proptest! {
     #![proptest_config(cases(300))]
 
     #[test]
-    fn a_copied_leg_tells_its_contact_after_the_body_has_gone_on(
+    fn a_copied_leg_shows_its_contact_after_the_body_has_gone_on(
         bodies in prop::collection::vec(body(), 2),
         turns in indentations(5),
         kind in 0..3,
@@ -180,7 +180,7 @@ fn a_tree_held_by_somebody_else_stays_as_it_is() {
 }
 
 #[test]
-fn a_run_told_to_stop_stops_beside_other_threads_and_leaves_all_fit_for_the_next() {
+fn a_run_asked_to_stop_stops_beside_other_threads_and_leaves_all_fit_for_the_next() {
     let scene = scene(&[]);
     let expected = outcome(&mut Simulation::default(), &scene);
     let mut simulation = Simulation::default();

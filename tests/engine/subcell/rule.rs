@@ -7,7 +7,7 @@ proptest! {
     #![proptest_config(cases(3000))]
 
     #[test]
-    fn any_history_stands_as_brute_force_relaxes(
+    fn any_history_agrees_with_brute_force_relaxation(
         body in any_body(61),
         turns in prop::collection::vec(-0.9..1.3_f64, 1..9),
     ) {

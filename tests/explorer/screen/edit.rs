@@ -132,7 +132,7 @@ fn a_built_in_scene_can_be_taken_back_like_any_edit() {
 }
 
 #[test]
-fn reseeding_gives_another_line_that_can_be_told() {
+fn reseeding_gives_another_line_that_is_stated() {
     within(30, || {
         let mut driver = pressed("");
         let before = driver.model.computed.clone().unwrap();

@@ -238,7 +238,7 @@ fn kappa_is_solved_for_where_the_scene_gives_the_work() {
 }
 
 #[test]
-fn a_scene_that_gives_kappa_may_be_told_the_work() {
+fn a_scene_that_gives_kappa_may_be_given_the_work() {
     within(30, || {
         let mut driver = pressed("");
         let (kappa, work, expected) = governing(&driver);

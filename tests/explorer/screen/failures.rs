@@ -37,7 +37,7 @@ fn reports_of_another_scene_change_nothing() {
 }
 
 #[test]
-fn a_scene_that_fails_is_told_and_the_next_edit_mends_it() {
+fn a_scene_that_fails_is_stated_and_the_next_edit_mends_it() {
     within(30, || {
         let mut driver = pressed("");
         driver.select("loading");

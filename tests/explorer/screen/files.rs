@@ -34,7 +34,7 @@ fn exported(driver: &mut Driver, name: &str) -> String {
 }
 
 #[test]
-fn the_ending_of_a_name_tells_what_is_exported() {
+fn the_ending_of_a_name_shows_what_is_exported() {
     within(30, || {
         for (name, content) in [
             ("a.csv", Content::Curve(TableFormat::Csv)),
@@ -282,7 +282,7 @@ fn opened(command: &str) -> Document {
 }
 
 #[test]
-fn the_copied_command_opens_the_scene_as_it_stands() {
+fn the_copied_command_opens_the_scene_as_it_is() {
     within(60, || {
         for (index, preset) in presets().iter().take(9).enumerate() {
             let mut driver = Driver::start(rough());

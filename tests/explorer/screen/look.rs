@@ -295,7 +295,7 @@ fn the_loss_is_shaded_inside_the_loop_and_nowhere_else() {
 }
 
 #[test]
-fn marked_forces_are_told_with_their_values() {
+fn marked_forces_are_stated_with_their_values() {
     within(30, || {
         let labelled = |force: f64| format_quantity(format!("{force:.2e}").parse().unwrap(), "N");
         let mut driver = mid_retraction(smooth());

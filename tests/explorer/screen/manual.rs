@@ -26,7 +26,7 @@ fn go(driver: &mut Driver, force: &str) {
 }
 
 #[test]
-fn the_body_is_taken_where_it_stands() {
+fn the_body_is_taken_at_its_place() {
     within(60, || {
         for document in [rough(), smooth(), without_adhesion()] {
             let mut driver = mid_retraction(document);
@@ -90,7 +90,7 @@ fn a_minor_loop_closes_on_itself() {
 }
 
 #[test]
-fn the_status_tells_what_a_move_changed() {
+fn the_status_shows_what_a_move_changed() {
     within(30, || {
         let mut driver = pressed("d");
         let before = point(&driver).springs;
@@ -154,7 +154,7 @@ fn a_force_is_gone_to() {
 }
 
 #[test]
-fn a_force_out_of_reach_is_told_and_nothing_is_lost() {
+fn a_force_out_of_reach_is_stated_and_nothing_is_lost() {
     within(30, || {
         let mut driver = pressed("d");
         let before = point(&driver);

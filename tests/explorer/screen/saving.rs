@@ -11,7 +11,7 @@ use asperity::scene::Document;
 use std::path::Path;
 
 #[test]
-fn a_saved_scene_is_read_back_as_it_stands() {
+fn a_saved_scene_is_read_back_as_it_is() {
     within(30, || {
         let mut driver = pressed("");
         driver.select("roughness.hurst");
@@ -51,7 +51,7 @@ fn a_file_is_overwritten_only_when_asked() {
 }
 
 #[test]
-fn what_could_not_be_saved_is_told_and_not_forgotten() {
+fn what_could_not_be_saved_is_stated_and_not_forgotten() {
     within(30, || {
         let mut driver = pressed("l s Ctrl+u");
         driver.type_text(REFUSED);
@@ -135,7 +135,7 @@ fn taking_back_all_edits_leaves_nothing_to_save() {
 }
 
 #[test]
-fn a_comment_that_goes_with_what_is_replaced_is_told() {
+fn a_comment_that_goes_with_what_is_replaced_is_stated() {
     within(30, || {
         let text = rough().text().replace("loading: [", "loading: [ // as in the experiment\n");
         let document = Document::parse(&text, "mine.ron").unwrap();

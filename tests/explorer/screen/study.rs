@@ -64,7 +64,7 @@ fn a_study_is_shown_as_a_map() {
 }
 
 #[test]
-fn glyphs_tell_all_that_was_recorded() {
+fn glyphs_show_all_that_was_recorded() {
     within(60, || {
         let (_folder, mut driver) = opened();
         assert_eq!(driver.model.keys(), ModeKind::Chart);

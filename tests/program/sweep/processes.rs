@@ -101,7 +101,7 @@ fn killed_twenty_times_at_random_moments_it_goes_on() {
 }
 
 #[test]
-fn told_to_stop_it_ends_cleanly() {
+fn asked_to_stop_it_ends_cleanly() {
     for (signal, code) in [(rustix::process::Signal::INT, 130), (rustix::process::Signal::TERM, 143)] {
         let place = place();
         let mut child = command(place.path()).spawn().unwrap();
@@ -141,7 +141,7 @@ fn two_processes_may_be_given_the_same_shard() {
 }
 
 #[test]
-fn a_full_disk_is_told_and_loses_nothing() {
+fn a_full_disk_is_stated_and_loses_nothing() {
     let place = place();
     // A file may not grow beyond 16 blocks of 512 bytes; its signal is ignored, so that writes fail as on a full disk.
     let inner = command(place.path());
@@ -179,7 +179,7 @@ fn too_little_memory_is_refused_and_some_keeps_threads_down() {
 }
 
 #[test]
-fn where_a_study_cannot_be_is_told() {
+fn where_a_study_cannot_be_is_stated() {
     let place = place();
     fs::write(place.path().join("study"), "a file").unwrap();
     let output = finish(command(place.path()));
