@@ -330,9 +330,8 @@ impl<E: EdgeModel> Ground<'_, E> {
         if !may_rise(closes, top.gap, &span) {
             return (closes, ends);
         }
-        while span.ends() != top.ends() {
-            span = span.up_to(gaps, self.sure_level(&span, closes), top.ends());
-            let Some(wall) = span.wall(gaps).filter(|&wall| wall != parent) else { break };
+        span = span.up_to(gaps, self.sure_level(&span, closes), top.ends());
+        while let Some(wall) = span.wall(gaps).filter(|&wall| wall != parent) {
             if may_rise(closes, gaps[wall], &span) {
                 *evaluations += 1;
                 closes = larger(closes, self.attaches_at(&span, gaps[wall]));
