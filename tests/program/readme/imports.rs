@@ -221,31 +221,38 @@ fn eight_files_name_an_effect() {
     assert_eq!(files_that_name("closing_work"), files);
 }
 
-/// Words that the glossary replaces.
-const REPLACED: [&str; 8] = ["tell", "tells", "told", "owe", "owes", "owed", "stands", "stood"];
-
-#[test]
-fn replaced_words_are_not_used() {
-    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/");
-    let mut folders: Vec<PathBuf> = ["src", "presets", "tests", "benches", "examples"]
-        .map(|folder| PathBuf::from(format!("{root}{folder}")))
-        .into();
-    let mut words = 0;
+/// Path and text of each file below these folders of the repository; the text of a file that holds none is empty.
+fn texts_below(folders: &[&str]) -> Vec<(PathBuf, String)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut folders: Vec<PathBuf> = folders.iter().map(|folder| root.join(folder)).collect();
+    let mut texts = Vec::new();
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
             if path.is_dir() {
                 folders.push(path);
-                continue;
+            } else {
+                let text = fs::read_to_string(&path).unwrap_or_default();
+                texts.push((path, text));
             }
-            if path.ends_with("readme/imports.rs") {
-                continue;
-            }
-            let text = fs::read_to_string(&path).unwrap_or_default();
-            for word in text.split(|c: char| !c.is_alphabetic()) {
-                words += 1;
-                assert!(!REPLACED.contains(&word), "{}: {word}", path.display());
-            }
+        }
+    }
+    texts
+}
+
+/// Words that the glossary replaces.
+const REPLACED: [&str; 8] = ["tell", "tells", "told", "owe", "owes", "owed", "stands", "stood"];
+
+#[test]
+fn replaced_words_are_not_used() {
+    let mut words = 0;
+    for (path, text) in texts_below(&["src", "presets", "tests", "benches", "examples"]) {
+        if path.ends_with("readme/imports.rs") {
+            continue;
+        }
+        for word in text.split(|c: char| !c.is_alphabetic()) {
+            words += 1;
+            assert!(!REPLACED.contains(&word), "{}: {word}", path.display());
         }
     }
     assert!(words > 100_000, "{words} words");
@@ -256,30 +263,21 @@ const QUESTIONS: [&str; 6] = ["What ", "Whether ", "How ", "Why ", "Who ", "See 
 
 #[test]
 fn comments_begin_with_a_noun_or_a_verb() {
-    let mut folders = vec![PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/src"))];
+    let of_line = |line: &str| -> Option<String> {
+        let line = line.trim_start();
+        ["/// ", "//! "].iter().find_map(|mark| line.strip_prefix(mark)).map(str::to_owned)
+    };
     let mut seen = 0;
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-                continue;
+    for (path, text) in texts_below(&["src"]) {
+        let mut before = None;
+        for line in text.lines() {
+            let comment = of_line(line);
+            if let (None, Some(first)) = (&before, &comment) {
+                seen += 1;
+                let question = QUESTIONS.iter().any(|question| first.starts_with(question));
+                assert!(!question, "{}: {first}", path.display());
             }
-            let text = fs::read_to_string(&path).unwrap_or_default();
-            let of_line = |line: &str| -> Option<String> {
-                let line = line.trim_start();
-                ["/// ", "//! "].iter().find_map(|mark| line.strip_prefix(mark)).map(str::to_owned)
-            };
-            let mut before = None;
-            for line in text.lines() {
-                let comment = of_line(line);
-                if let (None, Some(first)) = (&before, &comment) {
-                    seen += 1;
-                    let question = QUESTIONS.iter().any(|question| first.starts_with(question));
-                    assert!(!question, "{}: {first}", path.display());
-                }
-                before = comment;
-            }
+            before = comment;
         }
     }
     assert!(seen > 5000, "{seen} comments");
