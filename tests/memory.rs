@@ -216,3 +216,28 @@ fn memory_of_512_reversals_is_that_of_a_few() {
         }
     }
 }
+
+/// Bytes per spring that a study counts for several preloads, where nearly every spring is an event.
+const PRELOADS_PER_SPRING: usize = 192;
+
+#[test]
+fn preloads_of_a_line_of_events_take_what_a_study_counts() {
+    let _alone = ALONE.lock();
+    let springs = 1 << 16;
+    let spectrum = SelfAffine { hurst: 0.1, first: 1, last: springs as u64 / 2 };
+    let rough = UnitRoughness::synthesize(spectrum, 1, springs).unwrap();
+    let line = Line::new(1e-3, springs, None, Some(&rough.heights), 5e-7).unwrap();
+    let foundation = Foundation::endless(line.spacing, 2e6);
+    let tree = ContactTree::build(&line.gaps, Edges::SubCell).unwrap();
+    let work = 5e-7 * 5e-7 * spectrum.gradient_per_height(1e-3) * 2e6 / 1e6;
+    let edges = SubCellEdges::new(HessRule::from_works(foundation, work, work));
+    let turns = [0.01, 0.1, 1.0].map(|share| Leg::ToForce(share * 2e6 * 1e-3 * 5e-7));
+    let held = allocations::most_held(|| {
+        let body = exact::adhesive(&line.gaps, &tree, edges, foundation, 2);
+        Reversals::new(body, &turns).unwrap().each(&[], &mut |_, _| Ok(())).unwrap();
+    })
+    .1;
+    println!("{} bytes per spring", held / springs);
+    assert!(held <= PRELOADS_PER_SPRING * springs + OF_OTHERS, "{} bytes per spring", held / springs);
+    assert!(held >= PRELOADS_PER_SPRING * springs / 4, "{} bytes per spring: few events", held / springs);
+}

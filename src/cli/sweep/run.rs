@@ -50,7 +50,7 @@ const BESIDE: u64 = 16 << 20;
 const KEPT: u64 = 20;
 const LONGEST_KEPT: u64 = 1 << 22;
 /// Bytes per spring of the unloadings from several preloads, where nearly every spring is an event.
-const REVERSED: u64 = 128;
+const REVERSED: u64 = 192;
 
 /// Parses a number of bytes with its unit.
 pub(super) fn size(text: &str) -> Result<u64, String> {
