@@ -1,7 +1,6 @@
 //! Figures derived from a scene and its history: the governing parameter, adhesion, regime, energy, and the
 //! sections of a profile and its contact for a picture.
 
-mod approximate_jkr;
 mod derived;
 mod figures;
 mod governing;
@@ -11,7 +10,6 @@ mod reversal_map;
 pub mod section;
 mod tabor;
 
-pub use approximate_jkr::{APPROXIMATE_JKR_ASSUMPTIONS, ApproximateJkr, ApproximatePoint};
 pub use derived::{
     contact_stiffness, elastic_energy_ratio, force_unit, ideal_adhesion_force, mean_pressure,
     roughness_adhesion_parameter, tabor_number,

@@ -10,11 +10,10 @@ use crate::accuracy::{Choice, choose, estimate, parse_tolerance};
 use crate::contact::{LegRecord, Solver};
 use crate::draw::Figure;
 use crate::export::{
-    ContactSets, PreloadReport, ensemble_text, force_figure, summary, write_approximate_jkr, write_curve,
-    write_ensemble_json, write_ensemble_table, write_json,
+    ContactSets, PreloadReport, ensemble_text, force_figure, summary, write_curve, write_ensemble_json,
+    write_ensemble_table, write_json,
 };
 use crate::scene::{Document, Preloads, ReversalContent, Scene, SpectraTable, TableContent, open_argument};
-use crate::simulation::Outcome;
 use crate::study;
 use crate::text::path_name;
 use clap::{Args, Parser};
@@ -59,13 +58,6 @@ pub struct RunArguments {
     /// Draw the contact patches over the indentation instead of the curve
     #[arg(long, conflicts_with_all = ["more", "lines"])]
     pub fragments: bool,
-    /// Add the approximate JKR curve, from the contact without adhesion
-    ///
-    /// Ciavarella, J. Mech. Phys. Solids 114 (2018) 209: contact areas as without adhesion,
-    /// patches as circles that never merge, lifted as flat punches. Exact for one patch, a mean
-    /// over many. CSV and npy then hold this curve.
-    #[arg(long, conflicts_with_all = ["more", "profile", "fragments", "lines", "preloads"], verbatim_doc_comment)]
-    pub approximate_jkr: bool,
     /// Choose springs and edges for an adhesion force within T, as 1e-3 or 0.1%
     ///
     /// Doubles the springs until the error is small enough: the error from the closed form of
@@ -99,7 +91,7 @@ const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Np
 impl RunArguments {
     /// Returns true if a request goes beyond a table of preloads or reversals.
     fn asks_for_more(&self) -> bool {
-        self.profile || self.fragments || self.approximate_jkr || !self.more.is_empty()
+        self.profile || self.fragments || !self.more.is_empty()
     }
 
     /// Requested preloads and number of random profiles, or those of a scene from a table of preloads.
@@ -199,19 +191,12 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     if let (Some(format), Some(TableContent::Profile)) = (format.table(), document.table_content()) {
         return line::write(&arguments.output, stdout, (&document, &scene), format);
     }
-    let outcome = run_with_approximate(arguments, &document, &scene)?;
+    let outcome = compute(&document, &scene)?;
     if let Some(format) = format.table() {
-        let content = match &outcome.approximate_jkr {
-            Some(_) => TableContent::ApproximateJkr,
-            None => TableContent::ForceCurve,
-        };
-        let table = (&document, &scene, content);
-        return arguments.output.write_table(stdout, table, |out, provenance| {
-            match &outcome.approximate_jkr {
-                Some(curve) => write_approximate_jkr(out, format, provenance, curve),
-                None => write_curve(out, format, provenance, &outcome),
-            }
-        });
+        let table = (&document, &scene, TableContent::ForceCurve);
+        return arguments
+            .output
+            .write_table(stdout, table, |out, provenance| write_curve(out, format, provenance, &outcome));
     }
     let choice = choice.as_ref();
     let estimate = match choice {
@@ -224,23 +209,6 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
         return arguments.output.write(stdout, write);
     }
     arguments.write_text(stdout, &summary(&scene, &outcome, estimate.as_ref()), choice)
-}
-
-/// Computes a scene, and its approximate JKR curve if requested or if the scene is from a table of one.
-fn run_with_approximate(
-    arguments: &RunArguments,
-    document: &Document,
-    scene: &Scene,
-) -> Result<Outcome, CliError> {
-    if !(arguments.approximate_jkr || document.table_content() == Some(TableContent::ApproximateJkr)) {
-        return compute(document, scene);
-    }
-    let failed = |error| CliError::named(document.name(), error);
-    let mut simulation = simulation_of(document);
-    let mut outcome = simulation.run(scene, &|| false, &mut |_, _, _| Ok(())).map_err(failed)?;
-    let curve = simulation.approximate_jkr(scene, &outcome.history, &|| false).map_err(failed)?;
-    outcome.approximate_jkr = Some(curve);
-    Ok(outcome)
 }
 
 /// Arguments of `surface` if the scene is from a table of spectra.
@@ -260,7 +228,6 @@ fn surface_again(arguments: &RunArguments, format: Format) -> Result<Option<Surf
         (arguments.fragments, "--fragments"),
         (arguments.tolerance.is_some(), "--tolerance"),
         (arguments.lines.is_some(), "--lines"),
-        (arguments.approximate_jkr, "--approximate-jkr"),
     ];
     if let Some((_, what)) = others.into_iter().find(|(is_given, _)| *is_given) {
         return Err(refused(format!("spectra have no {what}; allowed: --format and -o")));
@@ -278,7 +245,7 @@ fn figure(arguments: &RunArguments, document: Document) -> Result<Figure, CliErr
     for document in &documents {
         let (scene, _) = arguments.scene_of(document)?;
         if !(arguments.profile || arguments.fragments) {
-            computed.push((document.title(), run_with_approximate(arguments, document, &scene)?));
+            computed.push((document.title(), compute(document, &scene)?));
             continue;
         }
         let failed = |error| CliError::named(document.name(), error);

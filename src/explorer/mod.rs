@@ -4,7 +4,6 @@
 pub mod action;
 pub mod adhesion_spread;
 pub mod appraisal;
-pub mod approximate;
 mod caption;
 pub mod chart;
 mod close_up;

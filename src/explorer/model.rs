@@ -3,7 +3,6 @@
 use super::action::Traffic;
 use super::adhesion_spread::AdhesionSpread;
 pub use super::appraisal::{Appraisal, Estimated};
-use super::approximate::Approximate;
 pub use super::chart::{Chart, OpenStudy};
 use super::completion::Completion;
 use super::config::{Animation, Config};
@@ -192,8 +191,6 @@ pub struct Model {
     pub profile: LineView,
     /// Content of the pane of the curve.
     pub curve: CurveLook,
-    /// Approximate JKR curve beside the loop.
-    pub approximate: Approximate,
     /// The crosshair, while shown.
     pub crosshair: Option<Crosshair>,
     /// Loops kept for comparison, the newest last.
@@ -280,7 +277,6 @@ impl Model {
             lower: Pane::CloseUp,
             profile: LineView::WHOLE,
             curve: CurveLook::default(),
-            approximate: Approximate::default(),
             crosshair: None,
             ghosts: Vec::new(),
             next_ghost: None,

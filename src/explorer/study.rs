@@ -5,9 +5,8 @@ use super::adhesion_spread::AdhesionSpread;
 use super::panes::{Costs, Pane, PreloadCurve};
 use super::snapshot::SolvedScene;
 use crate::accuracy::{Choice, ChoiceError, Estimate, choose, estimate};
-use crate::analysis::ApproximateJkr;
 use crate::scene::Scene;
-use crate::simulation::{RunError, Simulation};
+use crate::simulation::RunError;
 use crate::study::map::{LiveMap, compute};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -84,8 +83,6 @@ impl PaneData {
 pub enum Task {
     /// Estimated error of the outcome.
     Estimate(Arc<SolvedScene>),
-    /// Approximate JKR curve beside the loop of the outcome.
-    ApproximateJkr(Arc<SolvedScene>),
     /// Springs and edges for a tolerance.
     Choose(Arc<Scene>, f64),
     /// Missing part of the data of a pane.
@@ -109,8 +106,6 @@ impl Task {
 pub enum Finding {
     /// The error of the outcome, where known.
     Estimated(Option<Estimate>),
-    /// The approximate JKR curve, or the reason for none.
-    Approximated(Result<Arc<ApproximateJkr>, String>),
     /// Number of springs tried next for a tolerance.
     Choosing(u64),
     /// Choice for a tolerance, or the reason for none.
@@ -154,18 +149,6 @@ pub trait Appraiser: Send {
         choose(scene, Path::new(FOLDER), tolerance, stop, trying)
     }
 
-    /// See [`Simulation::approximate_jkr`].
-    ///
-    /// # Errors
-    /// For a scene without such a curve, when the profile fails or `stop` interrupts.
-    fn approximate_jkr(
-        &mut self,
-        of: &SolvedScene,
-        stop: &dyn Fn() -> bool,
-    ) -> Result<ApproximateJkr, RunError> {
-        Simulation::new(FOLDER.into()).approximate_jkr(&of.scene, &of.outcome.history, stop)
-    }
-
     /// See [`PaneData::extended`].
     ///
     /// # Errors
@@ -206,10 +189,6 @@ pub fn perform(
     };
     let done = catch_unwind(AssertUnwindSafe(|| match task {
         Task::Estimate(of) => Finding::Estimated(appraiser.estimate(of, stop).unwrap_or(None)),
-        Task::ApproximateJkr(of) => {
-            let curve = appraiser.approximate_jkr(of, stop);
-            Finding::Approximated(curve.map(Arc::new).map_err(|error| error.to_string()))
-        }
         Task::Choose(scene, tolerance) => {
             let choice =
                 appraiser.choose(scene, *tolerance, stop, &mut |points| report(Finding::Choosing(points)));
@@ -225,7 +204,6 @@ pub fn perform(
     }));
     report(done.unwrap_or_else(|_| match task {
         Task::Estimate(_) => Finding::Estimated(None),
-        Task::ApproximateJkr(_) => Finding::Approximated(Err(INTERNAL.to_owned())),
         Task::Choose(_, tolerance) => Finding::Chosen(*tolerance, Err(ChoiceError::Stopped)),
         Task::Extend { data, .. } => Finding::NotExtended(data.pane(), INTERNAL.to_owned()),
     }));

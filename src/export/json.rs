@@ -1,9 +1,8 @@
 //! A computed scene as one JSON object: SI units, numbers that are finite or null.
 
-use super::scene_tables::{APPROXIMATE_JKR, CURVE, curve};
+use super::scene_tables::{CURVE, curve};
 use super::table::Record;
 use crate::accuracy::{Choice, Estimate};
-use crate::analysis::ApproximateJkr;
 use crate::io::{object, write_json_value};
 use crate::scene::{Observer, Scene};
 use crate::simulation::Outcome;
@@ -61,20 +60,10 @@ pub fn write_json(
             "high": histogram.high,
             "counts": &histogram.counts,
         }),
-        "approximate_jkr"?: outcome.approximate_jkr.as_ref().map(approximate_jkr),
         "work": history.work,
         "timings": outcome.timings,
     };
     write_json_value(out, &report)
-}
-
-/// An approximate JKR curve: its adhesion force, and its points.
-fn approximate_jkr(of: &ApproximateJkr) -> impl Serialize {
-    object! {
-        "adhesion_force": of.adhesion_force(),
-        "pull_off_indentation": of.pull_off().map(|point| point.indentation),
-        "curve": of.points.iter().map(|point| Record(APPROXIMATE_JKR, point)).collect::<Vec<_>>(),
-    }
 }
 
 /// The points of all loading stages in sequence, without a copy of them.

@@ -32,8 +32,8 @@ pub use reversals::{
     ReversalReport, reversals_figure, reversals_text, write_reversal_map_table, write_reversals_json,
     write_reversals_table,
 };
-pub use scene_figure::{ContactSets, approximate_jkr_layer, force_figure, sign};
-pub use scene_tables::{write_approximate_jkr, write_curve, write_line};
+pub use scene_figure::{ContactSets, force_figure, sign};
+pub use scene_tables::{write_curve, write_line};
 pub use spectrum_figure::{Spectra, SpectrumPoint};
 pub use study_figure::study_figure;
 pub use summary::{brief_summary, summary};

@@ -1,7 +1,7 @@
 //! Figures of computed scenes: force curves, the profile with its contact, contact patches over the indentation.
 
 use crate::analysis::section::{Column, Contact, LineColumns, Part};
-use crate::analysis::{APPROXIMATE_JKR_ASSUMPTIONS, ApproximatePoint, Mark, marks};
+use crate::analysis::{Mark, marks};
 use crate::contact::{ContactError, Direction, LegRecord, Solver};
 use crate::draw::{
     Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label,
@@ -52,10 +52,6 @@ pub fn force_figure(scenes: &[(&str, &Outcome)]) -> Figure {
         {
             first.name = Label::plain(title);
         }
-        if let Some(curve) = &outcome.approximate_jkr {
-            let place = |point: &ApproximatePoint| (point.indentation, point.force);
-            layers.push(approximate_jkr_layer(curve.points.iter().map(place).collect()));
-        }
         for (mark, point) in marks(legs) {
             let name = if alone { mark_name(mark, point.force) } else { Label::default() };
             let ink = if alone { Ink::Text } else { Ink::Series(number) };
@@ -64,30 +60,15 @@ pub fn force_figure(scenes: &[(&str, &Outcome)]) -> Figure {
         }
     }
     let points = || scenes.iter().flat_map(|(_, outcome)| &outcome.history.legs).flat_map(|leg| &leg.curve);
-    let approximate =
-        || scenes.iter().flat_map(|(_, outcome)| &outcome.approximate_jkr).flat_map(|curve| &curve.points);
-    let indentations = approximate().map(|point| point.indentation);
-    let x = Span::around(points().map(|point| point.indentation).chain(indentations), 0.04);
-    let forces = approximate().map(|point| point.force);
-    let y = Span::around(points().map(|point| point.force).chain(forces).chain([0.0]), 0.06);
-    let assumed = format!("approximate JKR (Ciavarella 2018): {APPROXIMATE_JKR_ASSUMPTIONS}");
+    let x = Span::around(points().map(|point| point.indentation), 0.04);
+    let y = Span::around(points().map(|point| point.force).chain([0.0]), 0.06);
     let (title, notes) = match scenes {
-        [(title, outcome)] => {
-            let notes = outcome.approximate_jkr.iter().map(|_| Label::plain(&assumed)).collect();
-            (*title, notes)
-        }
+        [(title, _)] => (*title, Vec::new()),
         _ => ("", vec![Label::plain("dashed: loading, solid: unloading")]),
     };
     let x = Axis::new(AxisScale::Linear, x, "indentation", "d", "m");
     let y = Axis::new(AxisScale::Linear, y, "force", "F", "N");
     Figure { notes, ..Figure::of_chart(title, Chart::new(x, y, layers)) }
-}
-
-/// Layer of an approximate JKR curve, the force over the indentation.
-#[must_use]
-pub fn approximate_jkr_layer(points: Vec<(f64, f64)>) -> Layer {
-    let shape = Shape::Curve { points, stroke: Some(Stroke::Sparse), sign: None };
-    Layer::new("approximate JKR".into(), Ink::Kept, shape)
 }
 
 /// Sign of a mark.

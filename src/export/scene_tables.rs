@@ -1,7 +1,6 @@
-//! Tables of a scene: its force curve, the approximate JKR curve, and its profile.
+//! Tables of a scene: its force curve and its profile.
 
 use super::table::{Column, TableFormat, Value, write_table};
-use crate::analysis::{ApproximateJkr, ApproximatePoint};
 use crate::contact::CurvePoint;
 use crate::scene::Provenance;
 use crate::simulation::Outcome;
@@ -15,16 +14,6 @@ pub(super) const CURVE: &[Column<(usize, CurvePoint)>] = &[
     Column("force", Value::Real(|(_, point)| point.force)),
     Column("contact_length", Value::Real(|(_, point)| point.contact_length)),
     Column("fragments", Value::Whole(|(_, point)| point.fragments)),
-];
-
-/// Columns of [`write_approximate_jkr`].
-pub(super) const APPROXIMATE_JKR: &[Column<ApproximatePoint>] = &[
-    Column("indentation", Value::Real(|point| point.indentation)),
-    Column("force", Value::Real(|point| point.force)),
-    Column("nonadhesive_indentation", Value::Real(|point| point.nonadhesive.indentation)),
-    Column("nonadhesive_force", Value::Real(|point| point.nonadhesive.force)),
-    Column("contact_length", Value::Real(|point| point.nonadhesive.contact_length)),
-    Column("growing_length", Value::Optional(|point| point.nonadhesive.growing_length)),
 ];
 
 /// Columns of [`write_line`].
@@ -50,20 +39,6 @@ pub fn write_curve(
 ) -> io::Result<()> {
     let points = outcome.history.legs.iter().map(|leg| leg.curve.len()).sum();
     write_table(out, format, provenance, CURVE, points, curve(outcome))
-}
-
-/// Writes the approximate JKR curve: indentation in m and force in N, and of the contact without adhesion of the
-/// same area its indentation in m, force in N, contact length in m and mean length of the growing patches in m.
-///
-/// # Errors
-/// Errors of `out`.
-pub fn write_approximate_jkr(
-    out: &mut (impl Write + ?Sized),
-    format: TableFormat,
-    provenance: &Provenance,
-    curve: &ApproximateJkr,
-) -> io::Result<()> {
-    write_table(out, format, provenance, APPROXIMATE_JKR, curve.points.len(), curve.points.iter())
 }
 
 /// Writes the profile: position x and height z in m of every spring under the body.

@@ -3,7 +3,7 @@
 use super::sheet::Sheet;
 use super::verdict;
 use crate::accuracy::{Estimate, Target};
-use crate::analysis::{APPROXIMATE_JKR_ASSUMPTIONS, ApproximateJkr, LEAST_TABOR_NUMBER};
+use crate::analysis::LEAST_TABOR_NUMBER;
 use crate::contact::Work;
 use crate::scene::{Leg, Scene, format_quantity};
 use crate::simulation::{Outcome, Timings};
@@ -25,9 +25,6 @@ pub fn summary(scene: &Scene, outcome: &Outcome, estimate: Option<&Estimate>) ->
     line(&mut sheet, outcome);
     bodies(&mut sheet, outcome);
     adhesion(&mut sheet, scene, outcome, estimate);
-    if let Some(curve) = &outcome.approximate_jkr {
-        approximate_jkr(&mut sheet, curve);
-    }
     contact(&mut sheet, outcome);
     cost(&mut sheet, &outcome.history.work, &outcome.timings);
     sheet.into_text()
@@ -103,16 +100,6 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Optio
     sheet.quantity("smooth body F_smooth", outcome.smooth_adhesion_force, "N");
     sheet.quantity("ideal F_a,max", outcome.ideal_adhesion_force, "N");
     dissipated_energy(sheet, outcome);
-}
-
-/// Figures of the approximate JKR curve, its source and its assumptions.
-fn approximate_jkr(sheet: &mut Sheet, curve: &ApproximateJkr) {
-    sheet.heading("Approximate JKR solution (Ciavarella 2018)");
-    let force = quantity(curve.adhesion_force(), "N");
-    sheet.row("adhesion force F_a", force.unwrap_or_else(|| "none: the curve does not pull".into()));
-    let indentation = curve.pull_off().map(|point| point.indentation);
-    sheet.quantity("pull-off indentation", indentation, "m");
-    sheet.row("assumptions", APPROXIMATE_JKR_ASSUMPTIONS);
 }
 
 /// Dissipated energy, and the Tabor number as a measure of its validity.

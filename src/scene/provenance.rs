@@ -195,8 +195,7 @@ impl SceneText {
         ))?;
         let content = head.lines().find_map(|line| TableContent::from_name(line.strip_prefix("content: ")?));
         let content = content.ok_or(SceneTextError::NoProvenance(
-            "a table without its content; allowed: `content: force curve`, `approximate JKR curve`, `profile`, \
-             `COUNT random profiles`, `COUNT preloads from FORCE to FORCE N` or `COUNT reversals`",
+            "a table without its content; allowed: `content: force curve`, `profile`, `COUNT random profiles`, `COUNT preloads from FORCE to FORCE N` or `COUNT reversals`",
         ))?;
         let measured = MeasuredHash::of_lines(head);
         Ok(SceneText { text: scene.to_owned(), content: Some(content), measured })
@@ -227,7 +226,6 @@ mod tests {
             let preloads = Preloads::new(0.0, 1e-5 * f64::from(count), 2 + count as usize % 511).unwrap();
             for content in [
                 TableContent::ForceCurve,
-                TableContent::ApproximateJkr,
                 TableContent::Profile,
                 TableContent::RandomProfiles(count),
                 TableContent::Preloads(preloads, None),

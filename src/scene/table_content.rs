@@ -7,8 +7,6 @@ use super::preloads::{PRELOADS, Preloads, force_range, parse_force_range};
 pub enum TableContent {
     /// Points of the force curve.
     ForceCurve,
-    /// Points of the approximate JKR curve.
-    ApproximateJkr,
     /// Positions and heights of the profile.
     Profile,
     /// Figures of random profiles, one row each.
@@ -65,7 +63,6 @@ impl TableContent {
     pub(super) fn name(self) -> String {
         match self {
             TableContent::ForceCurve => "force curve".to_owned(),
-            TableContent::ApproximateJkr => "approximate JKR curve".to_owned(),
             TableContent::Profile => "profile".to_owned(),
             TableContent::RandomProfiles(count) => format!("{count}{RANDOM_PROFILES}"),
             TableContent::Preloads(preloads, None) => preloads.name(),
@@ -78,7 +75,7 @@ impl TableContent {
 
     /// Content of this name.
     pub(super) fn from_name(name: &str) -> Option<Self> {
-        let plain = [TableContent::ForceCurve, TableContent::ApproximateJkr, TableContent::Profile];
+        let plain = [TableContent::ForceCurve, TableContent::Profile];
         if let Some(content) = plain.into_iter().find(|content| content.name() == name) {
             return Some(content);
         }

@@ -27,12 +27,6 @@ pub enum RunError {
         "loading: no indentation above 0 m at the preload; allowed: a stage that presses the bodies together"
     )]
     NeverPressed,
-    /// A body without an approximate JKR curve.
-    #[error("no approximate JKR curve: {why}")]
-    NoApproximateJkr {
-        /// Reason, and the allowed scenes.
-        why: &'static str,
-    },
     /// The contact could not be computed.
     #[error(transparent)]
     Contact(#[from] ContactError),

@@ -1,6 +1,5 @@
 //! From a scene to its force curve: the stages, their selection by the scene, and their results.
 
-mod approximate_jkr;
 mod contact_stage;
 mod error;
 mod outcome;

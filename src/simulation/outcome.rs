@@ -1,6 +1,6 @@
 //! Outcome of a computed scene.
 
-use crate::analysis::{ApproximateJkr, Figures, Governing, Regime};
+use crate::analysis::{Figures, Governing, Regime};
 use crate::contact::History;
 use crate::surface::Histogram;
 use serde::Serialize;
@@ -30,8 +30,6 @@ pub struct Outcome {
     pub fragments: Vec<Vec<(usize, usize)>>,
     /// Histogram of the heights of the profile, if observed.
     pub histogram: Option<Histogram>,
-    /// Approximate JKR curve, if requested from [`super::Simulation::approximate_jkr`].
-    pub approximate_jkr: Option<ApproximateJkr>,
     /// Times of the stages.
     pub timings: Timings,
 }

@@ -391,7 +391,6 @@ impl Simulation {
             history,
             fragments,
             histogram: self.histogram.as_ref().filter(|_| plan.runs(Stage::HeightHistogram)).cloned(),
-            approximate_jkr: None,
             timings,
         })
     }

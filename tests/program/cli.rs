@@ -553,7 +553,6 @@ fn a_table_computes_again_from_itself() {
                 "3",
             ],
         ),
-        ("approximate", &["run", "jkr-sphere", "--set", "numerics.points=512", "--approximate-jkr"]),
         ("preloads", &["run", "jkr-sphere", "--set", "numerics.points=512", "--preloads", "0..1uN:5"]),
         (
             "random-preloads",
@@ -1100,33 +1099,6 @@ fn adhesion_against_preload_is_printed_for_one_profile_and_for_many() {
     let stepwise = "numerics.solver=Stepwise(step: 1e-9)";
     let error = failed(1, &["run", "jkr-sphere", "--preloads", "0..1mN", "--set", stepwise]);
     assert!(error.contains("numerics.solver = Stepwise: reversals need the exact solver"), "{error}");
-}
-
-#[test]
-fn an_approximate_curve_is_printed_beside_the_loop() {
-    let run = |scene: &str, more: &[&str]| {
-        done(&[&["run", scene, "--approximate-jkr"], &FEW_SPRINGS[..], more].concat())
-    };
-    let text = run("jkr-sphere", &[]);
-    assert!(text.contains("Approximate JKR solution (Ciavarella 2018)\n"), "{text}");
-    assert!(text.contains("patches as circles"), "{text}");
-    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
-    let json: Value = serde_json::from_str(&run("jkr-sphere", &["--format", "json"])).unwrap();
-    let (exact, approximate) = (&json["adhesion_force"], &json["approximate_jkr"]);
-    let share = approximate["adhesion_force"].as_f64().unwrap() / exact.as_f64().unwrap();
-    assert!((share - 1.0).abs() < 1e-3, "{share}");
-    let csv = run("jkr-sphere", &["--format", "csv"]);
-    assert_eq!(rows(&csv).count(), 1 + approximate["curve"].as_array().unwrap().len());
-    assert!(rows(&csv).next().unwrap().starts_with("indentation,force,nonadhesive_indentation,"), "{csv}");
-    let svg = run("jkr-sphere", &["--format", "svg"]);
-    assert!(svg.contains("approximate JKR") && svg.contains("(Ciavarella 2018)"), "{svg}");
-    assert!(!done(&["run", "jkr-sphere", "--format", "json"]).contains("approximate_jkr"));
-    let error = failed(1, &["run", "kendall-punch", "--approximate-jkr"]);
-    assert!(error.contains("no approximate JKR curve") && error.contains("allowed"), "{error}");
-    for other in [&["--lines", "2"][..], &["--preloads", "0..1uN"], &["--profile"], &["--fragments"]] {
-        let error = failed(2, &[&["run", "rough-sphere", "--approximate-jkr"], other].concat());
-        assert!(error.contains("cannot be used with"), "{error}");
-    }
 }
 
 #[test]

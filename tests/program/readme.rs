@@ -13,7 +13,7 @@ use asperity::explorer::demo::{Demo, ONE_SCENE};
 use asperity::explorer::theme::{Appearance, Marker, Theme};
 use asperity::explorer::{keys, screenshot};
 use asperity::export::check_markdown;
-use asperity::scene::{Document, format_quantity};
+use asperity::scene::Document;
 use asperity::simulation::Simulation;
 use asperity::study::{Changes, Plan, Quantity};
 use scenes::{check, read, root, updating};
@@ -119,59 +119,6 @@ fn errors_of_a_sphere_are_those_of_the_program() {
     table.push('\n');
     check("README.md", "sphere", &format!("\n{table}\n"));
     check("docs/accuracy.md", "sphere", &table);
-}
-
-#[test]
-fn approximate_curves_are_those_of_the_program() {
-    let scenes = [
-        "jkr-sphere",
-        "two-works",
-        "wavy-sphere",
-        "rough-sphere",
-        "ideal-adhesion",
-        "pressure-sensitive",
-        "non-adhesive",
-    ];
-    let mut table = String::from("| scene | exact | approximate | share |\n| --- | --- | --- | --- |\n");
-    for name in scenes {
-        let [exact, approximate] = adhesion_forces(&asperity::scene::open(name).unwrap());
-        let [shown, estimated] = [exact, approximate].map(|force| format_quantity(three_digits(force), "N"));
-        writeln!(table, "| `{name}` | {shown} | {estimated} | {:.3} |", approximate / exact).unwrap();
-    }
-    check("docs/model.md", "approximate JKR", &table);
-    let mut table = String::from("| κ | smallest | median | largest |\n| --- | --- | --- | --- |\n");
-    for kappa in ["1", "2", "4", "6", "8", "12", "20", "40"] {
-        let share = |seed: u32| {
-            let fields = [
-                ("adhesion.kappa", kappa.to_owned()),
-                ("roughness.seed", seed.to_string()),
-                ("roughness.modes", "(4, 256)".to_owned()),
-                ("numerics.points", "2048".to_owned()),
-            ];
-            let fields = fields.map(|(path, value)| (path.to_owned(), value));
-            let document = asperity::scene::open("pressure-sensitive").unwrap().set_all(&fields).unwrap();
-            let [exact, approximate] = adhesion_forces(&document);
-            approximate / exact
-        };
-        let mut shares: Vec<f64> = (1..=16).map(share).collect();
-        shares.sort_by(f64::total_cmp);
-        let median = 0.5 * (shares[7] + shares[8]);
-        writeln!(table, "| {kappa} | {:.2} | {median:.2} | {:.2} |", shares[0], shares[15]).unwrap();
-    }
-    check("docs/model.md", "approximate shares", &table);
-}
-
-/// Adhesion force of a scene by the exact loop and by the approximate JKR curve, N.
-fn adhesion_forces(document: &Document) -> [f64; 2] {
-    let (mut simulation, scene) = (Simulation::default(), document.scene());
-    let outcome = simulation.run(scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
-    let curve = simulation.approximate_jkr(scene, &outcome.history, &|| false).unwrap();
-    [outcome.figures.adhesion_force.unwrap(), curve.adhesion_force().unwrap()]
-}
-
-/// The number to three digits.
-fn three_digits(value: f64) -> f64 {
-    format!("{value:.2e}").parse().unwrap()
 }
 
 /// Relative error of the smallest force, −(3/2)πγR, of a sphere with γ = E* R on a profile of length 12 R.

@@ -1,7 +1,7 @@
 //! The curve: the hysteresis loop with its two branches, curves compared with it, and manual loading.
 
 use super::{PaneRow, Place};
-use crate::analysis::{ApproximatePoint, LEAST_TABOR_NUMBER, Mark, marks};
+use crate::analysis::{LEAST_TABOR_NUMBER, Mark, marks};
 use crate::contact::{CurvePoint, Direction, LegRecord};
 use crate::draw::{
     Axis, AxisScale, CellPlot, Chart, Ink, Label, Layer, Shape, Sign, Span, Stroke, glyph, legend,
@@ -17,7 +17,7 @@ use crate::explorer::update::{Effect, movement};
 use crate::explorer::view::lines::{draw_lines, draw_reason};
 use crate::explorer::view::plot;
 use crate::explorer::view::wrap::fitting;
-use crate::export::{approximate_jkr_layer, sign};
+use crate::export::sign;
 use crate::scene::format_rounded;
 use ratatui::Frame;
 use ratatui::layout::{Position, Rect};
@@ -32,19 +32,11 @@ pub static ROW: PaneRow = PaneRow {
     keys: Some(ModeKind::Crosshair),
     press: drag,
     drag,
-    help: &[
-        (
-            "Curve",
-            "F over indentation d: dotted while pressing, solid while pulling; ◇ jump-in, ▲ preload, ▼ pull-off, \
+    help: &[(
+        "Curve",
+        "F over indentation d: dotted while pressing, solid while pulling; ◇ jump-in, ▲ preload, ▼ pull-off, \
              ◆ now; letters and colours are ghosts, dashes are the path of manual loading",
-        ),
-        (
-            "Estimate",
-            "~: approximate JKR curve under the loop, from the contact without adhesion (Ciavarella 2018): contact areas \
-             as there, patches as circles that never merge, no hysteresis of single patches; exact for one patch; cut \
-             where it would take more than half of an axis",
-        ),
-    ],
+    )],
     ..PaneRow::EMPTY
 };
 
@@ -165,42 +157,16 @@ impl Units {
 /// Most decades of a logarithmic axis: a force near its change of sign would take all room.
 const MOST_DECADES: f64 = 3.0;
 
-/// Most that the approximate JKR curve adds to an axis at each end, in ranges of the other curves. The estimate may be
-/// far from these, which are the result and keep at least half of the axis.
-const APPROXIMATE_ROOM: f64 = 0.5;
-
-/// Points of the approximate JKR curve on the axes of the force over the indentation.
-fn approximate(model: &Model, units: Units) -> Vec<(f64, f64)> {
-    let is_force = units.quantities == Quantities::ForceIndentation && model.is_current();
-    let points = model.approximate.curve().filter(|_| is_force).into_iter().flat_map(|curve| &curve.points);
-    let point = |point: &ApproximatePoint| CurvePoint {
-        indentation: point.indentation,
-        force: point.force,
-        ..CurvePoint::default()
-    };
-    points.map(|of| units.place(&point(of))).collect()
-}
-
-/// Ranges of the pane: the curve, kept curves, the approximate one and the path of manual loading.
+/// Ranges of the pane: the curve, kept curves and the path of manual loading.
 fn spans(model: &Model, units: Units) -> (Span, Span) {
     let ghosts = model.ghosts.iter().flat_map(|ghost| &ghost.computed.outcome.history.legs);
     let tried = model.tried_outcome().into_iter().flat_map(|outcome| &outcome.history.legs);
     let points = model.legs().iter().chain(ghosts).chain(tried).flat_map(|leg| &leg.curve);
     let manual = model.manual.iter().flat_map(|manual| &manual.path);
     let coordinate = |number| units.scale.coordinate(number);
-    let mut places: Vec<(f64, f64)> = points.chain(manual).map(|point| units.place(point)).collect();
-    let around = |places: &[(f64, f64)]| {
-        let x = Span::around(places.iter().map(|place| coordinate(place.0)), 0.06);
-        (x, Span::around(places.iter().map(|place| place.1).chain([0.0]).map(coordinate), 0.08))
-    };
-    let own = around(&places);
-    places.extend(approximate(model, units));
-    let limited = |own: Span, all: Span| {
-        let Span { low, high } = own.widened(APPROXIMATE_ROOM);
-        Span { low: all.low.max(low), high: all.high.min(high) }
-    };
-    let all = around(&places);
-    let (x, y) = (limited(own.0, all.0), limited(own.1, all.1));
+    let places: Vec<(f64, f64)> = points.chain(manual).map(|point| units.place(point)).collect();
+    let x = Span::around(places.iter().map(|place| coordinate(place.0)), 0.06);
+    let y = Span::around(places.iter().map(|place| place.1).chain([0.0]).map(coordinate), 0.08);
     let decades = |span: Span| Span { low: span.low.max(span.high - MOST_DECADES), ..span };
     match (units.scale, units.quantities) {
         (AxisScale::Logarithmic, _) => (decades(x), decades(y)),
@@ -380,15 +346,6 @@ fn chart(model: &Model, units: Units) -> Chart {
         layers.push(Layer::new("preview".into(), Ink::Kept, line(along(&leg.curve), Stroke::Dashed)));
     }
     let (x, y) = spans(model, units);
-    let mut approximate = approximate(model, units);
-    if !approximate.is_empty() {
-        // Beyond the axes the estimate is left out: at the edge it would pass for a value.
-        let is_within = |number, span: Span| (span.low..=span.high).contains(&units.scale.coordinate(number));
-        for point in approximate.iter_mut().filter(|at| !(is_within(at.0, x) && is_within(at.1, y))) {
-            *point = (f64::NAN, f64::NAN);
-        }
-        layers.push(approximate_jkr_layer(approximate));
-    }
     for (direction, name, of, stroke) in [
         (Direction::Loading, "loading", Ink::Loading, Stroke::Dotted),
         (Direction::Unloading, "unloading", Ink::Unloading, Stroke::Solid),

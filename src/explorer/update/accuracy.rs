@@ -19,10 +19,9 @@ pub fn study_tasks(model: &Model) -> Vec<Task> {
     }
     let estimate =
         (appraisal.estimated == Estimated::Waiting).then(|| Task::Estimate(std::sync::Arc::clone(computed)));
-    let approximate = model.approximate.wanted(computed).map(Task::ApproximateJkr);
     let shown = model.large.filter(|pane| !model.failures.contains_key(pane));
     let shown = shown.and_then(|pane| (pane.row().task)(model, computed));
-    estimate.into_iter().chain(approximate).chain(shown).collect()
+    estimate.into_iter().chain(shown).collect()
 }
 
 const NOT_COMPUTED: &str = "not before the scene is computed";
@@ -71,12 +70,6 @@ pub fn found(model: &mut Model, found: Found) -> Vec<Effect> {
                     return vec![Effect::Study];
                 }
             }
-        }
-        Finding::Approximated(found) => {
-            if let Err(why) = &found {
-                model.set_error(why.clone());
-            }
-            model.approximate.found = Some(found);
         }
         Finding::Extended(data) => (data.pane().row().take_in)(model, data),
         Finding::NotExtended(pane, why) => drop(model.failures.insert(pane, why)),

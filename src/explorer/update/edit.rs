@@ -379,7 +379,6 @@ fn renew(model: &mut Model) -> Vec<Effect> {
     for pane in Pane::ALL {
         (pane.row().renew)(model);
     }
-    model.approximate.renew();
     // Manual loading belongs to the former profile and contact.
     if model.manual.take().is_some() {
         model.set_done("the body is back on the scene's loading");

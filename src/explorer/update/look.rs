@@ -38,12 +38,6 @@ pub fn toggle_logarithmic(model: &mut Model) {
     };
 }
 
-/// Draws the approximate JKR curve, or leaves it out.
-pub fn toggle_approximate(model: &mut Model) -> Vec<Effect> {
-    model.approximate.shown = !model.approximate.shown;
-    vec![Effect::Study, Effect::Show]
-}
-
 /// Selects the next pane.
 pub fn next_pane(model: &mut Model) {
     let panes = model.panes();

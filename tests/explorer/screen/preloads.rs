@@ -10,7 +10,6 @@ use asperity::explorer::panes::PROFILES;
 use asperity::explorer::study::{PaneData, Task};
 use asperity::explorer::update::{Effect, study_tasks};
 use asperity::scene::Document;
-use asperity::simulation::Simulation;
 use std::cell::RefCell;
 
 /// Computes the curve up to this number of profiles.
@@ -105,40 +104,5 @@ fn an_edit_begins_a_new_curve_and_a_scene_without_one_says_why() {
         let driver = shown(without_adhesion(), 2);
         assert_eq!(goes_on(&driver), None);
         assert!(driver.text().contains("without adhesion nothing holds"), "{}", driver.text());
-    });
-}
-
-#[test]
-fn a_tilde_draws_the_approximate_curve_under_the_loop() {
-    within(60, || {
-        let opened = |document| {
-            let mut driver = Driver::open(document);
-            driver.appraiser = Some(Box::new(computing(0)));
-            driver.perform(vec![Effect::Compute]);
-            driver.press("Space");
-            driver
-        };
-        let mut driver = opened(rough());
-        assert_eq!(driver.model.approximate.found, None, "nothing is computed unasked");
-        driver.press("~");
-        let computed = driver.model.computed.clone().unwrap();
-        let expected = Simulation::default()
-            .approximate_jkr(&computed.scene, &computed.outcome.history, &|| false)
-            .unwrap();
-        assert_eq!(driver.model.approximate.curve(), Some(&expected));
-        for size in [(120, 40), (80, 24)] {
-            driver.resize(size);
-            assert!(driver.text().contains("approximate JKR"), "{}", driver.text());
-        }
-        // The curve is that of forces over indentations, and of the present scene.
-        driver.press("v");
-        assert!(!driver.text().contains("approximate JKR"), "{}", driver.text());
-        driver.press("v v R");
-        assert_ne!(driver.model.approximate.curve(), Some(&expected));
-        driver.press("~");
-        assert!(!driver.text().contains("approximate JKR"), "{}", driver.text());
-        let mut driver = opened(without_adhesion());
-        driver.press("~");
-        assert!(driver.text().contains("no approximate JKR curve: nothing attracts"), "{}", driver.text());
     });
 }

@@ -7,12 +7,10 @@ use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::crosshair::read;
 use super::preloads::computed_preloads;
-use super::stand_in::StandIn;
 use super::{SIZES, default_scene, is_up_to_date, mid_retraction, pressed};
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::layout::{Layout, inside, is_framed};
 use asperity::explorer::model::{Mode, Pane};
-use asperity::explorer::panes::indentation_at;
 use asperity::explorer::theme::{Marker, Theme};
 use asperity::scene::{Effect, format_quantity, open};
 use std::collections::BTreeSet;
@@ -465,38 +463,6 @@ fn the_wheel_zooms_at_the_pointer_and_strong_contrast_keeps_profile_and_surface_
             assert!(springs < all, "{size:?}: {springs} of {all}");
             // The spring under the pointer remains there: nearer to the left end than to the right one.
             assert!(from - first < first + all - (from + springs), "{size:?}: {from} {springs} of {all}");
-        }
-    });
-}
-
-#[test]
-fn the_approximate_curve_leaves_half_of_each_axis_to_the_loop() {
-    within(60, || {
-        for size in SIZES {
-            for document in [default_scene(), rough()] {
-                let mut driver = mid_retraction(document);
-                driver.appraiser = Some(Box::new(StandIn::new(|data, _, _| Ok(data))));
-                driver.model.zoomed = true;
-                driver.resize(size);
-                let dots = |driver: &Driver| {
-                    let area = Layout::of(&driver.model).pane(Pane::Force).unwrap();
-                    let legs = driver.model.legs();
-                    let ends = legs.iter().flat_map(|leg| &leg.curve).map(|point| point.indentation);
-                    let (low, high) =
-                        ends.fold((f64::MAX, f64::MIN), |(low, high), at| (low.min(at), high.max(at)));
-                    let columns = area.x..area.right();
-                    let here = |column: &u16| {
-                        let at = indentation_at(&driver.model, inside(area), *column).unwrap();
-                        (low..=high).contains(&at)
-                    };
-                    columns.filter(here).count()
-                };
-                let before = dots(&driver);
-                driver.press("~");
-                let after = dots(&driver);
-                assert!(driver.model.approximate.curve().is_some());
-                assert!(2 * after + 2 >= before, "{size:?}: {after} of {before} columns");
-            }
         }
     });
 }
