@@ -9,8 +9,8 @@
 
 use asperity::analysis::ideal_adhesion_force;
 use asperity::contact::{
-    AdhesiveMemory, ContactTree, EdgeModel, Exact, Foundation, GridEdges, HessRule, LegContact, LegRecord,
-    Reversals, Solver, SubCellEdges, Work,
+    AdhesiveMemory, ContactRule, ContactTree, EdgeModel, Exact, Foundation, GridEdges, HessRule, LegContact,
+    LegRecord, Reversals, Solver, SubCellEdges, Work,
 };
 use asperity::scene::{Adhesion, Document, Edges, Leg, Roughness, Scene};
 use asperity::simulation::Simulation;
@@ -310,8 +310,8 @@ impl Timed {
         let whole = Instant::now();
         let tree = tree.rebuild(gaps, E::EDGES).expect("memory for the tree");
         self.tree = self.tree.min(seconds_since(whole));
-        let adhesion = Some((edges.rule(), &tree));
-        let mut solver = Exact::new(&mut self.memory, gaps, adhesion, E::EDGES, rough.foundation, SAMPLES);
+        let rule = ContactRule::Hess(edges.rule(), &tree);
+        let mut solver = Exact::new(&mut self.memory, gaps, rule, rough.foundation, SAMPLES);
         let legs = [Leg::ToForce(LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT), Leg::ToSeparation];
         let clock = Instant::now();
         self.records = legs.map(|leg| solver.advance(leg).expect("a reachable leg")).into();
@@ -331,8 +331,8 @@ impl Timed {
         let turns: Vec<Leg> = (1..=REVERSALS).map(|turn| Leg::ToForce(force * f64::from(turn))).collect();
         let clock = Instant::now();
         let tree = tree.rebuild(gaps, E::EDGES).expect("memory for the tree");
-        let adhesion = Some((edges.rule(), &tree));
-        let solver = Exact::new(&mut self.memory, gaps, adhesion, E::EDGES, rough.foundation, SAMPLES);
+        let rule = ContactRule::Hess(edges.rule(), &tree);
+        let solver = Exact::new(&mut self.memory, gaps, rule, rough.foundation, SAMPLES);
         let mut reversals = Reversals::new(solver, &turns).expect("reachable turning points");
         let mut see = |_, reversal| {
             black_box(reversal);

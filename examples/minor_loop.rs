@@ -22,7 +22,7 @@ fn main() -> Result<(), asperity::Error> {
     println!("leg   force at its end, µN   indentation, nm   dissipated, fJ");
     for (index, leg) in cycle.legs().iter().enumerate() {
         let force = leg.curve.last().map_or(0.0, |end| end.force);
-        let [force, indentation, energy] = [1.0e6 * force, 1.0e9 * leg.end(), 1.0e15 * leg.dissipated_energy];
+        let [force, indentation, energy] = [1.0e6 * force, 1.0e9 * leg.end(), 1.0e15 * leg.released_energy];
         println!("{index:>3} {force:>22.3} {indentation:>17.2} {energy:>16.3}");
     }
     println!("all: {:.3} fJ", 1.0e15 * cycle.dissipated_energy().unwrap_or(0.0));

@@ -2,8 +2,8 @@
 
 use crate::analysis::{Figures, Governing};
 use crate::contact::{
-    AdhesiveMemory, ContactTree, CurvePoint, Exact, Foundation, HessRule, History, LegRecord, Reversal,
-    Reversals, run,
+    AdhesiveMemory, ContactRule, ContactTree, CurvePoint, Exact, Foundation, HessRule, History, LegRecord,
+    Reversal, Reversals, run,
 };
 use crate::scene::{Adhesion, Edges, Leg, Material, Numerics, SCENE_VERSIONS, Scene, Solver as SolverChoice};
 use crate::simulation::RunError;
@@ -109,8 +109,11 @@ impl Contact {
     /// The separated body and the memory that takes back its arrays.
     fn body(&mut self) -> (&mut AdhesiveMemory, Exact<'_>) {
         let Contact { gaps, foundation, adhesion, edges, samples, memory, .. } = self;
-        let adhesion = adhesion.as_ref().map(|(hess, tree)| (*hess, tree));
-        let body = Exact::new(memory, gaps, adhesion, *edges, *foundation, *samples);
+        let rule = match adhesion {
+            Some((hess, tree)) => ContactRule::Hess(*hess, tree),
+            None => ContactRule::Nonadhesive(*edges),
+        };
+        let body = Exact::new(memory, gaps, rule, *foundation, *samples);
         (memory, body)
     }
 }

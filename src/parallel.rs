@@ -1,6 +1,7 @@
 //! Parallel computations, independent of each other, so that their results do not depend on the threads.
 
 use std::cell::Cell;
+use std::io;
 use std::num::NonZero;
 use std::panic::resume_unwind;
 use std::sync::{Mutex, PoisonError};
@@ -19,18 +20,21 @@ pub(crate) fn on_this_thread<A>(work: impl FnOnce() -> A) -> A {
     result
 }
 
-/// Runs `work` on so many threads of a scope, each without further threads. Returns the number of threads that the
-/// system started.
+/// Runs `work` on so many threads of a scope, each without further threads, or on as many as the system starts.
+///
+/// # Errors
+/// The error of the system if it starts none of at least one.
 pub(crate) fn begin_threads<'scope>(
     scope: &'scope Scope<'scope, '_>,
     count: usize,
     work: impl FnOnce() + Clone + Send + 'scope,
-) -> usize {
-    let begin = || {
+) -> io::Result<()> {
+    let begin = |_| {
         let work = work.clone();
-        Builder::new().spawn_scoped(scope, || on_this_thread(work)).is_ok()
+        Builder::new().spawn_scoped(scope, || on_this_thread(work)).map(drop)
     };
-    (0..count).filter(|_| begin()).count()
+    let begun: Vec<_> = (0..count).map(begin).collect();
+    if begun.iter().any(Result::is_ok) { Ok(()) } else { begun.into_iter().collect() }
 }
 
 /// Number of threads for work of this thread: one for each core, or this one alone.

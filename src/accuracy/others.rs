@@ -3,7 +3,7 @@
 use super::bench::{Bench, CostError, Rows, Tried};
 use super::solution::{Solution, Solved, allowed_points, refined};
 use super::{Knob, Measures, Timing};
-use crate::contact::{AdhesiveMemory, ContactError, ContactTree, Exact, run};
+use crate::contact::{AdhesiveMemory, ContactError, ContactRule, ContactTree, Exact, run};
 use crate::scene::{Edges, Scene, Solver, check, format_quantity};
 use crate::simulation::{RunError, Simulation};
 use crate::study::{Case, Next, Quantity, Records, Sink, Statistics, solve_in_turn};
@@ -166,8 +166,10 @@ fn errors_of_single_precision(
         goes_on()?;
         let samples = scene.numerics.samples as usize;
         let tree = hess.map(|_| ContactTree::build(gaps, Edges::SubCell)).transpose()?;
-        let (memory, adhesion) = (&mut AdhesiveMemory::default(), hess.zip(tree.as_ref()));
-        let mut body = Exact::new(memory, gaps, adhesion, Edges::SubCell, foundation, samples);
+        let memory = &mut AdhesiveMemory::default();
+        let nonadhesive = ContactRule::Nonadhesive(Edges::SubCell);
+        let rule = hess.zip(tree.as_ref()).map_or(nonadhesive, |(hess, tree)| ContactRule::Hess(hess, tree));
+        let mut body = Exact::new(memory, gaps, rule, foundation, samples);
         let history = run(&mut body, &scene.loading, |_, _| goes_on())?;
         Ok(Solution::of_history(&history, scene.numerics.points))
     };

@@ -45,7 +45,8 @@ pub fn tabor_number(curvature_radius: f64, work_of_adhesion: f64, effective_modu
     ((work_of_adhesion / effective_modulus).powi(2) * curvature_radius / range.powi(3)).cbrt()
 }
 
-/// Stiffness dF/dd = E* l, N/m, of a contact of length l, m, with fixed edges, under an effective modulus E*, Pa.
+/// Stiffness E* l, N/m, of a contact of length l, m, whose edges stay in place, under an effective modulus E*, Pa. Moving
+/// edges add to the slope of the force curve.
 /// Popov and Filippov (2012), eq. (1).
 #[must_use]
 pub fn contact_stiffness(effective_modulus: f64, contact_length: f64) -> f64 {

@@ -1,6 +1,6 @@
 //! The headline figures of a loading history.
 
-use crate::contact::{CurvePoint, Direction, History, Reversal};
+use crate::contact::{CurvePoint, Direction, History, LegRecord, Reversal};
 use crate::scene::{Leg, Scene};
 
 /// Figures of one history; `None` for a figure that the history does not have.
@@ -25,18 +25,13 @@ impl Figures {
     /// Figures of `history`.
     #[must_use]
     pub fn of(history: &History) -> Self {
-        // Stages of a separated body have no extremes of the contact.
-        let legs = || history.legs.iter().filter(|leg| leg.curve.iter().any(|point| point.springs > 0));
-        let pressed = legs()
-            .filter(|leg| leg.direction == Direction::Loading)
-            .max_by(|a, b| a.largest.force.total_cmp(&b.largest.force));
-        let pull = legs().rfind(|leg| leg.direction == Direction::Unloading);
+        let legs = &history.legs;
         let ends_separated =
-            history.legs.last().and_then(|leg| leg.curve.last()).is_some_and(|point| point.springs == 0);
+            legs.last().and_then(|leg| leg.curve.last()).is_some_and(|point| point.springs == 0);
         Figures::at(
-            pressed.map(|leg| (leg.leg, leg.largest)),
-            pull.map(|leg| leg.smallest),
-            ends_separated.then(|| history.legs.iter().map(|leg| leg.dissipated_energy).sum::<f64>()),
+            preload_point(legs).map(|(stage, point)| (legs[stage].leg, point)),
+            pull_off_point(legs).map(|(_, point)| point),
+            ends_separated.then(|| legs.iter().map(|leg| leg.released_energy).sum::<f64>()),
         )
     }
 
@@ -46,18 +41,17 @@ impl Figures {
         let touches = reversal.turn.springs > 0;
         Figures::at(
             touches.then_some((leg, reversal.turn)),
-            touches.then_some(reversal.smallest),
+            Some(reversal.smallest).filter(|point| touches && point.force <= 0.0),
             Some(reversal.dissipated_energy),
         )
     }
 
-    /// Figures from the point of the largest force with its stage, the smallest force after it, and the energy of
-    /// all stages, J.
-    fn at(pressed: Option<(Leg, CurvePoint)>, smallest: Option<CurvePoint>, energy: Option<f64>) -> Self {
+    /// Figures from the point of the largest force with its stage, the pull-off, and the energy
+    /// of all stages, J.
+    fn at(pressed: Option<(Leg, CurvePoint)>, pull_off: Option<CurvePoint>, energy: Option<f64>) -> Self {
         let preload = pressed.map(|(_, point)| point.force);
-        let smallest = smallest.filter(|point| point.force <= 0.0);
         // Not −F, which would make a force of zero negative.
-        let adhesion_force = smallest.map(|point| 0.0 - point.force);
+        let adhesion_force = pull_off.map(|point| 0.0 - point.force);
         // For a target force of zero the remaining force is rounding.
         let under_load = pressed.is_some_and(|(leg, _)| leg != Leg::ToForce(0.0));
         Figures {
@@ -68,7 +62,7 @@ impl Figures {
                 .zip(preload.filter(|&force| force > 0.0 && under_load))
                 .map(|(adhesion, preload)| adhesion / preload)
                 .filter(|coefficient| coefficient.is_finite()),
-            pull_off_indentation: smallest.map(|point| point.indentation),
+            pull_off_indentation: pull_off.map(|point| point.indentation),
             // Changes −0 to 0 without dissipation.
             dissipated_energy: energy.map(|energy| energy + 0.0),
         }
@@ -81,10 +75,34 @@ impl Figures {
     }
 }
 
+/// Stages with contact, and their numbers. Stages of a separated body have no extremes of the contact.
+fn touching(
+    legs: &[LegRecord],
+    direction: Direction,
+) -> impl DoubleEndedIterator<Item = (usize, &LegRecord)> {
+    let touches = |leg: &LegRecord| leg.curve.iter().any(|point| point.springs > 0);
+    legs.iter().enumerate().filter(move |(_, leg)| leg.direction == direction && touches(leg))
+}
+
+/// Finds the preload, the largest force of the loading stages with contact: the number of its stage, and its point.
+#[must_use]
+pub fn preload_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
+    let largest = touching(legs, Direction::Loading).map(|(stage, leg)| (stage, leg.largest));
+    largest.max_by(|a, b| a.1.force.total_cmp(&b.1.force))
+}
+
+/// Finds the pull-off, the smallest force of the last unloading stage with contact, unless that force is above zero:
+/// the number of its stage, and its point.
+#[must_use]
+pub fn pull_off_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
+    let last = touching(legs, Direction::Unloading).next_back();
+    last.map(|(stage, leg)| (stage, leg.smallest)).filter(|(_, point)| point.force <= 0.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::{ContactTree, CurvePoint, Foundation, GridEdges, HessRule, LegRecord, exact, run};
+    use crate::contact::{ContactTree, Foundation, GridEdges, HessRule, exact, run};
 
     #[test]
     fn only_a_preload_gives_a_coefficient() {
@@ -118,7 +136,7 @@ mod tests {
             smallest: extreme,
             attached: 0,
             detached: 0,
-            dissipated_energy: 0.25,
+            released_energy: 0.25,
         }
     }
 
@@ -147,7 +165,7 @@ mod tests {
         };
         assert_eq!(found, expected);
         // No dissipation is 0, not −0.
-        let nothing = |leg: LegRecord| LegRecord { dissipated_energy: -0.0, ..leg };
+        let nothing = |leg: LegRecord| LegRecord { released_energy: -0.0, ..leg };
         let lost = figures(vec![nothing(pressed(7.0)), nothing(pulled(-3.0, 0))]).dissipated_energy;
         assert!(lost.is_some_and(|lost| lost == 0.0 && lost.is_sign_positive()), "{lost:?}");
         // A contact that still holds has not completed a loop.

@@ -8,13 +8,14 @@ mod marks;
 mod regime;
 mod reversal_map;
 pub mod section;
+mod steep_waves;
 mod tabor;
 
 pub use derived::{
     contact_stiffness, elastic_energy_ratio, force_unit, ideal_adhesion_force, mean_pressure,
     roughness_adhesion_parameter, tabor_number,
 };
-pub use figures::Figures;
+pub use figures::{Figures, preload_point, pull_off_point};
 pub use governing::Governing;
 pub use marks::{Mark, marks};
 pub use regime::{
@@ -23,4 +24,5 @@ pub use regime::{
 };
 pub use reversal_map::{CONGRUENT_SHARE, MinorLoops, ReversalMap};
 pub use section::{Column, LengthBin, Section, Share};
+pub use steep_waves::SteepWaves;
 pub use tabor::{DEFAULT_RANGE, LEAST_TABOR_NUMBER, curvature_radius, scene_tabor_number};

@@ -66,6 +66,18 @@ impl Regime {
     }
 }
 
+impl Regime {
+    /// The name with the protocol of F_a(0) that decides: a turn at first touch.
+    #[must_use]
+    pub fn by_protocol(self) -> &'static str {
+        match self {
+            Regime::PressureInsensitive => "pressure-insensitive from first touch",
+            Regime::PressureSensitive => "pressure-sensitive from first touch",
+            Regime::NonAdhesive => "non-adhesive",
+        }
+    }
+}
+
 /// Regime of many random profiles of one scene: a cell of a map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CellRegime {

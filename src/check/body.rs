@@ -3,7 +3,8 @@
 
 use super::Fault;
 use crate::contact::{
-    AdhesiveMemory, ContactTree, CurvePoint, Exact, Foundation, HessRule, History, LegRecord, Solver, run,
+    AdhesiveMemory, ContactRule, ContactTree, CurvePoint, Exact, Foundation, HessRule, History, LegRecord,
+    Solver, run,
 };
 use crate::scene::{Edges, Leg};
 use crate::surface::{Line, SelfAffine, UnitRoughness, phases};
@@ -120,9 +121,10 @@ impl Body {
     ) -> Result<T, Fault> {
         let (hess, gaps) = (HessRule::new(self.foundation, self.work), self.gaps.as_slice());
         let tree = if self.work == 0.0 { None } else { Some(ContactTree::build(gaps, edges)?) };
-        let adhesion = tree.as_ref().map(|tree| (hess, tree));
+        let hess = |tree| ContactRule::Hess(hess, tree);
+        let rule = tree.as_ref().map_or(ContactRule::Nonadhesive(edges), hess);
         let memory = &mut AdhesiveMemory::default();
-        act(&mut Exact::new(memory, gaps, adhesion, edges, self.foundation, samples))
+        act(&mut Exact::new(memory, gaps, rule, self.foundation, samples))
     }
 
     /// A whole loading.

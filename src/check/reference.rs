@@ -140,9 +140,9 @@ fn loss_error(
     let half_stiffness =
         Extended::from(0.5 * body.foundation.effective_modulus) * Extended::from(body.foundation.spacing);
     let expected = (half_stiffness * squares).rounded();
-    let found = record.dissipated_energy.abs();
+    let found = record.released_energy.abs();
     let sign = if record.direction == Direction::Loading { -1.0 } else { 1.0 };
-    if sign * record.dissipated_energy < 0.0 {
+    if sign * record.released_energy < 0.0 {
         return Err(wrong(last, "energy is gained"));
     }
     Ok(if expected == found { 0.0 } else { (found - expected).abs() / expected })

@@ -31,10 +31,19 @@ impl ContactState {
             indentation: self.indentation,
             force: foundation.spring_stiffness() * self.compression,
             contact_length: foundation.contact_length(self.length),
-            springs: self.springs.unsigned_abs(),
-            fragments: self.fragments.unsigned_abs(),
+            springs: counted(self.springs),
+            fragments: counted(self.fragments),
         }
     }
+}
+
+/// Returns a number of springs or patches in contact.
+///
+/// # Panics
+/// For a negative number, a defect of the sums: it must not pass for a result.
+pub fn counted(number: i64) -> u64 {
+    assert!(number >= 0, "internal error, please report it: {number} springs or patches in contact");
+    number.unsigned_abs()
 }
 
 /// Contact at each point of a grid, at least one.
@@ -118,4 +127,15 @@ pub fn upper_bound(low: &ContactState, high: &ContactState) -> f64 {
 /// Bound of the rounding of a bound.
 fn slack(low: &ContactState, high: &ContactState, rise: f64) -> f64 {
     8.0 * f64::EPSILON * (low.compression.abs() + high.compression.abs() + rise)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    #[should_panic(expected = "-3 springs or patches in contact")]
+    fn a_negative_number_of_springs_is_no_result() {
+        counted(-3);
+    }
 }

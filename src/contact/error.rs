@@ -64,6 +64,9 @@ pub enum ContactError {
         /// Most steps allowed on one leg.
         limit: u64,
     },
+    /// A state that the program excludes: a defect.
+    #[error("internal error, please report it: {0}")]
+    Internal(&'static str),
     /// The computation was stopped.
     #[error("interrupted")]
     Interrupted,

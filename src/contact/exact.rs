@@ -32,6 +32,15 @@ pub struct Exact<'a> {
     pass_time: Duration,
 }
 
+/// Rule by which springs attach and detach.
+#[derive(Clone, Copy, Debug)]
+pub enum ContactRule<'a> {
+    /// Each spring at its own gap, with these edges of the contact patches.
+    Nonadhesive(Edges),
+    /// The rule of Hess over the tree of the gaps, with the edges of that tree.
+    Hess(HessRule, &'a ContactTree),
+}
+
 /// Returns a separated body without adhesion at d = 0 just before first touch, over springs of these gaps (m, the
 /// smallest 0).
 #[must_use]
@@ -41,6 +50,9 @@ pub fn nonadhesive(gaps: &[f64], edges: Edges, foundation: Foundation, samples: 
 
 /// A separated body under adhesion at d = 0 just before first touch, over springs of these gaps (m, the smallest 0) and
 /// the tree of these gaps; `samples` (at least 2) curve points are taken on each leg.
+///
+/// # Panics
+/// For a tree of other edges.
 #[must_use]
 pub fn adhesive<'a, E: EdgeModel>(
     gaps: &'a [f64],
@@ -66,9 +78,8 @@ fn adhesive_in<'a, E: EdgeModel>(
 }
 
 impl<'a> Exact<'a> {
-    /// A separated body at d = 0 just before first touch over springs of these gaps (m, the smallest 0), under adhesion
-    /// by a rule of Hess and the tree of these gaps, if there is one; `samples` (at least 2) curve points are taken on
-    /// each leg.
+    /// A separated body at d = 0 just before first touch over springs of these gaps (m, the smallest 0); `samples` (at
+    /// least 2) curve points are taken on each leg.
     ///
     /// Under adhesion the body takes this memory until [`Exact::give_back`]: fresh memory costs about as much as a
     /// pass.
@@ -76,14 +87,16 @@ impl<'a> Exact<'a> {
     pub fn new(
         memory: &mut AdhesiveMemory,
         gaps: &'a [f64],
-        adhesion: Option<(HessRule, &'a ContactTree)>,
-        edges: Edges,
+        rule: ContactRule<'a>,
         foundation: Foundation,
         samples: usize,
     ) -> Self {
-        let Some((hess, tree)) = adhesion else { return nonadhesive(gaps, edges, foundation, samples) };
+        let (hess, tree) = match rule {
+            ContactRule::Nonadhesive(edges) => return nonadhesive(gaps, edges, foundation, samples),
+            ContactRule::Hess(hess, tree) => (hess, tree),
+        };
         let memory = take(memory);
-        match edges {
+        match tree.edges() {
             Edges::Grid => adhesive_in(memory, gaps, tree, GridEdges::new(hess), foundation, samples),
             Edges::SubCell => adhesive_in(memory, gaps, tree, SubCellEdges::new(hess), foundation, samples),
         }

@@ -77,8 +77,7 @@ impl Grid {
     }
 }
 
-/// Sum of non-negative terms that keeps its rounding errors (Neumaier): relative error below
-/// 2u + O(n u²).
+/// Sum that keeps its rounding errors (Neumaier): error below 2u |Σ t| + O(n u²) Σ |t|.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CompensatedSum {
     value: f64,

@@ -46,9 +46,10 @@ pub struct LegRecord {
     pub attached: u64,
     /// Springs that detached.
     pub detached: u64,
-    /// Dissipated energy, J: ½ Δk Σ e² over the springs that detached with a stretch e, less the same over those
-    /// that attached. The work done on the springs over a closed loop is the sum of these energies over its legs.
-    pub dissipated_energy: f64,
+    /// Released elastic energy, J: ½ Δk Σ e² over the springs that detached with a stretch e, less the same over those
+    /// that attached, and so negative where adhesion stretches springs. It is the work ∫F dd of the leg less the growth
+    /// of the stored elastic energy; over a closed loop the sum is the dissipated energy.
+    pub released_energy: f64,
 }
 
 impl LegRecord {
@@ -62,7 +63,7 @@ impl LegRecord {
             smallest: here,
             attached: 0,
             detached: 0,
-            dissipated_energy: 0.0,
+            released_energy: 0.0,
         }
     }
 
@@ -82,12 +83,12 @@ impl LegRecord {
         changed: u64,
         energy: f64,
     ) -> Self {
-        let (attached, detached, dissipated_energy) = match direction {
+        let (attached, detached, released_energy) = match direction {
             // Not −0 where nothing attached with a stretch.
             Direction::Loading => (changed, 0, 0.0 - energy),
             Direction::Unloading => (0, changed, energy),
         };
-        LegRecord { leg, direction, curve, largest, smallest, attached, detached, dissipated_energy }
+        LegRecord { leg, direction, curve, largest, smallest, attached, detached, released_energy }
     }
 
     /// Indentation at the beginning, m.

@@ -37,7 +37,7 @@ mod totals;
 
 pub use adhesive::{AdhesiveMemory, ContactTree, EdgeModel, GridEdges, SubCellEdges};
 pub use error::ContactError;
-pub use exact::Exact;
+pub use exact::{ContactRule, Exact};
 pub use foundation::{Foundation, HessRule};
 pub use history::{CurvePoint, Direction, History, LegRecord, Work};
 pub use leg_contact::{LegContact, LegView};

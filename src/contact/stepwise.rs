@@ -4,6 +4,7 @@
 //! the sums with the exact solver; exact thresholds are used only before the first step of a leg, to check its end and
 //! number of steps.
 
+use super::contact_state::counted;
 use super::leg_plan::{Target, plan};
 use super::{
     ContactError, ContactTotals, ContactTree, CurvePoint, Direction, Foundation, GapScale, GridEdges,
@@ -176,8 +177,8 @@ impl<'a> Stepwise<'a> {
             indentation: self.indentation,
             force: self.foundation.spring_stiffness() * compression,
             contact_length: self.foundation.contact_length(self.totals.springs as f64),
-            springs: self.totals.springs.unsigned_abs(),
-            fragments: self.totals.fragments.unsigned_abs(),
+            springs: counted(self.totals.springs),
+            fragments: counted(self.totals.fragments),
         }
     }
 

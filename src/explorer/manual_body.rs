@@ -81,8 +81,8 @@ impl ManualBody {
 
     /// Path since the last call.
     pub fn travel(&mut self) -> ManualPath {
-        let dissipated_energy = self.travel.dissipated_energy;
-        std::mem::replace(&mut self.travel, ManualPath { dissipated_energy, ..ManualPath::default() })
+        let released_energy = self.travel.released_energy;
+        std::mem::replace(&mut self.travel, ManualPath { released_energy, ..ManualPath::default() })
     }
 
     /// Moves the body.
@@ -148,6 +148,6 @@ impl ManualBody {
         self.travel.path.push(self.body.point());
         self.travel.changed += moved.attaches + moved.detaches;
         self.travel.touched += moved.touched;
-        self.travel.dissipated_energy += moved.dissipated_energy;
+        self.travel.released_energy += moved.released_energy;
     }
 }

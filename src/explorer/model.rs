@@ -55,8 +55,8 @@ pub struct ManualState {
     pub changed: u64,
     /// Entries visited by the last move.
     pub touched: u64,
-    /// Energy dissipated since manual loading began, J.
-    pub dissipated_energy: f64,
+    /// Elastic energy released since manual loading began, J.
+    pub released_energy: f64,
 }
 
 /// Content of the pane of the curve.

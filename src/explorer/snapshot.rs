@@ -78,8 +78,8 @@ pub struct ManualPath {
     pub changed: u64,
     /// Visited entries of lists and trees.
     pub touched: u64,
-    /// Energy dissipated since manual loading began, J.
-    pub dissipated_energy: f64,
+    /// Elastic energy released since manual loading began, J.
+    pub released_energy: f64,
     /// Reason why the body was not moved.
     pub refused: Option<Refusal>,
 }

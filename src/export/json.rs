@@ -52,6 +52,7 @@ pub fn write_json(
         "pull_off_indentation": figures.pull_off_indentation,
         "dissipated_energy": figures.dissipated_energy,
         "tabor_number": outcome.tabor_number,
+        "steep_waves"?: outcome.steep_waves,
         "curve": Curve(outcome),
         "contacts": &history.contacts,
         "fragments": fragments,

@@ -1,13 +1,14 @@
 //! Figures of computed scenes: force curves, the profile with its contact, contact patches over the indentation.
 
 use crate::analysis::section::{Column, Contact, LineColumns, Part};
-use crate::analysis::{Mark, marks};
-use crate::contact::{ContactError, Direction, LegRecord, Solver};
+use crate::analysis::{Mark, marks, preload_point};
+use crate::contact::{ContactError, CurvePoint, Direction, LegRecord, Solver};
 use crate::draw::{
     Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label,
 };
 use crate::simulation::Outcome;
 use crate::surface::Line;
+use std::slice;
 
 /// Number of columns of reduced profiles.
 const COLUMNS: usize = 1200;
@@ -121,10 +122,10 @@ impl ContactSets {
     /// None; the type is that of an observer of a run.
     pub fn observe(&mut self, record: &LegRecord, solver: &dyn Solver) -> Result<(), ContactError> {
         let at = |indentation: f64| Patches { indentation, fragments: solver.fragments(indentation) };
-        let largest = record.largest;
-        let is_larger = self.preload.as_ref().is_none_or(|(force, _)| largest.force > *force);
-        if record.direction == Direction::Loading && largest.springs > 0 && is_larger {
-            self.preload = Some((largest.force, at(largest.indentation)));
+        let larger = |point: &CurvePoint| self.preload.as_ref().is_none_or(|(force, _)| point.force > *force);
+        let preload = preload_point(slice::from_ref(record)).map(|(_, point)| point);
+        if let Some(point) = preload.filter(larger) {
+            self.preload = Some((point.force, at(point.indentation)));
         }
         let touching = record.curve.iter().filter(|point| point.springs > 0).map(|point| point.indentation);
         let (low, high) =

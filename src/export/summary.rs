@@ -3,7 +3,7 @@
 use super::sheet::Sheet;
 use super::verdict;
 use crate::accuracy::{Estimate, Target};
-use crate::analysis::LEAST_TABOR_NUMBER;
+use crate::analysis::{LEAST_TABOR_NUMBER, SteepWaves};
 use crate::contact::Work;
 use crate::scene::{Leg, Scene, format_quantity};
 use crate::simulation::{Outcome, Timings};
@@ -98,6 +98,7 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Optio
     sheet.quantity("coefficient F_a/F_n", figures.adhesion_coefficient, "1");
     sheet.quantity("at first touch F_a(0)", outcome.zero_load_adhesion_force, "N");
     sheet.quantity("smooth body F_smooth", outcome.smooth_adhesion_force, "N");
+    sheet.row_of("λ²/(AR)", outcome.steep_waves.map(steep_waves));
     sheet.quantity("ideal F_a,max", outcome.ideal_adhesion_force, "N");
     dissipated_energy(sheet, outcome);
 }
@@ -117,6 +118,17 @@ pub(super) fn tabor_number(number: f64) -> String {
         return value;
     }
     format!("{value}, below {LEAST_TABOR_NUMBER}: attraction of finite range dissipates less than this")
+}
+
+/// Warning of waves that are too steep.
+fn steep_waves(waves: SteepWaves) -> String {
+    let SteepWaves { ratio, jkr_factor } = waves;
+    format!(
+        "{}, below {}: by the rule of Hess inner springs detach first; by the theory of JKR the edge recedes, and waves \
+         short against the contact pull off at {jkr_factor:.2} F_smooth",
+        format_quantity(ratio, "1"),
+        SteepWaves::LEAST_RATIO,
+    )
 }
 
 /// Adhesion force and its error, or that of the curve if there is no tensile force.
@@ -276,7 +288,7 @@ mod tests {
             (&[("loading", "[ToTouch]")][..], "not known: no stage unloads"),
             (&[("adhesion", "None")], "non-adhesive: the scene has no adhesion"),
             (&[("adhesion", "None"), ("loading", "[ToTouch]")], "none: no adhesion"),
-            (&[("adhesion.kappa", "0.1")], "pressure-insensitive: adhesion is there"),
+            (&[("adhesion.kappa", "0.1")], "pressure-insensitive from first touch: adhesion hardly"),
             (&[("adhesion.kappa", "100.0")], "non-adhesive: almost no adhesion"),
         ] {
             let text = summary_of(ROUGH, overrides);

@@ -12,13 +12,11 @@ pub(super) fn sentence(outcome: &Outcome) -> String {
         None if adhesive => return "not known: no stage unloads".to_owned(),
         None => return "none: no adhesion, and no stage unloads".to_owned(),
         Some(Regime::NonAdhesive) if !adhesive => "the scene has no adhesion",
-        Some(Regime::PressureInsensitive) => {
-            "adhesion is there at first touch and hardly depends on the preload"
-        }
-        Some(Regime::PressureSensitive) => "adhesion appears, or grows considerably, only under a preload",
-        Some(Regime::NonAdhesive) => "almost no adhesion",
+        Some(Regime::PressureInsensitive) => "adhesion hardly needs a preload",
+        Some(Regime::PressureSensitive) => "adhesion is small without a preload",
+        Some(Regime::NonAdhesive) => "almost no adhesion, after a turn at first touch or after the preload",
     };
-    let name = outcome.regime.map_or("", Regime::name);
+    let name = outcome.regime.map_or("", Regime::by_protocol);
     format!("{name}: {meaning}")
 }
 
@@ -30,7 +28,7 @@ pub(super) fn rows(sheet: &mut Sheet, outcome: &Outcome) {
     }
     let (zero_load, adhesion) = (outcome.zero_load_adhesion_force, outcome.figures.adhesion_force);
     let (smooth, preload) = (outcome.smooth_adhesion_force, outcome.figures.preload);
-    let says = ["it sticks unpressed", "pressing makes most of it"];
+    let says = ["first touch makes most of it", "the preload makes most of it"];
     share(sheet, "  F_a(0)/F_a", zero_load, adhesion, INSENSITIVE_SHARE, says);
     let says = ["there at first touch", "vanished at first touch"];
     share(sheet, "  F_a(0)/F_smooth", zero_load, smooth, VANISHING_SHARE, says);

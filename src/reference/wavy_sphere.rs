@@ -1,6 +1,7 @@
 //! Adhesive contact of a sphere with concentric waves (Guduru 2007) under the rule of Hess: the simplest smooth
 //! body with a hysteresis due to its shape.
 
+use crate::analysis::SteepWaves;
 use crate::surface::{struve_0, struve_1};
 use std::f64::consts::PI;
 
@@ -40,13 +41,10 @@ pub struct WavyLoop {
 const STEPS_PER_WAVE: f64 = 400.0;
 
 impl WavySphere {
-    /// Quotient λ²/(AR) above which the equivalent profile rises everywhere.
-    pub const MONOTONE: f64 = 12.391;
-
     /// Returns true if the equivalent profile rises everywhere.
     #[must_use]
     pub fn is_monotone(&self) -> bool {
-        self.wavelength.powi(2) > Self::MONOTONE * self.amplitude * self.radius
+        self.wavelength.powi(2) > SteepWaves::LEAST_RATIO * self.amplitude * self.radius
     }
 
     /// Indentation δ(a) = a²/R + (π²A/λ) a H₀(2πa/λ) − √(2πaγ/E*), m, of a contact of radius a.

@@ -91,9 +91,10 @@ impl Effect {
                 let height = ron_float(suited_height(scene));
                 format!("SelfAffine(hurst: 0.7, rms_height: {height}, modes: ({first}, {last}), seed: 1)")
             }
-            Effect::Adhesion if scene.roughness.is_some() => {
-                by_parameter(scene, RoughnessParameter::Kappa, 2.0)
-            }
+            // κ refers to one work of adhesion: two of them may be left from a scene without adhesion.
+            Effect::Adhesion if scene.roughness.is_some() => adhesion_as(scene, |adhesion| {
+                Adhesion { range: adhesion.range, ..Adhesion::default() }.with_kappa(2.0)
+            }),
             Effect::Adhesion => by_work(scene, 0.05),
             Effect::Unloading => legs(&[&scene.loading[..], &[Leg::ToSeparation]].concat()),
             Effect::Fragments | Effect::HeightHistogram => {

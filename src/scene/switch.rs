@@ -437,7 +437,7 @@ mod tests {
                 let forgotten = Document::parse(without.text(), "forgotten").unwrap();
                 match forgotten.with(effect) {
                     Ok(suited) => prop_assert!(effect.is_on(suited.scene())),
-                    Err(_) => prop_assert!(effect == Effect::Roughness && scene.numerics.points < 2),
+                    Err(error) => prop_assert!(effect == Effect::Roughness && scene.numerics.points < 2, "{effect:?}: {error}"),
                 }
                 if !effect.is_on(&scene) {
                     continue;

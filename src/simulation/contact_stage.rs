@@ -3,8 +3,8 @@
 use super::AfterLeg;
 use crate::analysis::Figures;
 use crate::contact::{
-    AdhesiveMemory, ContactError, ContactTree, Exact, Foundation, HessRule, History, LegRecord, Solver,
-    Stepwise, run,
+    AdhesiveMemory, ContactError, ContactRule, ContactTree, Exact, Foundation, HessRule, History, LegRecord,
+    Solver, Stepwise, run,
 };
 use crate::scene::{Leg, Scene, Solver as SolverChoice};
 use crate::surface::Line;
@@ -59,7 +59,7 @@ impl ContactStage<'_> {
                 Ok(contacted)
             }
             SolverChoice::Exact => {
-                let mut body = self.body(memory);
+                let mut body = self.body(memory)?;
                 let contacted = self.load(&mut body, after).and_then(|mut contacted| {
                     if zero_load && self.hess.is_some() {
                         let clock = Instant::now();
@@ -79,11 +79,17 @@ impl ContactStage<'_> {
     }
 
     /// The separated body of the exact solver; with adhesion it works in this memory.
-    pub fn body(&self, memory: &mut ContactMemory) -> Exact<'_> {
+    ///
+    /// # Errors
+    /// [`ContactError::Internal`] for adhesion without the tree of the scene.
+    pub fn body(&self, memory: &mut ContactMemory) -> Result<Exact<'_>, ContactError> {
         let numerics = &self.scene.numerics;
-        let adhesion = self.hess.zip(self.tree);
-        let samples = numerics.samples as usize;
-        Exact::new(memory, &self.line.gaps, adhesion, numerics.edges, self.foundation, samples)
+        let rule = match (self.hess, self.tree) {
+            (None, _) => ContactRule::Nonadhesive(numerics.edges),
+            (Some(hess), Some(tree)) if tree.edges() == numerics.edges => ContactRule::Hess(hess, tree),
+            _ => return Err(ContactError::Internal("adhesion without the tree of the profile")),
+        };
+        Ok(Exact::new(memory, &self.line.gaps, rule, self.foundation, numerics.samples as usize))
     }
 
     /// Runs the loading of the scene.
@@ -121,5 +127,30 @@ impl ContactStage<'_> {
     /// Springs under the body, numbered from the first spring of the foundation.
     fn on_foundation(&self, (first, last): (usize, usize)) -> (usize, usize) {
         (first + self.line.first, last + self.line.first)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::Governing;
+    use crate::scene::{Edges, open};
+    use crate::simulation::Simulation;
+
+    #[test]
+    fn adhesion_is_refused_without_the_tree_of_its_edges() {
+        let document = open("jkr-sphere").unwrap();
+        let scene = document.scene();
+        let mut simulation = Simulation::default();
+        let (line, _, governing): (&Line, _, Governing) = simulation.make_line(scene).unwrap();
+        let foundation = governing.foundation(line);
+        let other = ContactTree::build(&line.gaps, Edges::Grid).unwrap();
+        assert_eq!(scene.numerics.edges, Edges::SubCell);
+        for tree in [None, Some(&other)] {
+            let hess = governing.hess_rule(foundation);
+            let stage = ContactStage { line, tree, foundation, hess, scene, stop: &|| false };
+            let error = stage.body(&mut ContactMemory::default()).err();
+            assert!(matches!(error, Some(ContactError::Internal(_))), "{error:?}");
+        }
     }
 }

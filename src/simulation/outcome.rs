@@ -1,6 +1,6 @@
 //! Outcome of a computed scene.
 
-use crate::analysis::{Figures, Governing, Regime};
+use crate::analysis::{Figures, Governing, Regime, SteepWaves};
 use crate::contact::History;
 use crate::surface::Histogram;
 use serde::Serialize;
@@ -20,6 +20,8 @@ pub struct Outcome {
     pub zero_load_adhesion_force: Option<f64>,
     /// Tabor number μ; `None` without adhesion or radius of curvature.
     pub tabor_number: Option<f64>,
+    /// Waves too steep for the theory of Johnson, Kendall and Roberts.
+    pub steep_waves: Option<SteepWaves>,
     /// Regime of Fig. 4; `None` without a tensile force.
     pub regime: Option<Regime>,
     /// Headline figures of the loading history.

@@ -49,7 +49,7 @@ impl Simulation {
             see(index, reversal)?;
             interrupted()
         };
-        let mut reversals = Reversals::new(contact.body(memory), ends)?;
+        let mut reversals = Reversals::new(contact.body(memory)?, ends)?;
         let done = reversals.each(points, &mut see);
         reversals.into_body().give_back(memory);
         Ok(done?)
@@ -151,7 +151,7 @@ impl Simulation {
             return Ok(MinorLoops::default());
         }
         let outcome = self.run(&scene, stop, &mut |_, _, _| Ok(()))?;
-        let loss = |legs: &[LegRecord]| legs.iter().map(|leg| leg.dissipated_energy).sum::<f64>();
+        let loss = |legs: &[LegRecord]| legs.iter().map(|leg| leg.released_energy).sum::<f64>();
         let loops = outcome.history.legs.chunks_exact(9);
         // A loop with separation is no minor loop.
         let holds = |leg: &LegRecord| leg.curve.last().is_some_and(|point| point.springs > 0);

@@ -2,7 +2,7 @@
 
 use super::contact_stage::{ContactMemory, ContactStage};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
-use crate::analysis::{Figures, Governing, Regime, ideal_adhesion_force, scene_tabor_number};
+use crate::analysis::{Figures, Governing, Regime, SteepWaves, ideal_adhesion_force, scene_tabor_number};
 use crate::contact::{ContactError, ContactTree, LegRecord, Solver};
 use crate::memory::check_room;
 use crate::parallel::in_parallel;
@@ -25,6 +25,8 @@ pub(super) const MANY_SPRINGS: usize = 1 << 15;
 
 /// Factor of the springs of the next run above which the memory of the last one is released.
 const MOST_SPARE: usize = 4;
+/// Error of a stage before its profile.
+const NO_PROFILE: ContactError = ContactError::Internal("the profile of the scene has not been made");
 /// Bytes that are always kept.
 const SMALL: u64 = 32 << 20;
 
@@ -182,7 +184,7 @@ impl Simulation {
         if self.line.as_ref().is_none_or(|(kept, _)| *kept != key) {
             self.line = Some((key.clone(), self.lay_line(scene, &key)?));
         }
-        let Some((_, line)) = &self.line else { return Err(ContactError::Interrupted.into()) };
+        let Some((_, line)) = &self.line else { return Err(NO_PROFILE.into()) };
         let facts = LineFacts {
             points,
             length: scene.length,
@@ -261,7 +263,7 @@ impl Simulation {
     /// Makes the missing parts of the profile required by the plan: its histogram and its tree. Returns the number
     /// of heights sorted into bins.
     fn look_at_line(&mut self, plan: &Plan, edges: Edges) -> Result<u64, ContactError> {
-        let Some((_, line)) = &self.line else { return Err(ContactError::Interrupted) };
+        let Some((_, line)) = &self.line else { return Err(NO_PROFILE) };
         let springs = line.gaps.len();
         let count = plan.runs(Stage::HeightHistogram) && self.histogram.is_none();
         let is_current = self.tree_is_current && self.tree.as_ref().is_some_and(|tree| tree.edges() == edges);
@@ -326,7 +328,7 @@ impl Simulation {
         timings.tree = clock.elapsed().as_secs_f64();
         interrupted()?;
 
-        let Some((_, line)) = &self.line else { return Err(ContactError::Interrupted.into()) };
+        let Some((_, line)) = &self.line else { return Err(NO_PROFILE.into()) };
         let foundation = governing.foundation(line);
         let hess = governing.hess_rule(foundation).filter(|_| plan.runs(Stage::RuleOfHess));
         let contact = ContactStage { line, tree: self.tree.as_deref(), foundation, hess, scene, stop };
@@ -386,6 +388,7 @@ impl Simulation {
             smooth_adhesion_force: smooth,
             zero_load_adhesion_force,
             tabor_number: scene_tabor_number(scene, &governing),
+            steep_waves: SteepWaves::of(scene, &governing),
             regime,
             figures,
             history,

@@ -1,8 +1,8 @@
 //! Outcome of one case, the source of all recorded quantities.
 
 use super::height_shape::HeightShape;
-use crate::analysis::{Figures, Governing, Regime, ideal_adhesion_force, scene_tabor_number};
-use crate::contact::{CurvePoint, Direction, History, LegRecord, Reversal};
+use crate::analysis::{Figures, Governing, Regime, ideal_adhesion_force, preload_point, scene_tabor_number};
+use crate::contact::{CurvePoint, History, LegRecord, Reversal};
 use crate::reference::smooth_adhesion_force;
 use crate::scene::{Leg, Scene};
 
@@ -37,8 +37,7 @@ impl LoadingOutcome {
     pub fn of_legs(legs: Vec<LegRecord>) -> Self {
         let lengths = legs.iter().flat_map(|leg| &leg.curve).map(|point| point.contact_length);
         let contact_length = lengths.reduce(f64::max);
-        let pressing = legs.iter().filter(|leg| leg.direction == Direction::Loading);
-        let preload = pressing.map(|leg| leg.largest).max_by(|a, b| a.force.total_cmp(&b.force));
+        let preload = preload_point(&legs).map(|(_, point)| point);
         let figures = Figures::of(&History { legs, ..History::default() });
         LoadingOutcome { figures, contact_length, preload }
     }

@@ -122,8 +122,8 @@ pub enum StudyError {
         records: u64,
     },
     /// The system starts no thread.
-    #[error("the system gives no thread to compute on")]
-    NoThread,
+    #[error("the system gives no thread to compute on: {0}")]
+    NoThread(io::Error),
 }
 
 impl StudyError {

@@ -114,7 +114,8 @@ where
     let solve = &solve;
     let threads = usize::try_from(plan.lines).map_or(jobs, |lines| jobs.min(lines));
     std::thread::scope(|scope| {
-        begin_threads(scope, threads.saturating_sub(1), solve);
+        // Without further threads this one does all the work.
+        let _ = begin_threads(scope, threads.saturating_sub(1), solve);
         on_this_thread(solve);
     });
     let mut solved = std::mem::take(&mut *solved.lock().unwrap_or_else(PoisonError::into_inner));

@@ -137,8 +137,8 @@ pub fn run(
             work.solve(|scene, seed| recorder.record(scene, seed), &mut FolderSink { shared, sender });
         });
         // If the system starts fewer threads than requested, those do all the work.
-        if begun == 0 {
-            shared.fail(StudyError::NoThread);
+        if let Err(error) = begun {
+            shared.fail(StudyError::NoThread(error));
         }
         shared.write((path.as_path(), file), clock, receiver, &mut || report(&now()));
     });

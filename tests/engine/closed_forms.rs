@@ -65,7 +65,7 @@ fn separation_indentation([_, unloading]: &[LegRecord; 2]) -> f64 {
 }
 
 fn dissipated_energy([loading, unloading]: &[LegRecord; 2]) -> f64 {
-    loading.dissipated_energy + unloading.dissipated_energy
+    loading.released_energy + unloading.released_energy
 }
 
 /// The loop of a problem on `points` springs: its loading and its unloading leg.

@@ -43,7 +43,7 @@ pub fn as_if_new<S: Solver>(new: impl Fn() -> S, legs: &[Leg], force: f64) -> Re
                 };
                 prop_assert_eq!(touching(&one), touching(&other));
                 let figures = |record: &asperity::contact::LegRecord| {
-                    (record.largest, record.attached, record.detached, record.dissipated_energy)
+                    (record.largest, record.attached, record.detached, record.released_energy)
                 };
                 prop_assert_eq!(one.attached, other.attached);
                 if !free || one.attached > 0 {

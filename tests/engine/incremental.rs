@@ -223,7 +223,7 @@ proptest! {
                         index, leg, manual.point(), end);
                     prop_assert_eq!(fragments(&manual), fragments_after(&*solver, &record));
                     prop_assert_eq!((found.attaches, found.detaches), (record.attached, record.detached));
-                    check_energy(found.dissipated_energy, record.dissipated_energy)?;
+                    check_energy(found.released_energy, record.released_energy)?;
                 }
                 (Err(found), Err(expected)) => {
                     prop_assert_eq!(state(&manual), before);
@@ -288,11 +288,11 @@ proptest! {
             sum.attaches += part.attaches;
             sum.detaches += part.detaches;
             sum.events += part.events;
-            sum.dissipated_energy += part.dissipated_energy;
+            sum.released_energy += part.released_energy;
         }
         prop_assert_eq!(state(&whole), state(&split));
         prop_assert_eq!((once.attaches, once.detaches, once.events), (sum.attaches, sum.detaches, sum.events));
-        check_energy(sum.dissipated_energy, once.dissipated_energy)?;
+        check_energy(sum.released_energy, once.released_energy)?;
     }
 
     #[test]
@@ -449,7 +449,7 @@ fn a_step_costs_what_changes() {
             // Without adhesion springs are counted by their order.
             assert!(work.is_none() || moved.touched >= changed, "γ = {work:?}: {moved:?}");
             if changed == 0 {
-                assert_eq!((moved.touched, moved.dissipated_energy), (0, 0.0), "γ = {work:?}");
+                assert_eq!((moved.touched, moved.released_energy), (0, 0.0), "γ = {work:?}");
             }
             changed
         };

@@ -37,8 +37,8 @@ fn a_flat_line_is_kendalls_punch() {
     near(loading.largest.force, 0.1, 1e-15);
     near(unloading.smallest.force, -stretch, 1e-14);
     near(unloading.end(), -stretch, 1e-14);
-    near(unloading.dissipated_energy, 0.5 * stretch * stretch, 1e-14);
-    assert_eq!(loading.dissipated_energy, 0.0);
+    near(unloading.released_energy, 0.5 * stretch * stretch, 1e-14);
+    assert_eq!(loading.released_energy, 0.0);
 }
 
 #[test]
@@ -58,7 +58,7 @@ fn a_ramp_is_a_wedge_that_peels_from_one_side() {
     for (one, other) in one.iter().zip(&other) {
         assert_eq!(one.curve, other.curve);
         assert_eq!((one.largest, one.smallest), (other.largest, other.smallest));
-        near(one.dissipated_energy, other.dissipated_energy, 1e-12);
+        near(one.released_energy, other.released_energy, 1e-12);
     }
     let [_, unloading] = &one;
     near(unloading.smallest.force, force(smallest), 1e-4);
@@ -136,7 +136,7 @@ fn teeth_that_do_not_know_of_each_other_add_up() {
         assert_eq!(whole.curve, expected);
         assert_eq!(whole.smallest, times(&single.smallest));
         assert_eq!(whole.attached, teeth as u64 * single.attached);
-        near(whole.dissipated_energy, teeth as f64 * single.dissipated_energy, 1e-12);
+        near(whole.released_energy, teeth as f64 * single.released_energy, 1e-12);
     }
     assert!(whole[1].smallest.force < 0.0);
 }

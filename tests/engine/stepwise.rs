@@ -55,7 +55,7 @@ fn pull_off_force_and_energy_converge_with_the_step() {
         let (mut force_error, mut energy_error) = (0.0, 0.0);
         for gaps in &lines {
             let [found, expected] = both(gaps, 0.05, step, &legs);
-            let energy = |legs: &[LegRecord]| legs.iter().map(|leg| leg.dissipated_energy).sum::<f64>();
+            let energy = |legs: &[LegRecord]| legs.iter().map(|leg| leg.released_energy).sum::<f64>();
             let force = |legs: &[LegRecord]| legs[1].smallest.force;
             // A step may miss the smallest force; it cannot find a smaller one.
             assert!(force(&found) >= force(&expected) && force(&expected) < 0.0);
@@ -219,14 +219,14 @@ fn one_spring_has_a_closed_form() {
             assert_eq!(records.iter().map(|leg| leg.attached + leg.detached).sum::<u64>(), 2);
             let lost = 0.5 * FOUNDATION.spring_stiffness() * stretch * stretch;
             let slack = FOUNDATION.spring_stiffness() * (stretch + allowed) * allowed;
-            assert!((records[1].dissipated_energy - lost).abs() <= slack, "step {step}");
+            assert!((records[1].released_energy - lost).abs() <= slack, "step {step}");
         }
     }
     // Whole springs have no pinned edges.
     assert!(stepwise(&[0.0], None, 0.01).rises(0.0).is_empty());
     // Without adhesion nothing is held or lost.
     for records in both(&[0.0], 0.0, 0.003, &legs) {
-        assert_eq!((records[1].smallest.force, records[1].dissipated_energy), (0.0, 0.0));
+        assert_eq!((records[1].smallest.force, records[1].released_energy), (0.0, 0.0));
     }
 }
 

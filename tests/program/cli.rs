@@ -165,7 +165,7 @@ fn a_summary_says_what_came_out_and_why() {
         "16 384",
         "100 µm",
         "κ = √(h⟨∇z⟩E*/γ)",
-        "pressure-sensitive: adhesion appears",
+        "pressure-sensitive from first touch: adhesion is small",
         "F_a(0)/F_a",
         "below 0.5",
         "preload F_n",
@@ -1099,6 +1099,46 @@ fn adhesion_against_preload_is_printed_for_one_profile_and_for_many() {
     let stepwise = "numerics.solver=Stepwise(step: 1e-9)";
     let error = failed(1, &["run", "jkr-sphere", "--preloads", "0..1mN", "--set", stepwise]);
     assert!(error.contains("numerics.solver = Stepwise: reversals need the exact solver"), "{error}");
+}
+
+#[test]
+fn waves_too_steep_for_jkr_are_stated_with_its_force() {
+    let run = |form: &str, more: &[&str]| {
+        let form = format!("form=WavySphere(radius: 1.0, amplitude: {form})");
+        let fields = ["material=(effective_modulus: 1.0e6)", "adhesion=(work: 1.0e3)", "length=1.0"];
+        let fields = fields.iter().copied().chain(["loading=[ToTouch, ToSeparation]", form.as_str()]);
+        let fields = fields.flat_map(|field| ["--set", field]).collect::<Vec<_>>();
+        done(&[&["run", "wavy-sphere"][..], &fields, more].concat())
+    };
+    let steep = "2.0e-3, wavelength: 0.1";
+    let text = run(steep, &[]).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        text.contains("λ²/(AR) 5, below 12.391: by the rule of Hess inner springs detach first"),
+        "{text}"
+    );
+    assert!(text.contains("1.56 F_smooth"), "{text}");
+    let json: Value = serde_json::from_str(&run(steep, &["--format", "json"])).unwrap();
+    assert!((json["steep_waves"]["ratio"].as_f64().unwrap() - 5.0).abs() < 1e-12, "{json}");
+    assert!((json["steep_waves"]["jkr_factor"].as_f64().unwrap() - 1.56).abs() < 0.01, "{json}");
+    assert!(!run("2.0e-3, wavelength: 0.2", &["--format", "json"]).contains("steep_waves"));
+}
+
+#[test]
+fn the_regime_states_the_protocol_that_decides() {
+    let sentence = |scene: &str| {
+        let text = done(&[&["run", scene], &FEW_SPRINGS[..]].concat());
+        text.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let sensitive = sentence("pressure-sensitive");
+    assert!(
+        sensitive.contains("pressure-sensitive from first touch: adhesion is small without a preload"),
+        "{sensitive}"
+    );
+    let insensitive = sentence("ideal-adhesion");
+    assert!(
+        insensitive.contains("pressure-insensitive from first touch: adhesion hardly needs a preload"),
+        "{insensitive}"
+    );
 }
 
 #[test]

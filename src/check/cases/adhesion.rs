@@ -60,7 +60,7 @@ fn no_adhesion(edges: Edges) -> Result<f64, Fault> {
     let body = rough(4096, 0.0)?;
     let history = body.history(edges, &press_and_pull(0.8 * body.deepest()), 301)?;
     let [loading, unloading] = two_legs(&history)?;
-    let lost = (loading.dissipated_energy, unloading.dissipated_energy);
+    let lost = (loading.released_energy, unloading.released_energy);
     ensure(lost == (0.0, 0.0), || format!("lost {lost:?} J"))?;
     ensure(loading.curve.len() == unloading.curve.len(), || "other points on the way back".into())?;
     let mut worst = 0.0_f64;

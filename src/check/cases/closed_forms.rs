@@ -114,7 +114,7 @@ fn wavy_sphere(edges: Edges, amplitude: f64, cycle: Cycle) -> Result<f64, Fault>
     let body = smooth(Form::WavySphere { radius, amplitude, wavelength }, 1.0, work)?;
     let history = body.history(edges, &press_and_pull(deepest), 2)?;
     let [loading, unloading] = two_legs(&history)?;
-    let energy = loading.dissipated_energy + unloading.dissipated_energy;
+    let energy = loading.released_energy + unloading.released_energy;
     let errors = [
         unloading.smallest.force / cycle.smallest_force - 1.0,
         unloading.end() / cycle.separation - 1.0,

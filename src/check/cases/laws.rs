@@ -200,11 +200,11 @@ fn energy(edges: Edges) -> Result<f64, Fault> {
         let (a, b) = (next(), next());
         let (low, high) = (a.min(b), a.max(b).max(0.0));
         let history = body.history(edges, &to(&[high, low, high]), 2)?;
-        let lost: f64 = history.legs[1..].iter().map(|leg| leg.dissipated_energy).sum();
+        let lost: f64 = history.legs[1..].iter().map(|leg| leg.released_energy).sum();
         ensure(lost >= -1e-14 * scale, || format!("a loop from {high:e} to {low:e} m gains {:e} J", -lost))?;
         let legs = [to(&[high, low, high]), vec![Leg::ToSeparation]].concat();
         let history = body.history(edges, &legs, 20_000)?;
-        let lost: f64 = history.legs.iter().map(|leg| leg.dissipated_energy).sum();
+        let lost: f64 = history.legs.iter().map(|leg| leg.released_energy).sum();
         // A jump may lie anywhere between two points of the curve: the remaining error of the trapezia falls with
         // their number.
         let trapezium = |pair: &[CurvePoint]| {

@@ -273,7 +273,7 @@ fn flat(edges: Edges) -> Result<f64, Fault> {
             (last.force, modulus * length * detachment),
             (last.indentation, detachment),
             (end(unloading).indentation, detachment),
-            (unloading.dissipated_energy, lost),
+            (unloading.released_energy, lost),
             (end(loading).force, modulus * length * Extended::from(RMS_HEIGHT)),
         ] {
             worst = worst.max(relative_error(found, expected));

@@ -78,7 +78,7 @@ fn same_bits(one: &History, other: &History, length: f64, force: f64) -> Result<
                     && same(a.force * force, b.force)
                     && (a.springs, a.fragments) == (b.springs, b.fragments)
             });
-        let same_energy = same(one.dissipated_energy * length * force, other.dissipated_energy);
+        let same_energy = same(one.released_energy * length * force, other.released_energy);
         ensure(points_agree && same_energy, || {
             format!("leg {index}, lengths times {length:e}, forces times {force:e}: other bits")
         })?;

@@ -52,9 +52,12 @@ pub struct Adhesive<'a, E> {
 
 impl<'a, E: EdgeModel> Adhesive<'a, E> {
     /// Springs of these gaps (m, the smallest 0) and the tree of these gaps, separated.
+    ///
+    /// # Panics
+    /// For a tree of other edges.
     #[must_use]
     pub fn new(gaps: &'a [f64], tree: &'a ContactTree, edges: E, mut memory: AdhesiveMemory) -> Self {
-        debug_assert_eq!(tree.edges(), E::EDGES, "the tree sums for other edges");
+        assert_eq!(tree.edges(), E::EDGES, "the tree sums for other edges");
         memory.closing.forget();
         memory.runs.clear();
         let ground = Ground { gaps, tree, edges };

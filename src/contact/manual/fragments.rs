@@ -90,7 +90,7 @@ impl<E: EdgeModel> FragmentSet<E> {
         runs: &[(usize, usize)],
         rise_of: impl Fn(Ground<'_, E>, &Span) -> f64,
     ) -> Result<Self, ContactError> {
-        debug_assert_eq!(tree.edges(), E::EDGES, "the tree sums for other edges");
+        assert_eq!(tree.edges(), E::EDGES, "the tree sums for other edges");
         let mut own: Vec<f64> = reserve(gaps.len())?;
         own.extend_from_slice(gaps);
         let leaves = tree.turns().len().div_ceil(2);

@@ -76,9 +76,8 @@ pub struct Move {
     pub events: u64,
     /// Table entries read or changed: a measure of the time, the same on every machine.
     pub touched: u64,
-    /// Dissipated energy, J: ½ Δk Σ e² over the springs that detached with a stretch e, less the same over those that
-    /// attached.
-    pub dissipated_energy: f64,
+    /// Released elastic energy, J; see [`LegRecord::released_energy`](super::LegRecord::released_energy).
+    pub released_energy: f64,
 }
 
 /// Reason for which a body could not be moved.
@@ -220,12 +219,12 @@ impl<E: EdgeModel> Manual<E> {
         let squared_stretch = course.dissipation.map_or(0.0, Dissipation::squared_stretch);
         let energy = 0.5 * self.foundation.spring_stiffness() * squared_stretch;
         let Course { springs, events, .. } = course;
-        let (attaches, detaches, dissipated_energy) = match course.direction {
+        let (attaches, detaches, released_energy) = match course.direction {
             // Not −0 where nothing attached under a stretch.
             Direction::Loading => (springs, 0, 0.0 - energy),
             Direction::Unloading => (0, springs, energy),
         };
-        Move { attaches, detaches, events, touched, dissipated_energy }
+        Move { attaches, detaches, events, touched, released_energy }
     }
 
     /// Presses until the force is at least `force`, or pulls until it is at most `force`; returns the course up to

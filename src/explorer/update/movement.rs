@@ -1,7 +1,7 @@
 //! Movement of the body: animation of the scene's loading, or manual loading.
 
 use super::Effect;
-use crate::contact::{Direction, LegRecord};
+use crate::analysis::pull_off_point;
 use crate::explorer::config::Animation;
 use crate::explorer::mode::Mode;
 use crate::explorer::model::{ManualState, Model, Player};
@@ -79,17 +79,15 @@ pub fn go_to_leg(model: &mut Model, legs: i32) -> Vec<Effect> {
     })
 }
 
-/// Goes to the smallest force of the unloading stages, while the contact still holds.
+/// Goes to the pull-off, while the contact still holds.
 pub fn go_to_pull_off(model: &mut Model) -> Vec<Effect> {
-    let unloading = |(_, leg): &(usize, &LegRecord)| leg.direction == Direction::Unloading;
-    let force = |leg: &LegRecord| leg.smallest.force;
-    let stages = model.legs().iter().enumerate().filter(unloading);
-    let pull_off = stages.min_by(|one, other| force(one.1).total_cmp(&force(other.1)));
-    let Some((leg, record)) = pull_off.filter(|(_, leg)| force(leg) < 0.0) else {
-        model.set_error("no stage of the loading pulls: there is no pull-off");
+    let legs = model.legs();
+    let Some((leg, point)) = pull_off_point(legs).filter(|(_, point)| point.force < 0.0) else {
+        model
+            .set_error("there is no pull-off: the force does not fall below 0 N in the last unloading stage");
         return Vec::new();
     };
-    let (indentation, legs) = (record.smallest.indentation, model.legs());
+    let indentation = point.indentation;
     // Rounding must not pass the indentation: below it springs detach.
     let done = model.done_at(leg, indentation);
     let paused = |done| Player { leg, done, playing: false };
@@ -164,7 +162,7 @@ pub fn shown(model: &mut Model, snapshot: Arc<ContactSnapshot>) {
         if !travel.path.is_empty() {
             (manual.changed, manual.touched) = (travel.changed, travel.touched);
         }
-        manual.dissipated_energy = travel.dissipated_energy;
+        manual.released_energy = travel.released_energy;
         if let Some(error) = &travel.refused {
             model.set_error(refusal(error, &model.typed_force));
         }

@@ -5,7 +5,7 @@ use super::stages;
 use super::typed::typed;
 use super::wrap::{fitted, fitting, wrapped_within};
 use crate::accuracy::Target;
-use crate::analysis::{contact_stiffness, mean_pressure};
+use crate::analysis::{SteepWaves, contact_stiffness, mean_pressure};
 use crate::contact::CurvePoint;
 use crate::explorer::action::{Content, Traffic};
 use crate::explorer::completion::Completion;
@@ -147,12 +147,12 @@ type Part = (&'static str, String, Meaning);
 
 /// The state under manual loading: the changes by the move come before the resulting contact.
 fn manual(model: &Model, snapshot: &ContactSnapshot, state: &ManualState, title: &str) -> Vec<Part> {
-    let dissipated = format!("ΔW {}", format_rounded(state.dissipated_energy, 2, "J"));
+    let released = format!("released {}", format_rounded(state.released_energy, 2, "J"));
     let mut parts = vec![
         ("  ", format!("{title}{}", place(snapshot.point)), Meaning::Text),
         (" · ", format!("{} changed", counted(state.changed, "spring")), Meaning::Text),
         (" · ", contact(snapshot.point), Meaning::Text),
-        (" · ", dissipated, Meaning::Text),
+        (" · ", released, Meaning::Text),
     ];
     parts.extend(response(model, snapshot));
     parts
@@ -169,7 +169,12 @@ fn mechanics(model: &Model, snapshot: Option<&ContactSnapshot>) -> Vec<Part> {
         parts.push((" · ", format!("contact {} %", format_rounded(share, 2, "1")), Meaning::Text));
     }
     if let Some(regime) = outcome.regime {
-        parts.push((" · ", regime.name().to_owned(), Meaning::Title));
+        parts.push((" · ", regime.by_protocol().to_owned(), Meaning::Title));
+    }
+    if let Some(SteepWaves { ratio, jkr_factor }) = outcome.steep_waves {
+        let warning =
+            format!("λ²/AR {ratio:.2} < {}: JKR pulls {jkr_factor:.2} F_smooth", SteepWaves::LEAST_RATIO);
+        parts.push((" · ", warning, Meaning::Error));
     }
     if let Some(coefficient) = outcome.figures.adhesion_coefficient {
         parts.push((" · ", format!("F_a/F_n {}", format_quantity(coefficient, "1")), Meaning::Title));
@@ -191,7 +196,7 @@ fn response(model: &Model, snapshot: &ContactSnapshot) -> Vec<Part> {
     let Some(computed) = &model.computed else { return Vec::new() };
     let stiffness =
         contact_stiffness(computed.outcome.governing.effective_modulus, snapshot.point.contact_length);
-    let mut parts = vec![(" · ", format!("dF/dd {}", format_rounded(stiffness, 2, "N/m")), Meaning::Text)];
+    let mut parts = vec![(" · ", format!("E*l {}", format_rounded(stiffness, 2, "N/m")), Meaning::Text)];
     if let Some(pressure) = mean_pressure(snapshot.point.force, snapshot.contact_radius) {
         parts.push((" · ", format!("p_m {}", format_rounded(pressure, 2, "Pa")), Meaning::Text));
     }

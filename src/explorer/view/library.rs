@@ -122,7 +122,7 @@ fn draw_curve(frame: &mut Frame<'_>, area: Rect, model: &Model, entry: &Entry) {
     if let Some(force) = outcome.figures.adhesion_force {
         text.push(format!("F_a {}", format_quantity(force, "N")));
     }
-    text.extend(outcome.regime.map(|regime| regime.name().to_owned()));
+    text.extend(outcome.regime.map(|regime| regime.by_protocol().to_owned()));
     let row = Rect { y: plot.bottom(), height: 1, ..area };
     frame.render_widget(Paragraph::new(text.join(" · ")).style(theme.style(Meaning::Title)), row);
 }

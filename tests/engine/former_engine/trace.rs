@@ -61,7 +61,7 @@ impl Trace {
                     for (first, last) in solver.fragments(record.end()) {
                         trace.counts(Patch, [first as u64, last as u64]);
                     }
-                    trace.numbers(Energy, [record.dissipated_energy]);
+                    trace.numbers(Energy, [record.released_energy]);
                 }
             }
         }

@@ -46,9 +46,9 @@ fn compare(body: &Body) -> ([f64; 3], usize) {
             let lost = moved.squares * wide(0.5 * stiffness);
             if moved.rounding > 0.0 {
                 let unit = 0.5 * stiffness * moved.rounding;
-                worst[2] = worst[2].max(distance(record.dissipated_energy, &lost) / unit);
+                worst[2] = worst[2].max(distance(record.released_energy, &lost) / unit);
             } else {
-                assert_eq!(record.dissipated_energy, 0.0, "{leg:?}");
+                assert_eq!(record.released_energy, 0.0, "{leg:?}");
             }
         }
         Ok(())

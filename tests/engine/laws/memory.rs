@@ -98,11 +98,11 @@ proptest! {
             let reach = body.deepest() + body.largest_stretch() + end.indentation.abs() + position.abs();
             let springs = body.gaps.len() as f64 * body.foundation.spring_stiffness();
             prop_assert!(
-                (record.dissipated_energy - expected).abs() <= 1e-14 * springs * reach * reach,
-                "{} against {} on {:?}", record.dissipated_energy, expected, leg
+                (record.released_energy - expected).abs() <= 1e-14 * springs * reach * reach,
+                "{} against {} on {:?}", record.released_energy, expected, leg
             );
             (position, stored) = (end.indentation, stored_now);
-            lost += record.dissipated_energy;
+            lost += record.released_energy;
         }
         // From separation to separation.
         prop_assert!(lost >= -1e-14 * body.force_scale(), "gained {}", -lost);
@@ -119,14 +119,14 @@ proptest! {
             let mut thresholds = Vec::new();
             solver.thresholds_along_line(&mut thresholds);
             thresholds.retain(|threshold| threshold.is_finite());
-            (record.dissipated_energy, thresholds)
+            (record.released_energy, thresholds)
         });
         let [(loading, attached), (unloading, detached)] = whole;
         let scale = body.force_scale() * (body.deepest() + body.largest_stretch() + deep);
         for spring in springs {
             let mut parts = body.on(&tree, 2);
             let mut lost = |legs: [Leg; 2]| -> f64 {
-                legs.into_iter().map(|leg| parts.advance(leg).unwrap().dissipated_energy).sum()
+                legs.into_iter().map(|leg| parts.advance(leg).unwrap().released_energy).sum()
             };
             let event = spring.get(&attached).min(deep);
             let found = lost([Leg::ToIndentation(event), Leg::ToIndentation(deep)]);
@@ -143,7 +143,7 @@ proptest! {
     fn no_closed_loop_gains_energy(body in body_of_two_works(), outer in 0.0..1.2_f64, inner in -0.8..1.2_f64) {
         let inner = inner.min(outer);
         let history = body.history(&to_indentations(&[outer, inner, outer]), 2);
-        let lost: f64 = history.legs[1..].iter().map(|leg| leg.dissipated_energy).sum();
+        let lost: f64 = history.legs[1..].iter().map(|leg| leg.released_energy).sum();
         prop_assert!(lost >= -1e-14 * body.force_scale(), "gained {}", -lost);
     }
 }

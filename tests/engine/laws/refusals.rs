@@ -58,7 +58,7 @@ proptest! {
             let direction = if -height > below { Direction::Loading } else { Direction::Unloading };
             prop_assert_eq!(record.direction, direction);
             prop_assert_eq!((record.start(), record.end()), (below, -height));
-            prop_assert_eq!((record.attached, record.detached, record.dissipated_energy), (0, 0, 0.0));
+            prop_assert_eq!((record.attached, record.detached, record.released_energy), (0, 0, 0.0));
             prop_assert!(record.curve.iter().all(|point| point.springs == 0 && point.force == 0.0));
             prop_assert!(flown.fragments(-height).is_empty() && flown.fragments(1.0).is_empty());
             below = -height;
@@ -66,7 +66,7 @@ proptest! {
         // The body is already separated.
         let record = flown.advance(Leg::ToSeparation).unwrap();
         prop_assert_eq!(record.curve.len(), 1);
-        prop_assert_eq!((record.start(), record.detached, record.dissipated_energy), (below, 0, 0.0));
+        prop_assert_eq!((record.start(), record.detached, record.released_energy), (below, 0, 0.0));
         // From up there first touch is the same; the way there is one more point.
         let (touch, expected) = (flown.advance(Leg::ToTouch).unwrap(), fresh.advance(Leg::ToTouch).unwrap());
         prop_assert_eq!(&curve_bits(&touch)[1..], &curve_bits(&expected)[..]);
@@ -100,7 +100,7 @@ proptest! {
         for leg in [Leg::ToIndentation(to), Leg::ToForce(there.force)] {
             let record = solver.advance(leg).unwrap();
             prop_assert_eq!(record.curve.iter().map(bits).collect::<Vec<_>>(), [bits(&there)], "{:?}", leg);
-            prop_assert_eq!((record.attached, record.detached, record.dissipated_energy), (0, 0, 0.0));
+            prop_assert_eq!((record.attached, record.detached, record.released_energy), (0, 0, 0.0));
         }
         prop_assert_eq!(solver.work(), before);
     }

@@ -2,7 +2,7 @@
 
 use super::*;
 use asperity::analysis::Figures;
-use asperity::contact::{AdhesiveMemory, LegContact, Stepwise, Work};
+use asperity::contact::{AdhesiveMemory, ContactRule, LegContact, Stepwise, Work};
 use asperity::scene::{Document, Scene};
 use asperity::simulation::{Outcome, Simulation, Timings};
 use std::sync::Arc;
@@ -69,9 +69,8 @@ proptest! {
         legs.iter().for_each(|leg| drop(before.advance(*leg)));
         let mut memory = AdhesiveMemory::default();
         before.give_back(&mut memory);
-        let adhesion = Some((HessRule::new(other.foundation, other.work), &trees[1]));
-        let mut again =
-            Exact::new(&mut memory, &other.gaps, adhesion, Edges::Grid, other.foundation, samples);
+        let rule = ContactRule::Hess(HessRule::new(other.foundation, other.work), &trees[1]);
+        let mut again = Exact::new(&mut memory, &other.gaps, rule, other.foundation, samples);
         prop_assert_eq!(memory.bytes(), 0);
         for leg in legs {
             prop_assert_eq!(again.advance(leg), fresh.advance(leg));

@@ -5,7 +5,7 @@ use super::*;
 /// All numbers of a leg, bit for bit; energies of 0 and −0 are the same.
 fn leg_bits(record: &LegRecord) -> Vec<u64> {
     let points = record.curve.iter().chain([&record.largest, &record.smallest]);
-    let energy = (record.dissipated_energy + 0.0).to_bits();
+    let energy = (record.released_energy + 0.0).to_bits();
     points.flat_map(bits).chain([record.attached, record.detached, energy]).collect()
 }
 
@@ -47,8 +47,8 @@ proptest! {
             let mut back = curve_bits(&history.legs[1]);
             back.reverse();
             prop_assert_eq!(curve_bits(&history.legs[0]), back);
-            prop_assert_eq!(history.legs[0].dissipated_energy, 0.0);
-            prop_assert_eq!(history.legs[1].dissipated_energy, 0.0);
+            prop_assert_eq!(history.legs[0].released_energy, 0.0);
+            prop_assert_eq!(history.legs[1].released_energy, 0.0);
         }
     }
 
@@ -65,7 +65,7 @@ proptest! {
         for leg in legs {
             let (a, b) = (adhesive.advance(leg).unwrap(), bare.advance(leg).unwrap());
             prop_assert_eq!(leg_bits(&a), leg_bits(&b), "the two solvers, {:?}", leg);
-            prop_assert_eq!(a.dissipated_energy, 0.0);
+            prop_assert_eq!(a.released_energy, 0.0);
             let end = *a.curve.last().unwrap();
             if end.springs > 0 {
                 let at_once = body.history(&[Leg::ToIndentation(end.indentation)], 2);
@@ -98,7 +98,7 @@ proptest! {
             prop_assert_eq!(expected, curve_bits(other));
             prop_assert_eq!(scaled(&one.largest, lambda, lambda), bits(&other.largest));
             prop_assert_eq!(scaled(&one.smallest, lambda, lambda), bits(&other.smallest));
-            prop_assert_eq!(one.dissipated_energy * lambda * lambda, other.dissipated_energy);
+            prop_assert_eq!(one.released_energy * lambda * lambda, other.released_energy);
         }
         prop_assert_eq!(history.work, of_larger.work);
     }
@@ -123,7 +123,7 @@ proptest! {
         for (one, other) in history.legs.iter().zip(&of_stiffer.legs) {
             let expected: Vec<_> = one.curve.iter().map(|point| scaled(point, 1.0, factor)).collect();
             prop_assert_eq!(expected, curve_bits(other));
-            prop_assert_eq!(one.dissipated_energy * factor, other.dissipated_energy);
+            prop_assert_eq!(one.released_energy * factor, other.released_energy);
         }
         prop_assert_eq!(history.work, of_stiffer.work);
     }
@@ -145,8 +145,8 @@ proptest! {
             // Also the forces: sums of gaps do not depend on their order.
             prop_assert_eq!(curve_bits(&one), curve_bits(&other));
             prop_assert_eq!((one.attached, one.detached), (other.attached, other.detached));
-            energy += one.dissipated_energy.abs();
-            prop_assert!((one.dissipated_energy - other.dissipated_energy).abs() <= 1e-14 * energy);
+            energy += one.released_energy.abs();
+            prop_assert!((one.released_energy - other.released_energy).abs() <= 1e-14 * energy);
             for probe in probes.iter().chain(&[0.0, 1.0]) {
                 let d = one.start() + probe * (one.end() - one.start());
                 let turn = |&(first, end): &(usize, usize)| (last - end, last - first);

@@ -46,7 +46,7 @@ fn errors(form: Form, length: f64, points: usize) -> [f64; 4] {
     let curve = loading.curve.iter().chain(&unloading.curve);
     let curve = curve.filter(|point| point.springs > 0 && point.indentation >= turns_at);
     let of_curve = curve.map(|point| (point.force - body.force(radius(point.indentation))).abs());
-    let energy = loading.dissipated_energy + unloading.dissipated_energy;
+    let energy = loading.released_energy + unloading.released_energy;
     [
         (unloading.smallest.force / pull_off.1 - 1.0).abs(),
         (unloading.end() / body.indentation(last.0) - 1.0).abs(),
@@ -194,7 +194,7 @@ impl WavySphere {
         let body = Body { gaps: line.gaps, foundation, work: 1.0, closing_work: 1.0 };
         let history = body.history(&[Leg::ToIndentation(deepest), Leg::ToSeparation], 2);
         let [loading, unloading] = &history.legs[..] else { panic!() };
-        let dissipated = loading.dissipated_energy + unloading.dissipated_energy;
+        let dissipated = loading.released_energy + unloading.released_energy;
         [unloading.smallest.force, unloading.end(), dissipated]
     }
 }
@@ -240,7 +240,7 @@ fn waves(sphere: &WavyForm, deepest: f64, points: usize) -> [f64; 3] {
     let body = smooth(Some(form), 1.0, points, sphere.effective_modulus, sphere.work_of_adhesion);
     let history = body.history(&[Leg::ToIndentation(deepest), Leg::ToSeparation], 2);
     let [loading, unloading] = &history.legs[..] else { panic!() };
-    let energy = loading.dissipated_energy + unloading.dissipated_energy;
+    let energy = loading.released_energy + unloading.released_energy;
     [unloading.smallest.force, unloading.end(), energy]
 }
 
@@ -506,7 +506,7 @@ fn a_sphere_under_two_works_converges_with_the_square_of_the_distance_on_each_of
                     let last = exact.closing.displacement_controlled_pull_off().0;
                     exact.closing.force(invert(|a| exact.closing.indentation(a), d, last, 1e3))
                 };
-                let energy = loading.dissipated_energy + unloading.dissipated_energy;
+                let energy = loading.released_energy + unloading.released_energy;
                 [
                     of(&loading.curve, 0.0, deepest, &loads),
                     of(&unloading.curve, released, deepest, &|d| exact.force(d)),
@@ -555,7 +555,7 @@ fn without_adhesion_loading_and_unloading_agree_bit_for_bit_with_order_two() {
         back.reverse();
         // The first point of the loading is the one before touch.
         assert_eq!(bits(&up.curve[1..]), back);
-        assert_eq!(up.dissipated_energy + down.dissipated_energy, 0.0);
+        assert_eq!(up.released_energy + down.released_energy, 0.0);
         let exact = |d: f64| 10.0 * n / (n + 1.0) * d * (d / c).powf(n.recip());
         let error = down.curve.iter().map(|point| (point.force - exact(point.indentation)).abs());
         errors.push(error.fold(0.0, f64::max) / exact(1.0));
@@ -578,7 +578,7 @@ fn orders_of_rough_lines(name: &str, form: Option<Form>) -> [f64; 2] {
         let work = 1e-4 * spectrum.gradient_per_height(1.0) / (kappa * kappa);
         let body = Body { gaps: line.gaps, foundation, work, closing_work: work };
         let history = body.history(&[Leg::ToForce(4e-3), Leg::ToSeparation], 64);
-        let energy: f64 = history.legs.iter().map(|leg| leg.dissipated_energy).sum();
+        let energy: f64 = history.legs.iter().map(|leg| leg.released_energy).sum();
         [history.legs[1].smallest.force, energy]
     };
     let cases: Vec<_> = [0.2, 0.5, 0.8]

@@ -22,7 +22,7 @@ proptest! {
         // From event to event and between them on fine steps: Simpson's rule on a curve that is smooth except at jumps,
         // where steps are.
         let history = body.history(&[to(&turns), vec![Leg::ToSeparation]].concat(), 30_000);
-        let lost: f64 = history.legs.iter().map(|leg| leg.dissipated_energy).sum();
+        let lost: f64 = history.legs.iter().map(|leg| leg.released_energy).sum();
         let work: f64 = history.legs.iter().flat_map(|leg| leg.curve.windows(2)).map(|p| {
             0.5 * (p[0].force + p[1].force) * (p[1].indentation - p[0].indentation)
         }).sum();
@@ -85,7 +85,7 @@ proptest! {
         let four_turns: Vec<f64> = turns.iter().map(|turn| 4.0 * turn).collect();
         let (one, four) = (body.history(&to(&turns), 9), scaled.history(&to(&four_turns), 9));
         for (one, four) in one.legs.iter().zip(&four.legs) {
-            prop_assert_eq!(16.0 * one.dissipated_energy, four.dissipated_energy);
+            prop_assert_eq!(16.0 * one.released_energy, four.released_energy);
             for (one, four) in one.curve.iter().zip(&four.curve) {
                 let one =
                     CurvePoint { indentation: 4.0 * one.indentation, force: 4.0 * one.force, ..*one };
@@ -127,7 +127,7 @@ proptest! {
             }
         }
         prop_assert!((few.legs[1].smallest.force - many.legs[1].smallest.force).abs() <= slack);
-        prop_assert!((few.legs[0].dissipated_energy - many.legs[0].dissipated_energy).abs() <= slack);
+        prop_assert!((few.legs[0].released_energy - many.legs[0].released_energy).abs() <= slack);
     }
 
     #[test]
@@ -190,7 +190,7 @@ fn extreme_values_give_numbers() {
                         );
                         assert!(point.contact_length >= 0.0, "{body:?} {point:?}");
                     }
-                    assert!(record.dissipated_energy.is_finite(), "{body:?} {leg:?}");
+                    assert!(record.released_energy.is_finite(), "{body:?} {leg:?}");
                 }
             }
         }
@@ -223,7 +223,7 @@ proptest! {
             }
             prop_assert!(near(one.largest.force, other.largest.force, scale));
             prop_assert!(near(one.smallest.force, other.smallest.force, scale));
-            prop_assert_eq!(other.dissipated_energy, 0.0);
+            prop_assert_eq!(other.released_energy, 0.0);
         }
         prop_assert_eq!(cells.work().hess_evaluations, 0);
     }

@@ -42,7 +42,7 @@ proptest! {
             let record = match (legs.advance(leg), moved.clone()) {
                 (Ok(record), Ok(moved)) => {
                     prop_assert_eq!((record.attached, record.detached), (moved.attaches, moved.detaches), "{:?}", leg);
-                    let lost = (record.dissipated_energy, moved.dissipated_energy);
+                    let lost = (record.released_energy, moved.released_energy);
                     let slack = 1e-12 * scale * depth * depth;
                     prop_assert!((lost.0 - lost.1).abs() <= slack, "{:?}: lost {:?}", leg, lost);
                     record

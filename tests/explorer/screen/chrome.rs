@@ -136,10 +136,11 @@ fn the_status_line_has_mechanics_or_the_work_of_the_computation() {
         let pressure = snapshot.point.force / (std::f64::consts::PI * radius * radius);
         let rounded = |value: f64| -> f64 { format!("{value:.1e}").parse().unwrap() };
         let energy = computed.outcome.figures.dissipated_energy.unwrap();
+        let edges_in_place = computed.outcome.governing.effective_modulus * snapshot.point.contact_length;
         for text in [
             format!("p_m {}", format_quantity(rounded(pressure), "Pa")),
             format!("ΔW {}", format_quantity(rounded(energy), "J")),
-            "dF/dd ".to_owned(),
+            format!("E*l {}", format_quantity(rounded(edges_in_place), "N/m")),
         ] {
             assert!(driver.status().contains(&text), "{text}: {}", driver.status());
         }
@@ -152,7 +153,7 @@ fn the_status_line_has_mechanics_or_the_work_of_the_computation() {
         assert!(driver.status().contains("looked at") && driver.status().contains("springs changed"));
         driver.press("I");
         assert!(
-            driver.status().contains("manual: d ") && driver.status().contains("ΔW "),
+            driver.status().contains("manual: d ") && driver.status().contains("released "),
             "{}",
             driver.status()
         );

@@ -8,7 +8,7 @@ use asperity::explorer::Opening;
 use asperity::explorer::layout::Layout;
 use asperity::explorer::model::{Notice, Pane};
 use asperity::explorer::snapshot::SolvedScene;
-use asperity::explorer::update::moment_request;
+use asperity::explorer::update::{Effect, moment_request};
 use asperity::scene::{Document, format_quantity};
 use asperity::simulation::Outcome;
 use ratatui::style::Color;
@@ -28,6 +28,26 @@ fn message(driver: &Driver) -> String {
         Some(Notice::Done(text) | Notice::Error(text)) => text.clone(),
         None => String::new(),
     }
+}
+
+#[test]
+fn the_third_step_of_the_preload_raises_the_pull_off_as_the_tour_states() {
+    within(60, || {
+        let mut driver = Driver::open(asperity::scene::open("pressure-sensitive").unwrap());
+        driver.perform(vec![Effect::Compute]);
+        driver.press("2 c");
+        driver.select("loading");
+        driver.press("j");
+        let forces: Vec<String> = (0..4)
+            .map(|step| {
+                if step > 0 {
+                    driver.press("Right");
+                }
+                format_quantity(outcome(&driver).figures.adhesion_force.unwrap(), "N")
+            })
+            .collect();
+        assert_eq!(forces, ["17.17 µN", "17.17 µN", "17.17 µN", "66.24 µN"]);
+    });
 }
 
 #[test]

@@ -142,7 +142,7 @@ fn assert_target(leg: &LegRecord, end: &CurvePoint, rounding: f64) -> Result<(),
 
 /// From separation to separation energy is dissipated, never gained; without adhesion none is dissipated.
 fn assert_energy(outcome: &Outcome) -> Result<(), TestCaseError> {
-    let legs = outcome.history.legs.iter().map(|leg| leg.dissipated_energy);
+    let legs = outcome.history.legs.iter().map(|leg| leg.released_energy);
     let size = legs.clone().map(f64::abs).sum::<f64>();
     let (mut sum, mut least) = (0.0, f64::INFINITY);
     for (energy, leg) in legs.zip(&outcome.history.legs) {
