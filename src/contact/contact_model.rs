@@ -39,19 +39,12 @@ pub trait ContactModel {
     /// [`ContactError::OutOfMemory`]; the contact is then unchanged.
     fn unload(&mut self, from: f64, work: &mut Work) -> Result<f64, ContactError>;
 
-    /// Begins the unloadings from these turning points of the present leg, which is a loading from separation, m, in
-    /// ascending order.
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfMemory`].
-    fn begin_reversals(&mut self, turns: &[f64]) -> Result<(), ContactError>;
-
-    /// Unloads from the turning point of this number and indentation (m), all in ascending order. The loading stays the
+    /// Unloads from this indentation of the present leg, m, which is a loading from separation. The loading stays the
     /// present leg; the next functions refer to this unloading.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    fn reverse(&mut self, turn: (usize, f64), work: &mut Work) -> Result<Reversed, ContactError>;
+    fn reverse(&mut self, at: f64, work: &mut Work) -> Result<Reversed, ContactError>;
 
     /// Contact states along a grid of the unloading from a turning point.
     ///

@@ -323,12 +323,8 @@ impl ContactModel for Nonadhesive<'_> {
         Ok(0.0)
     }
 
-    fn begin_reversals(&mut self, _: &[f64]) -> Result<(), ContactError> {
-        Ok(())
-    }
-
-    fn reverse(&mut self, (_, from): (usize, f64), work: &mut Work) -> Result<Reversed, ContactError> {
-        Ok(Reversed { separates: self.unload(from, work)?, squared_stretches: [0.0; 2] })
+    fn reverse(&mut self, at: f64, work: &mut Work) -> Result<Reversed, ContactError> {
+        Ok(Reversed { separates: self.unload(at, work)?, squared_stretches: [0.0; 2] })
     }
 
     fn sample_reversal(&self, grid: Grid) -> Result<Sampled, ContactError> {

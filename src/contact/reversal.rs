@@ -69,8 +69,6 @@ impl<'a> Reversals<'a> {
         order.sort_by(|one, other| one.1.total_cmp(&other.1));
         let mut points: Vec<f64> = order.iter().map(|&(_, at)| at).collect();
         points.dedup();
-        let depths: Vec<f64> = order.iter().map(|&(_, at)| at).collect();
-        body.work_mut().0.begin_reversals(&depths)?;
         let mut turns = Vec::with_capacity(order.len());
         if !points.is_empty() {
             let states = body.contact().sample(Grid::at(points))?;
@@ -91,8 +89,8 @@ impl<'a> Reversals<'a> {
         points: &[f64],
         see: &mut dyn FnMut(usize, Reversal) -> Result<(), ContactError>,
     ) -> Result<(), ContactError> {
-        for (number, &(index, turn)) in self.turns.iter().enumerate() {
-            see(index, reverse(&mut self.body, (number, turn), points)?)?;
+        for &(index, turn) in &self.turns {
+            see(index, reverse(&mut self.body, turn, points)?)?;
         }
         Ok(())
     }
@@ -125,15 +123,10 @@ impl<'a> Reversals<'a> {
 }
 
 /// Unloads from a turning point.
-fn reverse(
-    body: &mut Exact<'_>,
-    (number, turn): (usize, ContactState),
-    points: &[f64],
-) -> Result<Reversal, ContactError> {
+fn reverse(body: &mut Exact<'_>, turn: ContactState, points: &[f64]) -> Result<Reversal, ContactError> {
     let high = turn.indentation;
     let (contact, work) = body.work_mut();
-    let Reversed { separates, squared_stretches: [attached, detached] } =
-        contact.reverse((number, high), work)?;
+    let Reversed { separates, squared_stretches: [attached, detached] } = contact.reverse(high, work)?;
     let separation = separates.min(high);
     let (grid, _) = body.grid(separation, high);
     let (contact, work) = body.work_mut();

@@ -12,7 +12,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// A foundation that knows only the rules: it tries any spring in any order until no rule applies.
 #[derive(Clone)]
-struct Blind<'a> {
+pub struct Blind<'a> {
     gaps: &'a [f64],
     /// γ/E* on closing and on opening, m.
     ranges: [f64; 2],
@@ -24,7 +24,7 @@ struct Blind<'a> {
 
 /// The order in which blind relaxation tries the springs.
 #[derive(Clone, Copy, Debug)]
-enum Order {
+pub enum Order {
     LeftToRight,
     RightToLeft,
     /// From both ends to the middle.
@@ -60,7 +60,7 @@ impl Order {
 
 impl<'a> Blind<'a> {
     /// Separated springs.
-    fn new(gaps: &'a [f64], ranges: [f64; 2], order: Order) -> Self {
+    pub fn new(gaps: &'a [f64], ranges: [f64; 2], order: Order) -> Self {
         Blind { gaps, ranges, contact: vec![false; gaps.len()], order, springs: order.springs(gaps.len()) }
     }
 
@@ -97,7 +97,7 @@ impl<'a> Blind<'a> {
     }
 
     /// Relaxes at indentation d.
-    fn relax(&mut self, d: f64) {
+    pub fn relax(&mut self, d: f64) {
         let mut springs = std::mem::take(&mut self.springs);
         let unshuffled = matches!(self.order, Order::Shuffled(_)).then(|| springs.clone());
         loop {
@@ -122,7 +122,7 @@ impl<'a> Blind<'a> {
         there
     }
 
-    fn fragments(&self) -> Vec<(usize, usize)> {
+    pub fn fragments(&self) -> Vec<(usize, usize)> {
         let mut fragments = Vec::new();
         let mut start = None;
         for index in 0..=self.contact.len() {

@@ -198,10 +198,11 @@ fn span_of(gaps: &[f64], spring: usize) -> (usize, usize) {
     (spring - before, spring + after)
 }
 
-/// Checks an energy to 1e-12 of the sum of its terms, ½ Δk e² for each moved spring.
+/// Checks an energy to 1e-9 of the sum of its terms, ½ Δk e² for each moved spring, and of a stretch of 3e-8 m.
 fn check_energy(found: f64, expected: f64) -> Result<(), TestCaseError> {
     // On one leg they all have one sign.
-    prop_assert!((found - expected).abs() <= 1e-12 * expected.abs(), "{} J against {} J", found, expected);
+    let allowed = 1e-9 * (expected.abs() + 1e-15);
+    prop_assert!((found - expected).abs() <= allowed, "{} J against {} J", found, expected);
     Ok(())
 }
 

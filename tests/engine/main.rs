@@ -1,10 +1,10 @@
-//! The library without the program: closed forms, brute force, the former engine, laws, exact sums, scenes, and studies
+//! The library without the program: closed forms, brute force, laws, exact sums, scenes, and studies
 //! on a disk that fails.
 
 mod closed_forms;
 mod equilibrium;
+mod exhaustive;
 mod formed;
-mod former_engine;
 mod hard_cases;
 mod incremental;
 mod large_lines;

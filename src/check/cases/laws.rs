@@ -109,7 +109,7 @@ fn random_bodies(edges: Edges) -> Result<f64, Fault> {
     let error = worst(|body| {
         let agreement = follow(body, edges, &body.tour())?;
         partial.set(partial.get() + agreement.partial);
-        Ok(agreement.error())
+        Ok(agreement.force)
     })?;
     ensure(partial.get() > 4 * BODIES as usize, || format!("only {} partial contacts", partial.get()))?;
     Ok(error)
@@ -143,7 +143,7 @@ fn thousand_legs(edges: Edges) -> Result<f64, Fault> {
     ensure(agreement.undecided * 10 < agreement.states && agreement.partial > 500, || {
         format!("{agreement:?}: too few states that the bounds decide")
     })?;
-    Ok(agreement.error())
+    Ok(agreement.force)
 }
 
 /// The contact and the last point of a loading.

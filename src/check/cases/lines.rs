@@ -315,7 +315,7 @@ fn near_ties(edges: Edges) -> Result<f64, Fault> {
                 let body = Body::below(heights.clone(), LENGTH, MODULUS, work);
                 let pressed = [1.0, 2.0, 10.0, 100.0].map(|share| Leg::ToIndentation(share * body.deepest()));
                 let legs = [pressed.to_vec(), body.tour()].concat();
-                worst = worst.max(follow(&body, edges, &legs)?.error());
+                worst = worst.max(follow(&body, edges, &legs)?.force);
             }
         }
     }

@@ -41,7 +41,7 @@ fn largest(errors: impl IntoIterator<Item = Result<f64, Fault>>) -> Result<f64, 
 
 /// Largest difference of a body from the rules on its tour.
 fn on_tour(body: &Body, edges: Edges) -> Result<f64, Fault> {
-    Ok(follow(body, edges, &body.tour())?.error())
+    Ok(follow(body, edges, &body.tour())?.force)
 }
 
 /// Difference of a number from the expected one, over the expected one.

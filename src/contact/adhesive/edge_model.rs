@@ -6,7 +6,6 @@ use crate::contact::contact_state::ContactState;
 use crate::contact::totals::{ContactTotals, GapScale};
 use crate::contact::{Direction, HessRule};
 use crate::scene::Edges;
-use std::ops::Range;
 
 /// Length of a fragment, the only input of the rule of Hess, and the force of its edge cells.
 ///
@@ -34,13 +33,9 @@ pub trait EdgeModel: Copy + Send + Sync + 'static {
     /// Smallest indentation at which a span holds its most stretched spring, m; at most its gap.
     fn holds_to(&self, levels: &Levels) -> f64;
 
-    /// Three times ∫ (c − θ)² dx over a stretch of the line that attaches or detaches at the indentation θ, in cells
-    /// times m².
-    fn squared_stretch(&self, gaps: &[f64], stretch: &AtOnce) -> f64;
-
-    /// ∫ (c − θ)² dx over the places passed while the edges slide between two spans and levels, each place
-    /// at its own indentation θ, in cells times m²; nothing where springs attach one by one.
-    fn squared_stretch_sliding(&self, gaps: &[f64], between: [(Span, f64); 2]) -> f64;
+    /// ∫ (c − θ)² dx over the places passed while the edges move between two spans and levels, each place at its own
+    /// indentation θ, in cells times m²: at an edge the stretch is s √ℓ.
+    fn squared_stretch_sliding(&self, gaps: &[f64], between: [(Span, f64); 2], unloading: bool) -> f64;
 
     /// Largest stretch s of a fragment of unit length, m: Δl_max = s √ℓ, eq. (10).
     #[inline]
@@ -113,48 +108,5 @@ pub trait EdgeModel: Copy + Send + Sync + 'static {
     /// Indentation at which whole springs alone carry a compression, m; `None` if edge cells carry too.
     fn indentation_of(&self, totals: ContactTotals, compression: f64, scale: &GapScale) -> Option<f64> {
         if Self::SLIDES { None } else { totals.indentation(compression, scale) }
-    }
-}
-
-/// An edge of a fragment.
-#[derive(Clone, Copy, Debug)]
-pub struct Edge {
-    /// Its outermost spring in contact.
-    pub spring: usize,
-    /// Its level, m.
-    pub level: f64,
-}
-
-/// End of a stretch of the line that attaches at once.
-#[derive(Clone, Copy, Debug)]
-pub enum Boundary {
-    /// At an edge of the fragment that forms: the stretch lies inside.
-    Outer(Edge),
-    /// At an edge of a constituent fragment: the stretch lies outside.
-    Part(Edge),
-}
-
-/// A stretch of the line that attaches or detaches at once, from left to right.
-#[derive(Clone, Copy, Debug)]
-pub struct AtOnce {
-    /// Indentation, m.
-    pub at: f64,
-    pub between: (Boundary, Boundary),
-}
-
-impl AtOnce {
-    /// Its springs.
-    #[inline]
-    pub fn springs(&self) -> Range<usize> {
-        let (from, to) = self.between;
-        let start = match from {
-            Boundary::Outer(edge) => edge.spring,
-            Boundary::Part(edge) => edge.spring + 1,
-        };
-        let end = match to {
-            Boundary::Outer(edge) => edge.spring + 1,
-            Boundary::Part(edge) => edge.spring,
-        };
-        start..end.max(start)
     }
 }

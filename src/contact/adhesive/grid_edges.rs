@@ -1,7 +1,6 @@
 //! Whole springs, as the paper counts them: a fragment of n springs is n Δx long.
 
-use super::dissipation::squares;
-use super::edge_model::{AtOnce, EdgeModel};
+use super::edge_model::EdgeModel;
 use super::levels::Levels;
 use super::span::Span;
 use crate::contact::{Direction, HessRule};
@@ -53,11 +52,10 @@ impl EdgeModel for GridEdges {
         (levels.gap - self.stretch() * levels.length.sqrt()).next_up().min(levels.gap)
     }
 
-    fn squared_stretch(&self, gaps: &[f64], stretch: &AtOnce) -> f64 {
-        3.0 * squares(&gaps[stretch.springs()], |gap| (gap - stretch.at) * (gap - stretch.at))
-    }
-
-    fn squared_stretch_sliding(&self, _: &[f64], _: [(Span, f64); 2]) -> f64 {
-        0.0
+    fn squared_stretch_sliding(&self, _: &[f64], between: [(Span, f64); 2], unloading: bool) -> f64 {
+        let [fewer, more] = between.map(|(span, _)| span.springs() as f64);
+        // Springs attach one by one to patches of `fewer` springs and more, and detach from those of `more` and fewer.
+        let sign = if unloading { 1.0 } else { -1.0 };
+        0.5 * self.stretch() * self.stretch() * (more - fewer) * (more + fewer + sign)
     }
 }

@@ -5,13 +5,12 @@
 //! Curves, extremes and energies are sums over these runs. Only the [`EdgeModel`] defines the length of a fragment.
 
 mod curve;
-mod dissipation;
 mod edge_model;
+mod energy;
 mod grid_edges;
 mod levels;
 mod loading;
 mod memory;
-mod reversing;
 mod run;
 mod search;
 mod span;
@@ -20,7 +19,7 @@ mod tree;
 mod unloading;
 
 pub use edge_model::EdgeModel;
-pub(in crate::contact) use edge_model::{AtOnce, Boundary, Edge};
+pub(in crate::contact) use energy::SquaredStretch;
 pub use grid_edges::GridEdges;
 pub(in crate::contact) use levels::{EdgeCells, EdgeSum, Slider};
 pub use memory::AdhesiveMemory;
@@ -36,8 +35,7 @@ use super::contact_state::{ContactState, Extreme, Sampled};
 use super::grid::Grid;
 use super::{ContactError, ContactTotals, Direction, LegView, Work};
 use crate::parallel::in_parallel;
-use dissipation::Range;
-use reversing::Reversing;
+use energy::Range;
 use search::Search;
 
 /// Springs under adhesion, loaded and unloaded leg by leg.
@@ -47,7 +45,6 @@ pub struct Adhesive<'a, E> {
     unloading: bool,
     /// True if the present leg forms the contact.
     forms: bool,
-    reversing: Reversing,
 }
 
 impl<'a, E: EdgeModel> Adhesive<'a, E> {
@@ -61,8 +58,7 @@ impl<'a, E: EdgeModel> Adhesive<'a, E> {
         memory.closing.forget();
         memory.runs.clear();
         let ground = Ground { gaps, tree, edges };
-        let reversing = Reversing::default();
-        Adhesive { ground, memory, unloading: false, forms: false, reversing }
+        Adhesive { ground, memory, unloading: false, forms: false }
     }
 
     /// The line under the rule of the present leg.
@@ -85,12 +81,6 @@ impl<'a, E: EdgeModel> Adhesive<'a, E> {
     fn spare(&self) -> Search<'_, E> {
         let runs = self.memory.spare.as_slice();
         Search { ground: self.ground.on(Direction::Unloading), runs, unloading: true }
-    }
-
-    /// The unloading from the present turning point.
-    fn reversal(&self) -> Search<'_, E> {
-        let spare = self.spare();
-        if self.ground.edges.are_pinned() { spare } else { Search { runs: self.reversing.runs(), ..spare } }
     }
 
     /// Lists the unloading from an indentation of the loading from separation beside the present leg. Returns the smallest
@@ -144,24 +134,11 @@ impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
         Ok(opened.separates)
     }
 
-    fn begin_reversals(&mut self, turns: &[f64]) -> Result<(), ContactError> {
-        let loading = self.ground.on(Direction::Loading);
-        if self.ground.edges.are_pinned() {
-            return Ok(());
-        }
-        self.reversing.begin(&loading, &self.memory.runs, turns)
-    }
-
-    fn reverse(&mut self, turn: (usize, f64), work: &mut Work) -> Result<Reversed, ContactError> {
+    fn reverse(&mut self, at: f64, work: &mut Work) -> Result<Reversed, ContactError> {
         work.unloading_passes += 1;
+        let separates = self.unload_aside(at, work)?;
         let [loading, unloading] = [Direction::Loading, Direction::Unloading].map(|leg| self.ground.on(leg));
-        if !self.ground.edges.are_pinned() {
-            let (runs, evaluations) = (&self.memory.runs, &mut work.hess_evaluations);
-            return self.reversing.turn([&loading, &unloading], runs, turn, evaluations);
-        }
-        // Edges that keep their place at first have another unloading from each turning point.
-        let separates = self.unload_aside(turn.1, work)?;
-        let range = |unloading| Range { low: f64::NEG_INFINITY, high: turn.1, unloading };
+        let range = |unloading| Range { low: f64::NEG_INFINITY, high: at, unloading };
         let squared_stretches = [
             loading.squared_stretch(&self.memory.runs, range(false)),
             unloading.squared_stretch(&self.memory.spare, range(true)),
@@ -170,7 +147,7 @@ impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
     }
 
     fn sample_reversal(&self, grid: Grid) -> Result<Sampled, ContactError> {
-        self.reversal().sample(grid)
+        self.spare().sample(grid)
     }
 
     fn smallest_of_reversal(
@@ -179,7 +156,7 @@ impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
         turn: ContactState,
         sorted: &mut u64,
     ) -> Result<ContactState, ContactError> {
-        self.reversal().smallest_below(turn, grid, sorted)
+        self.spare().smallest_below(turn, grid, sorted)
     }
 
     fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {

@@ -65,19 +65,6 @@ impl Span {
         self.wall(gaps).map_or(*self, |wall| self.with(gaps, wall))
     }
 
-    /// The next smaller span of its branch, at the smallest span of which a gap is `bottom`, m.
-    #[inline]
-    pub fn shrunk(&self, gaps: &[f64], bottom: f64) -> Self {
-        let (mut first, mut last) = (self.first, self.last);
-        if gaps[first] >= gaps[last] {
-            first += 1
-        } else {
-            last -= 1
-        }
-        let ends = gaps[first].max(gaps[last]);
-        Span { gap: ends.max(bottom), first, last }
-    }
-
     /// Number of springs.
     #[inline]
     pub fn springs(&self) -> usize {

@@ -1,8 +1,7 @@
 //! Sub-cell edges: the line is straight between neighbouring springs, and a fragment ends at the crossing of the line
 //! with the level of the fragment. The error falls with the square of the distance between springs.
 
-use super::dissipation::squares_of_cells;
-use super::edge_model::{AtOnce, Boundary, EdgeModel};
+use super::edge_model::EdgeModel;
 use super::levels::Levels;
 use super::span::Span;
 use crate::contact::{Direction, HessRule};
@@ -66,46 +65,7 @@ impl EdgeModel for SubCellEdges {
         if holds < gap { holds } else { gap }
     }
 
-    fn squared_stretch(&self, gaps: &[f64], &AtOnce { at, between }: &AtOnce) -> f64 {
-        match between {
-            (Boundary::Outer(outer), Boundary::Part(part)) if outer.spring == part.spring => outer
-                .spring
-                .checked_sub(1)
-                .map_or(0.0, |cell| part_of_cell(gaps, cell, (part.level, outer.level), at)),
-            (Boundary::Part(part), Boundary::Outer(outer)) if outer.spring == part.spring => {
-                if outer.spring + 1 < gaps.len() {
-                    part_of_cell(gaps, outer.spring, (part.level, outer.level), at)
-                } else {
-                    0.0
-                }
-            }
-            (from, to) => {
-                let (first, before) = match from {
-                    Boundary::Outer(edge) => {
-                        let cell = edge.spring.checked_sub(1);
-                        (edge.spring, outer_cell(gaps, cell, (edge.spring, edge.level), at))
-                    }
-                    Boundary::Part(edge) => {
-                        let next = edge.spring + 1;
-                        (next, part_of_cell(gaps, edge.spring, (edge.level, gaps[next]), at))
-                    }
-                };
-                let (last, after) = match to {
-                    Boundary::Outer(edge) => {
-                        let cell = Some(edge.spring).filter(|cell| cell + 1 < gaps.len());
-                        (edge.spring, outer_cell(gaps, cell, (edge.spring, edge.level), at))
-                    }
-                    Boundary::Part(edge) => {
-                        let next = edge.spring - 1;
-                        (next, part_of_cell(gaps, next, (edge.level, gaps[next]), at))
-                    }
-                };
-                before + squares_of_cells(&gaps[first..=last.max(first)], at) + after
-            }
-        }
-    }
-
-    fn squared_stretch_sliding(&self, gaps: &[f64], [lower, upper]: [(Span, f64); 2]) -> f64 {
+    fn squared_stretch_sliding(&self, gaps: &[f64], [lower, upper]: [(Span, f64); 2], _: bool) -> f64 {
         // Twice the stretch of an edge times the change of the length, as the stretch is s √ℓ.
         let ([cells0, share0], [cells1, share1]) = (length_at(gaps, &lower), length_at(gaps, &upper));
         // Whole cells and shares are subtracted separately: as lengths they would lose digits.
@@ -125,25 +85,4 @@ fn length_at(gaps: &[f64], (span, level): &(Span, f64)) -> [f64; 2] {
     };
     let left = share(span.first, span.first.checked_sub(1).map(|before| &gaps[before]));
     [(span.last - span.first) as f64, left + share(span.last, gaps.get(span.last + 1))]
-}
-
-/// Three times ∫ (c − θ)² dx over the part of a cell in which the line lies between two levels.
-fn part_of_cell(gaps: &[f64], cell: usize, (from, to): (f64, f64), at: f64) -> f64 {
-    let growth = (gaps[cell + 1] - gaps[cell]).abs().recip();
-    // A level cell belongs to the fragment that holds the spring at its right end.
-    let growth = if growth < f64::INFINITY { growth } else { 0.0 };
-    let (a, b) = (from - at, to - at);
-    growth * (from - to).abs() * (a * a + a * b + b * b)
-}
-
-/// Three times ∫ (c − θ)² dx over the cell beyond the outermost spring of a fragment, up to its level; `None`: half a
-/// cell as level as the spring, at the end of the foundation.
-fn outer_cell(gaps: &[f64], cell: Option<usize>, (spring, level): (usize, f64), at: f64) -> f64 {
-    let stretch = gaps[spring] - at;
-    match cell {
-        None => 1.5 * stretch * stretch,
-        // A level cell attaches whole, with the spring.
-        Some(cell) if gaps[cell] == gaps[cell + 1] => 3.0 * stretch * stretch,
-        Some(cell) => part_of_cell(gaps, cell, (gaps[spring], level), at),
-    }
 }

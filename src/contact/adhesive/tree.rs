@@ -1,6 +1,7 @@
 //! The contact tree: the merging of the fragments of a line, over its local maxima alone.
 
 use super::span::larger;
+use crate::contact::totals::{Squares, square_of};
 use crate::contact::{ContactError, GapScale, reserve};
 use crate::memory;
 use crate::parallel::in_parallel;
@@ -27,8 +28,8 @@ pub struct ContactTree {
     /// Local minima and maxima in turn along the line; the first and the last are minima.
     turns: Vec<u32>,
     nodes: Vec<Node>,
-    /// Sum before each `BLOCK`-th spring, in quanta: of the gaps, or of the mean gaps of cells.
-    sums: Vec<i128>,
+    /// Sums before each `BLOCK`-th spring: of the gaps, or of the mean gaps of cells, in quanta; and of their squares.
+    sums: Vec<[i128; 2]>,
     /// Edge model for which the sums are taken.
     edges: Option<Edges>,
     scale: Option<GapScale>,
@@ -130,7 +131,7 @@ impl ContactTree {
     pub fn bytes(&self) -> usize {
         size_of::<u32>() * self.turns.capacity()
             + size_of::<Node>() * self.nodes.capacity()
-            + size_of::<i128>() * self.sums.capacity()
+            + size_of::<[i128; 2]>() * self.sums.capacity()
     }
 
     /// Edge model of its sums.
@@ -201,7 +202,22 @@ impl ContactTree {
                 .sum(),
             Edges::Grid => gaps[start..spring].iter().map(|&gap| i128::from(scale.quanta(gap))).sum(),
         };
-        self.sums[block] + rest
+        self.sums[block][0] + rest
+    }
+
+    /// Sums from the first spring to this one.
+    pub(super) fn squares_before(&self, gaps: &[f64], spring: usize) -> Squares {
+        let (block, scale) = (spring / BLOCK, self.scale());
+        let [mut first, mut second] = self.sums[block];
+        for at in block * BLOCK..spring {
+            let (quanta, square) = match self.edges() {
+                Edges::Grid => of_spring(gaps[at], scale),
+                Edges::SubCell => of_cell(gaps[at], gaps[at + 1], scale),
+            };
+            first += i128::from(quanta);
+            second += square;
+        }
+        Squares { count: spring as i64, first, second }
     }
 
     /// Finds the turning points: of neighbours with equal gaps the right one counts as lower.
@@ -280,33 +296,48 @@ impl ContactTree {
 
 /// Sums before each `BLOCK`-th spring, in quanta of the scale.
 fn sums_along(
-    mut sums: Vec<i128>,
+    mut sums: Vec<[i128; 2]>,
     gaps: &[f64],
     edges: Edges,
     scale: GapScale,
-) -> Result<Vec<i128>, ContactError> {
+) -> Result<Vec<[i128; 2]>, ContactError> {
     let count = gaps.len() / BLOCK + 1;
     sums.clear();
     if sums.capacity() < count {
         sums = reserve(count)?;
     }
-    let mut sum = 0_i128;
+    let mut sum = [0_i128; 2];
     sums.push(sum);
-    // Four quanta below 2^62 fit into 64 bits.
-    let mut add = |block: [i64; BLOCK]| {
-        sum += i128::from(block.into_iter().map(i64::cast_unsigned).sum::<u64>());
+    let mut add = |block: [(i64, i128); BLOCK]| {
+        // Four quanta below 2^62 fit into 64 bits.
+        sum[0] += i128::from(block.iter().map(|(quanta, _)| quanta.cast_unsigned()).sum::<u64>());
+        sum[1] += block.iter().map(|(_, square)| square).sum::<i128>();
         sums.push(sum);
     };
     match edges {
         Edges::Grid => {
             let (blocks, _) = gaps.as_chunks::<BLOCK>();
-            blocks.iter().for_each(|block| add(block.map(|gap| scale.quanta(gap))));
+            blocks.iter().for_each(|block| add(block.map(|gap| of_spring(gap, scale))));
         }
         Edges::SubCell => gaps.windows(BLOCK + 1).step_by(BLOCK).for_each(|block| {
-            add(std::array::from_fn(|k| scale.mean_quanta(block[k], block[k + 1])));
+            add(std::array::from_fn(|k| of_cell(block[k], block[k + 1], scale)));
         }),
     }
     Ok(sums)
+}
+
+/// Gap of a spring in quanta, and its square.
+#[inline]
+fn of_spring(gap: f64, scale: GapScale) -> (i64, i128) {
+    let quanta = scale.quanta(gap);
+    (quanta, square_of(quanta))
+}
+
+/// Mean gap of a cell in quanta, and the mean of its squares: (mean gap)² + (difference of its gaps)²/12.
+#[inline]
+fn of_cell(one: f64, other: f64, scale: GapScale) -> (i64, i128) {
+    let quanta = scale.mean_quanta(one, other);
+    (quanta, square_of(quanta) + square_of(scale.quanta((one - other).abs())) / 12)
 }
 
 /// Largest of finite numbers that are at least zero; zero of none.

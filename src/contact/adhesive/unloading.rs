@@ -12,32 +12,14 @@ const ABOVE: f64 = 1.0 + 1e-12;
 
 /// Part of the contact still to be listed.
 #[derive(Clone, Copy, Debug)]
-pub struct Part {
-    pub branch: Branch,
-    pub first: u32,
-    pub last: u32,
+struct Part {
+    branch: Branch,
+    first: u32,
+    last: u32,
     /// Indentation at which the fragment around it parts, m.
     opens: f64,
     /// True for a fragment at the beginning of the leg.
     is_whole: bool,
-}
-
-/// End of the way down a branch.
-pub enum Descent {
-    /// No fragment is left inside.
-    Nothing,
-    /// At the smallest span, which parts at an indentation (m): the parts of its node are left.
-    Bottom([Option<Part>; 2]),
-    /// At a span that has been listed before, inside a fragment that parts at an indentation, m; the levels of the span
-    /// above, where its run may go on.
-    Known { opens: f64, above: Option<Levels> },
-}
-
-impl Part {
-    /// A fragment at the beginning of a leg at this indentation, m.
-    pub fn whole(held: &Held, from: f64) -> Self {
-        Part { branch: held.branch, first: held.first, last: held.last, opens: from, is_whole: true }
-    }
 }
 
 /// Memory of the walk.
@@ -77,12 +59,12 @@ impl Opening {
         for held in held.iter().rev() {
             let pin = held.pin;
             opened.springs += u64::from(held.last + 1 - held.first);
-            parts.push(Part::whole(held, from));
+            let &Held { branch, first, last, .. } = held;
+            parts.push(Part { branch, first, last, opens: from, is_whole: true });
             while let Some(part) = parts.pop() {
-                if let Descent::Bottom(inside) = ground.descend(part, (pin, None), runs, &mut opened)? {
-                    parts.try_reserve(2).map_err(out_of_memory)?;
-                    parts.extend(inside.into_iter().flatten());
-                }
+                let inside = ground.descend(part, pin, runs, &mut opened)?;
+                parts.try_reserve(2).map_err(out_of_memory)?;
+                parts.extend(inside.into_iter().flatten());
             }
         }
         self.parts = parts;
@@ -109,15 +91,15 @@ impl<E: EdgeModel> Ground<'_, E> {
         [part(left, first, spring - 1), part(right, spring + 1, last)]
     }
 
-    /// Lists the runs of one branch from its largest span down to its smallest one, or down to a `known` one inside;
-    /// the edges of a fragment at the beginning of the leg may be pinned at a rise, m.
-    pub fn descend(
+    /// Lists the runs of one branch from its largest span down to its smallest one, and returns the parts of its node that
+    /// are left; the edges of a fragment at the beginning of the leg may be pinned at a rise, m.
+    fn descend(
         &self,
         part: Part,
-        (pin, known): (Option<f64>, Option<[u32; 2]>),
+        pin: Option<f64>,
         runs: &mut Vec<Run>,
         opened: &mut Opened,
-    ) -> Result<Descent, ContactError> {
+    ) -> Result<[Option<Part>; 2], ContactError> {
         let Ground { gaps, tree, edges } = *self;
         let (mut first, mut last) = (part.first as usize, part.last as usize);
         let (mut opens, mut is_whole) = (part.opens, part.is_whole);
@@ -132,7 +114,7 @@ impl<E: EdgeModel> Ground<'_, E> {
             }
         };
         if !is_whole && !self.may_hold(lowest, opens, last + 1 - first) {
-            return Ok(Descent::Nothing);
+            return Ok([None; 2]);
         }
         let is_leaf = bottom == f64::NEG_INFINITY;
         // Levels of the span above, while its run may go on.
@@ -148,9 +130,6 @@ impl<E: EdgeModel> Ground<'_, E> {
                 right
             };
             let span = Span { gap, first, last };
-            if !is_whole && known == Some(span.ends()) {
-                return Ok(Descent::Known { opens, above });
-            }
             let mut goes_on = None;
             if is_whole || self.may_hold(gap, opens, last + 1 - first) {
                 opened.evaluations += 1;
@@ -182,7 +161,7 @@ impl<E: EdgeModel> Ground<'_, E> {
             }
             above = goes_on;
             if at_bottom {
-                return Ok(Descent::Bottom(self.parts_of(part.branch, &span, place, opens)));
+                return Ok(self.parts_of(part.branch, &span, place, opens));
             }
             if left >= right { first += 1 } else { last -= 1 }
         }

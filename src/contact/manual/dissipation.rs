@@ -2,7 +2,7 @@
 
 use super::fragments::{Event, Fragment};
 use crate::contact::Direction;
-use crate::contact::adhesive::{AtOnce, Boundary, Edge, EdgeModel, Ground};
+use crate::contact::adhesive::{EdgeModel, Ground, SquaredStretch};
 use crate::contact::grid::CompensatedSum;
 use std::collections::HashMap;
 use std::slice::from_ref;
@@ -18,23 +18,19 @@ pub struct Dissipation {
     from: f64,
     /// By slot, where edges slide: the level at which the fragment began to fill its span on the move, m.
     levels: HashMap<usize, f64>,
-    /// ∫ (c − θ)² dx over the places passed while edges slide, in cells times m².
-    sliding: CompensatedSum,
-    /// Three times ∫ (c − θ)² dx over the parts that attach or detach at once, in cells times m².
-    thirds: CompensatedSum,
+    /// ∫ (c − θ)² dx over the springs or cells that attach or detach, in cells times m².
+    squares: CompensatedSum,
 }
 
 impl Dissipation {
     /// Returns empty sums for a move in this direction from an indentation, m.
     pub fn new(direction: Direction, from: f64) -> Self {
-        let (sliding, thirds) = (CompensatedSum::default(), CompensatedSum::default());
-        Dissipation { direction, from, levels: HashMap::new(), sliding, thirds }
+        Dissipation { direction, from, levels: HashMap::new(), squares: CompensatedSum::default() }
     }
 
     /// ∫ (c − θ)² dx, in cells times m².
-    pub fn squared_stretch(mut self) -> f64 {
-        self.sliding.add(self.thirds.total() / 3.0);
-        self.sliding.total()
+    pub fn squared_stretch(self) -> f64 {
+        self.squares.total()
     }
 
     /// Adds an event at an indentation, m: a fragment has formed from these parts, or has detached a spring and they
@@ -78,24 +74,19 @@ impl Dissipation {
                 Direction::Unloading => [to, from],
             };
             let between = between.map(|level| (fragment.span, level));
-            self.sliding.add(ground.edges.squared_stretch_sliding(ground.gaps, between));
+            let is_unloading = self.direction == Direction::Unloading;
+            self.squares.add(ground.edges.squared_stretch_sliding(ground.gaps, between, is_unloading));
         }
     }
 
     /// Adds all of a fragment but these parts of it, attached or detached at once.
     fn jump<E: EdgeModel>(&mut self, ground: Ground<'_, E>, at: f64, whole: &Fragment, parts: &[Fragment]) {
-        let mut add = |from, to| {
-            let stretch = AtOnce { at, between: (from, to) };
-            self.thirds.add(ground.edges.squared_stretch(ground.gaps, &stretch));
-        };
-        let level = ground.level(&whole.span, whole.pin, at);
-        let mut from = Boundary::Outer(Edge { spring: whole.span.first, level });
+        let mut sum = SquaredStretch::new(&ground, at.abs());
+        sum.add(&ground, 1, (&whole.span, ground.level(&whole.span, whole.pin, at)), at);
         for part in parts {
-            let level = level_at_end(self.direction, ground, part, at);
-            add(from, Boundary::Part(Edge { spring: part.span.first, level }));
-            from = Boundary::Part(Edge { spring: part.span.last, level });
+            sum.add(&ground, -1, (&part.span, level_at_end(self.direction, ground, part, at)), at);
         }
-        add(from, Boundary::Outer(Edge { spring: whole.span.last, level }));
+        self.squares.add(sum.total());
     }
 }
 

@@ -88,7 +88,7 @@ fn other_roundings_of_a_line_raise_no_alarm() {
                 let agreement = follow(&body, edges, &body.tour());
                 let agreement =
                     agreement.unwrap_or_else(|fault| panic!("body {seed}, {trial}, {edges:?}: {fault}"));
-                assert!(agreement.error() <= bound, "body {seed}, {trial}, {edges:?}: {agreement:?}");
+                assert!(agreement.force <= bound, "body {seed}, {trial}, {edges:?}: {agreement:?}");
             }
         }
     }
