@@ -1,8 +1,6 @@
 //! Reversals: the unloadings from many turning points of one loading.
 //!
-//! The remaining contact on the way back depends on the turning point only through the patches closed there. So all
-//! reversals share the tree, the thresholds of attachment and the list of the loading, and the cost of each is
-//! proportional to its own contact.
+//! All reversals share the tree, the thresholds of attachment and the list of the loading.
 
 use super::contact_model::Reversed;
 use super::contact_state::ContactState;

@@ -13,8 +13,8 @@ const PASSED: u64 = 12;
 /// Bytes per spring of the stepwise solver: its threshold and its contact.
 const RELAXED: u64 = THRESHOLD + 1;
 /// Bytes per spring of a profile with modes up to Nyquist's: a quarter of the springs are local maxima of the gap,
-/// with a node and two turning points each, and each fourth spring has a sum.
-const NODE: u64 = 16;
+/// with a node and two turning points each, and each fourth spring has two sums.
+const NODE: u64 = 20;
 
 /// Reasons to skip several stages.
 const NO_ADHESION: &str = "no adhesion: each spring touches and leaves at its own gap";
