@@ -133,10 +133,7 @@ pub struct Found {
 /// Solver of the studies: [`Accuracy`], or a substitute in tests that replaces some of the methods.
 pub trait Appraiser: Send {
     /// See [`estimate`].
-    ///
-    /// # Errors
-    /// When a needed solution fails.
-    fn estimate(&mut self, of: &SolvedScene, stop: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
+    fn estimate(&mut self, of: &SolvedScene, stop: &dyn Fn() -> bool) -> Option<Estimate> {
         estimate(&of.scene, Path::new(FOLDER), &of.outcome, stop)
     }
 
@@ -205,7 +202,7 @@ pub fn perform(
         }
     };
     let done = catch_unwind(AssertUnwindSafe(|| match task {
-        Task::Estimate(of) => Finding::Estimated(appraiser.estimate(of, stop).unwrap_or(None)),
+        Task::Estimate(of) => Finding::Estimated(appraiser.estimate(of, stop)),
         Task::ApproximateJkr(of) => {
             let curve = appraiser.approximate_jkr(of, stop);
             Finding::Approximated(curve.map(Arc::new).map_err(|error| error.to_string()))

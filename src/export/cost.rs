@@ -84,15 +84,6 @@ fn words(knob: Knob) -> (&'static str, &'static str) {
     match knob {
         Knob::SubCellSprings | Knob::GridSprings => ("springs", ""),
         Knob::Step => ("step", "Counted from the exact solver on as many springs, edges Grid."),
-        Knob::Samples => ("samples", "The curve between its samples; no figure depends on their number."),
-        Knob::SinglePrecision => (
-            "bits",
-            "Gaps rounded to single precision, solved in double, counted from gaps in double. Storage of the \
-             line would be halved; no gain of time is claimed, for everything is still computed in double.",
-        ),
-        Knob::Lines => {
-            ("lines", "Standard error of the mean of F_a over so many seeds, one line after the other.")
-        }
     }
 }
 

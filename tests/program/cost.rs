@@ -41,8 +41,7 @@ fn a_sphere_is_reached_with_the_orders_of_its_edges() {
         let rows = |knob, figure| errors(table, knob, figure).iter().filter(|row| row.0 <= 1024.0).count();
         let springs = ["sub-cell-springs", "grid-springs"];
         springs.iter().all(|knob| rows(knob, "adhesion_force") >= 6 && rows(knob, "dissipated_energy") >= 6)
-            && ["step", "samples"].iter().all(|knob| errors(table, knob, "curve").len() >= 4)
-            && errors(table, "single-precision", "adhesion_force").len() == 1
+            && errors(table, "step", "curve").len() >= 4
     };
     let tables = ["8s", "60s"]
         .map(|budget| move || json(&["cost", "jkr-sphere", "--format", "json", "--budget", budget]));
@@ -57,22 +56,12 @@ fn a_sphere_is_reached_with_the_orders_of_its_edges() {
         assert!((1.6..2.5).contains(&sub_cell), "order {sub_cell} of the {figure} with edges SubCell");
         assert!((0.85..1.25).contains(&grid), "order {grid} of the {figure} with edges Grid");
     }
-    // Steps and samples also improve the curve; its last error is far below the first.
-    for knob in ["step", "samples"] {
-        let errors = errors(&table, knob, "curve");
-        let (first, last) = (errors.first().unwrap().1, errors.last().unwrap().1);
-        assert!(errors.len() >= 4 && last < first / 10.0, "{knob}: {errors:?}");
-    }
-    let single = errors(&table, "single-precision", "adhesion_force");
-    assert!(single.len() == 1 && single[0].1 < 1e-5, "{single:?}");
-    // A smooth body has no random lines.
-    assert!(errors(&table, "lines", "adhesion_force").is_empty());
+    // The last error of the step is far below the first.
+    let steps = errors(&table, "step", "curve");
+    assert!(steps[steps.len() - 1].1 < steps[0].1 / 10.0, "{steps:?}");
     for row in table["rows"].as_array().unwrap() {
         let (least, median) = (&row["seconds"]["minimum"], &row["seconds"]["median"]);
-        assert!(
-            row["knob"] == "single-precision" || least.as_f64().unwrap() <= median.as_f64().unwrap(),
-            "{row}"
-        );
+        assert!(least.as_f64().unwrap() <= median.as_f64().unwrap(), "{row}");
     }
 }
 
@@ -91,9 +80,6 @@ fn rough_scenes_are_counted_from_their_finest_solution() {
     assert_eq!(finest["errors"]["adhesion_force"]["error"], reference["errors"]["adhesion_force"]);
     // The fewest springs are twice the last mode.
     assert_eq!(rows[0]["setting"], 1024.0);
-    let lines = errors(&table, "lines", "adhesion_force");
-    assert_eq!(lines[0].0, 4.0);
-    assert!(lines.iter().all(|line| line.1 > 0.0 && line.1 < 1.0), "{lines:?}");
     assert_eq!(table["answer"].as_array().unwrap().len(), 2);
 }
 
@@ -110,7 +96,7 @@ fn the_text_begins_with_the_answer_and_ends_with_what_was_too_much() {
     let mut reported: Vec<_> = progress.lines().collect();
     let lines = reported.len();
     reported.dedup();
-    assert!(lines == reported.len() && (2..=6).contains(&lines), "{progress}");
+    assert!(lines == reported.len() && (2..=3).contains(&lines), "{progress}");
     // Without adhesion the table is about the curve.
     let text = done(&["cost", "jkr-sphere", "--budget", "1s", "--set", "adhesion=None"]);
     assert!(text.starts_with("1 % of the force curve: "), "{text}");

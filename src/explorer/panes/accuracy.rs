@@ -93,8 +93,7 @@ fn nothing_yet(model: &Model) -> String {
         _ if !model.is_current() => "the scene has no curve to estimate an error of".to_owned(),
         (Some(why), _) => format!("nothing is measured: {why}"),
         (None, true) => {
-            "nothing to show: no force in this scene whose error depends on springs, steps, samples or lines"
-                .to_owned()
+            "nothing to show: no force in this scene whose error depends on springs or steps".to_owned()
         }
         (None, _) if !model.shows_times => {
             "times are not measured here: they differ from run to run".to_owned()
@@ -162,14 +161,6 @@ fn entries(table: &CostTable, figure: &Figure, width: u16, appearance: Appearanc
         if let Some(order) = Knob::ALL.iter().find(|knob| is_of(knob)).and_then(|knob| table.order(*knob)) {
             part.push(Text::raw(format!(" order {order:.1}")));
         }
-    }
-    let single = table.rows_of(Knob::SinglePrecision).next().and_then(error_of);
-    if let Some(single) = single {
-        let quiet = appearance.theme.style(Meaning::Quiet);
-        parts.push(vec![Text::styled(
-            format!("{} {:.0e}", Knob::SinglePrecision.name(), single.error),
-            quiet,
-        )]);
     }
     filled(parts, "  ", usize::from(width))
 }
@@ -266,7 +257,7 @@ fn answer(table: &CostTable, bound: f64, finished: bool) -> Option<String> {
                     Some(format!("{edges} {}{time}", grouped(row.springs)))
                 }
                 (None, Some(finest)) if finished => {
-                    Some(format!("{edges} more than {}", grouped(finest.springs)))
+                    Some(format!("{edges} not up to {}", grouped(finest.springs)))
                 }
                 _ => None,
             }
