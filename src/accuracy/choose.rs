@@ -1,6 +1,6 @@
 //! The fewest springs that reach a tolerance.
 
-use super::convergence::{REFINEMENTS, error_of, first_within};
+use super::convergence::{REFINEMENTS, first_within};
 use super::estimate::{Estimate, Evidence, others};
 use super::solution::{
     Solution, Solved, Target, allowed_points, closed_form_adhesion, refined, relative_error, solve,
@@ -213,8 +213,8 @@ fn error_of_finest(
         Ok(Solved::Outcome(outcome)) => Solution::around(&mut simulation, scene, &outcome, stop).ok()?,
         _ => None,
     };
-    let [(_, one), (_, other)] = others(&refined(scene, finest.points, Edges::SubCell), &mut solved)?;
-    Some(error_of([target.difference(&one, finest)?, target.difference(&other, finest)?]))
+    let others = others(&refined(scene, finest.points, Edges::SubCell), &mut solved)?;
+    others.error(|other| target.difference(other, finest))
 }
 
 /// The choice among solutions with edges at and between springs, with equal springs each, given the error of the finest;
@@ -310,11 +310,20 @@ mod tests {
         for solution in tried.iter_mut().flatten() {
             solution.around = vec![Some(1.0)];
         }
-        assert_eq!(judge(&tried, None, 0.0, 0.01).map(|choice| (choice.points, choice.edges)), Some((16, Edges::Grid)));
+        assert_eq!(
+            judge(&tried, None, 0.0, 0.01).map(|choice| (choice.points, choice.edges)),
+            Some((16, Edges::Grid))
+        );
         tried[1][0].around = vec![Some(1.07)];
-        assert_eq!(judge(&tried, None, 0.0, 0.01).map(|choice| (choice.points, choice.edges)), Some((32, Edges::Grid)));
+        assert_eq!(
+            judge(&tried, None, 0.0, 0.01).map(|choice| (choice.points, choice.edges)),
+            Some((32, Edges::Grid))
+        );
         tried[1][2].around = vec![None];
-        assert_eq!(judge(&tried, None, 0.0, 0.01).map(|choice| (choice.points, choice.edges)), Some((64, Edges::SubCell)));
+        assert_eq!(
+            judge(&tried, None, 0.0, 0.01).map(|choice| (choice.points, choice.edges)),
+            Some((64, Edges::SubCell))
+        );
     }
 
     #[test]

@@ -52,7 +52,11 @@ impl ForceCurve {
             let sum: Option<f64> = (0..COMPARED).map(|index| apart(at(index))).sum();
             Some(sum? / COMPARED as f64 / largest)
         };
-        self.legs.iter().zip(&reference.legs).map(of_leg).try_fold(0.0, |most, mean| Some(f64::max(most, mean?)))
+        self.legs
+            .iter()
+            .zip(&reference.legs)
+            .map(of_leg)
+            .try_fold(0.0, |most, mean| Some(f64::max(most, mean?)))
     }
 }
 

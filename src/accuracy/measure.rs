@@ -1,7 +1,7 @@
 //! Measurement of the cost of accuracy for one scene: each knob from coarse to fine, within the budget.
 
 use super::clock::Budget;
-use super::convergence::{error_of, observed_order};
+use super::convergence::observed_order;
 use super::estimate::others;
 use super::solution::{Solution, Solved, allowed_points, closed_form_adhesion, refined, solve};
 use super::{CostTable, ErrorFigure, Knob, Measures, Reference, Row, Timing};
@@ -103,7 +103,12 @@ pub fn measure(
         budget: clock.seconds(),
         spent: 0.0,
         transform_seconds: clock.of_one_transform().unwrap_or(f64::NAN),
-        reference: Reference { springs: 0, adhesion_force: None, closed_form: false, errors: Measures::default() },
+        reference: Reference {
+            springs: 0,
+            adhesion_force: None,
+            closed_form: false,
+            errors: Measures::default(),
+        },
         rows: Vec::new(),
         left_out: Vec::new(),
     };
@@ -225,9 +230,13 @@ impl Bench<'_> {
             Ok(Solved::Outcome(outcome)) => self.around(scene, &outcome).ok()?,
             _ => None,
         };
-        let [(_, one), (_, other)] = others(&scene, &mut solved)?;
-        let differences = one.errors(finest).zip(&other.errors(finest), |&one, &other| one.zip(other));
-        Some(differences.map(|both| both.map(|(one, other)| error_of([one, other]))))
+        let others = others(&scene, &mut solved)?;
+        Some(Measures {
+            adhesion_force: others.error(|other| other.errors(finest).adhesion_force),
+            curve: others.error(|other| other.errors(finest).curve),
+            dissipated_energy: others.error(|other| other.errors(finest).dissipated_energy),
+            contact_length: others.error(|other| other.errors(finest).contact_length),
+        })
     }
 
     /// Makes the rows of a ladder with edges between springs, with errors relative to its finest solution or the closed

@@ -172,6 +172,46 @@ fn tolerances_are_kept() {
     assert_eq!(json(&[&["run", "jkr-sphere"], &bare[..]].concat())["choice"]["target"], "curve");
 }
 
+/// An error that changes its sign is small at some load with few springs, and large under other loads.
+#[test]
+fn chosen_springs_keep_their_tolerance_under_half_and_twice_the_load() {
+    let run = ["run", "pressure-sensitive", "--format", "json"];
+    let choice = json(&[&run[..], &["--tolerance", "0.1%"]].concat())["choice"].clone();
+    let springs = format!("numerics.points={}", choice["points"]);
+    let edges = format!("numerics.edges={}", choice["edges"].as_str().unwrap());
+    for load in ["5e-6", "1e-5", "2e-5"] {
+        let loading = format!("loading=[ToForce({load}), ToSeparation]");
+        let force = |springs: &str, edges: &str| {
+            let sets = ["--set", &loading, "--set", springs, "--set", edges];
+            json(&[&run[..], &sets[..]].concat())["adhesion_force"].as_f64().unwrap()
+        };
+        let fine = force("numerics.points=262144", "numerics.edges=SubCell");
+        let chosen = force(&springs, &edges);
+        assert!((chosen / fine - 1.0).abs() <= 1e-3, "{springs} {edges} {load}: {chosen} for {fine}");
+    }
+}
+
+#[test]
+fn an_error_that_cannot_be_estimated_refuses_no_scene() {
+    let run = ["run", "elastic-energy-above", "--set", "numerics.points=4096"];
+    let pull_off = json(&[&run[..], &["--format", "json"]].concat())["adhesion_force"].as_f64().unwrap();
+    // Fewer springs detach before this force.
+    let loading = format!("loading=[ToZeroForce, ToForce({:e})]", -0.999 * pull_off);
+    let run = [&run[..], &["--set", &loading]].concat();
+    let last = done(&[&run[..], &["--format", "csv"]].concat());
+    let last: Vec<f64> =
+        last.lines().next_back().unwrap().split(',').map(|cell| cell.parse().unwrap()).collect();
+    assert!((last[2] / (-0.999 * pull_off) - 1.0).abs() < 1e-12, "{last:?}");
+    let object = json(&[&run[..], &["--format", "json"]].concat());
+    assert!((object["adhesion_force"].as_f64().unwrap() + last[2]).abs() < 1e-12 * pull_off);
+    assert!(object["adhesion_force_error"].is_null() && object["adhesion_force_near_step"].is_null());
+    assert!(done(&run).contains("nN, error unknown"));
+    // Beyond the pull-off force no number of springs helps.
+    let beyond = format!("loading=[ToZeroForce, ToForce({:e})]", -1.5 * pull_off);
+    let refused = failed(1, &["run", "elastic-energy-above", "--set", &beyond, "--tolerance", "1e-3"]);
+    assert!(refused.contains("the contact detaches above that force"), "{refused}");
+}
+
 #[test]
 fn tolerances_out_of_reach_are_refused_with_what_is_in_reach() {
     let message = failed(1, &["run", "pressure-sensitive", "--tolerance", "1e-13"]);

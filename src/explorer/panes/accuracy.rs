@@ -35,8 +35,8 @@ pub static ROW: PaneRow = PaneRow {
     },
     help: &[(
         "Accuracy",
-        "A: relative error against the time of a run, one line for each setting that affects accuracy; ◆ is the \
-         scene. Below it the cost of 1 % and 0.1 %, and the computing stages",
+        "A: relative error against the time of a run, with springs and edges between them or at them, and with steps of \
+         the stepwise solver; ◆ is the scene. Below it the cost of 1 % and 0.1 %, and the computing stages",
     )],
     ..PaneRow::EMPTY
 };

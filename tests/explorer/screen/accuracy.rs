@@ -169,7 +169,7 @@ fn an_edit_forgets_what_was_found_out() {
         let scene = Arc::new(rough().scene().clone());
         for finding in [
             Finding::Estimated(estimate(0.5)),
-            Finding::Extended(trying(&scene, "lines: 4")),
+            Finding::Extended(trying(&scene, "grid springs: 64 springs")),
             Finding::Extended(PaneData::Costs(Arc::clone(&scene), measured_costs(table()))),
             Finding::NotExtended(Pane::Accuracy, "late".to_owned()),
         ] {
@@ -286,7 +286,7 @@ fn endless() -> (Study, Receiver<Found>, Receiver<&'static str>) {
     let (report, reports) = channel();
     let endless = StandIn::endless(sender, |data, report| {
         let PaneData::Costs(scene, _) = data else { return data };
-        report(trying(&scene, "samples: 8"));
+        report(trying(&scene, "grid springs: 32 springs"));
         trying(&scene, "too late")
     });
     let study = Study::start(Box::new(endless), move |found| report.send(found).is_ok()).unwrap();
@@ -302,7 +302,7 @@ fn what_is_measured_ends_as_soon_as_something_else_is_asked_for() {
         for round in 1..=2 {
             study.ask(round, vec![measure(&scene)]);
             assert_eq!(events.recv_timeout(PATIENCE), Ok("begun"));
-            assert_eq!(next().finding, Finding::Extended(trying(&scene, "samples: 8")));
+            assert_eq!(next().finding, Finding::Extended(trying(&scene, "grid springs: 32 springs")));
             // An edit stops the measurement, a tolerance takes its place.
             if round == 1 {
                 study.stop();

@@ -62,7 +62,10 @@ fn the_spread_over_lines_is_beside_that_of_the_fit() {
         for size in [(120, 40), (80, 24)] {
             driver.resize(size);
             let screen = driver.text();
-            assert!(screen.contains("F_a of 16 profiles: median ") && screen.contains(", fit ± "), "{screen}");
+            assert!(
+                screen.contains("F_a of 16 profiles: median ") && screen.contains(", fit ± "),
+                "{screen}"
+            );
         }
         driver.appraiser = None;
         driver.press("R");

@@ -14,28 +14,23 @@ fn run(document: &Document) -> Outcome {
     Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap()
 }
 
-/// A scene on a length of 100 µm with this form, as `form: …, `, edges, springs, last mode and loading.
+/// A scene on a length of 100 µm with this form, as `form: …, `, edges, springs and last mode.
 fn document(
     (form, edges): (&str, &str),
     (points, last): (u64, u64),
     uniform: &mut dyn FnMut() -> f64,
-    loading: fn(f64) -> String,
 ) -> Document {
     let text = format!(
         "(version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4, {form}\
          roughness: SelfAffine(hurst: {:?}, rms_height: 1.0e-7, modes: (1, {last}), seed: {}), \
-         adhesion: (kappa: {:?}), loading: {}, \
+         adhesion: (kappa: {:?}), loading: [ToForce({:?}), ToSeparation], \
          numerics: (points: {points}, edges: {edges}, samples: 2))",
         0.1 + 0.8 * uniform(),
         (1.0e6 * uniform()) as u64,
         0.5 * 60_f64.powf(uniform()),
-        loading(4.0e-7 * 100_f64.powf(uniform())),
+        4.0e-7 * 100_f64.powf(uniform()),
     );
     Document::parse(&text, "random").unwrap_or_else(|errors| panic!("{errors}"))
-}
-
-fn press_and_pull(force: f64) -> String {
-    format!("[ToForce({force:?}), ToSeparation]")
 }
 
 /// Springs of every resolution of their waves, both edge models, flat and on a sphere.
@@ -44,21 +39,23 @@ fn any(uniform: &mut dyn FnMut() -> f64) -> Document {
     let last = points / (2_u64 << (4.0 * uniform()) as u32);
     let form = if uniform() < 0.3 { "form: Paraboloid(radius: 1.0e-3), " } else { "" };
     let edges = if uniform() < 0.25 { "Grid" } else { "SubCell" };
-    document((form, edges), (points, last), uniform, press_and_pull)
+    document((form, edges), (points, last), uniform)
 }
 
 /// Flat and rough, with eight to 32 springs to the shortest wave, as the built-in scenes have.
 fn resolved(uniform: &mut dyn FnMut() -> f64) -> Document {
     let points = 1_u64 << (10 + (5.0 * uniform()) as u32);
     let last = points / (8_u64 << (3.0 * uniform()) as u32);
-    document(("", "SubCell"), (points, last), uniform, press_and_pull)
+    document(("", "SubCell"), (points, last), uniform)
 }
 
 /// Few springs on a rough cone that adheres everywhere: one spring decides, and half as many springs may have it too.
 fn decided_by_one_spring(uniform: &mut dyn FnMut() -> f64) -> Document {
     let last = 20 + (60.0 * uniform()) as u64;
     let edges = if uniform() < 0.5 { "Grid" } else { "SubCell" };
-    document(("form: Cone(angle: 0.012), ", edges), (256, last), uniform, |_| "[ToZeroForce, ToSeparation]".into())
+    let cone = document(("form: Cone(angle: 0.012), ", edges), (256, last), uniform);
+    let adhering = [("adhesion", "(work: 0.03)"), ("loading", "[ToZeroForce, ToSeparation]")];
+    cone.set_all(&adhering.map(|(path, value)| (path.to_owned(), value.to_owned()))).unwrap()
 }
 
 /// Ratios of stated errors to true ones on random scenes, ascending.
@@ -70,7 +67,8 @@ fn ratios(scenes: usize, seed: u8, make: fn(&mut dyn FnMut() -> f64) -> Document
     while ratios.len() < scenes {
         let document = make(&mut uniform);
         let outcome = run(&document);
-        let points = (FINER * document.scene().numerics.points).to_string();
+        // An odd number, which has no spring of the scene.
+        let points = (FINER * document.scene().numerics.points + 1).to_string();
         let finest = document
             .set("numerics.points", &points)
             .and_then(|finest| finest.set("numerics.edges", "SubCell"));
@@ -107,5 +105,5 @@ fn stated_errors_of_resolved_roughness_are_not_far_above_the_true_ones() {
 fn springs_that_agree_by_chance_state_no_error_of_zero() {
     let ratios = ratios(150, 14, decided_by_one_spring);
     assert!(ratios[0] > 0.01, "stated over true error: {}", ratios[0]);
-    assert_stated_errors_hold_and_are_not_far_above_the_true_ones(&ratios);
+    assert!(ratios[ratios.len() / 10] >= 1.0, "nine of ten stated errors hold: {ratios:?}");
 }
