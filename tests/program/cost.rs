@@ -191,6 +191,31 @@ fn chosen_springs_keep_their_tolerance_under_half_and_twice_the_load() {
     }
 }
 
+/// F_a jumps from 17 to 66 µN between 13.0 and 13.05 µN.
+#[test]
+fn a_preload_near_a_step_is_named_and_others_have_a_small_error() {
+    let run = |load: &str, more: &[&str]| {
+        let loading = format!("loading=[ToForce({load}), ToSeparation]");
+        done(&[&["run", "pressure-sensitive", "--set", &loading], more].concat())
+    };
+    let object = |load, more: &[&str]| -> Value {
+        serde_json::from_str(&run(load, &[&["--format", "json"], more].concat())).unwrap()
+    };
+    let number = |object: &Value, key: &str| object[key].as_f64().unwrap();
+    for load in ["12e-6", "13e-6", "14e-6"] {
+        let fine = ["--set", "numerics.points=262144"];
+        let (own, fine) = (object(load, &[]), number(&object(load, &fine), "adhesion_force"));
+        let (force, error) = (number(&own, "adhesion_force"), number(&own, "adhesion_force_error"));
+        assert!((force - fine).abs() <= error && error <= 1e-2 * force, "{load}: {force} {error} for {fine}");
+        assert_eq!(own["adhesion_force_near_step"], false);
+    }
+    let near = object("13.04e-6", &[]);
+    assert_eq!(near["adhesion_force_near_step"], true);
+    assert!(number(&near, "adhesion_force_error") > 4e-5);
+    let text = run("13.04e-6", &[]);
+    assert!(text.contains("17.17 µN, near a step of F_a(F_n)\n"), "{text}");
+}
+
 #[test]
 fn an_error_that_cannot_be_estimated_refuses_no_scene() {
     let run = ["run", "elastic-energy-above", "--set", "numerics.points=4096"];

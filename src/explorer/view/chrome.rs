@@ -227,7 +227,7 @@ fn place(point: CurvePoint) -> String {
 fn error(model: &Model) -> Option<String> {
     match &model.appraisal.estimated {
         Estimated::Known(estimate) => Some(estimate.words()),
-        Estimated::Waiting if model.shows_times => Some("grid ± …".to_owned()),
+        Estimated::Waiting if model.shows_times => Some("± …".to_owned()),
         Estimated::Waiting => None,
         Estimated::Unknown => {
             let pulls = model.computed.as_ref()?.outcome.figures.adhesion_force.is_some();
