@@ -26,8 +26,6 @@ const ROUNDING: f64 = 1e-14;
 
 /// Springs of the stepwise solver, unless the scene needs more.
 const STEPWISE_SPRINGS: u64 = 256;
-/// Factor of samples for comparing steps over those for comparing springs.
-const BLURRED: u64 = 4;
 /// Steps of the coarsest run over the range of its indentations.
 const FEWEST_STEPS: f64 = 16.0;
 /// Most halvings of the step.
@@ -300,11 +298,8 @@ impl Bench<'_> {
         };
         let mut timed = refined(self.scene, points, Edges::Grid);
         let mut scene = Self::compared(&timed);
-        // With few springs each of them is a jump, which samples on either side blur: by up to one distance of samples
-        // here, and by up to four where steps are thinned out to samples.
-        scene.numerics.samples *= BLURRED;
-        let floor = (1 + BLURRED) as f64 / scene.numerics.samples as f64;
-        let floors = Measures { curve: Some(floor), ..Measures::default() };
+        // With few springs each of them is a jump, which is late by up to one distance of samples.
+        let floors = Measures { curve: Some(1.0 / scene.numerics.samples as f64), ..Measures::default() };
         let exact = if self.budget.is_over() { Solved::TooMuch } else { self.solve(&scene)? };
         let Solved::Outcome(exact) = exact else {
             self.leave_out(knob, "all steps");

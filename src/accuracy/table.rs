@@ -132,6 +132,13 @@ impl CostTable {
         if self.reference.adhesion_force.is_some() { adhesion_force } else { curve }
     }
 
+    /// Least time, s, and main error of a row, if both have logarithms.
+    #[must_use]
+    pub(crate) fn point(&self, row: &Row) -> Option<(f64, ErrorFigure)> {
+        let (seconds, figure) = (row.seconds?.minimum, self.main_error(row)?);
+        (seconds > 0.0 && figure.error > 0.0 && figure.error.is_finite()).then_some((seconds, figure))
+    }
+
     /// The first row of a knob from which on the main error is within a bound, as at least two finer rows confirm.
     #[must_use]
     pub fn first_row_within(&self, knob: Knob, bound: f64) -> Option<&Row> {
@@ -145,7 +152,7 @@ impl CostTable {
     #[must_use]
     pub fn order(&self, knob: Knob) -> Option<f64> {
         let point = |row: &Row| {
-            let figure = row.errors.adhesion_force.or(row.errors.curve).filter(|figure| figure.resolved)?;
+            let figure = self.main_error(row).filter(|figure| figure.resolved)?;
             Some((row.setting.ln(), figure.error.ln()))
         };
         let points: Vec<(f64, f64)> = self.rows_of(knob).filter_map(point).collect();

@@ -23,9 +23,14 @@ pub fn cost_text(table: &CostTable) -> String {
         if rows.is_empty() {
             continue;
         }
-        sheet.heading(&heading(knob, &rows));
-        let (setting, note) = words(knob);
-        sheet.paragraph(note);
+        let mut setting = "springs";
+        let mut heading = format!("With {}", knob.name());
+        if knob == Knob::Step {
+            setting = "step";
+            let springs = grouped(rows.first().map_or(0, |row| row.springs));
+            heading += &format!(", from the exact solver on the same {springs} springs, edges Grid");
+        }
+        sheet.heading(&heading);
         let mut lines = vec![
             [setting, "least", "median", "FFTs", ERRORS[0], ERRORS[1], ERRORS[2], ERRORS[3]]
                 .map(String::from),
@@ -69,22 +74,6 @@ fn counted_from(table: &CostTable) -> String {
         "Counted from {from}. Its own errors, estimated from the last refinements: {own}. An error below that \
          is given as < it."
     )
-}
-
-fn heading(knob: Knob, rows: &[&Row]) -> String {
-    let springs = rows.first().map_or(0, |row| row.springs);
-    match knob {
-        Knob::SubCellSprings | Knob::GridSprings => format!("With {}", knob.name()),
-        _ => format!("With {}, on {} springs", knob.name(), grouped(springs)),
-    }
-}
-
-/// Name of the setting of a knob, and a note on its table.
-fn words(knob: Knob) -> (&'static str, &'static str) {
-    match knob {
-        Knob::SubCellSprings | Knob::GridSprings => ("springs", ""),
-        Knob::Step => ("step", "Counted from the exact solver on as many springs, edges Grid."),
-    }
 }
 
 fn cells(row: &Row) -> [String; 8] {

@@ -1,7 +1,7 @@
 //! Cost of accuracy: errors over times, both logarithmic, requirements of a good accuracy, and the stages of the run.
 
 use super::{Pane, PaneRow};
-use crate::accuracy::{CostTable, ErrorFigure, Estimate, Evidence, Knob, Row};
+use crate::accuracy::{CostTable, Estimate, Evidence, Knob};
 use crate::draw::{Chart, Figure, Ink, Layer, Shape, Sign, Span, legend};
 use crate::explorer::layout::inside;
 use crate::explorer::model::{Estimated, Model};
@@ -49,16 +49,6 @@ const LOWEST: f64 = 1e-8;
 
 /// Fewest rows of a useful plot.
 const FEWEST_PLOT_ROWS: u16 = 4;
-
-fn error_of(row: &Row) -> Option<ErrorFigure> {
-    row.errors.adhesion_force.or(row.errors.curve)
-}
-
-/// Time, s, and error of a setting, as far as both have logarithms.
-fn point(row: &Row) -> Option<(f64, f64)> {
-    let at = (row.seconds?.minimum, error_of(row)?.error);
-    (at.0 > 0.0 && at.1 > 0.0 && at.1.is_finite()).then_some(at)
-}
 
 /// Draws plot, answers and stages, as far as there is room.
 fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
@@ -138,7 +128,9 @@ fn present(numerics: &Numerics, table: &CostTable) -> Option<(f64, f64)> {
     let mut rows: Vec<(f64, (f64, f64))> = table
         .rows_of(knob)
         .filter(|row| knob != Knob::Step || row.springs == numerics.points)
-        .filter_map(|row| Some((row.setting.ln(), point(row)?)))
+        .filter_map(|row| {
+            table.point(row).map(|(seconds, figure)| (row.setting.ln(), (seconds, figure.error)))
+        })
         .collect();
     rows.sort_by(|one, other| one.0.total_cmp(&other.0));
     let at = setting.ln();
