@@ -137,7 +137,9 @@ pub(super) fn others(scene: &Scene, solved: &mut dyn FnMut(&Scene) -> Option<Sol
     let on = |(times, over): (u64, u64)| {
         let points = odd_from(numerics.points.saturating_mul(times) / over);
         let other = refined(scene, points, numerics.edges);
-        ((FEWEST..=MOST_SPRINGS).contains(&points) && check(&other).is_empty()).then_some(other)
+        let is_other = points != numerics.points && (points < numerics.points) == (times < over);
+        let is_allowed = is_other && (FEWEST..=MOST_SPRINGS).contains(&points) && check(&other).is_empty();
+        is_allowed.then_some(other)
     };
     let allowed = |([one, other], factor): ([(u64, u64); 2], f64)| Some((on(one)?, on(other)?, factor));
     let (one, other, factor) = OTHERS.into_iter().find_map(allowed)?;
@@ -269,6 +271,9 @@ mod tests {
         // 512 modes need 1024 springs.
         assert_eq!(evidence(&[("numerics.points", "1024")]), solutions(&[1573, 2079]));
         assert_eq!(evidence(&[("numerics.points", "1025")]), solutions(&[1573, 2079]));
+        // Few odd numbers suit a transform: none between 27 and 33.
+        let few = [("roughness.modes", "(1, 4)"), ("numerics.points", "33")];
+        assert_eq!(evidence(&few), solutions(&[49, 75]));
         let few = [("roughness.modes", "(1, 64)"), ("numerics.points", "512"), ("numerics.edges", "Grid")];
         let exact = estimated(&with("pressure-sensitive", &few)).unwrap();
         let stepwise = estimated(&with(
