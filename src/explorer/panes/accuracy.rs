@@ -214,6 +214,7 @@ fn now(model: &Model, table: Option<&CostTable>) -> Line<'static> {
     let error = match &model.appraisal.estimated {
         Estimated::Waiting if model.shows_times => ", error …".to_owned(),
         Estimated::Waiting => String::new(),
+        Estimated::Known(Estimate { near_step: true, .. }) => ", near a step of F_a(F_n)".to_owned(),
         Estimated::Known(Estimate { error, evidence, .. }) => {
             let from = match evidence {
                 Evidence::ClosedForm => " by the closed form".to_owned(),
