@@ -266,7 +266,7 @@ mod tests {
             around: Vec::new(),
             dissipated_energy: None,
             contact_length: None,
-            curve: crate::accuracy::ForceCurve::default(),
+            curve: crate::accuracy::curve::ForceCurve::default(),
         };
         (0..count).map(solution).collect()
     }

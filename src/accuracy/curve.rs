@@ -7,14 +7,12 @@ const COMPARED: usize = 2048;
 
 /// The force curve of a loading history: for each loading stage, points of ascending indentation.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct ForceCurve {
+pub(super) struct ForceCurve {
     legs: Vec<Vec<[f64; 2]>>,
 }
 
 impl ForceCurve {
-    /// The curve of a history.
-    #[must_use]
-    pub fn of(history: &History) -> Self {
+    pub(super) fn of(history: &History) -> Self {
         let leg = |record: &crate::contact::LegRecord| {
             let mut points: Vec<_> =
                 record.curve.iter().map(|point| [point.indentation, point.force]).collect();
@@ -27,8 +25,7 @@ impl ForceCurve {
     }
 
     /// Lowest and highest indentation, m; `None` without points.
-    #[must_use]
-    pub fn indentations(&self) -> Option<(f64, f64)> {
+    pub(super) fn indentations(&self) -> Option<(f64, f64)> {
         let all = || self.legs.iter().flatten().map(|point| point[0]);
         let (low, high) = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
         (low <= high).then_some((low, high))
@@ -38,8 +35,7 @@ impl ForceCurve {
     /// the largest force of the reference; the largest of all stages. A jump that is late by a hundredth of the
     /// indentations counts a hundredth of its height. `None` if the reference has no forces or another number of
     /// stages.
-    #[must_use]
-    pub fn difference(&self, reference: &ForceCurve) -> Option<f64> {
+    pub(super) fn difference(&self, reference: &ForceCurve) -> Option<f64> {
         let forces = reference.legs.iter().flatten().map(|point| point[1].abs());
         let largest = forces.fold(0.0, f64::max);
         if self.legs.len() != reference.legs.len() || largest == 0.0 || largest.is_nan() {

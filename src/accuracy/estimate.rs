@@ -11,6 +11,8 @@ use std::path::Path;
 
 /// Most springs of a solution for an estimate only.
 const MOST_SPRINGS: u64 = 1 << 23;
+/// Springs from which on the transform takes most of the time of a solution.
+const MANY_SPRINGS: u64 = 1 << 16;
 /// Springs of two other solutions over those of an estimate, and the error over the larger difference from them: fewer
 /// springs, or more where the waves need more.
 ///
@@ -135,7 +137,7 @@ impl Others {
 pub(super) fn others(scene: &Scene, solved: &mut dyn FnMut(&Scene) -> Option<Solution>) -> Option<Others> {
     let numerics = scene.numerics;
     let on = |(times, over): (u64, u64)| {
-        let points = odd_from(numerics.points.saturating_mul(times) / over);
+        let points = apart_from(numerics.points.saturating_mul(times) / over);
         let other = refined(scene, points, numerics.edges);
         let is_other = points != numerics.points && (points < numerics.points) == (times < over);
         let is_allowed = is_other && (FEWEST..=MOST_SPRINGS).contains(&points) && check(&other).is_empty();
@@ -147,11 +149,12 @@ pub(super) fn others(scene: &Scene, solved: &mut dyn FnMut(&Scene) -> Option<Sol
     Some(Others { solutions: [(one, of_one), (other, of_other)], factor })
 }
 
-/// The least odd number of springs from this one on that suits a Fourier transform: no prime factor above 13.
+/// The least number of springs from this one on that suits a Fourier transform, without a prime factor above 13: an odd
+/// one, or twice an odd one where the transform takes most of the time and an odd one doubles it.
 ///
-/// Springs of an even number lie at no springs of an odd one, whether the axis of a form is on a spring or not, so that
-/// no height is the same in both by the arrangement of the springs.
-fn odd_from(least: u64) -> u64 {
+/// Springs of an even number lie at no springs of an odd one, whether the axis of a form is on a spring or not, and powers
+/// of two share two springs with twice an odd number. So no height is the same by the arrangement of the springs.
+fn apart_from(least: u64) -> u64 {
     let without = |mut number: u64, prime: &u64| {
         while number.is_multiple_of(*prime) {
             number /= prime;
@@ -159,7 +162,8 @@ fn odd_from(least: u64) -> u64 {
         number
     };
     let suits = |number: &u64| [3, 5, 7, 11, 13].iter().fold(*number, without) == 1;
-    (least | 1..).step_by(2).find(suits).unwrap_or(least)
+    let factor = if least < MANY_SPRINGS { 1 } else { 2 };
+    (least.div_ceil(factor) | 1..).step_by(2).find(suits).map_or(least, |odd| factor * odd)
 }
 
 #[cfg(test)]
@@ -202,6 +206,12 @@ mod tests {
             estimate.target = Target::AdhesionForce;
             assert_eq!(estimate.words(), format!("grid ± {text}"), "{error}");
         }
+    }
+
+    #[test]
+    fn other_numbers_of_springs_are_odd_or_twice_odd() {
+        assert_eq!([14_336, 13_107].map(apart_from), [14_553, 13_125]);
+        assert_eq!([917_504, 838_860].map(apart_from), [2 * 459_375, 2 * 420_175]);
     }
 
     #[test]

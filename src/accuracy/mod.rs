@@ -16,8 +16,7 @@ mod solution;
 mod table;
 
 pub use choose::{Choice, ChoiceError, choose, parse_tolerance};
-pub use curve::ForceCurve;
 pub use estimate::{Estimate, Evidence, estimate};
 pub use measure::{CostError, Progress, measure};
-pub use solution::{Measures, Solution, Target, closed_form_adhesion};
+pub use solution::{Measures, Target};
 pub use table::{CostTable, ErrorFigure, Knob, Reference, Row, Timing};

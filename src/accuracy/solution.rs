@@ -1,6 +1,6 @@
 //! Measures for the comparison of two solutions of one scene.
 
-use super::ForceCurve;
+use super::curve::ForceCurve;
 use crate::contact::{ContactError, Direction};
 use crate::reference::{PowerLaw, smooth_adhesion_force};
 use crate::scene::{Edges, Form, Leg, Numerics, Scene, Solver, check};
@@ -19,9 +19,9 @@ const FEW_SAMPLES: u64 = 2;
 /// One value for each quantity with an error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Measures<T> {
-    /// The adhesion force F_a, see [`Solution::errors`].
+    /// The adhesion force F_a, see `Solution::errors`.
     pub adhesion_force: T,
-    /// The whole force curve, see [`ForceCurve::difference`].
+    /// The whole force curve, the mean difference of forces at equal indentations over the largest force.
     pub curve: T,
     /// The dissipated energy.
     pub dissipated_energy: T,
@@ -53,7 +53,7 @@ impl<T> Measures<T> {
 
 /// Figures and curve of one solution; a figure of zero has no relative error and is left out.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Solution {
+pub(super) struct Solution {
     /// Springs N.
     pub points: u64,
     /// Adhesion force, N.
@@ -69,9 +69,7 @@ pub struct Solution {
 }
 
 impl Solution {
-    /// Measures of the outcome of a scene.
-    #[must_use]
-    pub fn of(outcome: &Outcome) -> Self {
+    pub(super) fn of(outcome: &Outcome) -> Self {
         let some = |value: f64| (value != 0.0 && value.is_finite()).then_some(value);
         let Outcome { figures, history, .. } = outcome;
         let lengths = history.legs.iter().flat_map(|leg| &leg.curve).map(|point| point.contact_length);
@@ -112,8 +110,7 @@ impl Solution {
     /// Relative differences from a reference; `None` if the reference has no such figure. That of the adhesion force is
     /// the largest under all loads which both have: an error that changes its sign from load to load is not small at all
     /// of them by chance.
-    #[must_use]
-    pub fn errors(&self, reference: &Solution) -> Measures<Option<f64>> {
+    pub(super) fn errors(&self, reference: &Solution) -> Measures<Option<f64>> {
         let relative = |value: Option<f64>, reference: Option<f64>| {
             reference.map(|reference| relative_error(value.unwrap_or(0.0), reference))
         };
@@ -138,7 +135,7 @@ impl Solution {
 pub enum Target {
     /// The adhesion force.
     AdhesionForce,
-    /// The force curve, without a tensile force; see [`ForceCurve::difference`].
+    /// The force curve, without a tensile force; the mean difference of forces at equal indentations over the largest force.
     Curve,
 }
 
@@ -253,8 +250,7 @@ fn is_out_of_memory(error: &RunError) -> bool {
 
 /// The adhesion force of a scene in closed form, N, if there is one: a smooth body that is pulled beyond the
 /// indentation of its smallest force, on a profile longer than its contact. `outcome` is its solution.
-#[must_use]
-pub fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
+pub(super) fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
     let work = outcome.governing.adhesive_work()?;
     outcome.figures.adhesion_force?;
     if scene.roughness.is_some() {

@@ -29,12 +29,6 @@ impl Knob {
             Knob::Step => "step Δd of the stepwise solver",
         }
     }
-
-    /// Unit of the setting.
-    #[must_use]
-    pub fn unit(self) -> &'static str {
-        if self == Knob::Step { "m" } else { "" }
-    }
 }
 
 /// Times of repeated runs after a warm-up run, s.

@@ -78,7 +78,7 @@ fn counted_from(table: &CostTable) -> String {
 
 fn cells(row: &Row) -> [String; 8] {
     let setting = match row.knob {
-        Knob::Step => format_quantity(row.setting, row.knob.unit()),
+        Knob::Step => format_quantity(row.setting, "m"),
         _ => grouped(row.setting as u64),
     };
     let [force, curve, energy, contact] =
