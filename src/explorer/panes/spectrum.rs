@@ -10,8 +10,8 @@ use crate::explorer::theme::Meaning;
 use crate::explorer::view::lines::{draw_around, draw_lines};
 use crate::explorer::view::plot;
 use crate::explorer::view::wrap::{filled, wrapped};
-use crate::export::measured_adhesion_text;
-use crate::scene::format_quantity;
+use crate::export::profiles_text;
+use crate::scene::{format_quantity, format_rounded};
 use crate::spectrum::Estimate;
 use crate::text::per_cent;
 use ratatui::Frame;
@@ -78,7 +78,7 @@ fn words(model: &Model, shown: Option<&SceneSpectra>) -> Vec<String> {
     if let (Some(moments), Some(governing)) = (shown.moments, governing) {
         let percent = |estimate: Estimate| per_cent(estimate.error / estimate.value.abs());
         let mut parts = vec![
-            format!("h ± {}", percent(moments.rms_height)),
+            format!("fit: h ± {}", percent(moments.rms_height)),
             format!("⟨∇z⟩ ± {}", percent(moments.rms_gradient)),
         ];
         if let Some(kappa) = governing.kappa {
@@ -110,8 +110,10 @@ fn adhesion(model: &Model) -> Option<String> {
     }
     let goes_on = match spread.found.profiles.len() {
         PROFILES => String::new(),
-        count => format!(" · {count} of {PROFILES} lines"),
+        count => format!(" · {count} of {PROFILES} profiles"),
     };
-    let force = measured_adhesion_text(&spread.found).unwrap_or_else(|| "…".to_owned());
-    Some(format!("F_a = {force}{goes_on}"))
+    let force = profiles_text(spread.found.forces()).unwrap_or_else(|| "profiles: …".to_owned());
+    let fit = spread.found.fit_deviation();
+    let fit = fit.map_or_else(String::new, |fit| format!(", fit ± {}", format_rounded(fit, 2, "N")));
+    Some(format!("F_a of {force}{fit}{goes_on}"))
 }

@@ -4,7 +4,6 @@ use super::found::marked;
 use super::stages;
 use super::typed::typed;
 use super::wrap::{fitted, fitting, wrapped_within};
-use crate::accuracy::Target;
 use crate::analysis::{SteepWaves, contact_stiffness, mean_pressure};
 use crate::contact::CurvePoint;
 use crate::explorer::action::{Content, Traffic};
@@ -232,12 +231,13 @@ fn place(point: CurvePoint) -> String {
 /// The estimated error of the headline: `…` while awaited, `None` without an estimate.
 fn error(model: &Model) -> Option<String> {
     match &model.appraisal.estimated {
-        Estimated::Known(estimate) => {
-            let of = if estimate.target == Target::Curve { "curve " } else { "" };
-            Some(format!("{of}± {}", estimate.per_cent()))
-        }
+        Estimated::Known(estimate) => Some(estimate.words()),
         Estimated::Waiting if model.shows_times => Some("± …".to_owned()),
-        Estimated::Waiting | Estimated::Unknown => None,
+        Estimated::Waiting => None,
+        Estimated::Unknown => {
+            let pulls = model.computed.as_ref()?.outcome.figures.adhesion_force.is_some();
+            pulls.then(|| "error unknown".to_owned())
+        }
     }
 }
 
