@@ -104,9 +104,9 @@ pub struct ReadingArguments {
     /// Unit of heights where a file states none; default: as --unit
     #[arg(long, value_name = "UNIT")]
     pub height_unit: Option<Unit>,
-    /// Distance between points where a file states none, as 0.5um
+    /// Distance between points where a file states none, as 0.5um, or 0.5 in --unit
     #[arg(long, value_name = "LENGTH", value_parser = length)]
-    pub spacing: Option<f64>,
+    pub spacing: Option<Length>,
     /// Fill missing points from their neighbours
     #[arg(long)]
     pub interpolate: bool,
@@ -127,8 +127,9 @@ pub struct ReadingArguments {
 /// Analysis of surfaces.
 #[derive(Args, Debug)]
 pub struct AnalysisArguments {
-    /// Part that is removed: none, mean, tilt or curvature
-    #[arg(long, value_enum, default_value = "tilt", hide_possible_values = true)]
+    /// Part that is removed: none, mean, tilt or curvature; default: tilt, or mean with --periodic
+    #[arg(long, value_enum, default_value = "tilt", default_value_if("periodic", "true", "mean"))]
+    #[arg(hide_possible_values = true, hide_default_value = true)]
     pub detrend: DetrendArgument,
     /// The surface repeats itself at its borders: no window
     #[arg(long)]
@@ -137,10 +138,10 @@ pub struct AnalysisArguments {
     ///
     /// Default: the spectrum ends at the last resolved wave.
     #[arg(long, value_name = "LENGTH", value_parser = length)]
-    pub continue_to: Option<f64>,
+    pub continue_to: Option<Length>,
     /// Radius of the tip, as 10nm: gives the reliability cut-off
     #[arg(long, value_name = "LENGTH", value_parser = length)]
-    pub tip_radius: Option<f64>,
+    pub tip_radius: Option<Length>,
     /// Effective modulus E*, as 2.7MPa: gives the elastic energy
     #[arg(long, value_name = "PRESSURE", value_parser = pressure)]
     pub modulus: Option<f64>,
@@ -163,22 +164,55 @@ pub enum DetrendArgument {
 const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png];
 
 impl AnalysisArguments {
-    /// Removed part; `None` for the tilt, the default.
+    /// Removed part; `None` for the tilt of a surface that is not periodic, the default.
     fn detrend(&self) -> Option<Detrend> {
         match self.detrend {
             DetrendArgument::None => Some(Detrend::None),
             DetrendArgument::Mean => Some(Detrend::Mean),
-            DetrendArgument::Tilt => None,
+            DetrendArgument::Tilt => self.periodic.then_some(Detrend::Tilt),
             DetrendArgument::Curvature => Some(Detrend::Curvature),
         }
     }
 }
 
+/// Length as typed.
+#[derive(Clone, Copy, Debug)]
+pub struct Length {
+    /// Number in m, or in the unit of `--unit`.
+    value: f64,
+    has_unit: bool,
+}
+
+impl Length {
+    /// Length, m.
+    fn in_metres(self, unit: Option<Unit>) -> f64 {
+        unit.filter(|_| !self.has_unit).map_or(self.value, |unit| unit.to_metres(self.value))
+    }
+}
+
 impl SurfaceArguments {
+    fn in_metres(&self, length: Option<Length>) -> Option<f64> {
+        length.map(|length| length.in_metres(self.reading.unit))
+    }
+
+    /// Refuses a length without a unit, if `--unit` states none either.
+    fn check_lengths(&self) -> Result<(), CliError> {
+        let AnalysisArguments { continue_to, tip_radius, .. } = self.analysis;
+        let lengths =
+            [("--spacing", self.reading.spacing), ("--continue-to", continue_to), ("--tip-radius", tip_radius)];
+        let has_none = |length: Option<Length>| length.is_some_and(|length| !length.has_unit);
+        match lengths.into_iter().find(|(_, length)| self.reading.unit.is_none() && has_none(*length)) {
+            Some((name, _)) => {
+                Err(CliError::named(name, "a length without a unit; allowed: a unit, as 0.5um, or --unit um"))
+            }
+            None => Ok(()),
+        }
+    }
+
     /// Arguments that determine the spectra, for their table.
     fn deciding(&self) -> Vec<String> {
         let (reading, analysis) = (&self.reading, &self.analysis);
-        let length = |value: Option<f64>| value.map(|value| exact_quantity(value, "m"));
+        let length = |value: Option<Length>| Some(exact_quantity(self.in_metres(value)?, "m"));
         let unit = |unit: Option<Unit>| unit.map(|unit| unit.name().to_owned());
         let detrend = analysis.detrend.to_possible_value().map(|value| value.get_name().to_owned());
         let options = [
@@ -233,11 +267,11 @@ impl SurfaceArguments {
             periodic: analysis.periodic,
             unit: unit(reading.unit),
             height_unit: unit(reading.height_unit),
-            spacing: reading.spacing,
+            spacing: self.in_metres(reading.spacing),
             interpolate: reading.interpolate,
             resample: reading.resample,
             channel: reading.channel.map(u64::from),
-            continue_to: analysis.continue_to,
+            continue_to: self.in_metres(analysis.continue_to),
             seed: 1,
         }
     }
@@ -268,7 +302,7 @@ impl SurfaceArguments {
             facts.push(SurfaceFile::new(path, &surface));
             surfaces.push(surface);
         }
-        let options = Options { tip_radius: self.analysis.tip_radius, ..options.analysis() };
+        let options = Options { tip_radius: self.in_metres(self.analysis.tip_radius), ..options.analysis() };
         let analysis = analyse(&surfaces, &options).map_err(|error| {
             let file = facts.get(error.surface().unwrap_or(0)).map(|file| path_name(&file.path));
             CliError::named(file.unwrap_or_default(), error)
@@ -281,6 +315,7 @@ impl SurfaceArguments {
 pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.output.format(arguments.format, FORMATS, Format::Text)?;
     arguments.output.check()?;
+    arguments.check_lengths()?;
     if let Some(scene) = &arguments.scene {
         check_writable(scene, arguments.force_scene)?;
     }
@@ -366,9 +401,10 @@ fn scene(
     }
 }
 
-/// Parses a length above 0, m.
-fn length(text: &str) -> Result<f64, String> {
-    positive(text, "m")
+/// Parses a length above 0.
+fn length(text: &str) -> Result<Length, String> {
+    let value = positive(text, "m")?;
+    Ok(Length { value, has_unit: text.trim().parse::<f64>().is_err() })
 }
 
 /// Parses an energy per area above 0, J/m².
