@@ -198,8 +198,11 @@ impl SurfaceArguments {
     /// Refuses a length without a unit, if `--unit` states none either.
     fn check_lengths(&self) -> Result<(), CliError> {
         let AnalysisArguments { continue_to, tip_radius, .. } = self.analysis;
-        let lengths =
-            [("--spacing", self.reading.spacing), ("--continue-to", continue_to), ("--tip-radius", tip_radius)];
+        let lengths = [
+            ("--spacing", self.reading.spacing),
+            ("--continue-to", continue_to),
+            ("--tip-radius", tip_radius),
+        ];
         let has_none = |length: Option<Length>| length.is_some_and(|length| !length.has_unit);
         match lengths.into_iter().find(|(_, length)| self.reading.unit.is_none() && has_none(*length)) {
             Some((name, _)) => {

@@ -38,6 +38,9 @@ pub const FRAME_RATE: u32 = 30;
 /// Most frames per second over SSH, where each has to travel.
 const REMOTE_FRAMES: u32 = 12;
 
+/// Longest time of actions without a frame.
+const DRAINING: Duration = Duration::from_millis(100);
+
 /// Longest wait for a file job before anything else is done: keys typed after the job act on its result. Longer
 /// jobs continue in the background.
 const JOB: Duration = Duration::from_millis(50);
@@ -80,6 +83,8 @@ enum Message {
     Ended(i32),
     /// The stopped process continues: another program may have had the terminal.
     Continued,
+    /// The window has another size.
+    Resized,
     /// Report of another thread.
     Act(Box<Action>),
     /// The file job of this number is done.
@@ -134,6 +139,7 @@ pub fn open_with(
     watch_for_signals(sender(&messages, |signal| match signal {
         SystemSignal::End(signal) => Message::Ended(signal),
         SystemSignal::Continue => Message::Continued,
+        SystemSignal::Resize => Message::Resized,
     }))?;
     input::read(sender(&messages, |event: Option<Event>| event.map_or(Message::InputEnded, Message::Input)))?;
     // The guard restores everything; ratatui's own drop would complain on standard error, and panic
@@ -266,6 +272,7 @@ impl<W: Write> Session<'_, W> {
             let frame = changed.then(|| due.saturating_duration_since(Instant::now()));
             let wait = step.into_iter().chain(frame).min();
             let mut next = self.wait_for_message(wait);
+            let since = Instant::now();
             while let Some(message) = next {
                 let action = match message {
                     Message::InputEnded => return Ok(None),
@@ -277,9 +284,9 @@ impl<W: Write> Session<'_, W> {
                     }
                     Message::Continued => {
                         self.guard.take_again()?;
-                        let size = self.terminal.size()?;
-                        Some(Action::Resize(size.width, size.height))
+                        Some(self.resize()?)
                     }
+                    Message::Resized => Some(self.resize()?),
                     // In the present mode: the key before may have changed it.
                     Message::Input(event) => {
                         input::action_of(&event, &self.model.bindings, self.model.keys())
@@ -294,7 +301,9 @@ impl<W: Write> Session<'_, W> {
                     self.redraw |= matches!(action, Action::Resize(..));
                     self.act(action)?;
                 }
-                next = self.wait_for_message(Some(Duration::ZERO));
+                // Keys faster than their effects would else be drawn after the last one.
+                let is_late = since.elapsed() >= DRAINING;
+                next = if is_late { None } else { self.wait_for_message(Some(Duration::ZERO)) };
             }
             if playing && moved.elapsed() >= frame_time {
                 // Time alone shows nothing: the requested snapshot does.
@@ -304,6 +313,12 @@ impl<W: Write> Session<'_, W> {
             }
         }
         Ok(None)
+    }
+
+    /// Action for a window of another size.
+    fn resize(&self) -> io::Result<Action> {
+        let size = self.terminal.size()?;
+        Ok(Action::Resize(size.width, size.height))
     }
 
     /// The next message, after `wait` at most; `None` waits without limit.
@@ -426,9 +441,9 @@ impl<W: Write> Session<'_, W> {
                     self.own_stops += 1;
                     self.guard.suspend()?;
                     // The window may have another size by now.
-                    let size = self.terminal.size()?;
                     self.redraw = true;
-                    self.act(Action::Resize(size.width, size.height))?;
+                    let resize = self.resize()?;
+                    self.act(resize)?;
                 }
             }
         }

@@ -217,9 +217,8 @@ fn numbers<'a>(text: &'a str, keys: &[&str]) -> impl Iterator<Item = f64> + 'a {
 #[test]
 fn a_periodic_surface_keeps_its_tilt_unless_asked() {
     let folder = folder();
-    let report = |options: &[&str]| {
-        done(folder.path(), &[&["surface", "line.txt", "--periodic"], options].concat())
-    };
+    let report =
+        |options: &[&str]| done(folder.path(), &[&["surface", "line.txt", "--periodic"], options].concat());
     assert_eq!(report(&[]), report(&["--detrend", "mean"]));
     assert_ne!(report(&[]), report(&["--detrend", "tilt"]));
 }
