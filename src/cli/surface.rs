@@ -212,6 +212,20 @@ impl SurfaceArguments {
         }
     }
 
+    /// Refuses to write over a measured file, also with `--force`: it could not be measured again.
+    fn check_outputs(&self) -> Result<(), CliError> {
+        let place = |file: &Path| file.canonicalize().ok();
+        let outputs: Vec<PathBuf> =
+            [self.output.file(), self.scene.as_deref()].into_iter().flatten().filter_map(place).collect();
+        let files = self.files.iter().chain(&self.opposite).map(|file| self.folder.join(file));
+        match files.into_iter().find(|file| place(file).is_some_and(|file| outputs.contains(&file))) {
+            Some(file) => {
+                Err(CliError::named(path_name(&file), "is measured, no output; allowed: another file"))
+            }
+            None => Ok(()),
+        }
+    }
+
     /// Arguments that determine the spectra, for their table.
     fn deciding(&self) -> Vec<String> {
         let (reading, analysis) = (&self.reading, &self.analysis);
@@ -319,6 +333,7 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     let format = arguments.output.format(arguments.format, FORMATS, Format::Text)?;
     arguments.output.check()?;
     arguments.check_lengths()?;
+    arguments.check_outputs()?;
     if let Some(scene) = &arguments.scene {
         check_writable(scene, arguments.force_scene)?;
     }
@@ -338,7 +353,8 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     }
     if format.picture().is_some() {
         let files = faces.iter().flat_map(|face| &face.files);
-        let names: Vec<String> = files.map(|file| path_name(&file.path)).collect();
+        let names = files.filter_map(|file| file.path.file_name());
+        let names: Vec<String> = names.map(|name| path_name(Path::new(name))).collect();
         let analyses: Vec<&Analysis> = faces.iter().map(|face| &face.analysis).collect();
         let figure = Spectra::of_faces(&analyses).figure(&names.join(", "));
         return arguments.output.write_figure(stdout, &figure, format);

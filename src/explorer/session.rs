@@ -21,7 +21,7 @@ use crossterm::clipboard::CopyToClipboard;
 use crossterm::event::Event;
 use crossterm::queue;
 use ratatui::backend::CrosstermBackend;
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::{Position, Rect, Size};
 use ratatui::{Frame, Terminal};
 use std::cell::Cell;
 use std::collections::VecDeque;
@@ -37,6 +37,9 @@ use std::time::{Duration, Instant};
 pub const FRAME_RATE: u32 = 30;
 /// Most frames per second over SSH, where each has to travel.
 const REMOTE_FRAMES: u32 = 12;
+
+/// Most cells of a window, of about 100 bytes each.
+const MOST_CELLS: u32 = 4_000_000;
 
 /// Longest time of actions without a frame.
 const DRAINING: Duration = Duration::from_millis(100);
@@ -148,7 +151,7 @@ pub fn open_with(
     let written = writer.written();
     let backend = CrosstermBackend::new(writer);
     let mut terminal = ManuallyDrop::new(Terminal::new(backend)?);
-    let size = terminal.size()?;
+    let size = window(&terminal)?;
     let environment = Appearance::of_environment();
     let appearance = Appearance {
         theme: options.theme.or(options.config.theme).unwrap_or(environment.theme),
@@ -202,6 +205,17 @@ pub fn open_with(
 fn sender<T>(messages: &Sender<Message>, message: fn(T) -> Message) -> impl Fn(T) -> bool + Send + use<T> {
     let messages = messages.clone();
     move |content| messages.send(message(content)).is_ok()
+}
+
+/// Size of the window.
+fn window<W: Write>(terminal: &Terminal<CrosstermBackend<FrameWriter<W>>>) -> io::Result<Size> {
+    let size = terminal.size()?;
+    if size.area() > MOST_CELLS {
+        let Size { width, height } = size;
+        let fault = format!("a window of {width} × {height} cells; allowed: at most {MOST_CELLS} cells");
+        return Err(io::Error::other(fault));
+    }
+    Ok(size)
 }
 
 struct Session<'a, W: Write> {
@@ -317,7 +331,7 @@ impl<W: Write> Session<'_, W> {
 
     /// Action for a window of another size.
     fn resize(&self) -> io::Result<Action> {
-        let size = self.terminal.size()?;
+        let size = window(self.terminal)?;
         Ok(Action::Resize(size.width, size.height))
     }
 

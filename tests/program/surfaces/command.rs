@@ -144,6 +144,20 @@ fn spectra_are_computed_again_from_their_table() {
 }
 
 #[test]
+fn titles_of_figures_have_names_of_files_without_their_folders() {
+    let folder = folder();
+    let folder = folder.path();
+    let files = ["line.txt", "map.txt"].map(|name| folder.join(name).display().to_string());
+    let picture = done(folder, &["surface", &files[0], &files[1], "--format", "svg"]);
+    assert!(picture.contains("<title>line.txt, map.txt</title>"), "{picture}");
+    std::fs::create_dir(folder.join("scenes")).unwrap();
+    let untitled = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4, form: Paraboloid(radius: 1.0e-4))";
+    std::fs::write(folder.join("scenes/sphere.ron"), untitled).unwrap();
+    let picture = done(folder, &["run", "scenes/sphere.ron", "--format", "svg"]);
+    assert!(picture.contains("<title>sphere.ron</title>") && !picture.contains("scenes"), "{picture}");
+}
+
+#[test]
 fn a_table_is_not_computed_again_from_a_changed_file() {
     let folder = folder();
     let folder = folder.path();
@@ -355,6 +369,14 @@ fn refusals_name_file_place_and_what_is_allowed() {
         (&["surface", "line.txt", "uneven.txt"], "uneven.txt: point 2: x = 1e-6 m is off the even grid"),
         (&["surface", "line.txt", "--continue-to", "1mm"], "line.txt: the spectrum continues up to q = "),
         (&["surface", "line.txt", "--row", "1"], "line.txt: a profile, which has no rows and columns"),
+        (
+            &["surface", "line.txt", "-o", "./line.txt", "--force"],
+            "line.txt: is measured, no output; allowed: another file",
+        ),
+        (
+            &["surface", "line.txt", "--modulus", "1MPa", "--scene", "line.txt", "--force-scene"],
+            "line.txt: is measured, no output; allowed: another file",
+        ),
         (
             &["surface", "line.txt", "--tip-radius", "5"],
             "--tip-radius: a length without a unit; allowed: a unit, as 0.5um, or --unit um",
