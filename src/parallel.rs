@@ -38,18 +38,6 @@ pub(crate) fn threads() -> usize {
     if ONE_OF_MANY.get() { 1 } else { available_parallelism().map_or(1, NonZero::get) }
 }
 
-/// Runs `work` for each item in parallel.
-pub(crate) fn for_each_in_parallel<T: Send>(items: &mut [T], work: &(impl Fn(&mut T) + Sync)) {
-    match items {
-        [] => {}
-        [one] => work(one),
-        _ => {
-            let (some, others) = items.split_at_mut(items.len() / 2);
-            in_parallel(true, || for_each_in_parallel(some, work), || for_each_in_parallel(others, work));
-        }
-    }
-}
-
 /// Runs both, the first on a thread of its own if that is `worth` it, the system has one and the thread begins first.
 pub(crate) fn in_parallel<A: Send, B>(
     worth: bool,

@@ -104,7 +104,9 @@ pub struct ReadingArguments {
     /// Unit of heights where a file states none; default: as --unit
     #[arg(long, value_name = "UNIT")]
     pub height_unit: Option<Unit>,
-    /// Distance between points where a file states none, as 0.5um, or 0.5 in --unit
+    /// Distance between points where a file states none, as 0.5um
+    ///
+    /// Lengths without a unit, here and below, are in --unit.
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub spacing: Option<Length>,
     /// Fill missing points from their neighbours
@@ -127,7 +129,9 @@ pub struct ReadingArguments {
 /// Analysis of surfaces.
 #[derive(Args, Debug)]
 pub struct AnalysisArguments {
-    /// Part that is removed: none, mean, tilt or curvature; default: tilt, or mean with --periodic
+    /// Part that is removed: none, mean, tilt or curvature
+    ///
+    /// Default: tilt, or mean with --periodic.
     #[arg(long, value_enum, default_value = "tilt", default_value_if("periodic", "true", "mean"))]
     #[arg(hide_possible_values = true, hide_default_value = true)]
     pub detrend: DetrendArgument,
@@ -195,7 +199,7 @@ impl SurfaceArguments {
         length.map(|length| length.in_metres(self.reading.unit))
     }
 
-    /// Refuses a length without a unit, if `--unit` states none either.
+    /// Refuses a length without a unit, if `--unit` states none either, and a wavelength that no scene may have.
     fn check_lengths(&self) -> Result<(), CliError> {
         let AnalysisArguments { continue_to, tip_radius, .. } = self.analysis;
         let lengths = [
@@ -208,7 +212,13 @@ impl SurfaceArguments {
             Some((name, _)) => {
                 Err(CliError::named(name, "a length without a unit; allowed: a unit, as 0.5um, or --unit um"))
             }
-            None => Ok(()),
+            None => match self.in_metres(continue_to).filter(|length| !(1e-15..=10.0).contains(length)) {
+                Some(length) => {
+                    let fault = format!("--continue-to: {length:e} m");
+                    Err(CliError::named(fault, "allowed: from 1e-15 to 10 m"))
+                }
+                None => Ok(()),
+            },
         }
     }
 

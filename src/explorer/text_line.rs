@@ -28,7 +28,7 @@ pub struct TextLine {
     cursor: usize,
     /// True if the text is selected: the next character replaces it.
     selected: bool,
-    /// What the last insertion left out.
+    /// Message about the part that the last insertion left out.
     left_out: Option<&'static str>,
 }
 
@@ -66,7 +66,7 @@ impl TextLine {
         (before.iter().collect(), under.iter().collect(), after.iter().collect())
     }
 
-    /// What the last insertion left out, as a message; `None` if it was inserted whole.
+    /// Message about the part that the last insertion left out; `None` after a whole one.
     #[must_use]
     pub fn left_out(&self) -> Option<&'static str> {
         self.left_out

@@ -9,7 +9,6 @@ use super::read::read;
 use super::text::ron_float;
 use super::value::Value;
 use super::write::leg;
-use crate::text::is_control;
 
 /// Paths and values to set together.
 type Overrides = Vec<(String, String)>;
@@ -127,20 +126,12 @@ pub fn command_line(name: &str, overrides: &[(String, String)]) -> String {
     }
 }
 
-/// A word quoted for a shell. Control characters are escaped: a pasted one could act on the terminal.
+/// A word quoted for a shell.
 pub(crate) fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || "_-./:,+@%=".contains(c);
     // zsh takes a word that starts with = for the path of a command.
     if !word.is_empty() && !word.starts_with('=') && word.chars().all(plain) {
         word.to_string()
-    } else if word.contains(is_control) {
-        let octal = |c: char| c.to_string().bytes().map(|byte| format!("\\{byte:03o}")).collect();
-        let escaped = |c: char| match c {
-            '\'' | '\\' => format!("\\{c}"),
-            c if is_control(c) => octal(c),
-            c => c.to_string(),
-        };
-        format!("$'{}'", word.chars().map(escaped).collect::<String>())
     } else {
         format!("'{}'", word.replace('\'', r"'\''"))
     }
@@ -256,8 +247,7 @@ mod tests {
             ("a*", "'a*'"),
             ("$HOME", "'$HOME'"),
             ("[Fragments]", "'[Fragments]'"),
-            ("a\nb", r"$'a\012b'"),
-            ("\u{1b}'\\\u{9b}", r"$'\033\'\\\302\233'"),
+            ("a\nb", "'a\nb'"),
             (r"a\b", r"'a\b'"),
         ] {
             assert_eq!(quoted(word), expected);

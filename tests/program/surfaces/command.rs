@@ -368,6 +368,10 @@ fn refusals_name_file_place_and_what_is_allowed() {
         (&["surface", "bad.txt", "--interpolate"], "bad.txt: 3 points along an axis; allowed: at least 32"),
         (&["surface", "line.txt", "uneven.txt"], "uneven.txt: point 2: x = 1e-6 m is off the even grid"),
         (&["surface", "line.txt", "--continue-to", "1mm"], "line.txt: the spectrum continues up to q = "),
+        (
+            &["surface", "line.txt", "--continue-to", "1e-320m"],
+            "--continue-to: 1e-320 m: allowed: from 1e-15 to 10 m",
+        ),
         (&["surface", "line.txt", "--row", "1"], "line.txt: a profile, which has no rows and columns"),
         (
             &["surface", "line.txt", "-o", "./line.txt", "--force"],
