@@ -229,9 +229,10 @@ impl SurfaceArguments {
             [self.output.file(), self.scene.as_deref()].into_iter().flatten().filter_map(place).collect();
         let files = self.files.iter().chain(&self.opposite).map(|file| self.folder.join(file));
         match files.into_iter().find(|file| place(file).is_some_and(|file| outputs.contains(&file))) {
-            Some(file) => {
-                Err(CliError::named(path_name(&file), "is measured, no output; allowed: another file"))
-            }
+            Some(file) => Err(CliError::named(
+                path_name(&file),
+                "the output would replace this measured file; allowed: another name",
+            )),
             None => Ok(()),
         }
     }

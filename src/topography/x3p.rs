@@ -71,7 +71,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
 fn check_index(index: &str) -> Result<(), TopographyError> {
     // The parser reserves memory for each of these signs; an element has four characters.
     if index.bytes().filter(|byte| b"<=".contains(byte)).count() > index.len() / 4 {
-        return Err(refused(part(INDEX), "more marks than content", "XML"));
+        return Err(refused(part(INDEX), "more than a quarter of the characters are < or =", "XML"));
     }
     let is_quoted = |value: &&str| value.trim_start().starts_with(['"', '\'']);
     let attributes = index.split('=').skip(1).filter(is_quoted).count();
@@ -305,7 +305,7 @@ pub(super) mod tests {
         assert_eq!(with(&MAIN.replacen("<Record1>", &format!("<Record1>{nested}"), 1)).unwrap_err(), refused);
         for marks in ["<", "="] {
             let error = with(&format!("{MAIN}<!--{}-->", marks.repeat(100_000))).unwrap_err();
-            assert_eq!(error, "main.xml: more marks than content; allowed: XML");
+            assert_eq!(error, "main.xml: more than a quarter of the characters are < or =; allowed: XML");
         }
     }
 

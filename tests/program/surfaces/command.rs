@@ -375,11 +375,11 @@ fn refusals_name_file_place_and_what_is_allowed() {
         (&["surface", "line.txt", "--row", "1"], "line.txt: a profile, which has no rows and columns"),
         (
             &["surface", "line.txt", "-o", "./line.txt", "--force"],
-            "line.txt: is measured, no output; allowed: another file",
+            "line.txt: the output would replace this measured file; allowed: another name",
         ),
         (
             &["surface", "line.txt", "--modulus", "1MPa", "--scene", "line.txt", "--force-scene"],
-            "line.txt: is measured, no output; allowed: another file",
+            "line.txt: the output would replace this measured file; allowed: another name",
         ),
         (
             &["surface", "line.txt", "--tip-radius", "5"],
