@@ -1,10 +1,9 @@
 //! Parallel computations, independent of each other, so that their results do not depend on the threads.
 
 use std::cell::Cell;
-use std::num::NonZero;
 use std::panic::resume_unwind;
 use std::sync::{Mutex, PoisonError};
-use std::thread::{Builder, Scope, ScopedJoinHandle, available_parallelism, scope};
+use std::thread::{Builder, Scope, ScopedJoinHandle, scope};
 
 thread_local! {
     /// True if this thread is one of as many as cores.
@@ -34,8 +33,10 @@ pub(crate) fn begin_threads<'scope>(
 }
 
 /// Number of threads for work of this thread: one for each core, or this one alone.
+#[cfg(feature = "tui")]
 pub(crate) fn threads() -> usize {
-    if ONE_OF_MANY.get() { 1 } else { available_parallelism().map_or(1, NonZero::get) }
+    let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    if ONE_OF_MANY.get() { 1 } else { cores() }
 }
 
 /// Runs both, the first on a thread of its own if that is `worth` it, the system has one and the thread begins first.
