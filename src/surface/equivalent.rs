@@ -23,7 +23,7 @@ pub struct MeasuredOptions {
     pub resample: bool,
     /// Row or column of a map used as the profile.
     pub cut: Option<Cut>,
-    /// Removed part; `None`: the tilt for an equivalent line, nothing for a profile as the line.
+    /// Removed part; `None`: the tilt for an equivalent line, the mean if `periodic`, nothing for a profile as the line.
     pub detrend: Option<Detrend>,
     /// True if the surface repeats itself at its borders: then its spectrum is estimated without a window.
     pub periodic: bool,
@@ -56,7 +56,10 @@ impl MeasuredOptions {
     #[must_use]
     pub fn analysis(&self) -> Options {
         let end = self.continue_to.map_or(End::Ends, |wavelength| End::Continues(TAU / wavelength));
-        let (detrend, periodic) = (self.detrend.unwrap_or_default(), self.periodic);
+        let periodic = self.periodic;
+        // A plane fitted to a periodic surface would leave a step at its borders.
+        let default = if periodic { Detrend::Mean } else { Detrend::Tilt };
+        let detrend = self.detrend.unwrap_or(default);
         Options { detrend, periodic, end, tip_radius: None }
     }
 
