@@ -15,6 +15,9 @@ use std::f64::consts::{PI, TAU};
 /// Number of profiles from which on the moments are as accurate as those of a map.
 const MANY_PROFILES: u64 = 100;
 
+/// Share of the squared gradient that may be beyond the end of the spectrum.
+const NEGLIGIBLE: f64 = 1e-4;
+
 /// Choices of an analysis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Options {
@@ -92,8 +95,8 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         length = length.max(columns as f64 * distances[0]);
         spacing = spacing.min(distances[0]).min(distances[1]);
     }
-    let observations = powers.observations();
     let range = powers.range();
+    let observations = powers.observations(range[1]);
     if let End::Continues(to) = options.end
         && (to <= range[1] || to.is_nan())
     {
@@ -163,18 +166,22 @@ impl Powers {
         Ok(())
     }
 
-    fn observations(&self) -> Vec<Observation> {
-        let profiles = self.profiles.iter().flat_map(observation::of_profiles);
-        profiles.chain(self.maps.iter().flat_map(observation::of_map)).collect()
+    fn observations(&self, last: f64) -> Vec<Observation> {
+        let profiles = self.profiles.iter().flat_map(|power| observation::of_profiles(power, last));
+        profiles.chain(self.maps.iter().flat_map(|power| observation::of_map(power, last))).collect()
     }
 
     /// Wave numbers from wave 1 of the longest surface to half a wave beyond the last of the finest one.
     fn range(&self) -> [f64; 2] {
-        let ends = |power: &ProfilePower| [power.step(), (power.power.len() as f64 + 0.5) * power.step()];
-        let profiles = self.profiles.iter().map(ends);
+        let profiles = self.profiles.iter().map(|power| {
+            let step = power.step();
+            let waves = power.power.iter().enumerate();
+            let waves = waves.map(|(index, power)| ((index + 1) as f64 * step, *power));
+            [step, last_significant(waves) + 0.5 * step]
+        });
         let maps = self.maps.iter().map(|map| {
-            let last = map.waves.last().map_or(map.steps[0], |(q, _)| *q);
-            [map.steps[0].min(map.steps[1]), last + 0.5 * map.steps[0].min(map.steps[1])]
+            let step = map.steps[0].min(map.steps[1]);
+            [step, last_significant(map.waves.iter().copied()) + 0.5 * step]
         });
         profiles.chain(maps).fold([f64::INFINITY, 0.0], |[low, high], [a, b]| [low.min(a), high.max(b)])
     }
@@ -200,6 +207,18 @@ impl Powers {
         .filter(|(_, bins)| !bins.is_empty())
         .collect()
     }
+}
+
+/// Last of the waves (wave number, power) beyond which the others carry a negligible share of the squared gradient.
+fn last_significant(waves: impl DoubleEndedIterator<Item = (f64, f64)> + Clone) -> f64 {
+    let square = |(q, power): (f64, f64)| q * q * power;
+    let negligible = NEGLIGIBLE * waves.clone().map(square).sum::<f64>();
+    let mut rest = 0.0;
+    let mut from_last = waves.rev().skip_while(|wave| {
+        rest += square(*wave);
+        rest <= negligible
+    });
+    from_last.next().map_or(0.0, |(q, _)| q)
 }
 
 /// The powers of profiles of these points, newly made if there are none yet.

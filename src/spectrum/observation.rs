@@ -52,17 +52,18 @@ pub(super) enum Kind {
 }
 
 /// Bands of the powers of profiles, from wave 1 on, or from wave 2 on under a window: detrending reduces wave 1.
-pub(super) fn of_profiles(power: &ProfilePower) -> Vec<Observation> {
+pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
     let kind = Kind::Cut { step: power.step(), windowed: power.windowed, nyquist: PI / power.spacing };
     let correlated = if power.windowed { HANN_CORRELATED } else { 1.0 };
     let first = if power.windowed { 2 } else { 1 };
     let profiles = power.profiles as f64;
     let mut observed = Vec::new();
     let mut low = first;
-    while low <= power.power.len() {
+    let count = power.power.len().min((last / power.step()) as usize);
+    while low <= count {
         let ratio = 10.0_f64.powf(1.0 / BANDS_PER_DECADE);
         let next = if low <= SINGLE { low + 1 } else { ((low as f64 * ratio) as usize).max(low + 1) };
-        let next = next.min(power.power.len() + 1);
+        let next = next.min(count + 1);
         let waves = (next - low) as f64;
         let sum: f64 = power.power[low - 1..next - 1].iter().sum();
         observed.push(Observation {
@@ -77,14 +78,14 @@ pub(super) fn of_profiles(power: &ProfilePower) -> Vec<Observation> {
 }
 
 /// Bands of the powers of a map.
-pub(super) fn of_map(power: &MapPower) -> Vec<Observation> {
+pub(super) fn of_map(power: &MapPower, last: f64) -> Vec<Observation> {
     let kind = Kind::Plane { steps: power.steps, windowed: power.windowed };
     let correlated = if power.windowed { HANN_CORRELATED * HANN_CORRELATED } else { 1.0 };
     // Under a window detrending reduces waves around wave 1.
     let least = if power.windowed { 2.0 * power.steps[0].max(power.steps[1]) } else { 0.0 };
     let mut observed: Vec<Observation> = Vec::new();
     let mut band = None;
-    for (q, power) in power.waves.iter().filter(|(q, _)| *q >= least * (1.0 - 1e-9)) {
+    for (q, power) in power.waves.iter().filter(|(q, _)| *q >= least * (1.0 - 1e-9) && *q <= last) {
         let number = (BANDS_PER_DECADE * q.log10()).floor() as i64;
         match observed.last_mut() {
             Some(last) if band == Some(number) => {
@@ -140,6 +141,9 @@ impl Observation {
                     for (between, y) in shares {
                         let q = (self.wave_number + along * steps[0]).hypot(between * steps[1]);
                         let q = q.max(f64::MIN_POSITIVE);
+                        if q > nodes.end {
+                            continue;
+                        }
                         let (index, share) = nodes.place(q.ln());
                         terms.push(Term { weight: x * y, ln_q: q.ln(), index, share });
                     }
