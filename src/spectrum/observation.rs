@@ -2,7 +2,7 @@
 
 use super::isotropic::{End, Nodes, gauss};
 use super::periodogram::{MapPower, ProfilePower};
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Number of waves of a profile that are single observations; those beyond are averaged in bands.
 const SINGLE: usize = 32;
@@ -29,6 +29,8 @@ pub(super) struct Observation {
     pub power: f64,
     /// Number of independent waves.
     pub waves: f64,
+    /// Range of wave numbers: the power times this range times q^p is a share of the moment of the equivalent line.
+    pub range: f64,
     pub kind: Kind,
 }
 
@@ -48,6 +50,8 @@ pub(super) enum Kind {
         /// Wave numbers of wave 1 along and between rows, rad/m.
         steps: [f64; 2],
         windowed: bool,
+        /// Wave numbers of the sampling along and between rows, rad/m: waves apart by these are aliases.
+        sampling: [f64; 2],
     },
 }
 
@@ -70,6 +74,7 @@ pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
             wave_number: 0.5 * (low + next - 1) as f64 * power.step(),
             power: sum / (waves * profiles),
             waves: waves * profiles / correlated,
+            range: waves * power.step() / PI,
             kind,
         });
         low = next;
@@ -79,8 +84,9 @@ pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
 
 /// Bands of the powers of a map.
 pub(super) fn of_map(power: &MapPower, last: f64) -> Vec<Observation> {
-    let kind = Kind::Plane { steps: power.steps, windowed: power.windowed };
+    let kind = Kind::Plane { steps: power.steps, windowed: power.windowed, sampling: power.sampling };
     let correlated = if power.windowed { HANN_CORRELATED * HANN_CORRELATED } else { 1.0 };
+    let mut squares = Vec::new();
     // Under a window detrending reduces waves around wave 1.
     let least = if power.windowed { 2.0 * power.steps[0].max(power.steps[1]) } else { 0.0 };
     let mut observed: Vec<Observation> = Vec::new();
@@ -94,17 +100,35 @@ pub(super) fn of_map(power: &MapPower, last: f64) -> Vec<Observation> {
                 last.waves += 1.0;
             }
             _ => {
-                observed.push(Observation { wave_number: *q, power: *power, waves: 1.0, kind });
+                observed.push(Observation { wave_number: *q, power: *power, waves: 1.0, range: 0.0, kind });
+                squares.push(0.0);
                 band = Some(number);
             }
         }
+        squares.last_mut().into_iter().for_each(|sum| *sum += power * power);
     }
+    let dispersion = dispersion(&observed, &squares);
     for band in &mut observed {
         band.wave_number /= band.waves;
         band.power /= band.waves;
-        band.waves /= correlated;
+        // Of a wave and its mirror image one is counted.
+        band.range = 2.0 * band.waves * power.steps[0] * power.steps[1] / (4.0 * PI * PI);
+        band.waves /= correlated * dispersion;
     }
     observed
+}
+
+/// Mean over the waves of the variance of powers in a band over the square of their mean: 1 for a surface that is equal
+/// in all directions, more for an anisotropic one, whose bands are known less.
+fn dispersion(bands: &[Observation], squares: &[f64]) -> f64 {
+    let many = bands.iter().zip(squares).filter(|(band, _)| band.waves > 8.0 && band.power > 0.0);
+    let (sum, waves) = many.fold((0.0, 0.0), |(sum, waves), (band, squares)| {
+        let n = band.waves;
+        // For exponentially distributed powers the mean of the first factor is (n − 1)/(n + 1).
+        let variance = (n * squares / (band.power * band.power) - 1.0) * (n + 1.0) / (n - 1.0);
+        (sum + n * variance, waves + n)
+    });
+    if waves > 0.0 { (sum / waves).max(1.0) } else { 1.0 }
 }
 
 /// A term of the mean of an observation: a weight times C2D at ln q, between two nodes.
@@ -117,6 +141,13 @@ pub(super) struct Term {
 }
 
 impl Observation {
+    /// Share of the moments ∫ q^(p+1) C2D dq/2π of the equivalent line, p = 0, 1, 2, for this mean power. Those of a cut are
+    /// 1, 2/π and 1/2 of them.
+    pub fn moments(&self, power: f64) -> [f64; 3] {
+        let (first, second) = if let Kind::Cut { .. } = self.kind { (FRAC_PI_2, 2.0) } else { (1.0, 1.0) };
+        let q = self.wave_number;
+        [1.0, first * q, second * q * q].map(|factor| factor * self.range * power)
+    }
     /// Terms of the mean power for a spectrum with these nodes.
     pub fn terms(&self, nodes: &Nodes, end: End) -> Vec<Term> {
         let mut terms = Vec::new();
@@ -135,7 +166,10 @@ impl Observation {
                     }
                 }
             }
-            Kind::Plane { steps, windowed } => {
+            Kind::Plane { steps, windowed, sampling } => {
+                if let End::Continues(_) = end {
+                    add_aliases(&mut terms, nodes, self.wave_number, sampling);
+                }
                 let shares: &[(f64, f64)] = if windowed { &HANN_SHARES } else { &[(0.0, 1.0)] };
                 for (along, x) in shares {
                     for (between, y) in shares {
@@ -151,6 +185,31 @@ impl Observation {
             }
         }
         terms
+    }
+}
+
+/// Adds the aliases of waves of a map at a wave number, their mean over all directions: C2D at the distances of the
+/// lattice of the sampling. Those far off are replaced by an integral.
+fn add_aliases(terms: &mut Vec<Term>, nodes: &Nodes, wave_number: f64, [x, y]: [f64; 2]) {
+    let most = f64::from(MOST_ALIASES);
+    let mut add = |q: f64, weight: f64| {
+        if q <= nodes.end {
+            let (index, share) = nodes.place(q.ln());
+            terms.push(Term { weight, ln_q: q.ln(), index, share });
+        }
+    };
+    let orders = || (0..=2 * MOST_ALIASES).map(|order| f64::from(order) - most);
+    for (angle, weight) in gauss(0.0, FRAC_PI_2) {
+        let (along, between) = (wave_number * angle.cos(), wave_number * angle.sin());
+        for (i, j) in orders().flat_map(|i| orders().map(move |j| (i, j))).filter(|order| *order != (0.0, 0.0)) {
+            add((along + i * x).hypot(between + j * y), weight / FRAC_PI_2);
+        }
+    }
+    let beyond = (2.0 * most + 1.0) * (x * y / PI).sqrt();
+    for (low, high) in nodes.pieces_from(beyond) {
+        for (ln_q, weight) in gauss(low.ln(), high.ln()) {
+            add(ln_q.exp(), TAU * (2.0 * ln_q).exp() * weight / (x * y));
+        }
     }
 }
 

@@ -121,6 +121,8 @@ pub(super) struct MapPower {
     pub windowed: bool,
     /// Wave numbers of wave 1 along and between rows, rad/m.
     pub steps: [f64; 2],
+    /// Wave numbers of the sampling along and between rows, rad/m.
+    pub sampling: [f64; 2],
     /// Wave number and C2D, m⁴, of the waves of half the plane up to the smaller of the Nyquist wave numbers,
     /// sorted by wave number.
     pub waves: Vec<(f64, f64)>,
@@ -166,7 +168,7 @@ impl MapPower {
             }
         }
         waves.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        Ok(MapPower { windowed, steps, waves })
+        Ok(MapPower { windowed, steps, sampling: [TAU / along, TAU / between], waves })
     }
 }
 
