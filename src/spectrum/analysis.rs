@@ -18,6 +18,12 @@ const MANY_PROFILES: u64 = 100;
 /// Share of the squared gradient that may be beyond the end of the spectrum.
 const NEGLIGIBLE: f64 = 1e-4;
 
+/// Largest ratio of the powers beyond the end of the spectrum to those of as many waves before.
+const DROP: f64 = 0.03;
+
+/// Wave numbers to which a spectrum without an end may continue, over the last resolved one.
+const CONTINUED: f64 = 4.0;
+
 /// Choices of an analysis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Options {
@@ -56,9 +62,15 @@ pub struct Analysis {
     pub spacing: f64,
     /// End of the spectrum.
     pub end: End,
+    /// True if the spectrum ends before the last resolved wave.
+    pub ends_inside: bool,
+    /// True if waves along one axis of a map alone are left out, because its rows or columns are offset against each other or
+    /// were levelled one by one.
+    pub offsets: bool,
 }
 
 /// Powers of all surfaces, profiles of equal points together.
+#[derive(Default)]
 struct Powers {
     profiles: Vec<ProfilePower>,
     maps: Vec<MapPower>,
@@ -76,7 +88,7 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         return Err(SpectrumError::Nothing);
     }
     let mut sums = Sums::default();
-    let mut powers = Powers { profiles: Vec::new(), maps: Vec::new(), rows: Vec::new(), columns: Vec::new() };
+    let mut powers = Powers::default();
     let mut reliability: Option<f64> = None;
     let (mut length, mut spacing) = (0.0_f64, f64::INFINITY);
     for (index, surface) in surfaces.iter().enumerate() {
@@ -95,7 +107,7 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         length = length.max(columns as f64 * distances[0]);
         spacing = spacing.min(distances[0]).min(distances[1]);
     }
-    let range = powers.range();
+    let (range, resolved) = (powers.range(last_significant), powers.range(|waves| waves.last().map_or(0.0, |(q, _)| *q))[1]);
     let observations = powers.observations(range[1]);
     if let End::Continues(to) = options.end
         && (to <= range[1] || to.is_nan())
@@ -103,7 +115,21 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         return Err(SpectrumError::End { to, last: range[1] });
     }
     let model = Model::new(&observations, range, options.end);
-    let isotropic = model.fit().ok_or(SpectrumError::NoMaximum)?;
+    let mut isotropic = model.fit().ok_or(SpectrumError::NoMaximum)?;
+    if surfaces.iter().any(|surface| surface.interpolated() > 0) {
+        let mut largest = [0.0_f64; 3];
+        for quarters in 1..4 {
+            let changes = isotropic.changes(&interpolated_again(surfaces, options, range, quarters)?);
+            largest = [0, 1, 2].map(|index| largest[index].max(changes[index].abs()));
+        }
+        isotropic.method.iter_mut().zip(largest).for_each(|(error, change)| *error = error.hypot(change));
+    }
+    if options.end == End::Ends && range[1] >= resolved {
+        let longer = fitted(&observations, range, End::Continues(CONTINUED * range[1]))?;
+        let within = isotropic.changes(&longer.until(range[1]));
+        let all = isotropic.changes(&longer);
+        isotropic.missing = [0, 1, 2].map(|index| within[index].abs().max(all[index].abs()));
+    }
     let line = isotropic.line_moments();
     let values = [line.rms_height, line.rms_gradient, line.energy_per_modulus];
     if values.iter().any(|estimate| !(estimate.value.is_finite() && estimate.error.is_finite())) {
@@ -121,7 +147,31 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         length,
         spacing,
         end: options.end,
+        ends_inside: range[1] < resolved,
+        offsets: powers.maps.iter().any(|map| map.offsets),
     })
+}
+
+/// Spectrum of the surfaces with as many points interpolated once more.
+fn interpolated_again(
+    surfaces: &[Topography],
+    options: &Options,
+    range: [f64; 2],
+    quarters: usize,
+) -> Result<IsotropicSpectrum, SpectrumError> {
+    let mut powers = Powers::default();
+    for (index, surface) in surfaces.iter().enumerate() {
+        let refused = |error| SpectrumError::Surface { index, error };
+        let (columns, distances) = (surface.columns(), surface.spacing().map_err(refused)?);
+        let mut heights = surface.interpolated_again(quarters).map_err(refused)?;
+        options.detrend.remove(&mut heights, columns);
+        powers.add(&heights, columns, distances, !options.periodic)?;
+    }
+    fitted(&powers.observations(range[1]), range, options.end)
+}
+
+fn fitted(observations: &[Observation], range: [f64; 2], end: End) -> Result<IsotropicSpectrum, SpectrumError> {
+    Model::new(observations, range, end).fit().ok_or(SpectrumError::NoMaximum)
 }
 
 fn copied(heights: &[f64]) -> Result<Vec<f64>, SpectrumError> {
@@ -171,17 +221,17 @@ impl Powers {
         profiles.chain(self.maps.iter().flat_map(|power| observation::of_map(power, last))).collect()
     }
 
-    /// Wave numbers from wave 1 of the longest surface to half a wave beyond the last of the finest one.
-    fn range(&self) -> [f64; 2] {
+    /// Wave numbers from wave 1 of the longest surface to half a wave beyond the last of the finest one, `last` of its waves
+    /// (wave number, power).
+    fn range(&self, last: impl Fn(&[(f64, f64)]) -> f64) -> [f64; 2] {
         let profiles = self.profiles.iter().map(|power| {
             let step = power.step();
-            let waves = power.power.iter().enumerate();
-            let waves = waves.map(|(index, power)| ((index + 1) as f64 * step, *power));
-            [step, last_significant(waves) + 0.5 * step]
+            let waves: Vec<_> = (1..).zip(&power.power).map(|(wave, power)| (f64::from(wave) * step, *power)).collect();
+            [step, last(&waves) + 0.5 * step]
         });
         let maps = self.maps.iter().map(|map| {
             let step = map.steps[0].min(map.steps[1]);
-            [step, last_significant(map.waves.iter().copied()) + 0.5 * step]
+            [step, last(&map.waves) + 0.5 * step]
         });
         profiles.chain(maps).fold([f64::INFINITY, 0.0], |[low, high], [a, b]| [low.min(a), high.max(b)])
     }
@@ -209,16 +259,22 @@ impl Powers {
     }
 }
 
-/// Last of the waves (wave number, power) beyond which the others carry a negligible share of the squared gradient.
-fn last_significant(waves: impl DoubleEndedIterator<Item = (f64, f64)> + Clone) -> f64 {
-    let square = |(q, power): (f64, f64)| q * q * power;
-    let negligible = NEGLIGIBLE * waves.clone().map(square).sum::<f64>();
+/// Last of the waves (wave number, power) beyond which the others carry a negligible share of the squared gradient and
+/// powers far below those before; the last wave of all if there is no such end.
+fn last_significant(waves: &[(f64, f64)]) -> f64 {
+    let sum = |waves: &[(f64, f64)]| waves.iter().map(|(q, power)| q * q * power).sum::<f64>();
+    let negligible = NEGLIGIBLE * sum(waves);
     let mut rest = 0.0;
-    let mut from_last = waves.rev().skip_while(|wave| {
-        rest += square(*wave);
+    let beyond = waves.iter().rev().take_while(|(q, power)| {
+        rest += q * q * power;
         rest <= negligible
     });
-    from_last.next().map_or(0.0, |(q, _)| q)
+    let end = waves.len() - beyond.count().min(waves.len() - 1);
+    let (before, beyond) = waves.split_at(end);
+    let as_many = &before[before.len().saturating_sub(beyond.len())..];
+    let is_end = sum(beyond) * as_many.len() as f64 <= DROP * sum(as_many) * beyond.len() as f64;
+    let last = if is_end { before.last() } else { waves.last() };
+    last.map_or(0.0, |(q, _)| *q)
 }
 
 /// The powers of profiles of these points, newly made if there are none yet.

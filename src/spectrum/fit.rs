@@ -6,6 +6,7 @@
 use super::isotropic::{End, IsotropicSpectrum, Nodes};
 use super::linear::Cholesky;
 use super::observation::{Observation, Term};
+use std::f64::consts::TAU;
 
 /// Weight λ of the second differences.
 const SMOOTHNESS: f64 = 1.0;
@@ -151,7 +152,27 @@ impl<'a> Model<'a> {
         }
         let (_, information) = self.linearise(&values);
         let information = Cholesky::new(information, values.len())?;
-        Some(IsotropicSpectrum { nodes: self.nodes, values, information })
+        let mut found =
+            IsotropicSpectrum { nodes: self.nodes, values, information, method: [0.0; 3], missing: [0.0; 3] };
+        found.method = self.departure(&found);
+        Some(found)
+    }
+
+    /// Largest departure of the moments of the measured powers from those of the fitted means over the same waves, among
+    /// profiles or maps of one kind, relative to the moments of the whole spectrum.
+    fn departure(&self, found: &IsotropicSpectrum) -> [f64; 3] {
+        let mut largest = [0.0_f64; 3];
+        let mut means = self.means(&found.values);
+        for kind in self.observations.chunk_by(|one, next| one.kind == next.kind) {
+            let mut sums = [0.0; 3];
+            for (observed, mean) in kind.iter().zip(&mut means) {
+                let differences = observed.moments(observed.power - mean);
+                sums.iter_mut().zip(differences).for_each(|(sum, difference)| *sum += difference);
+            }
+            largest.iter_mut().zip(sums).for_each(|(largest, sum)| *largest = largest.max(sum.abs()));
+        }
+        let whole = found.integrals();
+        [0, 1, 2].map(|index| TAU * largest[index] / whole[index])
     }
 }
 

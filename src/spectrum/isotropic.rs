@@ -3,7 +3,8 @@
 use super::linear::Cholesky;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
+use serde::Serialize;
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, PI, TAU};
 
 /// Separates this use of the random generator from others.
 const PURPOSE: &[u8; 24] = b"asperity-spectrum-draws\0";
@@ -55,30 +56,63 @@ pub struct Estimate {
     pub error: f64,
 }
 
+/// Value from a spectrum with its errors, all in the unit of the value.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Moment {
+    /// Value.
+    pub value: f64,
+    /// Standard error: that of the likelihood and that of the method together.
+    pub error: f64,
+    /// Standard error of the likelihood: few waves are measured.
+    pub statistical: f64,
+    /// Error of the method: departure of the fit from the moments of the measured powers, and interpolated points.
+    pub method: f64,
+    /// Largest change of the value, that of the resolved waves or that of all, if the spectrum continues beyond its last
+    /// resolved wave, as a power law to a quarter of that wavelength: short waves are missing, and in samples of points add to
+    /// the powers of longer ones. Zero for a spectrum that ends inside the scan or is continued.
+    pub missing_short_waves: f64,
+}
+
+impl Moment {
+    /// Value with relative errors.
+    fn new(value: f64, statistical: f64, method: f64, missing_short_waves: f64) -> Self {
+        let [statistical, method, missing_short_waves] =
+            [statistical, method, missing_short_waves].map(|error| error * value);
+        Moment { value, error: statistical.hypot(method), statistical, method, missing_short_waves }
+    }
+
+    /// A factor times a power of the value.
+    #[must_use]
+    pub fn power(self, factor: f64, exponent: f64) -> Self {
+        let relative = |error: f64| exponent * error / self.value;
+        let missing = (1.0 + self.missing_short_waves / self.value).powf(exponent) - 1.0;
+        let value = factor * self.value.powf(exponent);
+        Moment::new(value, relative(self.statistical), relative(self.method), missing)
+    }
+}
+
 /// Moments of the equivalent line of a spectrum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineMoments {
     /// Rms height h, m.
-    pub rms_height: Estimate,
+    pub rms_height: Moment,
     /// Rms gradient ⟨∇z⟩.
-    pub rms_gradient: Estimate,
+    pub rms_gradient: Moment,
     /// Product h⟨∇z⟩, m, to which κ² is proportional. Its error is not that of independent factors.
-    pub height_gradient: Estimate,
+    pub height_gradient: Moment,
     /// Elastic energy of full contact over the effective modulus, e_el/E*, m.
-    pub energy_per_modulus: Estimate,
+    pub energy_per_modulus: Moment,
 }
 
 impl LineMoments {
     /// Moments of a cut through the same surface: a measured profile.
     #[must_use]
     pub fn of_cut(self) -> LineMoments {
-        let divided =
-            |estimate: Estimate, by: f64| Estimate { value: estimate.value / by, error: estimate.error / by };
         LineMoments {
             rms_height: self.rms_height,
-            rms_gradient: divided(self.rms_gradient, SQRT_2),
-            height_gradient: divided(self.height_gradient, SQRT_2),
-            energy_per_modulus: divided(self.energy_per_modulus, FRAC_PI_2),
+            rms_gradient: self.rms_gradient.power(FRAC_1_SQRT_2, 1.0),
+            height_gradient: self.height_gradient.power(FRAC_1_SQRT_2, 1.0),
+            energy_per_modulus: self.energy_per_modulus.power(FRAC_2_PI, 1.0),
         }
     }
 }
@@ -149,6 +183,10 @@ pub struct IsotropicSpectrum {
     pub(super) values: Vec<f64>,
     /// Information matrix of the values.
     pub(super) information: Cholesky,
+    /// Relative errors of ∫ q^power C2D dq, power = 1, 2, 3, by the method.
+    pub(super) method: [f64; 3],
+    /// Relative changes of these integrals by short waves that may be missing.
+    pub(super) missing: [f64; 3],
 }
 
 impl IsotropicSpectrum {
@@ -203,7 +241,9 @@ impl IsotropicSpectrum {
         let mut uniform = || ((generator.next_u64() >> 11) + 1) as f64 / (1_u64 << 53) as f64;
         let mut normal = || (-2.0 * uniform().ln()).sqrt() * (TAU * uniform()).cos();
         let steps = self.information.solve_transposed(self.values.iter().map(|_| normal()).collect());
-        let values = self.values.iter().zip(steps).map(|(value, step)| value + share * step).collect();
+        // The error of the method moves all values alike.
+        let common = normal() * self.method.into_iter().fold(0.0, f64::max);
+        let values = self.values.iter().zip(steps).map(|(value, step)| value + share * (step + common)).collect();
         IsotropicSpectrum { values, ..self.clone() }
     }
 
@@ -227,6 +267,22 @@ impl IsotropicSpectrum {
         (sum, gradient)
     }
 
+    /// ∫ q^power C2D dq, power = 1, 2, 3, of the equivalent line.
+    pub(super) fn integrals(&self) -> [f64; 3] {
+        [1, 2, 3].map(|power| self.moment(power, 0.5 * self.nodes.wave_number(0)).0)
+    }
+
+    /// Relative changes of these integrals in another spectrum.
+    pub(super) fn changes(&self, other: &IsotropicSpectrum) -> [f64; 3] {
+        let (here, there) = (self.integrals(), other.integrals());
+        [0, 1, 2].map(|index| there[index] / here[index] - 1.0)
+    }
+
+    /// The spectrum up to a wave number, rad/m.
+    pub(super) fn until(&self, end: f64) -> IsotropicSpectrum {
+        IsotropicSpectrum { nodes: Nodes { end, ..self.nodes }, ..self.clone() }
+    }
+
     /// Moments of the equivalent line, with waves from half the first wave number on.
     #[must_use]
     pub fn line_moments(&self) -> LineMoments {
@@ -241,34 +297,31 @@ pub(crate) fn line_moments(faces: &[IsotropicSpectrum]) -> LineMoments {
     let from = faces.iter().map(|face| 0.5 * face.nodes.wave_number(0)).fold(0.0, f64::max);
     let moments = |power: i32| faces.iter().map(|face| face.moment(power, from)).collect::<Vec<_>>();
     let sum = |moments: &[(f64, Vec<f64>)]| moments.iter().map(|(sum, _)| sum).sum::<f64>();
-    let variance = |face: &IsotropicSpectrum, gradient: &[f64]| face.information.variance(gradient);
-    let estimate = |moments: &[(f64, Vec<f64>)], factor: f64, root: bool| {
-        let each = faces.iter().zip(moments).map(|(face, (_, gradient))| variance(face, gradient));
-        let sum = sum(moments);
-        let relative = each.sum::<f64>().sqrt() / sum;
-        if root {
-            let value = (factor * sum).sqrt();
-            Estimate { value, error: 0.5 * relative * value }
-        } else {
-            Estimate { value: factor * sum, error: relative * factor * sum }
+    let all = [1, 2, 3].map(moments);
+    let totals = [0, 1, 2].map(|index| sum(&all[index]));
+    // The product of powers of two of the integrals; faces are independent.
+    let product = |[first, second]: [usize; 2], factor: f64, exponent: f64| {
+        let (mut statistical, mut method, mut missing) = (0.0, 0.0, [1.0; 2]);
+        for (number, face) in faces.iter().enumerate() {
+            let share = |index: usize| all[index][number].0 / totals[index];
+            let gradients = all[first][number].1.iter().zip(&all[second][number].1);
+            let logarithm: Vec<f64> = gradients.map(|(a, b)| a / totals[first] + b / totals[second]).collect();
+            statistical += face.information.variance(&logarithm);
+            method += [first, second].map(|index| share(index) * face.method[index]).iter().sum::<f64>().powi(2);
+            for (missing, index) in missing.iter_mut().zip([first, second]) {
+                *missing += share(index) * face.missing[index];
+            }
         }
+        let value = totals[first] * totals[second];
+        let whole = Moment::new(value, statistical.sqrt(), method.sqrt(), missing[0] * missing[1] - 1.0);
+        whole.power(factor, 0.5 * exponent)
     };
     let two_pi = 0.5 / PI;
-    let (heights, gradients) = (moments(1), moments(3));
-    let (rms_height, rms_gradient) = (estimate(&heights, two_pi, true), estimate(&gradients, two_pi, true));
-    let totals = (sum(&heights), sum(&gradients));
-    let both = heights.iter().zip(&gradients).zip(faces).map(|((height, gradient), face)| {
-        let terms = height.1.iter().zip(&gradient.1);
-        let logarithm: Vec<f64> = terms.map(|(a, b)| 0.5 * (a / totals.0 + b / totals.1)).collect();
-        variance(face, &logarithm)
-    });
-    let product = rms_height.value * rms_gradient.value;
-    let error = product * both.sum::<f64>().sqrt();
     LineMoments {
-        rms_height,
-        rms_gradient,
-        height_gradient: Estimate { value: product, error },
-        energy_per_modulus: estimate(&moments(2), 0.25 * two_pi, false),
+        rms_height: product([0, 0], two_pi.sqrt(), 0.5),
+        rms_gradient: product([2, 2], two_pi.sqrt(), 0.5),
+        height_gradient: product([0, 2], two_pi, 1.0),
+        energy_per_modulus: product([1, 1], 0.25 * two_pi, 1.0),
     }
 }
 
@@ -281,7 +334,8 @@ pub(super) mod tests {
         let values = (0..nodes.count).map(|index| c2d(nodes.wave_number(index)).ln()).collect();
         let mut identity = vec![0.0; nodes.count * nodes.count];
         (0..nodes.count).for_each(|index| identity[index * (nodes.count + 1)] = 1.0);
-        IsotropicSpectrum { nodes, values, information: Cholesky::new(identity, nodes.count).unwrap() }
+        let information = Cholesky::new(identity, nodes.count).unwrap();
+        IsotropicSpectrum { nodes, values, information, method: [0.0; 3], missing: [0.0; 3] }
     }
 
     #[test]

@@ -6,6 +6,7 @@ use realfft::RealFftPlanner;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
+use std::ops::RangeInclusive;
 
 /// Bins per decade of wave numbers for display.
 const BINS_PER_DECADE: f64 = 10.0;
@@ -126,6 +127,46 @@ pub(super) struct MapPower {
     /// Wave number and C2D, m⁴, of the waves of half the plane up to the smaller of the Nyquist wave numbers,
     /// sorted by wave number.
     pub waves: Vec<(f64, f64)>,
+    /// True if waves along one axis alone are left out, because rows or columns are offset against each other, or were levelled
+    /// one by one.
+    pub offsets: bool,
+}
+
+/// Shortest waves along an axis that are compared with their neighbours, over the number of points.
+const SHORT: f64 = 1.0 / 16.0;
+
+/// Range of the power of waves along an axis, over that of their neighbours, of a surface without offsets.
+const ALIKE: RangeInclusive<f64> = 0.5..=2.0;
+
+/// Range of the share of the squared gradient in which they are left out: below they do not matter, above they are the surface.
+const OFFSETS: RangeInclusive<f64> = 1e-3..=0.25;
+
+/// Waves along one axis, beside which offsets of rows or columns have no power.
+#[derive(Default)]
+struct AxisPower {
+    waves: Vec<(f64, f64)>,
+    /// Squared gradient and number of short waves along the axis, and of their neighbours in the plane.
+    on: (f64, f64),
+    near: (f64, f64),
+}
+
+fn square((q, power): &(f64, f64)) -> f64 {
+    q * q * power
+}
+
+impl AxisPower {
+    fn compare(&mut self, across: f64, reach: f64, wave: (f64, f64)) {
+        let sum = if across <= reach { &mut self.on } else { &mut self.near };
+        if across <= reach || (3.0..=8.0).contains(&across) {
+            *sum = (sum.0 + square(&wave), sum.1 + 1.0);
+        }
+    }
+
+    /// Returns true if the waves stand out from their neighbours and matter for the squared gradient of the map.
+    fn is_apart(&self, gradient: f64) -> bool {
+        let expected = self.near.0 / self.near.1 * self.on.1;
+        !ALIKE.contains(&(self.on.0 / expected)) && OFFSETS.contains(&((self.on.0 - expected).abs() / gradient))
+    }
 }
 
 impl MapPower {
@@ -152,6 +193,8 @@ impl MapPower {
         let row_window = window(rows, windowed);
         let mut waves = Vec::new();
         waves.try_reserve_exact(half * rows).map_err(out_of_memory)?;
+        let mut axes = [0, 1].map(|_| AxisPower::default());
+        let reach = if windowed { 1.0 } else { 0.0 };
         for x in 0..half {
             for (y, value) in column.iter_mut().enumerate() {
                 *value = coefficients[y * half + x] * row_window[y];
@@ -162,13 +205,27 @@ impl MapPower {
                 // Waves and their mirror images have equal power: only one of them counts.
                 let is_first = x > 0 || y > 0.0;
                 let q = (x as f64 * steps[0]).hypot(y * steps[1]);
-                if is_first && q < largest {
-                    waves.push((q, scale * value.norm_sqr()));
+                if !is_first || q >= largest {
+                    continue;
+                }
+                let wave = (q, scale * value.norm_sqr());
+                let places = [(x as f64, y.abs() / rows as f64), (y.abs(), x as f64 / columns as f64)];
+                for (axis, (across, along)) in axes.iter_mut().zip(places).filter(|(_, place)| place.1 >= SHORT) {
+                    axis.compare(across, reach, wave);
+                }
+                match axes.iter_mut().zip(places).find(|(_, (across, _))| *across <= reach) {
+                    Some((axis, _)) => axis.waves.push(wave),
+                    None => waves.push(wave),
                 }
             }
         }
+        let gradient: f64 = waves.iter().chain(axes.iter().flat_map(|axis| &axis.waves)).map(square).sum();
+        let mut offsets = false;
+        for axis in axes {
+            if axis.is_apart(gradient) { offsets = true } else { waves.extend(axis.waves) }
+        }
         waves.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        Ok(MapPower { windowed, steps, sampling: [TAU / along, TAU / between], waves })
+        Ok(MapPower { windowed, steps, sampling: [TAU / along, TAU / between], waves, offsets })
     }
 }
 

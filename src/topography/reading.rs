@@ -177,11 +177,12 @@ impl Reading {
             || grid.in_metres(format, lateral_unit, options),
         );
         let (missing, grid) = (missing?, grid?);
+        let mut interpolated = Vec::new();
         if missing > 0 {
             let columns = if let Grid::Map { columns, .. } = grid { columns } else { heights.len() };
-            missing::interpolate(&mut heights, columns)?;
+            interpolated = missing::interpolate(&mut heights, columns)?;
         }
-        Topography::new(format, heights, grid, missing)
+        Topography::new(format, heights, grid, interpolated)
     }
 }
 
