@@ -21,6 +21,9 @@ const NEGLIGIBLE: f64 = 1e-4;
 /// Largest ratio of the powers beyond the end of the spectrum to those of as many waves before.
 const DROP: f64 = 0.03;
 
+/// Waves before an end inside the scan that the self-affine fit leaves out.
+const BEFORE_END: f64 = 4.0;
+
 /// Wave numbers to which a spectrum without an end may continue, over the last resolved one.
 const CONTINUED: f64 = 4.0;
 
@@ -130,6 +133,16 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         let all = isotropic.changes(&longer);
         isotropic.missing = [0, 1, 2].map(|index| within[index].abs().max(all[index].abs()));
     }
+    let apart = powers.maps.iter().map(|map| map.apart).fold(0.0, f64::max);
+    isotropic.method.iter_mut().for_each(|error| *error = error.hypot(apart));
+    let power_law = if range[1] < resolved {
+        // The powers of the last waves depend on how the spectrum ends.
+        let before = |observed: &&Observation| observed.wave_number < range[1] - BEFORE_END * range[0];
+        let before: Vec<Observation> = observations.iter().filter(before).cloned().collect();
+        power_law::fit(&Model::new(&before, range, options.end), &isotropic)
+    } else {
+        power_law::fit(&model, &isotropic)
+    };
     let line = isotropic.line_moments();
     let values = [line.rms_height, line.rms_gradient, line.energy_per_modulus];
     if values.iter().any(|estimate| !(estimate.value.is_finite() && estimate.error.is_finite())) {
@@ -138,7 +151,7 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     Ok(Analysis {
         statistics: sums.statistics(),
         spectra: powers.spectra(),
-        power_law: power_law::fit(&model),
+        power_law,
         isotropic,
         line,
         reliability_cutoff: reliability,
@@ -231,7 +244,7 @@ impl Powers {
         });
         let maps = self.maps.iter().map(|map| {
             let step = map.steps[0].min(map.steps[1]);
-            [step, last(&map.waves) + 0.5 * step]
+            [step, last(&map.waves)]
         });
         profiles.chain(maps).fold([f64::INFINITY, 0.0], |[low, high], [a, b]| [low.min(a), high.max(b)])
     }

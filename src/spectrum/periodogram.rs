@@ -130,16 +130,25 @@ pub(super) struct MapPower {
     /// True if waves along one axis alone are left out, because rows or columns are offset against each other, or were levelled
     /// one by one.
     pub offsets: bool,
+    /// Largest share of the squared gradient by which the waves along an axis, not left out, depart from their neighbours.
+    pub apart: f64,
 }
 
 /// Shortest waves along an axis that are compared with their neighbours, over the number of points.
-const SHORT: f64 = 1.0 / 16.0;
+const SHORT: f64 = 1.0 / 8.0;
 
-/// Range of the power of waves along an axis, over that of their neighbours, of a surface without offsets.
-const ALIKE: RangeInclusive<f64> = 0.5..=2.0;
+/// Departure of the mean power of n waves along an axis from that of their neighbours, relative and times √n, that is no
+/// chance: about four standard deviations under a window.
+const NO_CHANCE: f64 = 12.0;
 
-/// Range of the share of the squared gradient in which they are left out: below they do not matter, above they are the surface.
-const OFFSETS: RangeInclusive<f64> = 1e-3..=0.25;
+/// Neighbours: waves with so many periods across the axis. From both groups the power on the axis of an anisotropic surface, even
+/// in their number x, is extrapolated as a + bx².
+const NEAR: [RangeInclusive<f64>; 2] = [3.0..=5.0, 6.0..=8.0];
+const EXTRAPOLATED: f64 = 0.486;
+
+/// Share of the squared gradient from which on the departure matters, and from which on it is taken for the surface itself.
+const NEGLIGIBLE_OFFSETS: f64 = 1e-3;
+const LARGEST_OFFSETS: f64 = 0.25;
 
 /// Waves along one axis, beside which offsets of rows or columns have no power.
 #[derive(Default)]
@@ -147,7 +156,7 @@ struct AxisPower {
     waves: Vec<(f64, f64)>,
     /// Squared gradient and number of short waves along the axis, and of their neighbours in the plane.
     on: (f64, f64),
-    near: (f64, f64),
+    near: [(f64, f64); 2],
 }
 
 fn square((q, power): &(f64, f64)) -> f64 {
@@ -156,16 +165,19 @@ fn square((q, power): &(f64, f64)) -> f64 {
 
 impl AxisPower {
     fn compare(&mut self, across: f64, reach: f64, wave: (f64, f64)) {
-        let sum = if across <= reach { &mut self.on } else { &mut self.near };
-        if across <= reach || (3.0..=8.0).contains(&across) {
+        let ranges = [0.0..=reach].into_iter().chain(NEAR);
+        let sums = [&mut self.on].into_iter().chain(&mut self.near).zip(ranges);
+        for (sum, _) in sums.filter(|(_, range)| range.contains(&across)) {
             *sum = (sum.0 + square(&wave), sum.1 + 1.0);
         }
     }
 
-    /// Returns true if the waves stand out from their neighbours and matter for the squared gradient of the map.
-    fn is_apart(&self, gradient: f64) -> bool {
-        let expected = self.near.0 / self.near.1 * self.on.1;
-        !ALIKE.contains(&(self.on.0 / expected)) && OFFSETS.contains(&((self.on.0 - expected).abs() / gradient))
+    /// Squared gradient by which the waves along the axis depart from their neighbours; zero if that is chance.
+    fn departure(&self) -> f64 {
+        let [near, farther] = self.near.map(|(sum, waves)| sum / waves);
+        let expected = (near + EXTRAPOLATED * (near - farther)) * self.on.1;
+        let apart = (self.on.0 - expected).abs();
+        if apart * self.on.1.sqrt() > NO_CHANCE * expected.abs() { apart } else { 0.0 }
     }
 }
 
@@ -220,12 +232,18 @@ impl MapPower {
             }
         }
         let gradient: f64 = waves.iter().chain(axes.iter().flat_map(|axis| &axis.waves)).map(square).sum();
-        let mut offsets = false;
+        let (mut offsets, mut apart) = (false, 0.0_f64);
         for axis in axes {
-            if axis.is_apart(gradient) { offsets = true } else { waves.extend(axis.waves) }
+            let share = axis.departure() / gradient;
+            if (NEGLIGIBLE_OFFSETS..LARGEST_OFFSETS).contains(&share) {
+                offsets = true;
+            } else {
+                apart = apart.max(share);
+                waves.extend(axis.waves);
+            }
         }
         waves.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        Ok(MapPower { windowed, steps, sampling: [TAU / along, TAU / between], waves, offsets })
+        Ok(MapPower { windowed, steps, sampling: [TAU / along, TAU / between], waves, offsets, apart })
     }
 }
 
