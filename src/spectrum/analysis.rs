@@ -12,9 +12,6 @@ use super::statistics::{Statistics, Sums};
 use crate::topography::Topography;
 use std::f64::consts::{PI, TAU};
 
-/// Number of profiles from which on the moments are as accurate as those of a map.
-const MANY_PROFILES: u64 = 100;
-
 /// Share of the squared gradient that may be beyond the end of the spectrum.
 const NEGLIGIBLE: f64 = 1e-4;
 
@@ -70,6 +67,9 @@ pub struct Analysis {
     /// True if waves along one axis of a map alone are left out, because its rows or columns are offset against each other or
     /// were levelled one by one.
     pub offsets: bool,
+    /// Share of the squared gradient by which the waves along one axis depart from their neighbours in the plane although they
+    /// are not left out; 0 for chance.
+    pub apart: f64,
 }
 
 /// Powers of all surfaces, profiles of equal points together.
@@ -110,7 +110,8 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         length = length.max(columns as f64 * distances[0]);
         spacing = spacing.min(distances[0]).min(distances[1]);
     }
-    let (range, resolved) = (powers.range(last_significant), powers.range(|waves| waves.last().map_or(0.0, |(q, _)| *q))[1]);
+    let (range, resolved) =
+        (powers.range(last_significant), powers.range(|waves| waves.last().map_or(0.0, |(q, _)| *q))[1]);
     let observations = powers.observations(range[1]);
     if let End::Continues(to) = options.end
         && (to <= range[1] || to.is_nan())
@@ -135,7 +136,9 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     }
     let apart = powers.maps.iter().map(|map| map.apart).fold(0.0, f64::max);
     isotropic.method.iter_mut().for_each(|error| *error = error.hypot(apart));
-    let power_law = if range[1] < resolved {
+    let power_law = if apart > 0.0 {
+        None
+    } else if range[1] < resolved {
         // The powers of the last waves depend on how the spectrum ends.
         let before = |observed: &&Observation| observed.wave_number < range[1] - BEFORE_END * range[0];
         let before: Vec<Observation> = observations.iter().filter(before).cloned().collect();
@@ -162,6 +165,7 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         end: options.end,
         ends_inside: range[1] < resolved,
         offsets: powers.maps.iter().any(|map| map.offsets),
+        apart,
     })
 }
 
@@ -183,7 +187,11 @@ fn interpolated_again(
     fitted(&powers.observations(range[1]), range, options.end)
 }
 
-fn fitted(observations: &[Observation], range: [f64; 2], end: End) -> Result<IsotropicSpectrum, SpectrumError> {
+fn fitted(
+    observations: &[Observation],
+    range: [f64; 2],
+    end: End,
+) -> Result<IsotropicSpectrum, SpectrumError> {
     Model::new(observations, range, end).fit().ok_or(SpectrumError::NoMaximum)
 }
 
@@ -239,7 +247,8 @@ impl Powers {
     fn range(&self, last: impl Fn(&[(f64, f64)]) -> f64) -> [f64; 2] {
         let profiles = self.profiles.iter().map(|power| {
             let step = power.step();
-            let waves: Vec<_> = (1..).zip(&power.power).map(|(wave, power)| (f64::from(wave) * step, *power)).collect();
+            let waves: Vec<_> =
+                (1..).zip(&power.power).map(|(wave, power)| (f64::from(wave) * step, *power)).collect();
             [step, last(&waves) + 0.5 * step]
         });
         let maps = self.maps.iter().map(|map| {
@@ -301,58 +310,10 @@ fn group(powers: &mut Vec<ProfilePower>, points: usize, spacing: f64, windowed: 
 }
 
 impl Analysis {
-    /// Returns true if a roll-off is found well inside the range of waves: then the longest waves carry little of
-    /// the height.
+    /// Share of the squared height in waves longer than a quarter of the scan, which are few.
     #[must_use]
-    pub fn has_roll_off(&self) -> bool {
-        let roll_off = self.power_law.and_then(|fit| fit.roll_off);
-        roll_off.is_some_and(|roll_off| roll_off.value >= 4.0 * TAU / self.length)
-    }
-
-    /// Accuracy of the moments of the equivalent line, from tests with generated surfaces (`docs/surfaces.md`).
-    #[must_use]
-    pub fn promise(&self) -> &'static str {
-        let many = self.maps > 0 || self.profiles >= MANY_PROFILES;
-        match (self.has_roll_off(), many) {
-            (true, true) => {
-                "rms height and rms gradient within 2 %, elastic energy within 3 % (one standard deviation)"
-            }
-            (true, false) => {
-                "rms gradient within 6 %, rms height within 16 %, elastic energy within 18 % (one standard deviation; one \
-                 profile of 256 waves with 16 lengths of the roll-off)"
-            }
-            (false, _) => {
-                "only the rms gradient: without a roll-off inside the scan the rms height depends on the length of the \
-                 scan, and scatters by up to 45 %"
-            }
-        }
-    }
-
-    /// Limits of the analysis that affect the user.
-    #[must_use]
-    pub fn warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
-        if !self.has_roll_off() {
-            warnings.push(
-                "no roll-off inside the scan: rms height and elastic energy depend on its length".to_owned(),
-            );
-        }
-        if self.maps == 0 && self.profiles < MANY_PROFILES {
-            warnings.push(
-                "adhesion near its boundary cannot be had from few profiles (a factor from 1.4 to 3.3 either way)"
-                    .to_owned(),
-            );
-        }
-        if self.end == End::Ends {
-            warnings.push(
-                "the spectrum ends at the last resolved wave; of point samples of a rougher surface the rms gradient \
-                 may be off by up to 49 %"
-                    .to_owned(),
-            );
-        }
-        if let Some(cutoff) = self.reliability_cutoff {
-            warnings.push(format!("waves below {cutoff:.3e} m may be artefacts of the tip"));
-        }
-        warnings
+    pub fn long_wave_share(&self) -> f64 {
+        let all = self.isotropic.integrals()[0];
+        1.0 - self.isotropic.moment(1, 4.0 * TAU / self.length).0 / all
     }
 }

@@ -243,7 +243,8 @@ impl IsotropicSpectrum {
         let steps = self.information.solve_transposed(self.values.iter().map(|_| normal()).collect());
         // The error of the method moves all values alike.
         let common = normal() * self.method.into_iter().fold(0.0, f64::max);
-        let values = self.values.iter().zip(steps).map(|(value, step)| value + share * (step + common)).collect();
+        let values =
+            self.values.iter().zip(steps).map(|(value, step)| value + share * (step + common)).collect();
         IsotropicSpectrum { values, ..self.clone() }
     }
 
@@ -253,7 +254,7 @@ impl IsotropicSpectrum {
     }
 
     /// ∫ q^power C2D dq over waves from a wave number on, and its derivatives by the values.
-    fn moment(&self, power: i32, from: f64) -> (f64, Vec<f64>) {
+    pub(super) fn moment(&self, power: i32, from: f64) -> (f64, Vec<f64>) {
         let (mut sum, mut gradient) = (0.0, vec![0.0; self.values.len()]);
         for (low, high) in self.nodes.pieces_from(from) {
             for (ln_q, weight) in gauss(low.ln(), high.ln()) {
@@ -305,9 +306,11 @@ pub(crate) fn line_moments(faces: &[IsotropicSpectrum]) -> LineMoments {
         for (number, face) in faces.iter().enumerate() {
             let share = |index: usize| all[index][number].0 / totals[index];
             let gradients = all[first][number].1.iter().zip(&all[second][number].1);
-            let logarithm: Vec<f64> = gradients.map(|(a, b)| a / totals[first] + b / totals[second]).collect();
+            let logarithm: Vec<f64> =
+                gradients.map(|(a, b)| a / totals[first] + b / totals[second]).collect();
             statistical += face.information.variance(&logarithm);
-            method += [first, second].map(|index| share(index) * face.method[index]).iter().sum::<f64>().powi(2);
+            method +=
+                [first, second].map(|index| share(index) * face.method[index]).iter().sum::<f64>().powi(2);
             for (missing, index) in missing.iter_mut().zip([first, second]) {
                 *missing += share(index) * face.missing[index];
             }

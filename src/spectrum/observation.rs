@@ -201,7 +201,9 @@ fn add_aliases(terms: &mut Vec<Term>, nodes: &Nodes, wave_number: f64, [x, y]: [
     let orders = || (0..=2 * MOST_ALIASES).map(|order| f64::from(order) - most);
     for (angle, weight) in gauss(0.0, FRAC_PI_2) {
         let (along, between) = (wave_number * angle.cos(), wave_number * angle.sin());
-        for (i, j) in orders().flat_map(|i| orders().map(move |j| (i, j))).filter(|order| *order != (0.0, 0.0)) {
+        for (i, j) in
+            orders().flat_map(|i| orders().map(move |j| (i, j))).filter(|order| *order != (0.0, 0.0))
+        {
             add((along + i * x).hypot(between + j * y), weight / FRAC_PI_2);
         }
     }

@@ -222,7 +222,7 @@ impl MapPower {
                 }
                 let wave = (q, scale * value.norm_sqr());
                 let places = [(x as f64, y.abs() / rows as f64), (y.abs(), x as f64 / columns as f64)];
-                for (axis, (across, along)) in axes.iter_mut().zip(places).filter(|(_, place)| place.1 >= SHORT) {
+                for (axis, (across, _)) in axes.iter_mut().zip(places).filter(|(_, place)| place.1 >= SHORT) {
                     axis.compare(across, reach, wave);
                 }
                 match axes.iter_mut().zip(places).find(|(_, (across, _))| *across <= reach) {

@@ -1,8 +1,8 @@
 //! Measured heights in m with their positions.
 
-use super::{Format, missing};
 use super::error::{Place, TopographyError, gathered, refused};
 use super::reading::LARGEST;
+use super::{Format, missing};
 
 /// Share of the distance between points by which points of an even grid may be displaced due to rounding.
 pub(crate) const UNEVEN: f64 = 1.0e-3;
@@ -179,8 +179,11 @@ impl Topography {
             Cut::Column(_) => (index, columns, rows, between),
         };
         let heights = gathered(points, self.heights.iter().skip(first).step_by(step).take(points).copied())?;
-        let place = |index: &usize| index.checked_sub(first).filter(|index| index % step == 0).map(|index| index / step);
-        let interpolated = self.interpolated.iter().filter_map(place).filter(|place| *place < points).collect();
+        let place = |index: &usize| {
+            index.checked_sub(first).filter(|index| index % step == 0).map(|index| index / step)
+        };
+        let interpolated =
+            self.interpolated.iter().filter_map(place).filter(|place| *place < points).collect();
         Ok(Topography { heights, grid: Grid::Profile { spacing }, interpolated, ..self })
     }
 
@@ -266,7 +269,8 @@ mod tests {
     use super::*;
 
     fn profile(positions: &[f64], heights: &[f64]) -> Topography {
-        Topography::new(Format::Columns, heights.to_vec(), Grid::Positions(positions.to_vec()), Vec::new()).unwrap()
+        Topography::new(Format::Columns, heights.to_vec(), Grid::Positions(positions.to_vec()), Vec::new())
+            .unwrap()
     }
 
     #[test]
@@ -284,7 +288,8 @@ mod tests {
     fn rows_and_columns_of_a_map_are_profiles() {
         let map = || {
             let heights = (0..6).map(f64::from).collect();
-            Topography::new(Format::Npy, heights, Grid::Map { columns: 3, spacing: [1.0, 2.0] }, vec![]).unwrap()
+            Topography::new(Format::Npy, heights, Grid::Map { columns: 3, spacing: [1.0, 2.0] }, vec![])
+                .unwrap()
         };
         let row = map().cut(Cut::Row(2)).unwrap();
         assert_eq!((row.heights(), row.spacing()), (&[3.0, 4.0, 5.0][..], Ok([1.0; 2])));

@@ -12,7 +12,7 @@ use crate::explorer::view::plot;
 use crate::explorer::view::wrap::{filled, wrapped};
 use crate::export::measured_adhesion_text;
 use crate::scene::format_quantity;
-use crate::spectrum::Estimate;
+use crate::spectrum::Moment;
 use crate::text::per_cent;
 use ratatui::Frame;
 use ratatui::layout::Rect;
@@ -76,7 +76,7 @@ fn words(model: &Model, shown: Option<&SceneSpectra>) -> Vec<String> {
     let mut words: Vec<String> = shown.missing.clone().into_iter().collect();
     let governing = model.governing();
     if let (Some(moments), Some(governing)) = (shown.moments, governing) {
-        let percent = |estimate: Estimate| per_cent(estimate.error / estimate.value.abs());
+        let percent = |moment: Moment| per_cent(moment.error / moment.value);
         let mut parts = vec![
             format!("h ± {}", percent(moments.rms_height)),
             format!("⟨∇z⟩ ± {}", percent(moments.rms_gradient)),
