@@ -300,10 +300,8 @@ fn measured(sheet: &mut Sheet, analysis: &Analysis) {
 
 /// Moments with their errors, a column for each kind.
 fn line(sheet: &mut Sheet, moments: &LineMoments, contact: Option<SurfaceContact>) {
-    let cells = |[value, statistical, method, missing]: [&str; 4]| {
-        format!("{value:12}{statistical:13}{method:10}{missing}")
-    };
-    sheet.row("", cells(["value", "statistical", "method", "missing short waves"]));
+    let heading = ["", "value", "statistical", "method", "missing short waves"].map(str::to_owned);
+    let mut rows = vec![heading];
     let mut row = |label: &str, moment: Option<Moment>, unit: &str| {
         let Some(moment) = moment else { return };
         let share = |error: f64| per_cent(error / moment.value);
@@ -313,7 +311,14 @@ fn line(sheet: &mut Sheet, moments: &LineMoments, contact: Option<SurfaceContact
             0.0 => "none".to_owned(),
             change => format!("up to {}", share(change)),
         };
-        sheet.row(label, cells([&format_quantity(moment.value, unit), &statistical, &method, &missing]));
+        // As wide as the labels of the other rows.
+        rows.push([
+            format!("  {label:22}"),
+            format_quantity(moment.value, unit),
+            statistical,
+            method,
+            missing,
+        ]);
     };
     row("rms height h", Some(moments.rms_height), "m");
     row("rms gradient ⟨∇z⟩", Some(moments.rms_gradient), "1");
@@ -325,6 +330,7 @@ fn line(sheet: &mut Sheet, moments: &LineMoments, contact: Option<SurfaceContact
             row("e_el/γ", contact.energy_ratio(moments), "1");
         }
     }
+    sheet.table(&rows);
 }
 
 /// Limits of an analysis that affect the user.
