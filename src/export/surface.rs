@@ -87,17 +87,17 @@ pub struct SurfaceContact {
 impl SurfaceContact {
     /// Elastic energy of full contact, J/m².
     fn elastic_energy(self, moments: &LineMoments) -> Moment {
-        moments.energy_per_modulus.power(self.modulus, 1.0)
+        moments.energy_per_modulus.scaled(self.modulus)
     }
 
     /// κ = √(h⟨∇z⟩E*/γ), with half the relative error of h⟨∇z⟩.
     fn kappa(self, moments: &LineMoments) -> Option<Moment> {
-        Some(moments.height_gradient.power((self.modulus / self.work?).sqrt(), 0.5))
+        Some(moments.height_gradient.scaled(self.modulus).scaled(1.0 / self.work?).root())
     }
 
     /// Elastic energy of full contact over the work of adhesion.
     fn energy_ratio(self, moments: &LineMoments) -> Option<Moment> {
-        Some(moments.energy_per_modulus.power(self.modulus / self.work?, 1.0))
+        Some(self.elastic_energy(moments).scaled(1.0 / self.work?))
     }
 }
 

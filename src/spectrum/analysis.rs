@@ -129,10 +129,13 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         isotropic.method.iter_mut().zip(largest).for_each(|(error, change)| *error = error.hypot(change));
     }
     if options.end == End::Ends && range[1] >= resolved {
-        let longer = fitted(&observations, range, End::Continues(CONTINUED * range[1]))?;
-        let within = isotropic.changes(&longer.until(range[1]));
-        let all = isotropic.changes(&longer);
-        isotropic.missing = [0, 1, 2].map(|index| within[index].abs().max(all[index].abs()));
+        // Without such a fit nothing is known of the missing waves.
+        let change = |longer: IsotropicSpectrum| {
+            let (within, all) = (isotropic.changes(&longer.until(range[1])), isotropic.changes(&longer));
+            [0, 1, 2].map(|index| within[index].abs().max(all[index].abs()))
+        };
+        let longer = fitted(&observations, range, End::Continues(CONTINUED * range[1]));
+        isotropic.missing = longer.map_or([f64::INFINITY; 3], change);
     }
     let apart = powers.maps.iter().map(|map| map.apart).fold(0.0, f64::max);
     isotropic.method.iter_mut().for_each(|error| *error = error.hypot(apart));

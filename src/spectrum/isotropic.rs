@@ -81,13 +81,21 @@ impl Moment {
         Moment { value, error: statistical.hypot(method), statistical, method, missing_short_waves }
     }
 
-    /// A factor times a power of the value.
+    /// The value times a factor.
     #[must_use]
-    pub fn power(self, factor: f64, exponent: f64) -> Self {
-        let relative = |error: f64| exponent * error / self.value;
-        let missing = (1.0 + self.missing_short_waves / self.value).powf(exponent) - 1.0;
-        let value = factor * self.value.powf(exponent);
-        Moment::new(value, relative(self.statistical), relative(self.method), missing)
+    pub fn scaled(self, factor: f64) -> Self {
+        let relative = |error: f64| error / self.value;
+        let [statistical, method, missing] =
+            [self.statistical, self.method, self.missing_short_waves].map(relative);
+        Moment::new(factor * self.value, statistical, method, missing)
+    }
+
+    /// The square root of the value.
+    #[must_use]
+    pub fn root(self) -> Self {
+        let relative = |error: f64| 0.5 * error / self.value;
+        let missing = (1.0 + self.missing_short_waves / self.value).sqrt() - 1.0;
+        Moment::new(self.value.sqrt(), relative(self.statistical), relative(self.method), missing)
     }
 }
 
@@ -110,9 +118,9 @@ impl LineMoments {
     pub fn of_cut(self) -> LineMoments {
         LineMoments {
             rms_height: self.rms_height,
-            rms_gradient: self.rms_gradient.power(FRAC_1_SQRT_2, 1.0),
-            height_gradient: self.height_gradient.power(FRAC_1_SQRT_2, 1.0),
-            energy_per_modulus: self.energy_per_modulus.power(FRAC_2_PI, 1.0),
+            rms_gradient: self.rms_gradient.scaled(FRAC_1_SQRT_2),
+            height_gradient: self.height_gradient.scaled(FRAC_1_SQRT_2),
+            energy_per_modulus: self.energy_per_modulus.scaled(FRAC_2_PI),
         }
     }
 }
@@ -300,31 +308,33 @@ pub(crate) fn line_moments(faces: &[IsotropicSpectrum]) -> LineMoments {
     let sum = |moments: &[(f64, Vec<f64>)]| moments.iter().map(|(sum, _)| sum).sum::<f64>();
     let all = [1, 2, 3].map(moments);
     let totals = [0, 1, 2].map(|index| sum(&all[index]));
-    // The product of powers of two of the integrals; faces are independent.
-    let product = |[first, second]: [usize; 2], factor: f64, exponent: f64| {
-        let (mut statistical, mut method, mut missing) = (0.0, 0.0, [1.0; 2]);
+    // A value proportional to the product of powers of the integrals; faces are independent.
+    let moment = |value: f64, exponents: [f64; 3]| {
+        let (mut statistical, mut method, mut missing) = (0.0, 0.0, [1.0; 3]);
         for (number, face) in faces.iter().enumerate() {
-            let share = |index: usize| all[index][number].0 / totals[index];
-            let gradients = all[first][number].1.iter().zip(&all[second][number].1);
-            let logarithm: Vec<f64> =
-                gradients.map(|(a, b)| a / totals[first] + b / totals[second]).collect();
-            statistical += face.information.variance(&logarithm);
-            method +=
-                [first, second].map(|index| share(index) * face.method[index]).iter().sum::<f64>().powi(2);
-            for (missing, index) in missing.iter_mut().zip([first, second]) {
-                *missing += share(index) * face.missing[index];
+            let (mut logarithm, mut departure) = (vec![0.0; face.values.len()], 0.0);
+            for (index, exponent) in exponents.into_iter().enumerate() {
+                let (integral, gradient) = &all[index][number];
+                for (sum, slope) in logarithm.iter_mut().zip(gradient) {
+                    *sum += exponent * slope / totals[index];
+                }
+                departure += exponent * face.method[index] * integral / totals[index];
+                missing[index] += face.missing[index] * integral / totals[index];
             }
+            statistical += face.information.variance(&logarithm);
+            method += departure * departure;
         }
-        let value = totals[first] * totals[second];
-        let whole = Moment::new(value, statistical.sqrt(), method.sqrt(), missing[0] * missing[1] - 1.0);
-        whole.power(factor, 0.5 * exponent)
+        let changed: f64 =
+            missing.into_iter().zip(exponents).map(|(change, power)| change.powf(power)).product();
+        Moment::new(value, statistical.sqrt(), method.sqrt(), changed - 1.0)
     };
     let two_pi = 0.5 / PI;
+    let (height, gradient) = ((two_pi * totals[0]).sqrt(), (two_pi * totals[2]).sqrt());
     LineMoments {
-        rms_height: product([0, 0], two_pi.sqrt(), 0.5),
-        rms_gradient: product([2, 2], two_pi.sqrt(), 0.5),
-        height_gradient: product([0, 2], two_pi, 1.0),
-        energy_per_modulus: product([1, 1], 0.25 * two_pi, 1.0),
+        rms_height: moment(height, [0.5, 0.0, 0.0]),
+        rms_gradient: moment(gradient, [0.0, 0.0, 0.5]),
+        height_gradient: moment(height * gradient, [0.5, 0.0, 0.5]),
+        energy_per_modulus: moment(0.25 * two_pi * totals[1], [0.0, 1.0, 0.0]),
     }
 }
 
@@ -381,7 +391,7 @@ pub(super) mod tests {
         let expected = ((15.0 / 64.0 + 99.0) / (2.0 * PI)).sqrt();
         assert!((moments.rms_gradient.value / expected - 1.0).abs() < 1e-8);
         // The error of a product is at most the sum of those of its factors, and at least their difference.
-        let relative = |estimate: Estimate| estimate.error / estimate.value;
+        let relative = |moment: Moment| moment.error / moment.value;
         let (height, gradient) = (relative(moments.rms_height), relative(moments.rms_gradient));
         let product = relative(moments.height_gradient);
         assert!(product <= height + gradient && product >= (height - gradient).abs(), "{moments:?}");
