@@ -18,6 +18,9 @@ const NEGLIGIBLE: f64 = 1e-4;
 /// Largest ratio of the powers beyond the end of the spectrum to those of as many waves before.
 const DROP: f64 = 0.03;
 
+/// Least ratio of length and width of a map whose longest waves are those along its length.
+const NARROW: f64 = 2.0;
+
 /// Waves before an end inside the scan that the self-affine fit leaves out.
 const BEFORE_END: f64 = 4.0;
 
@@ -77,6 +80,8 @@ pub struct Analysis {
 struct Powers {
     profiles: Vec<ProfilePower>,
     maps: Vec<MapPower>,
+    /// Powers along long and narrow maps, with the wave number, rad/m, below which the powers of the map are not used.
+    strips: Vec<(ProfilePower, f64)>,
     /// Powers along the rows and the columns of maps, for display.
     rows: Vec<ProfilePower>,
     columns: Vec<ProfilePower>,
@@ -110,25 +115,40 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         length = length.max(columns as f64 * distances[0]);
         spacing = spacing.min(distances[0]).min(distances[1]);
     }
-    let (range, resolved) =
-        (powers.range(last_significant), powers.range(|waves| waves.last().map_or(0.0, |(q, _)| *q))[1]);
+    let (range, resolved) = (powers.range(last_significant), powers.range(|count, _| count)[1]);
+    let ends_inside = range[1] < resolved;
     let observations = powers.observations(range[1]);
     if let End::Continues(to) = options.end
         && (to <= range[1] || to.is_nan())
     {
         return Err(SpectrumError::End { to, last: range[1] });
     }
-    let model = Model::new(&observations, range, options.end);
-    let mut isotropic = model.fit().ok_or(SpectrumError::NoMaximum)?;
-    if surfaces.iter().any(|surface| surface.interpolated() > 0) {
-        let mut largest = [0.0_f64; 3];
-        for quarters in 1..4 {
-            let changes = isotropic.changes(&interpolated_again(surfaces, options, range, quarters)?);
-            largest = [0, 1, 2].map(|index| largest[index].max(changes[index].abs()));
-        }
-        isotropic.method.iter_mut().zip(largest).for_each(|(error, change)| *error = error.hypot(change));
+    let mut isotropic = fitted(&observations, range, options.end)?;
+    let self_affine = |observations: &[Observation], spectrum: &IsotropicSpectrum| {
+        // The powers of the last waves depend on how the spectrum ends.
+        let last = if ends_inside { range[1] - BEFORE_END * range[0] } else { f64::INFINITY };
+        let before: Vec<_> = observations.iter().filter(|one| one.wave_number < last).cloned().collect();
+        power_law::fit(&Model::new(&before, range, options.end), spectrum)
+    };
+    let apart = powers.maps.iter().map(|map| map.apart).fold(0.0, f64::max);
+    let mut power_law = self_affine(&observations, &isotropic).filter(|_| apart == 0.0);
+    let mut largest = [0.0_f64; 4];
+    let places = if surfaces.iter().any(|surface| surface.interpolated() > 0) { 1..4 } else { 0..0 };
+    for quarters in places {
+        let observations = interpolated_again(surfaces, options, quarters)?.observations(range[1]);
+        let again = fitted(&observations, range, options.end)?;
+        let hurst = self_affine(&observations, &again).zip(power_law);
+        let change = hurst.map_or(0.0, |(again, before)| again.hurst.value - before.hurst.value);
+        let changes = isotropic.changes(&again).into_iter().chain([change]);
+        largest.iter_mut().zip(changes).for_each(|(largest, change)| *largest = largest.max(change.abs()));
     }
-    if options.end == End::Ends && range[1] >= resolved {
+    if let Some(fit) = &mut power_law {
+        fit.hurst.error = fit.hurst.error.hypot(largest[3]);
+    }
+    for (error, change) in isotropic.method.iter_mut().zip(largest) {
+        *error = error.hypot(change).hypot(apart);
+    }
+    if options.end == End::Ends && !ends_inside {
         // Without such a fit nothing is known of the missing waves.
         let change = |longer: IsotropicSpectrum| {
             let (within, all) = (isotropic.changes(&longer.until(range[1])), isotropic.changes(&longer));
@@ -137,18 +157,6 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         let longer = fitted(&observations, range, End::Continues(CONTINUED * range[1]));
         isotropic.missing = longer.map_or([f64::INFINITY; 3], change);
     }
-    let apart = powers.maps.iter().map(|map| map.apart).fold(0.0, f64::max);
-    isotropic.method.iter_mut().for_each(|error| *error = error.hypot(apart));
-    let power_law = if apart > 0.0 {
-        None
-    } else if range[1] < resolved {
-        // The powers of the last waves depend on how the spectrum ends.
-        let before = |observed: &&Observation| observed.wave_number < range[1] - BEFORE_END * range[0];
-        let before: Vec<Observation> = observations.iter().filter(before).cloned().collect();
-        power_law::fit(&Model::new(&before, range, options.end), &isotropic)
-    } else {
-        power_law::fit(&model, &isotropic)
-    };
     let line = isotropic.line_moments();
     let values = [line.rms_height, line.rms_gradient, line.energy_per_modulus];
     if values.iter().any(|estimate| !(estimate.value.is_finite() && estimate.error.is_finite())) {
@@ -166,19 +174,18 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         length,
         spacing,
         end: options.end,
-        ends_inside: range[1] < resolved,
+        ends_inside,
         offsets: powers.maps.iter().any(|map| map.offsets),
         apart,
     })
 }
 
-/// Spectrum of the surfaces with as many points interpolated once more.
+/// Powers of the surfaces with as many points interpolated once more.
 fn interpolated_again(
     surfaces: &[Topography],
     options: &Options,
-    range: [f64; 2],
     quarters: usize,
-) -> Result<IsotropicSpectrum, SpectrumError> {
+) -> Result<Powers, SpectrumError> {
     let mut powers = Powers::default();
     for (index, surface) in surfaces.iter().enumerate() {
         let refused = |error| SpectrumError::Surface { index, error };
@@ -187,7 +194,7 @@ fn interpolated_again(
         options.detrend.remove(&mut heights, columns);
         powers.add(&heights, columns, distances, !options.periodic)?;
     }
-    fitted(&powers.observations(range[1]), range, options.end)
+    Ok(powers)
 }
 
 fn fitted(
@@ -232,31 +239,48 @@ impl Powers {
             return group(&mut self.profiles, columns, along, windowed)
                 .add(std::iter::once(heights.iter().copied()));
         }
-        group(&mut self.rows, columns, along, windowed)
-            .add(heights.chunks_exact(columns).map(|row| row.iter().copied()))?;
-        group(&mut self.columns, rows, between, windowed)
-            .add((0..columns).map(|column| heights.iter().skip(column).step_by(columns).copied()))?;
-        self.maps.push(MapPower::new(heights, columns, [along, between], windowed)?);
+        let in_rows = || heights.chunks_exact(columns).map(|row| row.iter().copied());
+        let in_columns = || (0..columns).map(|column| heights.iter().skip(column).step_by(columns).copied());
+        group(&mut self.rows, columns, along, windowed).add(in_rows())?;
+        group(&mut self.columns, rows, between, windowed).add(in_columns())?;
+        let map = MapPower::new(heights, columns, [along, between], windowed)?;
+        let [first, second] = map.steps;
+        let mut strip = None;
+        if windowed && second >= NARROW * first {
+            strip.insert(ProfilePower::new(columns, along, windowed)).add(in_rows())?;
+        } else if windowed && first >= NARROW * second {
+            strip.insert(ProfilePower::new(rows, between, windowed)).add(in_columns())?;
+        }
+        self.strips.extend(strip.map(|power| (power, observation::least_of_map(&map))));
+        self.maps.push(map);
         Ok(())
     }
 
     fn observations(&self, last: f64) -> Vec<Observation> {
         let profiles = self.profiles.iter().flat_map(|power| observation::of_profiles(power, last));
-        profiles.chain(self.maps.iter().flat_map(|power| observation::of_map(power, last))).collect()
+        let strips = self.strips.iter().flat_map(|(power, end)| {
+            // Neighbouring rows are nearly equal in waves that long: they count as one.
+            let one = |of: Observation| Observation { waves: of.waves / power.profiles as f64, ..of };
+            observation::of_profiles(power, *end).into_iter().map(one)
+        });
+        profiles
+            .chain(strips)
+            .chain(self.maps.iter().flat_map(|power| observation::of_map(power, last)))
+            .collect()
     }
 
-    /// Wave numbers from wave 1 of the longest surface to half a wave beyond the last of the finest one, `last` of its waves
-    /// (wave number, power).
-    fn range(&self, last: impl Fn(&[(f64, f64)]) -> f64) -> [f64; 2] {
+    /// Wave numbers from wave 1 of the longest surface to half a wave beyond the last of the finest profile, or the last of the
+    /// finest map; `last` of their waves (number, wave number and power of each by its index).
+    fn range(&self, last: impl Fn(usize, &dyn Fn(usize) -> (f64, f64)) -> usize) -> [f64; 2] {
         let profiles = self.profiles.iter().map(|power| {
             let step = power.step();
-            let waves: Vec<_> =
-                (1..).zip(&power.power).map(|(wave, power)| (f64::from(wave) * step, *power)).collect();
-            [step, last(&waves) + 0.5 * step]
+            let count = last(power.power.len(), &|index| ((index + 1) as f64 * step, power.power[index]));
+            [step, (count as f64 + 0.5) * step]
         });
         let maps = self.maps.iter().map(|map| {
             let step = map.steps[0].min(map.steps[1]);
-            [step, last(&map.waves)]
+            let count = last(map.waves.len(), &|index| map.waves[index]);
+            [step, count.checked_sub(1).map_or(step, |index| map.waves[index].0)]
         });
         profiles.chain(maps).fold([f64::INFINITY, 0.0], |[low, high], [a, b]| [low.min(a), high.max(b)])
     }
@@ -284,22 +308,23 @@ impl Powers {
     }
 }
 
-/// Last of the waves (wave number, power) beyond which the others carry a negligible share of the squared gradient and
-/// powers far below those before; the last wave of all if there is no such end.
-fn last_significant(waves: &[(f64, f64)]) -> f64 {
-    let sum = |waves: &[(f64, f64)]| waves.iter().map(|(q, power)| q * q * power).sum::<f64>();
-    let negligible = NEGLIGIBLE * sum(waves);
-    let mut rest = 0.0;
-    let beyond = waves.iter().rev().take_while(|(q, power)| {
-        rest += q * q * power;
-        rest <= negligible
-    });
-    let end = waves.len() - beyond.count().min(waves.len() - 1);
-    let (before, beyond) = waves.split_at(end);
-    let as_many = &before[before.len().saturating_sub(beyond.len())..];
-    let is_end = sum(beyond) * as_many.len() as f64 <= DROP * sum(as_many) * beyond.len() as f64;
-    let last = if is_end { before.last() } else { waves.last() };
-    last.map_or(0.0, |(q, _)| *q)
+/// Number of waves (wave number and power of each by its index) beyond which the others carry a negligible share of the squared
+/// gradient and powers far below those before; all waves if there is no such end.
+fn last_significant(count: usize, wave: &dyn Fn(usize) -> (f64, f64)) -> usize {
+    let square = |index: usize| {
+        let (q, power) = wave(index);
+        q * q * power
+    };
+    let negligible = NEGLIGIBLE * (0..count).map(square).sum::<f64>();
+    let (mut end, mut rest) = (count, 0.0);
+    while end > 1 && rest + square(end - 1) <= negligible {
+        end -= 1;
+        rest += square(end);
+    }
+    let beyond = count - end;
+    let before = beyond.min(end);
+    let as_many: f64 = (end - before..end).map(square).sum();
+    if rest * before as f64 <= DROP * as_many * beyond as f64 { end } else { count }
 }
 
 /// The powers of profiles of these points, newly made if there are none yet.

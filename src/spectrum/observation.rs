@@ -82,13 +82,17 @@ pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
     observed
 }
 
+/// Smallest wave number of a map, rad/m: under a window detrending reduces waves around wave 1.
+pub(super) fn least_of_map(power: &MapPower) -> f64 {
+    if power.windowed { 2.0 * power.steps[0].max(power.steps[1]) } else { 0.0 }
+}
+
 /// Bands of the powers of a map.
 pub(super) fn of_map(power: &MapPower, last: f64) -> Vec<Observation> {
     let kind = Kind::Plane { steps: power.steps, windowed: power.windowed, sampling: power.sampling };
     let correlated = if power.windowed { HANN_CORRELATED * HANN_CORRELATED } else { 1.0 };
     let mut squares = Vec::new();
-    // Under a window detrending reduces waves around wave 1.
-    let least = if power.windowed { 2.0 * power.steps[0].max(power.steps[1]) } else { 0.0 };
+    let least = least_of_map(power);
     let mut observed: Vec<Observation> = Vec::new();
     let mut band = None;
     for (q, power) in power.waves.iter().filter(|(q, _)| *q >= least * (1.0 - 1e-9) && *q <= last) {
@@ -171,15 +175,24 @@ impl Observation {
                     add_aliases(&mut terms, nodes, self.wave_number, sampling);
                 }
                 let shares: &[(f64, f64)] = if windowed { &HANN_SHARES } else { &[(0.0, 1.0)] };
-                for (along, x) in shares {
-                    for (between, y) in shares {
-                        let q = (self.wave_number + along * steps[0]).hypot(between * steps[1]);
-                        let q = q.max(f64::MIN_POSITIVE);
-                        if q > nodes.end {
-                            continue;
+                // Waves between rows have their neighbours at the distances along them.
+                let turned = [steps[1], steps[0]];
+                let ways = if steps == turned { vec![steps] } else { vec![steps, turned] };
+                for [ahead, aside] in &ways {
+                    for ((along, x), (between, y)) in
+                        shares.iter().flat_map(|x| shares.iter().map(move |y| (x, y)))
+                    {
+                        let q =
+                            (self.wave_number + along * ahead).hypot(between * aside).max(f64::MIN_POSITIVE);
+                        if q <= nodes.end {
+                            let (index, share) = nodes.place(q.ln());
+                            terms.push(Term {
+                                weight: x * y / ways.len() as f64,
+                                ln_q: q.ln(),
+                                index,
+                                share,
+                            });
                         }
-                        let (index, share) = nodes.place(q.ln());
-                        terms.push(Term { weight: x * y, ln_q: q.ln(), index, share });
                     }
                 }
             }

@@ -245,7 +245,7 @@ mod tests {
 
     fn surface() -> Topography {
         let height =
-            |i: u32| (0..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(1 + k)).sum::<f64>();
+            |i: u32| (0..120).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(1 + k)).sum::<f64>();
         let text: String = (0..256).map(|i| format!("{i} {}\n", height(i))).collect();
         parse(format!("x [um] z [nm]\n{text}").as_bytes(), &ReadOptions::default()).unwrap()
     }
