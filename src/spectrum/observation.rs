@@ -261,6 +261,24 @@ mod tests {
     }
 
     #[test]
+    fn powers_that_differ_between_directions_count_as_fewer_waves() {
+        // Quantiles of the exponential distribution, for half of the waves times a factor.
+        let powers = |factor: f64| -> Vec<f64> {
+            let quantile = |i: u32| -((f64::from(i) + 0.5) / 2000.0).ln();
+            (0..2000).map(|i| quantile(i) * if i % 2 == 0 { factor } else { 1.0 }).collect()
+        };
+        let found = |factor: f64| {
+            let waves = powers(factor).into_iter().map(|power| (1.0, power)).collect();
+            let (steps, sampling) = ([0.1; 2], [10.0; 2]);
+            let map = MapPower { windowed: false, steps, sampling, waves, offsets: false, apart: 0.0 };
+            2000.0 / of_map(&map, 2.0)[0].waves
+        };
+        assert!((found(1.0) - 1.0).abs() < 0.01, "{}", found(1.0));
+        // Mean 5, mean square 2 (1 + 81)/2 = 82: variance over squared mean (82 − 25)/25.
+        assert!((found(9.0) - 57.0 / 25.0).abs() < 0.03, "{}", found(9.0));
+    }
+
+    #[test]
     fn cuts_of_a_power_law_have_their_closed_form() {
         // ∫ (k² + t²)^(−3/2) dt = t/(k² √(k² + t²)).
         let nodes = Nodes::new(1.0, 1000.0, 6.0, End::Ends);

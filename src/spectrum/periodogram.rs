@@ -237,9 +237,11 @@ impl MapPower {
             let share = axis.departure() / gradient;
             if (NEGLIGIBLE_OFFSETS..LARGEST_OFFSETS).contains(&share) {
                 offsets = true;
-            } else {
+                continue;
+            }
+            waves.extend(axis.waves);
+            if share >= LARGEST_OFFSETS {
                 apart = apart.max(share);
-                waves.extend(axis.waves);
             }
         }
         waves.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
