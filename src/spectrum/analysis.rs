@@ -157,13 +157,17 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         let longer = fitted(&observations, range, End::Continues(CONTINUED * range[1]));
         isotropic.missing = longer.map_or([f64::INFINITY; 3], change);
     }
+    let statistics = sums.statistics();
+    if options.end == End::Ends {
+        isotropic.check_identities(&statistics);
+    }
     let line = isotropic.line_moments();
     let values = [line.rms_height, line.rms_gradient, line.energy_per_modulus];
     if values.iter().any(|estimate| !(estimate.value.is_finite() && estimate.error.is_finite())) {
         return Err(SpectrumError::NoMaximum);
     }
     Ok(Analysis {
-        statistics: sums.statistics(),
+        statistics,
         spectra: powers.spectra(),
         power_law,
         isotropic,

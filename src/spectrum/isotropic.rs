@@ -1,10 +1,11 @@
 //! Isotropic spectra C2D(q) between nodes, and their equivalent lines.
 
 use super::linear::Cholesky;
+use super::statistics::Statistics;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
-use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, PI, TAU};
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, FRAC_PI_2, PI, SQRT_2, TAU};
 
 /// Separates this use of the random generator from others.
 const PURPOSE: &[u8; 24] = b"asperity-spectrum-draws\0";
@@ -285,6 +286,24 @@ impl IsotropicSpectrum {
     pub(super) fn changes(&self, other: &IsotropicSpectrum) -> [f64; 3] {
         let (here, there) = (self.integrals(), other.integrals());
         [0, 1, 2].map(|index| there[index] / here[index] - 1.0)
+    }
+
+    /// Adds to the errors of the method what the rms height and gradient of the line depart from those of the measured
+    /// points by more than three standard errors, as for a spike under the window.
+    pub(super) fn check_identities(&mut self, measured: &Statistics) {
+        let resolved = self.line_moments();
+        let gradient = measured.rms_gradient.unwrap_or(SQRT_2 * measured.rms_slope);
+        let departure = |moment: Moment, least: f64, most: f64| {
+            let beyond = (least - moment.value).max(moment.value - most);
+            // The squares have twice the relative error.
+            if beyond > 3.0 * moment.error { 2.0 * beyond / moment.value } else { 0.0 }
+        };
+        let height = departure(resolved.rms_height, measured.rms_height, measured.rms_height);
+        // Differences of neighbours reduce the slope of a wave of two points by π/2.
+        let gradient = departure(resolved.rms_gradient, gradient, FRAC_PI_2 * gradient);
+        for (error, departure) in self.method.iter_mut().zip([height, height.max(gradient), gradient]) {
+            *error = error.hypot(departure);
+        }
     }
 
     /// The spectrum up to a wave number, rad/m.

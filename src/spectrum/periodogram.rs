@@ -134,8 +134,11 @@ pub(super) struct MapPower {
     pub apart: f64,
 }
 
-/// Shortest waves along an axis that are compared with their neighbours, over the number of points.
-const SHORT: f64 = 1.0 / 8.0;
+/// Least number of waves along an axis that are compared with their neighbours, over the number of points.
+const COMPARED: f64 = 1.0 / 8.0;
+
+/// Least number of waves that may be left out, over the number of points: longer ones have more power than offsets.
+const LEFT_OUT: f64 = 1.0 / 32.0;
 
 /// Departure of the mean power of n waves along an axis from that of their neighbours, relative and times √n, that is no
 /// chance: about four standard deviations under a window.
@@ -222,10 +225,13 @@ impl MapPower {
                 }
                 let wave = (q, scale * value.norm_sqr());
                 let places = [(x as f64, y.abs() / rows as f64), (y.abs(), x as f64 / columns as f64)];
-                for (axis, (across, _)) in axes.iter_mut().zip(places).filter(|(_, place)| place.1 >= SHORT) {
+                for (axis, (across, _)) in
+                    axes.iter_mut().zip(places).filter(|(_, place)| place.1 >= COMPARED)
+                {
                     axis.compare(across, reach, wave);
                 }
-                match axes.iter_mut().zip(places).find(|(_, (across, _))| *across <= reach) {
+                let is_on = |(across, along): (f64, f64)| across <= reach && along >= LEFT_OUT;
+                match axes.iter_mut().zip(places).find(|(_, place)| is_on(*place)) {
                     Some((axis, _)) => axis.waves.push(wave),
                     None => waves.push(wave),
                 }

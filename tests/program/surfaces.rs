@@ -320,3 +320,15 @@ fn offset_rows_of_maps_are_left_out_or_stated() {
     assert!(large.apart > 0.3 && large.power_law.is_none());
     assert_right("large offsets", &spectrum, &large, 3.0);
 }
+
+#[test]
+fn a_departure_from_the_measured_height_is_part_of_the_error() {
+    // The window weighs a spike in the middle by 8/3.
+    let mut normal = Normal::new(3);
+    let heights: Vec<f64> =
+        (0..POINTS).map(|i| if i == 250 { 1.0 } else { 1e-3 * (normal.uniform() - 0.5) }).collect();
+    let analysis = estimated(&[topography(&heights, 0)]);
+    let (found, measured) = (analysis.line.rms_height, analysis.statistics.rms_height);
+    assert!(found.value > 1.5 * measured && found.statistical < 0.1 * found.value, "{found:?} {measured}");
+    assert!((found.value - measured).abs() < 1.96 * found.error, "{found:?} {measured}");
+}
