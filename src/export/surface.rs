@@ -12,6 +12,7 @@ use crate::text::{grouped, path_name, per_cent};
 use crate::topography::Topography;
 use serde::Serialize;
 use serde_json::json;
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI};
 use std::io::{self, Write};
 use std::path::PathBuf;
 
@@ -212,9 +213,8 @@ impl SurfaceReport<'_> {
             _ => "the last resolved wave; shorter ones are left out",
         };
         sheet.row("wavelengths", format!("{low} to {high} ({end})"));
-        let cut = moments.of_cut();
-        let energy = 100.0 * cut.energy_per_modulus.value / moments.energy_per_modulus.value;
-        let gradient = format_quantity(cut.rms_gradient.value, "1");
+        let gradient = format_quantity(moments.rms_gradient.value * FRAC_1_SQRT_2, "1");
+        let energy = 100.0 * FRAC_2_PI;
         sheet.row(
             "a profile as the line",
             format!("⟨∇z⟩ = {gradient} and {energy:.0} % of the elastic energy"),

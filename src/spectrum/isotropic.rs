@@ -5,7 +5,7 @@ use super::statistics::Statistics;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
-use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, FRAC_PI_2, PI, SQRT_2, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 
 /// Separates this use of the random generator from others.
 const PURPOSE: &[u8; 24] = b"asperity-spectrum-draws\0";
@@ -111,19 +111,6 @@ pub struct LineMoments {
     pub height_gradient: Moment,
     /// Elastic energy of full contact over the effective modulus, e_el/E*, m.
     pub energy_per_modulus: Moment,
-}
-
-impl LineMoments {
-    /// Moments of a cut through the same surface: a measured profile.
-    #[must_use]
-    pub fn of_cut(self) -> LineMoments {
-        LineMoments {
-            rms_height: self.rms_height,
-            rms_gradient: self.rms_gradient.scaled(FRAC_1_SQRT_2),
-            height_gradient: self.height_gradient.scaled(FRAC_1_SQRT_2),
-            energy_per_modulus: self.energy_per_modulus.scaled(FRAC_2_PI),
-        }
-    }
 }
 
 /// Nodes at equal distances of ln q.
