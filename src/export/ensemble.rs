@@ -52,8 +52,7 @@ pub fn ensemble_text(scene: &Scene, lines: &[LineResult]) -> String {
 }
 
 /// Median and quartiles of the adhesion forces of several profiles, N; `None` for fewer than two.
-#[must_use]
-pub fn profiles_text(forces: Vec<f64>) -> Option<String> {
+pub(super) fn profiles_text(forces: Vec<f64>) -> Option<String> {
     let count = Some(forces.len()).filter(|&count| count >= 2)?;
     let [lower, median, upper] = quartiles(forces)?.map(|force| format_rounded(force, 2, "N"));
     Some(format!("{count} profiles: median {median} (quartiles {lower} to {upper})"))

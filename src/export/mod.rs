@@ -24,7 +24,7 @@ mod work_precision;
 pub use check::{check_markdown, check_text, write_check_json};
 pub use comparison::{Pair, adhesion_forces, comparison_figure, comparison_text};
 pub use cost::{cost_text, write_cost_csv, write_cost_json};
-pub use ensemble::{ensemble_text, profiles_text, write_ensemble_json, write_ensemble_table};
+pub use ensemble::{ensemble_text, write_ensemble_json, write_ensemble_table};
 pub use json::write_json;
 pub use map::write_map;
 pub use preloads::{PreloadReport, preload_axes, preload_layers};

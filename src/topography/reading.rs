@@ -168,11 +168,12 @@ impl Reading {
         let height_unit = unit("heights", height_unit, height_option, options.convention)?;
         let missing = heights_in_metres(&mut heights, height_unit, first_missing, options.missing)?;
         let grid = grid.in_metres(format, lateral_unit, options)?;
+        let mut interpolated = Vec::new();
         if missing > 0 {
             let columns = if let Grid::Map { columns, .. } = grid { columns } else { heights.len() };
-            missing::interpolate(&mut heights, columns)?;
+            interpolated = missing::interpolate(&mut heights, columns)?;
         }
-        Topography::new(format, heights, grid, missing)
+        Topography::new(format, heights, grid, interpolated)
     }
 }
 

@@ -10,9 +10,9 @@ use crate::explorer::theme::Meaning;
 use crate::explorer::view::lines::{draw_around, draw_lines};
 use crate::explorer::view::plot;
 use crate::explorer::view::wrap::{filled, wrapped};
-use crate::export::profiles_text;
-use crate::scene::{format_quantity, format_rounded};
-use crate::spectrum::Estimate;
+use crate::export::measured_adhesion_text;
+use crate::scene::format_quantity;
+use crate::spectrum::Moment;
 use crate::text::per_cent;
 use ratatui::Frame;
 use ratatui::layout::Rect;
@@ -76,7 +76,7 @@ fn words(model: &Model, shown: Option<&SceneSpectra>) -> Vec<String> {
     let mut words: Vec<String> = shown.missing.clone().into_iter().collect();
     let governing = model.governing();
     if let (Some(moments), Some(governing)) = (shown.moments, governing) {
-        let percent = |estimate: Estimate| per_cent(estimate.error / estimate.value.abs());
+        let percent = |moment: Moment| per_cent(moment.error / moment.value);
         let mut parts = vec![
             format!("fit: h ± {}", percent(moments.rms_height)),
             format!("⟨∇z⟩ ± {}", percent(moments.rms_gradient)),
@@ -112,8 +112,6 @@ fn adhesion(model: &Model) -> Option<String> {
         PROFILES => String::new(),
         count => format!(" · {count} of {PROFILES} profiles"),
     };
-    let force = profiles_text(spread.found.forces()).unwrap_or_else(|| "profiles: …".to_owned());
-    let fit = spread.found.fit_deviation();
-    let fit = fit.map_or_else(String::new, |fit| format!(", fit ± {}", format_rounded(fit, 2, "N")));
-    Some(format!("F_a of {force}{fit}{goes_on}"))
+    let force = measured_adhesion_text(&spread.found).unwrap_or_else(|| "profiles: …".to_owned());
+    Some(format!("F_a of {force}{goes_on}"))
 }

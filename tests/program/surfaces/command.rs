@@ -109,6 +109,36 @@ fn a_profile_is_stated_in_every_form() {
 }
 
 #[test]
+fn the_profile_of_a_scene_is_read_back_with_its_moments() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    done(folder, &["line", "pressure-sensitive", "-o", "line.csv"]);
+    let arguments = ["surface", "line.csv", "--unit", "m", "--periodic", "--detrend", "mean"];
+    let report = json(folder, &[&arguments[..], &["--format", "json"]].concat());
+    // Line over cut: 1, √2 and π/2, of which the points of the profile state the first two.
+    for (name, measured, ratio) in
+        [("rms_height", "rms_height", 1.0), ("rms_gradient", "rms_slope", std::f64::consts::SQRT_2)]
+    {
+        let [value, error] =
+            ["value", "error"].map(|key| report["equivalent_line"][name][key].as_f64().unwrap());
+        let ratio = value / report[measured].as_f64().unwrap() / ratio;
+        assert!((ratio - 1.0).abs() < 0.01, "{name}: {ratio}");
+        assert!(error < 0.15 * value, "{name}: {error}");
+    }
+    assert_eq!(report["ends_inside_scan"], true);
+    // Each error has its column, and no sentence states another one.
+    let text = done(folder, &arguments);
+    let (_, table) = text.split_once("missing short waves\n").unwrap();
+    let height: Vec<&str> =
+        table.lines().next().unwrap().split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect();
+    assert_eq!((height.len(), height[0], height[4]), (5, "rms height h", "none"), "{text}");
+    assert!(
+        text.contains("195.1 nm (the spectrum ends inside the scan)") && !text.contains("accuracy"),
+        "{text}"
+    );
+}
+
+#[test]
 fn spectra_are_computed_again_from_their_table() {
     let folder = folder();
     let folder = folder.path();
@@ -340,7 +370,7 @@ fn the_spectra_of_both_faces_add() {
     let line = power(&table, "equivalent line");
     assert!((line[0][0] * 40e-6 / std::f64::consts::TAU - 1.0).abs() < 1e-9, "{line:?}");
     let summary = done(folder, &["surface", "line.txt", "--opposite", "map.txt"]);
-    for words in ["Opposite face", "opposite, accuracy", "map of 40 × 40 points"] {
+    for words in ["Opposite face", "missing short waves", "map of 40 × 40 points"] {
         assert!(summary.contains(words), "{words}: {summary}");
     }
     done(folder, &["surface", "line.txt", "--opposite", "map.txt", "-o", "both.svg"]);
@@ -448,9 +478,13 @@ fn the_adhesion_force_has_the_spread_over_lines_beside_that_of_the_fit() {
     let folder = folder.path();
     let arguments = ["surface", "line.txt", "--modulus", "1MPa", "--work", "50mJ/m^2", "--preload", "10uN"];
     let summary = done(folder, &arguments);
-    for words in
-        ["loading                 to 10 µN, then pull", "over 16 lines, ± ", "by the fit", " of 16 lines"]
-    {
+    for words in [
+        "loading                 to 10 µN, then pull",
+        "16 profiles: median ",
+        "(quartiles ",
+        "fit ± ",
+        " of 16 lines",
+    ] {
         assert!(summary.contains(words), "{words}: {summary}");
     }
     let few = [&arguments[..], &["--lines", "4", "--scene", "rough.ron", "--format", "json"]].concat();
