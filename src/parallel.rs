@@ -2,10 +2,9 @@
 
 use std::cell::Cell;
 use std::io;
-use std::num::NonZero;
 use std::panic::resume_unwind;
 use std::sync::{Mutex, PoisonError};
-use std::thread::{Builder, Scope, ScopedJoinHandle, available_parallelism, scope};
+use std::thread::{Builder, Scope, ScopedJoinHandle, scope};
 
 thread_local! {
     /// True if this thread is one of as many as cores.
@@ -38,20 +37,10 @@ pub(crate) fn begin_threads<'scope>(
 }
 
 /// Number of threads for work of this thread: one for each core, or this one alone.
+#[cfg(feature = "tui")]
 pub(crate) fn threads() -> usize {
-    if ONE_OF_MANY.get() { 1 } else { available_parallelism().map_or(1, NonZero::get) }
-}
-
-/// Runs `work` for each item in parallel.
-pub(crate) fn for_each_in_parallel<T: Send>(items: &mut [T], work: &(impl Fn(&mut T) + Sync)) {
-    match items {
-        [] => {}
-        [one] => work(one),
-        _ => {
-            let (some, others) = items.split_at_mut(items.len() / 2);
-            in_parallel(true, || for_each_in_parallel(some, work), || for_each_in_parallel(others, work));
-        }
-    }
+    let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    if ONE_OF_MANY.get() { 1 } else { cores() }
 }
 
 /// Runs both, the first on a thread of its own if that is `worth` it, the system has one and the thread begins first.

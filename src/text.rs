@@ -35,11 +35,12 @@ pub(crate) fn si_prefix(power: i32) -> Option<&'static str> {
 }
 
 /// Returns true for characters with an effect on their display: controls (C0, DEL, C1), bidirectional controls and
-/// marks, and separators of lines and paragraphs.
+/// marks, separators of lines and paragraphs, and signs that nobody sees, to which terminals give different widths.
 pub fn is_control(c: char) -> bool {
     let bidirectional =
         matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    c.is_control() || bidirectional || matches!(c, '\u{2028}' | '\u{2029}')
+    let invisible = matches!(c, '\u{200b}' | '\u{2028}' | '\u{2029}' | '\u{2060}'..='\u{2064}' | '\u{feff}');
+    c.is_control() || bidirectional || invisible
 }
 
 /// Text on one line, with its control characters escaped as in Rust: `\n`, `\u{1b}`.
@@ -184,6 +185,7 @@ mod tests {
             ("abc\u{202e}nor.exe", "abc\\u{202e}nor.exe"),
             ("\u{2066}\u{200e}\u{200f}\u{61c}\u{2028}", "\\u{2066}\\u{200e}\\u{200f}\\u{61c}\\u{2028}"),
             ("two\nlines\r", "two\\nlines\\r"),
+            ("a\u{200b}b\u{feff}\u{2060}", "a\\u{200b}b\\u{feff}\\u{2060}"),
         ] {
             assert_eq!(printable(text), expected);
         }

@@ -1,7 +1,7 @@
 //! The fewest springs that reach a tolerance.
 
-use super::convergence::{error_of_finest, first_within};
-use super::estimate::{Estimate, Evidence};
+use super::convergence::{REFINEMENTS, first_within};
+use super::estimate::{Estimate, Evidence, others};
 use super::solution::{
     Solution, Solved, Target, allowed_points, closed_form_adhesion, refined, relative_error, solve,
 };
@@ -14,10 +14,6 @@ use thiserror::Error;
 
 /// Most springs tried, unless the modes of the scene need more: then four times that number.
 const MOST_SPRINGS: u64 = 1 << 21;
-/// Fewest solutions for a reliable estimate.
-const FEWEST_SOLUTIONS: usize = 3;
-/// Differences in the error of the finest solution, as in the estimate for one scene.
-const LAST_DIFFERENCES: usize = 3;
 
 /// Parses a tolerance: `1e-3` or `0.1 %`.
 ///
@@ -67,7 +63,7 @@ impl Choice {
     pub fn estimate(&self) -> Estimate {
         let evidence =
             if self.closed_form { Evidence::ClosedForm } else { Evidence::Solutions(vec![self.finest]) };
-        Estimate { target: self.target, error: self.error, evidence }
+        Estimate { target: self.target, error: self.error, near_step: false, evidence }
     }
 
     /// Choice and reason in one sentence.
@@ -97,7 +93,7 @@ pub enum ChoiceError {
     Run(#[from] RunError),
     /// The stepwise solver has an error of its own that is independent of the springs.
     #[error(
-        "a tolerance goes with numerics.solver: Exact; the step of the stepwise solver is an error of its own"
+        "a tolerance needs numerics.solver: Exact; the step of the stepwise solver is an error of its own"
     )]
     Stepwise,
     /// The search was stopped.
@@ -133,12 +129,12 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
 /// Springs and edges with which a checked scene, with files in `folder`, reaches a relative error of at most
 /// `tolerance` in its adhesion force, or in its force curve without a tensile force.
 ///
-/// Doubles the springs until the estimate of the error, including that of the finest solution, is below the
-/// tolerance, and once more, since a finer solution is a better reference for the others; then the choice is the
-/// fewest springs from which on the error stays there. With equal springs both kinds of edges take about the same
-/// time, and edges between springs are preferred, whose error falls faster if the estimate was too optimistic. The
-/// choice depends on the scene alone, not on times. `stop` is polled now and then; `trying` receives the next
-/// number of springs.
+/// Doubles the springs, and chooses the fewest from which on the error, including that of the finest solution, stays
+/// within the tolerance over at least two refinements: under the loads of the scene, half of them and twice of them (its
+/// target forces and indentations above zero), except where a closed form gives the error itself. With equal springs both
+/// kinds of edges take about the same time, and edges between springs are preferred, whose error falls faster if the
+/// estimate was too optimistic. The choice depends on the scene alone, not on times. `stop` is polled now and then;
+/// `trying` receives the next number of springs.
 ///
 /// # Errors
 /// [`ChoiceError`].
@@ -154,81 +150,98 @@ pub fn choose(
     }
     let most = allowed_points(scene).next().map_or(0, |fewest| MOST_SPRINGS.max(4 * fewest));
     let mut tried: [Vec<Solution>; 2] = [Vec::new(), Vec::new()];
-    let mut best: Option<Box<Choice>> = None;
     let mut simulation = Simulation::new(folder.to_path_buf());
-    let mut found = None;
+    let (mut closed_form, mut refused, mut of_finest) = (None, None, None);
     for points in allowed_points(scene).take_while(|&points| points <= most) {
-        let mut closed_form = None;
-        let mut solved = 0;
         trying(points);
-        for (edges, solutions) in EDGES.into_iter().zip(&mut tried) {
-            if let Solved::Outcome(outcome) = solve(&mut simulation, &refined(scene, points, edges), stop)? {
-                closed_form = closed_form_adhesion(scene, &outcome);
-                solutions.push(Solution::of(&outcome));
-                solved += 1;
+        let mut solved = Vec::new();
+        for edges in EDGES {
+            let scene = refined(scene, points, edges);
+            match solve(&mut simulation, &scene, stop)? {
+                Solved::Outcome(outcome) => {
+                    closed_form = closed_form_adhesion(&scene, &outcome);
+                    solved.extend(Solution::around(&mut simulation, &scene, &outcome, stop)?);
+                }
+                Solved::TooCoarse(error) => refused = Some(error),
+                Solved::TooMuch => {}
             }
         }
         if stop() {
             return Err(ChoiceError::Stopped);
         }
-        if solved < EDGES.len() {
+        if solved.len() < EDGES.len() {
             continue;
         }
-        if let Some(choice) = judge(&tried, closed_form, tolerance) {
-            if choice.error <= tolerance {
-                if found.is_some() {
-                    return Ok(choice);
-                }
-                found = Some(choice);
-                continue;
+        tried.iter_mut().zip(solved).for_each(|(solutions, solution)| solutions.push(solution));
+        of_finest = None;
+        let is_enough = |of_finest| {
+            judge(&tried, closed_form, of_finest, tolerance).filter(|choice| choice.error <= tolerance)
+        };
+        if is_enough(0.0).is_some() {
+            of_finest = error_of_finest(scene, folder, (&tried, closed_form), stop);
+            if let Some(choice) = of_finest.and_then(is_enough) {
+                return Ok(choice);
             }
-            found = None;
-            if best.as_ref().is_none_or(|best| choice.error < best.error) {
-                best = Some(Box::new(choice.clone()));
-            }
-        }
-        if let (Some(best), Some(finest)) = (&mut best, tried[0].last()) {
-            best.finest = finest.points;
         }
     }
-    found.ok_or(ChoiceError::Unreached { tolerance, best })
+    if let (Some(error), []) = (refused, tried[0].as_slice()) {
+        return Err(error.into());
+    }
+    let of_finest = of_finest.or_else(|| error_of_finest(scene, folder, (&tried, closed_form), stop));
+    let best = of_finest.and_then(|of_finest| judge(&tried, closed_form, of_finest, tolerance));
+    Err(ChoiceError::Unreached { tolerance, best: best.map(Box::new) })
 }
 
 /// In the order of preference at the same number of springs.
 const EDGES: [Edges; 2] = [Edges::SubCell, Edges::Grid];
 
-/// The choice among solutions with edges at and between springs, with equal springs each; if none is good enough,
-/// the best of them. `None` for too few solutions.
-fn judge([sub_cell, grid]: &[Vec<Solution>; 2], closed_form: Option<f64>, tolerance: f64) -> Option<Choice> {
+/// Estimated relative error of the finest solution with edges between springs, under the loads of the scene and around
+/// them; 0 beside a closed form, and `None` if unknown.
+fn error_of_finest(
+    scene: &Scene,
+    folder: &Path,
+    (tried, closed_form): (&[Vec<Solution>; 2], Option<f64>),
+    stop: &dyn Fn() -> bool,
+) -> Option<f64> {
+    if closed_form.is_some() {
+        return Some(0.0);
+    }
+    let finest = tried[0].last()?;
+    let target = Target::of(finest);
+    let mut simulation = Simulation::new(folder.to_path_buf());
+    let mut solved = |scene: &Scene| match solve(&mut simulation, scene, stop) {
+        Ok(Solved::Outcome(outcome)) => Solution::around(&mut simulation, scene, &outcome, stop).ok()?,
+        _ => None,
+    };
+    let others = others(&refined(scene, finest.points, Edges::SubCell), &mut solved)?;
+    others.error(|other| target.difference(other, finest))
+}
+
+/// The choice among solutions with edges at and between springs, with equal springs each, given the error of the finest;
+/// if none is good enough, the best that is confirmed. `None` for too few solutions.
+fn judge(
+    [sub_cell, grid]: &[Vec<Solution>; 2],
+    closed_form: Option<f64>,
+    of_finest: f64,
+    tolerance: f64,
+) -> Option<Choice> {
     let finest = sub_cell.last()?;
     let target = Target::of(finest);
-    let of_finest = match (closed_form, sub_cell.as_slice()) {
-        (Some(_), _) => 0.0,
-        (None, solutions) if solutions.len() >= FEWEST_SOLUTIONS => {
-            let last = solutions.windows(2).rev().take(LAST_DIFFERENCES);
-            let mut differences: Vec<f64> =
-                last.map_while(|pair| target.difference(&pair[0], &pair[1])).collect();
-            differences.reverse();
-            if differences.is_empty() {
-                return None;
-            }
-            error_of_finest(&differences)
-        }
-        (None, _) => return None,
-    };
     let error = |solution: &Solution| match closed_form {
         Some(force) => Some(relative_error(solution.adhesion_force.unwrap_or(0.0), force)),
         None => Some(target.difference(solution, finest)? + of_finest),
     };
     let candidates = EDGES.into_iter().zip([sub_cell, grid]).filter_map(|(edges, solutions)| {
-        let errors: Vec<_> = solutions.iter().map(error).collect();
-        // If none is good enough, the finest.
-        let index = first_within(errors.iter().copied(), tolerance).unwrap_or(errors.len() - 1);
-        let (error, points) = ((*errors.get(index)?)?, solutions.get(index)?.points);
+        let errors = solutions.iter().map(error).collect::<Option<Vec<_>>>()?;
+        let confirmed = errors.len().checked_sub(1 + REFINEMENTS)?;
+        let of = |index: usize| errors[index..].iter().copied().fold(0.0, f64::max);
+        let within = first_within(errors.iter().copied().map(Some), tolerance);
+        let (index, error) =
+            within.map_or_else(|| (confirmed, of(confirmed)), |index| (index, errors[index]));
         Some(Choice {
             tolerance,
             target,
-            points,
+            points: solutions[index].points,
             edges,
             error,
             closed_form: closed_form.is_some(),
@@ -250,9 +263,10 @@ mod tests {
         let solution = |k: u32| Solution {
             points: 16 << k,
             adhesion_force: Some(1.0 + error * f64::from(1 << k).powi(-order)),
+            around: Vec::new(),
             dissipated_energy: None,
             contact_length: None,
-            curve: crate::accuracy::ForceCurve::default(),
+            curve: crate::accuracy::curve::ForceCurve::default(),
         };
         (0..count).map(solution).collect()
     }
@@ -268,26 +282,48 @@ mod tests {
     }
 
     #[test]
-    fn the_fewest_springs_are_chosen() {
+    fn the_fewest_springs_that_two_refinements_confirm_are_chosen() {
         // Grid: 0.5, 0.25, …; SubCell: 0.1, 0.025, 0.00625, …
         let tried = |count| [solutions(count, 0.1, 2), solutions(count, 0.5, 1)];
-        let choice = judge(&tried(5), Some(1.0), 0.01).unwrap();
+        let choice = judge(&tried(5), Some(1.0), 0.0, 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (64, Edges::SubCell));
         assert!((choice.error - 0.00625).abs() < 1e-12);
-        // The estimate includes the true error of 128 springs, 0.0016.
-        let choice = judge(&tried(5), None, 0.01).unwrap();
+        // With the error of the finest solution.
+        let choice = judge(&tried(6), None, 0.005, 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (128, Edges::SubCell));
-        assert!((0.0016..0.01).contains(&choice.error), "{choice:?}");
-        assert_eq!(judge(&tried(2), None, 0.01), None);
+        assert!((0.006..0.01).contains(&choice.error), "{choice:?}");
+        assert_eq!(judge(&tried(2), None, 0.0, 0.01), None);
         // Edges at the springs only if fewer springs suffice.
-        let choice = judge(&[solutions(5, 0.1, 2), solutions(5, 0.1, 2)], Some(1.0), 0.01).unwrap();
+        let choice = judge(&[solutions(5, 0.1, 2), solutions(5, 0.1, 2)], Some(1.0), 0.0, 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (64, Edges::SubCell));
-        let choice = judge(&[solutions(5, 0.5, 1), solutions(5, 0.1, 2)], Some(1.0), 0.01).unwrap();
+        let choice = judge(&[solutions(5, 0.5, 1), solutions(5, 0.1, 2)], Some(1.0), 0.0, 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (64, Edges::Grid));
-        // The best choice if none suffices.
-        let choice = judge(&tried(3), Some(1.0), 1e-6).unwrap();
-        assert_eq!((choice.points, choice.edges), (64, Edges::SubCell));
-        assert!(choice.error > 1e-6);
+        // The best confirmed choice if none suffices.
+        let choice = judge(&tried(4), Some(1.0), 0.0, 1e-6).unwrap();
+        assert_eq!((choice.points, choice.edges), (32, Edges::SubCell));
+        assert!((choice.error - 0.025).abs() < 1e-12);
+    }
+
+    #[test]
+    fn an_error_that_is_small_under_one_load_is_not_small() {
+        let mut tried = [solutions(5, 0.1, 2), solutions(5, 1e-4, 1)];
+        for solution in tried.iter_mut().flatten() {
+            solution.around = vec![Some(1.0)];
+        }
+        assert_eq!(
+            judge(&tried, None, 0.0, 0.01).map(|choice| (choice.points, choice.edges)),
+            Some((16, Edges::Grid))
+        );
+        tried[1][0].around = vec![Some(1.07)];
+        assert_eq!(
+            judge(&tried, None, 0.0, 0.01).map(|choice| (choice.points, choice.edges)),
+            Some((32, Edges::Grid))
+        );
+        tried[1][2].around = vec![None];
+        assert_eq!(
+            judge(&tried, None, 0.0, 0.01).map(|choice| (choice.points, choice.edges)),
+            Some((64, Edges::SubCell))
+        );
     }
 
     #[test]

@@ -1,24 +1,27 @@
 //! Measures for the comparison of two solutions of one scene.
 
-use super::ForceCurve;
-use crate::analysis::Figures;
-use crate::contact::{ContactError, Direction, History};
+use super::curve::ForceCurve;
+use crate::contact::{ContactError, Direction};
 use crate::reference::{PowerLaw, smooth_adhesion_force};
-use crate::scene::{Edges, Form, Numerics, Scene, Solver, check};
+use crate::scene::{Edges, Form, Leg, Numerics, Scene, Solver, check};
 use crate::simulation::{Outcome, RunError, Simulation};
 use crate::surface::SurfaceError;
 use serde::Serialize;
 use std::f64::consts::PI;
 
 /// Fewest springs of any solution.
-const FEWEST: u64 = 16;
+pub(super) const FEWEST: u64 = 16;
+/// Factors of the loads of a scene for the loads around them.
+const AROUND: [f64; 2] = [0.5, 2.0];
+/// Samples of a loading stage whose curve is not used: the adhesion force is an exact extreme.
+const FEW_SAMPLES: u64 = 2;
 
 /// One value for each quantity with an error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Measures<T> {
-    /// The adhesion force F_a.
+    /// The adhesion force F_a, see `Solution::errors`.
     pub adhesion_force: T,
-    /// The whole force curve, see [`ForceCurve::distance`].
+    /// The whole force curve, the mean difference of forces at equal indentations over the largest force.
     pub curve: T,
     /// The dissipated energy.
     pub dissipated_energy: T,
@@ -50,11 +53,13 @@ impl<T> Measures<T> {
 
 /// Figures and curve of one solution; a figure of zero has no relative error and is left out.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Solution {
+pub(super) struct Solution {
     /// Springs N.
     pub points: u64,
     /// Adhesion force, N.
     pub adhesion_force: Option<f64>,
+    /// Adhesion forces under half and under twice the loads, N, if solved.
+    pub around: Vec<Option<f64>>,
     /// Dissipated energy, J.
     pub dissipated_energy: Option<f64>,
     /// Largest length in contact, m.
@@ -64,36 +69,60 @@ pub struct Solution {
 }
 
 impl Solution {
-    /// Measures of the outcome of a scene.
-    #[must_use]
-    pub fn of(outcome: &Outcome) -> Self {
-        Solution::of_history(&outcome.history, outcome.line.points as u64)
-    }
-
-    /// Measures of a history on this number of springs.
-    #[must_use]
-    pub fn of_history(history: &History, points: u64) -> Self {
+    pub(super) fn of(outcome: &Outcome) -> Self {
         let some = |value: f64| (value != 0.0 && value.is_finite()).then_some(value);
-        let figures = Figures::of(history);
+        let Outcome { figures, history, .. } = outcome;
         let lengths = history.legs.iter().flat_map(|leg| &leg.curve).map(|point| point.contact_length);
         Solution {
-            points,
+            points: outcome.line.points as u64,
             adhesion_force: figures.adhesion_force.and_then(some),
+            around: Vec::new(),
             dissipated_energy: figures.dissipated_energy.and_then(some),
             contact_length: some(lengths.fold(0.0, f64::max)),
             curve: ForceCurve::of(history),
         }
     }
 
-    /// Relative differences from a reference; `None` if the reference has no such figure.
-    #[must_use]
-    pub fn errors(&self, reference: &Solution) -> Measures<Option<f64>> {
+    /// Measures of the outcome of a scene, with the adhesion forces under the loads around its own; `None` without time
+    /// or memory.
+    ///
+    /// # Errors
+    /// Those of [`solve`].
+    pub(super) fn around(
+        simulation: &mut Simulation,
+        scene: &Scene,
+        outcome: &Outcome,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Option<Self>, RunError> {
+        let mut solution = Solution::of(outcome);
+        let scene = Target::of(&solution).only(scene);
+        let others = AROUND.into_iter().filter_map(|factor| loaded(&scene, factor));
+        for scene in others.filter(|_| solution.adhesion_force.is_some()).collect::<Vec<_>>() {
+            solution.around.push(match solve(simulation, &scene, stop)? {
+                Solved::Outcome(outcome) => Solution::of(&outcome).adhesion_force,
+                Solved::TooCoarse(_) => None,
+                Solved::TooMuch => return Ok(None),
+            });
+        }
+        Ok(Some(solution))
+    }
+
+    /// Relative differences from a reference; `None` if the reference has no such figure. That of the adhesion force is
+    /// the largest under all loads which both have: an error that changes its sign from load to load is not small at all
+    /// of them by chance.
+    pub(super) fn errors(&self, reference: &Solution) -> Measures<Option<f64>> {
         let relative = |value: Option<f64>, reference: Option<f64>| {
             reference.map(|reference| relative_error(value.unwrap_or(0.0), reference))
         };
+        let around = self.around.iter().zip(&reference.around).map(|(&one, &other)| match (one, other) {
+            (Some(_), None) => f64::INFINITY,
+            _ => relative(one, other).unwrap_or(0.0),
+        });
+        let largest = around.fold(0.0, f64::max);
+        let own = relative(self.adhesion_force, reference.adhesion_force);
         Measures {
-            adhesion_force: relative(self.adhesion_force, reference.adhesion_force),
-            curve: self.curve.distance(&reference.curve),
+            adhesion_force: own.map(|own| own.max(largest)),
+            curve: self.curve.difference(&reference.curve),
             dissipated_energy: relative(self.dissipated_energy, reference.dissipated_energy),
             contact_length: relative(self.contact_length, reference.contact_length),
         }
@@ -106,7 +135,7 @@ impl Solution {
 pub enum Target {
     /// The adhesion force.
     AdhesionForce,
-    /// The force curve, without a tensile force; see [`ForceCurve::distance`].
+    /// The force curve, without a tensile force; the mean difference of forces at equal indentations over the largest force.
     Curve,
 }
 
@@ -123,6 +152,16 @@ impl Target {
     /// The quantity of a solution.
     pub(super) fn of(solution: &Solution) -> Self {
         if solution.adhesion_force.is_some() { Target::AdhesionForce } else { Target::Curve }
+    }
+
+    /// A scene that is solved for this quantity alone.
+    pub(super) fn only(self, scene: &Scene) -> Scene {
+        let mut scene = scene.clone();
+        scene.observe.clear();
+        if self == Target::AdhesionForce {
+            scene.numerics.samples = FEW_SAMPLES;
+        }
+        scene
     }
 
     /// Relative difference of the quantity from a reference.
@@ -144,6 +183,20 @@ pub(super) fn refined(scene: &Scene, points: u64, edges: Edges) -> Scene {
     scene
 }
 
+/// This scene with its target forces and indentations above zero multiplied by a factor; `None` without such targets, or
+/// beyond their range.
+pub(super) fn loaded(scene: &Scene, factor: f64) -> Option<Scene> {
+    let mut other = scene.clone();
+    for leg in &mut other.loading {
+        if let Leg::ToForce(target) | Leg::ToIndentation(target) = leg
+            && *target > 0.0
+        {
+            *target *= factor;
+        }
+    }
+    (other.loading != scene.loading && check(&other).is_empty()).then_some(other)
+}
+
 /// Powers of two allowed as the scene's number of springs, ascending.
 pub(super) fn allowed_points(scene: &Scene) -> impl Iterator<Item = u64> {
     let powers = std::iter::successors(Some(FEWEST), |points| points.checked_mul(2));
@@ -155,7 +208,7 @@ pub(super) fn allowed_points(scene: &Scene) -> impl Iterator<Item = u64> {
 /// Runs a scene; solutions by one simulation share an unchanged profile.
 ///
 /// # Errors
-/// All errors but too few springs for the form, and too little time or memory.
+/// All errors but too few springs for form or loading, and too little time or memory.
 pub(super) fn solve(
     simulation: &mut Simulation,
     scene: &Scene,
@@ -163,8 +216,15 @@ pub(super) fn solve(
 ) -> Result<Solved, RunError> {
     match simulation.run(scene, stop, &mut |_, _, _| Ok(())) {
         Ok(outcome) => Ok(Solved::Outcome(Box::new(outcome))),
-        Err(RunError::Surface(SurfaceError::NoSprings { .. })) => Ok(Solved::TooCoarse),
         Err(error) if error.is_interruption() || is_out_of_memory(&error) => Ok(Solved::TooMuch),
+        Err(
+            error @ (RunError::Surface(SurfaceError::NoSprings { .. })
+            | RunError::Contact(
+                ContactError::NothingToPull { .. }
+                | ContactError::DetachesBefore { .. }
+                | ContactError::OutOfReach { .. },
+            )),
+        ) => Ok(Solved::TooCoarse(error)),
         Err(error) => Err(error),
     }
 }
@@ -173,8 +233,8 @@ pub(super) fn solve(
 pub(super) enum Solved {
     /// A solution.
     Outcome(Box<Outcome>),
-    /// No spring is under the body.
-    TooCoarse,
+    /// No spring is under the body, or the contact of these springs does not reach a target of the loading.
+    TooCoarse(RunError),
     /// Insufficient time or memory.
     TooMuch,
 }
@@ -190,8 +250,7 @@ fn is_out_of_memory(error: &RunError) -> bool {
 
 /// The adhesion force of a scene in closed form, N, if there is one: a smooth body that is pulled beyond the
 /// indentation of its smallest force, on a profile longer than its contact. `outcome` is its solution.
-#[must_use]
-pub fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
+pub(super) fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
     let work = outcome.governing.adhesive_work()?;
     outcome.figures.adhesion_force?;
     if scene.roughness.is_some() {

@@ -14,24 +14,11 @@ pub enum Knob {
     GridSprings,
     /// Step Δd of the stepwise solver.
     Step,
-    /// Samples of the curve on each loading stage.
-    Samples,
-    /// Heights kept in single precision.
-    SinglePrecision,
-    /// Random profiles of a mean.
-    Lines,
 }
 
 impl Knob {
     /// All knobs, in the order of the table.
-    pub const ALL: [Knob; 6] = [
-        Knob::SubCellSprings,
-        Knob::GridSprings,
-        Knob::Step,
-        Knob::Samples,
-        Knob::SinglePrecision,
-        Knob::Lines,
-    ];
+    pub const ALL: [Knob; 3] = [Knob::SubCellSprings, Knob::GridSprings, Knob::Step];
 
     /// Name of the knob in words.
     #[must_use]
@@ -40,16 +27,7 @@ impl Knob {
             Knob::SubCellSprings => "springs N, edges SubCell",
             Knob::GridSprings => "springs N, edges Grid",
             Knob::Step => "step Δd of the stepwise solver",
-            Knob::Samples => "curve samples",
-            Knob::SinglePrecision => "heights in single precision",
-            Knob::Lines => "random lines in a mean",
         }
-    }
-
-    /// Unit of the setting.
-    #[must_use]
-    pub fn unit(self) -> &'static str {
-        if self == Knob::Step { "m" } else { "" }
     }
 }
 
@@ -96,7 +74,7 @@ pub struct Row {
     pub setting: f64,
     /// Springs N.
     pub springs: u64,
-    /// Time of a whole run without any reuse; `None` if the setting does not affect time.
+    /// Time of a whole run without any reuse; `None` without time for one.
     pub seconds: Option<Timing>,
     /// The shortest time in Fourier transforms, see [`CostTable::transform_seconds`].
     pub transforms: Option<f64>,
@@ -148,7 +126,14 @@ impl CostTable {
         if self.reference.adhesion_force.is_some() { adhesion_force } else { curve }
     }
 
-    /// The first row of a knob from which on the main error is within a bound.
+    /// Least time, s, and main error of a row, if both have logarithms.
+    #[must_use]
+    pub(crate) fn point(&self, row: &Row) -> Option<(f64, ErrorFigure)> {
+        let (seconds, figure) = (row.seconds?.minimum, self.main_error(row)?);
+        (seconds > 0.0 && figure.error > 0.0 && figure.error.is_finite()).then_some((seconds, figure))
+    }
+
+    /// The first row of a knob from which on the main error is within a bound, as at least two finer rows confirm.
     #[must_use]
     pub fn first_row_within(&self, knob: Knob, bound: f64) -> Option<&Row> {
         let rows: Vec<_> = self.rows_of(knob).collect();
@@ -161,7 +146,7 @@ impl CostTable {
     #[must_use]
     pub fn order(&self, knob: Knob) -> Option<f64> {
         let point = |row: &Row| {
-            let figure = row.errors.adhesion_force.or(row.errors.curve).filter(|figure| figure.resolved)?;
+            let figure = self.main_error(row).filter(|figure| figure.resolved)?;
             Some((row.setting.ln(), figure.error.ln()))
         };
         let points: Vec<(f64, f64)> = self.rows_of(knob).filter_map(point).collect();
@@ -173,7 +158,7 @@ impl CostTable {
             points.iter().fold((0.0, 0.0), |(x, y), point| (x + point.0 / count, y + point.1 / count));
         let product: f64 = points.iter().map(|point| (point.0 - x) * (point.1 - y)).sum();
         let square: f64 = points.iter().map(|point| (point.0 - x).powi(2)).sum();
-        // A smaller step or more of any other setting reduces the error.
+        // A smaller step or more springs reduce the error.
         Some((product / square).abs()).filter(|order| order.is_finite())
     }
 }
@@ -196,12 +181,15 @@ mod tests {
             (0..5).map(|k| row(Knob::Step, 0.5_f64.powi(k), 0.25_f64.powi(k), true)).collect();
         rows.push(row(Knob::Step, 1e-6, 0.5, false));
         rows.extend((4..6).map(|k| row(Knob::GridSprings, 2.0_f64.powi(k), 0.5_f64.powi(k), true)));
+        rows.extend((4..8).map(|k| row(Knob::SubCellSprings, 2.0_f64.powi(k), 0.5_f64.powi(k), true)));
         let (transform_seconds, left_out) = (1.0, Vec::new());
         let table = CostTable { budget: 1.0, spent: 1.0, transform_seconds, reference, rows, left_out };
         assert!((table.order(Knob::Step).unwrap() - 2.0).abs() < 1e-12);
         assert_eq!(table.order(Knob::GridSprings), None, "two rows are no order");
-        assert_eq!(table.first_row_within(Knob::GridSprings, 0.04).map(|row| row.setting), Some(32.0));
-        assert_eq!(table.first_row_within(Knob::GridSprings, 0.01), None);
+        let first = |knob, bound| table.first_row_within(knob, bound).map(|row| row.setting);
+        assert_eq!(first(Knob::SubCellSprings, 0.04), Some(32.0));
+        assert_eq!(first(Knob::SubCellSprings, 0.02), None, "one row finer than that of 64 springs");
+        assert_eq!(first(Knob::GridSprings, 0.04), None);
     }
 
     #[test]

@@ -36,7 +36,7 @@ pub struct CostArguments {
     #[arg(long, value_parser = Format::parser(FORMATS), hide_possible_values = true)]
     pub format: Option<Format>,
     /// Draw errors over times to FILE as well, .svg or .png
-    #[arg(long, alias = "svg", value_name = "FILE")]
+    #[arg(long, value_name = "FILE")]
     pub picture: Option<PathBuf>,
     /// Destination; --force is for both files.
     #[command(flatten)]

@@ -67,10 +67,11 @@ pub enum CliError {
     Write(#[from] WriteError),
     #[error("standard output: cannot be written: {0}")]
     StandardOutput(#[from] io::Error),
-    #[error("the explorer needs a terminal; asperity run {scene} computes the scene without one")]
+    #[error("the explorer needs a terminal; asperity run {} computes the scene without one", quoted(scene))]
     NoTerminal { scene: String },
     #[error(
-        "TERM=dumb: the explorer places characters, this terminal does not; asperity run {scene} computes the scene without one"
+        "TERM=dumb: the explorer places characters, this terminal does not; asperity run {} computes the scene without one",
+        quoted(scene)
     )]
     DumbTerminal { scene: String },
     #[error(

@@ -201,8 +201,7 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     let choice = choice.as_ref();
     let estimate = match choice {
         Some(choice) => Some(choice.estimate()),
-        None => estimate(&scene, &document.resolve(""), &outcome, &|| false)
-            .map_err(|error| CliError::named(document.name(), error))?,
+        None => estimate(&scene, &document.resolve(""), &outcome, &|| false),
     };
     if format == Format::Json {
         let write = |out: &mut dyn Write| write_json(out, &scene, &outcome, choice, estimate.as_ref());

@@ -105,8 +105,10 @@ pub struct ReadingArguments {
     #[arg(long, value_name = "UNIT")]
     pub height_unit: Option<Unit>,
     /// Distance between points where a file states none, as 0.5um
+    ///
+    /// Lengths without a unit, here and below, are in --unit.
     #[arg(long, value_name = "LENGTH", value_parser = length)]
-    pub spacing: Option<f64>,
+    pub spacing: Option<Length>,
     /// Fill missing points from their neighbours
     #[arg(long)]
     pub interpolate: bool,
@@ -128,7 +130,10 @@ pub struct ReadingArguments {
 #[derive(Args, Debug)]
 pub struct AnalysisArguments {
     /// Part that is removed: none, mean, tilt or curvature
-    #[arg(long, value_enum, default_value = "tilt", hide_possible_values = true)]
+    ///
+    /// Default: tilt, or mean with --periodic.
+    #[arg(long, value_enum, default_value = "tilt", default_value_if("periodic", "true", "mean"))]
+    #[arg(hide_possible_values = true, hide_default_value = true)]
     pub detrend: DetrendArgument,
     /// The surface repeats itself at its borders: no window
     #[arg(long)]
@@ -137,10 +142,10 @@ pub struct AnalysisArguments {
     ///
     /// Default: the spectrum ends at the last resolved wave.
     #[arg(long, value_name = "LENGTH", value_parser = length)]
-    pub continue_to: Option<f64>,
+    pub continue_to: Option<Length>,
     /// Radius of the tip, as 10nm: gives the reliability cut-off
     #[arg(long, value_name = "LENGTH", value_parser = length)]
-    pub tip_radius: Option<f64>,
+    pub tip_radius: Option<Length>,
     /// Effective modulus E*, as 2.7MPa: gives the elastic energy
     #[arg(long, value_name = "PRESSURE", value_parser = pressure)]
     pub modulus: Option<f64>,
@@ -163,22 +168,79 @@ pub enum DetrendArgument {
 const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png];
 
 impl AnalysisArguments {
-    /// Removed part; `None` for the tilt, the default.
+    /// Removed part; `None` for the tilt of a surface that is not periodic, the default.
     fn detrend(&self) -> Option<Detrend> {
         match self.detrend {
             DetrendArgument::None => Some(Detrend::None),
             DetrendArgument::Mean => Some(Detrend::Mean),
-            DetrendArgument::Tilt => None,
+            DetrendArgument::Tilt => self.periodic.then_some(Detrend::Tilt),
             DetrendArgument::Curvature => Some(Detrend::Curvature),
         }
     }
 }
 
+/// Length as typed.
+#[derive(Clone, Copy, Debug)]
+pub struct Length {
+    /// Number in m, or in the unit of `--unit`.
+    value: f64,
+    has_unit: bool,
+}
+
+impl Length {
+    /// Length, m.
+    fn in_metres(self, unit: Option<Unit>) -> f64 {
+        unit.filter(|_| !self.has_unit).map_or(self.value, |unit| unit.to_metres(self.value))
+    }
+}
+
 impl SurfaceArguments {
+    fn in_metres(&self, length: Option<Length>) -> Option<f64> {
+        length.map(|length| length.in_metres(self.reading.unit))
+    }
+
+    /// Refuses a length without a unit, if `--unit` states none either, and a wavelength that no scene may have.
+    fn check_lengths(&self) -> Result<(), CliError> {
+        let AnalysisArguments { continue_to, tip_radius, .. } = self.analysis;
+        let lengths = [
+            ("--spacing", self.reading.spacing),
+            ("--continue-to", continue_to),
+            ("--tip-radius", tip_radius),
+        ];
+        let has_none = |length: Option<Length>| length.is_some_and(|length| !length.has_unit);
+        match lengths.into_iter().find(|(_, length)| self.reading.unit.is_none() && has_none(*length)) {
+            Some((name, _)) => {
+                Err(CliError::named(name, "a length without a unit; allowed: a unit, as 0.5um, or --unit um"))
+            }
+            None => match self.in_metres(continue_to).filter(|length| !(1e-15..=10.0).contains(length)) {
+                Some(length) => {
+                    let fault = format!("--continue-to: {length:e} m");
+                    Err(CliError::named(fault, "allowed: from 1e-15 to 10 m"))
+                }
+                None => Ok(()),
+            },
+        }
+    }
+
+    /// Refuses to write over a measured file, also with `--force`: it could not be measured again.
+    fn check_outputs(&self) -> Result<(), CliError> {
+        let place = |file: &Path| file.canonicalize().ok();
+        let outputs: Vec<PathBuf> =
+            [self.output.file(), self.scene.as_deref()].into_iter().flatten().filter_map(place).collect();
+        let files = self.files.iter().chain(&self.opposite).map(|file| self.folder.join(file));
+        match files.into_iter().find(|file| place(file).is_some_and(|file| outputs.contains(&file))) {
+            Some(file) => Err(CliError::named(
+                path_name(&file),
+                "the output would replace this measured file; allowed: another name",
+            )),
+            None => Ok(()),
+        }
+    }
+
     /// Arguments that determine the spectra, for their table.
     fn deciding(&self) -> Vec<String> {
         let (reading, analysis) = (&self.reading, &self.analysis);
-        let length = |value: Option<f64>| value.map(|value| exact_quantity(value, "m"));
+        let length = |value: Option<Length>| Some(exact_quantity(self.in_metres(value)?, "m"));
         let unit = |unit: Option<Unit>| unit.map(|unit| unit.name().to_owned());
         let detrend = analysis.detrend.to_possible_value().map(|value| value.get_name().to_owned());
         let options = [
@@ -233,11 +295,11 @@ impl SurfaceArguments {
             periodic: analysis.periodic,
             unit: unit(reading.unit),
             height_unit: unit(reading.height_unit),
-            spacing: reading.spacing,
+            spacing: self.in_metres(reading.spacing),
             interpolate: reading.interpolate,
             resample: reading.resample,
             channel: reading.channel.map(u64::from),
-            continue_to: analysis.continue_to,
+            continue_to: self.in_metres(analysis.continue_to),
             seed: 1,
         }
     }
@@ -268,7 +330,7 @@ impl SurfaceArguments {
             facts.push(SurfaceFile::new(path, &surface));
             surfaces.push(surface);
         }
-        let options = Options { tip_radius: self.analysis.tip_radius, ..options.analysis() };
+        let options = Options { tip_radius: self.in_metres(self.analysis.tip_radius), ..options.analysis() };
         let analysis = analyse(&surfaces, &options).map_err(|error| {
             let file = facts.get(error.surface().unwrap_or(0)).map(|file| path_name(&file.path));
             CliError::named(file.unwrap_or_default(), error)
@@ -281,6 +343,8 @@ impl SurfaceArguments {
 pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.output.format(arguments.format, FORMATS, Format::Text)?;
     arguments.output.check()?;
+    arguments.check_lengths()?;
+    arguments.check_outputs()?;
     if let Some(scene) = &arguments.scene {
         check_writable(scene, arguments.force_scene)?;
     }
@@ -300,7 +364,8 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     }
     if format.picture().is_some() {
         let files = faces.iter().flat_map(|face| &face.files);
-        let names: Vec<String> = files.map(|file| path_name(&file.path)).collect();
+        let names = files.filter_map(|file| file.path.file_name());
+        let names: Vec<String> = names.map(|name| path_name(Path::new(name))).collect();
         let analyses: Vec<&Analysis> = faces.iter().map(|face| &face.analysis).collect();
         let figure = Spectra::of_faces(&analyses).figure(&names.join(", "));
         return arguments.output.write_figure(stdout, &figure, format);
@@ -366,9 +431,10 @@ fn scene(
     }
 }
 
-/// Parses a length above 0, m.
-fn length(text: &str) -> Result<f64, String> {
-    positive(text, "m")
+/// Parses a length above 0.
+fn length(text: &str) -> Result<Length, String> {
+    let value = positive(text, "m")?;
+    Ok(Length { value, has_unit: text.trim().parse::<f64>().is_err() })
 }
 
 /// Parses an energy per area above 0, J/m².

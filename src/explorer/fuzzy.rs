@@ -13,8 +13,12 @@ pub struct Candidate {
 /// order. An empty query finds everything.
 ///
 /// A query word counts most as a whole name, then at the start of a name, at the start of a word, inside; then in the
-/// next text. Last are names with its letters in this order, most of them together or at starts of words.
+/// next text. Last are names with its letters in this order, most of them together or at starts of words. A query
+/// longer than [`LONGEST_QUERY`] finds nothing.
 pub fn find(candidates: impl IntoIterator<Item = Candidate>, query: &str) -> Vec<usize> {
+    if query.len() > LONGEST_QUERY {
+        return Vec::new();
+    }
     let words: Vec<&str> = query.split_whitespace().collect();
     let cost = |(index, candidate): (usize, Candidate)| {
         let cost = words.iter().map(|word| cost(&candidate, word)).sum::<Option<usize>>()?;
@@ -51,6 +55,8 @@ fn found_by(candidate: &Candidate, text: &str, word: &str) -> Vec<usize> {
     found.into_iter().filter_map(|letter| characters.get(letter).copied()).collect()
 }
 
+/// Longest query, bytes: longer than all names. Each letter is sought in all of them.
+const LONGEST_QUERY: usize = 256;
 /// Costs of a word in one text, from a whole text to a part of a word.
 const PLACES: usize = 5;
 /// Cost of scattered letters: more than that of any whole word, since no candidate has so many texts.
@@ -107,6 +113,9 @@ fn begins_word(text: &[char], at: usize) -> bool {
 /// text without such runs.
 fn runs(text: &str, letters: &[char]) -> Option<(usize, Vec<usize>)> {
     let text = lower(text);
+    if letters.len() > text.len() {
+        return None;
+    }
     // For each letter and each place of it the least cost of the letters so far, and the place of the letter before.
     let mut ends: Vec<Vec<Option<(usize, usize)>>> = Vec::new();
     for (number, letter) in letters.iter().enumerate() {

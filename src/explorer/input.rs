@@ -43,7 +43,8 @@ pub fn action_of(event: &Event, bindings: &Bindings, mode: ModeKind) -> Option<A
             }
         }
         Event::Paste(text) => Some(Action::Paste(text.clone())),
-        Event::Resize(columns, rows) => Some(Action::Resize(*columns, *rows)),
+        // Elsewhere a signal of its own: crossterm reports no size while it waits for the rest of a sequence.
+        Event::Resize(columns, rows) if cfg!(not(unix)) => Some(Action::Resize(*columns, *rows)),
         Event::Mouse(mouse) => gesture_of(mouse),
         _ => None,
     }

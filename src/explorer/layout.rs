@@ -94,7 +94,8 @@ fn panes(model: &Model, body: Rect) -> Vec<(Pane, Rect)> {
         return vec![(model.pane, body)];
     }
     if body.width >= 72 && body.height >= 14 {
-        let left = body.width * 58 / 100;
+        // Beyond 1129 columns the product exceeds 16 bits.
+        let left = (u32::from(body.width) * 58 / 100) as u16;
         let upper = body.height / 2;
         let part = |x: u16, y: u16, width: u16, height: u16| Rect::new(body.x + x, body.y + y, width, height);
         if let Some(pane) = model.large {

@@ -21,7 +21,7 @@ use crossterm::clipboard::CopyToClipboard;
 use crossterm::event::Event;
 use crossterm::queue;
 use ratatui::backend::CrosstermBackend;
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::{Position, Rect, Size};
 use ratatui::{Frame, Terminal};
 use std::cell::Cell;
 use std::collections::VecDeque;
@@ -37,6 +37,12 @@ use std::time::{Duration, Instant};
 pub const FRAME_RATE: u32 = 30;
 /// Most frames per second over SSH, where each has to travel.
 const REMOTE_FRAMES: u32 = 12;
+
+/// Most cells of a window, of about 100 bytes each.
+const MOST_CELLS: u32 = 4_000_000;
+
+/// Longest time of actions without a frame.
+const DRAINING: Duration = Duration::from_millis(100);
 
 /// Longest wait for a file job before anything else is done: keys typed after the job act on its result. Longer
 /// jobs continue in the background.
@@ -80,6 +86,8 @@ enum Message {
     Ended(i32),
     /// The stopped process continues: another program may have had the terminal.
     Continued,
+    /// The window has another size.
+    Resized,
     /// Report of another thread.
     Act(Box<Action>),
     /// The file job of this number is done.
@@ -134,6 +142,7 @@ pub fn open_with(
     watch_for_signals(sender(&messages, |signal| match signal {
         SystemSignal::End(signal) => Message::Ended(signal),
         SystemSignal::Continue => Message::Continued,
+        SystemSignal::Resize => Message::Resized,
     }))?;
     input::read(sender(&messages, |event: Option<Event>| event.map_or(Message::InputEnded, Message::Input)))?;
     // The guard restores everything; ratatui's own drop would complain on standard error, and panic
@@ -142,7 +151,7 @@ pub fn open_with(
     let written = writer.written();
     let backend = CrosstermBackend::new(writer);
     let mut terminal = ManuallyDrop::new(Terminal::new(backend)?);
-    let size = terminal.size()?;
+    let size = window(&terminal)?;
     let environment = Appearance::of_environment();
     let appearance = Appearance {
         theme: options.theme.or(options.config.theme).unwrap_or(environment.theme),
@@ -196,6 +205,17 @@ pub fn open_with(
 fn sender<T>(messages: &Sender<Message>, message: fn(T) -> Message) -> impl Fn(T) -> bool + Send + use<T> {
     let messages = messages.clone();
     move |content| messages.send(message(content)).is_ok()
+}
+
+/// Size of the window.
+fn window<W: Write>(terminal: &Terminal<CrosstermBackend<FrameWriter<W>>>) -> io::Result<Size> {
+    let size = terminal.size()?;
+    if size.area() > MOST_CELLS {
+        let Size { width, height } = size;
+        let fault = format!("a window of {width} × {height} cells; allowed: at most {MOST_CELLS} cells");
+        return Err(io::Error::other(fault));
+    }
+    Ok(size)
 }
 
 struct Session<'a, W: Write> {
@@ -266,6 +286,7 @@ impl<W: Write> Session<'_, W> {
             let frame = changed.then(|| due.saturating_duration_since(Instant::now()));
             let wait = step.into_iter().chain(frame).min();
             let mut next = self.wait_for_message(wait);
+            let since = Instant::now();
             while let Some(message) = next {
                 let action = match message {
                     Message::InputEnded => return Ok(None),
@@ -277,9 +298,9 @@ impl<W: Write> Session<'_, W> {
                     }
                     Message::Continued => {
                         self.guard.take_again()?;
-                        let size = self.terminal.size()?;
-                        Some(Action::Resize(size.width, size.height))
+                        Some(self.resize()?)
                     }
+                    Message::Resized => Some(self.resize()?),
                     // In the present mode: the key before may have changed it.
                     Message::Input(event) => {
                         input::action_of(&event, &self.model.bindings, self.model.keys())
@@ -294,7 +315,9 @@ impl<W: Write> Session<'_, W> {
                     self.redraw |= matches!(action, Action::Resize(..));
                     self.act(action)?;
                 }
-                next = self.wait_for_message(Some(Duration::ZERO));
+                // Keys faster than their effects would else be drawn after the last one.
+                let is_late = since.elapsed() >= DRAINING;
+                next = if is_late { None } else { self.wait_for_message(Some(Duration::ZERO)) };
             }
             if playing && moved.elapsed() >= frame_time {
                 // Time alone shows nothing: the requested snapshot does.
@@ -304,6 +327,12 @@ impl<W: Write> Session<'_, W> {
             }
         }
         Ok(None)
+    }
+
+    /// Action for a window of another size.
+    fn resize(&self) -> io::Result<Action> {
+        let size = window(self.terminal)?;
+        Ok(Action::Resize(size.width, size.height))
     }
 
     /// The next message, after `wait` at most; `None` waits without limit.
@@ -426,9 +455,9 @@ impl<W: Write> Session<'_, W> {
                     self.own_stops += 1;
                     self.guard.suspend()?;
                     // The window may have another size by now.
-                    let size = self.terminal.size()?;
                     self.redraw = true;
-                    self.act(Action::Resize(size.width, size.height))?;
+                    let resize = self.resize()?;
+                    self.act(resize)?;
                 }
             }
         }

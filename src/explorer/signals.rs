@@ -9,9 +9,11 @@ pub enum SystemSignal {
     End(i32),
     /// Continuation after a stop.
     Continue,
+    /// Another size of the window.
+    Resize,
 }
 
-/// Calls `report` when a signal ends or continues the process; `report` returns false once nobody receives.
+/// Calls `report` when a signal ends or continues the process, or the size of its window changes; `report` returns false once nobody receives.
 ///
 /// If the explorer has not ended some time later, as while the terminal accepts no output,
 /// the process ends by the signal, and [`super::rescue::Rescue`] restores the terminal.
@@ -20,16 +22,18 @@ pub enum SystemSignal {
 /// When the system refuses.
 #[cfg(unix)]
 pub fn watch_for_signals(report: impl Fn(SystemSignal) -> bool + Send + 'static) -> io::Result<()> {
-    use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM};
+    use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGWINCH};
     /// Time to end in an orderly way.
     const PATIENCE: std::time::Duration = std::time::Duration::from_millis(800);
-    let mut signals = signal_hook::iterator::Signals::new([SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM])?;
+    let mut signals =
+        signal_hook::iterator::Signals::new([SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGWINCH])?;
     std::thread::Builder::new()
         .name("signals".to_owned())
         .spawn(move || {
             for signal in signals.forever() {
-                if signal == SIGCONT {
-                    report(SystemSignal::Continue);
+                if let SIGCONT | SIGWINCH = signal {
+                    let is_size = signal == SIGWINCH;
+                    report(if is_size { SystemSignal::Resize } else { SystemSignal::Continue });
                     continue;
                 }
                 if report(SystemSignal::End(signal)) {

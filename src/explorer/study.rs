@@ -128,10 +128,7 @@ pub struct Found {
 /// Solver of the studies: [`Accuracy`], or a substitute in tests that replaces some of the methods.
 pub trait Appraiser: Send {
     /// See [`estimate`].
-    ///
-    /// # Errors
-    /// When a needed solution fails.
-    fn estimate(&mut self, of: &SolvedScene, stop: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
+    fn estimate(&mut self, of: &SolvedScene, stop: &dyn Fn() -> bool) -> Option<Estimate> {
         estimate(&of.scene, Path::new(FOLDER), &of.outcome, stop)
     }
 
@@ -188,7 +185,7 @@ pub fn perform(
         }
     };
     let done = catch_unwind(AssertUnwindSafe(|| match task {
-        Task::Estimate(of) => Finding::Estimated(appraiser.estimate(of, stop).unwrap_or(None)),
+        Task::Estimate(of) => Finding::Estimated(appraiser.estimate(of, stop)),
         Task::Choose(scene, tolerance) => {
             let choice =
                 appraiser.choose(scene, *tolerance, stop, &mut |points| report(Finding::Choosing(points)));

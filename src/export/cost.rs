@@ -23,9 +23,14 @@ pub fn cost_text(table: &CostTable) -> String {
         if rows.is_empty() {
             continue;
         }
-        sheet.heading(&heading(knob, &rows));
-        let (setting, note) = words(knob);
-        sheet.paragraph(note);
+        let mut setting = "springs";
+        let mut heading = format!("With {}", knob.name());
+        if knob == Knob::Step {
+            setting = "step";
+            let springs = grouped(rows.first().map_or(0, |row| row.springs));
+            heading += &format!(", from the exact solver on the same {springs} springs, edges Grid");
+        }
+        sheet.heading(&heading);
         let mut lines = vec![
             [setting, "least", "median", "FFTs", ERRORS[0], ERRORS[1], ERRORS[2], ERRORS[3]]
                 .map(String::from),
@@ -71,34 +76,9 @@ fn counted_from(table: &CostTable) -> String {
     )
 }
 
-fn heading(knob: Knob, rows: &[&Row]) -> String {
-    let springs = rows.first().map_or(0, |row| row.springs);
-    match knob {
-        Knob::SubCellSprings | Knob::GridSprings => format!("With {}", knob.name()),
-        _ => format!("With {}, on {} springs", knob.name(), grouped(springs)),
-    }
-}
-
-/// Name of the setting of a knob, and a note on its table.
-fn words(knob: Knob) -> (&'static str, &'static str) {
-    match knob {
-        Knob::SubCellSprings | Knob::GridSprings => ("springs", ""),
-        Knob::Step => ("step", "Counted from the exact solver on as many springs, edges Grid."),
-        Knob::Samples => ("samples", "The curve between its samples; no figure depends on their number."),
-        Knob::SinglePrecision => (
-            "bits",
-            "Gaps rounded to single precision, solved in double, counted from gaps in double. Storage of the \
-             line would be halved; no gain of time is claimed, for everything is still computed in double.",
-        ),
-        Knob::Lines => {
-            ("lines", "Standard error of the mean of F_a over so many seeds, one line after the other.")
-        }
-    }
-}
-
 fn cells(row: &Row) -> [String; 8] {
     let setting = match row.knob {
-        Knob::Step => format_quantity(row.setting, row.knob.unit()),
+        Knob::Step => format_quantity(row.setting, "m"),
         _ => grouped(row.setting as u64),
     };
     let [force, curve, energy, contact] =

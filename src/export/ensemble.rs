@@ -6,8 +6,8 @@ use super::table::{Column, TableFormat, Value, write_table};
 use crate::accuracy::Choice;
 use crate::analysis::Regime;
 use crate::io::write_json_value;
-use crate::scene::{Provenance, Scene, format_quantity};
-use crate::study::{LineResult, LinesSummary, Statistics};
+use crate::scene::{Provenance, Scene, format_quantity, format_rounded};
+use crate::study::{LineResult, LinesSummary, Statistics, quartiles};
 use crate::text::grouped;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -35,6 +35,8 @@ pub fn ensemble_text(scene: &Scene, lines: &[LineResult]) -> String {
         rows.extend(statistics.map(|statistics| cells(name, unit, &statistics)));
     }
     sheet.table(&rows);
+    let forces = lines.iter().filter_map(|line| line.adhesion_force).collect();
+    sheet.row_of("F_a", profiles_text(forces));
     // Profiles of one spectrum have one Tabor number.
     let number =
         lines.iter().filter(|line| line.dissipated_energy.is_some()).find_map(|line| line.tabor_number);
@@ -47,6 +49,13 @@ pub fn ensemble_text(scene: &Scene, lines: &[LineResult]) -> String {
     sheet.quantity("rms skewness", summary.rms_skewness, "1");
     sheet.quantity("rms excess kurtosis", summary.rms_excess_kurtosis, "1");
     sheet.into_text()
+}
+
+/// Median and quartiles of the adhesion forces of several profiles, N; `None` for fewer than two.
+pub(super) fn profiles_text(forces: Vec<f64>) -> Option<String> {
+    let count = Some(forces.len()).filter(|&count| count >= 2)?;
+    let [lower, median, upper] = quartiles(forces)?.map(|force| format_rounded(force, 2, "N"));
+    Some(format!("{count} profiles: median {median} (quartiles {lower} to {upper})"))
 }
 
 fn cells(name: &str, unit: &str, statistics: &Statistics) -> [String; 6] {

@@ -48,6 +48,7 @@ pub fn write_json(
         "preload_indentation": figures.preload_indentation,
         "adhesion_force": figures.adhesion_force,
         "adhesion_force_error": estimate.and_then(|estimate| estimate.of_adhesion_force(outcome)),
+        "adhesion_force_near_step": estimate.map(|estimate| estimate.near_step),
         "adhesion_coefficient": figures.adhesion_coefficient,
         "pull_off_indentation": figures.pull_off_indentation,
         "dissipated_energy": figures.dissipated_energy,

@@ -151,7 +151,7 @@ impl Spectra {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spectrum::{Options, analyse};
+    use crate::spectrum::{Estimate, Options, PowerLaw, analyse};
     use crate::topography::{ReadOptions, parse};
 
     fn analysis(end: End) -> Analysis {
@@ -163,14 +163,21 @@ mod tests {
 
     #[test]
     fn a_chart_names_all_that_it_shows() {
-        let analysis = analysis(End::Continues(1e7));
+        let mut analysis = analysis(End::Continues(1e7));
+        let half = Estimate { value: 0.5, error: 0.1 };
+        let level = Estimate { value: analysis.isotropic.c2d(1e5), error: 0.0 };
+        analysis.power_law = Some(PowerLaw { hurst: half, roll_off: None, level });
         let spectra = Spectra { heights: vec![(1e5, 1e-22)], ..Spectra::of_analysis(&analysis) };
         let figure = spectra.figure("a & b");
         let legend: Vec<String> = figure.legend().iter().map(|entry| entry.name.to_string()).collect();
-        let hurst = format!("self-affine fit, H = {:.2}", analysis.power_law.unwrap().hurst.value);
-        for name in
-            ["measured, 1D PSD along x", "fit", &hurst, "line", "heights of the line", "last resolved wave"]
-        {
+        for name in [
+            "measured, 1D PSD along x",
+            "fit",
+            "self-affine fit, H = 0.50",
+            "line",
+            "heights of the line",
+            "last resolved wave",
+        ] {
             assert!(legend.iter().any(|entry| entry == name), "{name}: {legend:?}");
         }
         assert_eq!(legend.contains(&"reliability cut-off".to_owned()), analysis.reliability_cutoff.is_some());

@@ -2,7 +2,7 @@
 
 use super::sheet::Sheet;
 use super::verdict;
-use crate::accuracy::{Estimate, Target};
+use crate::accuracy::Estimate;
 use crate::analysis::{LEAST_TABOR_NUMBER, SteepWaves};
 use crate::contact::Work;
 use crate::scene::{Leg, Scene, format_quantity};
@@ -40,7 +40,7 @@ pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
     sheet.quantity("e_el/γ", outcome.governing.elastic_energy_ratio, "1");
     sheet.row("regime", verdict::sentence(outcome));
     sheet.quantity("preload F_n", figures.preload, "N");
-    sheet.row("adhesion force F_a", adhesion_force(outcome, None));
+    sheet.row("adhesion force F_a", adhesion_force(outcome));
     sheet.quantity("at first touch F_a(0)", outcome.zero_load_adhesion_force, "N");
     dissipated_energy(&mut sheet, outcome);
     sheet.into_text()
@@ -93,7 +93,10 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Optio
     verdict::rows(sheet, outcome);
     sheet.quantity("preload F_n", figures.preload, "N");
     sheet.quantity("at indentation", figures.preload_indentation, "m");
-    sheet.row("adhesion force F_a", adhesion_force(outcome, estimate));
+    let force = figures.adhesion_force.is_some();
+    let error = estimate.map_or_else(|| force.then(|| "error unknown".to_owned()), |one| Some(one.words()));
+    let error = error.map_or_else(String::new, |error| format!(", {error}"));
+    sheet.row("adhesion force F_a", adhesion_force(outcome) + &error);
     sheet.quantity("pull-off indentation", figures.pull_off_indentation, "m");
     sheet.quantity("coefficient F_a/F_n", figures.adhesion_coefficient, "1");
     sheet.quantity("at first touch F_a(0)", outcome.zero_load_adhesion_force, "N");
@@ -131,15 +134,8 @@ fn steep_waves(waves: SteepWaves) -> String {
     )
 }
 
-/// Adhesion force and its error, or that of the curve if there is no tensile force.
-fn adhesion_force(outcome: &Outcome, estimate: Option<&Estimate>) -> String {
-    let force = quantity(outcome.figures.adhesion_force, "N");
-    let (of, error) = match estimate {
-        None => return force.unwrap_or_else(|| NO_PULL.into()),
-        Some(estimate) if estimate.target == Target::Curve => ("; force curve", estimate.per_cent()),
-        Some(estimate) => ("", estimate.per_cent()),
-    };
-    format!("{}{of} ± {error}", force.unwrap_or_else(|| NO_PULL.into()))
+fn adhesion_force(outcome: &Outcome) -> String {
+    quantity(outcome.figures.adhesion_force, "N").unwrap_or_else(|| NO_PULL.into())
 }
 
 fn loading(legs: &[Leg]) -> String {
@@ -260,19 +256,23 @@ mod tests {
 
     #[test]
     fn an_adhesion_force_has_its_error() {
-        use crate::accuracy::Evidence;
+        use crate::accuracy::{Evidence, Target};
         let document = Document::parse(ROUGH, "test").unwrap();
         let outcome = Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
         let text = |target, error| {
-            let estimate = Estimate { target, error, evidence: Evidence::ClosedForm };
+            let estimate = Estimate { target, error, near_step: error > 1.0, evidence: Evidence::ClosedForm };
             summary(document.scene(), &outcome, Some(&estimate))
         };
         let row = |text: &str| text.lines().find(|line| line.contains("force F_a ")).unwrap().to_owned();
         let force = format_quantity(outcome.figures.adhesion_force.unwrap(), "N");
         let of_force = text(Target::AdhesionForce, 0.0123);
-        assert!(row(&of_force).ends_with(&format!("{force} ± 1.2 %")), "{of_force}");
+        assert!(row(&of_force).ends_with(&format!("{force}, grid ± 1.2 %")), "{of_force}");
+        let near_step = text(Target::AdhesionForce, 1.4);
+        assert!(row(&near_step).ends_with(&format!("{force}, near a step of F_a(F_n)")), "{near_step}");
+        let unknown = summary(document.scene(), &outcome, None);
+        assert!(row(&unknown).ends_with(&format!("{force}, error unknown")), "{unknown}");
         let of_curve = text(Target::Curve, 2e-3);
-        assert!(row(&of_curve).ends_with(&format!("{force}; force curve ± 0.2 %")), "{of_curve}");
+        assert!(row(&of_curve).ends_with(&format!("{force}, curve, grid ± 0.2 %")), "{of_curve}");
         let brief = brief_summary(document.scene(), &outcome);
         assert!(brief.lines().count() <= 10, "{brief}");
         let whole = text(Target::AdhesionForce, 0.01);

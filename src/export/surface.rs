@@ -1,22 +1,30 @@
 //! Analysed surfaces: text for readers, JSON and CSV for programs.
 
+use super::ensemble::profiles_text;
 use super::sheet::Sheet;
 use super::spectrum_figure::{SpectrumPoint, spectrum_name, wave_numbers};
 use super::table::{Column, TableFormat, Value, write_table};
 use crate::io::{object, write_json_value};
-use crate::scene::{Leg, Provenance, Scene, format_quantity};
-use crate::spectrum::{Analysis, Bin, Direction, End, Estimate, LineMoments};
+use crate::scene::{Leg, Provenance, Scene, format_quantity, format_rounded};
+use crate::spectrum::{Analysis, Bin, Direction, End, Estimate, LineMoments, Moment};
 use crate::study::MeasuredAdhesion;
 use crate::surface::EquivalentLine;
 use crate::text::{grouped, path_name, per_cent};
 use crate::topography::Topography;
 use serde::Serialize;
 use serde_json::json;
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI};
 use std::io::{self, Write};
 use std::path::PathBuf;
 
 /// Points per decade of the spectrum of the equivalent line in CSV.
 const LINE_PER_DECADE: f64 = 10.0;
+
+/// Share of the squared height in long waves above which it depends on the length of the scan.
+const MANY_LONG_WAVES: f64 = 0.3;
+
+/// Number of profiles from which on the moments are as accurate as those of a map.
+const MANY_PROFILES: u64 = 100;
 
 /// Name of the spectrum of the equivalent line.
 const LINE: &str = "equivalent line";
@@ -80,40 +88,27 @@ pub struct SurfaceContact {
 
 impl SurfaceContact {
     /// Elastic energy of full contact, J/m².
-    fn elastic_energy(self, moments: &LineMoments) -> Estimate {
-        scaled(moments.energy_per_modulus, self.modulus)
+    fn elastic_energy(self, moments: &LineMoments) -> Moment {
+        moments.energy_per_modulus.scaled(self.modulus)
     }
 
     /// κ = √(h⟨∇z⟩E*/γ), with half the relative error of h⟨∇z⟩.
-    fn kappa(self, moments: &LineMoments) -> Option<Estimate> {
-        let product = moments.height_gradient;
-        let value = (product.value * self.modulus / self.work?).sqrt();
-        Some(Estimate { value, error: 0.5 * value * product.error / product.value })
+    fn kappa(self, moments: &LineMoments) -> Option<Moment> {
+        Some(moments.height_gradient.scaled(self.modulus).scaled(1.0 / self.work?).root())
     }
 
     /// Elastic energy of full contact over the work of adhesion.
-    fn energy_ratio(self, moments: &LineMoments) -> Option<Estimate> {
-        Some(scaled(self.elastic_energy(moments), 1.0 / self.work?))
+    fn energy_ratio(self, moments: &LineMoments) -> Option<Moment> {
+        Some(self.elastic_energy(moments).scaled(1.0 / self.work?))
     }
 }
 
-fn scaled(estimate: Estimate, factor: f64) -> Estimate {
-    Estimate { value: factor * estimate.value, error: factor * estimate.error }
-}
-
-/// Adhesion force with its spread over random profiles and that of the fit; `None` for fewer than two forces.
+/// Median and quartiles of the adhesion forces of the profiles, and the error by the fit; `None` for fewer than two.
 #[must_use]
 pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
-    let force = computed.adhesion_force()?;
-    let mean = format_quantity(force.mean, "N");
-    let lines = force.count;
-    if force.mean <= 0.0 {
-        return Some(format!("{mean} on all of {lines} lines"));
-    }
-    let share = |deviation: f64| per_cent(deviation / force.mean);
-    let fit = computed.fit_deviation();
-    let fit = fit.map_or_else(String::new, |fit| format!(", ± {} by the fit", share(fit)));
-    Some(format!("{mean} ± {} over {lines} lines{fit}", share(force.standard_deviation)))
+    let forces = profiles_text(computed.forces())?;
+    let fit = computed.fit_deviation().map(|fit| format!(", fit ± {}", format_rounded(fit, 2, "N")));
+    Some(forces + &fit.unwrap_or_default())
 }
 
 /// Adhesion of the equivalent line.
@@ -205,17 +200,15 @@ impl SurfaceReport<'_> {
         let wave = |q: f64| format_quantity(std::f64::consts::TAU / q, "m");
         let [low, high] = self.line.range().map(wave);
         let analyses = || self.faces.iter().map(|face| &face.analysis);
-        let end = match analyses().next().map(|analysis| analysis.end) {
-            Some(End::Continues(_)) => "continued as a power law",
+        let last = |analysis: &&Analysis| analysis.isotropic.range()[1];
+        let end = match analyses().max_by(|one, other| last(one).total_cmp(&last(other))) {
+            Some(Analysis { end: End::Continues(_), .. }) => "continued as a power law",
+            Some(Analysis { ends_inside: true, .. }) => "the spectrum ends inside the scan",
             _ => "the last resolved wave; shorter ones are left out",
         };
         sheet.row("wavelengths", format!("{low} to {high} ({end})"));
-        for (number, analysis) in analyses().enumerate() {
-            sheet.row(if number == 0 { "accuracy" } else { "opposite, accuracy" }, analysis.promise());
-        }
-        let cut = moments.of_cut();
-        let energy = 100.0 * cut.energy_per_modulus.value / moments.energy_per_modulus.value;
-        let gradient = format_quantity(cut.rms_gradient.value, "1");
+        let gradient = format_quantity(moments.rms_gradient.value * FRAC_1_SQRT_2, "1");
+        let energy = 100.0 * FRAC_2_PI;
         sheet.row(
             "a profile as the line",
             format!("⟨∇z⟩ = {gradient} and {energy:.0} % of the elastic energy"),
@@ -226,7 +219,7 @@ impl SurfaceReport<'_> {
         let warnings = analyses().enumerate().flat_map(|(number, analysis)| {
             let of_face =
                 move |warning| if number == 0 { warning } else { format!("opposite face: {warning}") };
-            analysis.warnings().into_iter().map(of_face)
+            warnings(analysis).into_iter().map(of_face)
         });
         let warnings: Vec<String> = warnings.collect();
         if !warnings.is_empty() {
@@ -243,12 +236,12 @@ impl SurfaceReport<'_> {
     pub fn write_json(&self, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
         let (moments, contact) = (self.line.moments(), self.contact);
         let line = json!({
-            "rms_height": estimate(Some(moments.rms_height)),
-            "rms_gradient": estimate(Some(moments.rms_gradient)),
-            "energy_per_modulus": estimate(Some(moments.energy_per_modulus)),
-            "elastic_energy": estimate(contact.map(|contact| contact.elastic_energy(&moments))),
-            "kappa": estimate(contact.and_then(|contact| contact.kappa(&moments))),
-            "elastic_energy_ratio": estimate(contact.and_then(|contact| contact.energy_ratio(&moments))),
+            "rms_height": moments.rms_height,
+            "rms_gradient": moments.rms_gradient,
+            "energy_per_modulus": moments.energy_per_modulus,
+            "elastic_energy": contact.map(|contact| contact.elastic_energy(&moments)),
+            "kappa": contact.and_then(|contact| contact.kappa(&moments)),
+            "elastic_energy_ratio": contact.and_then(|contact| contact.energy_ratio(&moments)),
         });
         let adhesion = self.adhesion.and_then(SurfaceAdhesion::json).unwrap_or_default();
         let Some((first, others)) = self.faces.split_first() else { return Ok(()) };
@@ -258,7 +251,7 @@ impl SurfaceReport<'_> {
 }
 
 fn self_affine(sheet: &mut Sheet, analysis: &Analysis) {
-    let Some(fit) = &analysis.power_law else { return sheet.row("fit", "none converges") };
+    let Some(fit) = &analysis.power_law else { return sheet.row("fit", "none with 0 < H < 1") };
     sheet.row("Hurst exponent H", with_error(fit.hurst, "1"));
     let wavelength = fit.roll_off.map(|roll_off| {
         let length = std::f64::consts::TAU / roll_off.value;
@@ -299,17 +292,83 @@ fn measured(sheet: &mut Sheet, analysis: &Analysis) {
     sheet.quantity("reliability cut-off", analysis.reliability_cutoff, "m");
 }
 
+/// Moments with their errors, a column for each kind.
 fn line(sheet: &mut Sheet, moments: &LineMoments, contact: Option<SurfaceContact>) {
-    sheet.row("rms height h", with_error(moments.rms_height, "m"));
-    sheet.row("rms gradient ⟨∇z⟩", with_error(moments.rms_gradient, "1"));
+    let heading = ["", "value", "statistical", "method", "missing short waves"].map(str::to_owned);
+    let mut rows = vec![heading];
+    let mut row = |label: &str, moment: Option<Moment>, unit: &str| {
+        let Some(moment) = moment else { return };
+        let share = |error: f64| per_cent(error / moment.value);
+        let [statistical, method] =
+            [moment.statistical, moment.method].map(|error| format!("± {}", share(error)));
+        let missing = match moment.missing_short_waves {
+            0.0 => "none".to_owned(),
+            change => format!("up to {}", share(change)),
+        };
+        // As wide as the labels of the other rows.
+        rows.push([
+            format!("  {label:22}"),
+            format_quantity(moment.value, unit),
+            statistical,
+            method,
+            missing,
+        ]);
+    };
+    row("rms height h", Some(moments.rms_height), "m");
+    row("rms gradient ⟨∇z⟩", Some(moments.rms_gradient), "1");
     match contact {
-        None => sheet.row("e_el/E*", with_error(moments.energy_per_modulus, "m")),
+        None => row("e_el/E*", Some(moments.energy_per_modulus), "m"),
         Some(contact) => {
-            sheet.row("elastic energy e_el", with_error(contact.elastic_energy(moments), "J/m²"));
-            sheet.row_of("κ", contact.kappa(moments).map(|kappa| with_error(kappa, "1")));
-            sheet.row_of("e_el/γ", contact.energy_ratio(moments).map(|ratio| with_error(ratio, "1")));
+            row("elastic energy e_el", Some(contact.elastic_energy(moments)), "J/m²");
+            row("κ", contact.kappa(moments), "1");
+            row("e_el/γ", contact.energy_ratio(moments), "1");
         }
     }
+    sheet.table(&rows);
+}
+
+/// Limits of an analysis that affect the user.
+fn warnings(analysis: &Analysis) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let long = analysis.long_wave_share();
+    if long > MANY_LONG_WAVES {
+        warnings.push(format!(
+            "waves longer than a quarter of the scan carry {:.0} % of the squared height: rms height and elastic \
+             energy depend on the length of the scan",
+            100.0 * long
+        ));
+    }
+    if analysis.maps == 0 && analysis.profiles < MANY_PROFILES {
+        warnings.push(
+            "adhesion near its boundary cannot be had from few profiles (a factor from 1.4 to 3.3 either way)"
+                .to_owned(),
+        );
+    }
+    if analysis.end == End::Ends && !analysis.ends_inside {
+        warnings.push(
+            "the spectrum does not end inside the scan: shorter waves may be missing, and in samples of points add \
+             to the longer ones; --continue-to, in a scene roughness.continue_to, continues it as a power law"
+                .to_owned(),
+        );
+    }
+    if analysis.offsets {
+        warnings.push(
+            "rows or columns are offset against each other, or were levelled one by one: waves along that axis \
+             alone are left out of the fit"
+                .to_owned(),
+        );
+    }
+    if analysis.apart > 0.0 {
+        warnings.push(format!(
+            "waves along one axis differ from their neighbours by {:.0} % of the squared gradient: rows or columns \
+             are offset against each other, or the surface has a lay; level the rows before, or choose one by --row",
+            100.0 * analysis.apart
+        ));
+    }
+    if let Some(cutoff) = analysis.reliability_cutoff {
+        warnings.push(format!("waves below {cutoff:.3e} m may be artefacts of the tip"));
+    }
+    warnings
 }
 
 fn with_error(estimate: Estimate, unit: &str) -> String {
@@ -358,8 +417,8 @@ fn face_json<'a>(
         "adhesion"?: adhesion,
         "spectrum": analysis.isotropic.nodes().map(node).collect::<Vec<_>>(),
         "profile_spectra": analysis.spectra.iter().map(spectrum).collect::<Vec<_>>(),
-        "accuracy": analysis.promise(),
-        "warnings": analysis.warnings(),
+        "ends_inside_scan": analysis.ends_inside,
+        "warnings": warnings(analysis),
         "opposite"?: opposite,
     }
 }

@@ -1,23 +1,24 @@
 //! Work–precision diagram: error over computing time for each setting that affects accuracy.
 
-use crate::accuracy::{CostTable, ErrorFigure, Knob, Row};
+use crate::accuracy::{CostTable, Knob};
 use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 
 /// Relative errors over the least time of a run, one curve for each setting: errors of the adhesion force, or of
 /// the force curve if there is no adhesion force.
 #[must_use]
 pub fn work_precision(title: &str, table: &CostTable) -> Figure {
-    let points = |knob: Knob| table.rows_of(knob).filter_map(point).collect::<Vec<_>>();
+    let points = |knob: Knob| table.rows_of(knob).filter_map(|row| table.point(row)).collect::<Vec<_>>();
     let series: Vec<_> = Knob::ALL.into_iter().map(|knob| (knob, points(knob))).collect();
     let series: Vec<_> = series.into_iter().filter(|(_, points)| !points.is_empty()).collect();
     let mut layers = Vec::new();
     for (number, (knob, points)) in series.iter().enumerate() {
         let of = |resolved: bool| {
-            points.iter().filter(move |point| point.resolved == resolved).map(|point| point.at)
+            let of = points.iter().filter(move |(_, figure)| figure.resolved == resolved);
+            of.map(|&(seconds, figure)| (seconds, figure.error))
         };
         let (ink, sign) = (Ink::Series(number), Sign::of_series(number));
-        let stroke = if number < 5 { Stroke::Solid } else { Stroke::Dashed };
-        layers.push(Layer::unnamed(ink, Shape::line(points.iter().map(|point| point.at).collect(), stroke)));
+        let line = points.iter().map(|&(seconds, figure)| (seconds, figure.error)).collect();
+        layers.push(Layer::unnamed(ink, Shape::line(line, Stroke::Solid)));
         layers.push(Layer::new(Label::plain(knob.name()), ink, Shape::signs(of(true).collect(), sign)));
         if of(false).next().is_some() {
             let rings = Shape::signs(of(false).collect(), Sign::Ring);
@@ -28,30 +29,19 @@ pub fn work_precision(title: &str, table: &CostTable) -> Figure {
     let axis = |span: Span, name: &str, symbol: &str, unit: &str| {
         Axis::new(AxisScale::Logarithmic, span, name, symbol, unit)
     };
-    let times = Span::decades(all().map(|point| point.at.0.log10()));
-    let errors = Span::decades(all().map(|point| point.at.1.log10()));
-    let of_force = table.rows.iter().any(|row| row.errors.adhesion_force.is_some());
+    let times = Span::decades(all().map(|(seconds, _)| seconds.log10()));
+    let errors = Span::decades(all().map(|(_, figure)| figure.error.log10()));
+    let of_force = table.reference.adhesion_force.is_some();
     let (name, symbol) =
         if of_force { ("relative error of", "F_a") } else { ("relative error of the curve", "") };
     let x = axis(times, "time of a run", "t", "s");
     Figure::of_chart(title, Chart::new(x, axis(errors, name, symbol, "1"), layers))
 }
 
-struct Point {
-    at: (f64, f64),
-    resolved: bool,
-}
-
-fn point(row: &Row) -> Option<Point> {
-    let ErrorFigure { error, resolved, .. } = row.errors.adhesion_force.or(row.errors.curve)?;
-    let seconds = row.seconds?.minimum;
-    (error > 0.0 && seconds > 0.0 && error.is_finite()).then_some(Point { at: (seconds, error), resolved })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::accuracy::{Measures, Reference, Timing};
+    use crate::accuracy::{ErrorFigure, Measures, Reference, Row, Timing};
 
     #[test]
     fn points_lie_at_time_and_error() {

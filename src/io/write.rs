@@ -71,6 +71,7 @@ pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
 ///
 /// # Errors
 /// [`WriteError::NoFileName`] or [`WriteError::NotRegular`].
+#[cfg(feature = "tui")]
 pub fn check_file_name(path: &Path) -> Result<(), WriteError> {
     match Target::of(path, true) {
         Err(error @ WriteError::NoFileName { .. }) => Err(error),

@@ -1,5 +1,6 @@
 //! A scene with its text, changed field by field without loss of a comment.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use super::check::check;
@@ -274,10 +275,11 @@ impl Document {
         &self.name
     }
 
-    /// Title of the scene, or its name if there is none.
+    /// Title of the scene, or if there is none the name of its file without folders.
     #[must_use]
     pub fn title(&self) -> &str {
-        if self.scene.title.is_empty() { self.name() } else { &self.scene.title }
+        let file = || Path::new(&self.name).file_name().and_then(OsStr::to_str);
+        if self.scene.title.is_empty() { file().unwrap_or(&self.name) } else { &self.scene.title }
     }
 
     /// The effective overrides since the text was opened, in order: applied to the opened text they

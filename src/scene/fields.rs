@@ -179,7 +179,7 @@ pub const FIELDS: &[Field] = &[
         .name("detrending")
         .range(Range::Choice(&["Nothing", "Mean", "Tilt", "Curvature"]))
         .default("None")
-        .meaning("part that is removed of the measured heights by least squares; default: Tilt, and Nothing of a profile as line"),
+        .meaning("part that is removed of the measured heights by least squares; default: Tilt, Mean of a periodic surface, Nothing of a profile as line"),
     at!(roughness?, Roughness::Measured.periodic)
         .name("periodic surface")
         .range(Range::Choice(&["false", "true"]))

@@ -12,8 +12,20 @@ use super::statistics::{Statistics, Sums};
 use crate::topography::Topography;
 use std::f64::consts::{PI, TAU};
 
-/// Number of profiles from which on the moments are as accurate as those of a map.
-const MANY_PROFILES: u64 = 100;
+/// Share of the squared gradient that may be beyond the end of the spectrum.
+const NEGLIGIBLE: f64 = 1e-4;
+
+/// Largest ratio of the powers beyond the end of the spectrum to those of as many waves before.
+const DROP: f64 = 0.03;
+
+/// Least ratio of length and width of a map whose longest waves are those along its length.
+const NARROW: f64 = 2.0;
+
+/// Waves before an end inside the scan that the self-affine fit leaves out.
+const BEFORE_END: f64 = 4.0;
+
+/// Wave numbers to which a spectrum without an end may continue, over the last resolved one.
+const CONTINUED: f64 = 4.0;
 
 /// Choices of an analysis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -53,12 +65,23 @@ pub struct Analysis {
     pub spacing: f64,
     /// End of the spectrum.
     pub end: End,
+    /// True if the spectrum ends before the last resolved wave.
+    pub ends_inside: bool,
+    /// True if waves along one axis of a map alone are left out, because its rows or columns are offset against each other or
+    /// were levelled one by one.
+    pub offsets: bool,
+    /// Share of the squared gradient by which the waves along one axis depart from their neighbours in the plane although they
+    /// are not left out; 0 for chance.
+    pub apart: f64,
 }
 
 /// Powers of all surfaces, profiles of equal points together.
+#[derive(Default)]
 struct Powers {
     profiles: Vec<ProfilePower>,
     maps: Vec<MapPower>,
+    /// Powers along long and narrow maps, with the wave number, rad/m, below which the powers of the map are not used.
+    strips: Vec<(ProfilePower, f64)>,
     /// Powers along the rows and the columns of maps, for display.
     rows: Vec<ProfilePower>,
     columns: Vec<ProfilePower>,
@@ -73,7 +96,7 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         return Err(SpectrumError::Nothing);
     }
     let mut sums = Sums::default();
-    let mut powers = Powers { profiles: Vec::new(), maps: Vec::new(), rows: Vec::new(), columns: Vec::new() };
+    let mut powers = Powers::default();
     let mut reliability: Option<f64> = None;
     let (mut length, mut spacing) = (0.0_f64, f64::INFINITY);
     for (index, surface) in surfaces.iter().enumerate() {
@@ -92,24 +115,61 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         length = length.max(columns as f64 * distances[0]);
         spacing = spacing.min(distances[0]).min(distances[1]);
     }
-    let observations = powers.observations();
-    let range = powers.range();
+    let (range, resolved) = (powers.range(last_significant), powers.range(|count, _| count)[1]);
+    let ends_inside = range[1] < resolved;
+    let observations = powers.observations(range[1]);
     if let End::Continues(to) = options.end
         && (to <= range[1] || to.is_nan())
     {
         return Err(SpectrumError::End { to, last: range[1] });
     }
-    let model = Model::new(&observations, range, options.end);
-    let isotropic = model.fit().ok_or(SpectrumError::NoMaximum)?;
+    let mut isotropic = fitted(&observations, range, options.end)?;
+    let self_affine = |observations: &[Observation], spectrum: &IsotropicSpectrum| {
+        // The powers of the last waves depend on how the spectrum ends.
+        let last = if ends_inside { range[1] - BEFORE_END * range[0] } else { f64::INFINITY };
+        let before: Vec<_> = observations.iter().filter(|one| one.wave_number < last).cloned().collect();
+        power_law::fit(&Model::new(&before, range, options.end), spectrum)
+    };
+    let apart = powers.maps.iter().map(|map| map.apart).fold(0.0, f64::max);
+    let mut power_law = self_affine(&observations, &isotropic).filter(|_| apart == 0.0);
+    let mut largest = [0.0_f64; 4];
+    let places = if surfaces.iter().any(|surface| surface.interpolated() > 0) { 1..4 } else { 0..0 };
+    for quarters in places {
+        let observations = interpolated_again(surfaces, options, quarters)?.observations(range[1]);
+        let again = fitted(&observations, range, options.end)?;
+        let hurst = self_affine(&observations, &again).zip(power_law);
+        let change = hurst.map_or(0.0, |(again, before)| again.hurst.value - before.hurst.value);
+        let changes = isotropic.changes(&again).into_iter().chain([change]);
+        largest.iter_mut().zip(changes).for_each(|(largest, change)| *largest = largest.max(change.abs()));
+    }
+    if let Some(fit) = &mut power_law {
+        fit.hurst.error = fit.hurst.error.hypot(largest[3]);
+    }
+    for (error, change) in isotropic.method.iter_mut().zip(largest) {
+        *error = error.hypot(change).hypot(apart);
+    }
+    if options.end == End::Ends && !ends_inside {
+        // Without such a fit nothing is known of the missing waves.
+        let change = |longer: IsotropicSpectrum| {
+            let (within, all) = (isotropic.changes(&longer.until(range[1])), isotropic.changes(&longer));
+            [0, 1, 2].map(|index| within[index].abs().max(all[index].abs()))
+        };
+        let longer = fitted(&observations, range, End::Continues(CONTINUED * range[1]));
+        isotropic.missing = longer.map_or([f64::INFINITY; 3], change);
+    }
+    let statistics = sums.statistics();
+    if options.end == End::Ends {
+        isotropic.check_identities(&statistics);
+    }
     let line = isotropic.line_moments();
     let values = [line.rms_height, line.rms_gradient, line.energy_per_modulus];
     if values.iter().any(|estimate| !(estimate.value.is_finite() && estimate.error.is_finite())) {
         return Err(SpectrumError::NoMaximum);
     }
     Ok(Analysis {
-        statistics: sums.statistics(),
+        statistics,
         spectra: powers.spectra(),
-        power_law: power_law::fit(&model),
+        power_law,
         isotropic,
         line,
         reliability_cutoff: reliability,
@@ -118,7 +178,35 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         length,
         spacing,
         end: options.end,
+        ends_inside,
+        offsets: powers.maps.iter().any(|map| map.offsets),
+        apart,
     })
+}
+
+/// Powers of the surfaces with as many points interpolated once more.
+fn interpolated_again(
+    surfaces: &[Topography],
+    options: &Options,
+    quarters: usize,
+) -> Result<Powers, SpectrumError> {
+    let mut powers = Powers::default();
+    for (index, surface) in surfaces.iter().enumerate() {
+        let refused = |error| SpectrumError::Surface { index, error };
+        let (columns, distances) = (surface.columns(), surface.spacing().map_err(refused)?);
+        let mut heights = surface.interpolated_again(quarters).map_err(refused)?;
+        options.detrend.remove(&mut heights, columns);
+        powers.add(&heights, columns, distances, !options.periodic)?;
+    }
+    Ok(powers)
+}
+
+fn fitted(
+    observations: &[Observation],
+    range: [f64; 2],
+    end: End,
+) -> Result<IsotropicSpectrum, SpectrumError> {
+    Model::new(observations, range, end).fit().ok_or(SpectrumError::NoMaximum)
 }
 
 fn copied(heights: &[f64]) -> Result<Vec<f64>, SpectrumError> {
@@ -155,26 +243,48 @@ impl Powers {
             return group(&mut self.profiles, columns, along, windowed)
                 .add(std::iter::once(heights.iter().copied()));
         }
-        group(&mut self.rows, columns, along, windowed)
-            .add(heights.chunks_exact(columns).map(|row| row.iter().copied()))?;
-        group(&mut self.columns, rows, between, windowed)
-            .add((0..columns).map(|column| heights.iter().skip(column).step_by(columns).copied()))?;
-        self.maps.push(MapPower::new(heights, columns, [along, between], windowed)?);
+        let in_rows = || heights.chunks_exact(columns).map(|row| row.iter().copied());
+        let in_columns = || (0..columns).map(|column| heights.iter().skip(column).step_by(columns).copied());
+        group(&mut self.rows, columns, along, windowed).add(in_rows())?;
+        group(&mut self.columns, rows, between, windowed).add(in_columns())?;
+        let map = MapPower::new(heights, columns, [along, between], windowed)?;
+        let [first, second] = map.steps;
+        let mut strip = None;
+        if windowed && second >= NARROW * first {
+            strip.insert(ProfilePower::new(columns, along, windowed)).add(in_rows())?;
+        } else if windowed && first >= NARROW * second {
+            strip.insert(ProfilePower::new(rows, between, windowed)).add(in_columns())?;
+        }
+        self.strips.extend(strip.map(|power| (power, observation::least_of_map(&map))));
+        self.maps.push(map);
         Ok(())
     }
 
-    fn observations(&self) -> Vec<Observation> {
-        let profiles = self.profiles.iter().flat_map(observation::of_profiles);
-        profiles.chain(self.maps.iter().flat_map(observation::of_map)).collect()
+    fn observations(&self, last: f64) -> Vec<Observation> {
+        let profiles = self.profiles.iter().flat_map(|power| observation::of_profiles(power, last));
+        let strips = self.strips.iter().flat_map(|(power, end)| {
+            // Neighbouring rows are nearly equal in waves that long: they count as one.
+            let one = |of: Observation| Observation { waves: of.waves / power.profiles as f64, ..of };
+            observation::of_profiles(power, *end).into_iter().map(one)
+        });
+        profiles
+            .chain(strips)
+            .chain(self.maps.iter().flat_map(|power| observation::of_map(power, last)))
+            .collect()
     }
 
-    /// Wave numbers from wave 1 of the longest surface to half a wave beyond the last of the finest one.
-    fn range(&self) -> [f64; 2] {
-        let ends = |power: &ProfilePower| [power.step(), (power.power.len() as f64 + 0.5) * power.step()];
-        let profiles = self.profiles.iter().map(ends);
+    /// Wave numbers from wave 1 of the longest surface to half a wave beyond the last of the finest profile, or the last of the
+    /// finest map; `last` of their waves (number, wave number and power of each by its index).
+    fn range(&self, last: impl Fn(usize, &dyn Fn(usize) -> (f64, f64)) -> usize) -> [f64; 2] {
+        let profiles = self.profiles.iter().map(|power| {
+            let step = power.step();
+            let count = last(power.power.len(), &|index| ((index + 1) as f64 * step, power.power[index]));
+            [step, (count as f64 + 0.5) * step]
+        });
         let maps = self.maps.iter().map(|map| {
-            let last = map.waves.last().map_or(map.steps[0], |(q, _)| *q);
-            [map.steps[0].min(map.steps[1]), last + 0.5 * map.steps[0].min(map.steps[1])]
+            let step = map.steps[0].min(map.steps[1]);
+            let count = last(map.waves.len(), &|index| map.waves[index]);
+            [step, count.checked_sub(1).map_or(step, |index| map.waves[index].0)]
         });
         profiles.chain(maps).fold([f64::INFINITY, 0.0], |[low, high], [a, b]| [low.min(a), high.max(b)])
     }
@@ -202,6 +312,25 @@ impl Powers {
     }
 }
 
+/// Number of waves (wave number and power of each by its index) beyond which the others carry a negligible share of the squared
+/// gradient and powers far below those before; all waves if there is no such end.
+fn last_significant(count: usize, wave: &dyn Fn(usize) -> (f64, f64)) -> usize {
+    let square = |index: usize| {
+        let (q, power) = wave(index);
+        q * q * power
+    };
+    let negligible = NEGLIGIBLE * (0..count).map(square).sum::<f64>();
+    let (mut end, mut rest) = (count, 0.0);
+    while end > 1 && rest + square(end - 1) <= negligible {
+        end -= 1;
+        rest += square(end);
+    }
+    let beyond = count - end;
+    let before = beyond.min(end);
+    let as_many: f64 = (end - before..end).map(square).sum();
+    if rest * before as f64 <= DROP * as_many * beyond as f64 { end } else { count }
+}
+
 /// The powers of profiles of these points, newly made if there are none yet.
 fn group(powers: &mut Vec<ProfilePower>, points: usize, spacing: f64, windowed: bool) -> &mut ProfilePower {
     let same = |power: &ProfilePower| power.points == points && (power.spacing / spacing - 1.0).abs() < 1e-6;
@@ -213,58 +342,10 @@ fn group(powers: &mut Vec<ProfilePower>, points: usize, spacing: f64, windowed: 
 }
 
 impl Analysis {
-    /// Returns true if a roll-off is found well inside the range of waves: then the longest waves carry little of
-    /// the height.
+    /// Share of the squared height in waves longer than a quarter of the scan, which are few.
     #[must_use]
-    pub fn has_roll_off(&self) -> bool {
-        let roll_off = self.power_law.and_then(|fit| fit.roll_off);
-        roll_off.is_some_and(|roll_off| roll_off.value >= 4.0 * TAU / self.length)
-    }
-
-    /// Accuracy of the moments of the equivalent line, from tests with generated surfaces (`docs/surfaces.md`).
-    #[must_use]
-    pub fn promise(&self) -> &'static str {
-        let many = self.maps > 0 || self.profiles >= MANY_PROFILES;
-        match (self.has_roll_off(), many) {
-            (true, true) => {
-                "rms height and rms gradient within 2 %, elastic energy within 3 % (one standard deviation)"
-            }
-            (true, false) => {
-                "rms gradient within 6 %, rms height within 16 %, elastic energy within 18 % (one standard deviation; one \
-                 profile of 256 waves with 16 lengths of the roll-off)"
-            }
-            (false, _) => {
-                "only the rms gradient: without a roll-off inside the scan the rms height depends on the length of the \
-                 scan, and scatters by up to 45 %"
-            }
-        }
-    }
-
-    /// Limits of the analysis that affect the user.
-    #[must_use]
-    pub fn warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
-        if !self.has_roll_off() {
-            warnings.push(
-                "no roll-off inside the scan: rms height and elastic energy depend on its length".to_owned(),
-            );
-        }
-        if self.maps == 0 && self.profiles < MANY_PROFILES {
-            warnings.push(
-                "adhesion near its boundary cannot be had from few profiles (a factor from 1.4 to 3.3 either way)"
-                    .to_owned(),
-            );
-        }
-        if self.end == End::Ends {
-            warnings.push(
-                "the spectrum ends at the last resolved wave; of point samples of a rougher surface the rms gradient \
-                 may be off by up to 49 %"
-                    .to_owned(),
-            );
-        }
-        if let Some(cutoff) = self.reliability_cutoff {
-            warnings.push(format!("waves below {cutoff:.3e} m may be artefacts of the tip"));
-        }
-        warnings
+    pub fn long_wave_share(&self) -> f64 {
+        let all = self.isotropic.integrals()[0];
+        1.0 - self.isotropic.moment(1, 4.0 * TAU / self.length).0 / all
     }
 }

@@ -6,6 +6,7 @@
 use super::isotropic::{End, IsotropicSpectrum, Nodes};
 use super::linear::Cholesky;
 use super::observation::{Observation, Term};
+use std::f64::consts::TAU;
 
 /// Weight λ of the second differences.
 const SMOOTHNESS: f64 = 1.0;
@@ -41,7 +42,8 @@ impl<'a> Model<'a> {
         each.map(|(observed, mean)| observed.waves * (observed.power / mean + mean.ln())).sum()
     }
 
-    fn means<'b>(&'b self, values: &'b [f64]) -> impl Iterator<Item = f64> + 'b {
+    /// Means of the observed powers for these values.
+    pub fn means<'b>(&'b self, values: &'b [f64]) -> impl Iterator<Item = f64> + 'b {
         self.terms.iter().map(|terms| terms.iter().map(|term| value(term, values)).sum::<f64>())
     }
 
@@ -124,35 +126,64 @@ impl<'a> Model<'a> {
     /// Spectrum of the smallest objective; `None` if the information matrix is not positive definite, as for powers
     /// that are zero or not finite.
     pub fn fit(&self) -> Option<IsotropicSpectrum> {
-        let mut values = self.start();
-        let mut objective = self.objective(&values);
-        for _ in 0..MOST_STEPS {
-            let (gradient, information) = self.linearise(&values);
-            let factor = Cholesky::new(information, values.len())?;
-            let mut step = factor.solve(gradient);
+        let moved = |values: &Vec<f64>, step: &[f64], share: f64| {
             let largest = step.iter().fold(0.0_f64, |largest, change| largest.max(change.abs()));
-            if largest > LARGEST_STEP {
-                step.iter_mut().for_each(|change| *change *= LARGEST_STEP / largest);
-            }
-            let mut decrease = 0.0;
-            for halvings in 0..30 {
-                let share = 0.5_f64.powi(halvings);
-                let next: Vec<f64> = values.iter().zip(&step).map(|(x, change)| x - share * change).collect();
-                let found = self.objective(&next);
-                if found < objective {
-                    decrease = objective - found;
-                    (values, objective) = (next, found);
-                    break;
-                }
-            }
-            if decrease <= SMALL_DECREASE * objective.abs().max(1.0) {
-                break;
-            }
-        }
+            let limited = share * (LARGEST_STEP / largest).min(1.0);
+            values.iter().zip(step).map(|(x, change)| x - limited * change).collect()
+        };
+        let objective = |values: &Vec<f64>| self.objective(values);
+        let linearise = |values: &Vec<f64>| self.linearise(values);
+        let (values, _) = descend(self.start(), MOST_STEPS, objective, linearise, moved)?;
         let (_, information) = self.linearise(&values);
         let information = Cholesky::new(information, values.len())?;
-        Some(IsotropicSpectrum { nodes: self.nodes, values, information })
+        let mut found =
+            IsotropicSpectrum { nodes: self.nodes, values, information, method: [0.0; 3], missing: [0.0; 3] };
+        found.method = self.departure(&found);
+        Some(found)
     }
+
+    /// Largest departure of the moments of the measured powers from those of the fitted means over the same waves, among
+    /// profiles or maps of one kind, relative to the moments of the whole spectrum.
+    fn departure(&self, found: &IsotropicSpectrum) -> [f64; 3] {
+        let mut largest = [0.0_f64; 3];
+        let mut means = self.means(&found.values);
+        for kind in self.observations.chunk_by(|one, next| one.kind == next.kind) {
+            let mut sums = [0.0; 3];
+            for (observed, mean) in kind.iter().zip(&mut means) {
+                let differences = observed.moments(observed.power - mean);
+                sums.iter_mut().zip(differences).for_each(|(sum, difference)| *sum += difference);
+            }
+            largest.iter_mut().zip(sums).for_each(|(largest, sum)| *largest = largest.max(sum.abs()));
+        }
+        let whole = found.integrals();
+        [0, 1, 2].map(|index| TAU * largest[index] / whole[index])
+    }
+}
+
+/// Descends to the least objective by Fisher's scoring: steps solve the linearised equations (gradient, information matrix)
+/// and are halved until they descend; `moved` makes a share of a step. `None` if an information matrix is not positive definite.
+pub(super) fn descend<P>(
+    start: P,
+    most_steps: usize,
+    objective: impl Fn(&P) -> f64,
+    linearise: impl Fn(&P) -> (Vec<f64>, Vec<f64>),
+    moved: impl Fn(&P, &[f64], f64) -> P,
+) -> Option<(P, f64)> {
+    let mut least = objective(&start);
+    let mut parameters = start;
+    for _ in 0..most_steps {
+        let (gradient, information) = linearise(&parameters);
+        let step = Cholesky::new(information, gradient.len())?.solve(gradient);
+        let shares = (0..30).map(|halvings| moved(&parameters, &step, 0.5_f64.powi(halvings)));
+        let lower = shares.map(|next| (objective(&next), next)).find(|(found, _)| *found < least);
+        let Some((found, next)) = lower else { break };
+        let decrease = least - found;
+        (parameters, least) = (next, found);
+        if decrease <= SMALL_DECREASE * least.abs().max(1.0) {
+            break;
+        }
+    }
+    least.is_finite().then_some((parameters, least))
 }
 
 fn value(term: &Term, values: &[f64]) -> f64 {

@@ -1,8 +1,10 @@
 //! Isotropic spectra C2D(q) between nodes, and their equivalent lines.
 
 use super::linear::Cholesky;
+use super::statistics::Statistics;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use serde::Serialize;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 
 /// Separates this use of the random generator from others.
@@ -55,32 +57,60 @@ pub struct Estimate {
     pub error: f64,
 }
 
+/// Value from a spectrum with its errors, all in the unit of the value.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Moment {
+    /// Value.
+    pub value: f64,
+    /// Standard error: that of the likelihood and that of the method together.
+    pub error: f64,
+    /// Standard error of the likelihood: few waves are measured.
+    pub statistical: f64,
+    /// Error of the method: departure of the fit from the moments of the measured powers, and interpolated points.
+    pub method: f64,
+    /// Largest change of the value, that of the resolved waves or that of all, if the spectrum continues beyond its last
+    /// resolved wave, as a power law to a quarter of that wavelength: short waves are missing, and in samples of points add to
+    /// the powers of longer ones. Zero for a spectrum that ends inside the scan or is continued.
+    pub missing_short_waves: f64,
+}
+
+impl Moment {
+    /// Value with relative errors.
+    fn new(value: f64, statistical: f64, method: f64, missing_short_waves: f64) -> Self {
+        let [statistical, method, missing_short_waves] =
+            [statistical, method, missing_short_waves].map(|error| error * value);
+        Moment { value, error: statistical.hypot(method), statistical, method, missing_short_waves }
+    }
+
+    /// The value times a factor.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
+        let relative = |error: f64| error / self.value;
+        let [statistical, method, missing] =
+            [self.statistical, self.method, self.missing_short_waves].map(relative);
+        Moment::new(factor * self.value, statistical, method, missing)
+    }
+
+    /// The square root of the value.
+    #[must_use]
+    pub fn root(self) -> Self {
+        let relative = |error: f64| 0.5 * error / self.value;
+        let missing = (1.0 + self.missing_short_waves / self.value).sqrt() - 1.0;
+        Moment::new(self.value.sqrt(), relative(self.statistical), relative(self.method), missing)
+    }
+}
+
 /// Moments of the equivalent line of a spectrum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineMoments {
     /// Rms height h, m.
-    pub rms_height: Estimate,
+    pub rms_height: Moment,
     /// Rms gradient ⟨∇z⟩.
-    pub rms_gradient: Estimate,
+    pub rms_gradient: Moment,
     /// Product h⟨∇z⟩, m, to which κ² is proportional. Its error is not that of independent factors.
-    pub height_gradient: Estimate,
+    pub height_gradient: Moment,
     /// Elastic energy of full contact over the effective modulus, e_el/E*, m.
-    pub energy_per_modulus: Estimate,
-}
-
-impl LineMoments {
-    /// Moments of a cut through the same surface: a measured profile.
-    #[must_use]
-    pub fn of_cut(self) -> LineMoments {
-        let divided =
-            |estimate: Estimate, by: f64| Estimate { value: estimate.value / by, error: estimate.error / by };
-        LineMoments {
-            rms_height: self.rms_height,
-            rms_gradient: divided(self.rms_gradient, SQRT_2),
-            height_gradient: divided(self.height_gradient, SQRT_2),
-            energy_per_modulus: divided(self.energy_per_modulus, FRAC_PI_2),
-        }
-    }
+    pub energy_per_modulus: Moment,
 }
 
 /// Nodes at equal distances of ln q.
@@ -149,6 +179,10 @@ pub struct IsotropicSpectrum {
     pub(super) values: Vec<f64>,
     /// Information matrix of the values.
     pub(super) information: Cholesky,
+    /// Relative errors of ∫ q^power C2D dq, power = 1, 2, 3, by the method.
+    pub(super) method: [f64; 3],
+    /// Relative changes of these integrals by short waves that may be missing.
+    pub(super) missing: [f64; 3],
 }
 
 impl IsotropicSpectrum {
@@ -203,7 +237,10 @@ impl IsotropicSpectrum {
         let mut uniform = || ((generator.next_u64() >> 11) + 1) as f64 / (1_u64 << 53) as f64;
         let mut normal = || (-2.0 * uniform().ln()).sqrt() * (TAU * uniform()).cos();
         let steps = self.information.solve_transposed(self.values.iter().map(|_| normal()).collect());
-        let values = self.values.iter().zip(steps).map(|(value, step)| value + share * step).collect();
+        // The error of the method moves all values alike.
+        let common = normal() * self.method.into_iter().fold(0.0, f64::max);
+        let values =
+            self.values.iter().zip(steps).map(|(value, step)| value + share * (step + common)).collect();
         IsotropicSpectrum { values, ..self.clone() }
     }
 
@@ -213,7 +250,7 @@ impl IsotropicSpectrum {
     }
 
     /// ∫ q^power C2D dq over waves from a wave number on, and its derivatives by the values.
-    fn moment(&self, power: i32, from: f64) -> (f64, Vec<f64>) {
+    pub(super) fn moment(&self, power: i32, from: f64) -> (f64, Vec<f64>) {
         let (mut sum, mut gradient) = (0.0, vec![0.0; self.values.len()]);
         for (low, high) in self.nodes.pieces_from(from) {
             for (ln_q, weight) in gauss(low.ln(), high.ln()) {
@@ -225,6 +262,40 @@ impl IsotropicSpectrum {
             }
         }
         (sum, gradient)
+    }
+
+    /// ∫ q^power C2D dq, power = 1, 2, 3, of the equivalent line.
+    pub(super) fn integrals(&self) -> [f64; 3] {
+        [1, 2, 3].map(|power| self.moment(power, 0.5 * self.nodes.wave_number(0)).0)
+    }
+
+    /// Relative changes of these integrals in another spectrum.
+    pub(super) fn changes(&self, other: &IsotropicSpectrum) -> [f64; 3] {
+        let (here, there) = (self.integrals(), other.integrals());
+        [0, 1, 2].map(|index| there[index] / here[index] - 1.0)
+    }
+
+    /// Adds to the errors of the method what the rms height and gradient of the line depart from those of the measured
+    /// points by more than three standard errors, as for a spike under the window.
+    pub(super) fn check_identities(&mut self, measured: &Statistics) {
+        let resolved = self.line_moments();
+        let gradient = measured.rms_gradient.unwrap_or(SQRT_2 * measured.rms_slope);
+        let departure = |moment: Moment, least: f64, most: f64| {
+            let beyond = (least - moment.value).max(moment.value - most);
+            // The squares have twice the relative error.
+            if beyond > 3.0 * moment.error { 2.0 * beyond / moment.value } else { 0.0 }
+        };
+        let height = departure(resolved.rms_height, measured.rms_height, measured.rms_height);
+        // Differences of neighbours reduce the slope of a wave of two points by π/2.
+        let gradient = departure(resolved.rms_gradient, gradient, FRAC_PI_2 * gradient);
+        for (error, departure) in self.method.iter_mut().zip([height, height.max(gradient), gradient]) {
+            *error = error.hypot(departure);
+        }
+    }
+
+    /// The spectrum up to a wave number, rad/m.
+    pub(super) fn until(&self, end: f64) -> IsotropicSpectrum {
+        IsotropicSpectrum { nodes: Nodes { end, ..self.nodes }, ..self.clone() }
     }
 
     /// Moments of the equivalent line, with waves from half the first wave number on.
@@ -241,34 +312,35 @@ pub(crate) fn line_moments(faces: &[IsotropicSpectrum]) -> LineMoments {
     let from = faces.iter().map(|face| 0.5 * face.nodes.wave_number(0)).fold(0.0, f64::max);
     let moments = |power: i32| faces.iter().map(|face| face.moment(power, from)).collect::<Vec<_>>();
     let sum = |moments: &[(f64, Vec<f64>)]| moments.iter().map(|(sum, _)| sum).sum::<f64>();
-    let variance = |face: &IsotropicSpectrum, gradient: &[f64]| face.information.variance(gradient);
-    let estimate = |moments: &[(f64, Vec<f64>)], factor: f64, root: bool| {
-        let each = faces.iter().zip(moments).map(|(face, (_, gradient))| variance(face, gradient));
-        let sum = sum(moments);
-        let relative = each.sum::<f64>().sqrt() / sum;
-        if root {
-            let value = (factor * sum).sqrt();
-            Estimate { value, error: 0.5 * relative * value }
-        } else {
-            Estimate { value: factor * sum, error: relative * factor * sum }
+    let all = [1, 2, 3].map(moments);
+    let totals = [0, 1, 2].map(|index| sum(&all[index]));
+    // A value proportional to the product of powers of the integrals; faces are independent.
+    let moment = |value: f64, exponents: [f64; 3]| {
+        let (mut statistical, mut method, mut missing) = (0.0, 0.0, [1.0; 3]);
+        for (number, face) in faces.iter().enumerate() {
+            let (mut logarithm, mut departure) = (vec![0.0; face.values.len()], 0.0);
+            for (index, exponent) in exponents.into_iter().enumerate() {
+                let (integral, gradient) = &all[index][number];
+                for (sum, slope) in logarithm.iter_mut().zip(gradient) {
+                    *sum += exponent * slope / totals[index];
+                }
+                departure += exponent * face.method[index] * integral / totals[index];
+                missing[index] += face.missing[index] * integral / totals[index];
+            }
+            statistical += face.information.variance(&logarithm);
+            method += departure * departure;
         }
+        let changed: f64 =
+            missing.into_iter().zip(exponents).map(|(change, power)| change.powf(power)).product();
+        Moment::new(value, statistical.sqrt(), method.sqrt(), changed - 1.0)
     };
     let two_pi = 0.5 / PI;
-    let (heights, gradients) = (moments(1), moments(3));
-    let (rms_height, rms_gradient) = (estimate(&heights, two_pi, true), estimate(&gradients, two_pi, true));
-    let totals = (sum(&heights), sum(&gradients));
-    let both = heights.iter().zip(&gradients).zip(faces).map(|((height, gradient), face)| {
-        let terms = height.1.iter().zip(&gradient.1);
-        let logarithm: Vec<f64> = terms.map(|(a, b)| 0.5 * (a / totals.0 + b / totals.1)).collect();
-        variance(face, &logarithm)
-    });
-    let product = rms_height.value * rms_gradient.value;
-    let error = product * both.sum::<f64>().sqrt();
+    let (height, gradient) = ((two_pi * totals[0]).sqrt(), (two_pi * totals[2]).sqrt());
     LineMoments {
-        rms_height,
-        rms_gradient,
-        height_gradient: Estimate { value: product, error },
-        energy_per_modulus: estimate(&moments(2), 0.25 * two_pi, false),
+        rms_height: moment(height, [0.5, 0.0, 0.0]),
+        rms_gradient: moment(gradient, [0.0, 0.0, 0.5]),
+        height_gradient: moment(height * gradient, [0.5, 0.0, 0.5]),
+        energy_per_modulus: moment(0.25 * two_pi * totals[1], [0.0, 1.0, 0.0]),
     }
 }
 
@@ -281,7 +353,8 @@ pub(super) mod tests {
         let values = (0..nodes.count).map(|index| c2d(nodes.wave_number(index)).ln()).collect();
         let mut identity = vec![0.0; nodes.count * nodes.count];
         (0..nodes.count).for_each(|index| identity[index * (nodes.count + 1)] = 1.0);
-        IsotropicSpectrum { nodes, values, information: Cholesky::new(identity, nodes.count).unwrap() }
+        let information = Cholesky::new(identity, nodes.count).unwrap();
+        IsotropicSpectrum { nodes, values, information, method: [0.0; 3], missing: [0.0; 3] }
     }
 
     #[test]
@@ -324,7 +397,7 @@ pub(super) mod tests {
         let expected = ((15.0 / 64.0 + 99.0) / (2.0 * PI)).sqrt();
         assert!((moments.rms_gradient.value / expected - 1.0).abs() < 1e-8);
         // The error of a product is at most the sum of those of its factors, and at least their difference.
-        let relative = |estimate: Estimate| estimate.error / estimate.value;
+        let relative = |moment: Moment| moment.error / moment.value;
         let (height, gradient) = (relative(moments.rms_height), relative(moments.rms_gradient));
         let product = relative(moments.height_gradient);
         assert!(product <= height + gradient && product >= (height - gradient).abs(), "{moments:?}");

@@ -29,7 +29,7 @@ pub use analysis::{Analysis, Options, analyse};
 pub use detrend::Detrend;
 pub use error::{LEAST_POINTS, SpectrumError};
 pub(crate) use isotropic::line_moments;
-pub use isotropic::{End, Estimate, IsotropicSpectrum, LineMoments};
+pub use isotropic::{End, Estimate, IsotropicSpectrum, LineMoments, Moment};
 pub use periodogram::{Bin, Direction, line_spectrum};
 pub use power_law::PowerLaw;
 pub use reliability::reliability_cutoff;

@@ -2,7 +2,7 @@
 
 use super::isotropic::{End, Nodes, gauss};
 use super::periodogram::{MapPower, ProfilePower};
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Number of waves of a profile that are single observations; those beyond are averaged in bands.
 const SINGLE: usize = 32;
@@ -29,6 +29,8 @@ pub(super) struct Observation {
     pub power: f64,
     /// Number of independent waves.
     pub waves: f64,
+    /// Range of wave numbers: the power times this range times q^p is a share of the moment of the equivalent line.
+    pub range: f64,
     pub kind: Kind,
 }
 
@@ -48,27 +50,31 @@ pub(super) enum Kind {
         /// Wave numbers of wave 1 along and between rows, rad/m.
         steps: [f64; 2],
         windowed: bool,
+        /// Wave numbers of the sampling along and between rows, rad/m: waves apart by these are aliases.
+        sampling: [f64; 2],
     },
 }
 
 /// Bands of the powers of profiles, from wave 1 on, or from wave 2 on under a window: detrending reduces wave 1.
-pub(super) fn of_profiles(power: &ProfilePower) -> Vec<Observation> {
+pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
     let kind = Kind::Cut { step: power.step(), windowed: power.windowed, nyquist: PI / power.spacing };
     let correlated = if power.windowed { HANN_CORRELATED } else { 1.0 };
     let first = if power.windowed { 2 } else { 1 };
     let profiles = power.profiles as f64;
     let mut observed = Vec::new();
     let mut low = first;
-    while low <= power.power.len() {
+    let count = power.power.len().min((last / power.step()) as usize);
+    while low <= count {
         let ratio = 10.0_f64.powf(1.0 / BANDS_PER_DECADE);
         let next = if low <= SINGLE { low + 1 } else { ((low as f64 * ratio) as usize).max(low + 1) };
-        let next = next.min(power.power.len() + 1);
+        let next = next.min(count + 1);
         let waves = (next - low) as f64;
         let sum: f64 = power.power[low - 1..next - 1].iter().sum();
         observed.push(Observation {
             wave_number: 0.5 * (low + next - 1) as f64 * power.step(),
             power: sum / (waves * profiles),
             waves: waves * profiles / correlated,
+            range: waves * power.step() / PI,
             kind,
         });
         low = next;
@@ -76,15 +82,20 @@ pub(super) fn of_profiles(power: &ProfilePower) -> Vec<Observation> {
     observed
 }
 
+/// Smallest wave number of a map, rad/m: under a window detrending reduces waves around wave 1.
+pub(super) fn least_of_map(power: &MapPower) -> f64 {
+    if power.windowed { 2.0 * power.steps[0].max(power.steps[1]) } else { 0.0 }
+}
+
 /// Bands of the powers of a map.
-pub(super) fn of_map(power: &MapPower) -> Vec<Observation> {
-    let kind = Kind::Plane { steps: power.steps, windowed: power.windowed };
+pub(super) fn of_map(power: &MapPower, last: f64) -> Vec<Observation> {
+    let kind = Kind::Plane { steps: power.steps, windowed: power.windowed, sampling: power.sampling };
     let correlated = if power.windowed { HANN_CORRELATED * HANN_CORRELATED } else { 1.0 };
-    // Under a window detrending reduces waves around wave 1.
-    let least = if power.windowed { 2.0 * power.steps[0].max(power.steps[1]) } else { 0.0 };
+    let mut squares = Vec::new();
+    let least = least_of_map(power);
     let mut observed: Vec<Observation> = Vec::new();
     let mut band = None;
-    for (q, power) in power.waves.iter().filter(|(q, _)| *q >= least * (1.0 - 1e-9)) {
+    for (q, power) in power.waves.iter().filter(|(q, _)| *q >= least * (1.0 - 1e-9) && *q <= last) {
         let number = (BANDS_PER_DECADE * q.log10()).floor() as i64;
         match observed.last_mut() {
             Some(last) if band == Some(number) => {
@@ -93,17 +104,35 @@ pub(super) fn of_map(power: &MapPower) -> Vec<Observation> {
                 last.waves += 1.0;
             }
             _ => {
-                observed.push(Observation { wave_number: *q, power: *power, waves: 1.0, kind });
+                observed.push(Observation { wave_number: *q, power: *power, waves: 1.0, range: 0.0, kind });
+                squares.push(0.0);
                 band = Some(number);
             }
         }
+        squares.last_mut().into_iter().for_each(|sum| *sum += power * power);
     }
+    let dispersion = dispersion(&observed, &squares);
     for band in &mut observed {
         band.wave_number /= band.waves;
         band.power /= band.waves;
-        band.waves /= correlated;
+        // Of a wave and its mirror image one is counted.
+        band.range = 2.0 * band.waves * power.steps[0] * power.steps[1] / (4.0 * PI * PI);
+        band.waves /= correlated * dispersion;
     }
     observed
+}
+
+/// Mean over the waves of the variance of powers in a band over the square of their mean: 1 for a surface that is equal
+/// in all directions, more for an anisotropic one, whose bands are known less.
+fn dispersion(bands: &[Observation], squares: &[f64]) -> f64 {
+    let many = bands.iter().zip(squares).filter(|(band, _)| band.waves > 8.0 && band.power > 0.0);
+    let (sum, waves) = many.fold((0.0, 0.0), |(sum, waves), (band, squares)| {
+        let n = band.waves;
+        // For exponentially distributed powers the mean of the first factor is (n − 1)/(n + 1).
+        let variance = (n * squares / (band.power * band.power) - 1.0) * (n + 1.0) / (n - 1.0);
+        (sum + n * variance, waves + n)
+    });
+    if waves > 0.0 { (sum / waves).max(1.0) } else { 1.0 }
 }
 
 /// A term of the mean of an observation: a weight times C2D at ln q, between two nodes.
@@ -116,6 +145,13 @@ pub(super) struct Term {
 }
 
 impl Observation {
+    /// Share of the moments ∫ q^(p+1) C2D dq/2π of the equivalent line, p = 0, 1, 2, for this mean power. Those of a cut are
+    /// 1, 2/π and 1/2 of them.
+    pub fn moments(&self, power: f64) -> [f64; 3] {
+        let (first, second) = if let Kind::Cut { .. } = self.kind { (FRAC_PI_2, 2.0) } else { (1.0, 1.0) };
+        let q = self.wave_number;
+        [1.0, first * q, second * q * q].map(|factor| factor * self.range * power)
+    }
     /// Terms of the mean power for a spectrum with these nodes.
     pub fn terms(&self, nodes: &Nodes, end: End) -> Vec<Term> {
         let mut terms = Vec::new();
@@ -134,19 +170,61 @@ impl Observation {
                     }
                 }
             }
-            Kind::Plane { steps, windowed } => {
+            Kind::Plane { steps, windowed, sampling } => {
+                if let End::Continues(_) = end {
+                    add_aliases(&mut terms, nodes, self.wave_number, sampling);
+                }
                 let shares: &[(f64, f64)] = if windowed { &HANN_SHARES } else { &[(0.0, 1.0)] };
-                for (along, x) in shares {
-                    for (between, y) in shares {
-                        let q = (self.wave_number + along * steps[0]).hypot(between * steps[1]);
-                        let q = q.max(f64::MIN_POSITIVE);
-                        let (index, share) = nodes.place(q.ln());
-                        terms.push(Term { weight: x * y, ln_q: q.ln(), index, share });
+                // Waves between rows have their neighbours at the distances along them.
+                let turned = [steps[1], steps[0]];
+                let ways = if steps == turned { vec![steps] } else { vec![steps, turned] };
+                for [ahead, aside] in &ways {
+                    for ((along, x), (between, y)) in
+                        shares.iter().flat_map(|x| shares.iter().map(move |y| (x, y)))
+                    {
+                        let q =
+                            (self.wave_number + along * ahead).hypot(between * aside).max(f64::MIN_POSITIVE);
+                        if q <= nodes.end {
+                            let (index, share) = nodes.place(q.ln());
+                            terms.push(Term {
+                                weight: x * y / ways.len() as f64,
+                                ln_q: q.ln(),
+                                index,
+                                share,
+                            });
+                        }
                     }
                 }
             }
         }
         terms
+    }
+}
+
+/// Adds the aliases of waves of a map at a wave number, their mean over all directions: C2D at the distances of the
+/// lattice of the sampling. Those far off are replaced by an integral.
+fn add_aliases(terms: &mut Vec<Term>, nodes: &Nodes, wave_number: f64, [x, y]: [f64; 2]) {
+    let most = f64::from(MOST_ALIASES);
+    let mut add = |q: f64, weight: f64| {
+        if q <= nodes.end {
+            let (index, share) = nodes.place(q.ln());
+            terms.push(Term { weight, ln_q: q.ln(), index, share });
+        }
+    };
+    let orders = || (0..=2 * MOST_ALIASES).map(|order| f64::from(order) - most);
+    for (angle, weight) in gauss(0.0, FRAC_PI_2) {
+        let (along, between) = (wave_number * angle.cos(), wave_number * angle.sin());
+        for (i, j) in
+            orders().flat_map(|i| orders().map(move |j| (i, j))).filter(|order| *order != (0.0, 0.0))
+        {
+            add((along + i * x).hypot(between + j * y), weight / FRAC_PI_2);
+        }
+    }
+    let beyond = (2.0 * most + 1.0) * (x * y / PI).sqrt();
+    for (low, high) in nodes.pieces_from(beyond) {
+        for (ln_q, weight) in gauss(low.ln(), high.ln()) {
+            add(ln_q.exp(), TAU * (2.0 * ln_q).exp() * weight / (x * y));
+        }
     }
 }
 
@@ -180,6 +258,24 @@ mod tests {
         let mut terms = Vec::new();
         add_cut(&mut terms, nodes, k, 1.0);
         mean(&terms, &spectrum.values)
+    }
+
+    #[test]
+    fn powers_that_differ_between_directions_count_as_fewer_waves() {
+        // Quantiles of the exponential distribution, for half of the waves times a factor.
+        let powers = |factor: f64| -> Vec<f64> {
+            let quantile = |i: u32| -((f64::from(i) + 0.5) / 2000.0).ln();
+            (0..2000).map(|i| quantile(i) * if i % 2 == 0 { factor } else { 1.0 }).collect()
+        };
+        let found = |factor: f64| {
+            let waves = powers(factor).into_iter().map(|power| (1.0, power)).collect();
+            let (steps, sampling) = ([0.1; 2], [10.0; 2]);
+            let map = MapPower { windowed: false, steps, sampling, waves, offsets: false, apart: 0.0 };
+            2000.0 / of_map(&map, 2.0)[0].waves
+        };
+        assert!((found(1.0) - 1.0).abs() < 0.01, "{}", found(1.0));
+        // Mean 5, mean square 2 (1 + 81)/2 = 82: variance over squared mean (82 − 25)/25.
+        assert!((found(9.0) - 57.0 / 25.0).abs() < 0.03, "{}", found(9.0));
     }
 
     #[test]

@@ -6,6 +6,7 @@ use realfft::RealFftPlanner;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
+use std::ops::RangeInclusive;
 
 /// Bins per decade of wave numbers for display.
 const BINS_PER_DECADE: f64 = 10.0;
@@ -121,9 +122,66 @@ pub(super) struct MapPower {
     pub windowed: bool,
     /// Wave numbers of wave 1 along and between rows, rad/m.
     pub steps: [f64; 2],
+    /// Wave numbers of the sampling along and between rows, rad/m.
+    pub sampling: [f64; 2],
     /// Wave number and C2D, m⁴, of the waves of half the plane up to the smaller of the Nyquist wave numbers,
     /// sorted by wave number.
     pub waves: Vec<(f64, f64)>,
+    /// True if waves along one axis alone are left out, because rows or columns are offset against each other, or were levelled
+    /// one by one.
+    pub offsets: bool,
+    /// Largest share of the squared gradient by which the waves along an axis, not left out, depart from their neighbours.
+    pub apart: f64,
+}
+
+/// Least number of waves along an axis that are compared with their neighbours, over the number of points.
+const COMPARED: f64 = 1.0 / 8.0;
+
+/// Least number of waves that may be left out, over the number of points: longer ones have more power than offsets.
+const LEFT_OUT: f64 = 1.0 / 32.0;
+
+/// Departure of the mean power of n waves along an axis from that of their neighbours, relative and times √n, that is no
+/// chance: about four standard deviations under a window.
+const NO_CHANCE: f64 = 12.0;
+
+/// Neighbours: waves with so many periods across the axis. From both groups the power on the axis of an anisotropic surface, even
+/// in their number x, is extrapolated as a + bx².
+const NEAR: [RangeInclusive<f64>; 2] = [3.0..=5.0, 6.0..=8.0];
+const EXTRAPOLATED: f64 = 0.486;
+
+/// Share of the squared gradient from which on the departure matters, and from which on it is taken for the surface itself.
+const NEGLIGIBLE_OFFSETS: f64 = 1e-3;
+const LARGEST_OFFSETS: f64 = 0.25;
+
+/// Waves along one axis, beside which offsets of rows or columns have no power.
+#[derive(Default)]
+struct AxisPower {
+    waves: Vec<(f64, f64)>,
+    /// Squared gradient and number of short waves along the axis, and of their neighbours in the plane.
+    on: (f64, f64),
+    near: [(f64, f64); 2],
+}
+
+fn square((q, power): &(f64, f64)) -> f64 {
+    q * q * power
+}
+
+impl AxisPower {
+    fn compare(&mut self, across: f64, reach: f64, wave: (f64, f64)) {
+        let ranges = [0.0..=reach].into_iter().chain(NEAR);
+        let sums = [&mut self.on].into_iter().chain(&mut self.near).zip(ranges);
+        for (sum, _) in sums.filter(|(_, range)| range.contains(&across)) {
+            *sum = (sum.0 + square(&wave), sum.1 + 1.0);
+        }
+    }
+
+    /// Squared gradient by which the waves along the axis depart from their neighbours; zero if that is chance.
+    fn departure(&self) -> f64 {
+        let [near, farther] = self.near.map(|(sum, waves)| sum / waves);
+        let expected = (near + EXTRAPOLATED * (near - farther)) * self.on.1;
+        let apart = (self.on.0 - expected).abs();
+        if apart * self.on.1.sqrt() > NO_CHANCE * expected.abs() { apart } else { 0.0 }
+    }
 }
 
 impl MapPower {
@@ -150,6 +208,8 @@ impl MapPower {
         let row_window = window(rows, windowed);
         let mut waves = Vec::new();
         waves.try_reserve_exact(half * rows).map_err(out_of_memory)?;
+        let mut axes = [0, 1].map(|_| AxisPower::default());
+        let reach = if windowed { 1.0 } else { 0.0 };
         for x in 0..half {
             for (y, value) in column.iter_mut().enumerate() {
                 *value = coefficients[y * half + x] * row_window[y];
@@ -160,13 +220,38 @@ impl MapPower {
                 // Waves and their mirror images have equal power: only one of them counts.
                 let is_first = x > 0 || y > 0.0;
                 let q = (x as f64 * steps[0]).hypot(y * steps[1]);
-                if is_first && q < largest {
-                    waves.push((q, scale * value.norm_sqr()));
+                if !is_first || q >= largest {
+                    continue;
+                }
+                let wave = (q, scale * value.norm_sqr());
+                let places = [(x as f64, y.abs() / rows as f64), (y.abs(), x as f64 / columns as f64)];
+                for (axis, (across, _)) in
+                    axes.iter_mut().zip(places).filter(|(_, place)| place.1 >= COMPARED)
+                {
+                    axis.compare(across, reach, wave);
+                }
+                let is_on = |(across, along): (f64, f64)| across <= reach && along >= LEFT_OUT;
+                match axes.iter_mut().zip(places).find(|(_, place)| is_on(*place)) {
+                    Some((axis, _)) => axis.waves.push(wave),
+                    None => waves.push(wave),
                 }
             }
         }
+        let gradient: f64 = waves.iter().chain(axes.iter().flat_map(|axis| &axis.waves)).map(square).sum();
+        let (mut offsets, mut apart) = (false, 0.0_f64);
+        for axis in axes {
+            let share = axis.departure() / gradient;
+            if (NEGLIGIBLE_OFFSETS..LARGEST_OFFSETS).contains(&share) {
+                offsets = true;
+                continue;
+            }
+            waves.extend(axis.waves);
+            if share >= LARGEST_OFFSETS {
+                apart = apart.max(share);
+            }
+        }
         waves.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        Ok(MapPower { windowed, steps, waves })
+        Ok(MapPower { windowed, steps, sampling: [TAU / along, TAU / between], waves, offsets, apart })
     }
 }
 

@@ -1,7 +1,7 @@
 //! Self-affine fit: C2D constant below a roll-off wave number, ∝ q^(−2−2H) above.
 
-use super::fit::Model;
-use super::isotropic::{Estimate, cut};
+use super::fit::{Model, descend};
+use super::isotropic::{Estimate, IsotropicSpectrum, cut};
 use super::linear::Cholesky;
 
 /// Least gain of the log-likelihood for a roll-off: for one more parameter, chance exceeds this once in a hundred
@@ -67,8 +67,9 @@ impl Parameters {
     }
 }
 
-/// Fit to the observations of a model; `None` if it does not converge.
-pub(super) fn fit(model: &Model<'_>) -> Option<PowerLaw> {
+/// Fit to the observations of a model, which the spectrum explains; `None` if it does not converge or no exponent between 0
+/// and 1 fits.
+pub(super) fn fit(model: &Model<'_>, spectrum: &IsotropicSpectrum) -> Option<PowerLaw> {
     let low = model.nodes.first;
     let high = low + model.nodes.step * (model.nodes.count - 1) as f64;
     // Above a third of the range no exponent could be determined.
@@ -88,18 +89,23 @@ pub(super) fn fit(model: &Model<'_>) -> Option<PowerLaw> {
         }
     }
     let best = best.and_then(|(parameters, _)| search(model, parameters, 3, bounds, MOST_STEPS));
+    let with_roll_off = best.map_or(without.0.hurst, |(parameters, _)| parameters.hurst);
     let found = best.filter(|(_, misfit)| without.1 - misfit > LEAST_GAIN);
-    let (parameters, free) = found.map_or((without.0, 2), |(parameters, _)| (parameters, 3));
+    let ((parameters, misfit), free) = found.map_or((without, 2), |found| (found, 3));
+    // Of a self-affine surface twice the difference has as its mean the number of further parameters of the spectrum.
+    let excess = 2.0 * (misfit - model.misfit(model.means(&spectrum.values)));
+    let scale = (excess / (spectrum.values.len() - free) as f64).max(1.0).sqrt();
     let (_, information) = linearise(model, &parameters, free);
     let information = Cholesky::new(information, free)?;
     let error = |index: usize| {
         let mut gradient = vec![0.0; free];
         gradient[index] = 1.0;
-        information.variance(&gradient).sqrt()
+        scale * information.variance(&gradient).sqrt()
     };
     let exponential = |value: f64, error: f64| Estimate { value: value.exp(), error: value.exp() * error };
-    Some(PowerLaw {
-        hurst: Estimate { value: parameters.hurst, error: error(1) },
+    (0.0 < parameters.hurst && parameters.hurst < 1.0).then(|| PowerLaw {
+        // A roll-off may be there even though chance could show it.
+        hurst: Estimate { value: parameters.hurst, error: error(1).hypot(with_roll_off - parameters.hurst) },
         roll_off: (free == 3).then(|| exponential(parameters.roll_off, error(2))),
         level: exponential(parameters.level, error(0)),
     })
@@ -131,24 +137,9 @@ fn search(
     most_steps: usize,
 ) -> Option<(Parameters, f64)> {
     let misfit = |parameters: &Parameters| model.misfit(means(model, parameters));
-    let (mut parameters, mut best) = (start, misfit(&start));
-    for _ in 0..most_steps {
-        let (gradient, information) = linearise(model, &parameters, free);
-        let step = Cholesky::new(information, free)?.solve(gradient);
-        let before = best;
-        for halvings in 0..20 {
-            let next = parameters.moved(&step, 0.5_f64.powi(halvings), bounds);
-            let found = misfit(&next);
-            if found < best {
-                (parameters, best) = (next, found);
-                break;
-            }
-        }
-        if before - best <= 1e-9 * best.abs().max(1.0) {
-            break;
-        }
-    }
-    best.is_finite().then_some((parameters, best))
+    let linearise = |parameters: &Parameters| linearise(model, parameters, free);
+    let moved = |parameters: &Parameters, step: &[f64], share: f64| parameters.moved(step, share, bounds);
+    descend(start, most_steps, misfit, linearise, moved)
 }
 
 /// Gradient and information matrix of the misfit by the first `free` parameters.

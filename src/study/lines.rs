@@ -8,7 +8,7 @@ use super::height_shape::HeightShape;
 use super::plan::Plan;
 use super::quantity::Quantity;
 use super::recorder::Recorder;
-use super::solve::{Case, Next, SharedWork, Sink, Solver};
+use super::solve::{Case, Next, SharedWork, Sink};
 use super::statistics::Statistics;
 use crate::analysis::Regime;
 use crate::parallel::{begin_threads, on_this_thread};
@@ -125,24 +125,6 @@ where
         record.map(|record| (seed, record)).map_err(|error| LinesError::Run { seed, error })
     };
     solved.into_iter().map(result).collect()
-}
-
-/// Solves a checked scene on profile after profile, on this thread and those of a simulation. `stop` is polled
-/// within a profile; `sink` receives the values of `record`.
-pub(crate) fn solve_in_turn(
-    scene: &Scene,
-    simulation: Simulation,
-    lines: u64,
-    record: &[Quantity],
-    stop: &dyn Fn() -> bool,
-    sink: &mut dyn Sink,
-) {
-    let plan = Plan::of_scene(scene, lines, record);
-    let cells = Cells::of(&plan);
-    let mut recorder = Recorder::new(&plan, simulation, stop);
-    let mut solver = Solver::new(&plan, &cells, |scene, seed| recorder.record(scene, seed));
-    let mut units = (0..cells.units()).map(|unit| cells.unit(unit));
-    let _ = units.try_for_each(|unit| solver.solve(&unit, sink));
 }
 
 /// Solved profiles, by their numbers.

@@ -91,11 +91,16 @@ impl MeasuredAdhesion {
         Ok(MeasuredAdhesion { profiles: solved.into_iter().map(|(_, one)| one).collect() })
     }
 
+    /// Adhesion forces of the profiles of the fitted spectrum, N.
+    #[must_use]
+    pub fn forces(&self) -> Vec<f64> {
+        self.profiles.iter().filter_map(|profile| profile.adhesion_force).collect()
+    }
+
     /// Statistics of the adhesion force over the profiles of the fitted spectrum, N.
     #[must_use]
     pub fn adhesion_force(&self) -> Option<Statistics> {
-        let forces: Vec<f64> = self.profiles.iter().filter_map(|profile| profile.adhesion_force).collect();
-        Statistics::of(&forces)
+        Statistics::of(&self.forces())
     }
 
     /// Standard deviation of the adhesion force due to the uncertainty of the spectrum, N: root mean square of the

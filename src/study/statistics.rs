@@ -53,6 +53,19 @@ impl Statistics {
     }
 }
 
+/// Lower quartile, median and upper quartile of these values, interpolated between neighbours; `None` without values.
+#[must_use]
+pub fn quartiles(mut values: Vec<f64>) -> Option<[f64; 3]> {
+    values.sort_by(f64::total_cmp);
+    let last = values.len().checked_sub(1)?;
+    Some([0.25, 0.5, 0.75].map(|share| {
+        let place = share * last as f64;
+        let low = place as usize;
+        let (below, above) = (values[low], values[(low + 1).min(last)]);
+        below + (place - low as f64) * (above - below)
+    }))
+}
+
 /// Quantiles of Student's distribution; the last one is kept.
 #[derive(Default)]
 pub(crate) struct StudentT {
@@ -117,6 +130,13 @@ mod tests {
             let t = student_t(freedom);
             assert!((t - expected).abs() < 2e-9 * expected, "{freedom}: {t}");
         }
+    }
+
+    #[test]
+    fn quartiles_lie_between_neighbours() {
+        assert_eq!(quartiles(vec![4.0, 1.0, 2.0, 3.0, 100.0]), Some([2.0, 3.0, 4.0]));
+        assert_eq!(quartiles(vec![2.0, 1.0]), Some([1.25, 1.5, 1.75]));
+        assert_eq!((quartiles(vec![7.0]), quartiles(Vec::new())), (Some([7.0; 3]), None));
     }
 
     #[test]

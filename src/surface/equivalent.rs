@@ -23,7 +23,7 @@ pub struct MeasuredOptions {
     pub resample: bool,
     /// Row or column of a map used as the profile.
     pub cut: Option<Cut>,
-    /// Removed part; `None`: the tilt for an equivalent line, nothing for a profile as the line.
+    /// Removed part; `None`: the tilt for an equivalent line, the mean if `periodic`, nothing for a profile as the line.
     pub detrend: Option<Detrend>,
     /// True if the surface repeats itself at its borders: then its spectrum is estimated without a window.
     pub periodic: bool,
@@ -56,7 +56,10 @@ impl MeasuredOptions {
     #[must_use]
     pub fn analysis(&self) -> Options {
         let end = self.continue_to.map_or(End::Ends, |wavelength| End::Continues(TAU / wavelength));
-        let (detrend, periodic) = (self.detrend.unwrap_or_default(), self.periodic);
+        let periodic = self.periodic;
+        // A plane fitted to a periodic surface would leave a step at its borders.
+        let default = if periodic { Detrend::Mean } else { Detrend::Tilt };
+        let detrend = self.detrend.unwrap_or(default);
         Options { detrend, periodic, end, tip_radius: None }
     }
 
@@ -239,13 +242,13 @@ impl EquivalentLine {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spectrum::Estimate;
+    use crate::spectrum::Moment;
     use crate::surface::Synthesizer;
     use crate::topography::parse;
 
     fn surface() -> Topography {
         let height =
-            |i: u32| (0..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(1 + k)).sum::<f64>();
+            |i: u32| (0..120).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(1 + k)).sum::<f64>();
         let text: String = (0..256).map(|i| format!("{i} {}\n", height(i))).collect();
         parse(format!("x [um] z [nm]\n{text}").as_bytes(), &ReadOptions::default()).unwrap()
     }
@@ -286,7 +289,7 @@ mod tests {
         // Also moments, over the waves common to both scans.
         let [one, other, both] =
             [&one, &other, &one.clone().with_opposite(other.clone())].map(|line| line.moments());
-        let squares = |a: Estimate, b: Estimate, sum: Estimate| {
+        let squares = |a: Moment, b: Moment, sum: Moment| {
             assert!((sum.value.powi(2) / (a.value.powi(2) + b.value.powi(2)) - 1.0).abs() < 1e-12, "{sum:?}");
             let error = (a.value * a.error).hypot(b.value * b.error) / sum.value;
             assert!((sum.error / error - 1.0).abs() < 1e-9, "{sum:?} {error}");

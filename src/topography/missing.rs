@@ -10,7 +10,7 @@ pub(super) fn count(heights: &[f64]) -> usize {
     heights.iter().filter(|height| !height.is_finite()).count()
 }
 
-/// Fills in missing heights of a map of so many columns, or of a profile, which is one row.
+/// Fills in missing heights of a map of so many columns, or of a profile, which is one row. Returns their indices.
 ///
 /// A missing height is the mean of two linear interpolations, one along its row and one along its column, each from
 /// the nearest measured point before to the nearest one behind. Before the first or behind the last measured point
@@ -18,7 +18,7 @@ pub(super) fn count(heights: &[f64]) -> usize {
 ///
 /// # Errors
 /// Fewer than half of the points are measured, or a point has no measured one in its row or column.
-pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<(), TopographyError> {
+pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<Vec<usize>, TopographyError> {
     let missing = count(heights);
     let share = 1.0 - missing as f64 / heights.len() as f64;
     if share < LEAST_MEASURED {
@@ -53,8 +53,8 @@ pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<(), Top
             );
         }
     }
-    for (index, height) in filled {
-        heights[index] = height;
+    for (index, height) in &filled {
+        heights[*index] = *height;
     }
     match heights.iter().position(|height| !height.is_finite()) {
         Some(index) => Err(refused(
@@ -62,7 +62,7 @@ pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<(), Top
             "missing like all points of its row and its column",
             "a measured point in the row or the column",
         )),
-        None => Ok(()),
+        None => Ok(filled.into_iter().map(|(index, _)| index).collect()),
     }
 }
 

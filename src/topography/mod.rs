@@ -15,7 +15,6 @@ mod missing;
 mod netcdf;
 mod npy;
 mod open;
-mod read_ahead;
 mod reading;
 mod sdf;
 mod sur;

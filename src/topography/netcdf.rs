@@ -24,8 +24,8 @@ struct Variable<'a> {
     /// Indices of its dimensions, the fastest last.
     dimensions: Vec<u32>,
     unit: Option<Unit>,
-    /// Values that mark missing points.
-    missing: Vec<f64>,
+    /// Values that mark missing points; NaN where there is none.
+    missing: [f64; 2],
     scale: f64,
     offset: f64,
     of: Number,
@@ -224,13 +224,14 @@ fn variable<'a>(header: &mut Bytes<'a>, is_wide: bool) -> Result<Variable<'a>, T
     for _ in 0..header.big_u32()? {
         dimensions.push(header.big_u32()?);
     }
-    let (mut unit, mut missing, mut scale, mut offset) = (None, Vec::new(), 1.0, 0.0);
+    let (mut unit, mut missing, mut scale, mut offset) = (None, [f64::NAN; 2], 1.0, 0.0);
     for _ in 0..list(header, ATTRIBUTES)? {
         match attribute(header)? {
             (b"unit" | b"units", Value::Text(text)) => {
                 unit = str::from_utf8(text).ok().and_then(|text| text.trim().parse().ok());
             }
-            (b"missing_value" | b"_FillValue", Value::Number(value)) => missing.push(value),
+            (b"missing_value", Value::Number(value)) => missing[0] = value,
+            (b"_FillValue", Value::Number(value)) => missing[1] = value,
             (b"scale_factor", Value::Number(value)) => scale = value,
             (b"add_offset", Value::Number(value)) => offset = value,
             _ => {}

@@ -2,7 +2,6 @@
 
 use super::error::{Place, TopographyError, refused};
 use super::{Grid, Topography, Unit, missing};
-use crate::parallel::in_parallel;
 use std::fmt;
 
 /// Largest position and height, m, and largest slope between neighbours: beyond these, lengths and mean squares
@@ -11,9 +10,6 @@ pub(super) const LARGEST: f64 = 1.0e9;
 
 /// Most points of a surface: 2 GiB of heights.
 const MOST_POINTS: usize = 1 << 28;
-
-/// Number of points from which on heights and positions are converted in parallel.
-const MANY_POINTS: usize = 1 << 20;
 
 /// Values of the user that a file may omit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -170,18 +166,14 @@ impl Reading {
         check_points(&heights, &grid)?;
         let height_option = options.height_unit.or(options.unit);
         let height_unit = unit("heights", height_unit, height_option, options.convention)?;
-        let is_worth = heights.len() >= MANY_POINTS;
-        let (missing, grid) = in_parallel(
-            is_worth,
-            || heights_in_metres(&mut heights, height_unit, first_missing, options.missing),
-            || grid.in_metres(format, lateral_unit, options),
-        );
-        let (missing, grid) = (missing?, grid?);
+        let missing = heights_in_metres(&mut heights, height_unit, first_missing, options.missing)?;
+        let grid = grid.in_metres(format, lateral_unit, options)?;
+        let mut interpolated = Vec::new();
         if missing > 0 {
             let columns = if let Grid::Map { columns, .. } = grid { columns } else { heights.len() };
-            missing::interpolate(&mut heights, columns)?;
+            interpolated = missing::interpolate(&mut heights, columns)?;
         }
-        Topography::new(format, heights, grid, missing)
+        Topography::new(format, heights, grid, interpolated)
     }
 }
 

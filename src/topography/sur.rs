@@ -107,6 +107,9 @@ fn unit_of(field: &[u8], place: Place) -> Result<Option<Unit>, TopographyError> 
     }
 }
 
+/// Most compressed parts: each takes some microseconds, also for a single byte.
+const MOST_PARTS: usize = 1 << 16;
+
 /// Decompresses heights: a table of the sizes of the parts before and after, then the parts.
 fn expand(data: &mut Bytes<'_>, points: usize, number: Number) -> Result<Vec<u8>, TopographyError> {
     let expected = points.saturating_mul(number.size());
@@ -116,7 +119,11 @@ fn expand(data: &mut Bytes<'_>, points: usize, number: Number) -> Result<Vec<u8>
         let fault = format!("{expected} bytes of heights");
         return Err(refused(place, fault, format!("at most 32 times the compressed size and 1 MiB, {most}")));
     }
+    let place = data.place();
     let parts = data.u32()? as usize;
+    if parts > MOST_PARTS {
+        return Err(refused(place, format!("{parts} compressed parts"), format!("at most {MOST_PARTS}")));
+    }
     let mut sizes = Bytes::new(data.take(parts.saturating_mul(8))?);
     let mut content = Vec::new();
     for _ in 0..parts {
@@ -210,7 +217,11 @@ pub(super) mod tests {
         assert!(with(112, &[9], false).starts_with("byte 516: 12 bytes up to the end"));
         assert!(with(180, b"Volt", false).starts_with("byte 180: \"Volt\" is no unit of length"));
         assert!(with(111, &[9], true).contains("allowed: at most 32 times the compressed size"));
-        assert!(with(516, &[9, 9, 9, 9], true).starts_with("byte 520: "));
+        assert_eq!(
+            with(516, &[1, 0, 1, 0], true),
+            "byte 516: 65537 compressed parts; allowed: at most 65536"
+        );
+        assert!(with(516, &[9, 9, 0, 0], true).starts_with("byte 520: "));
         let file = file(true);
         assert!(read(&file[..file.len() - 3]).is_err());
     }

@@ -1,8 +1,8 @@
 //! Measured heights in m with their positions.
 
-use super::Format;
 use super::error::{Place, TopographyError, gathered, refused};
 use super::reading::LARGEST;
+use super::{Format, missing};
 
 /// Share of the distance between points by which points of an even grid may be displaced due to rounding.
 pub(crate) const UNEVEN: f64 = 1.0e-3;
@@ -41,11 +41,12 @@ pub struct Topography {
     format: Format,
     heights: Vec<f64>,
     grid: Grid,
-    interpolated: usize,
+    /// Indices of the points with interpolated heights.
+    interpolated: Vec<usize>,
 }
 
 impl Topography {
-    /// Heights (m) row by row on a grid, `interpolated` of them from neighbours.
+    /// Heights (m) row by row on a grid, those of the indices `interpolated` from neighbours.
     ///
     /// # Errors
     /// Slopes of a profile above 1e9.
@@ -53,7 +54,7 @@ impl Topography {
         format: Format,
         heights: Vec<f64>,
         grid: Grid,
-        interpolated: usize,
+        interpolated: Vec<usize>,
     ) -> Result<Self, TopographyError> {
         let surface = Topography { format, heights, grid, interpolated };
         if let Some((index, slope)) = surface.first_steep() {
@@ -101,7 +102,26 @@ impl Topography {
     /// Number of points with interpolated heights.
     #[must_use]
     pub fn interpolated(&self) -> usize {
-        self.interpolated
+        self.interpolated.len()
+    }
+
+    /// Heights, m, with as many points interpolated once more: those some quarters of length and width from the interpolated
+    /// ones. What changes is an estimate of what interpolation has changed before.
+    ///
+    /// # Errors
+    /// Insufficient memory.
+    pub(crate) fn interpolated_again(&self, quarters: usize) -> Result<Vec<f64>, TopographyError> {
+        let (columns, rows) = (self.columns(), self.rows());
+        let mut heights = gathered(self.heights.len(), self.heights.iter().copied())?;
+        for index in &self.interpolated {
+            let moved = |place: usize, count: usize| (place + quarters * count / 4) % count;
+            let (row, column) = (moved(index / columns, rows), moved(index % columns, columns));
+            heights[row * columns + column] = f64::NAN;
+        }
+        if !self.interpolated.is_empty() {
+            missing::interpolate(&mut heights, columns)?;
+        }
+        Ok(heights)
     }
 
     /// Points of a row; all points of a profile.
@@ -159,7 +179,12 @@ impl Topography {
             Cut::Column(_) => (index, columns, rows, between),
         };
         let heights = gathered(points, self.heights.iter().skip(first).step_by(step).take(points).copied())?;
-        Ok(Topography { heights, grid: Grid::Profile { spacing }, ..self })
+        let place = |index: &usize| {
+            index.checked_sub(first).filter(|index| index % step == 0).map(|index| index / step)
+        };
+        let interpolated =
+            self.interpolated.iter().filter_map(place).filter(|place| *place < points).collect();
+        Ok(Topography { heights, grid: Grid::Profile { spacing }, interpolated, ..self })
     }
 
     /// The same surface with the same number of other heights, m.
@@ -244,7 +269,8 @@ mod tests {
     use super::*;
 
     fn profile(positions: &[f64], heights: &[f64]) -> Topography {
-        Topography::new(Format::Columns, heights.to_vec(), Grid::Positions(positions.to_vec()), 0).unwrap()
+        Topography::new(Format::Columns, heights.to_vec(), Grid::Positions(positions.to_vec()), Vec::new())
+            .unwrap()
     }
 
     #[test]
@@ -262,7 +288,8 @@ mod tests {
     fn rows_and_columns_of_a_map_are_profiles() {
         let map = || {
             let heights = (0..6).map(f64::from).collect();
-            Topography::new(Format::Npy, heights, Grid::Map { columns: 3, spacing: [1.0, 2.0] }, 0).unwrap()
+            Topography::new(Format::Npy, heights, Grid::Map { columns: 3, spacing: [1.0, 2.0] }, vec![])
+                .unwrap()
         };
         let row = map().cut(Cut::Row(2)).unwrap();
         assert_eq!((row.heights(), row.spacing()), (&[3.0, 4.0, 5.0][..], Ok([1.0; 2])));
@@ -285,7 +312,7 @@ mod tests {
             Format::Npy,
             vec![0.0, 1e5, 0.0, 0.0],
             Grid::Map { columns: 2, spacing: [1e-5; 2] },
-            0,
+            Vec::new(),
         );
         assert!(steep.unwrap_err().to_string().starts_with("point 2: a slope of 1e10"));
     }
@@ -293,7 +320,7 @@ mod tests {
     #[test]
     fn a_map_is_no_profile() {
         let grid = Grid::Map { columns: 2, spacing: [1.0; 2] };
-        let map = Topography::new(Format::Matrix, vec![0.0; 6], grid, 0).unwrap();
+        let map = Topography::new(Format::Matrix, vec![0.0; 6], grid, Vec::new()).unwrap();
         assert_eq!((map.columns(), map.rows()), (2, 3));
         assert!(
             map.into_profile()

@@ -14,6 +14,10 @@ use zip::result::ZipError;
 /// Most bytes of `main.xml`.
 const LONGEST_INDEX: u64 = 1 << 26;
 
+/// Most attributes of `main.xml`, declarations of namespaces among them. The parser compares each with all others of
+/// its element, and those of an element with all that it inherits.
+const MOST_ATTRIBUTES: usize = 256;
+
 /// Name of the index in the archive.
 const INDEX: &str = "main.xml";
 
@@ -28,6 +32,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     let content = archive.read(INDEX, LONGEST_INDEX)?;
     let index =
         into_text(content).map_err(|error| refused(part(INDEX), error.to_string(), "XML in UTF-8"))?;
+    check_index(&index)?;
     let options = ParsingOptions { allow_dtd: false, ..ParsingOptions::default() };
     let document = Document::parse_with_options(&index, options)
         .map_err(|error| refused(part(INDEX), shown(&error.to_string()), "XML without a document type"))?;
@@ -60,6 +65,21 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
         height_unit: Some(Unit::METRE),
         first_missing: None,
     })
+}
+
+/// Refuses an index that takes the parser much more time or memory than its length.
+fn check_index(index: &str) -> Result<(), TopographyError> {
+    // The parser reserves memory for each of these signs; an element has four characters.
+    if index.bytes().filter(|byte| b"<=".contains(byte)).count() > index.len() / 4 {
+        return Err(refused(part(INDEX), "more than a quarter of the characters are < or =", "XML"));
+    }
+    let is_quoted = |value: &&str| value.trim_start().starts_with(['"', '\'']);
+    let attributes = index.split('=').skip(1).filter(is_quoted).count();
+    if attributes > MOST_ATTRIBUTES {
+        let fault = format!("{attributes} attributes and declarations of namespaces");
+        return Err(refused(part(INDEX), fault, format!("at most {MOST_ATTRIBUTES}")));
+    }
+    Ok(())
 }
 
 fn part(name: &str) -> Place {
@@ -267,6 +287,26 @@ pub(super) mod tests {
         assert!(read(b"PK\x03\x04").unwrap_err().to_string().starts_with("a damaged archive"));
         let without = archive(&[("other", b"")]);
         assert!(read(&without).unwrap_err().to_string().starts_with("no file main.xml in the archive"));
+    }
+
+    #[test]
+    fn an_index_that_takes_long_to_parse_is_refused_at_once() {
+        let declared =
+            |count: usize| -> String { (0..count).map(|i| format!(" xmlns:n{i} = 'u{i}'")).collect() };
+        let with_root = |more: &str| MAIN.replacen(" xmlns:p=", &format!("{more} xmlns:p="), 1);
+        // Three attributes are those of the document itself.
+        assert!(with(&with_root(&declared(MOST_ATTRIBUTES - 3))).is_ok());
+        let nested: String = (0..40_000).map(|i| format!("<a xmlns:n{i}=\"u{i}\">")).collect();
+        let attributes: String = (0..40_000).map(|i| format!(" a{i}=\"\"")).collect();
+        let refused = "main.xml: 40003 attributes and declarations of namespaces; allowed: at most 256";
+        for more in [declared(40_000), attributes] {
+            assert_eq!(with(&with_root(&more)).unwrap_err(), refused);
+        }
+        assert_eq!(with(&MAIN.replacen("<Record1>", &format!("<Record1>{nested}"), 1)).unwrap_err(), refused);
+        for marks in ["<", "="] {
+            let error = with(&format!("{MAIN}<!--{}-->", marks.repeat(100_000))).unwrap_err();
+            assert_eq!(error, "main.xml: more than a quarter of the characters are < or =; allowed: XML");
+        }
     }
 
     #[test]

@@ -239,9 +239,14 @@ impl Terminal {
     }
 
     /// Sends keys if the program still runs.
-    pub fn send_if_open(&mut self, keys: &str) {
+    pub fn send_if_open(&mut self, keys: impl AsRef<[u8]>) {
         let keyboard = self.keyboard.as_mut().expect("the terminal is open");
-        let _ = keyboard.write_all(keys.as_bytes()).and_then(|()| keyboard.flush());
+        let _ = keyboard.write_all(keys.as_ref()).and_then(|()| keyboard.flush());
+    }
+
+    /// How the program has ended; `None` while it runs.
+    pub fn ended(&self) -> Option<&ExitStatus> {
+        self.ended.as_ref()
     }
 
     /// Resizes the window. Its former content is lost, as it may be in a terminal.

@@ -27,5 +27,6 @@ mod mouse;
 mod opening;
 mod panics;
 mod ssh;
+mod storm;
 mod study;
 mod window;

@@ -38,6 +38,17 @@ fn a_window_that_shrinks_and_grows_back_at_once_is_drawn_anew() {
 }
 
 #[test]
+fn a_window_of_millions_of_cells_is_refused() {
+    within(40, || {
+        let (program, _folder) = explorer();
+        let mut terminal = program.size(4001, 1000).start();
+        assert_eq!(terminal.wait_end().exit_code(), 1);
+        let message = "a window of 4001 × 1000 cells; allowed: at most 4000000 cells";
+        assert!(terminal.text().contains(message), "{}", terminal.text().trim());
+    });
+}
+
+#[test]
 fn a_window_of_one_cell_is_survived() {
     within(40, || {
         let (program, _folder) = explorer();

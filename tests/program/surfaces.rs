@@ -4,9 +4,9 @@ mod command;
 mod generate;
 
 use super::readme::scenes;
-use asperity::spectrum::{Analysis, End, Options, PowerLaw, analyse};
+use asperity::spectrum::{Analysis, End, Moment, Options, PowerLaw, analyse};
 use asperity::topography::Topography;
-use generate::{Profiles, Spectrum, cut, map};
+use generate::{Normal, Profiles, Spectrum, cut, map, topography};
 use std::fmt::Write;
 
 /// Waves of the finest resolved wavelength on the length of a surface, and points.
@@ -116,6 +116,28 @@ fn the_equivalent_line_of_generated_surfaces_is_theirs() {
     scenes::check("docs/surfaces.md", "biases", &table);
 }
 
+/// Spectra that end before the last resolved wave.
+#[test]
+#[ignore = "takes ten seconds or more; .ci/run runs it"]
+fn the_equivalent_line_ends_where_the_spectrum_ends() {
+    let mut table = String::from(
+        "| last wave | measured | h, % | ⟨∇z⟩, % | e_el, % |\n| --- | --- | --- | --- | --- |\n",
+    );
+    for last in [200.0, 128.0, 64.0, 32.0] {
+        let spectrum = Spectrum { hurst: 0.7, roll_off: 8.0, last };
+        for (kind, found) in samples(&spectrum) {
+            let ratios = ratios(&spectrum, &found);
+            for ratio in ratios {
+                let stated = ratio.stated / ratio.spread.max(ratio.bias.abs());
+                assert!((0.4..8.0).contains(&stated), "{kind}, {last}: {ratios:?}");
+            }
+            let cells = ratios.map(|ratio| ratio.text()).join(" | ");
+            writeln!(table, "| {last} | {kind} | {cells} |").unwrap();
+        }
+    }
+    scenes::check("docs/surfaces.md", "cutoffs", &table);
+}
+
 /// Mean of w⁴ of a Hann window w with a mean of w² of 1: factor by which the window reduces the independent waves.
 const HANN: f64 = 35.0 / 18.0;
 
@@ -190,4 +212,123 @@ fn a_spectrum_that_continues_keeps_the_gradient_of_point_samples() {
         writeln!(table, "| {hurst} | {} | {} |", ends.text(), continues.text()).unwrap();
     }
     scenes::check("docs/surfaces.md", "ends", &table);
+}
+
+/// Moments of the equivalent line: h, ⟨∇z⟩, e_el.
+fn moments(analysis: &Analysis) -> [Moment; 3] {
+    [analysis.line.rms_height, analysis.line.rms_gradient, analysis.line.energy_per_modulus]
+}
+
+/// Asserts that the moments are within three of their standard errors, and these below a bound.
+fn assert_right(name: &str, spectrum: &Spectrum, analysis: &Analysis, largest_error: f64) {
+    for (found, exact) in moments(analysis).into_iter().zip(spectrum.line()) {
+        assert!((found.value - exact).abs() < 3.0 * found.error, "{name}: {found:?} {exact}");
+        assert!(found.error < largest_error * found.value, "{name}: {found:?}");
+    }
+}
+
+#[test]
+fn a_spectrum_that_ends_inside_the_scan_ends_the_line() {
+    for last in [32.0, 100.0, 200.0] {
+        let spectrum = Spectrum { hurst: 0.7, roll_off: 8.0, last };
+        let profiles = Profiles::new(&spectrum, POINTS);
+        let profiles: Vec<Topography> = (0..32).map(|seed| profiles.profile(seed)).collect();
+        for (kind, surfaces) in [("map", vec![map(&spectrum, POINTS, 3)]), ("profiles", profiles)] {
+            let name = format!("{kind}, {last} waves");
+            let analysis = estimated(&surfaces);
+            assert_right(&name, &spectrum, &analysis, 0.09);
+            // The window widens each wave by two.
+            let end = analysis.isotropic.range()[1] / std::f64::consts::TAU;
+            assert!(analysis.ends_inside && (end - last).abs() < 3.0, "{name}: {end}");
+            assert!(moments(&analysis).iter().all(|moment| moment.missing_short_waves == 0.0), "{name}");
+            // Two octaves above the roll-off do not always show an exponent.
+            let hurst = analysis.power_law.map(|fit| fit.hurst);
+            let right = hurst.is_none_or(|hurst| (hurst.value - 0.7).abs() < 3.0 * hurst.error);
+            assert!(right && (hurst.is_some() || last < 100.0), "{name}: {hurst:?}");
+        }
+    }
+    // Powers that fall faster than those of any self-affine surface have no Hurst exponent.
+    let steep = Profiles::new(&Spectrum { hurst: 1.6, roll_off: 8.0, last: LAST }, POINTS);
+    let steep: Vec<Topography> = (0..32).map(|seed| steep.profile(seed)).collect();
+    assert_eq!(estimated(&steep).power_law, None);
+}
+
+#[test]
+fn the_errors_of_interpolated_points_are_stated() {
+    let spectrum = Spectrum { hurst: 0.6, roll_off: 16.0, last: 128.0 };
+    let points = 256;
+    let whole = map(&spectrum, points, 1);
+    let mut normal = Normal::new(8);
+    let with_holes = |is_hole: &mut dyn FnMut(usize) -> bool| {
+        let height = |(index, z): (usize, &f64)| if is_hole(index) { f64::NAN } else { *z };
+        let heights: Vec<f64> = whole.heights().iter().enumerate().map(height).collect();
+        estimated(&[topography(&heights, points)])
+    };
+    let random = with_holes(&mut |_| normal.uniform() < 0.1);
+    assert_right("one point of ten", &spectrum, &random, 0.08);
+    let [_, gradient, _] = moments(&random);
+    assert!(gradient.method > 2.0 * gradient.statistical, "{gradient:?}");
+    // Eight holes of 5 × 5 points.
+    let few = with_holes(&mut |index| index % points % 90 < 5 && index / points % 90 < 5);
+    assert_right("holes", &spectrum, &few, 0.06);
+    let [_, gradient, _] = moments(&few);
+    assert!(gradient.method < gradient.statistical, "{gradient:?}");
+}
+
+#[test]
+fn aliased_waves_of_maps_are_part_of_the_model() {
+    let spectrum = Spectrum { hurst: 0.5, roll_off: 16.0, last: LAST };
+    let whole = map(&spectrum, POINTS, 2);
+    let few = POINTS / 4;
+    let place = |index: usize| 4 * (index / few * POINTS + index % few);
+    let heights: Vec<f64> = (0..few * few).map(|index| whole.heights()[place(index)]).collect();
+    let sampled = [topography(&heights, few)];
+    let end = End::Continues(std::f64::consts::TAU * LAST);
+    let continued = analyse(&sampled, &Options { end, ..Options::default() }).unwrap();
+    assert_right("continued", &spectrum, &continued, 0.08);
+    // Without short waves the longer ones have the power of all, as the last column states.
+    let ends = estimated(&sampled);
+    let resolved = Spectrum { last: few as f64 / 2.0, ..spectrum };
+    for (found, exact) in moments(&ends).into_iter().zip(resolved.line()) {
+        let most = 3.0 * found.error + found.missing_short_waves;
+        assert!((found.value - exact).abs() < most, "{found:?} {exact}");
+    }
+    let [_, gradient, _] = moments(&ends);
+    assert!(
+        gradient.value > 1.08 * resolved.line()[1] && gradient.error < 0.03 * gradient.value,
+        "{gradient:?}"
+    );
+}
+
+#[test]
+fn offset_rows_of_maps_are_left_out_or_stated() {
+    let spectrum = Spectrum { hurst: 0.7, roll_off: 16.0, last: LAST };
+    let whole = map(&spectrum, POINTS, 4);
+    let offset = |share: f64| {
+        let mut normal = Normal::new(9);
+        let step = 12.0_f64.sqrt() * share * spectrum.line()[0];
+        let offsets: Vec<f64> = (0..POINTS).map(|_| step * (normal.uniform() - 0.5)).collect();
+        let heights = whole.heights().iter().enumerate().map(|(index, z)| z + offsets[index / POINTS]);
+        estimated(&[topography(&heights.collect::<Vec<_>>(), POINTS)])
+    };
+    let none = offset(0.0);
+    assert!(!none.offsets && none.apart == 0.0);
+    let small = offset(0.1);
+    assert!(small.offsets, "{:?}", small.line);
+    assert_right("offsets", &spectrum, &small, 0.03);
+    let large = offset(0.4);
+    assert!(large.apart > 0.3 && large.power_law.is_none());
+    assert_right("large offsets", &spectrum, &large, 3.0);
+}
+
+#[test]
+fn a_departure_from_the_measured_height_is_part_of_the_error() {
+    // The window weighs a spike in the middle by 8/3.
+    let mut normal = Normal::new(3);
+    let heights: Vec<f64> =
+        (0..POINTS).map(|i| if i == 250 { 1.0 } else { 1e-3 * (normal.uniform() - 0.5) }).collect();
+    let analysis = estimated(&[topography(&heights, 0)]);
+    let (found, measured) = (analysis.line.rms_height, analysis.statistics.rms_height);
+    assert!(found.value > 1.5 * measured && found.statistical < 0.1 * found.value, "{found:?} {measured}");
+    assert!((found.value - measured).abs() < 1.96 * found.error, "{found:?} {measured}");
 }

@@ -3,9 +3,10 @@
 use super::run::size;
 use crate::cli::{CliError, Overrides};
 use crate::io::write_new;
+use crate::scene::quoted;
 use crate::study::slurm::{SlurmError, Submission, array_size, ignored_variables, sbatch_options, word};
 use crate::study::{Changes, Folder, Plan, StudyError};
-use crate::text::{path_name, printable, printable_lines};
+use crate::text::{printable, printable_lines};
 use clap::Args;
 use std::ffi::OsString;
 use std::fs;
@@ -104,7 +105,7 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
     // Warnings of sbatch are not a result.
     let _ = write!(io::stderr(), "{}", printable_lines(&jobs.notes));
     let (array, merge) = (&jobs.array, &jobs.merge);
-    let path = path_name(folder.path());
+    let path = quoted(&folder.path().display().to_string());
     let tasks = if arguments.shards == 1 { "1 task".into() } else { format!("{} tasks", arguments.shards) };
     writeln!(stdout, "job {array}: {tasks}; job {merge}: the merge after them")?;
     writeln!(stdout, "squeue --jobs={array},{merge}, or asperity sweep status {path}, shows their progress")?;

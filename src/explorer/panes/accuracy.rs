@@ -1,7 +1,7 @@
 //! Cost of accuracy: errors over times, both logarithmic, requirements of a good accuracy, and the stages of the run.
 
 use super::{Pane, PaneRow};
-use crate::accuracy::{CostTable, ErrorFigure, Estimate, Evidence, Knob, Row};
+use crate::accuracy::{CostTable, Estimate, Evidence, Knob};
 use crate::draw::{Chart, Figure, Ink, Layer, Shape, Sign, Span, legend};
 use crate::explorer::layout::inside;
 use crate::explorer::model::{Estimated, Model};
@@ -35,8 +35,8 @@ pub static ROW: PaneRow = PaneRow {
     },
     help: &[(
         "Accuracy",
-        "A: relative error against the time of a run, one line for each setting that affects accuracy; ◆ is the \
-         scene. Below it the cost of 1 % and 0.1 %, and the computing stages",
+        "A: relative error against the time of a run, with springs and edges between them or at them, and with steps of \
+         the stepwise solver; ◆ is the scene. Below it the cost of 1 % and 0.1 %, and the computing stages",
     )],
     ..PaneRow::EMPTY
 };
@@ -49,16 +49,6 @@ const LOWEST: f64 = 1e-8;
 
 /// Fewest rows of a useful plot.
 const FEWEST_PLOT_ROWS: u16 = 4;
-
-fn error_of(row: &Row) -> Option<ErrorFigure> {
-    row.errors.adhesion_force.or(row.errors.curve)
-}
-
-/// Time, s, and error of a setting, as far as both have logarithms.
-fn point(row: &Row) -> Option<(f64, f64)> {
-    let at = (row.seconds?.minimum, error_of(row)?.error);
-    (at.0 > 0.0 && at.1 > 0.0 && at.1.is_finite()).then_some(at)
-}
 
 /// Draws plot, answers and stages, as far as there is room.
 fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
@@ -93,8 +83,7 @@ fn nothing_yet(model: &Model) -> String {
         _ if !model.is_current() => "the scene has no curve to estimate an error of".to_owned(),
         (Some(why), _) => format!("nothing is measured: {why}"),
         (None, true) => {
-            "nothing to show: no force in this scene whose error depends on springs, steps, samples or lines"
-                .to_owned()
+            "nothing to show: no force in this scene whose error depends on springs or steps".to_owned()
         }
         (None, _) if !model.shows_times => {
             "times are not measured here: they differ from run to run".to_owned()
@@ -139,7 +128,9 @@ fn present(numerics: &Numerics, table: &CostTable) -> Option<(f64, f64)> {
     let mut rows: Vec<(f64, (f64, f64))> = table
         .rows_of(knob)
         .filter(|row| knob != Knob::Step || row.springs == numerics.points)
-        .filter_map(|row| Some((row.setting.ln(), point(row)?)))
+        .filter_map(|row| {
+            table.point(row).map(|(seconds, figure)| (row.setting.ln(), (seconds, figure.error)))
+        })
         .collect();
     rows.sort_by(|one, other| one.0.total_cmp(&other.0));
     let at = setting.ln();
@@ -162,14 +153,6 @@ fn entries(table: &CostTable, figure: &Figure, width: u16, appearance: Appearanc
         if let Some(order) = Knob::ALL.iter().find(|knob| is_of(knob)).and_then(|knob| table.order(*knob)) {
             part.push(Text::raw(format!(" order {order:.1}")));
         }
-    }
-    let single = table.rows_of(Knob::SinglePrecision).next().and_then(error_of);
-    if let Some(single) = single {
-        let quiet = appearance.theme.style(Meaning::Quiet);
-        parts.push(vec![Text::styled(
-            format!("{} {:.0e}", Knob::SinglePrecision.name(), single.error),
-            quiet,
-        )]);
     }
     filled(parts, "  ", usize::from(width))
 }
@@ -231,6 +214,7 @@ fn now(model: &Model, table: Option<&CostTable>) -> Line<'static> {
     let error = match &model.appraisal.estimated {
         Estimated::Waiting if model.shows_times => ", error …".to_owned(),
         Estimated::Waiting => String::new(),
+        Estimated::Known(Estimate { near_step: true, .. }) => ", near a step of F_a(F_n)".to_owned(),
         Estimated::Known(Estimate { error, evidence, .. }) => {
             let from = match evidence {
                 Evidence::ClosedForm => " by the closed form".to_owned(),
@@ -266,7 +250,7 @@ fn answer(table: &CostTable, bound: f64, finished: bool) -> Option<String> {
                     Some(format!("{edges} {}{time}", grouped(row.springs)))
                 }
                 (None, Some(finest)) if finished => {
-                    Some(format!("{edges} more than {}", grouped(finest.springs)))
+                    Some(format!("{edges} not up to {}", grouped(finest.springs)))
                 }
                 _ => None,
             }

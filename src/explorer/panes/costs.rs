@@ -34,9 +34,8 @@ impl Costs {
         let mut costs = Costs::default();
         let table = measure(scene, folder, BUDGET, stop, &mut |progress| {
             match progress {
-                Progress::Trying(knob, "") => costs.trying = Some(knob.name().to_owned()),
                 Progress::Trying(knob, setting) => costs.trying = Some(format!("{}: {setting}", knob.name())),
-                Progress::Rows(table) => costs.table = table().map(Arc::new).or(costs.table.take()),
+                Progress::Rows(table) => costs.table = Some(Arc::new(table.clone())),
             }
             report(&costs);
         })?;

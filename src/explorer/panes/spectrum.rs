@@ -12,7 +12,7 @@ use crate::explorer::view::plot;
 use crate::explorer::view::wrap::{filled, wrapped};
 use crate::export::measured_adhesion_text;
 use crate::scene::format_quantity;
-use crate::spectrum::Estimate;
+use crate::spectrum::Moment;
 use crate::text::per_cent;
 use ratatui::Frame;
 use ratatui::layout::Rect;
@@ -76,9 +76,9 @@ fn words(model: &Model, shown: Option<&SceneSpectra>) -> Vec<String> {
     let mut words: Vec<String> = shown.missing.clone().into_iter().collect();
     let governing = model.governing();
     if let (Some(moments), Some(governing)) = (shown.moments, governing) {
-        let percent = |estimate: Estimate| per_cent(estimate.error / estimate.value.abs());
+        let percent = |moment: Moment| per_cent(moment.error / moment.value);
         let mut parts = vec![
-            format!("h ± {}", percent(moments.rms_height)),
+            format!("fit: h ± {}", percent(moments.rms_height)),
             format!("⟨∇z⟩ ± {}", percent(moments.rms_gradient)),
         ];
         if let Some(kappa) = governing.kappa {
@@ -110,8 +110,8 @@ fn adhesion(model: &Model) -> Option<String> {
     }
     let goes_on = match spread.found.profiles.len() {
         PROFILES => String::new(),
-        count => format!(" · {count} of {PROFILES} lines"),
+        count => format!(" · {count} of {PROFILES} profiles"),
     };
-    let force = measured_adhesion_text(&spread.found).unwrap_or_else(|| "…".to_owned());
-    Some(format!("F_a = {force}{goes_on}"))
+    let force = measured_adhesion_text(&spread.found).unwrap_or_else(|| "profiles: …".to_owned());
+    Some(format!("F_a of {force}{goes_on}"))
 }

@@ -1,7 +1,7 @@
 //! Cost of accuracy, and springs for a tolerance.
 
 use super::{Effect, edit};
-use crate::accuracy::{Choice, ChoiceError, Estimate, Evidence, Target, parse_tolerance};
+use crate::accuracy::{Choice, ChoiceError, Target, parse_tolerance};
 use crate::explorer::mode::Mode;
 use crate::explorer::model::{Estimated, Model};
 use crate::explorer::study::{Finding, Found, Task};
@@ -109,10 +109,7 @@ fn take_over(model: &mut Model, choice: &Choice) -> Vec<Effect> {
         }
     }
     // From finer solutions than those of an estimate.
-    let evidence =
-        if choice.closed_form { Evidence::ClosedForm } else { Evidence::Solutions(vec![choice.finest]) };
-    let known = Estimate { target: choice.target, error: choice.error, evidence };
-    model.appraisal.estimated = Estimated::Known(known);
+    model.appraisal.estimated = Estimated::Known(choice.estimate());
     let already = if is_so { "as it is: " } else { "" };
     let text = fitting(model, format!("{already}{sentence}"), format!("{already}{short}"));
     model.set_done(text);
@@ -132,7 +129,7 @@ fn refuse(model: &mut Model, tolerance: f64, error: &ChoiceError) {
             best.edges.name()
         ),
         ChoiceError::Unreached { best: None, .. } => format!("{asked} cannot be checked: too few springs"),
-        ChoiceError::Stepwise => "a tolerance goes with numerics.solver: Exact".to_owned(),
+        ChoiceError::Stepwise => "a tolerance needs numerics.solver: Exact".to_owned(),
         ChoiceError::Run(_) | ChoiceError::Stopped => sentence.clone(),
     };
     let why = fitting(model, sentence.clone(), short);

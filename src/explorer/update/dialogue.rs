@@ -25,7 +25,7 @@ pub fn open_palette(model: &mut Model) {
 /// Inserts typed or pasted text.
 pub fn insert(model: &mut Model, text: &str) -> Vec<Effect> {
     model.completion = None;
-    edit_line(model, |line| text.chars().for_each(|character| line.insert(character)))
+    edit_line(model, |line| line.insert(text))
 }
 
 /// Edits the line or query; the preview of the value, or the list, follows.

@@ -109,7 +109,7 @@ pub fn edit_value(model: &mut Model, first: Option<char>) -> Vec<Effect> {
             Setting::Heading => return toggle_fold(model),
             Setting::Field | Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion => {
                 let mut line = TextLine::selected(&editable(model, parameter));
-                first.into_iter().for_each(|character| line.insert(character));
+                first.into_iter().for_each(|character| line.insert(&character.to_string()));
                 model.mode = Mode::Edit(line);
                 model.refused = None;
                 // No preview of an earlier edit.

@@ -6,6 +6,7 @@ use crate::explorer::mode::{Mode, SaveForm};
 use crate::explorer::model::{Model, Writing};
 use crate::explorer::text_line::TextLine;
 use crate::scene::{Document, command_line, ron_string, typed_path};
+use crate::text::is_control;
 use std::path::{Path, PathBuf};
 
 /// Asks for the file to save to, for title and notice.
@@ -188,6 +189,12 @@ pub fn quit(model: &mut Model) {
 /// Copies the command that opens the present scene.
 pub fn copy_command(model: &mut Model) -> Vec<Effect> {
     let command = command_line(model.document.name(), model.document.overrides());
+    if command.contains(is_control) {
+        // Pasted into a shell they would act on its terminal.
+        model
+            .set_error("not copied: control characters in the name of the file; allowed: a name without any");
+        return Vec::new();
+    }
     // The terminal does not confirm a copy, so the notice has the command too.
     model.set_done(format!("copy: {command}"));
     vec![Effect::Copy(command)]

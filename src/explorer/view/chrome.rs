@@ -4,7 +4,6 @@ use super::found::marked;
 use super::stages;
 use super::typed::typed;
 use super::wrap::{fitted, fitting, wrapped_within};
-use crate::accuracy::Target;
 use crate::analysis::{SteepWaves, contact_stiffness, mean_pressure};
 use crate::contact::CurvePoint;
 use crate::explorer::action::{Content, Traffic};
@@ -43,9 +42,10 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let stated = |line: Line<'static>| fitted(line, area.width);
     let error = |text: String| stated(Line::styled(text, theme.style(Meaning::Error)));
     let prompted = |prompt: &str, line: &TextLine| {
-        let prompt = Span::raw(prompt.to_owned());
-        let room = usize::from(area.width).saturating_sub(prompt.width());
-        Line::from_iter([prompt].into_iter().chain(typed(line, room, theme)))
+        let left_out = line.left_out().map(|what| format!("({what}) ")).unwrap_or_default();
+        let prompt = [Span::raw(prompt.to_owned()), Span::styled(left_out, theme.style(Meaning::Error))];
+        let room = usize::from(area.width).saturating_sub(prompt.iter().map(Span::width).sum());
+        Line::from_iter(prompt.into_iter().chain(typed(line, room, theme)))
     };
     let line = match (&model.mode, &model.notice) {
         (Mode::SaveAs(form), _) => {
@@ -78,6 +78,9 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
                 format!("{} scenes have unsaved changes: {}. Leave?", several.len(), names.join(", "))
             }
         }),
+        (Mode::Edit(line), _) if line.left_out().is_some() => {
+            error(format!("! {}", line.left_out().unwrap_or_default()))
+        }
         (_, Some(Notice::Error(text))) => error(format!("! {}", text.replace('\n', " · "))),
         (Mode::Explore | Mode::Edit(_), None) if model.refused.is_some() => {
             let text = model.refused.as_ref().map_or("", |(_, text)| text);
@@ -232,12 +235,13 @@ fn place(point: CurvePoint) -> String {
 /// The estimated error of the headline: `…` while awaited, `None` without an estimate.
 fn error(model: &Model) -> Option<String> {
     match &model.appraisal.estimated {
-        Estimated::Known(estimate) => {
-            let of = if estimate.target == Target::Curve { "curve " } else { "" };
-            Some(format!("{of}± {}", estimate.per_cent()))
-        }
+        Estimated::Known(estimate) => Some(estimate.words()),
         Estimated::Waiting if model.shows_times => Some("± …".to_owned()),
-        Estimated::Waiting | Estimated::Unknown => None,
+        Estimated::Waiting => None,
+        Estimated::Unknown => {
+            let pulls = model.computed.as_ref()?.outcome.figures.adhesion_force.is_some();
+            pulls.then(|| "error unknown".to_owned())
+        }
     }
 }
 

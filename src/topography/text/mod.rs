@@ -16,13 +16,19 @@ use super::reading::{Format, LARGEST, RawGrid, Reading};
 use crate::io::PROVENANCE;
 use header::Header;
 use layout::{Cell, Decimal, Separator};
-use lines::Lines;
+use lines::{Lines, decoded};
 use plain::{Direction, PlainForm, Points};
-use std::io::BufRead;
+
+/// Most bytes whose plain lines are read at once: their points are reserved before.
+const BLOCK: usize = 1 << 16;
 
 /// Reads a text line by line.
-pub(super) fn read(source: impl BufRead) -> Result<Reading, TopographyError> {
-    let mut lines = Lines::new(source)?;
+pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
+    read_in_blocks(&decoded(bytes)?, BLOCK)
+}
+
+fn read_in_blocks(text: &[u8], block: usize) -> Result<Reading, TopographyError> {
+    let mut lines = Lines::new(text);
     let mut header = Header::default();
     let mut rows: Option<Rows> = None;
     let mut in_provenance = false;
@@ -39,7 +45,7 @@ pub(super) fn read(source: impl BufRead) -> Result<Reading, TopographyError> {
             None if in_provenance => {}
             Some(rows) => {
                 rows.take(number, line)?;
-                lines.take_block(|block| rows.take_plain(block))?;
+                lines.take_block(block, |plain| rows.take_plain(plain));
             }
             None if comment || is_header(line) => header.take(line),
             None => {
@@ -68,8 +74,6 @@ struct Rows {
     decimal: Decimal,
     columns: usize,
     points: Points,
-    /// Memory for points of other threads.
-    spare: Vec<Points>,
     first_missing: Option<Place>,
 }
 
@@ -82,7 +86,6 @@ impl Rows {
             decimal: Decimal::default(),
             columns: separator.split(line).count(),
             points: Points::default(),
-            spare: Vec::new(),
             first_missing: None,
         }
     }
@@ -94,7 +97,7 @@ impl Rows {
 
     /// Reads the plain lines at the beginning of a block. Returns their bytes and their number.
     fn take_plain(&mut self, block: &[u8]) -> (usize, usize) {
-        let read = self.points.read_shared(block, self.form(), &mut self.spare);
+        let read = self.points.read(block, self.form());
         if self.separator != Separator::Comma {
             self.decimal.look_for_point(&block[..read.0]);
         }
@@ -208,7 +211,6 @@ fn quoted(cell: &str) -> String {
 mod tests {
     use super::*;
     use proptest::prelude::*;
-    use std::io::BufReader;
 
     /// A line of a text, mostly of two ascending numbers.
     fn line(index: usize) -> impl Strategy<Value = String> {
@@ -233,10 +235,10 @@ mod tests {
             capacity in 8..200_usize,
         ) {
             let text = lines.join("\n");
-            // A buffer of one byte holds no whole line.
-            let expected = format!("{:?}", read(BufReader::with_capacity(1, text.as_bytes())));
+            // A block of one byte holds no whole line.
+            let expected = format!("{:?}", read_in_blocks(text.as_bytes(), 1));
             prop_assert_eq!(&format!("{:?}", read(text.as_bytes())), &expected, "{}", text);
-            let found = read(BufReader::with_capacity(capacity, text.as_bytes()));
+            let found = read_in_blocks(text.as_bytes(), capacity);
             prop_assert_eq!(&format!("{found:?}"), &expected, "{}", text);
         }
     }

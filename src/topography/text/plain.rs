@@ -5,10 +5,6 @@
 
 use super::super::reading::LARGEST;
 use super::layout::Separator;
-use crate::parallel::{for_each_in_parallel, threads};
-
-/// Fewest bytes of a block for a thread.
-const LEAST_SHARE: usize = 1 << 19;
 
 /// Most bytes of a number with a decimal comma.
 const LONGEST_WITH_COMMA: usize = 32;
@@ -79,48 +75,8 @@ impl PlainForm {
 
 impl Points {
     /// Reads plain lines from the beginning of a block, until one is not plain, not whole, or out of order. Returns
-    /// the bytes and the number of lines read. All cores share a large block; `spare` is memory for their points.
-    pub fn read_shared(&mut self, block: &[u8], form: PlainForm, spare: &mut Vec<Points>) -> (usize, usize) {
-        let parts = block.len() / LEAST_SHARE;
-        if parts < 2 {
-            // Most blocks: without a query of the number of cores.
-            return self.read(block, form);
-        }
-        self.read_in_parts(whole_lines(block, parts.min(threads())), form, spare)
-    }
-
-    /// Reads parts of whole lines in parallel, and joins their content in order.
-    fn read_in_parts<'b>(
-        &mut self,
-        parts: impl Iterator<Item = &'b [u8]>,
-        form: PlainForm,
-        spare: &mut Vec<Points>,
-    ) -> (usize, usize) {
-        let lines: Vec<&[u8]> = parts.collect();
-        let others = lines.len().saturating_sub(1);
-        spare.resize_with(spare.len().max(others), Points::default);
-        let spare = &mut spare[..others];
-        for points in &mut *spare {
-            points.clear();
-            points.direction = self.direction;
-        }
-        let points = std::iter::once(&mut *self).chain(&mut *spare);
-        let mut parts: Vec<_> =
-            lines.iter().zip(points).map(|(lines, points)| (lines, points, (0, 0))).collect();
-        for_each_in_parallel(&mut parts, &|(lines, points, read)| *read = points.read(lines, form));
-        let read: Vec<(usize, usize)> = parts.into_iter().map(|(.., read)| read).collect();
-        let (mut bytes, mut count) = read.first().copied().unwrap_or_default();
-        for (index, points) in spare.iter().enumerate() {
-            // After an incomplete part the position of the next one is unknown.
-            if read[index].0 < lines[index].len() || !self.append(points, form) {
-                break;
-            }
-            (bytes, count) = (bytes + read[index + 1].0, count + read[index + 1].1);
-        }
-        (bytes, count)
-    }
-
-    fn read(&mut self, block: &[u8], form: PlainForm) -> (usize, usize) {
+    /// the bytes and the number of lines read.
+    pub fn read(&mut self, block: &[u8], form: PlainForm) -> (usize, usize) {
         // A number has a digit and a mark after it.
         let most = 1 + block.len() / 2 / form.columns.min(3);
         let mut columns =
@@ -184,48 +140,6 @@ impl Points {
             Direction::Unknown => false,
         }
     }
-
-    /// Appends points. Returns false, and appends nothing, if the memory does not suffice, or their first position
-    /// is out of order.
-    fn append(&mut self, behind: &Points, form: PlainForm) -> bool {
-        let count = self.heights.len();
-        let more = behind.heights.len();
-        if more == 0 {
-            return true;
-        }
-        let mut columns =
-            std::iter::once(&mut self.heights).chain(&mut self.positions[..form.position_columns()]);
-        if columns.any(|values| values.try_reserve(more).is_err()) {
-            return false;
-        }
-        self.positions[0].extend(behind.positions[0].first());
-        let is_in_order = self.is_in_order(count, form);
-        self.positions[0].truncate(count);
-        if is_in_order {
-            self.heights.extend_from_slice(&behind.heights);
-            let columns = self.positions.iter_mut().zip(&behind.positions);
-            columns.for_each(|(positions, more)| positions.extend_from_slice(more));
-        }
-        is_in_order
-    }
-
-    fn clear(&mut self) {
-        self.heights.clear();
-        self.positions.iter_mut().for_each(Vec::clear);
-    }
-}
-
-/// At most so many parts of a block, of about equal length, each of whole lines except for the last one.
-fn whole_lines(block: &[u8], parts: usize) -> impl Iterator<Item = &[u8]> {
-    let mut begin = 0;
-    (1..=parts).filter_map(move |part| {
-        let from = (block.len() / parts * part).max(begin);
-        let line_end = block[from..].iter().position(|byte| *byte == b'\n').filter(|_| part < parts);
-        let end = line_end.map_or(block.len(), |line_end| from + line_end + 1);
-        let lines = &block[begin..end];
-        begin = end;
-        (!lines.is_empty()).then_some(lines)
-    })
 }
 
 /// Number of spaces at the beginning.
@@ -240,36 +154,6 @@ mod tests {
 
     fn form(separator: Separator, has_commas: bool, columns: usize) -> PlainForm {
         PlainForm { separator, has_commas, columns }
-    }
-
-    proptest! {
-        #[test]
-        fn parts_side_by_side_are_read_as_the_whole(
-            lines in prop::collection::vec((0..40_u32, -9..9_i32, 0..60_u32), 1..40),
-            separator in prop::sample::select(vec![Separator::Space, Separator::Semicolon]),
-            columns in 1..4_usize,
-            parts in 2..9_usize,
-            ends in any::<bool>(),
-        ) {
-            // Most positions ascend; one of thirty lines is not plain.
-            let mark = if separator == Separator::Space { " " } else { ";" };
-            let line = |(index, (step, z, kind)): (usize, &(u32, i32, u32))| {
-                let x = if *step == 0 { 0 } else { 40 * index as u32 + step };
-                let cells = [x.to_string(), "0".to_owned(), format!("{z}.5")];
-                let word = if *kind < 2 { "bad" } else { "" };
-                format!("{}{word}", cells[3 - columns..].join(mark))
-            };
-            let mut text = lines.iter().enumerate().map(line).collect::<Vec<_>>().join("\n");
-            text.push_str(if ends { "\n" } else { "" });
-            let read = |parts: usize| {
-                let mut points = Points { direction: Direction::Ascending, ..Points::default() };
-                let block = text.as_bytes();
-                let found = points.read_in_parts(whole_lines(block, parts), form(separator, false, columns), &mut Vec::new());
-                format!("{found:?} {points:?}")
-            };
-            prop_assert_eq!(whole_lines(text.as_bytes(), parts).collect::<Vec<_>>().concat(), text.as_bytes());
-            prop_assert_eq!(read(parts), read(1));
-        }
     }
 
     proptest! {
@@ -303,7 +187,7 @@ mod tests {
     fn lines_that_are_not_plain_are_left() {
         fn read(block: &str, form: PlainForm) -> (Vec<f64>, Vec<f64>, &str) {
             let mut points = Points { direction: Direction::Ascending, ..Points::default() };
-            let (bytes, lines) = points.read_shared(block.as_bytes(), form, &mut Vec::new());
+            let (bytes, lines) = points.read(block.as_bytes(), form);
             assert_eq!(lines, block[..bytes].lines().count());
             let Points { positions: [x, _], heights, .. } = points;
             (x, heights, &block[bytes..])
@@ -337,25 +221,5 @@ mod tests {
             read("1 2 3 4\n5 6 7 8\n9 1\n", form(Separator::Space, false, 4)),
             (vec![], (1..9).map(f64::from).collect(), "9 1\n")
         );
-    }
-
-    #[test]
-    fn large_blocks_are_read_as_their_lines_are() {
-        let line = |index: usize| format!("{index} {:.9}\n", (index as f64).sin());
-        let lines = 4 * LEAST_SHARE / 18;
-        // Whole, and with one line that ends the reading, in either half or at their border.
-        for wrong in
-            [lines, lines / 3, lines / 2, lines - 1].into_iter().chain(lines / 2 - 40..lines / 2 + 40)
-        {
-            let text: String = (0..lines).map(|index| line(if index == wrong { 0 } else { index })).collect();
-            assert!(text.len() > 3 * LEAST_SHARE);
-            let form = form(Separator::Space, false, 2);
-            let mut found = [(); 2].map(|()| Points { direction: Direction::Ascending, ..Points::default() });
-            let [shared, alone] = &mut found;
-            let counts = shared.read_shared(text.as_bytes(), form, &mut Vec::new());
-            assert_eq!(counts, alone.read(text.as_bytes(), form), "{wrong}");
-            assert_eq!((counts.1, shared.heights.len()), (wrong.min(lines), wrong.min(lines)));
-            assert!(shared.heights == alone.heights && shared.positions == alone.positions, "{wrong}");
-        }
     }
 }

@@ -83,7 +83,8 @@ fn table() -> CostTable {
 }
 
 fn estimate(error: f64) -> Option<Estimate> {
-    Some(Estimate { target: Target::AdhesionForce, error, evidence: Evidence::Solutions(vec![512, 2048]) })
+    let evidence = Evidence::Solutions(vec![512, 2048]);
+    Some(Estimate { target: Target::AdhesionForce, error, near_step: error > 1.0, evidence })
 }
 
 fn driver_with(
@@ -168,7 +169,7 @@ fn an_edit_forgets_what_was_found_out() {
         let scene = Arc::new(rough().scene().clone());
         for finding in [
             Finding::Estimated(estimate(0.5)),
-            Finding::Extended(trying(&scene, "lines: 4")),
+            Finding::Extended(trying(&scene, "grid springs: 64 springs")),
             Finding::Extended(PaneData::Costs(Arc::clone(&scene), measured_costs(table()))),
             Finding::NotExtended(Pane::Accuracy, "late".to_owned()),
         ] {
@@ -185,7 +186,7 @@ fn the_headline_has_its_error_and_its_time() {
         let mut driver = stated(Some(0.0042));
         for size in [(120, 40), (80, 24), (60, 20)] {
             driver.resize(size);
-            assert!(driver.status().contains("N ± 0.4 %"), "{}", driver.status());
+            assert!(driver.status().contains("N grid ± 0.4 %"), "{}", driver.status());
         }
         // Times are shown with the counts, in place of the mechanics.
         driver.resize((200, 40));
@@ -193,7 +194,7 @@ fn the_headline_has_its_error_and_its_time() {
         assert!(driver.status().trim_end().ends_with(" 0 s"), "{}", driver.status());
         // Reproducible pictures have no times, and wait for nothing.
         driver.model.shows_times = false;
-        assert!(driver.status().contains("N ± 0.4 % "), "{}", driver.status());
+        assert!(driver.status().contains("N grid ± 0.4 % "), "{}", driver.status());
         assert!(!driver.status().trim_end().ends_with(" 0 s"), "{}", driver.status());
         driver.model.appraisal.estimated = Estimated::Waiting;
         assert!(!driver.status().contains('±'), "{}", driver.status());
@@ -203,11 +204,13 @@ fn the_headline_has_its_error_and_its_time() {
             "{}",
             driver.status()
         );
-        assert!(!stated(None).status().contains('±'), "an unknown error is left out");
+        assert!(stated(None).status().contains("N error unknown"), "{}", stated(None).status());
+        let near_step = stated(Some(1.4));
+        assert!(near_step.status().contains("N near a step of F_a(F_n)"), "{}", near_step.status());
         // Without a pulling force: the largest force, and the error of its curve.
         let curve = Estimate { target: Target::Curve, ..estimate(0.02).unwrap() };
         let driver = driver_with(without_adhesion(), Some(curve), Ok(table()));
-        assert!(driver.status().starts_with("F_max 20 µN curve ± 2 %"), "{}", driver.status());
+        assert!(driver.status().starts_with("F_max 20 µN curve, grid ± 2 %"), "{}", driver.status());
     });
 }
 
@@ -283,7 +286,7 @@ fn endless() -> (Study, Receiver<Found>, Receiver<&'static str>) {
     let (report, reports) = channel();
     let endless = StandIn::endless(sender, |data, report| {
         let PaneData::Costs(scene, _) = data else { return data };
-        report(trying(&scene, "samples: 8"));
+        report(trying(&scene, "grid springs: 32 springs"));
         trying(&scene, "too late")
     });
     let study = Study::start(Box::new(endless), move |found| report.send(found).is_ok()).unwrap();
@@ -299,7 +302,7 @@ fn what_is_measured_ends_as_soon_as_something_else_is_asked_for() {
         for round in 1..=2 {
             study.ask(round, vec![measure(&scene)]);
             assert_eq!(events.recv_timeout(PATIENCE), Ok("begun"));
-            assert_eq!(next().finding, Finding::Extended(trying(&scene, "samples: 8")));
+            assert_eq!(next().finding, Finding::Extended(trying(&scene, "grid springs: 32 springs")));
             // An edit stops the measurement, a tolerance takes its place.
             if round == 1 {
                 study.stop();

@@ -310,6 +310,15 @@ fn the_copied_command_opens_the_scene_as_it_is() {
 }
 
 #[test]
+fn a_name_with_control_characters_is_not_copied() {
+    let text = presets()[0].text;
+    let document = Document::parse(text, "a\u{1b}]0;b\u{7}\nc.ron").unwrap();
+    let mut driver = Driver::start(document);
+    assert_eq!(driver.press("y"), []);
+    assert!(driver.status().starts_with("! not copied: control characters"), "{}", driver.status());
+}
+
+#[test]
 fn a_saved_scene_goes_on_under_its_new_name() {
     within(30, || {
         let folder = tempfile::tempdir().unwrap();

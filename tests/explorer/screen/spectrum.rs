@@ -62,12 +62,15 @@ fn the_spread_over_lines_is_beside_that_of_the_fit() {
         for size in [(120, 40), (80, 24)] {
             driver.resize(size);
             let screen = driver.text();
-            assert!(screen.contains("over 16 lines, ± ") && screen.contains("F_a = "), "{screen}");
+            assert!(
+                screen.contains("F_a of 16 profiles: median ") && screen.contains(", fit ± "),
+                "{screen}"
+            );
         }
         driver.appraiser = None;
         driver.press("R");
         assert_eq!(driver.model.adhesion_spread, None);
-        assert!(driver.text().contains("0 of 16 lines"), "{}", driver.text());
+        assert!(driver.text().contains("0 of 16 profiles"), "{}", driver.text());
     });
 }
 
@@ -179,7 +182,7 @@ fn a_measured_surface_is_the_roughness_by_its_path_alone() {
             driver.press("z");
             let screen = driver.text();
             // The smallest screen has room for the spectra only.
-            assert!(size.0 == 40 || screen.contains("over 16 lines, ± "), "{screen}");
+            assert!(size.0 == 40 || screen.contains("F_a of 16 profiles: median "), "{screen}");
             assert!(screen.contains("Spectr"), "{screen}");
         }
     });

@@ -42,6 +42,16 @@ fn a_small_window_keeps_the_chosen_pane() {
 }
 
 #[test]
+fn panes_have_the_same_shares_of_windows_of_any_width() {
+    let mut driver = pressed("");
+    for columns in [100, 1100, 1200, 3000] {
+        driver.model.size = (columns, 40);
+        let layout = Layout::of(&driver.model);
+        assert_eq!(layout.pane(Pane::Profile).map(|area| area.width), Some(columns / 50 * 29), "{columns}");
+    }
+}
+
+#[test]
 fn a_screen_grows_back_to_what_it_was() {
     within(30, || {
         let mut driver = pressed("");

@@ -217,7 +217,7 @@ fn adhesion_forces_are_within_one_per_cent() {
     for preset in presets() {
         let document = scene(preset.name);
         let outcome = run(&document);
-        let estimate = estimate(document.scene(), Path::new(""), &outcome, &|| false).unwrap();
+        let estimate = estimate(document.scene(), Path::new(""), &outcome, &|| false);
         let estimate = estimate.unwrap_or_else(|| panic!("{}: no estimate", preset.name));
         let pulls = outcome.figures.adhesion_force.is_some();
         assert_eq!(estimate.target == Target::AdhesionForce, pulls, "{}", preset.name);

@@ -109,6 +109,36 @@ fn a_profile_is_stated_in_every_form() {
 }
 
 #[test]
+fn the_profile_of_a_scene_is_read_back_with_its_moments() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    done(folder, &["line", "pressure-sensitive", "-o", "line.csv"]);
+    let arguments = ["surface", "line.csv", "--unit", "m", "--periodic", "--detrend", "mean"];
+    let report = json(folder, &[&arguments[..], &["--format", "json"]].concat());
+    // Line over cut: 1, √2 and π/2, of which the points of the profile state the first two.
+    for (name, measured, ratio) in
+        [("rms_height", "rms_height", 1.0), ("rms_gradient", "rms_slope", std::f64::consts::SQRT_2)]
+    {
+        let [value, error] =
+            ["value", "error"].map(|key| report["equivalent_line"][name][key].as_f64().unwrap());
+        let ratio = value / report[measured].as_f64().unwrap() / ratio;
+        assert!((ratio - 1.0).abs() < 0.01, "{name}: {ratio}");
+        assert!(error < 0.15 * value, "{name}: {error}");
+    }
+    assert_eq!(report["ends_inside_scan"], true);
+    // Each error has its column, and no sentence states another one.
+    let text = done(folder, &arguments);
+    let (_, table) = text.split_once("missing short waves\n").unwrap();
+    let height: Vec<&str> =
+        table.lines().next().unwrap().split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect();
+    assert_eq!((height.len(), height[0], height[4]), (5, "rms height h", "none"), "{text}");
+    assert!(
+        text.contains("195.1 nm (the spectrum ends inside the scan)") && !text.contains("accuracy"),
+        "{text}"
+    );
+}
+
+#[test]
 fn spectra_are_computed_again_from_their_table() {
     let folder = folder();
     let folder = folder.path();
@@ -141,6 +171,20 @@ fn spectra_are_computed_again_from_their_table() {
         picture.contains("measured, q/π × 2D PSD") && picture.contains("reliability cut-off"),
         "{picture}"
     );
+}
+
+#[test]
+fn titles_of_figures_have_names_of_files_without_their_folders() {
+    let folder = folder();
+    let folder = folder.path();
+    let files = ["line.txt", "map.txt"].map(|name| folder.join(name).display().to_string());
+    let picture = done(folder, &["surface", &files[0], &files[1], "--format", "svg"]);
+    assert!(picture.contains("<title>line.txt, map.txt</title>"), "{picture}");
+    std::fs::create_dir(folder.join("scenes")).unwrap();
+    let untitled = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4, form: Paraboloid(radius: 1.0e-4))";
+    std::fs::write(folder.join("scenes/sphere.ron"), untitled).unwrap();
+    let picture = done(folder, &["run", "scenes/sphere.ron", "--format", "svg"]);
+    assert!(picture.contains("<title>sphere.ron</title>") && !picture.contains("scenes"), "{picture}");
 }
 
 #[test]
@@ -212,6 +256,29 @@ fn numbers<'a>(text: &'a str, keys: &[&str]) -> impl Iterator<Item = f64> + 'a {
     let rest = before.iter().fold(text, |rest, key| rest.split_once(&quoted(key)).unwrap().1);
     let cells: Vec<&str> = rest.split(&quoted(last)).skip(1).collect();
     cells.into_iter().filter_map(|cell| cell[..cell.find([',', '}']).unwrap()].trim().parse().ok())
+}
+
+#[test]
+fn a_periodic_surface_keeps_its_tilt_unless_asked() {
+    let folder = folder();
+    let report =
+        |options: &[&str]| done(folder.path(), &[&["surface", "line.txt", "--periodic"], options].concat());
+    assert_eq!(report(&[]), report(&["--detrend", "mean"]));
+    assert_ne!(report(&[]), report(&["--detrend", "tilt"]));
+}
+
+#[test]
+fn a_length_without_a_unit_is_in_that_of_the_files() {
+    let folder = open_folder();
+    let report = |spacing: &str, wavelength: &str, radius: &str| {
+        let lengths = ["--spacing", spacing, "--continue-to", wavelength, "--tip-radius", radius];
+        let asked = [&["surface", "column.txt", "--unit", "um", "--format", "json"], &lengths[..]].concat();
+        done(folder.path(), &asked)
+    };
+    let report_in_um = report("0.5", "0.25", "8");
+    assert_eq!(report_in_um, report("0.5um", "250nm", "8µm"));
+    assert_eq!(report_in_um, report("5.0e-1", ".25", "8e-6m"));
+    assert_ne!(report_in_um, report("0.5", "0.25", "8nm"));
 }
 
 #[test]
@@ -303,7 +370,7 @@ fn the_spectra_of_both_faces_add() {
     let line = power(&table, "equivalent line");
     assert!((line[0][0] * 40e-6 / std::f64::consts::TAU - 1.0).abs() < 1e-9, "{line:?}");
     let summary = done(folder, &["surface", "line.txt", "--opposite", "map.txt"]);
-    for words in ["Opposite face", "opposite, accuracy", "map of 40 × 40 points"] {
+    for words in ["Opposite face", "missing short waves", "map of 40 × 40 points"] {
         assert!(summary.contains(words), "{words}: {summary}");
     }
     done(folder, &["surface", "line.txt", "--opposite", "map.txt", "-o", "both.svg"]);
@@ -331,7 +398,23 @@ fn refusals_name_file_place_and_what_is_allowed() {
         (&["surface", "bad.txt", "--interpolate"], "bad.txt: 3 points along an axis; allowed: at least 32"),
         (&["surface", "line.txt", "uneven.txt"], "uneven.txt: point 2: x = 1e-6 m is off the even grid"),
         (&["surface", "line.txt", "--continue-to", "1mm"], "line.txt: the spectrum continues up to q = "),
+        (
+            &["surface", "line.txt", "--continue-to", "1e-320m"],
+            "--continue-to: 1e-320 m: allowed: from 1e-15 to 10 m",
+        ),
         (&["surface", "line.txt", "--row", "1"], "line.txt: a profile, which has no rows and columns"),
+        (
+            &["surface", "line.txt", "-o", "./line.txt", "--force"],
+            "line.txt: the output would replace this measured file; allowed: another name",
+        ),
+        (
+            &["surface", "line.txt", "--modulus", "1MPa", "--scene", "line.txt", "--force-scene"],
+            "line.txt: the output would replace this measured file; allowed: another name",
+        ),
+        (
+            &["surface", "line.txt", "--tip-radius", "5"],
+            "--tip-radius: a length without a unit; allowed: a unit, as 0.5um, or --unit um",
+        ),
         (&["surface", "line.txt", "--opposite", "none.txt"], "none.txt: cannot be read: "),
         (
             &[
@@ -395,9 +478,13 @@ fn the_adhesion_force_has_the_spread_over_lines_beside_that_of_the_fit() {
     let folder = folder.path();
     let arguments = ["surface", "line.txt", "--modulus", "1MPa", "--work", "50mJ/m^2", "--preload", "10uN"];
     let summary = done(folder, &arguments);
-    for words in
-        ["loading                 to 10 µN, then pull", "over 16 lines, ± ", "by the fit", " of 16 lines"]
-    {
+    for words in [
+        "loading                 to 10 µN, then pull",
+        "16 profiles: median ",
+        "(quartiles ",
+        "fit ± ",
+        " of 16 lines",
+    ] {
         assert!(summary.contains(words), "{words}: {summary}");
     }
     let few = [&arguments[..], &["--lines", "4", "--scene", "rough.ron", "--format", "json"]].concat();
@@ -517,6 +604,10 @@ fn scenes_choose_profile_detrending_window_and_opposite_face() {
     assert!((mean / tilt - 1.0).abs() > 1e-3, "{mean} {tilt}");
     let [hann, none] =
         ["false", "true"].map(|periodic| height(&format!("file: \"line.txt\", periodic: {periodic}")));
+    // A tilt of a periodic surface is a step at its borders: it stays, unless it is asked for.
+    let [mean, tilt] =
+        ["Mean", "Tilt"].map(|part| height(&format!("file: \"line.txt\", periodic: true, detrend: {part}")));
+    assert!(none == mean && none != tilt, "{none} {mean} {tilt}");
     assert!((hann / none - 1.0).abs() > 1e-3 && (hann / none - 1.0).abs() < 1.0, "{hann} {none}");
     // Spectra of two faces add.
     let squares = ["line.txt", "tilted.txt"].map(|file| height(&format!("file: \"{file}\"")).powi(2));

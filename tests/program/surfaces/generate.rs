@@ -1,6 +1,6 @@
 //! Isotropic random surfaces with a known spectrum, on maps and along cuts.
 
-use asperity::topography::{ReadOptions, Topography, Unit, parse};
+use asperity::topography::{Missing, ReadOptions, Topography, Unit, parse};
 use realfft::{ComplexToReal, RealFftPlanner};
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
@@ -46,7 +46,8 @@ impl Normal {
         Normal(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x2545_f491_4f6c_dd1d)
     }
 
-    fn uniform(&mut self) -> f64 {
+    /// Number from 0 to below 1, all equally likely.
+    pub fn uniform(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -146,8 +147,9 @@ pub fn cut(spectrum: &Spectrum, k: f64) -> f64 {
     2.0 * sum * step
 }
 
-/// The heights as read from a NumPy file: a profile (`columns` of 0) or a map on a length of 1 m.
-fn topography(heights: &[f64], columns: usize) -> Topography {
+/// The heights as read from a NumPy file: a profile (`columns` of 0) or a map on a length of 1 m. Those that are not a number are
+/// interpolated.
+pub fn topography(heights: &[f64], columns: usize) -> Topography {
     let points = if columns == 0 { heights.len() } else { columns };
     let shape = match heights.len().checked_div(columns) {
         Some(rows) => format!("({rows}, {columns})"),
@@ -157,7 +159,11 @@ fn topography(heights: &[f64], columns: usize) -> Topography {
     let mut bytes =
         [b"\x93NUMPY\x01\x00", &(header.len() as u16).to_le_bytes()[..], header.as_bytes()].concat();
     bytes.extend(heights.iter().flat_map(|z| z.to_le_bytes()));
-    let options =
-        ReadOptions { unit: Some(Unit::METRE), spacing: Some(1.0 / points as f64), ..ReadOptions::default() };
+    let options = ReadOptions {
+        unit: Some(Unit::METRE),
+        spacing: Some(1.0 / points as f64),
+        missing: Missing::Interpolate,
+        ..ReadOptions::default()
+    };
     parse(&bytes, &options).unwrap()
 }
