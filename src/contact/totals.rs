@@ -63,14 +63,7 @@ fn power_of_two(exponent: i32) -> f64 {
 }
 
 /// Bits of squared quanta that a sum of squares leaves out: 2^28 squares then fit an `i128`.
-const SQUARE_BITS: u32 = 28;
-
-/// A square of quanta in the unit of sums of squares, rounded to the nearest integer.
-#[inline]
-pub fn square_of(quanta: i64) -> i128 {
-    let quanta = i128::from(quanta);
-    (quanta * quanta + (1 << (SQUARE_BITS - 1))) >> SQUARE_BITS
-}
+pub const SQUARE_BITS: u32 = 28;
 
 /// Springs, or cells by their mean gaps: their number and the sums of their gaps and squared gaps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -107,7 +100,7 @@ impl SquareScale {
     pub fn new(scale: GapScale, largest: f64) -> Self {
         let GapScale { mut quanta_per_metre, mut quantum } = scale;
         let mut coarser = 0;
-        while largest * quanta_per_metre >= GAP_RANGE {
+        while largest * quanta_per_metre >= 2.0 * GAP_RANGE {
             (quanta_per_metre, quantum, coarser) = (0.5 * quanta_per_metre, 2.0 * quantum, coarser + 1);
         }
         SquareScale { quanta_per_metre, quantum, coarser }

@@ -1,7 +1,7 @@
 //! The contact tree: the merging of the fragments of a line, over its local maxima alone.
 
 use super::span::larger;
-use crate::contact::totals::{Squares, square_of};
+use crate::contact::totals::{SQUARE_BITS, Squares};
 use crate::contact::{ContactError, GapScale, reserve};
 use crate::memory;
 use crate::parallel::in_parallel;
@@ -208,16 +208,16 @@ impl ContactTree {
     /// Sums from the first spring to this one.
     pub(super) fn squares_before(&self, gaps: &[f64], spring: usize) -> Squares {
         let (block, scale) = (spring / BLOCK, self.scale());
-        let [mut first, mut second] = self.sums[block];
+        let [first, second] = self.sums[block];
+        let mut rest = BlockSums::default();
         for at in block * BLOCK..spring {
-            let (quanta, square) = match self.edges() {
-                Edges::Grid => of_spring(gaps[at], scale),
-                Edges::SubCell => of_cell(gaps[at], gaps[at + 1], scale),
-            };
-            first += i128::from(quanta);
-            second += square;
+            match self.edges() {
+                Edges::Grid => rest.add_spring(gaps[at], scale),
+                Edges::SubCell => rest.add_cell(gaps[at], gaps[at + 1], scale),
+            }
         }
-        Squares { count: spring as i64, first, second }
+        let [rest, rest_squares] = rest.rounded();
+        Squares { count: spring as i64, first: first + rest, second: second + rest_squares }
     }
 
     /// Finds the turning points: of neighbours with equal gaps the right one counts as lower.
@@ -308,36 +308,68 @@ fn sums_along(
     }
     let mut sum = [0_i128; 2];
     sums.push(sum);
-    let mut add = |block: [(i64, i128); BLOCK]| {
-        // Four quanta below 2^62 fit into 64 bits.
-        sum[0] += i128::from(block.iter().map(|(quanta, _)| quanta.cast_unsigned()).sum::<u64>());
-        sum[1] += block.iter().map(|(_, square)| square).sum::<i128>();
+    let mut add = |block: BlockSums| {
+        let [gaps, squares] = block.rounded();
+        sum = [sum[0] + gaps, sum[1] + squares];
         sums.push(sum);
     };
     match edges {
-        Edges::Grid => {
-            let (blocks, _) = gaps.as_chunks::<BLOCK>();
-            blocks.iter().for_each(|block| add(block.map(|gap| of_spring(gap, scale))));
-        }
-        Edges::SubCell => gaps.windows(BLOCK + 1).step_by(BLOCK).for_each(|block| {
-            add(std::array::from_fn(|k| of_cell(block[k], block[k + 1], scale)));
+        Edges::Grid => gaps.as_chunks::<BLOCK>().0.iter().for_each(|springs| {
+            let mut block = BlockSums::default();
+            springs.iter().for_each(|&gap| block.add_spring(gap, scale));
+            add(block);
+        }),
+        Edges::SubCell => gaps.windows(BLOCK + 1).step_by(BLOCK).for_each(|springs| {
+            let mut block = BlockSums::default();
+            springs.windows(2).for_each(|cell| block.add_cell(cell[0], cell[1], scale));
+            add(block);
         }),
     }
     Ok(sums)
 }
 
-/// Gap of a spring in quanta, and its square.
-#[inline]
-fn of_spring(gap: f64, scale: GapScale) -> (i64, i128) {
-    let quanta = scale.quanta(gap);
-    (quanta, square_of(quanta))
+/// Sums over a block at most: four quanta below 2^62 fit into 64 bits, and four of their squares into 128.
+#[derive(Default)]
+struct BlockSums {
+    quanta: u64,
+    squares: u128,
+    /// Squared differences of the gaps at the ends of cells.
+    squared_differences: u128,
 }
 
-/// Mean gap of a cell in quanta, and the mean of its squares: (mean gap)² + (difference of its gaps)²/12.
+impl BlockSums {
+    #[inline]
+    fn add_spring(&mut self, gap: f64, scale: GapScale) {
+        self.add(scale.quanta(gap).cast_unsigned());
+    }
+
+    #[inline]
+    fn add_cell(&mut self, one: f64, other: f64, scale: GapScale) {
+        self.add(scale.mean_quanta(one, other).cast_unsigned());
+        let difference = u128::from(scale.quanta((one - other).abs()).cast_unsigned());
+        self.squared_differences += difference * difference;
+    }
+
+    #[inline]
+    fn add(&mut self, quanta: u64) {
+        self.quanta += quanta;
+        self.squares += u128::from(quanta) * u128::from(quanta);
+    }
+
+    /// Sum of the gaps, in quanta, and of their squares in the unit of [`Squares`]: the mean square along a cell is
+    /// (mean gap)² + (difference)²/12.
+    #[inline]
+    fn rounded(&self) -> [i128; 2] {
+        let squares = self.squares + twelfth(self.squared_differences);
+        [i128::from(self.quanta), (squares >> SQUARE_BITS).cast_signed()]
+    }
+}
+
+/// A twelfth, at most 13 too small; a division of 128 bits would take longer than all other sums.
 #[inline]
-fn of_cell(one: f64, other: f64, scale: GapScale) -> (i64, i128) {
-    let quanta = scale.mean_quanta(one, other);
-    (quanta, square_of(quanta) + square_of(scale.quanta((one - other).abs())) / 12)
+fn twelfth(number: u128) -> u128 {
+    let [high, low] = [(number >> 64) as u64, number as u64];
+    (u128::from(high / 12) << 64) + u128::from(high % 12) * u128::from(u64::MAX / 12) + u128::from(low / 12)
 }
 
 /// Largest of finite numbers that are at least zero; zero of none.
