@@ -14,8 +14,8 @@ pub const SEARCH_INTERVALS: usize = 256;
 pub struct Reversed {
     /// Smallest indentation with contact, m.
     pub separates: f64,
-    /// Σ e² over the springs that attach between an indentation and the turning point under a stretch e, and over all
-    /// that detach from there on, m².
+    /// Σ e² over the springs that attach up to the turning point with a stretch e, and over those that detach from there
+    /// on, m².
     pub squared_stretches: [f64; 2],
 }
 
@@ -39,13 +39,12 @@ pub trait ContactModel {
     /// [`ContactError::OutOfMemory`]; the contact is then unchanged.
     fn unload(&mut self, from: f64, work: &mut Work) -> Result<f64, ContactError>;
 
-    /// Unloads from the indentation `at` of the present leg, m, which is a loading from separation, and sums the stretches
-    /// of the springs that attach `above` an indentation, m. The loading stays the present leg; the next functions refer
-    /// to this unloading.
+    /// Unloads from this indentation of the present leg, m, which is a loading from separation. The loading stays the
+    /// present leg; the next functions refer to this unloading.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    fn reverse(&mut self, above: f64, at: f64, work: &mut Work) -> Result<Reversed, ContactError>;
+    fn reverse(&mut self, at: f64, work: &mut Work) -> Result<Reversed, ContactError>;
 
     /// Contact states along a grid of the unloading from a turning point.
     ///

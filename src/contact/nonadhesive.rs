@@ -323,7 +323,7 @@ impl ContactModel for Nonadhesive<'_> {
         Ok(0.0)
     }
 
-    fn reverse(&mut self, _: f64, at: f64, work: &mut Work) -> Result<Reversed, ContactError> {
+    fn reverse(&mut self, at: f64, work: &mut Work) -> Result<Reversed, ContactError> {
         Ok(Reversed { separates: self.unload(at, work)?, squared_stretches: [0.0; 2] })
     }
 

@@ -87,9 +87,8 @@ impl<'a> Reversals<'a> {
         points: &[f64],
         see: &mut dyn FnMut(usize, Reversal) -> Result<(), ContactError>,
     ) -> Result<(), ContactError> {
-        let mut loading = Loaded { to: f64::NEG_INFINITY, squared_stretch: 0.0 };
         for &(index, turn) in &self.turns {
-            see(index, reverse(&mut self.body, &mut loading, turn, points)?)?;
+            see(index, reverse(&mut self.body, turn, points)?)?;
         }
         Ok(())
     }
@@ -121,26 +120,11 @@ impl<'a> Reversals<'a> {
     }
 }
 
-/// The loading up to a turning point.
-struct Loaded {
-    /// Indentation, m.
-    to: f64,
-    /// ∫ (c − θ)² dx over what has attached, in cells times m².
-    squared_stretch: f64,
-}
-
-/// Unloads from a turning point, no shallower than that of the loading so far.
-fn reverse(
-    body: &mut Exact<'_>,
-    loading: &mut Loaded,
-    turn: ContactState,
-    points: &[f64],
-) -> Result<Reversal, ContactError> {
+/// Unloads from a turning point.
+fn reverse(body: &mut Exact<'_>, turn: ContactState, points: &[f64]) -> Result<Reversal, ContactError> {
     let high = turn.indentation;
     let (contact, work) = body.work_mut();
-    let Reversed { separates, squared_stretches: [attached, detached] } =
-        contact.reverse(loading.to, high, work)?;
-    *loading = Loaded { to: high, squared_stretch: loading.squared_stretch + attached };
+    let Reversed { separates, squared_stretches: [attached, detached] } = contact.reverse(high, work)?;
     let separation = separates.min(high);
     let (grid, _) = body.grid(separation, high);
     let (contact, work) = body.work_mut();
@@ -156,7 +140,7 @@ fn reverse(
         turn: body.curve_point(turn),
         smallest: body.curve_point(smallest),
         separation,
-        dissipated_energy: ((0.0 - body.energy(loading.squared_stretch)) + body.energy(detached)) + 0.0,
+        dissipated_energy: ((0.0 - body.energy(attached)) + body.energy(detached)) + 0.0,
         forces,
     })
 }

@@ -134,14 +134,14 @@ impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
         Ok(opened.separates)
     }
 
-    fn reverse(&mut self, above: f64, at: f64, work: &mut Work) -> Result<Reversed, ContactError> {
+    fn reverse(&mut self, at: f64, work: &mut Work) -> Result<Reversed, ContactError> {
         work.unloading_passes += 1;
         let separates = self.unload_aside(at, work)?;
         let [loading, unloading] = [Direction::Loading, Direction::Unloading].map(|leg| self.ground.on(leg));
-        let range = |low, unloading| Range { low, high: at, unloading };
+        let range = |unloading| Range { low: f64::NEG_INFINITY, high: at, unloading };
         let squared_stretches = [
-            loading.squared_stretch(&self.memory.runs, range(above, false)),
-            unloading.squared_stretch(&self.memory.spare, range(f64::NEG_INFINITY, true)),
+            loading.squared_stretch(&self.memory.runs, range(false)),
+            unloading.squared_stretch(&self.memory.spare, range(true)),
         ];
         Ok(Reversed { separates, squared_stretches })
     }
