@@ -9,7 +9,7 @@ use asperity::surface::{Line, SelfAffine, UnitRoughness};
 use std::hint::black_box;
 
 /// Most loops that the reversals may take.
-const MOST_LOOPS: f64 = 12.0;
+const MOST_LOOPS: f64 = 16.0;
 
 /// Sends the process that callgrind watches the number of a task.
 const CHILD: &str = "ASPERITY_INSTRUCTIONS_OF_REVERSALS";
