@@ -7,30 +7,6 @@ use crate::scene::RoughnessParameter;
 use crate::surface::Amplitude;
 use std::f64::consts::PI;
 
-/// Roughness-adhesion parameter κ = √(h⟨∇z⟩E*/γ) of roughness under an effective modulus E*, Pa, and a work of
-/// adhesion γ, J/m²; `None` if κ overflows. Popov and Filippov (2012), eq. (11).
-#[must_use]
-pub fn roughness_adhesion_parameter(
-    amplitude: Amplitude,
-    effective_modulus: f64,
-    work_of_adhesion: f64,
-) -> Option<f64> {
-    let parameter = RoughnessParameter::Kappa;
-    value_of(parameter, energy_of(parameter, amplitude, effective_modulus), work_of_adhesion)
-}
-
-/// Elastic energy of conformity over the work of adhesion, e_el/γ, of roughness under an effective modulus E*, Pa,
-/// and a work of adhesion γ, J/m²; `None` if the ratio overflows. Persson and Tosatti (2001).
-#[must_use]
-pub fn elastic_energy_ratio(
-    amplitude: Amplitude,
-    effective_modulus: f64,
-    work_of_adhesion: f64,
-) -> Option<f64> {
-    let parameter = RoughnessParameter::ElasticEnergyRatio;
-    value_of(parameter, energy_of(parameter, amplitude, effective_modulus), work_of_adhesion)
-}
-
 /// Ideal adhesion force F_a,max = √(πγE*L³), N, of a flat face of length L, m, with a work of adhesion γ, J/m², and an
 /// effective modulus E*, Pa. Popov and Filippov (2012), eq. (14); Kendall (1971).
 #[must_use]
@@ -98,9 +74,9 @@ mod tests {
         let amplitude =
             Amplitude { rms_height: 3.0, rms_gradient: 6.0, rms_curvature: 15.0, mean_wave_number: 0.5 };
         // h⟨∇z⟩E*/γ = 36 and E* h² q̄/4γ = 2.25.
-        assert_eq!(roughness_adhesion_parameter(amplitude, 4.0, 2.0), Some(6.0));
-        assert_eq!(elastic_energy_ratio(amplitude, 4.0, 2.0), Some(2.25));
-        assert_eq!(roughness_adhesion_parameter(amplitude, 4.0, 0.0), None);
+        let [kappa, ratio] =
+            RoughnessParameter::ALL.map(|one| value_of(one, energy_of(one, amplitude, 4.0), 2.0));
+        assert_eq!((kappa, ratio), (Some(6.0), Some(2.25)));
         // π γ E* L³ = 750 π.
         let force = ideal_adhesion_force(2.0, 3.0, 5.0);
         assert!((force - (750.0 * PI).sqrt()).abs() < 1e-13, "{force}");

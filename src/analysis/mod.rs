@@ -11,10 +11,7 @@ pub mod section;
 mod steep_waves;
 mod tabor;
 
-pub use derived::{
-    contact_stiffness, elastic_energy_ratio, force_unit, ideal_adhesion_force, mean_pressure,
-    roughness_adhesion_parameter, tabor_number,
-};
+pub use derived::{contact_stiffness, force_unit, ideal_adhesion_force, mean_pressure, tabor_number};
 pub use figures::{Figures, preload_point, pull_off_point};
 pub use governing::Governing;
 pub use marks::{Mark, marks};

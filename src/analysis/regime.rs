@@ -101,17 +101,6 @@ impl CellRegime {
         let split = Some(Regime::ALL[second]).filter(|_| share < AGREEING_SHARE && shares[second] > 0.0);
         (share > 0.0).then_some(CellRegime { regime: Regime::ALL[first], share, split })
     }
-
-    /// From the regimes of the profiles; profiles without one do not count.
-    #[must_use]
-    pub fn from_lines(lines: impl IntoIterator<Item = Option<Regime>>) -> Option<Self> {
-        let mut counts = [0_u32; 3];
-        for regime in lines.into_iter().flatten() {
-            counts[regime as usize] += 1;
-        }
-        let all = counts.iter().sum::<u32>().max(1);
-        Self::from_shares(counts.map(|count| f64::from(count) / f64::from(all)))
-    }
 }
 
 /// Forces that determine the regime, N.
@@ -179,11 +168,6 @@ mod tests {
         assert_eq!(found([0.3, 0.0, 0.7]), Some((non_adhesive, Some(insensitive))));
         assert_eq!(found([0.0, 0.5, 0.5]), Some((sensitive, Some(non_adhesive))));
         assert_eq!(found([0.5, 0.0, 0.5]), Some((insensitive, Some(non_adhesive))));
-        let lines = [Some(non_adhesive), None, Some(sensitive), Some(non_adhesive), None];
-        let cell = CellRegime::from_lines(lines).unwrap();
-        assert_eq!((cell.regime, cell.split), (non_adhesive, Some(sensitive)));
-        assert!((cell.share - 2.0 / 3.0).abs() < 1e-15);
-        assert_eq!(CellRegime::from_lines([None]), None);
         for (place, regime) in Regime::ALL.into_iter().enumerate() {
             assert_eq!(regime as usize, place);
         }

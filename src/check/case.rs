@@ -66,8 +66,6 @@ pub struct Case {
     pub holds: &'static str,
     /// Kinds of evidence, the strongest first.
     pub evidence: &'static [Evidence],
-    /// Reason for a known failure: the case remains in the catalogue as a failure.
-    pub known_failure: Option<&'static str>,
     /// Quantity of the error.
     pub error_of: &'static str,
     /// Edge models and bounds.
@@ -84,7 +82,6 @@ pub(super) const CASE: Case = Case {
     family: Family::Laws,
     holds: "",
     evidence: &[],
-    known_failure: None,
     error_of: "",
     scope: Scope::Line(0.0),
     large: false,

@@ -35,15 +35,6 @@ impl Verdict {
         // NaN is no error within the bound.
         self.error.as_ref().is_ok_and(|&error| error <= self.check.bound)
     }
-
-    /// Returns true for a case that passes, or fails as known: with an error outside the bound.
-    #[must_use]
-    pub fn is_expected(&self) -> bool {
-        match self.check.case.known_failure {
-            None => self.passes(),
-            Some(_) => !self.passes() && self.error.is_ok(),
-        }
-    }
 }
 
 /// All cases, in the order of display.
@@ -100,7 +91,6 @@ mod tests {
         for case in catalogue() {
             assert!(case.holds.ends_with('.') && !case.holds.contains("  "), "{}", case.holds);
             assert!(!case.evidence.is_empty(), "{}", case.name);
-            assert!(case.known_failure.is_none_or(|reason| !reason.is_empty()), "{}", case.name);
         }
         assert!(checks(|_| true).iter().all(|check| check.bound >= 0.0));
     }
@@ -112,17 +102,5 @@ mod tests {
         assert!(!judge(Check { bound: 1e-12, ..check }).passes());
         let nothing = Verdict { check, error: Ok(f64::NAN), seconds: 0.0 };
         assert!(!nothing.passes());
-    }
-
-    #[test]
-    fn a_known_failure_is_expected_and_its_success_is_not() {
-        let known = checks(|case| case.known_failure.is_some());
-        assert!(!known.is_empty());
-        for check in known {
-            let verdict = |error| Verdict { check, error, seconds: 0.0 };
-            assert!(verdict(Ok(2.0 * check.bound)).is_expected() && !verdict(Ok(2.0 * check.bound)).passes());
-            assert!(!verdict(Ok(0.0)).is_expected(), "{}", check.case.name);
-            assert!(!verdict(Err(Fault::Wrong("broken".into()))).is_expected());
-        }
     }
 }

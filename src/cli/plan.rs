@@ -12,9 +12,9 @@ Examples:
   asperity plan pressure-sensitive
   asperity plan million-springs --set adhesion=None --format json
 
-A stage that a scene does not call for does not run. Passes are given where the scene determines
-their number, springs touched are those of all passes at the most, and memory is the addition of a
-stage while it runs.";
+A stage that a scene does not call for does not run. Passes of each loading stage are those of its
+direction, springs touched are those of all passes at the most, and memory is the addition of a stage
+while it runs.";
 
 /// Arguments of `plan`.
 #[derive(Args, Debug)]
@@ -36,19 +36,16 @@ pub(super) fn plan(arguments: &PlanArguments, stdout: &mut dyn Write) -> Result<
 
 fn text(plan: &Plan) -> String {
     let mut rows = vec![["stage", "passes", "springs", "memory", "because"].map(String::from)];
-    let count = |count: Option<u64>| match count {
-        None => "?".into(),
-        Some(0) => String::new(),
-        Some(count) => grouped(count),
-    };
+    let count = |count: u64| if count > 0 { grouped(count) } else { String::new() };
     for PlannedStage { stage, runs, because, cost } in &plan.stages {
         let memory = if cost.bytes > 0 { memory_size(cost.bytes) } else { String::new() };
-        let passes = match count(cost.passes) {
+        let passes = match cost.passes {
             _ if !runs => "skipped".to_owned(),
-            passes if passes.is_empty() => "runs".to_owned(),
-            passes => passes,
+            None => "each loading stage".to_owned(),
+            Some(0) => "runs".to_owned(),
+            Some(passes) => grouped(passes),
         };
-        let touched = count(cost.springs_touched);
+        let touched = cost.springs_touched.map_or_else(String::new, count);
         rows.push([stage.name().into(), passes, touched, memory, (*because).into()]);
     }
     let mut sheet = Sheet::default();

@@ -39,19 +39,16 @@ pub fn check_text(verdicts: &[Verdict]) -> String {
         let why = |verdict: &&Verdict| {
             let Check { case, edges, bound } = verdict.check;
             let name = format!("{} {}", case.name, edges.map_or("", Edges::name)).trim_end().to_owned();
-            let why = match (&verdict.error, case.known_failure) {
-                (Ok(error), None) => format!("error {} above the bound {}", figure(*error), figure(bound)),
-                (Ok(error), Some(reason)) => format!("known, by {}: {reason}", figure(*error)),
-                (Err(fault), _) => fault.to_string(),
+            let why = match &verdict.error {
+                Ok(error) => format!("error {} above the bound {}", figure(*error), figure(bound)),
+                Err(fault) => fault.to_string(),
             };
             [name, why]
         };
         sheet.table(&failed.iter().map(why).collect::<Vec<_>>());
     }
-    let known = failed.iter().filter(|verdict| verdict.is_expected()).count();
-    let known = if known == 0 { String::new() } else { format!(", {known} fail as known") };
     sheet.heading(&format!(
-        "{} of {} checks pass{known}, in {:.1} s.",
+        "{} of {} checks pass, in {:.1} s.",
         verdicts.len() - failed.len(),
         verdicts.len(),
         verdicts.iter().map(|verdict| verdict.seconds).sum::<f64>()
@@ -72,10 +69,9 @@ pub fn check_markdown(checks: &[Check]) -> String {
                 format!("{edges}{}", figure(check.bound))
             })
             .collect();
-        let fails = case.known_failure.map_or_else(String::new, |reason| format!(" **Fails**: {reason}."));
         rows.push([
             format!("`{}`", case.name),
-            format!("{}{fails}", case.holds),
+            case.holds.to_owned(),
             evidence(&case),
             case.error_of.to_owned(),
             bounds.join(", "),
@@ -97,7 +93,6 @@ pub fn write_check_json(out: &mut (impl Write + ?Sized), verdicts: &[Verdict]) -
             "edges": edges,
             "holds": case.holds,
             "evidence": case.evidence,
-            "known_failure": case.known_failure,
             "error_of": case.error_of,
             "error": verdict.error.as_ref().ok().copied().filter(|error| error.is_finite()),
             "bound": bound,
@@ -107,7 +102,7 @@ pub fn write_check_json(out: &mut (impl Write + ?Sized), verdicts: &[Verdict]) -
         }
     };
     let checks: Vec<_> = verdicts.iter().map(row).collect();
-    let passes = verdicts.iter().all(Verdict::is_expected);
+    let passes = verdicts.iter().all(Verdict::passes);
     write_json_value(out, &object! { "passes": passes, "checks": checks })
 }
 

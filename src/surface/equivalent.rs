@@ -158,13 +158,6 @@ impl EquivalentLine {
         EquivalentLine { faces: (0..).zip(&self.faces).map(of_face).collect() }
     }
 
-    /// Equivalent line of both faces, whose roughnesses are independent.
-    #[must_use]
-    pub fn with_opposite(mut self, other: EquivalentLine) -> Self {
-        self.faces.extend(other.faces);
-        self
-    }
-
     /// Reads the surfaces of all faces for their equivalent line; `seen` receives all bytes of the files.
     ///
     /// # Errors
@@ -272,7 +265,10 @@ mod tests {
         let further = MeasuredOptions { continue_to: Some(0.5e-6), ..MeasuredOptions::default() };
         let one = EquivalentLine::new(surface(), &MeasuredOptions::default()).unwrap();
         let other = EquivalentLine::new(surface(), &further).unwrap();
-        let both = one.clone().with_opposite(other.clone());
+        let faces = |one: &EquivalentLine, other: &EquivalentLine| EquivalentLine {
+            faces: [one.faces.as_slice(), &other.faces].concat(),
+        };
+        let both = faces(&one, &other);
         let length = 256e-6;
         assert_eq!(both.modes(length, 4096).unwrap(), (1, 512));
         for mode in [1, 50, 127, 128, 400, 512] {
@@ -281,14 +277,13 @@ mod tests {
             assert_eq!(a == 0.0, mode > 127, "{mode}");
         }
         // Two equal faces have √2 times the height and gradient of one.
-        let twice = one.clone().with_opposite(one.clone());
+        let twice = faces(&one, &one);
         let modes = one.modes(length, 4096).unwrap();
         let [before, after] = [&one, &twice].map(|line| line.amplitude_of_modes(length, modes));
         assert!((after.rms_height / before.rms_height - std::f64::consts::SQRT_2).abs() < 1e-12);
         assert!((after.rms_gradient / before.rms_gradient - std::f64::consts::SQRT_2).abs() < 1e-12);
         // Also moments, over the waves common to both scans.
-        let [one, other, both] =
-            [&one, &other, &one.clone().with_opposite(other.clone())].map(|line| line.moments());
+        let [one, other, both] = [&one, &other, &both].map(|line| line.moments());
         let squares = |a: Moment, b: Moment, sum: Moment| {
             assert!((sum.value.powi(2) / (a.value.powi(2) + b.value.powi(2)) - 1.0).abs() < 1e-12, "{sum:?}");
             let error = (a.value * a.error).hypot(b.value * b.error) / sum.value;

@@ -5,6 +5,7 @@ mod closed_forms;
 mod laws;
 mod manual;
 mod rule;
+mod wavy_sphere;
 
 use super::{formed, numerics};
 use asperity::contact::{

@@ -26,7 +26,7 @@ fn rough(points: usize, work: f64) -> Result<Body, Fault> {
 /// Shared fields of the cases that compare contact and forces with the rules.
 const RULES: Case = Case {
     evidence: &[Evidence::IndependentComputation],
-    error_of: "force and energy",
+    error_of: "force",
     scope: Scope::BothEdges(1e-15, 1e-15),
     ..CASE
 };

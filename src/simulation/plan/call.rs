@@ -1,6 +1,5 @@
 //! Requirements and costs of the stages of a scene.
 
-use super::legs::Legs;
 use crate::scene::{Edges, Effect, Roughness, Scene, Solver};
 use serde::Serialize;
 
@@ -30,9 +29,9 @@ impl Called {
 /// Cost of one stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct StageCost {
-    /// Passes over the profile or its tree; `None` if known only after the run.
+    /// Passes over the profile or its tree; `None` for one or more in each loading stage, by its direction.
     pub passes: Option<u64>,
-    /// Most springs visited in all passes; `None` if known only after the run.
+    /// Most springs visited in all passes; `None` if their number is.
     pub springs_touched: Option<u64>,
     /// Bytes of the arrays added during the stage.
     pub bytes: u64,
@@ -52,7 +51,6 @@ pub struct Call<'a> {
     pub springs: u64,
     /// Points of all curves.
     pub curve_points: u64,
-    pub legs: Legs,
     pub adhesive: bool,
     /// True for the exact solver, false for the stepwise one.
     pub exact: bool,
@@ -64,13 +62,11 @@ pub struct Call<'a> {
 
 impl<'a> Call<'a> {
     pub fn of(scene: &'a Scene) -> Self {
-        let loading = scene.loading.as_slice();
         Call {
             scene,
             points: scene.numerics.points,
             springs: scene.springs_under_body().count() as u64,
-            curve_points: scene.numerics.samples * loading.len() as u64,
-            legs: Legs::of(loading),
+            curve_points: scene.numerics.samples * scene.loading.len() as u64,
             adhesive: Effect::Adhesion.is_on(scene),
             exact: scene.numerics.solver == Solver::Exact,
             between: scene.numerics.edges == Edges::SubCell,

@@ -1,7 +1,6 @@
 //! Stages of a scene, the fields that require them, and their costs. The run follows this plan.
 
 mod call;
-mod legs;
 mod table;
 
 use crate::contact::CurvePoint;

@@ -118,7 +118,7 @@ pub(super) const TABLE: [Row; 11] = [
         stage: Stage::LoadingPass,
         name: "loading passes",
         called: adhesion_solved_exactly,
-        cost: |call| call.passes(call.legs.loading_passes(), PASSED),
+        cost: |call| call.passes(None, PASSED),
     },
     Row {
         stage: Stage::UnloadingPass,
@@ -129,7 +129,7 @@ pub(super) const TABLE: [Row; 11] = [
             (true, true, false) => Called::Not(STEPWISE),
             (true, true, true) => Called::For("loading goes back"),
         },
-        cost: |call| call.passes(call.legs.unloading(), 0),
+        cost: |call| call.passes(None, 0),
     },
     Row {
         stage: Stage::Relaxation,
@@ -152,7 +152,7 @@ pub(super) const TABLE: [Row; 11] = [
         stage: Stage::Fragments,
         name: "contact fragments",
         called: |call| observed(call, Effect::Fragments, "observe: Fragments"),
-        cost: |call| call.passes(Some(call.legs.all()), 0),
+        cost: |call| call.passes(Some(call.scene.loading.len() as u64), 0),
     },
     Row {
         stage: Stage::HeightHistogram,

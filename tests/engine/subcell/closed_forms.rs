@@ -1,8 +1,10 @@
 //! Smooth bodies against their closed forms: second order in the distance between springs.
 
 use super::numerics::{integral, invert, observed_order};
+use super::wavy_sphere::WavySphere as WavyForm;
 use super::*;
-use asperity::reference::{PowerLaw, WavySphere as WavyForm};
+use asperity::analysis::SteepWaves;
+use asperity::reference::PowerLaw;
 use asperity::scene::Form;
 use asperity::surface::{Line, SelfAffine, Synthesizer};
 use std::f64::consts::PI;
@@ -624,4 +626,37 @@ fn rough_bodies_of_revolution_converge_with_the_square_of_the_distance_in_the_me
             assert!(order >= 1.8, "{name}: order {order}");
         }
     }
+}
+
+#[test]
+fn steep_waves_are_found_with_the_force_of_the_closed_form() {
+    let of = |radius: f64, amplitude: f64, wavelength: f64, work: f64| {
+        let form =
+            format!("WavySphere(radius: {radius:?}, amplitude: {amplitude:?}, wavelength: {wavelength:?})");
+        let fields = [("form", form), ("material", "(effective_modulus: 1.0e6)".to_owned())];
+        let adhesion = [("adhesion", format!("(work: {work:?})")), ("length", "1.0".to_owned())];
+        let fields = fields.into_iter().chain(adhesion).map(|(path, value)| (path.to_owned(), value));
+        let document =
+            asperity::scene::open("wavy-sphere").unwrap().set_all(&fields.collect::<Vec<_>>()).unwrap();
+        let (_, _, governing) =
+            asperity::simulation::Simulation::default().make_line(document.scene()).unwrap();
+        SteepWaves::of(document.scene(), &governing)
+    };
+    // JKR by the closed form of one piece: 1.669 and 1.690 times the force of the sphere.
+    for (amplitude, wavelength) in [(0.3_f64, 0.26_f64), (0.3, 0.033)] {
+        let (radius, work, modulus) = (1.0, 1.0e3, 1.0e6_f64);
+        let critical = (9.0 * PI * work * radius * radius / (8.0 * modulus)).cbrt();
+        let wavelength = wavelength * critical;
+        let amplitude = amplitude * (2.0 * wavelength * work / (PI * modulus)).sqrt();
+        let sphere =
+            WavyForm { radius, amplitude, wavelength, effective_modulus: modulus, work_of_adhesion: work };
+        let turn = sphere.indentation(3.0 * critical);
+        let closed = sphere.cycle(turn, 5.0 * critical).unwrap().smallest_force;
+        let factor = closed / (-1.5 * PI * work * radius);
+        let found = of(radius, amplitude, wavelength, work).unwrap();
+        assert!((found.jkr_factor / factor - 1.0).abs() < 0.02, "{found:?} {factor}");
+        assert!((found.ratio - wavelength.powi(2) / amplitude).abs() < 1e-9 * found.ratio);
+    }
+    assert_eq!(of(1.0, 0.01, 0.4, 1.0e3), None);
+    assert_eq!(of(1.0, 2.0e-3, 0.1, 0.0), None);
 }

@@ -1,8 +1,8 @@
 //! Adhesive contact of a sphere with concentric waves (Guduru 2007) under the rule of Hess: the simplest smooth
 //! body with a hysteresis due to its shape.
 
-use crate::analysis::SteepWaves;
-use crate::surface::{struve_0, struve_1};
+use asperity::analysis::SteepWaves;
+use asperity::surface::{struve_0, struve_1};
 use std::f64::consts::PI;
 
 /// A sphere of radius R with waves A (1 − cos 2πr/λ) about its axis, on a half-space with adhesion.
@@ -42,13 +42,11 @@ const STEPS_PER_WAVE: f64 = 400.0;
 
 impl WavySphere {
     /// Returns true if the equivalent profile rises everywhere.
-    #[must_use]
     pub fn is_monotone(&self) -> bool {
         self.wavelength.powi(2) > SteepWaves::LEAST_RATIO * self.amplitude * self.radius
     }
 
     /// Indentation δ(a) = a²/R + (π²A/λ) a H₀(2πa/λ) − √(2πaγ/E*), m, of a contact of radius a.
-    #[must_use]
     pub fn indentation(&self, radius: f64) -> f64 {
         let wave = PI * PI * self.amplitude / self.wavelength * radius * struve_0(self.turns(radius));
         radius * radius / self.radius + wave - self.stretch(radius)
@@ -56,7 +54,6 @@ impl WavySphere {
 
     /// Force, N, of a contact of radius a:
     /// 2E*[2a³/3R + (πAa/2)((2πa/λ) H₀(2πa/λ) − H₁(2πa/λ))] − √(8πE*γa³).
-    #[must_use]
     pub fn force(&self, radius: f64) -> f64 {
         let turns = self.turns(radius);
         let wave = 0.5 * PI * self.amplitude * radius * (turns * struve_0(turns) - struve_1(turns));
@@ -78,7 +75,6 @@ impl WavySphere {
     /// exceeds the indentation, on unloading at the largest one at which δ falls below; `widest` bounds the radius, m.
     ///
     /// `None` for a wider contact.
-    #[must_use]
     pub fn cycle(&self, deepest: f64, widest: f64) -> Option<WavyLoop> {
         let stable = self.stable(widest);
         self.cycle_within(deepest, &stable, &stable)
@@ -89,7 +85,6 @@ impl WavySphere {
     /// then only the part inside of them remains in contact.
     ///
     /// `None` for a wider contact.
-    #[must_use]
     pub fn cycle_by_rule(&self, deepest: f64, widest: f64) -> Option<WavyLoop> {
         let stable = self.stable(widest);
         let deepest_edges = stable.iter().filter_map(|&range| self.deepest_edges(range)).collect::<Vec<_>>();
@@ -218,69 +213,64 @@ fn golden(of: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     0.5 * (low + high)
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+const BODY: WavySphere = WavySphere {
+    radius: 1.0,
+    amplitude: 2.0e-3,
+    wavelength: 0.1,
+    effective_modulus: 1.0e6,
+    work_of_adhesion: 1.0e3,
+};
 
-    const BODY: WavySphere = WavySphere {
-        radius: 1.0,
-        amplitude: 2.0e-3,
-        wavelength: 0.1,
-        effective_modulus: 1.0e6,
-        work_of_adhesion: 1.0e3,
+#[test]
+fn without_waves_the_body_is_jkr() {
+    let sphere = WavySphere { amplitude: 0.0, ..BODY };
+    let found = sphere.cycle(0.02, 0.5).unwrap();
+    let scale = PI * 1.0e3;
+    assert!((found.smallest_force / (-1.5 * scale) - 1.0).abs() < 1e-12, "{found:?}");
+    assert!(found.separation < 0.0 && found.dissipated_energy > 0.0);
+}
+
+#[test]
+fn rule_and_theory_are_one_until_the_line_has_maxima_inside() {
+    let smooth = -1.5 * PI * BODY.radius * BODY.work_of_adhesion;
+    let steep = [BODY.cycle(0.06, 0.5), BODY.cycle_by_rule(0.06, 0.5)].map(Option::unwrap);
+    assert!(!BODY.is_monotone());
+    let [jkr, rule] = steep.map(|cycle| cycle.smallest_force / smooth);
+    assert!((jkr - 1.556_549).abs() < 1e-6 && (rule - 1.511_869).abs() < 1e-6, "{jkr} {rule}");
+    assert!(steep[1].dissipated_energy < steep[0].dissipated_energy);
+    let gentle = WavySphere { amplitude: 5.0e-4, ..BODY };
+    assert!(gentle.is_monotone());
+    assert_eq!(gentle.cycle(0.06, 0.5), gentle.cycle_by_rule(0.06, 0.5));
+}
+
+/// Kesari and Lew (2011): waves short against the contact are equivalent to two works of adhesion, and the
+/// dissipated energy per area is A√(8πE*γ/λ). The error falls with λ.
+#[test]
+fn the_loss_per_area_goes_to_that_of_two_works_of_adhesion() {
+    let error = |wavelength: f64| {
+        // A²E*/(λγ) is constant, and with it both works of adhesion.
+        let amplitude = 1.0e-2 * wavelength.sqrt();
+        let body = WavySphere { amplitude, wavelength, ..BODY };
+        let [inner, outer] = [0.1, 0.4].map(|deepest| body.cycle(deepest, 0.75).unwrap());
+        let area = PI * (outer.contact_radius.powi(2) - inner.contact_radius.powi(2));
+        let per_area = (outer.dissipated_energy - inner.dissipated_energy) / area;
+        let energies = 8.0 * PI * body.effective_modulus * body.work_of_adhesion / wavelength;
+        1.0 - per_area / (amplitude * energies.sqrt())
     };
+    let errors = [0.02, 0.01, 0.005].map(error);
+    let orders = [errors[0] / errors[1], errors[1] / errors[2]].map(f64::log2);
+    assert!((errors[2] - 0.095).abs() < 0.002, "{errors:?}");
+    assert!(0.8 < orders[0] && orders[0] < orders[1] && orders[1] < 1.0, "{orders:?}");
+}
 
-    #[test]
-    fn without_waves_the_body_is_jkr() {
-        let sphere = WavySphere { amplitude: 0.0, ..BODY };
-        let found = sphere.cycle(0.02, 0.5).unwrap();
-        let scale = PI * 1.0e3;
-        assert!((found.smallest_force / (-1.5 * scale) - 1.0).abs() < 1e-12, "{found:?}");
-        assert!(found.separation < 0.0 && found.dissipated_energy > 0.0);
-    }
-
-    #[test]
-    fn rule_and_theory_are_one_until_the_line_has_maxima_inside() {
-        let smooth = -1.5 * PI * BODY.radius * BODY.work_of_adhesion;
-        let steep = [BODY.cycle(0.06, 0.5), BODY.cycle_by_rule(0.06, 0.5)].map(Option::unwrap);
-        assert!(!BODY.is_monotone());
-        let [jkr, rule] = steep.map(|cycle| cycle.smallest_force / smooth);
-        assert!((jkr - 1.556_549).abs() < 1e-6 && (rule - 1.511_869).abs() < 1e-6, "{jkr} {rule}");
-        assert!(steep[1].dissipated_energy < steep[0].dissipated_energy);
-        let gentle = WavySphere { amplitude: 5.0e-4, ..BODY };
-        assert!(gentle.is_monotone());
-        assert_eq!(gentle.cycle(0.06, 0.5), gentle.cycle_by_rule(0.06, 0.5));
-    }
-
-    /// Kesari and Lew (2011): waves short against the contact are equivalent to two works of adhesion, and the
-    /// dissipated energy per area is A√(8πE*γ/λ). The error falls with λ.
-    #[test]
-    fn the_loss_per_area_goes_to_that_of_two_works_of_adhesion() {
-        let error = |wavelength: f64| {
-            // A²E*/(λγ) is constant, and with it both works of adhesion.
-            let amplitude = 1.0e-2 * wavelength.sqrt();
-            let body = WavySphere { amplitude, wavelength, ..BODY };
-            let [inner, outer] = [0.1, 0.4].map(|deepest| body.cycle(deepest, 0.75).unwrap());
-            let area = PI * (outer.contact_radius.powi(2) - inner.contact_radius.powi(2));
-            let per_area = (outer.dissipated_energy - inner.dissipated_energy) / area;
-            let energies = 8.0 * PI * body.effective_modulus * body.work_of_adhesion / wavelength;
-            1.0 - per_area / (amplitude * energies.sqrt())
-        };
-        let errors = [0.02, 0.01, 0.005].map(error);
-        let orders = [errors[0] / errors[1], errors[1] / errors[2]].map(f64::log2);
-        assert!((errors[2] - 0.095).abs() < 0.002, "{errors:?}");
-        assert!(0.8 < orders[0] && orders[0] < orders[1] && orders[1] < 1.0, "{orders:?}");
-    }
-
-    /// With F = 2E* ∫ (δ − g) dx from 0 to a, and the edge stretched by g − δ, is dF/da = 2E* (a dδ/da − (g − δ)).
-    #[test]
-    fn force_and_indentation_belong_together() {
-        for radius in [0.03, 0.1, 0.17, 0.4] {
-            let step = 1e-6;
-            let slope = |of: &dyn Fn(f64) -> f64| (of(radius + step) - of(radius - step)) / (2.0 * step);
-            let (force, indentation) = (slope(&|a| BODY.force(a)), slope(&|a| BODY.indentation(a)));
-            let expected = 2.0e6 * (radius * indentation - BODY.stretch(radius));
-            assert!((force / expected - 1.0).abs() < 1e-6, "{radius}: {force} for {expected}");
-        }
+/// With F = 2E* ∫ (δ − g) dx from 0 to a, and the edge stretched by g − δ, is dF/da = 2E* (a dδ/da − (g − δ)).
+#[test]
+fn force_and_indentation_belong_together() {
+    for radius in [0.03, 0.1, 0.17, 0.4] {
+        let step = 1e-6;
+        let slope = |of: &dyn Fn(f64) -> f64| (of(radius + step) - of(radius - step)) / (2.0 * step);
+        let (force, indentation) = (slope(&|a| BODY.force(a)), slope(&|a| BODY.indentation(a)));
+        let expected = 2.0e6 * (radius * indentation - BODY.stretch(radius));
+        assert!((force / expected - 1.0).abs() < 1e-6, "{radius}: {force} for {expected}");
     }
 }
