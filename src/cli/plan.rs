@@ -12,8 +12,8 @@ Examples:
   asperity plan pressure-sensitive
   asperity plan million-springs --set adhesion=None --format json
 
-A stage that a scene does not call for does not run. Passes of each loading stage are those of its
-direction, springs touched are those of all passes at the most, and memory is the addition of a stage
+A stage that a scene does not call for does not run. Passes of each loading stage are those of
+its direction, springs are those of all passes at the most, and memory is the addition of a stage
 while it runs.";
 
 /// Arguments of `plan`.
