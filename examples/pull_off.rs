@@ -18,8 +18,9 @@ fn main() -> Result<(), asperity::Error> {
         let wave = |index: usize| amplitude * (index as f64 * 0.05).cos();
         let heights: Vec<f64> = smooth.heights().enumerate().map(|(index, z)| z + wave(index)).collect();
         let profile = Profile::from_heights(&heights, smooth.spacing())?;
-        let mut contact =
-            Contact::new(&profile, Material::effective(1.0e6)).work_of_adhesion(WORK_OF_ADHESION).build()?;
+        let mut contact = Contact::builder(&profile, Material::effective(1.0e6))
+            .work_of_adhesion(WORK_OF_ADHESION)
+            .build()?;
         let cycle = contact.load(&[Leg::ToForce(1.0e-4), Leg::ToSeparation])?;
         let share = cycle.pull_off_force().unwrap_or(0.0) / jkr;
         println!("{:>13.0}   {share:.4}", 1.0e9 * amplitude);

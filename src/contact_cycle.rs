@@ -5,7 +5,7 @@ use crate::contact::{
     AdhesiveMemory, ContactRule, ContactTree, CurvePoint, Exact, Foundation, HessRule, History, LegRecord,
     Reversal, Reversals, run,
 };
-use crate::scene::{Adhesion, Edges, Leg, Material, Numerics, SCENE_VERSIONS, Scene, Solver as SolverChoice};
+use crate::scene::{Adhesion, Edges, Leg, Material, Numerics, SCENE_VERSIONS, Scene};
 use crate::simulation::RunError;
 use crate::{Error, Profile};
 
@@ -15,7 +15,7 @@ use crate::{Error, Profile};
 /// use asperity::{Contact, Leg, Material, Profile};
 ///
 /// let sphere = Profile::sphere(1.0e-4, 1.0e-4, 4096)?;
-/// let mut contact = Contact::new(&sphere, Material::effective(1.0e6)).work_of_adhesion(0.05).build()?;
+/// let mut contact = Contact::builder(&sphere, Material::effective(1.0e6)).work_of_adhesion(0.05).build()?;
 /// let cycle = contact.load(&[Leg::ToForce(1.0e-4), Leg::ToSeparation])?;
 /// // Johnson, Kendall and Roberts: (3/2)πγR.
 /// let expected = 1.5 * std::f64::consts::PI * 0.05 * 1.0e-4;
@@ -53,10 +53,8 @@ pub struct Cycle {
 impl Contact {
     /// Contact of a profile with a half-space of this material: by default without adhesion, with sub-cell edges
     /// and 512 samples on each loading stage.
-    // The properties of a contact are set by name, on a builder.
-    #[allow(clippy::new_ret_no_self)]
     #[must_use]
-    pub fn new(profile: &Profile, material: Material) -> ContactBuilder<'_> {
+    pub fn builder(profile: &Profile, material: Material) -> ContactBuilder<'_> {
         let scene = Scene {
             version: *SCENE_VERSIONS.end(),
             title: String::new(),
@@ -155,7 +153,6 @@ impl ContactBuilder<'_> {
     /// [`Error::Values`] for a value out of range, [`Error::Run`] without enough memory.
     pub fn build(self) -> Result<Contact, Error> {
         let ContactBuilder { profile, scene } = self;
-        debug_assert_eq!(scene.numerics.solver, SolverChoice::Exact);
         scene.check()?;
         let (edges, samples) = (scene.numerics.edges, scene.numerics.samples as usize);
         let foundation = Foundation {
@@ -225,7 +222,8 @@ mod tests {
         let sphere = Profile::sphere(1e-4, 1e-4, 512).unwrap();
         let ends = [Leg::ToForce(2e-4), Leg::ToTouch, Leg::ToIndentation(1e-6)];
         for (work, edges) in [(0.05, Edges::Grid), (0.05, Edges::SubCell), (0.0, Edges::SubCell)] {
-            let contact = Contact::new(&sphere, Material::effective(1e6)).work_of_adhesion(work).edges(edges);
+            let contact =
+                Contact::builder(&sphere, Material::effective(1e6)).work_of_adhesion(work).edges(edges);
             let mut contact = contact.build().unwrap();
             let reversals = contact.reversals(&ends).unwrap();
             for (end, reversal) in ends.iter().zip(&reversals) {

@@ -15,7 +15,7 @@
 //!
 //! let heights: Vec<f64> = (0..1024).map(|i| 1.0e-7 * (0.3 * f64::from(i)).sin()).collect(); // m
 //! let profile = Profile::from_heights(&heights, 1.0e-7)?; // spacing, m
-//! let mut contact = Contact::new(&profile, Material::effective(1.0e6)).work_of_adhesion(0.05).build()?;
+//! let mut contact = Contact::builder(&profile, Material::effective(1.0e6)).work_of_adhesion(0.05).build()?;
 //! let cycle = contact.load(&[Leg::ToForce(1.0e-4), Leg::ToSeparation])?; // N
 //! println!("{:?} N, {:?} J", cycle.pull_off_force(), cycle.dissipated_energy());
 //! # assert!(cycle.pull_off_force().unwrap() > 0.0);
