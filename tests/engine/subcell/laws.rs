@@ -11,6 +11,19 @@ fn to(turns: &[f64]) -> Vec<Leg> {
     turns.iter().map(|&to| Leg::ToIndentation(to)).collect()
 }
 
+/// Compares all bits of two points. With a smaller work on closing an edge that keeps its place may do so up to the
+/// indentation at which it slid before: the level there is then the same but for its rounding.
+fn same_point(body: &Body, one: &CurvePoint, other: &CurvePoint) -> Result<(), TestCaseError> {
+    if body.closing_work < body.work {
+        let slack = 1e-15 * body.force_scale();
+        prop_assert!((one.force - other.force).abs() <= slack, "{:?} {:?}", one, other);
+        prop_assert_eq!((one.springs, one.fragments), (other.springs, other.fragments));
+    } else {
+        prop_assert_eq!(bits(one), bits(other));
+    }
+    Ok(())
+}
+
 proptest! {
     #![proptest_config(cases(400))]
 
@@ -34,16 +47,16 @@ proptest! {
     }
 
     #[test]
-    fn minor_loops_close_bit_for_bit(body in any_body(60), deep in 0.0..1.3_f64, back in 0.0..1.0_f64) {
+    fn minor_loops_close(body in any_body(60), deep in 0.0..1.3_f64, back in 0.0..1.0_f64) {
         let low = -body.largest_stretch();
         let back = low + back * (deep - low);
         let (once, again) = (body.history(&to(&[deep]), 2), body.history(&to(&[deep, back, deep]), 2));
         let (once_end, again_end) = (end(&once.legs[0]), end(&again.legs[2]));
-        prop_assert_eq!(bits(&once_end), bits(&again_end));
+        same_point(&body, &once_end, &again_end)?;
         prop_assert_eq!(once.contacts, again.contacts);
         let again = body.history(&to(&[deep, back, deep, back]), 2);
         let once = body.history(&to(&[deep, back]), 2);
-        prop_assert_eq!(bits(&end(&once.legs[1])), bits(&end(&again.legs[3])));
+        same_point(&body, &end(&once.legs[1]), &end(&again.legs[3]))?;
         prop_assert_eq!(once.contacts, again.contacts);
     }
 
