@@ -12,8 +12,8 @@ Examples:
   asperity plan pressure-sensitive
   asperity plan million-springs --set adhesion=None --format json
 
-A stage that a scene does not call for does not run. Passes of each loading stage are those of
-its direction, springs are those of all passes at the most, and memory is the addition of a stage
+A stage that a scene does not call for does not run. Passes per stage are those of each
+loading stage, springs are those of all passes at the most, and memory is the addition of a stage
 while it runs.";
 
 /// Arguments of `plan`.
@@ -41,7 +41,7 @@ fn text(plan: &Plan) -> String {
         let memory = if cost.bytes > 0 { memory_size(cost.bytes) } else { String::new() };
         let passes = match cost.passes {
             _ if !runs => "skipped".to_owned(),
-            None => "each loading stage".to_owned(),
+            None => "per stage".to_owned(),
             Some(0) => "runs".to_owned(),
             Some(passes) => grouped(passes),
         };
