@@ -19,7 +19,7 @@ pub(crate) fn on_this_thread<A>(work: impl FnOnce() -> A) -> A {
     result
 }
 
-/// Runs `work` on so many threads of a scope, each without further threads, or on as many as the system starts.
+/// Runs `work` on `count` threads of a scope, or on fewer if the system starts fewer; `work` starts no threads itself.
 ///
 /// # Errors
 /// The error of the system if it starts none of at least one.

@@ -77,8 +77,9 @@ pub enum Evidence {
 /// is solved with about 3/2 and twice as many instead, and the error is three times the larger difference. The error of
 /// the step of the stepwise solver is its distance from the exact solver on the same springs.
 ///
-/// `None` if the error is unknown: there is no figure, no other number of springs is allowed, too many would be needed,
-/// another number of springs does not reach a target of the loading, or `stop` ended the computation.
+/// Returns `None` if the scene has no such figure, if the foundation allows no other number of springs or would need more
+/// than the limit, if a solution on another number of springs cannot reach a target of the loading, or if `stop` ends the
+/// computation.
 #[must_use]
 pub fn estimate(
     scene: &Scene,

@@ -31,7 +31,7 @@ const FEWEST_STEPS: f64 = 16.0;
 /// Most halvings of the step.
 const MOST_HALVINGS: u32 = 20;
 
-/// Reason why there is no table.
+/// Error of the measurement of a table of costs.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum CostError {
     /// The scene could not be computed.

@@ -1,4 +1,5 @@
-//! Waves of a sphere so steep that the rule of Hess is no longer the theory of Johnson, Kendall and Roberts.
+//! Waves on a sphere above the steepness at which the rule of Hess departs from the theory of Johnson, Kendall and
+//! Roberts.
 
 use super::Governing;
 use crate::scene::{Form, Scene};

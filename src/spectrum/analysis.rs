@@ -312,8 +312,8 @@ impl Powers {
     }
 }
 
-/// Number of waves (wave number and power of each by its index) beyond which the others carry a negligible share of the squared
-/// gradient and powers far below those before; all waves if there is no such end.
+/// Finds the end of a spectrum, given the wave number and the power of each wave by its index: the number of waves after which
+/// the rest has a negligible share of the squared gradient and far smaller powers. Returns `count` if the spectrum has no end.
 fn last_significant(count: usize, wave: &dyn Fn(usize) -> (f64, f64)) -> usize {
     let square = |index: usize| {
         let (q, power) = wave(index);

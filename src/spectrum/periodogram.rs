@@ -144,8 +144,8 @@ const LEFT_OUT: f64 = 1.0 / 32.0;
 /// chance: about four standard deviations under a window.
 const NO_CHANCE: f64 = 12.0;
 
-/// Neighbours: waves with so many periods across the axis. From both groups the power on the axis of an anisotropic surface, even
-/// in their number x, is extrapolated as a + bx².
+/// Periods x across the axis of the two groups of neighbouring waves. The power is an even function of x, also on an
+/// anisotropic surface, so that both groups extrapolate it to the axis as a + bx².
 const NEAR: [RangeInclusive<f64>; 2] = [3.0..=5.0, 6.0..=8.0];
 const EXTRAPOLATED: f64 = 0.486;
 

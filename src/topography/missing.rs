@@ -10,7 +10,8 @@ pub(super) fn count(heights: &[f64]) -> usize {
     heights.iter().filter(|height| !height.is_finite()).count()
 }
 
-/// Fills in missing heights of a map of so many columns, or of a profile, which is one row. Returns their indices.
+/// Interpolates the missing heights of a map with `columns` columns, or of a profile, which is one row. Returns the indices
+/// of the interpolated heights.
 ///
 /// A missing height is the mean of two linear interpolations, one along its row and one along its column, each from
 /// the nearest measured point before to the nearest one behind. Before the first or behind the last measured point

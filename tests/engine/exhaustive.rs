@@ -137,7 +137,7 @@ fn every_order_of_few_gaps_has_the_thresholds_of_the_definition() {
 }
 
 #[test]
-#[ignore = "all lines of up to eight springs take a while"]
+#[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn every_order_of_eight_gaps_has_the_thresholds_of_the_definition() {
     assert_eq!([every_order(7, 0), every_order(8, 0)], [47_293, 545_835]);
     assert!((58..64).all(|before| every_order(6, before) == 4683), "across the end of a block");
@@ -149,7 +149,7 @@ fn histories_of_five_springs_agree_with_blind_relaxation() {
 }
 
 #[test]
-#[ignore = "all histories take a while"]
+#[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn every_history_of_five_springs_agrees_with_blind_relaxation() {
     every_history(1);
 }
