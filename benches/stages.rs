@@ -9,8 +9,8 @@
 
 use asperity::analysis::ideal_adhesion_force;
 use asperity::contact::{
-    AdhesiveMemory, ContactRule, ContactTree, EdgeModel, Exact, Foundation, GridEdges, HessRule, LegContact,
-    LegRecord, Reversals, Solver, SubCellEdges, Work,
+    Body, Contact, ContactTree, Foundation, HessRule, Leg as Motion, LegRecord, Solver, Springs, Work,
+    Workspace,
 };
 use asperity::scene::{Adhesion, Document, Edges, Leg, Roughness, Scene};
 use asperity::simulation::Simulation;
@@ -171,7 +171,7 @@ struct Timed {
     reversals: f64,
     records: Vec<LegRecord>,
     work: Work,
-    memory: AdhesiveMemory,
+    memory: Workspace,
 }
 
 /// Measures all stages in turn, round after round: other load of the machine then affects all of them alike.
@@ -200,13 +200,15 @@ fn measure(rough: &Rough, runs: usize) -> Measured {
         best.next_line = best.next_line.min(lines.seconds(rough, 1 + run as u64));
 
         let clock = Instant::now();
-        black_box(ContactTree::build(black_box(gaps), Edges::SubCell).expect("memory for the tree"));
+        let springs = Springs::new(Arc::clone(gaps));
+        black_box(springs.tree(Edges::SubCell).expect("memory for the tree"));
         best.fresh_tree = best.fresh_tree.min(seconds_since(clock));
 
         for one in &mut best.loops {
             let hess = HessRule::new(rough.foundation, rough.work_of_adhesion(one.kappa));
-            tree = one.edges[0].measure(tree, GridEdges::new(hess), rough);
-            tree = one.edges[1].measure(tree, SubCellEdges::new(hess), rough);
+            for (edges, timed) in EDGES.into_iter().zip(&mut one.edges) {
+                tree = timed.measure(tree, edges, hess, rough);
+            }
         }
         best.edits.measure(rough, run);
     }
@@ -230,16 +232,16 @@ impl Lines {
         self.heights = unit.expect("memory for the line").heights;
         let gaps = take(&mut self.gaps);
         let line = Line::new_in(gaps, LENGTH, rough.points, None, Some(&self.heights), RMS_HEIGHT);
-        self.gaps = black_box(line.expect("a finite line")).gaps;
+        self.gaps = Arc::into_inner(black_box(line.expect("a finite line")).gaps).unwrap_or_default();
         seconds_since(clock)
     }
 }
 
-/// A simulation whose scene is edited as in the explorer: with the histogram of heights, and with a copy of the
-/// contact of each leg.
+/// A simulation whose scene is edited as in the explorer: with the histogram of heights, and with the legs
+/// kept.
 struct Edits {
     simulation: Simulation,
-    copies: [LegContact; 2],
+    legs: Vec<Motion>,
     /// Shortest seconds from an edit to the outcome: under each κ with the line kept, and for another seed
     /// under each κ.
     kappa: [f64; 2],
@@ -249,8 +251,7 @@ struct Edits {
 impl Edits {
     fn of(rough: &Rough) -> Self {
         let (kappa, seed) = ([f64::INFINITY; 2], [f64::INFINITY; 2]);
-        let copies = [LegContact::default(), LegContact::default()];
-        let mut edits = Edits { simulation: Simulation::default(), copies, kappa, seed };
+        let mut edits = Edits { simulation: Simulation::default(), legs: Vec::new(), kappa, seed };
         edits.seconds(&rough.scene);
         edits
     }
@@ -275,9 +276,11 @@ impl Edits {
 
     fn seconds(&mut self, scene: &Scene) -> f64 {
         let clock = Instant::now();
-        let copies = &mut self.copies;
-        let outcome = self.simulation.run(scene, &|| false, &mut |leg, _, solver| {
-            copies.get_mut(leg).map_or(Ok(()), |copy| solver.copy_leg(copy))
+        self.legs.clear();
+        let legs = &mut self.legs;
+        let outcome = self.simulation.run(scene, &|| false, &mut |_, _, leg| {
+            legs.push(leg.clone());
+            Ok(())
         });
         black_box(outcome.expect("a scene that can be computed"));
         seconds_since(clock)
@@ -305,13 +308,11 @@ impl Timed {
     }
 
     /// Builds the tree in the memory of another, loads to a force and pulls off.
-    fn measure<E: EdgeModel>(&mut self, tree: ContactTree, edges: E, rough: &Rough) -> ContactTree {
-        let gaps = black_box(rough.line.gaps.as_slice());
+    fn measure(&mut self, tree: ContactTree, edges: Edges, hess: HessRule, rough: &Rough) -> ContactTree {
         let whole = Instant::now();
-        let tree = tree.rebuild(gaps, E::EDGES).expect("memory for the tree");
+        let contact = contact(tree, edges, hess, rough);
         self.tree = self.tree.min(seconds_since(whole));
-        let rule = ContactRule::Hess(edges.rule(), &tree);
-        let mut solver = Exact::new(&mut self.memory, gaps, rule, rough.foundation, SAMPLES);
+        let mut solver = Body::new_in(take(&mut self.memory), &contact, SAMPLES);
         let legs = [Leg::ToForce(LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT), Leg::ToSeparation];
         let clock = Instant::now();
         self.records = legs.map(|leg| solver.advance(leg).expect("a reachable leg")).into();
@@ -320,29 +321,44 @@ impl Timed {
         self.curves = self.curves.min(solver.curve_seconds());
         self.passes = self.passes.min(legs_seconds - solver.curve_seconds());
         self.work = solver.work();
-        solver.give_back(&mut self.memory);
-        self.measure_reversals(tree, edges, rough)
+        self.memory = solver.into_workspace();
+        self.measure_reversals(tree_of(contact), edges, hess, rough)
     }
 
     /// Builds the tree and unloads from as many preloads up to that of the loop.
-    fn measure_reversals<E: EdgeModel>(&mut self, tree: ContactTree, edges: E, rough: &Rough) -> ContactTree {
-        let gaps = black_box(rough.line.gaps.as_slice());
+    fn measure_reversals(
+        &mut self,
+        tree: ContactTree,
+        edges: Edges,
+        hess: HessRule,
+        rough: &Rough,
+    ) -> ContactTree {
         let force = LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT / f64::from(REVERSALS);
         let turns: Vec<Leg> = (1..=REVERSALS).map(|turn| Leg::ToForce(force * f64::from(turn))).collect();
         let clock = Instant::now();
-        let tree = tree.rebuild(gaps, E::EDGES).expect("memory for the tree");
-        let rule = ContactRule::Hess(edges.rule(), &tree);
-        let solver = Exact::new(&mut self.memory, gaps, rule, rough.foundation, SAMPLES);
-        let mut reversals = Reversals::new(solver, &turns).expect("reachable turning points");
+        let contact = contact(tree, edges, hess, rough);
+        let mut solver = Body::new_in(take(&mut self.memory), &contact, SAMPLES);
         let mut see = |_, reversal| {
             black_box(reversal);
             Ok(())
         };
-        reversals.each(&[], &mut see).expect("memory for the unloadings");
+        solver.reversals(&turns, &[], &mut see).expect("reachable turning points");
         self.reversals = self.reversals.min(seconds_since(clock));
-        reversals.into_body().give_back(&mut self.memory);
-        tree
+        self.memory = solver.into_workspace();
+        tree_of(contact)
     }
+}
+
+/// The contact of a line, with its tree in the memory of another one.
+fn contact(tree: ContactTree, edges: Edges, hess: HessRule, rough: &Rough) -> Contact {
+    let contact = Contact::new(Arc::clone(&rough.line.gaps), edges, rough.foundation, Some(hess));
+    contact.springs.tree_in(tree, edges).expect("memory for the tree");
+    contact
+}
+
+/// The memory of the tree of a contact.
+fn tree_of(contact: Contact) -> ContactTree {
+    Arc::into_inner(contact.springs).map(Springs::into_tree).unwrap_or_default()
 }
 
 /// A real Fourier transform, planned, with its buffers.

@@ -7,8 +7,7 @@ use asperity::{Contact, Leg, Material, Profile, SelfAffine};
 fn main() -> Result<(), asperity::Error> {
     let spectrum = SelfAffine { hurst: 0.6, first: 2, last: 4096 };
     let profile = Profile::self_affine(spectrum, 2.0e-7, 1.0e-4, 1 << 14, 7)?;
-    let mut contact =
-        Contact::builder(&profile, Material::effective(1.0e6)).work_of_adhesion(1.0e-3).build()?;
+    let contact = Contact::builder(&profile, Material::effective(1.0e6)).work_of_adhesion(1.0e-3).build()?;
     println!("preload, µN   pull-off force, µN");
     let mut before = 0.0;
     let preloads = [0.0, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 6.0];

@@ -8,8 +8,7 @@ use asperity::{Contact, Leg, Material, Profile, SelfAffine};
 fn main() -> Result<(), asperity::Error> {
     let spectrum = SelfAffine { hurst: 0.7, first: 1, last: 1024 };
     let profile = Profile::self_affine(spectrum, 1.0e-7, 1.0e-4, 1 << 14, 1)?;
-    let mut contact =
-        Contact::builder(&profile, Material::effective(1.0e6)).work_of_adhesion(2.0e-5).build()?;
+    let contact = Contact::builder(&profile, Material::effective(1.0e6)).work_of_adhesion(2.0e-5).build()?;
     let preload = 4.0e-6; // N
     let history = [
         Leg::ToForce(preload),

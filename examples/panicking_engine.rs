@@ -2,7 +2,7 @@
 //! `draw` one whose view panics. The tests check that the explorer reports this and continues, shows keys at once under
 //! any load of the engine, or else restores the terminal.
 
-use asperity::contact::{ContactError, ContactTree};
+use asperity::contact::ContactError;
 use asperity::explorer::model::Model;
 use asperity::explorer::worker::Engine;
 use asperity::explorer::{Options, open_with, view};
@@ -11,7 +11,6 @@ use asperity::simulation::{AfterLeg, Outcome, RunError, Simulation};
 use asperity::surface::Line;
 use ratatui::Frame;
 use std::process::ExitCode;
-use std::sync::Arc;
 use std::thread::sleep;
 use std::time::Duration;
 
@@ -37,10 +36,6 @@ impl Engine for Superstitious {
 
     fn line(&self) -> Option<&Line> {
         self.0.line()
-    }
-
-    fn tree(&self) -> Option<&Arc<ContactTree>> {
-        self.0.tree()
     }
 }
 

@@ -18,7 +18,7 @@ fn main() -> Result<(), asperity::Error> {
         let wave = |index: usize| amplitude * (index as f64 * 0.05).cos();
         let heights: Vec<f64> = smooth.heights().enumerate().map(|(index, z)| z + wave(index)).collect();
         let profile = Profile::from_heights(&heights, smooth.spacing())?;
-        let mut contact = Contact::builder(&profile, Material::effective(1.0e6))
+        let contact = Contact::builder(&profile, Material::effective(1.0e6))
             .work_of_adhesion(WORK_OF_ADHESION)
             .build()?;
         let cycle = contact.load(&[Leg::ToForce(1.0e-4), Leg::ToSeparation])?;

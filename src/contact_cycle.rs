@@ -1,13 +1,14 @@
 //! Loading cycles for programs: a profile, a material and a work of adhesion under any loading history.
 
-use crate::analysis::{Figures, Governing};
+use crate::analysis::Figures;
 use crate::contact::{
-    AdhesiveMemory, ContactRule, ContactTree, CurvePoint, Exact, Foundation, HessRule, History, LegRecord,
-    Reversal, Reversals, run,
+    Body, Contact as Springs, ContactError, CurvePoint, Foundation, HessRule, History, LegRecord, Reversal,
+    run,
 };
-use crate::scene::{Adhesion, Edges, Leg, Material, Numerics, SCENE_VERSIONS, Scene};
+use crate::scene::{Edges, Leg, Material};
 use crate::simulation::RunError;
 use crate::{Error, Profile};
+use std::sync::Arc;
 
 /// A rigid profile on an elastic half-space, with or without adhesion; the contact of a loading history is exact.
 ///
@@ -15,7 +16,7 @@ use crate::{Error, Profile};
 /// use asperity::{Contact, Leg, Material, Profile};
 ///
 /// let sphere = Profile::sphere(1.0e-4, 1.0e-4, 4096)?;
-/// let mut contact = Contact::builder(&sphere, Material::effective(1.0e6)).work_of_adhesion(0.05).build()?;
+/// let contact = Contact::builder(&sphere, Material::effective(1.0e6)).work_of_adhesion(0.05).build()?;
 /// let cycle = contact.load(&[Leg::ToForce(1.0e-4), Leg::ToSeparation])?;
 /// // Johnson, Kendall and Roberts: (3/2)πγR.
 /// let expected = 1.5 * std::f64::consts::PI * 0.05 * 1.0e-4;
@@ -25,22 +26,19 @@ use crate::{Error, Profile};
 /// ```
 #[derive(Clone, Debug)]
 pub struct Contact {
-    gaps: Vec<f64>,
-    foundation: Foundation,
-    /// Rule of Hess and contact tree, with adhesion.
-    adhesion: Option<(HessRule, ContactTree)>,
-    edges: Edges,
+    springs: Springs,
     samples: usize,
-    memory: AdhesiveMemory,
-    /// Scene of the same contact, for the check of a loading.
-    scene: Scene,
 }
 
 /// Properties of a [`Contact`] to be built.
 #[derive(Clone, Debug)]
 pub struct ContactBuilder<'p> {
     profile: &'p Profile,
-    scene: Scene,
+    effective_modulus: f64,
+    work: f64,
+    closing_work: Option<f64>,
+    edges: Edges,
+    samples: usize,
 }
 
 /// Result of a loading history that begins separated.
@@ -55,34 +53,17 @@ impl Contact {
     /// and 512 samples on each loading stage.
     #[must_use]
     pub fn builder(profile: &Profile, material: Material) -> ContactBuilder<'_> {
-        let scene = Scene {
-            version: *SCENE_VERSIONS.end(),
-            title: String::new(),
-            notice: String::new(),
-            material,
-            length: profile.length(),
-            form: None,
-            roughness: None,
-            adhesion: None,
-            loading: vec![Leg::ToTouch, Leg::ToSeparation],
-            numerics: Numerics { points: profile.points() as u64, ..Numerics::default() },
-            observe: Vec::new(),
-        };
-        ContactBuilder { profile, scene }
+        let effective_modulus = material.effective_modulus();
+        let edges = Edges::SubCell;
+        ContactBuilder { profile, effective_modulus, work: 0.0, closing_work: None, edges, samples: 512 }
     }
 
     /// Loads the separated body, one loading stage after the other.
     ///
     /// # Errors
-    /// [`Error::Values`] for a force or an indentation out of range, or for too many loading stages;
-    /// [`Error::Run`] for a force that the contact cannot reach.
-    pub fn load(&mut self, legs: &[Leg]) -> Result<Cycle, Error> {
-        self.scene.loading = legs.to_vec();
-        self.scene.check()?;
-        let (memory, mut body) = self.body();
-        let history = run(&mut body, legs, |_, _| Ok(()));
-        body.give_back(memory);
-        let history = history.map_err(RunError::Contact)?;
+    /// [`Error::Run`] for a force or an indentation that is not finite or that the contact cannot reach.
+    pub fn load(&self, legs: &[Leg]) -> Result<Cycle, Error> {
+        let history = run(&mut self.body(), legs, |_, _| Ok(())).map_err(RunError::Contact)?;
         Ok(Cycle { figures: Figures::of(&history), history })
     }
 
@@ -90,83 +71,75 @@ impl Contact {
     /// the results of [`Contact::load`] for each stage followed by [`Leg::ToSeparation`], at the cost of a few.
     ///
     /// # Errors
-    /// [`Error::Values`] for a force or an indentation out of range, [`Error::Run`] for an end that the contact cannot
-    /// reach, or without contact.
-    pub fn reversals(&mut self, ends: &[Leg]) -> Result<Vec<Reversal>, Error> {
-        for leg in ends {
-            self.scene.loading = vec![*leg, Leg::ToSeparation];
-            self.scene.check()?;
-        }
-        let (memory, body) = self.body();
-        let mut reversals = Reversals::new(body, ends).map_err(RunError::Contact)?;
-        let found = reversals.all();
-        reversals.into_body().give_back(memory);
-        Ok(found.map_err(RunError::Contact)?)
+    /// [`Error::Run`] for an end that is not finite, without contact, or out of reach.
+    pub fn reversals(&self, ends: &[Leg]) -> Result<Vec<Reversal>, Error> {
+        let mut found: Vec<(usize, Reversal)> = Vec::with_capacity(ends.len());
+        let mut see = |index, reversal| {
+            found.push((index, reversal));
+            Ok(())
+        };
+        self.body().reversals(ends, &[], &mut see).map_err(RunError::Contact)?;
+        found.sort_by_key(|&(index, _)| index);
+        Ok(found.into_iter().map(|(_, reversal)| reversal).collect())
     }
 
-    /// The separated body and the memory that takes back its arrays.
-    fn body(&mut self) -> (&mut AdhesiveMemory, Exact<'_>) {
-        let Contact { gaps, foundation, adhesion, edges, samples, memory, .. } = self;
-        let rule = match adhesion {
-            Some((hess, tree)) => ContactRule::Hess(*hess, tree),
-            None => ContactRule::Nonadhesive(*edges),
-        };
-        let body = Exact::new(memory, gaps, rule, *foundation, *samples);
-        (memory, body)
+    fn body(&self) -> Body {
+        Body::new(&self.springs, self.samples)
     }
 }
 
 impl ContactBuilder<'_> {
     /// Work of adhesion γ, J/m²; 0 for a contact without adhesion.
     #[must_use]
-    pub fn work_of_adhesion(mut self, work: f64) -> Self {
-        self.scene.adhesion = Some(Adhesion { work: Some(work), ..self.scene.adhesion.unwrap_or_default() });
-        self
+    pub fn work_of_adhesion(self, work: f64) -> Self {
+        ContactBuilder { work, ..self }
     }
 
     /// Work of adhesion γ₁ on closing, J/m², at most that of [`ContactBuilder::work_of_adhesion`], which then holds
     /// on opening; by default both are equal.
     #[must_use]
-    pub fn closing_work(mut self, work: f64) -> Self {
-        self.scene.adhesion =
-            Some(Adhesion { closing_work: Some(work), ..self.scene.adhesion.unwrap_or_default() });
-        self
+    pub fn closing_work(self, work: f64) -> Self {
+        ContactBuilder { closing_work: Some(work), ..self }
     }
 
     /// Edge model of the contact patches.
     #[must_use]
-    pub fn edges(mut self, edges: Edges) -> Self {
-        self.scene.numerics.edges = edges;
-        self
+    pub fn edges(self, edges: Edges) -> Self {
+        ContactBuilder { edges, ..self }
     }
 
-    /// Samples of the force curve on each loading stage; its extremes are exact for any number.
+    /// Samples of the force curve on each loading stage, at least 2; its extremes are exact for any number.
     #[must_use]
-    pub fn samples(mut self, samples: u64) -> Self {
-        self.scene.numerics.samples = samples;
-        self
+    pub fn samples(self, samples: usize) -> Self {
+        ContactBuilder { samples, ..self }
     }
 
     /// Builds the contact.
     ///
     /// # Errors
-    /// [`Error::Values`] for a value out of range, [`Error::Run`] without enough memory.
+    /// [`Error::Value`] for a value out of range, [`Error::Run`] without enough memory.
     pub fn build(self) -> Result<Contact, Error> {
-        let ContactBuilder { profile, scene } = self;
-        scene.check()?;
-        let (edges, samples) = (scene.numerics.edges, scene.numerics.samples as usize);
-        let foundation = Foundation {
-            spacing: profile.spacing(),
-            effective_modulus: scene.material.effective_modulus(),
-            length: profile.length(),
-        };
-        let adhesion = Governing::of(&scene, None, None)
-            .hess_rule(foundation)
-            .map(|hess| Ok((hess, ContactTree::build(profile.gaps(), edges)?)))
-            .transpose()
-            .map_err(RunError::Contact)?;
-        let gaps = profile.gaps().to_vec();
-        Ok(Contact { gaps, foundation, adhesion, edges, samples, memory: AdhesiveMemory::default(), scene })
+        let ContactBuilder { profile, effective_modulus, work, edges, samples, .. } = self;
+        let closing = self.closing_work.unwrap_or(work);
+        let positive = |value: f64| value.is_finite() && value > 0.0;
+        let refuse = |name, value, allowed| Err(Error::Value { name, value, allowed });
+        if !positive(effective_modulus) {
+            return refuse("effective modulus", effective_modulus, "finite and above 0 Pa");
+        }
+        if !(work == 0.0 || positive(work)) {
+            return refuse("work of adhesion", work, "finite and at least 0 J/m²");
+        }
+        if !(0.0..=work).contains(&closing) {
+            return refuse("closing work", closing, "from 0 J/m² to the work of adhesion");
+        }
+        let foundation =
+            Foundation { spacing: profile.spacing(), effective_modulus, length: profile.length() };
+        let hess = (work > 0.0).then(|| HessRule::from_works(foundation, closing, work));
+        let springs = Springs::new(Arc::clone(profile.shared_gaps()), edges, foundation, hess);
+        if hess.is_some() {
+            springs.springs.tree(edges).map_err(|error: ContactError| RunError::Contact(error))?;
+        }
+        Ok(Contact { springs, samples })
     }
 }
 
@@ -224,7 +197,7 @@ mod tests {
         for (work, edges) in [(0.05, Edges::Grid), (0.05, Edges::SubCell), (0.0, Edges::SubCell)] {
             let contact =
                 Contact::builder(&sphere, Material::effective(1e6)).work_of_adhesion(work).edges(edges);
-            let mut contact = contact.build().unwrap();
+            let contact = contact.build().unwrap();
             let reversals = contact.reversals(&ends).unwrap();
             for (end, reversal) in ends.iter().zip(&reversals) {
                 let cycle = contact.load(&[*end, Leg::ToSeparation]).unwrap();

@@ -15,7 +15,7 @@
 //!
 //! let heights: Vec<f64> = (0..1024).map(|i| 1.0e-7 * (0.3 * f64::from(i)).sin()).collect(); // m
 //! let profile = Profile::from_heights(&heights, 1.0e-7)?; // spacing, m
-//! let mut contact = Contact::builder(&profile, Material::effective(1.0e6)).work_of_adhesion(0.05).build()?;
+//! let contact = Contact::builder(&profile, Material::effective(1.0e6)).work_of_adhesion(0.05).build()?;
 //! let cycle = contact.load(&[Leg::ToForce(1.0e-4), Leg::ToSeparation])?; // N
 //! println!("{:?} N, {:?} J", cycle.pull_off_force(), cycle.dissipated_energy());
 //! # assert!(cycle.pull_off_force().unwrap() > 0.0);
@@ -53,8 +53,8 @@
 //! | a file | [`scene::open`] | [`scene::Scene`], checked |
 //! | measured files | [`topography::read`] and [`spectrum::analyse`] | equivalent line, its moments |
 //! | form and roughness | [`surface`] | [`surface::Line`], gaps c at a distance Δx |
-//! | gaps | [`contact::ContactTree::build`] | merge tree of the local maxima of the gap |
-//! | tree, E\*, γ, loading | [`contact::exact`] or [`contact::stepwise`] | [`contact::History`], legs and curves |
+//! | gaps | [`contact::Springs`] | merge tree of the local maxima of the gap |
+//! | tree, E\*, γ, loading | [`contact::Body`] or [`contact::Stepwise`] | [`contact::History`], legs and curves |
 //! | history | [`analysis`] | figures and the regime of adhesion |
 //!
 //! # Features
@@ -100,6 +100,16 @@ pub enum Error {
     /// Values out of their ranges: field, value and allowed range of each.
     #[error(transparent)]
     Values(#[from] scene::SceneErrors),
+    /// A value of a contact out of its range.
+    #[error("{name} = {value:e}; allowed: {allowed}")]
+    Value {
+        /// Name of the value.
+        name: &'static str,
+        /// The value.
+        value: f64,
+        /// Allowed range.
+        allowed: &'static str,
+    },
     /// A profile that is refused.
     #[error(transparent)]
     Profile(#[from] ProfileError),

@@ -2,6 +2,7 @@
 
 use crate::scene::{Form, MOST_POINTS};
 use crate::surface::{Line, SelfAffine, SurfaceError, UnitRoughness};
+use std::sync::Arc;
 use thiserror::Error;
 
 /// One-dimensional equivalent profile of a rigid body: heights of equally spaced points, positive towards the
@@ -133,6 +134,11 @@ impl Profile {
     /// Gaps below the highest point, m, at least 0.
     #[must_use]
     pub fn gaps(&self) -> &[f64] {
+        &self.line.gaps
+    }
+
+    /// Gaps to be shared with a contact.
+    pub(crate) fn shared_gaps(&self) -> &Arc<Vec<f64>> {
         &self.line.gaps
     }
 }

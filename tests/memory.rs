@@ -6,7 +6,7 @@ mod allocations;
 #[path = "common/peak.rs"]
 mod peak;
 
-use asperity::contact::{ContactTree, Foundation, HessRule, Reversals, SubCellEdges, exact};
+use asperity::contact::{Body, Contact, Foundation, HessRule};
 use asperity::scene::{Document, Edges, Leg, open};
 use asperity::simulation::{Plan, Simulation};
 use asperity::surface::{Line, SelfAffine, Synthesizer, UnitRoughness};
@@ -188,18 +188,18 @@ fn memory_of_512_reversals_is_that_of_a_few() {
     let line = Line::new(1e-3, springs, None, Some(&rough.heights), 5e-7).unwrap();
     let foundation = Foundation::endless(line.spacing, 2e6);
     let rms_gradient = 5e-7 * spectrum.gradient_per_height(1e-3);
-    let tree = ContactTree::build(&line.gaps, Edges::SubCell).unwrap();
     for kappa in [2.0_f64, 20.0] {
         let work = 5e-7 * rms_gradient * 2e6 / (kappa * kappa);
         for closing in [work, 0.25 * work] {
-            let edges = SubCellEdges::new(HessRule::from_works(foundation, closing, work));
+            let hess = HessRule::from_works(foundation, closing, work);
+            let contact = Contact::new(Arc::clone(&line.gaps), Edges::SubCell, foundation, Some(hess));
+            contact.springs.tree(Edges::SubCell).unwrap();
             let most = |count: u32| {
                 let deepest = 0.4 * 2e6 * 1e-3 * 5e-7;
                 let turn = |turn: u32| Leg::ToForce(deepest * f64::from(turn) / f64::from(count));
                 let turns: Vec<Leg> = (1..=count).map(turn).collect();
                 let of = || {
-                    let body = exact::adhesive(&line.gaps, &tree, edges, foundation, 512);
-                    Reversals::new(body, &turns).unwrap().each(&[], &mut |_, _| Ok(())).unwrap();
+                    Body::new(&contact, 512).reversals(&turns, &[], &mut |_, _| Ok(())).unwrap();
                 };
                 allocations::most_held(of).1
             };
@@ -228,13 +228,13 @@ fn preloads_of_a_line_of_events_take_what_a_study_counts() {
     let rough = UnitRoughness::synthesize(spectrum, 1, springs).unwrap();
     let line = Line::new(1e-3, springs, None, Some(&rough.heights), 5e-7).unwrap();
     let foundation = Foundation::endless(line.spacing, 2e6);
-    let tree = ContactTree::build(&line.gaps, Edges::SubCell).unwrap();
     let work = 5e-7 * 5e-7 * spectrum.gradient_per_height(1e-3) * 2e6 / 1e6;
-    let edges = SubCellEdges::new(HessRule::from_works(foundation, work, work));
+    let hess = HessRule::new(foundation, work);
+    let contact = Contact::new(Arc::clone(&line.gaps), Edges::SubCell, foundation, Some(hess));
+    contact.springs.tree(Edges::SubCell).unwrap();
     let turns = [0.01, 0.1, 1.0].map(|share| Leg::ToForce(share * 2e6 * 1e-3 * 5e-7));
     let held = allocations::most_held(|| {
-        let body = exact::adhesive(&line.gaps, &tree, edges, foundation, 2);
-        Reversals::new(body, &turns).unwrap().each(&[], &mut |_, _| Ok(())).unwrap();
+        Body::new(&contact, 2).reversals(&turns, &[], &mut |_, _| Ok(())).unwrap();
     })
     .1;
     println!("{} bytes per spring", held / springs);

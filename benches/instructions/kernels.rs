@@ -6,12 +6,10 @@ use super::cases::{
     SEED, WORK_OF_ADHESION,
 };
 use asperity::analysis::Figures;
-use asperity::contact::{
-    ContactTree, EdgeModel, Exact, Foundation, GridEdges, HessRule, History, LegRecord, Solver, SubCellEdges,
-    exact, run,
-};
-use asperity::scene::{Edges, Form, Leg};
+use asperity::contact::{Body, Contact, Foundation, HessRule, History, Leg as Motion, LegRecord, run};
+use asperity::scene::{Form, Leg};
 use asperity::surface::{Histogram, Line, SelfAffine, Synthesizer};
+use std::sync::Arc;
 
 /// Bins of the histogram of heights.
 const BINS: usize = 64;
@@ -38,25 +36,18 @@ pub fn kernel(case: &Case) -> Given {
         Class::RoughLoop | Class::AdhesiveLoop | Class::AdhesiveObserved => (rough(), &LOOP),
     };
     let (line, edges) = (&smooth_or_rough, case.edges);
+    let hess = case.is_adhesive().then(|| HessRule::new(FOUNDATION, WORK_OF_ADHESION));
+    let mut body = Body::new(&Contact::new(Arc::clone(&line.gaps), edges, FOUNDATION, hess), SAMPLES);
     if !case.is_adhesive() {
-        let mut body = exact::nonadhesive(&line.gaps, edges, FOUNDATION, SAMPLES);
-        return Given { history: loaded(&mut body, legs), ..Given::default() };
+        let history = run(&mut body, legs, |_, _| Ok(())).expect("a loading within reach");
+        return Given { history, ..Given::default() };
     }
     let histogram =
         case.is_observed().then(|| Histogram::new(line.heights(), line.lowest(), line.summit, BINS));
-    let tree = ContactTree::build(&line.gaps, edges).expect("a tree");
-    let given = match edges {
-        Edges::Grid => adhesive(case, body(line, &tree, GridEdges::new(hess())), legs),
-        Edges::SubCell => adhesive(case, body(line, &tree, SubCellEdges::new(hess())), legs),
-    };
-    Given { histogram, ..given }
+    Given { histogram, ..adhesive(case, body, legs) }
 }
 
 const FOUNDATION: Foundation = Foundation::endless(LENGTH / POINTS as f64, EFFECTIVE_MODULUS);
-
-fn hess() -> HessRule {
-    HessRule::new(FOUNDATION, WORK_OF_ADHESION)
-}
 
 fn smooth() -> Line {
     let sphere = Form::Paraboloid { radius: RADIUS };
@@ -69,21 +60,13 @@ fn rough() -> Line {
     Line::new(LENGTH, POINTS, None, Some(&unit.heights), RMS_HEIGHT).expect("a line")
 }
 
-fn loaded(body: &mut impl Solver, legs: &[Leg]) -> History {
-    run(body, legs, |_, _| Ok(())).expect("a loading within reach")
-}
-
-fn body<'a, E: EdgeModel>(line: &'a Line, tree: &'a ContactTree, edges: E) -> Exact<'a> {
-    exact::adhesive(&line.gaps, tree, edges, FOUNDATION, SAMPLES)
-}
-
 /// A loading under adhesion, with the other results of its case beside the curve.
-fn adhesive(case: &Case, mut body: Exact<'_>, legs: &[Leg]) -> Given {
+fn adhesive(case: &Case, mut body: Body, legs: &[Leg]) -> Given {
     let mut fragments = Vec::new();
-    let history = run(&mut body, legs, |record: &LegRecord, body: &Exact<'_>| {
+    let history = run(&mut body, legs, |record: &LegRecord, leg: &Motion| {
         if case.is_observed() {
             let end = record.curve.last().filter(|end| end.springs > 0);
-            fragments.push(end.map_or_else(Vec::new, |end| body.fragments(end.indentation)));
+            fragments.push(end.map_or_else(Vec::new, |end| leg.patches(end.indentation)));
         }
         Ok(())
     });
@@ -91,7 +74,7 @@ fn adhesive(case: &Case, mut body: Exact<'_>, legs: &[Leg]) -> Given {
     let zero_load_adhesion_force = match case.class {
         Class::AdhesiveTouch => Figures::of(&history).adhesion_force,
         Class::AdhesiveLoop | Class::AdhesiveObserved => {
-            Some(-body.pull_off_at_touch().expect("a contact at first touch").0)
+            Some(-body.pull_off_at_touch().expect("a contact at first touch"))
         }
         Class::SmoothPressed | Class::RoughLoop | Class::AdhesivePressed => None,
     };

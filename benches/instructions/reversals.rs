@@ -1,12 +1,11 @@
 //! Instructions of 64 reversals over those of one loop to the deepest of them on the same line, trees included.
 
 use crate::instructions::callgrind;
-use asperity::contact::{
-    ContactTree, EdgeModel, Foundation, GridEdges, HessRule, Reversals, Solver, SubCellEdges, exact,
-};
+use asperity::contact::{Body, Contact, Foundation, HessRule, Solver};
 use asperity::scene::{Edges, Leg};
 use asperity::surface::{Line, SelfAffine, UnitRoughness};
 use std::hint::black_box;
+use std::sync::Arc;
 
 /// Most loops that the reversals may take.
 const MOST_LOOPS: f64 = 16.0;
@@ -55,37 +54,27 @@ pub fn run_as_child() -> bool {
     let rms_gradient = RMS_HEIGHT * spectrum.gradient_per_height(LENGTH);
     let work = RMS_HEIGHT * rms_gradient * EFFECTIVE_MODULUS / (kappa * kappa);
     let hess = HessRule::new(foundation, work);
-    match edges {
-        Edges::Grid => compute(&line.gaps, GridEdges::new(hess), foundation, part),
-        Edges::SubCell => compute(&line.gaps, SubCellEdges::new(hess), foundation, part),
-    }
-    true
-}
-
-fn compute<E: EdgeModel>(gaps: &[f64], edges: E, foundation: Foundation, part: Part) {
     let force = LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT;
-    let body = |tree| exact::adhesive(gaps, tree, edges, foundation, SAMPLES);
+    let body = || Body::new(&Contact::new(Arc::clone(&line.gaps), edges, foundation, Some(hess)), SAMPLES);
     match part {
-        Part::Line => drop(black_box(gaps.len())),
+        Part::Line => drop(black_box(line.gaps.len())),
         Part::Loop => {
-            let tree = ContactTree::build(gaps, E::EDGES).expect("memory for the tree");
-            let mut body = body(&tree);
+            let mut body = body();
             for leg in [Leg::ToForce(force), Leg::ToSeparation] {
                 black_box(body.advance(leg).expect("a reachable leg"));
             }
         }
         Part::Reversals => {
-            let tree = ContactTree::build(gaps, E::EDGES).expect("memory for the tree");
             let turn = |turn: u32| Leg::ToForce(force * f64::from(turn) / f64::from(REVERSALS));
             let turns: Vec<Leg> = (1..=REVERSALS).map(turn).collect();
-            let mut reversals = Reversals::new(body(&tree), &turns).expect("reachable turning points");
             let mut see = |_, reversal| {
                 black_box(reversal);
                 Ok(())
             };
-            reversals.each(&[], &mut see).expect("memory for the unloadings");
+            body().reversals(&turns, &[], &mut see).expect("reachable turning points");
         }
     }
+    true
 }
 
 /// Counts all bodies: a table, and a line for each with too many loops. `arguments` start the process as a child.

@@ -217,14 +217,10 @@ pub(super) fn solve(
     match simulation.run(scene, stop, &mut |_, _, _| Ok(())) {
         Ok(outcome) => Ok(Solved::Outcome(Box::new(outcome))),
         Err(error) if error.is_interruption() || is_out_of_memory(&error) => Ok(Solved::TooMuch),
-        Err(
-            error @ (RunError::Surface(SurfaceError::NoSprings { .. })
-            | RunError::Contact(
-                ContactError::NothingToPull { .. }
-                | ContactError::DetachesBefore { .. }
-                | ContactError::OutOfReach { .. },
-            )),
-        ) => Ok(Solved::TooCoarse(error)),
+        Err(error @ RunError::Surface(SurfaceError::NoSprings { .. })) => Ok(Solved::TooCoarse(error)),
+        Err(RunError::Contact(error)) if error.is_out_of_reach() => {
+            Ok(Solved::TooCoarse(RunError::Contact(error)))
+        }
         Err(error) => Err(error),
     }
 }

@@ -29,7 +29,7 @@ impl Figures {
         let ends_separated =
             legs.last().and_then(|leg| leg.curve.last()).is_some_and(|point| point.springs == 0);
         Figures::at(
-            preload_point(legs).map(|(stage, point)| (legs[stage].leg, point)),
+            preload_point(legs).map(|(stage, point)| (legs[stage].target, point)),
             pull_off_point(legs).map(|(_, point)| point),
             ends_separated.then(|| legs.iter().map(|leg| leg.released_energy).sum::<f64>()),
         )
@@ -102,16 +102,16 @@ pub fn pull_off_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::{ContactTree, Foundation, GridEdges, HessRule, exact, run};
+    use crate::contact::{Body, Contact, Foundation, HessRule, run};
+    use crate::scene::Edges;
 
     #[test]
     fn only_a_preload_gives_a_coefficient() {
         let gaps: Vec<f64> = (0..101).map(|index| (f64::from(index - 50) * 0.02).powi(2)).collect();
-        let tree = ContactTree::build(&gaps, crate::scene::Edges::Grid).unwrap();
         let foundation = Foundation::endless(0.02, 1.0);
-        let rule = GridEdges::new(HessRule::new(foundation, 0.001));
+        let contact = Contact::new(gaps, Edges::Grid, foundation, Some(HessRule::new(foundation, 0.001)));
         let figures = |first| {
-            let mut body = exact::adhesive(&gaps, &tree, rule, foundation, 16);
+            let mut body = Body::new(&contact, 16);
             Figures::of(&run(&mut body, &[first, Leg::ToSeparation], |_, _| Ok(())).unwrap())
         };
         let (pressed, returned) = (figures(Leg::ToForce(0.01)), figures(Leg::ToForce(0.0)));
@@ -126,10 +126,10 @@ mod tests {
     }
 
     /// A stage with this point as its extremes and these springs at its end.
-    fn leg(leg: Leg, direction: Direction, extreme: CurvePoint, springs: u64) -> LegRecord {
+    fn leg(target: Leg, direction: Direction, extreme: CurvePoint, springs: u64) -> LegRecord {
         let curve = vec![point(0.0, 0.5, 1), extreme, point(extreme.indentation, 0.0, springs)];
         LegRecord {
-            leg,
+            target,
             direction,
             curve,
             largest: extreme,

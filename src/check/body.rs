@@ -2,10 +2,7 @@
 //! the engine.
 
 use super::Fault;
-use crate::contact::{
-    AdhesiveMemory, ContactRule, ContactTree, CurvePoint, Exact, Foundation, HessRule, History, LegRecord,
-    Solver, run,
-};
+use crate::contact::{self, Contact, CurvePoint, Foundation, HessRule, History, LegRecord, Solver, run};
 use crate::scene::{Edges, Leg};
 use crate::surface::{Line, SelfAffine, UnitRoughness, phases};
 use std::f64::consts::{PI, TAU};
@@ -48,7 +45,7 @@ impl Body {
         let rough = UnitRoughness::synthesize(spectrum, seed, points)?;
         let line = Line::new(LENGTH, points, None, Some(&rough.heights), RMS_HEIGHT)?;
         let foundation = Foundation::endless(line.spacing, MODULUS);
-        Ok(Body { gaps: line.gaps, foundation, work })
+        Ok(Body { gaps: line.gaps.to_vec(), foundation, work })
     }
 
     /// A body of one of several kinds: self-affine, noise, a few levels, a random walk. The adhesion ranges from
@@ -119,12 +116,9 @@ impl Body {
         samples: usize,
         act: impl FnOnce(&mut dyn Solver) -> Result<T, Fault>,
     ) -> Result<T, Fault> {
-        let (hess, gaps) = (HessRule::new(self.foundation, self.work), self.gaps.as_slice());
-        let tree = if self.work == 0.0 { None } else { Some(ContactTree::build(gaps, edges)?) };
-        let hess = |tree| ContactRule::Hess(hess, tree);
-        let rule = tree.as_ref().map_or(ContactRule::Nonadhesive(edges), hess);
-        let memory = &mut AdhesiveMemory::default();
-        act(&mut Exact::new(memory, gaps, rule, self.foundation, samples))
+        let hess = (self.work > 0.0).then(|| HessRule::new(self.foundation, self.work));
+        let contact = Contact::new(self.gaps.clone(), edges, self.foundation, hess);
+        act(&mut contact::Body::new(&contact, samples))
     }
 
     /// A whole loading.

@@ -59,7 +59,7 @@ pub fn follow(body: &Body, edges: Edges, legs: &[Leg]) -> Result<Agreement, Faul
                     usize::from(point.springs < body.gaps.len() as u64 && point.fragments > 1);
             }
             let last = end(&record);
-            held = if last.springs > 0 { solver.fragments(last.indentation) } else { Vec::new() };
+            held = if last.springs > 0 { solver.leg().patches(last.indentation) } else { Vec::new() };
         }
         Ok(agreement)
     })
@@ -78,7 +78,7 @@ fn same_contact(
         return if more.is_separated() { Ok(false) } else { Err(wrong(last, "nothing is held")) };
     }
     more.move_to(last.indentation);
-    if last.springs == 0 && record.leg == Leg::ToSeparation {
+    if last.springs == 0 && record.target == Leg::ToSeparation {
         // The contact still holds at the last indentation, and not at the next number below.
         let size = last.indentation.abs() + body.deepest() + body.largest_stretch();
         let beyond = (32.0 * f64::EPSILON * size).max(f64::from_bits(1));
@@ -92,7 +92,7 @@ fn same_contact(
     less.move_to(last.indentation);
     let mut touching = vec![false; body.gaps.len()];
     if last.springs > 0 {
-        for (first, last) in solver.fragments(last.indentation) {
+        for (first, last) in solver.leg().patches(last.indentation) {
             touching[first..=last].fill(true);
         }
     }
@@ -123,8 +123,7 @@ fn energy_error(
     for &(first, last) in held {
         before[first..=last].fill(true);
     }
-    let mut thresholds = Vec::new();
-    solver.thresholds_along_line(&mut thresholds);
+    let thresholds = solver.leg().thresholds();
     let mut squares = Extended::default();
     for ((&gap, &threshold), &before) in body.gaps.iter().zip(&thresholds).zip(&before) {
         let after = last.springs > 0 && threshold <= last.indentation;
@@ -150,7 +149,7 @@ fn energy_error(
 /// Error of the force of a point in contact on the present stage, in units of [`follow`].
 pub fn force_error(body: &Body, edges: Edges, solver: &dyn Solver, point: &CurvePoint) -> Result<f64, Fault> {
     let d = point.indentation;
-    let fragments = solver.fragments(d);
+    let fragments = solver.leg().patches(d);
     let springs: usize = fragments.iter().map(|(first, last)| last + 1 - first).sum();
     if (springs as u64, fragments.len() as u64) != (point.springs, point.fragments) {
         return Err(wrong(*point, "springs or fragments are counted otherwise"));

@@ -7,7 +7,7 @@ use super::{
     Arguments, CliError, Command, Format, OutputArguments, SceneArguments, SurfaceArguments, line, surface,
 };
 use crate::accuracy::{Choice, choose, estimate, parse_tolerance};
-use crate::contact::{LegRecord, Solver};
+use crate::contact::{Leg, LegRecord};
 use crate::draw::Figure;
 use crate::export::{
     ContactSets, PreloadReport, ensemble_text, force_figure, summary, write_curve, write_ensemble_json,
@@ -250,7 +250,7 @@ fn figure(arguments: &RunArguments, document: Document) -> Result<Figure, CliErr
         let failed = |error| CliError::named(document.name(), error);
         let mut simulation = simulation_of(document);
         let mut sets = ContactSets::new(arguments.fragments);
-        let mut observe = |_, record: &LegRecord, solver: &dyn Solver| sets.observe(record, solver);
+        let mut observe = |_, record: &LegRecord, leg: &Leg| sets.observe(record, leg);
         let outcome = simulation.run(&scene, &|| false, &mut observe).map_err(failed)?;
         if arguments.fragments {
             return Ok(sets.patches_figure(document.title(), &outcome));

@@ -1,67 +1,54 @@
 //! Errors of the contact solvers.
 
-use crate::scene::Leg;
+use crate::scene::Leg as Target;
 use thiserror::Error;
 
-/// Reason for which a contact is not computed.
+/// Reason why a body does not move to a target.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ContactError {
+    /// A stage of a loading is refused.
+    #[error("loading.{index} = {target:?}: {reason}")]
+    Stage {
+        /// Index of the stage.
+        index: usize,
+        /// Target of the stage.
+        target: Target,
+        /// Reason of the refusal.
+        reason: Box<ContactError>,
+    },
     /// An array does not fit into memory.
     #[error("not enough memory for {springs} springs")]
     OutOfMemory {
         /// Requested number of springs.
         springs: usize,
     },
+    /// A target that is not a number, or infinite.
+    #[error("{value} is not finite; allowed: finite numbers")]
+    NotFinite {
+        /// Indentation, m, or force, N.
+        value: f64,
+    },
     /// A pulling force on a separated body.
-    #[error(
-        "loading.{index} = ToForce({force:e}): a pulling force needs a contact; allowed from separation: at least 0 N"
-    )]
-    NothingToPull {
-        /// Index of the leg.
-        index: usize,
-        /// Requested force, N.
-        force: f64,
-    },
+    #[error("a pulling force needs a contact; allowed from separation: at least 0 N")]
+    NothingToPull,
     /// A turning point without contact.
-    #[error(
-        "loading.{index} = {leg:?}: a reversal begins in contact; allowed: an indentation of at least 0 m, or a force"
-    )]
-    NoContact {
-        /// Index of the leg.
-        index: usize,
-        /// The leg.
-        leg: Leg,
-    },
+    #[error("a reversal begins in contact; allowed: an indentation of at least 0 m, or a force")]
+    NoContact,
     /// The contact detaches above this force.
-    #[error(
-        "loading.{index} = {leg:?}: the contact detaches above that force; allowed in this stage: at least {smallest:e} N"
-    )]
+    #[error("the contact detaches above that force; allowed in this stage: at least {smallest:e} N")]
     DetachesBefore {
-        /// Index of the leg.
-        index: usize,
-        /// The leg.
-        leg: Leg,
         /// Smallest force the contact bears, N.
         smallest: f64,
     },
     /// No finite indentation reaches the force.
-    #[error("loading.{index} = {leg:?}: no finite indentation reaches that force on this foundation")]
-    OutOfReach {
-        /// Index of the leg.
-        index: usize,
-        /// The leg.
-        leg: Leg,
-    },
+    #[error("no finite indentation reaches that force on this foundation")]
+    OutOfReach,
     /// The stepwise solver would need too many steps.
-    #[error(
-        "loading.{index}: more than {limit} steps of {step:e} m; take a larger numerics.solver.step or the exact solver"
-    )]
+    #[error("more than {limit} steps of {step:e} m; take a larger numerics.solver.step or the exact solver")]
     TooManySteps {
-        /// Index of the leg.
-        index: usize,
         /// Step, m.
         step: f64,
-        /// Most steps allowed on one leg.
+        /// Most steps allowed in one stage.
         limit: u64,
     },
     /// A state that the program excludes: a defect.
@@ -70,4 +57,30 @@ pub enum ContactError {
     /// The computation was stopped.
     #[error("interrupted")]
     Interrupted,
+}
+
+impl ContactError {
+    /// Returns true for a stage with a force that the contact does not reach.
+    #[must_use]
+    pub(crate) fn is_out_of_reach(&self) -> bool {
+        match self {
+            ContactError::Stage { reason, .. } => reason.is_out_of_reach(),
+            ContactError::NothingToPull | ContactError::DetachesBefore { .. } | ContactError::OutOfReach => {
+                true
+            }
+            _ => false,
+        }
+    }
+
+    /// Names the stage that is refused; memory, stops and defects concern the whole loading.
+    #[must_use]
+    pub(crate) fn in_stage(self, index: usize, target: Target) -> Self {
+        match self {
+            ContactError::Stage { .. }
+            | ContactError::OutOfMemory { .. }
+            | ContactError::Internal(_)
+            | ContactError::Interrupted => self,
+            reason => ContactError::Stage { index, target, reason: Box::new(reason) },
+        }
+    }
 }

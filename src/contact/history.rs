@@ -1,6 +1,6 @@
 //! Result of a loading history: its legs, their curves and the work counts.
 
-use crate::scene::Leg;
+use crate::scene::Leg as Target;
 use serde::Serialize;
 
 /// Direction of a leg.
@@ -31,8 +31,8 @@ pub struct CurvePoint {
 /// Record of one leg.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LegRecord {
-    /// Leg of the scene.
-    pub leg: Leg,
+    /// Target of the motion.
+    pub target: Target,
     /// Direction of the motion.
     pub direction: Direction,
     /// The curve along the leg: its samples, and the point of the smallest force of an unloading leg. A jump into or
@@ -54,9 +54,9 @@ pub struct LegRecord {
 
 impl LegRecord {
     /// A leg that ends where it begins.
-    pub(crate) fn still(leg: Leg, here: CurvePoint) -> Self {
+    pub(crate) fn still(target: Target, here: CurvePoint) -> Self {
         LegRecord {
-            leg,
+            target,
             direction: Direction::Loading,
             curve: vec![here],
             largest: here,
@@ -68,16 +68,16 @@ impl LegRecord {
     }
 
     /// A leg of a separated body that does not touch.
-    pub(crate) fn free(leg: Leg, from: f64, to: f64) -> Self {
+    pub(crate) fn free(target: Target, from: f64, to: f64) -> Self {
         let [start, end] = [from, to].map(|indentation| CurvePoint { indentation, ..CurvePoint::default() });
         let direction = if to > from { Direction::Loading } else { Direction::Unloading };
-        LegRecord { direction, curve: vec![start, end], ..LegRecord::still(leg, end) }
+        LegRecord { direction, curve: vec![start, end], ..LegRecord::still(target, end) }
     }
 
     /// A leg along this curve, with this number of springs attached, or detached on unloading, and the energy of their
     /// stretches, J.
     pub(crate) fn moved(
-        (leg, direction): (Leg, Direction),
+        (target, direction): (Target, Direction),
         curve: Vec<CurvePoint>,
         [smallest, largest]: [CurvePoint; 2],
         changed: u64,
@@ -88,7 +88,7 @@ impl LegRecord {
             Direction::Loading => (changed, 0, 0.0 - energy),
             Direction::Unloading => (0, changed, energy),
         };
-        LegRecord { leg, direction, curve, largest, smallest, attached, detached, released_energy }
+        LegRecord { target, direction, curve, largest, smallest, attached, detached, released_energy }
     }
 
     /// Indentation at the beginning, m.

@@ -9,46 +9,43 @@
 //! * *detach*: within a fragment of n springs the most stretched one detaches when d ≤ c − Δl_max(n), but
 //!   not while its gap is closed.
 //!
-//! [`exact`] applies these rules to any loading history in one pass over a tree for each leg; [`stepwise`] moves by
-//! small steps and relaxes, as the paper does; [`Manual`] loading moves the body by steps of any size, either way, at a
-//! cost in proportion to the change.
+//! A [`Contact`] is what stays the same while the body moves, a [`Leg`] the contact at all indentations of a motion in
+//! one direction, and a [`Body`] a leg and the position on it. [`Leg`] applies these rules in one pass over a tree;
+//! [`Stepwise`] moves by small steps and relaxes, as the paper does.
 
 pub mod adhesive;
-mod contact_model;
+mod body;
 mod contact_state;
 mod crossing;
 mod error;
-pub mod exact;
 mod foundation;
 mod fragments;
 mod grid;
 mod history;
 mod interval;
-mod leg_contact;
-mod leg_plan;
-mod manual;
+mod leg;
 mod nonadhesive;
 mod reversal;
-mod snapshot;
-mod solver;
+mod springs;
 mod steady;
 pub mod stepwise;
+mod target;
 mod totals;
 
-pub use adhesive::{AdhesiveMemory, ContactTree, EdgeModel, GridEdges, SubCellEdges};
+pub use adhesive::ContactTree;
+pub use body::{Body, Motion, Solver, run};
 pub use error::ContactError;
-pub use exact::{ContactRule, Exact};
 pub use foundation::{Foundation, HessRule};
 pub use history::{CurvePoint, Direction, History, LegRecord, Work};
-pub use leg_contact::{LegContact, LegView};
-pub use leg_plan::Target;
-pub use manual::{Manual, ManualError, ManualLoading, Move};
-pub use nonadhesive::Nonadhesive;
-pub use reversal::{Reversal, Reversals};
-pub use snapshot::{FragmentState, Snapshot};
-pub use solver::{Solver, run};
+pub use leg::{Leg, PatchState, Workspace};
+pub(crate) use nonadhesive::Nonadhesive;
+pub use reversal::Reversal;
+pub use springs::{Contact, Springs};
 pub use stepwise::Stepwise;
 pub use totals::{ContactTotals, GapScale};
+
+/// Number of springs from which a second thread costs less than it saves.
+const TWO_THREADS: usize = 1 << 17;
 
 /// An empty vector with room for `count` values, or an error instead of an abort.
 pub(crate) fn reserve<T>(count: usize) -> Result<Vec<T>, ContactError> {

@@ -10,13 +10,12 @@
 
 use super::HessRule;
 use super::adhesive::{EdgeCells, EdgeModel, EdgeSum, GridEdges, SubCellEdges};
-use super::contact_model::{ContactModel, Reversed};
-use super::contact_state::{ContactState, Extreme, Sampled};
+use super::contact_state::{ContactState, Sampled};
 use super::crossing::bisect;
 use super::grid::{CompensatedSum, Grid};
 use super::interval::Interval;
 use super::totals::{ContactTotals, GapScale};
-use super::{AdhesiveMemory, ContactError, LegView, Work, resized};
+use super::{ContactError, Springs, resized};
 use crate::scene::Edges;
 use std::ops::Range;
 
@@ -29,8 +28,6 @@ const NEWTON_STEPS: usize = 200;
 #[derive(Clone, Copy, Debug)]
 pub struct Nonadhesive<'a> {
     gaps: &'a [f64],
-    /// Largest gap, m.
-    deepest: f64,
     edges: Edges,
     scale: GapScale,
 }
@@ -94,11 +91,9 @@ struct Between<'s> {
 }
 
 impl<'a> Nonadhesive<'a> {
-    /// Springs of these gaps (m, finite, the smallest 0).
-    #[must_use]
-    pub fn new(gaps: &'a [f64], edges: Edges) -> Self {
-        let deepest = gaps.iter().copied().fold(0.0, f64::max);
-        Nonadhesive { gaps, deepest, edges, scale: GapScale::for_gaps_up_to(deepest) }
+    /// Creates a contact of these springs.
+    pub fn new(springs: &'a Springs, edges: Edges) -> Self {
+        Nonadhesive { gaps: springs.gaps(), edges, scale: springs.scale() }
     }
 
     /// Smaller and larger gap of each cell, m.
@@ -155,7 +150,7 @@ impl<'a> Nonadhesive<'a> {
     }
 
     /// The contact along a grid, by one pass along the line.
-    fn along(&self, grid: Grid) -> Result<Sampled, ContactError> {
+    pub fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {
         let points = grid.points();
         let count = points.len();
         // Points requested one by one have the same contact as each of them alone.
@@ -309,77 +304,22 @@ impl Changes {
     }
 }
 
-impl ContactModel for Nonadhesive<'_> {
-    fn count(&self) -> u64 {
-        self.gaps.len() as u64
-    }
-
-    fn load(&mut self, _: Option<f64>, _: &mut Work) -> Result<f64, ContactError> {
-        Ok(self.deepest)
-    }
-
-    fn unload(&mut self, _: f64, _: &mut Work) -> Result<f64, ContactError> {
-        // The highest point of the line touches first and detaches last, at d = 0.
-        Ok(0.0)
-    }
-
-    fn reverse(&mut self, at: f64, work: &mut Work) -> Result<Reversed, ContactError> {
-        Ok(Reversed { separates: self.unload(at, work)?, squared_stretches: [0.0; 2] })
-    }
-
-    fn sample_reversal(&self, grid: Grid) -> Result<Sampled, ContactError> {
-        self.sample(grid)
-    }
-
-    fn smallest_of_reversal(
-        &self,
-        grid: &Grid,
-        _: ContactState,
-        _: &mut u64,
-    ) -> Result<ContactState, ContactError> {
-        let leg = self.sample(Grid::at(vec![grid.points()[0]]))?;
-        Ok(leg.states[0])
-    }
-
-    fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {
-        self.along(grid)
-    }
-
-    /// No spring is stretched, so no energy is dissipated.
-    fn sample_changes(&self, grid: Grid, _: bool) -> Result<(Sampled, f64), ContactError> {
-        Ok((self.sample(grid)?, 0.0))
-    }
-
-    fn extreme(&self, extreme: Extreme, leg: &Sampled, _: &mut u64) -> ContactState {
-        match extreme {
-            Extreme::Smallest => leg.first(),
-            Extreme::Largest => leg.last(),
+impl Nonadhesive<'_> {
+    /// Smallest indentation of a sampled leg at which the compression is at least `wanted`.
+    pub fn first_at_least(&self, leg: &Sampled, wanted: f64) -> Option<f64> {
+        let is_past = |compression| compression >= wanted;
+        let (low, high) = Self::ends(leg, is_past)?;
+        let end = high.indentation;
+        let Some(low) = low else { return Some(end) };
+        let between = self.between(low.indentation, end);
+        match self.edges {
+            Edges::Grid => between.full.first_of(&[], (low, high), wanted).or(Some(end)),
+            Edges::SubCell => Some(between.crossing((low.indentation, end), wanted, is_past)[1]),
         }
     }
 
-    fn sample_coarsely(&self, grid: &Grid) -> Result<Sampled, ContactError> {
-        self.sample(grid.clone())
-    }
-
-    fn first_at_least(
-        &self,
-        _: &Grid,
-        leg: &Sampled,
-        wanted: f64,
-        _: &mut u64,
-    ) -> Result<Option<f64>, ContactError> {
-        let is_past = |compression| compression >= wanted;
-        let Some((low, high)) = Self::ends(leg, is_past) else { return Ok(None) };
-        let end = high.indentation;
-        let Some(low) = low else { return Ok(Some(end)) };
-        let between = self.between(low.indentation, end);
-        Ok(match self.edges {
-            Edges::Grid => between.full.first_of(&[], (low, high), wanted).or(Some(end)),
-            Edges::SubCell => Some(between.crossing((low.indentation, end), wanted, is_past)[1]),
-        })
-    }
-
-    fn last_at_most(&self, leg: &Sampled, wanted: f64, _: &mut u64) -> Option<f64> {
+    /// Largest indentation of a sampled leg at which the compression is at most `wanted`.
+    pub fn last_at_most(&self, leg: &Sampled, wanted: f64) -> Option<f64> {
         let is_past = |compression| compression > wanted;
         let Some((low, high)) = Self::ends(leg, is_past) else {
             return leg.states.last().map(|last| last.indentation);
@@ -394,18 +334,4 @@ impl ContactModel for Nonadhesive<'_> {
             Edges::SubCell => Some(between.crossing((start, high.indentation), wanted, is_past)[0]),
         }
     }
-
-    fn straight(&self, totals: ContactTotals, compression: f64) -> Option<f64> {
-        if self.edges == Edges::Grid { totals.indentation(compression, &self.scale) } else { None }
-    }
-
-    fn leg(&self) -> LegView<'_> {
-        LegView::of_gaps(self.gaps)
-    }
-
-    fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
-        Ok((0.0, Work::default()))
-    }
-
-    fn give_back(self: Box<Self>, _: &mut AdhesiveMemory) {}
 }

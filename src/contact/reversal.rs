@@ -1,14 +1,12 @@
 //! Reversals: the unloadings from many turning points of one loading.
-//!
-//! All reversals share the tree, the thresholds of attachment and the list of the loading.
 
-use super::contact_model::Reversed;
-use super::contact_state::ContactState;
-use super::exact::Exact;
+use super::body::{Body, SEARCH_INTERVALS};
+use super::contact_state::{ContactState, Extreme};
 use super::grid::Grid;
-use super::leg_plan::{Target, plan};
-use super::{ContactError, CurvePoint, Work};
-use crate::scene::Leg;
+use super::leg::Leg;
+use super::target::{Goal, plan};
+use super::{ContactError, CurvePoint};
+use crate::scene::Leg as Target;
 
 /// The unloading from one turning point to separation, exact to rounding.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,13 +23,6 @@ pub struct Reversal {
     pub forces: Vec<f64>,
 }
 
-/// The reversals of a body that is loaded from separation.
-pub struct Reversals<'a> {
-    body: Exact<'a>,
-    /// Turning points in the order of their depth, and their numbers.
-    turns: Vec<(usize, ContactState)>,
-}
-
 impl Reversal {
     /// Adhesion force F_a, N: minus the smallest force; `None` where the body does not pull.
     #[must_use]
@@ -41,106 +32,86 @@ impl Reversal {
     }
 }
 
-impl<'a> Reversals<'a> {
-    /// Loads a body from separation and finds the turning points: the ends of these legs, each of which begins separated
-    /// at d = 0.
+impl Body {
+    /// Loads this separated body once and unloads it from each of these targets, which begin separated at d = 0. Calls
+    /// `see` with the index of the target and its reversal, from the shallowest on; the forces are those at `points`,
+    /// ascending indentations in m. The body stays separated.
     ///
     /// # Errors
-    /// For a leg whose end is out of reach, or without enough memory.
-    pub fn new(mut body: Exact<'a>, ends: &[Leg]) -> Result<Self, ContactError> {
-        let complete = body.begin_loading()?.max(0.0);
-        let apart = CurvePoint::default();
-        let mut order = Vec::with_capacity(ends.len());
-        for (index, &leg) in ends.iter().enumerate() {
-            let at = match plan(leg, apart, index)?.map(|(_, target)| target) {
-                Some(Target::Force(force)) => {
-                    body.load_to_force(leg, force, 0.0, complete).map_err(|error| match error {
-                        ContactError::OutOfReach { leg, .. } => ContactError::OutOfReach { index, leg },
-                        other => other,
-                    })?
-                }
-                Some(Target::Indentation(indentation)) if indentation >= 0.0 => indentation,
-                _ => return Err(ContactError::NoContact { index, leg }),
-            };
-            order.push((index, at));
-        }
-        order.sort_by(|one, other| one.1.total_cmp(&other.1));
-        let mut points: Vec<f64> = order.iter().map(|&(_, at)| at).collect();
-        points.dedup();
-        let mut turns = Vec::with_capacity(order.len());
-        if !points.is_empty() {
-            let states = body.contact().sample(Grid::at(points))?;
-            turns.extend(
-                order.iter().map(|&(index, at)| (index, states.states[states.grid.first_at_least(at)])),
-            );
-        }
-        Ok(Reversals { body, turns })
-    }
-
-    /// Calls `see` with each reversal and the number of its leg, from the shallowest on. `points` are the ascending
-    /// indentations of the forces, m.
-    ///
-    /// # Errors
-    /// The first error of `see` ends the work; [`ContactError::OutOfMemory`].
-    pub fn each(
+    /// A target out of reach or without contact, [`ContactError::OutOfMemory`]; the first error of `see`.
+    pub fn reversals(
         &mut self,
+        targets: &[Target],
         points: &[f64],
         see: &mut dyn FnMut(usize, Reversal) -> Result<(), ContactError>,
     ) -> Result<(), ContactError> {
-        for &(index, turn) in &self.turns {
-            see(index, reverse(&mut self.body, turn, points)?)?;
+        let loading = self.approach()?;
+        let mut turns = Vec::with_capacity(targets.len());
+        for (index, &target) in targets.iter().enumerate() {
+            let at = match plan(target, CurvePoint::default()) {
+                Ok(Some((_, goal @ Goal::Force(_)))) => self.load_to(&loading, goal, 0.0),
+                Ok(Some((_, Goal::Indentation(at)))) if at >= 0.0 => Ok(at),
+                Ok(_) => Err(ContactError::NoContact),
+                Err(reason) => Err(reason),
+            };
+            turns.push((index, at.map_err(|reason| reason.in_stage(index, target))?));
         }
+        turns.sort_by(|one, other| one.1.total_cmp(&other.1));
+        for (index, at) in turns {
+            see(index, self.reverse(&loading, loading.state(at)?, points)?)?;
+        }
+        self.workspace().recycle(loading);
         Ok(())
     }
 
-    /// All reversals in the order of their legs, without forces.
+    /// Returns the smallest force of the unloading from first touch, N. The body stays in place.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    pub fn all(&mut self) -> Result<Vec<Reversal>, ContactError> {
-        let mut found: Vec<(usize, Reversal)> = Vec::with_capacity(self.turns.len());
-        self.each(&[], &mut |index, reversal| {
-            found.push((index, reversal));
-            Ok(())
-        })?;
-        found.sort_by_key(|&(index, _)| index);
-        Ok(found.into_iter().map(|(_, reversal)| reversal).collect())
+    pub fn pull_off_at_touch(&mut self) -> Result<f64, ContactError> {
+        let passes = self.workspace().work;
+        let loading = self.approach()?;
+        let unloading = loading.turn(0.0, self.workspace())?;
+        let springs_in_contact = self.workspace().springs_held();
+        let grid = Grid::new(unloading.end().min(0.0), 0.0, SEARCH_INTERVALS);
+        let sampled = unloading.sample(grid)?;
+        let work = &mut self.workspace().work;
+        work.springs_tallied += springs_in_contact;
+        // The passes of the loading count separately.
+        (work.loading_passes, work.unloading_passes) = (passes.loading_passes, passes.unloading_passes);
+        work.zero_load_passes += 1;
+        let smallest = unloading.extreme(Extreme::Smallest, &sampled, work).compression;
+        for leg in [loading, unloading] {
+            self.workspace().recycle(leg);
+        }
+        Ok(self.stiffness() * smallest)
     }
 
-    /// Work counts so far.
-    #[must_use]
-    pub fn work(&self) -> Work {
-        super::Solver::work(&self.body)
+    /// Unloads from a turning point of a loading.
+    fn reverse(
+        &mut self,
+        loading: &Leg,
+        turn: ContactState,
+        points: &[f64],
+    ) -> Result<Reversal, ContactError> {
+        let high = turn.indentation;
+        let unloading = loading.turn(high, self.workspace())?;
+        let separation = unloading.end().min(high);
+        let (grid, _) = self.grid(separation, high);
+        let smallest = unloading.smallest_below(turn, &grid, &mut self.workspace().work)?;
+        let below = &points[..points.partition_point(|&point| point <= high)];
+        let apart = below.partition_point(|&point| point < separation);
+        let mut forces = vec![0.0; apart];
+        forces.extend(unloading.curve(&below[apart..])?.iter().map(|point| point.force));
+        let released = [loading, &unloading].map(|leg| leg.released_energy(f64::NEG_INFINITY, high));
+        let reversal = Reversal {
+            turn: self.point_of(turn),
+            smallest: self.point_of(smallest),
+            separation,
+            dissipated_energy: released[0] + released[1] + 0.0,
+            forces,
+        };
+        self.workspace().recycle(unloading);
+        Ok(reversal)
     }
-
-    /// The body, for its memory.
-    #[must_use]
-    pub fn into_body(self) -> Exact<'a> {
-        self.body
-    }
-}
-
-/// Unloads from a turning point.
-fn reverse(body: &mut Exact<'_>, turn: ContactState, points: &[f64]) -> Result<Reversal, ContactError> {
-    let high = turn.indentation;
-    let (contact, work) = body.work_mut();
-    let Reversed { separates, squared_stretches: [attached, detached] } = contact.reverse(high, work)?;
-    let separation = separates.min(high);
-    let (grid, _) = body.grid(separation, high);
-    let (contact, work) = body.work_mut();
-    let smallest = contact.smallest_of_reversal(&grid, turn, &mut work.events_sorted)?;
-    let below = &points[..points.partition_point(|&point| point <= high)];
-    let apart = below.partition_point(|&point| point < separation);
-    let mut forces = vec![0.0; apart];
-    if apart < below.len() {
-        let leg = body.contact().sample_reversal(Grid::at(below[apart..].to_vec()))?;
-        forces.extend(leg.states.into_iter().map(|state| body.curve_point(state).force));
-    }
-    Ok(Reversal {
-        turn: body.curve_point(turn),
-        smallest: body.curve_point(smallest),
-        separation,
-        dissipated_energy: ((0.0 - body.energy(attached)) + body.energy(detached)) + 0.0,
-        forces,
-    })
 }

@@ -1,104 +1,95 @@
 //! The stepwise solver: move by a small step, relax to equilibrium, repeat, as the paper does.
 //!
 //! The step Δd is its accuracy; each step costs a few sweeps over the whole line. The solver shares only the rules and
-//! the sums with the exact solver; exact thresholds are used only before the first step of a leg, to check its end and
-//! number of steps.
+//! the sums with the exact solver.
 
 use super::contact_state::counted;
-use super::leg_plan::{Target, plan};
+use super::target::{Goal, plan};
 use super::{
-    ContactError, ContactTotals, ContactTree, CurvePoint, Direction, Foundation, GapScale, GridEdges,
-    HessRule, LegRecord, LegView, Manual, ManualError, ManualLoading, Solver, Work, fragments, resized,
+    Contact, ContactError, ContactTotals, CurvePoint, Direction, Leg, LegRecord, Solver, Work, resized,
 };
-use crate::scene::{Edges, Leg};
-use std::sync::Arc;
+use crate::scene::Leg as Target;
 
-/// Most steps on one leg.
+/// Most steps of one motion.
 pub const STEP_LIMIT: u64 = 10_000_000;
 
 /// A body moved by small steps and relaxed after each.
 pub struct Stepwise<'a> {
-    gaps: &'a [f64],
-    hess: Option<HessRule>,
-    foundation: Foundation,
+    contact: &'a Contact,
     step: f64,
     samples: usize,
     stop: &'a dyn Fn() -> bool,
-    scale: GapScale,
-    contact: Vec<bool>,
+    state: State,
+    /// Whether each spring is in contact, and the indentation at which it attached or detached on the present leg, m.
+    holds: Vec<bool>,
     thresholds: Vec<f64>,
+    work: Work,
+}
+
+#[derive(Clone, Copy)]
+struct State {
+    direction: Direction,
     indentation: f64,
     totals: ContactTotals,
     /// Σ e² over the springs detached, less that over the springs attached, on the present leg, m².
     squared_stretch: f64,
-    legs: usize,
-    work: Work,
 }
 
 impl<'a> Stepwise<'a> {
-    /// A separated body over springs of these gaps (m, the smallest 0), moved by steps of `step` m;
-    /// without a rule of Hess there is no adhesion. `stop` returns true after a step to end the run.
+    /// Creates a separated body of whole springs, moved by steps of `step` m. `stop` returns true after a step to end
+    /// the run.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
     pub fn new(
-        gaps: &'a [f64],
-        hess: Option<HessRule>,
-        foundation: Foundation,
+        contact: &'a Contact,
         step: f64,
         samples: usize,
         stop: &'a dyn Fn() -> bool,
     ) -> Result<Self, ContactError> {
+        let springs = contact.gaps().len();
+        let totals = ContactTotals::default();
         Ok(Stepwise {
-            gaps,
-            hess,
-            foundation,
+            contact,
             step,
             samples: samples.max(2),
             stop,
-            scale: GapScale::for_gaps_up_to(gaps.iter().copied().fold(0.0, f64::max)),
-            contact: resized(Vec::new(), gaps.len(), false)?,
-            thresholds: resized(Vec::new(), gaps.len(), f64::INFINITY)?,
-            indentation: 0.0,
-            totals: ContactTotals::default(),
-            squared_stretch: 0.0,
-            legs: 0,
-            work: Work { springs: gaps.len() as u64, ..Work::default() },
+            state: State { direction: Direction::Loading, indentation: 0.0, totals, squared_stretch: 0.0 },
+            holds: resized(Vec::new(), springs, false)?,
+            thresholds: resized(Vec::new(), springs, f64::INFINITY)?,
+            work: Work { springs: springs as u64, ..Work::default() },
         })
-    }
-
-    fn largest_stretch(&self, springs: usize, direction: Direction) -> f64 {
-        // Without the rule nothing is stretched at all.
-        self.hess.map_or(0.0, |hess| hess.on(direction).largest_stretch(springs as u32))
     }
 
     /// Attaches a spring, or detaches it where it has been held to this indentation, m: the overshoot of a step is no
     /// property of the contact.
     fn change(&mut self, index: usize, attaches: bool, at: f64) {
-        self.contact[index] = attaches;
+        let gap = self.contact.gaps()[index];
+        self.holds[index] = attaches;
         self.thresholds[index] = at;
         let sign = if attaches { 1 } else { -1 };
-        self.totals.springs += i64::from(sign);
-        self.totals.quanta += i128::from(sign) * i128::from(self.scale.quanta(self.gaps[index]));
-        let stretch = (self.gaps[index] - at).max(0.0);
-        self.squared_stretch -= f64::from(sign) * stretch * stretch;
+        self.state.totals.springs += i64::from(sign);
+        self.state.totals.quanta += i128::from(sign) * i128::from(self.contact.springs.scale().quanta(gap));
+        let stretch = (gap - at).max(0.0);
+        self.state.squared_stretch -= f64::from(sign) * stretch * stretch;
     }
 
     /// Sweeps until no spring touches and no fragment grows.
     fn relax_loading(&mut self) {
+        let (gaps, at) = (self.contact.gaps(), self.state.indentation);
         loop {
-            let before = self.totals.springs;
+            let before = self.state.totals.springs;
             self.work.relaxation_sweeps += 1;
-            self.work.spring_updates += self.gaps.len() as u64;
-            for index in 0..self.gaps.len() {
-                if !self.contact[index] && self.gaps[index] <= self.indentation {
-                    self.change(index, true, self.indentation);
+            self.work.spring_updates += gaps.len() as u64;
+            for (index, &gap) in gaps.iter().enumerate() {
+                if !self.holds[index] && gap <= at {
+                    self.change(index, true, at);
                 }
             }
-            if self.hess.is_some() {
+            if self.contact.hess.is_some() {
                 self.grow_fragments();
             }
-            if self.totals.springs == before {
+            if self.state.totals.springs == before {
                 return;
             }
         }
@@ -106,32 +97,19 @@ impl<'a> Stepwise<'a> {
 
     /// Extends each fragment over its neighbours as long as the rule allows.
     fn grow_fragments(&mut self) {
-        let count = self.gaps.len();
+        let (gaps, at) = (self.contact.gaps(), self.state.indentation);
         let mut first = 0;
-        while first < count {
-            if !self.contact[first] {
-                first += 1;
-                continue;
-            }
-            let mut start = first;
-            let mut end = first + 1;
+        while let Some(start) = (first..gaps.len()).find(|&index| self.holds[index]) {
+            let (mut start, mut end) = (start, start + 1);
             loop {
-                while end < count && self.contact[end] {
-                    end += 1;
-                }
-                while start > 0 && self.contact[start - 1] {
-                    start -= 1;
-                }
+                end += self.holds[end..].iter().take_while(|&&holds| holds).count();
+                start -= self.holds[..start].iter().rev().take_while(|&&holds| holds).count();
                 let stretch = self.largest_stretch(end - start, Direction::Loading);
                 self.work.spring_updates += 2;
-                let takes = |index: usize| self.gaps[index] - stretch <= self.indentation;
-                if end < count && takes(end) {
-                    self.change(end, true, self.indentation);
-                } else if start > 0 && takes(start - 1) {
-                    self.change(start - 1, true, self.indentation);
-                } else {
-                    break;
-                }
+                let takes = |index: &usize| gaps.get(*index).is_some_and(|gap| gap - stretch <= at);
+                let next = Some(end).filter(takes).or_else(|| start.checked_sub(1).filter(takes));
+                let Some(next) = next else { break };
+                self.change(next, true, at);
             }
             first = end;
         }
@@ -139,195 +117,147 @@ impl<'a> Stepwise<'a> {
 
     /// Sweeps until every fragment holds its most stretched spring.
     fn relax_unloading(&mut self, held_until: f64) {
+        let (gaps, at) = (self.contact.gaps(), self.state.indentation);
         loop {
-            let held = self.totals.springs;
+            let held = self.state.totals.springs;
             self.work.relaxation_sweeps += 1;
             let mut first = 0;
-            while first < self.gaps.len() {
-                let mut end = first;
-                while end < self.gaps.len() && self.contact[end] {
-                    end += 1;
-                }
+            while first < gaps.len() {
+                let end = first + self.holds[first..].iter().take_while(|&&holds| holds).count();
                 self.work.spring_updates += 2 * (end - first) as u64 + 1;
                 let stretch = self.largest_stretch(end - first, Direction::Unloading);
-                for index in first..end {
-                    let gap = self.gaps[index];
+                for (place, &gap) in gaps[first..end].iter().enumerate() {
                     // A spring stretched too far here is stretched too far in each part of the fragment as well.
-                    if self.indentation <= gap - stretch && self.indentation < gap {
-                        self.change(index, false, held_until);
+                    if at <= gap - stretch && at < gap {
+                        self.change(first + place, false, held_until);
                     }
                 }
                 first = end + 1;
             }
-            if self.totals.springs == held {
+            if self.state.totals.springs == held {
                 return;
             }
         }
     }
 
-    fn count_fragments(&mut self) {
-        let starts =
-            (0..self.contact.len()).filter(|&i| self.contact[i] && (i == 0 || !self.contact[i - 1])).count();
-        self.totals.fragments = starts as i64;
+    fn largest_stretch(&self, springs: usize, direction: Direction) -> f64 {
+        self.contact.rule().on(direction).largest_stretch(springs as u32)
     }
 
     fn point(&self) -> CurvePoint {
-        let compression = self.totals.compression(self.indentation, &self.scale);
+        let State { indentation, totals, .. } = self.state;
+        let compression = totals.compression(indentation, &self.contact.springs.scale());
+        let fragments = self.holds.chunk_by(PartialEq::eq).filter(|run| run[0]).count();
         CurvePoint {
-            indentation: self.indentation,
-            force: self.foundation.spring_stiffness() * compression,
-            contact_length: self.foundation.contact_length(self.totals.springs as f64),
-            springs: counted(self.totals.springs),
-            fragments: counted(self.totals.fragments),
+            indentation,
+            force: self.contact.foundation.spring_stiffness() * compression,
+            contact_length: self.contact.foundation.contact_length(totals.springs as f64),
+            springs: counted(totals.springs),
+            fragments: fragments as u64,
         }
     }
 
-    /// Sets the thresholds for the beginning of a leg.
-    fn begin(&mut self) {
-        for (threshold, &contact) in self.thresholds.iter_mut().zip(&self.contact) {
-            *threshold = if contact { f64::NEG_INFINITY } else { f64::INFINITY };
-        }
-        self.squared_stretch = 0.0;
-    }
-
-    /// Refuses a leg whose end is out of reach or beyond the limit of steps, before its first step.
-    ///
-    /// # Errors
-    /// [`ContactError::DetachesBefore`], [`ContactError::OutOfReach`], [`ContactError::TooManySteps`].
-    fn check_reach(&self, leg: Leg, direction: Direction, target: Target) -> Result<(), ContactError> {
-        let end = match target {
-            Target::Indentation(end) => end,
-            Target::Force(_) | Target::Separation => self.reaches(leg, direction, target)?,
+    /// Refuses a motion that certainly takes more steps than allowed, before its first step.
+    fn check_steps(&self, direction: Direction, goal: Goal) -> Result<(), ContactError> {
+        let start = self.state.indentation;
+        let end = match goal {
+            Goal::Indentation(end) => end,
+            // Adhesion only lessens the force, and any patch holds the highest point to the stretch of one spring.
+            Goal::Force(force) if direction == Direction::Loading => self.pressed_to(force),
+            Goal::Force(_) => start,
+            Goal::Separation => -self.largest_stretch(1, Direction::Unloading),
         };
+        if !end.is_finite() {
+            return Err(ContactError::OutOfReach);
+        }
         // From separation the first step is the touch.
-        let start = if self.totals.springs == 0 { self.indentation.max(0.0) } else { self.indentation };
-        // No end is closer than the exact one, and the last step may be partial.
-        if (end - start).abs() / self.step > STEP_LIMIT as f64 {
-            let index = self.legs;
-            return Err(ContactError::TooManySteps { index, step: self.step, limit: STEP_LIMIT });
+        let start = if self.state.totals.springs == 0 { start.max(0.0) } else { start };
+        let way = if direction == Direction::Loading { end - start } else { start - end };
+        if way / self.step > STEP_LIMIT as f64 { Err(self.too_many_steps()) } else { Ok(()) }
+    }
+
+    fn too_many_steps(&self) -> ContactError {
+        ContactError::TooManySteps { step: self.step, limit: STEP_LIMIT }
+    }
+
+    /// Indentation at which the springs carry a force without adhesion, m: the lowest k of them compressed by
+    /// Σ (d − c) = F/Δk.
+    fn pressed_to(&self, force: f64) -> f64 {
+        let mut gaps = self.contact.gaps().to_vec();
+        gaps.sort_unstable_by(f64::total_cmp);
+        let mut sum = force.max(0.0) / self.contact.foundation.spring_stiffness();
+        let mut end = f64::INFINITY;
+        for (count, gap) in gaps.iter().enumerate() {
+            if *gap >= end {
+                break;
+            }
+            sum += gap;
+            end = sum / (count + 1) as f64;
         }
-        Ok(())
+        end
     }
 
-    /// Indentation, m, at which the present contact, pulled, reaches a target, or below which no contact, pressed, carries
-    /// a force: adhesion only lessens it.
-    fn reaches(&self, leg: Leg, direction: Direction, target: Target) -> Result<f64, ContactError> {
-        let tree = Arc::new(ContactTree::build(self.gaps, Edges::Grid)?);
-        let body = match direction {
-            Direction::Loading => {
-                Manual::new(self.gaps, tree, GridEdges::new(HessRule::NO_ADHESION), self.foundation)
-                    .map_err(ManualError::Contact)
-            }
-            Direction::Unloading => {
-                let edges = GridEdges::new(self.hess.unwrap_or(HessRule::NO_ADHESION));
-                let contacts = fragments::runs(self.contact.iter().copied());
-                let at = self.indentation;
-                Manual::in_contact(self.gaps, tree, edges, self.foundation, at, &contacts, &[])
-            }
-        };
-        let reached = body.and_then(|mut body| {
-            match target {
-                Target::Force(force) if direction == Direction::Loading => {
-                    body.move_to_force(force.max(0.0))?
-                }
-                Target::Force(force) => body.move_to_force(force)?,
-                Target::Indentation(_) | Target::Separation => body.separate(),
-            };
-            Ok(body.point().indentation)
-        });
-        reached.map_err(|error| match error {
-            ManualError::Contact(error) => error,
-            ManualError::DetachesBefore { smallest, .. } => {
-                ContactError::DetachesBefore { index: self.legs, leg, smallest }
-            }
-            ManualError::NotFinite { .. }
-            | ManualError::NothingToPull { .. }
-            | ManualError::OutOfReach { .. } => ContactError::OutOfReach { index: self.legs, leg },
-        })
-    }
-
-    /// Steps to the target.
-    fn walk(&mut self, leg: Leg, direction: Direction, target: Target) -> Result<LegRecord, ContactError> {
-        self.begin();
-        let before = self.totals.springs;
-        let mut curve = Thinned::new(self.samples);
+    /// Steps to the goal.
+    fn walk(&mut self, target: Target, direction: Direction, goal: Goal) -> Result<LegRecord, ContactError> {
+        for (threshold, &holds) in self.thresholds.iter_mut().zip(&self.holds) {
+            *threshold = if holds { f64::NEG_INFINITY } else { f64::INFINITY };
+        }
+        (self.state.direction, self.state.squared_stretch) = (direction, 0.0);
         let here = self.point();
+        let mut curve = Thinned::new(self.samples);
         curve.push(here);
-        let (mut largest, mut smallest) = (here, here);
-        let mut origin = self.indentation;
-        let mut steps: u64 = 0;
+        let [mut smallest, mut largest] = [here; 2];
+        let loads = direction == Direction::Loading;
         // From separation the first step is the touch.
-        let mut touch = before == 0 && direction == Direction::Loading;
-        if touch {
-            origin = origin.max(0.0);
-        }
-        loop {
+        let touches = here.springs == 0 && loads;
+        let origin = if touches { here.indentation.max(0.0) } else { here.indentation };
+        for steps in u64::from(!touches).. {
             if (self.stop)() {
                 return Err(ContactError::Interrupted);
             }
-            if steps >= STEP_LIMIT {
-                let index = self.legs;
-                return Err(ContactError::TooManySteps { index, step: self.step, limit: STEP_LIMIT });
+            if steps > STEP_LIMIT {
+                return Err(self.too_many_steps());
             }
-            let held_until = self.indentation;
-            steps += u64::from(!touch);
-            touch = false;
+            let held_until = self.state.indentation;
             let moved = steps as f64 * self.step;
-            let wanted = match direction {
-                Direction::Loading => origin + moved,
-                Direction::Unloading => origin - moved,
+            let wanted = if loads { origin + moved } else { origin - moved };
+            self.state.indentation = match goal {
+                Goal::Indentation(end) if loads => wanted.min(end),
+                Goal::Indentation(end) => wanted.max(end),
+                _ => wanted,
             };
-            self.indentation = target.clip(wanted, direction);
             self.work.steps += 1;
-            match direction {
-                Direction::Loading => self.relax_loading(),
-                Direction::Unloading => self.relax_unloading(held_until),
+            if loads {
+                self.relax_loading()
+            } else {
+                self.relax_unloading(held_until)
             }
-            self.count_fragments();
             let point = self.point();
             curve.push(point);
-            if point.force > largest.force {
-                largest = point;
-            }
-            if point.force < smallest.force {
-                smallest = point;
-            }
-            if target.reached(&point, direction) {
+            largest = if point.force > largest.force { point } else { largest };
+            smallest = if point.force < smallest.force { point } else { smallest };
+            let holds = point.springs > 0;
+            let reached = match goal {
+                Goal::Indentation(end) => point.indentation == end,
+                Goal::Force(force) if loads => point.force >= force,
+                Goal::Force(_) if !holds => {
+                    return Err(ContactError::DetachesBefore { smallest: smallest.force });
+                }
+                Goal::Force(force) => point.force <= force,
+                Goal::Separation => !holds,
+            };
+            if reached {
                 break;
             }
-            if point.springs == 0 && direction == Direction::Unloading && matches!(target, Target::Force(_)) {
-                let index = self.legs;
-                return Err(ContactError::DetachesBefore { index, leg, smallest: smallest.force });
-            }
         }
-        let changed = (self.totals.springs - before).unsigned_abs();
+        let changed = self.state.totals.springs.abs_diff(here.springs as i64);
         // The sum counts detachments.
-        let squared =
-            if direction == Direction::Loading { -self.squared_stretch } else { self.squared_stretch };
-        let energy = 0.5 * self.foundation.spring_stiffness() * squared;
+        let squared = if loads { -self.state.squared_stretch } else { self.state.squared_stretch };
+        let energy = 0.5 * self.contact.foundation.spring_stiffness() * squared;
         let curve = curve.finish(smallest, direction);
-        let record = LegRecord::moved((leg, direction), curve, [smallest, largest], changed, energy);
+        let record = LegRecord::moved((target, direction), curve, [smallest, largest], changed, energy);
         self.work.count(&record);
         Ok(record)
-    }
-}
-
-impl Target {
-    fn clip(self, indentation: f64, direction: Direction) -> f64 {
-        match (self, direction) {
-            (Target::Indentation(end), Direction::Loading) => indentation.min(end),
-            (Target::Indentation(end), Direction::Unloading) => indentation.max(end),
-            _ => indentation,
-        }
-    }
-
-    fn reached(self, point: &CurvePoint, direction: Direction) -> bool {
-        match (self, direction) {
-            (Target::Indentation(end), _) => point.indentation == end,
-            (Target::Force(force), Direction::Loading) => point.force >= force,
-            (Target::Force(force), Direction::Unloading) => point.force <= force && point.springs > 0,
-            (Target::Separation, _) => point.springs == 0,
-        }
     }
 }
 
@@ -371,30 +301,26 @@ impl Thinned {
 }
 
 impl Solver for Stepwise<'_> {
-    fn advance(&mut self, leg: Leg) -> Result<LegRecord, ContactError> {
+    fn advance(&mut self, target: Target) -> Result<LegRecord, ContactError> {
         let here = self.point();
-        let record = match plan(leg, here, self.legs)? {
-            None => LegRecord::still(leg, here),
-            Some((_, Target::Indentation(end))) if here.springs == 0 && end < 0.0 => {
-                self.indentation = end;
-                LegRecord::free(leg, here.indentation, end)
+        match plan(target, here)? {
+            None => Ok(LegRecord::still(target, here)),
+            Some((_, Goal::Indentation(end))) if here.springs == 0 && end < 0.0 => {
+                self.state.indentation = end;
+                Ok(LegRecord::free(target, here.indentation, end))
             }
-            Some((direction, target)) => {
-                self.check_reach(leg, direction, target)?;
-                let (contact, thresholds) = (self.contact.clone(), self.thresholds.clone());
-                let totals = self.totals;
-                self.walk(leg, direction, target).inspect_err(|_| {
-                    (self.contact, self.thresholds) = (contact, thresholds);
-                    (self.indentation, self.totals) = (here.indentation, totals);
-                })?
+            Some((direction, goal)) => {
+                self.check_steps(direction, goal)?;
+                let before = (self.state, self.holds.clone(), self.thresholds.clone());
+                self.walk(target, direction, goal).inspect_err(|_| {
+                    (self.state, self.holds, self.thresholds) = before;
+                })
             }
-        };
-        self.legs += 1;
-        Ok(record)
+        }
     }
 
-    fn leg(&self) -> LegView<'_> {
-        LegView::of_thresholds(self.gaps, &self.thresholds)
+    fn leg(&self) -> Leg {
+        Leg::of_thresholds(self.contact, self.state.direction, self.thresholds.clone())
     }
 
     fn work(&self) -> Work {

@@ -1,5 +1,7 @@
 //! Totals of the springs in contact, as sums without cancellation: exact counts and fixed-point gaps.
 
+use crate::scene::Edges;
+
 /// Fixed-point scale of the gaps of one line: a quantum is 2⁻⁶² of the power of two above its largest
 /// gap.
 ///
@@ -141,6 +143,20 @@ pub struct ContactTotals {
 }
 
 impl ContactTotals {
+    /// Sums the springs of one patch, or its cells where edges slide between springs.
+    #[must_use]
+    pub fn of_patch(gaps: &[f64], (first, last): (usize, usize), edges: Edges, scale: &GapScale) -> Self {
+        let springs = &gaps[first..=last];
+        let quanta = match edges {
+            Edges::Grid => springs.iter().map(|&gap| i128::from(scale.quanta(gap))).sum(),
+            Edges::SubCell => {
+                let cells = springs.windows(2);
+                cells.map(|cell| i128::from(scale.mean_quanta(cell[0], cell[1]))).sum()
+            }
+        };
+        ContactTotals { springs: springs.len() as i64, fragments: 1, quanta }
+    }
+
     /// Sum of the compressions Σ (d − c_i), m: the force in units of the spring stiffness.
     ///
     /// With n springs, unit roundoff u = 2⁻⁵³ and a largest gap below 2^e the error is at most

@@ -3,14 +3,13 @@
 use super::request::{Focus, SnapshotRequest};
 use super::snapshot::{CloseUp, FragmentFacts};
 use crate::analysis::section::{Contact, LineColumns, Part};
-use crate::contact::{Foundation, FragmentState, Snapshot};
+use crate::contact::{Leg, PatchState};
 
 /// The requested part of the line, and the fragment nearest to its middle.
 pub fn close_up(
-    (contact, rises): (&Contact<'_>, &[f64]),
+    contact: &Contact<'_>,
+    leg: &Leg,
     request: &SnapshotRequest,
-    foundation: Foundation,
-    snapshot: &Snapshot<'_>,
     line: &mut LineColumns,
 ) -> CloseUp {
     let count = contact.gaps.len();
@@ -28,18 +27,11 @@ pub fn close_up(
         .filter(|spring| shown.contains(spring))
         .map(|spring| (spring, contact.height(spring)))
         .collect();
-    let fragment = nearest(contact.fragments, centre).map(|number| {
+    let fragment = nearest(contact.fragments, centre).and_then(|number| {
         let springs = contact.fragments[number];
-        let FragmentState { length, compression, largest_stretch, most_stretched } =
-            snapshot.fragment(contact.indentation, springs, rises.get(number).copied());
-        FragmentFacts {
-            number,
-            springs,
-            length: foundation.contact_length(length),
-            largest_stretch,
-            most_stretched,
-            force: foundation.spring_stiffness() * compression,
-        }
+        let state = leg.patch_state(contact.indentation, number)?;
+        let PatchState { length, force, largest_stretch, most_stretched } = state;
+        Some(FragmentFacts { number, springs, length, largest_stretch, most_stretched, force })
     });
     CloseUp { section, boundaries, fragment }
 }

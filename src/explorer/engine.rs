@@ -1,10 +1,8 @@
 //! The solver behind the worker.
 
-use crate::contact::ContactTree;
 use crate::scene::Scene;
 use crate::simulation::{AfterLeg, Outcome, RunError, Simulation};
 use crate::surface::Line;
-use std::sync::Arc;
 
 /// Solver of scenes: [`Simulation`], or a substitute in tests.
 pub trait Engine: Send {
@@ -21,9 +19,6 @@ pub trait Engine: Send {
 
     /// The line of the last scene.
     fn line(&self) -> Option<&Line>;
-
-    /// The tree of that line, where the scene needed one.
-    fn tree(&self) -> Option<&Arc<ContactTree>>;
 }
 
 impl Engine for Simulation {
@@ -38,9 +33,5 @@ impl Engine for Simulation {
 
     fn line(&self) -> Option<&Line> {
         Simulation::line(self)
-    }
-
-    fn tree(&self) -> Option<&Arc<ContactTree>> {
-        Simulation::tree(self)
     }
 }

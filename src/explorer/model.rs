@@ -53,8 +53,6 @@ pub struct ManualState {
     pub path: Vec<CurvePoint>,
     /// Springs attached or detached on the last move.
     pub changed: u64,
-    /// Entries visited by the last move.
-    pub touched: u64,
     /// Elastic energy released since manual loading began, J.
     pub released_energy: f64,
 }

@@ -7,17 +7,12 @@ use super::panes::{Pane, SceneSpectra};
 use super::request::{Drive, LineView, ManualMove, Newest, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Probe, Report, SolvedScene};
 use crate::analysis::section::{self, Contact, LineColumns, Part};
-use crate::contact::{ContactError, LegContact, LegRecord, Snapshot, Solver};
+use crate::contact::{ContactError, Leg, LegRecord};
 use crate::scene::{Observer, Scene};
 use std::sync::Arc;
 
 /// Most bytes of kept legs: further legs are computed again when the animation reaches them.
 const BYTES_KEPT: usize = 1 << 29;
-
-/// Memory of a leg is reused up to this multiple of the size of a leg, and always for few springs.
-const MOST_SPARE: usize = 4;
-const FEW_SPRINGS: usize = 1 << 16;
-const BYTES_PER_SPRING: usize = size_of::<f64>();
 
 /// Points of the curve over the range of indentations, when the body is pulled off manually.
 const STEPS_OF_A_PULL: f64 = 200.0;
@@ -31,10 +26,8 @@ pub struct Playback {
     generation: u64,
     scene: Option<Arc<Scene>>,
     computed: Option<Arc<SolvedScene>>,
-    /// Contact on each leg, as far as kept.
-    legs: Vec<Option<LegContact>>,
-    /// Memory for the legs of the next scene.
-    spare: Vec<LegContact>,
+    /// Legs of the loading, as far as kept.
+    legs: Vec<Option<Leg>>,
     held: Option<ManualBody>,
     /// The contact of the last snapshot, to count the springs that changed.
     last: Option<(Drive, Fragments)>,
@@ -60,11 +53,6 @@ impl Playback {
         newest: &Newest,
         report: &dyn Fn(Report) -> bool,
     ) -> Option<Report> {
-        let mut spare = std::mem::take(&mut self.spare);
-        spare.extend(self.legs.drain(..).flatten());
-        // Memory of a much larger scene is freed.
-        let most = MOST_SPARE * BYTES_PER_SPRING * (scene.numerics.points as usize).max(FEW_SPRINGS);
-        spare.retain(|leg| leg.bytes() <= most);
         *self = Playback { generation, ..Playback::default() };
         // The histogram beside the profile needs the heights.
         let mut observed = scene.as_ref().clone();
@@ -74,25 +62,12 @@ impl Playback {
         let stop = || newest.is_newer_than(generation);
         let mut bytes = 0;
         let mut legs = Vec::new();
-        let result = engine.run(&observed, &stop, &mut |leg, _, solver| {
-            let copy = if bytes <= BYTES_KEPT {
-                let mut copy = spare.pop().unwrap_or_default();
-                solver.copy_leg(&mut copy)?;
-                bytes += copy.bytes();
-                Some(copy)
-            } else {
-                None
-            };
-            legs.push(copy);
-            report(Report::Progress { generation, legs: leg + 1 });
+        let result = engine.run(&observed, &stop, &mut |stage, _, leg| {
+            legs.push(Some(leg.clone()).filter(|_| bytes <= BYTES_KEPT));
+            bytes += leg.bytes();
+            report(Report::Progress { generation, legs: stage + 1 });
             Ok(())
         });
-        if result.is_err() {
-            spare.extend(legs.drain(..).flatten());
-        }
-        // Other scenes have about as many legs; memory for more is freed.
-        spare.truncate(legs.len().max(2));
-        self.spare = spare;
         match result {
             Ok(outcome) => {
                 let computed = Arc::new(SolvedScene { generation, scene, outcome });
@@ -111,21 +86,12 @@ impl Playback {
         match order {
             ManualMove::Take { leg, indentation } => {
                 self.held = None;
-                let Some((contact, rises)) = self.contact_on_leg(engine, leg, indentation) else { return };
-                let Some((computed, line)) = self.computed.as_ref().zip(engine.line()) else { return };
-                let governing = &computed.outcome.governing;
+                self.last = None;
+                let Some(leg) = self.leg(engine, leg) else { return };
+                let Some(computed) = &self.computed else { return };
                 let preload = computed.outcome.figures.preload.unwrap_or(0.0);
                 let scales = (range_of(computed) / STEPS_OF_A_PULL, preload);
-                let edges = computed.scene.numerics.edges;
-                self.held = ManualBody::take(
-                    line,
-                    engine.tree(),
-                    edges,
-                    governing,
-                    (indentation, &contact, &rises),
-                    scales,
-                );
-                self.last = None;
+                self.held = ManualBody::take(&leg, indentation, scales);
             }
             ManualMove::Give => {
                 self.held = None;
@@ -141,20 +107,17 @@ impl Playback {
 
     /// The requested snapshot; `None` where the leg does not exist or manual loading has not begun.
     pub fn show(&mut self, engine: &mut dyn Engine, request: &SnapshotRequest) -> Option<ContactSnapshot> {
-        let ((fragments, rises), at) = match request.drive {
-            Drive::Leg(leg) => (self.contact_on_leg(engine, leg, request.indentation)?, None),
-            Drive::Manual => {
-                let held = self.held.as_ref()?;
-                ((held.fragments(), held.rises()), Some(held.point()))
+        let (leg, point) = match request.drive {
+            Drive::Leg(leg) => {
+                let leg = self.leg(engine, leg)?;
+                let point = leg.point(request.indentation).ok()?;
+                (leg, point)
             }
+            Drive::Manual => self.held.as_ref().map(|held| (held.leg().clone(), held.point()))?,
         };
+        let fragments = leg.patches(point.indentation);
         let line = engine.line()?;
         let SolvedScene { scene, outcome, .. } = self.computed.as_deref()?;
-        let (governing, deepest) = (outcome.governing, outcome.line.deepest);
-        let foundation = governing.foundation(line);
-        let hess = governing.hess_rule(foundation);
-        let snapshot = Snapshot::new(&line.gaps, deepest, scene.numerics.edges, hess);
-        let point = at.unwrap_or_else(|| snapshot.point(foundation, request.indentation, &fragments, &rises));
         let changed = match &self.last {
             Some((drive, before)) if *drive == request.drive => section::changed(before, &fragments),
             _ => 0,
@@ -170,7 +133,7 @@ impl Playback {
             fragments.first().zip(fragments.last()).map(|((first, _), (_, last))| last - first + 1);
         let between = outermost.map_or(0, |springs| springs as u64 - point.springs);
         let radius = 0.5 * (point.contact_length + between as f64 * outcome.line.spacing);
-        let close_up = close_up((&contact, &rises), request, foundation, &snapshot, &mut self.close_up);
+        let close_up = close_up(&contact, &leg, request, &mut self.close_up);
         let middle = close_up.section.first + close_up.section.springs / 2;
         let profile = profile_part(request, line.gaps.len(), middle);
         let shows_spectra = request.large.is_some_and(|pane| pane.row().needs_spectra);
@@ -201,34 +164,23 @@ impl Playback {
         Some(snapshot)
     }
 
-    /// The fragments in contact on a leg, and the rises of their edges.
-    fn contact_on_leg(
-        &mut self,
-        engine: &mut dyn Engine,
-        leg: usize,
-        indentation: f64,
-    ) -> Option<(Fragments, Vec<f64>)> {
+    /// A leg of the loading, computed again if it has not been kept.
+    fn leg(&mut self, engine: &mut dyn Engine, leg: usize) -> Option<Leg> {
         if self.legs.get(leg)?.is_none() {
             self.recall(engine, leg);
         }
-        let contact = self.legs.get(leg)?.as_ref()?;
-        let tree = engine.tree().map(AsRef::as_ref);
-        let gaps = &engine.line()?.gaps;
-        let leg = contact.view(gaps, tree);
-        Some((leg.fragments(indentation), leg.rises(indentation)))
+        self.legs.get(leg)?.clone()
     }
 
     /// Computes a leg again that was not kept.
     fn recall(&mut self, engine: &mut dyn Engine, wanted: usize) {
         let Some(scene) = &self.scene else { return };
         let mut found = None;
-        let mut after = |leg: usize, _: &LegRecord, solver: &dyn Solver| {
-            if leg < wanted {
+        let mut after = |stage: usize, _: &LegRecord, leg: &Leg| {
+            if stage < wanted {
                 return Ok(());
             }
-            let mut copy = LegContact::default();
-            solver.copy_leg(&mut copy)?;
-            found = Some(copy);
+            found = Some(leg.clone());
             // Nothing after this leg is needed.
             Err(ContactError::Interrupted)
         };

@@ -5,7 +5,7 @@ use super::panes::SceneSpectra;
 pub use super::request::Drive;
 use super::request::Focus;
 pub use crate::analysis::{Column, LengthBin, Section, Share};
-use crate::contact::{CurvePoint, ManualError};
+use crate::contact::{ContactError, CurvePoint};
 use crate::scene::Scene;
 use crate::simulation::{LineFacts, Outcome};
 use std::sync::Arc;
@@ -76,8 +76,6 @@ pub struct ManualPath {
     pub path: Vec<CurvePoint>,
     /// Springs attached or detached.
     pub changed: u64,
-    /// Visited entries of lists and trees.
-    pub touched: u64,
     /// Elastic energy released since manual loading began, J.
     pub released_energy: f64,
     /// Reason why the body was not moved.
@@ -100,13 +98,13 @@ pub enum Refusal {
         largest: f64,
     },
     /// Any other.
-    Other(ManualError),
+    Other(ContactError),
 }
 
-impl From<ManualError> for Refusal {
-    fn from(error: ManualError) -> Self {
+impl From<ContactError> for Refusal {
+    fn from(error: ContactError) -> Self {
         match error {
-            ManualError::DetachesBefore { smallest, .. } => Refusal::Detaches { smallest },
+            ContactError::DetachesBefore { smallest } => Refusal::Detaches { smallest },
             other => Refusal::Other(other),
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::analysis::section::{Column, Contact, LineColumns, Part};
 use crate::analysis::{Mark, marks, preload_point};
-use crate::contact::{ContactError, CurvePoint, Direction, LegRecord, Solver};
+use crate::contact::{ContactError, CurvePoint, Direction, Leg, LegRecord};
 use crate::draw::{
     Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label,
 };
@@ -120,8 +120,8 @@ impl ContactSets {
     ///
     /// # Errors
     /// None; the type is that of an observer of a run.
-    pub fn observe(&mut self, record: &LegRecord, solver: &dyn Solver) -> Result<(), ContactError> {
-        let at = |indentation: f64| Patches { indentation, fragments: solver.fragments(indentation) };
+    pub fn observe(&mut self, record: &LegRecord, leg: &Leg) -> Result<(), ContactError> {
+        let at = |indentation: f64| Patches { indentation, fragments: leg.patches(indentation) };
         let larger = |point: &CurvePoint| self.preload.as_ref().is_none_or(|(force, _)| point.force > *force);
         let preload = preload_point(slice::from_ref(record)).map(|(_, point)| point);
         if let Some(point) = preload.filter(larger) {
@@ -245,7 +245,7 @@ mod tests {
         let mut simulation = Simulation::default();
         let mut sets = ContactSets::new(true);
         let outcome = simulation
-            .run(document.scene(), &|| false, &mut |_, record, solver| sets.observe(record, solver))
+            .run(document.scene(), &|| false, &mut |_, record, leg| sets.observe(record, leg))
             .unwrap();
         let line = simulation.make_line(document.scene()).unwrap().0.clone();
         (outcome, sets, line)

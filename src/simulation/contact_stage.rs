@@ -3,25 +3,20 @@
 use super::AfterLeg;
 use crate::analysis::Figures;
 use crate::contact::{
-    AdhesiveMemory, ContactError, ContactRule, ContactTree, Exact, Foundation, HessRule, History, LegRecord,
-    Solver, Stepwise, run,
+    Body, Contact, ContactError, History, Leg, LegRecord, Solver, Stepwise, Workspace, run,
 };
-use crate::scene::{Leg, Scene, Solver as SolverChoice};
-use crate::surface::Line;
+use crate::scene::{Leg as Target, Scene, Solver as SolverChoice};
+use std::mem::take;
 use std::time::Instant;
 
 /// Parameters of the contact of one run.
 pub(super) struct ContactStage<'a> {
-    pub line: &'a Line,
-    pub tree: Option<&'a ContactTree>,
-    pub foundation: Foundation,
-    pub hess: Option<HessRule>,
+    pub contact: Contact,
+    /// Number of the first spring under the body, from the first one of the foundation.
+    pub first: usize,
     pub scene: &'a Scene,
     pub stop: &'a dyn Fn() -> bool,
 }
-
-/// Memory reused from run to run.
-pub(super) type ContactMemory = AdhesiveMemory;
 
 /// Result of the contact stage.
 pub(super) struct Contacted {
@@ -39,19 +34,18 @@ impl ContactStage<'_> {
     pub fn run(
         &self,
         zero_load: bool,
-        memory: &mut ContactMemory,
+        memory: &mut Workspace,
         after: &mut AfterLeg<'_>,
     ) -> Result<Contacted, ContactError> {
-        let gaps = self.line.gaps.as_slice();
         let samples = self.scene.numerics.samples as usize;
         match self.scene.numerics.solver {
             SolverChoice::Stepwise { step } => {
-                let body =
-                    |samples| Stepwise::new(gaps, self.hess, self.foundation, step, samples, self.stop);
+                let body = |samples| Stepwise::new(&self.contact, step, samples, self.stop);
                 let mut contacted = self.load(&mut body(samples)?, after)?;
                 if zero_load {
                     let clock = Instant::now();
-                    let touch = run(&mut body(2)?, &[Leg::ToTouch, Leg::ToSeparation], |_, _| Ok(()))?;
+                    let touch = [Target::ToTouch, Target::ToSeparation];
+                    let touch = run(&mut body(2)?, &touch, |_, _| Ok(()))?;
                     contacted.zero_load_adhesion_force = Figures::of(&touch).adhesion_force;
                     contacted.history.work.add_effort(&touch.work);
                     contacted.zero_load_seconds = clock.elapsed().as_secs_f64();
@@ -59,12 +53,12 @@ impl ContactStage<'_> {
                 Ok(contacted)
             }
             SolverChoice::Exact => {
-                let mut body = self.body(memory)?;
+                let mut body = self.body(memory);
                 let contacted = self.load(&mut body, after).and_then(|mut contacted| {
-                    if zero_load && self.hess.is_some() {
+                    if zero_load && self.contact.hess.is_some() {
                         let clock = Instant::now();
-                        let (force, work) = body.pull_off_at_touch()?;
-                        contacted.history.work.add_effort(&work);
+                        let force = body.pull_off_at_touch()?;
+                        contacted.history.work = body.work();
                         // Not −F, which would make a force of zero negative.
                         contacted.zero_load_adhesion_force =
                             Some(force).filter(|&force| force <= 0.0).map(|force| 0.0 - force);
@@ -72,40 +66,29 @@ impl ContactStage<'_> {
                     }
                     Ok(contacted)
                 });
-                body.give_back(memory);
+                *memory = body.into_workspace();
                 contacted
             }
         }
     }
 
-    /// The separated body of the exact solver; with adhesion it works in this memory.
-    ///
-    /// # Errors
-    /// [`ContactError::Internal`] for adhesion without the tree of the scene.
-    pub fn body(&self, memory: &mut ContactMemory) -> Result<Exact<'_>, ContactError> {
-        let numerics = &self.scene.numerics;
-        let rule = match (self.hess, self.tree) {
-            (None, _) => ContactRule::Nonadhesive(numerics.edges),
-            (Some(hess), Some(tree)) if tree.edges() == numerics.edges => ContactRule::Hess(hess, tree),
-            _ => return Err(ContactError::Internal("adhesion without the tree of the profile")),
-        };
-        Ok(Exact::new(memory, &self.line.gaps, rule, self.foundation, numerics.samples as usize))
+    /// The separated body of the exact solver, which works in this memory.
+    pub fn body(&self, memory: &mut Workspace) -> Body {
+        Body::new_in(take(memory), &self.contact, self.scene.numerics.samples as usize)
     }
 
     /// Runs the loading of the scene.
-    fn load<S: Solver>(&self, body: &mut S, after: &mut AfterLeg<'_>) -> Result<Contacted, ContactError> {
-        let mut leg = 0;
-        let mut history = run(body, &self.scene.loading, |record, body| {
+    fn load(&self, body: &mut dyn Solver, after: &mut AfterLeg<'_>) -> Result<Contacted, ContactError> {
+        let mut stage = 0;
+        let mut history = run(body, &self.scene.loading, |record, leg| {
             if (self.stop)() {
                 return Err(ContactError::Interrupted);
             }
-            after(leg, record, body)?;
-            leg += 1;
+            after(stage, record, leg)?;
+            stage += 1;
             Ok(())
         })?;
-        for contact in &mut history.contacts {
-            *contact = self.on_foundation(*contact);
-        }
+        history.contacts.iter_mut().for_each(|contact| *contact = self.on_foundation(*contact));
         Ok(Contacted {
             history,
             curve_seconds: body.curve_seconds(),
@@ -115,10 +98,10 @@ impl ContactStage<'_> {
     }
 
     /// The fragments in contact at the end of a loading stage.
-    pub fn fragments_after(&self, record: &LegRecord, solver: &dyn Solver) -> Vec<(usize, usize)> {
+    pub fn fragments_after(&self, record: &LegRecord, leg: &Leg) -> Vec<(usize, usize)> {
         match record.curve.last() {
             Some(end) if end.springs > 0 => {
-                solver.fragments(end.indentation).into_iter().map(|run| self.on_foundation(run)).collect()
+                leg.patches(end.indentation).into_iter().map(|patch| self.on_foundation(patch)).collect()
             }
             _ => Vec::new(),
         }
@@ -126,31 +109,6 @@ impl ContactStage<'_> {
 
     /// Springs under the body, numbered from the first spring of the foundation.
     fn on_foundation(&self, (first, last): (usize, usize)) -> (usize, usize) {
-        (first + self.line.first, last + self.line.first)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::analysis::Governing;
-    use crate::scene::{Edges, open};
-    use crate::simulation::Simulation;
-
-    #[test]
-    fn adhesion_is_refused_without_the_tree_of_its_edges() {
-        let document = open("jkr-sphere").unwrap();
-        let scene = document.scene();
-        let mut simulation = Simulation::default();
-        let (line, _, governing): (&Line, _, Governing) = simulation.make_line(scene).unwrap();
-        let foundation = governing.foundation(line);
-        let other = ContactTree::build(&line.gaps, Edges::Grid).unwrap();
-        assert_eq!(scene.numerics.edges, Edges::SubCell);
-        for tree in [None, Some(&other)] {
-            let hess = governing.hess_rule(foundation);
-            let stage = ContactStage { line, tree, foundation, hess, scene, stop: &|| false };
-            let error = stage.body(&mut ContactMemory::default()).err();
-            assert!(matches!(error, Some(ContactError::Internal(_))), "{error:?}");
-        }
+        (first + self.first, last + self.first)
     }
 }

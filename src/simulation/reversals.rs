@@ -3,7 +3,7 @@
 use super::stages::Prepared;
 use super::{Plan, RunError, Simulation};
 use crate::analysis::{MinorLoops, ReversalMap};
-use crate::contact::{ContactError, LegRecord, Reversal, Reversals};
+use crate::contact::{ContactError, LegRecord, Reversal};
 use crate::scene::{Leg, Scene, Solver as SolverChoice};
 use std::ops::RangeInclusive;
 
@@ -49,9 +49,9 @@ impl Simulation {
             see(index, reversal)?;
             interrupted()
         };
-        let mut reversals = Reversals::new(contact.body(memory)?, ends)?;
-        let done = reversals.each(points, &mut see);
-        reversals.into_body().give_back(memory);
+        let mut body = contact.body(memory);
+        let done = body.reversals(ends, points, &mut see);
+        *memory = body.into_workspace();
         Ok(done?)
     }
 

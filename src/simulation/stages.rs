@@ -1,9 +1,9 @@
 //! Execution of the stages of a scene whose input has changed since the last run.
 
-use super::contact_stage::{ContactMemory, ContactStage};
+use super::contact_stage::ContactStage;
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
 use crate::analysis::{Figures, Governing, Regime, SteepWaves, ideal_adhesion_force, scene_tabor_number};
-use crate::contact::{ContactError, ContactTree, LegRecord, Solver};
+use crate::contact::{Contact, ContactError, ContactTree, Leg, LegRecord, Springs, Workspace};
 use crate::memory::check_room;
 use crate::parallel::in_parallel;
 use crate::reference::smooth_adhesion_force;
@@ -52,10 +52,11 @@ pub struct Simulation {
     line: Option<(LineKey, Line)>,
     /// Histogram of the heights of the profile, once observed.
     histogram: Option<Histogram>,
-    tree: Option<Arc<ContactTree>>,
-    /// True if the tree is that of the present profile.
-    tree_is_current: bool,
-    memory: ContactMemory,
+    /// Springs of the profile.
+    springs: Arc<Springs>,
+    /// Memory of the tree of a former profile.
+    former_tree: ContactTree,
+    memory: Workspace,
     kept: Kept,
 }
 
@@ -112,7 +113,7 @@ struct LineKey {
 /// Contact of a scene before its stage, with the results of making its profile and tree.
 pub(super) struct Prepared<'a> {
     pub contact: ContactStage<'a>,
-    pub memory: &'a mut ContactMemory,
+    pub memory: &'a mut Workspace,
     facts: LineFacts,
     governing: Governing,
     random_phases: u64,
@@ -121,8 +122,8 @@ pub(super) struct Prepared<'a> {
     timings: Timings,
 }
 
-/// Called after each loading stage with its index, its record and the solver at its end; an error stops the run.
-pub type AfterLeg<'a> = dyn FnMut(usize, &LegRecord, &dyn Solver) -> Result<(), ContactError> + 'a;
+/// Called after each loading stage with its index, its record and its leg; an error stops the run.
+pub type AfterLeg<'a> = dyn FnMut(usize, &LegRecord, &Leg) -> Result<(), ContactError> + 'a;
 
 impl Simulation {
     /// A simulation with measured profiles in `folder`.
@@ -148,12 +149,6 @@ impl Simulation {
     #[must_use]
     pub fn line(&self) -> Option<&Line> {
         self.line.as_ref().map(|(_, line)| line)
-    }
-
-    /// The tree of this profile, if the last scene has adhesion and the exact solver.
-    #[must_use]
-    pub fn tree(&self) -> Option<&Arc<ContactTree>> {
-        self.tree.as_ref().filter(|_| self.tree_is_current)
     }
 
     /// Makes the profile of a checked scene, unless unchanged since the last one, and returns its known values.
@@ -182,7 +177,9 @@ impl Simulation {
         let key = LineKey { roughness: key, scale, length: scene.length, points, form: scene.form };
         let modes = rough.and_then(|rough| rough.modes);
         if self.line.as_ref().is_none_or(|(kept, _)| *kept != key) {
-            self.line = Some((key.clone(), self.lay_line(scene, &key)?));
+            let line = self.lay_line(scene, &key)?;
+            self.springs = Arc::new(Springs::new(Arc::clone(&line.gaps)));
+            self.line = Some((key, line));
         }
         let Some((_, line)) = &self.line else { return Err(NO_PROFILE.into()) };
         let facts = LineFacts {
@@ -191,7 +188,7 @@ impl Simulation {
             spacing: line.spacing,
             first: line.first,
             summit: line.summit,
-            deepest: line.deepest(),
+            deepest: self.springs.deepest(),
             modes,
             seed: scene.seed(),
             continuum_rms_gradient: spectrum.zip(governing.amplitude).map(|((spectrum, _), amplitude)| {
@@ -204,9 +201,13 @@ impl Simulation {
     /// Makes a profile from the heights of its roughness.
     fn lay_line(&mut self, scene: &Scene, key: &LineKey) -> Result<Line, RunError> {
         let LineKey { scale, length, points, .. } = *key;
-        self.tree_is_current = false;
         self.histogram = None;
-        let mut memory = self.line.take().map(|(_, line)| line.gaps).unwrap_or_default();
+        // Nothing else uses the springs unless a caller has kept a leg.
+        if let Some(springs) = Arc::into_inner(take(&mut self.springs)) {
+            self.former_tree = springs.into_tree();
+        }
+        let mut memory =
+            self.line.take().and_then(|(_, line)| Arc::into_inner(line.gaps)).unwrap_or_default();
         if let (Some(of), Some((_, rough))) = (&key.roughness, &self.roughness)
             && rough.heights.is_empty()
         {
@@ -264,24 +265,20 @@ impl Simulation {
     /// of heights sorted into bins.
     fn look_at_line(&mut self, plan: &Plan, edges: Edges) -> Result<u64, ContactError> {
         let Some((_, line)) = &self.line else { return Err(NO_PROFILE) };
-        let springs = line.gaps.len();
         let count = plan.runs(Stage::HeightHistogram) && self.histogram.is_none();
-        let is_current = self.tree_is_current && self.tree.as_ref().is_some_and(|tree| tree.edges() == edges);
-        let build = plan.runs(Stage::Tree) && !is_current;
-        let before = if build { self.tree.take() } else { None };
+        let build = plan.runs(Stage::Tree) && !self.springs.has_tree(edges);
+        let (springs, memory) = (&self.springs, take(&mut self.former_tree));
         let aside = || {
             let histogram = || Histogram::new(line.heights(), line.lowest(), line.summit, HISTOGRAM_BINS);
             count.then(histogram)
         };
-        let (histogram, built) = in_parallel(count && build && springs >= MANY_SPRINGS, aside, || {
-            build.then(|| build_tree(before, &line.gaps, edges))
-        });
-        if let Some(tree) = built {
-            self.tree = Some(Arc::new(tree?));
-            self.tree_is_current = true;
-        }
+        let (histogram, built) =
+            in_parallel(count && build && line.gaps.len() >= MANY_SPRINGS, aside, || {
+                build.then(|| springs.tree_in(memory, edges))
+            });
+        built.transpose()?;
         self.histogram = histogram.or(self.histogram.take());
-        Ok(if count { springs as u64 } else { 0 })
+        Ok(if count { line.gaps.len() as u64 } else { 0 })
     }
 
     /// Checks the memory of a run before any allocation: kept memory counts, and is released if it is far too large
@@ -331,7 +328,9 @@ impl Simulation {
         let Some((_, line)) = &self.line else { return Err(NO_PROFILE.into()) };
         let foundation = governing.foundation(line);
         let hess = governing.hess_rule(foundation).filter(|_| plan.runs(Stage::RuleOfHess));
-        let contact = ContactStage { line, tree: self.tree.as_deref(), foundation, hess, scene, stop };
+        let (springs, edges) = (Arc::clone(&self.springs), scene.numerics.edges);
+        let contact = Contact { springs, foundation, edges, hess };
+        let contact = ContactStage { contact, first: line.first, scene, stop };
         let memory = &mut self.memory;
         Ok(Prepared { contact, memory, facts, governing, random_phases, heights_binned, timings })
     }
@@ -350,15 +349,15 @@ impl Simulation {
         let plan = Plan::of(scene);
         let made = self.prepare(&plan, scene, stop)?;
         let Prepared { contact, memory, facts, governing, random_phases, heights_binned, mut timings } = made;
-        let hess = contact.hess;
+        let adheres = contact.contact.hess.is_some();
 
         let clock = Instant::now();
         let mut fragments = Vec::new();
-        let mut observe = |leg: usize, record: &LegRecord, solver: &dyn Solver| {
+        let mut observe = |stage: usize, record: &LegRecord, leg: &Leg| {
             if plan.runs(Stage::Fragments) {
-                fragments.push(contact.fragments_after(record, solver));
+                fragments.push(contact.fragments_after(record, leg));
             }
-            after(leg, record, solver)
+            after(stage, record, leg)
         };
         let contacted = contact.run(plan.runs(Stage::ZeroLoadAdhesion), memory, &mut observe)?;
         timings.curve = contacted.curve_seconds;
@@ -373,7 +372,7 @@ impl Simulation {
         let zero_load_adhesion_force = if plan.runs(Stage::ZeroLoadAdhesion) {
             contacted.zero_load_adhesion_force
         } else {
-            figures.adhesion_force.filter(|_| hess.is_some() && Figures::is_touch_protocol(scene))
+            figures.adhesion_force.filter(|_| adheres && Figures::is_touch_protocol(scene))
         };
 
         let form = scene.form.as_ref();
@@ -406,15 +405,6 @@ fn spectrum(scene: &Scene) -> Option<(SelfAffine, u64)> {
         }
         _ => None,
     }
-}
-
-/// The tree of these gaps, in the memory of the previous one unless another owner still holds it.
-fn build_tree(
-    before: Option<Arc<ContactTree>>,
-    gaps: &[f64],
-    edges: Edges,
-) -> Result<ContactTree, ContactError> {
-    before.and_then(Arc::into_inner).unwrap_or_default().rebuild(gaps, edges)
 }
 
 /// File of the first face, the name in errors about all of them.

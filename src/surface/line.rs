@@ -3,12 +3,13 @@
 use super::{SurfaceError, mdr_profile};
 use crate::memory;
 use crate::scene::Form;
+use std::sync::Arc;
 
 /// The rigid profile above springs at x = (i + ½)Δx.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
     /// Gaps c_i = max z − z_i ≥ 0, m, of the springs under the body.
-    pub gaps: Vec<f64>,
+    pub gaps: Arc<Vec<f64>>,
     /// Index of the first of these springs on the foundation: above zero only under a punch.
     pub first: usize,
     /// Springs N of the whole foundation.
@@ -155,7 +156,7 @@ impl Springs {
         let summit = largest(&gaps).map_err(not_finite)?;
         gaps.iter_mut().for_each(|height| *height = summit - *height);
         let deepest = largest(&gaps).map_err(not_finite)?;
-        Ok(Line { gaps, first, points, length, spacing, summit, deepest })
+        Ok(Line { gaps: Arc::new(gaps), first, points, length, spacing, summit, deepest })
     }
 }
 
@@ -238,7 +239,7 @@ mod tests {
         let line = Line::new(4.0, 4, Some(&form), Some(&rough), 2.0).unwrap();
         // z = 2·rough − x² with x = −2, −1, 0, 1: −4, 5, −2, 3.
         assert_eq!(line.summit, 5.0);
-        assert_eq!(line.gaps, [9.0, 0.0, 7.0, 2.0]);
+        assert_eq!(*line.gaps, [9.0, 0.0, 7.0, 2.0]);
         assert_eq!(line.heights().collect::<Vec<_>>(), [-4.0, 5.0, -2.0, 3.0]);
     }
 

@@ -1,7 +1,8 @@
 //! Smooth bodies of revolution against their closed forms, and the order at which they are reached.
 
 use super::numerics::{integral, invert, observed_order};
-use asperity::contact::{ContactTree, Foundation, GridEdges, HessRule, LegRecord, Solver, exact};
+use super::solvers::adhesive;
+use asperity::contact::{Foundation, HessRule, LegRecord, Solver};
 use asperity::reference::PowerLaw;
 use asperity::scene::{Edges, Form, Leg};
 use asperity::surface::{Line, power_law_factor};
@@ -72,9 +73,8 @@ fn dissipated_energy([loading, unloading]: &[LegRecord; 2]) -> f64 {
 fn closed_loop(problem: &Problem, points: usize) -> [LegRecord; 2] {
     let line = Line::new(problem.length, points, problem.form.as_ref(), None, 0.0).unwrap();
     let foundation = Foundation::endless(line.spacing, problem.modulus);
-    let tree = ContactTree::build(&line.gaps, Edges::Grid).unwrap();
-    let rule = GridEdges::new(HessRule::new(foundation, problem.work));
-    let mut solver = exact::adhesive(&line.gaps, &tree, rule, foundation, 257);
+    let hess = HessRule::new(foundation, problem.work);
+    let mut solver = adhesive(&line.gaps, Edges::Grid, hess, foundation, 257);
     let [loading, unloading] =
         [Leg::ToIndentation(problem.deepest), Leg::ToSeparation].map(|leg| solver.advance(leg).unwrap());
     let separated = unloading.curve.last().unwrap();

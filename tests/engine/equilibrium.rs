@@ -1,6 +1,7 @@
 //! The exact solver against blind relaxation of the rules, independent of the library.
 
-use asperity::contact::{ContactError, ContactTree, Foundation, GridEdges, HessRule, Solver, exact};
+use super::solvers::adhesive;
+use asperity::contact::{ContactError, Foundation, HessRule, Solver};
 use asperity::scene::{Edges, Leg};
 use proptest::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -284,9 +285,8 @@ fn compare(
     compared: &Compared,
 ) -> Result<(), TestCaseError> {
     let foundation = Foundation::endless(SPACING, 1.0);
-    let tree = ContactTree::build(gaps, Edges::Grid).unwrap();
-    let rule = GridEdges::new(HessRule::from_works(foundation, ranges[0], ranges[1]));
-    let mut solver = exact::adhesive(gaps, &tree, rule, foundation, 2);
+    let hess = HessRule::from_works(foundation, ranges[0], ranges[1]);
+    let mut solver = adhesive(gaps, Edges::Grid, hess, foundation, 2);
     let mut blind = Blind::new(gaps, ranges, order);
     let mut sorted = gaps.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -303,10 +303,10 @@ fn compare(
         };
         let record = match solver.advance(leg) {
             Ok(record) => record,
-            Err(ContactError::NothingToPull { .. } | ContactError::DetachesBefore { .. }) => {
+            Err(ContactError::NothingToPull | ContactError::DetachesBefore { .. }) => {
                 // The body has not moved. The leg of a separation still has the contact of its end.
                 if blind.contact.contains(&true) {
-                    let found = solver.fragments(present);
+                    let found = solver.leg().patches(present);
                     prop_assert_eq!(found, blind.fragments(), "after {:?} failed", leg);
                     compared.one_of(&blind, alike);
                 }
@@ -325,19 +325,19 @@ fn compare(
         for probe in probes.iter().filter(|_| !stays) {
             let d = present + probe * (to - present);
             let there = blind.relaxed(d);
-            prop_assert_eq!(solver.fragments(d), there.fragments(), "at {} of {:?}", d, leg);
+            prop_assert_eq!(solver.leg().patches(d), there.fragments(), "at {} of {:?}", d, leg);
             compared.one_of(&blind, alike);
         }
         if separates {
             if to < present {
                 blind.relax(to);
                 prop_assert!(blind.contact.contains(&true), "detached before {}", to);
-                prop_assert_eq!(solver.fragments(to), blind.fragments(), "before separation at {}", to);
+                prop_assert_eq!(solver.leg().patches(to), blind.fragments(), "before separation at {}", to);
             }
             blind.relax(end.indentation - ROUNDING);
         } else {
             blind.relax(to);
-            prop_assert_eq!(solver.fragments(to), blind.fragments(), "at {}, the end of {:?}", to, leg);
+            prop_assert_eq!(solver.leg().patches(to), blind.fragments(), "at {}, the end of {:?}", to, leg);
         }
         prop_assert_eq!(end.springs as usize, blind.contact.iter().filter(|&&c| c).count());
         prop_assert_eq!(end.fragments as usize, blind.fragments().len());

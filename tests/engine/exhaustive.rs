@@ -2,9 +2,9 @@
 //! history of a few springs against blind relaxation.
 
 use super::equilibrium::{Blind, Order};
-use asperity::contact::{
-    ContactTree, EdgeModel, Foundation, GridEdges, HessRule, Solver, SubCellEdges, exact,
-};
+use super::solvers::adhesive;
+use asperity::contact::{Foundation, HessRule, Solver};
+use asperity::scene::Edges;
 use asperity::scene::Leg;
 
 const SPACING: f64 = 0.01;
@@ -86,25 +86,22 @@ impl Definition<'_> {
 }
 
 /// Compares the thresholds of a loading to full contact, and of the way back with whole springs.
-fn compare<E: EdgeModel>(gaps: &[f64], range: f64, new: impl Fn(HessRule) -> E) {
+fn compare(gaps: &[f64], range: f64, edges: Edges) {
     let foundation = Foundation::endless(SPACING, 1.0);
-    let edges = new(HessRule::new(foundation, range));
-    let tree = ContactTree::build(gaps, E::EDGES).unwrap();
-    let mut solver = exact::adhesive(gaps, &tree, edges, foundation, 2);
+    let mut solver = adhesive(gaps, edges, HessRule::new(foundation, range), foundation, 2);
     let stretch = (std::f64::consts::PI * SPACING * range).sqrt();
-    let definition = Definition { gaps, stretch, sub_cell: E::SLIDES };
-    let mut found = Vec::new();
-    let mut check = |solver: &dyn Solver, expected: &[f64]| {
-        solver.thresholds_along_line(&mut found);
+    let definition = Definition { gaps, stretch, sub_cell: edges == Edges::SubCell };
+    let check = |solver: &dyn Solver, expected: &[f64]| {
+        let found = solver.leg().thresholds();
         let agree = found.iter().zip(expected).all(|(one, other)| (one - other).abs() < 1e-12);
-        assert!(agree, "{gaps:?}, γ/E* = {range} m, {:?}: {found:?}, not {expected:?}", E::EDGES);
+        assert!(agree, "{gaps:?}, γ/E* = {range} m, {edges:?}: {found:?}, not {expected:?}");
     };
     let deepest = gaps.iter().copied().fold(0.0, f64::max) + 0.1;
     solver.advance(Leg::ToIndentation(deepest)).unwrap();
     let mut expected = vec![f64::INFINITY; gaps.len()];
     definition.close(0, gaps.len() - 1, &mut expected);
     check(&solver, &expected);
-    if !E::SLIDES {
+    if edges == Edges::Grid {
         solver.advance(Leg::ToIndentation(deepest - 0.05)).unwrap();
         definition.open(0, gaps.len() - 1, deepest, &mut expected);
         check(&solver, &expected);
@@ -122,8 +119,8 @@ fn every_order(springs: usize, before: usize) -> u64 {
             *gap = LEVELS[level];
         }
         for range in RANGES {
-            compare(&gaps, range, GridEdges::new);
-            compare(&gaps, range, SubCellEdges::new);
+            compare(&gaps, range, Edges::Grid);
+            compare(&gaps, range, Edges::SubCell);
         }
     })
 }
@@ -169,16 +166,15 @@ fn every_history(step: usize) {
         let line: Vec<f64> = digits(number, heights.len()).take(5).map(|digit| heights[digit]).collect();
         let summit = line.iter().copied().fold(f64::INFINITY, f64::min);
         let gaps: Vec<f64> = line.iter().map(|gap| gap - summit).collect();
-        let tree = ContactTree::build(&gaps, asperity::scene::Edges::Grid).unwrap();
         for [closing, opening] in [[0.7, 0.7], [0.0, 0.7], [0.3, 3.1]] {
-            let rule = GridEdges::new(HessRule::from_works(foundation, closing, opening));
+            let hess = HessRule::from_works(foundation, closing, opening);
             for history in 0..turns.len().pow(3) {
-                let mut solver = exact::adhesive(&gaps, &tree, rule, foundation, 2);
+                let mut solver = adhesive(&gaps, Edges::Grid, hess, foundation, 2);
                 let mut blind = Blind::new(&gaps, [closing, opening], Order::LeftToRight);
                 for turn in digits(history, turns.len()).take(3).map(|digit| turns[digit]) {
                     solver.advance(Leg::ToIndentation(turn)).unwrap();
                     blind.relax(turn);
-                    let found = solver.fragments(turn);
+                    let found = solver.leg().patches(turn);
                     assert_eq!(
                         found,
                         blind.fragments(),

@@ -53,7 +53,10 @@ pub fn as_if_new<S: Solver>(new: impl Fn() -> S, legs: &[Leg], force: f64) -> Re
                     prop_assert_eq!(one.smallest, other.smallest);
                 }
                 for point in &one.curve {
-                    prop_assert_eq!(body.fragments(point.indentation), beside.fragments(point.indentation));
+                    prop_assert_eq!(
+                        body.leg().patches(point.indentation),
+                        beside.leg().patches(point.indentation)
+                    );
                 }
                 let end = one.curve.last().copied().unwrap_or_default();
                 formed += u64::from(free && end.springs > 0);

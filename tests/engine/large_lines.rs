@@ -1,7 +1,8 @@
 //! A million springs in the hardest shapes for a tree: a chain, all gaps equal, or all fragments alike. All results are
 //! known.
 
-use asperity::contact::{ContactTree, CurvePoint, Foundation, GridEdges, HessRule, LegRecord, Solver, exact};
+use super::solvers::adhesive;
+use asperity::contact::{CurvePoint, Foundation, HessRule, LegRecord, Solver};
 use asperity::scene::{Edges, Leg};
 use std::f64::consts::PI;
 
@@ -14,11 +15,9 @@ fn foundation(springs: usize) -> Foundation {
 
 /// The legs of a line on springs of this foundation, with the fragments in contact after the first.
 fn legs(gaps: &[f64], foundation: Foundation, work: f64, deepest: f64) -> ([LegRecord; 2], usize) {
-    let tree = ContactTree::build(gaps, Edges::Grid).unwrap();
-    let rule = GridEdges::new(HessRule::new(foundation, work));
-    let mut solver = exact::adhesive(gaps, &tree, rule, foundation, 64);
+    let mut solver = adhesive(gaps, Edges::Grid, HessRule::new(foundation, work), foundation, 64);
     let loading = solver.advance(Leg::ToIndentation(deepest)).unwrap();
-    let fragments = solver.fragments(deepest).len();
+    let fragments = solver.leg().patches(deepest).len();
     let unloading = solver.advance(Leg::ToSeparation).unwrap();
     assert_eq!((loading.attached, unloading.attached), (unloading.detached, 0));
     ([loading, unloading], fragments)

@@ -4,18 +4,17 @@
 mod brute_force;
 mod extreme_inputs;
 mod memory;
+mod patches;
 mod refusals;
 mod reuse;
 mod search;
-mod snapshot;
 mod symmetries;
 mod ties;
 mod work;
 
 use super::formed;
-use asperity::contact::{
-    ContactTree, CurvePoint, Exact, Foundation, GridEdges, HessRule, History, LegRecord, Solver, exact, run,
-};
+use super::solvers::{adhesive, nonadhesive};
+use asperity::contact::{Contact, CurvePoint, Foundation, HessRule, History, LegRecord, Solver, run};
 use asperity::scene::{Edges, Leg};
 use proptest::prelude::*;
 
@@ -32,18 +31,21 @@ struct Body {
 }
 
 impl Body {
-    fn tree(&self) -> ContactTree {
-        ContactTree::build(&self.gaps, Edges::Grid).unwrap()
+    fn hess(&self) -> HessRule {
+        HessRule::from_works(self.foundation, self.closing * self.work, self.work)
     }
 
-    /// The exact solver over its tree.
-    fn on<'a>(&'a self, tree: &'a ContactTree, samples: usize) -> Exact<'a> {
-        let rule = GridEdges::new(HessRule::from_works(self.foundation, self.closing * self.work, self.work));
-        exact::adhesive(&self.gaps, tree, rule, self.foundation, samples)
+    fn contact(&self) -> Contact {
+        Contact::new(self.gaps.clone(), Edges::Grid, self.foundation, Some(self.hess()))
+    }
+
+    /// The exact solver.
+    fn on(&self, samples: usize) -> asperity::contact::Body {
+        adhesive(&self.gaps, Edges::Grid, self.hess(), self.foundation, samples)
     }
 
     fn history(&self, legs: &[Leg], samples: usize) -> History {
-        run(&mut self.on(&self.tree(), samples), legs, |_, _| Ok(())).unwrap()
+        run(&mut self.on(samples), legs, |_, _| Ok(())).unwrap()
     }
 
     fn deepest(&self) -> f64 {

@@ -6,7 +6,6 @@ mod equilibrium;
 mod exhaustive;
 mod formed;
 mod hard_cases;
-mod incremental;
 mod large_lines;
 mod laws;
 mod numerics;
@@ -14,6 +13,7 @@ mod reversals;
 mod scene;
 #[cfg(unix)]
 mod simulated_disk;
+mod solvers;
 mod stepwise;
 mod subcell;
 mod sums;

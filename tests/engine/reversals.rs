@@ -1,10 +1,8 @@
 //! Reversals of one loading against separate loadings and unloadings, bit for bit.
 
+use super::solvers::{adhesive, nonadhesive};
 use asperity::analysis::Figures;
-use asperity::contact::{
-    ContactError, ContactTree, EdgeModel, Foundation, GridEdges, HessRule, History, Reversal, Reversals,
-    Solver, SubCellEdges, exact, run,
-};
+use asperity::contact::{Body, ContactError, Foundation, HessRule, History, Reversal, Solver, run};
 use asperity::scene::{Edges, Leg};
 use asperity::surface::{Line, SelfAffine, UnitRoughness};
 use proptest::prelude::*;
@@ -117,23 +115,21 @@ fn bits_of_history(history: &History) -> Vec<Option<u64>> {
     bits(point(loading.curve.last().unwrap()), point(&unloading.smallest), &rest)
 }
 
-/// Receiver of reversals and the numbers of their legs.
-type See<'a> = dyn FnMut(usize, Reversal) -> Result<(), ContactError> + 'a;
-
 /// All reversals in the order of their legs.
-fn all(count: usize, each: impl FnOnce(&mut See<'_>) -> Result<(), ContactError>) -> Vec<Reversal> {
-    let mut found = vec![None; count];
+fn all(body: &mut Body, turns: &[Leg], points: &[f64]) -> Result<Vec<Reversal>, ContactError> {
+    let mut found = vec![None; turns.len()];
     let see = &mut |index: usize, reversal| {
         assert!(found[index].replace(reversal).is_none());
         Ok(())
     };
-    each(see).unwrap();
-    found.into_iter().map(Option::unwrap).collect()
+    body.reversals(turns, points, see)?;
+    Ok(found.into_iter().map(Option::unwrap).collect())
 }
 
 /// Compares all reversals of a case with separate histories, each on a new body.
-fn compare<S: Solver>(reversals: &[Reversal], new: impl Fn() -> S, case: &Case) -> Result<(), TestCaseError> {
-    for (leg, reversal) in case.turns.iter().zip(reversals) {
+fn compare(new: impl Fn() -> Body, case: &Case) -> Result<(), TestCaseError> {
+    let reversals = all(&mut new(), &case.turns, &case.points).unwrap();
+    for (leg, reversal) in case.turns.iter().zip(&reversals) {
         let separate = run(&mut new(), &[*leg, Leg::ToSeparation], |_, _| Ok(())).unwrap();
         prop_assert_eq!(bits_of(reversal), bits_of_history(&separate), "{:?}: {:?}", leg, reversal);
         let below: Vec<_> =
@@ -149,24 +145,14 @@ fn compare<S: Solver>(reversals: &[Reversal], new: impl Fn() -> S, case: &Case) 
     Ok(())
 }
 
-fn adhesive<E: EdgeModel>(case: &Case, edges: E) -> Result<(), TestCaseError> {
-    let tree = ContactTree::build(&case.gaps, E::EDGES).unwrap();
-    let new = || exact::adhesive(&case.gaps, &tree, edges, case.foundation, case.samples);
-    let mut reversals = Reversals::new(new(), &case.turns).unwrap();
-    compare(&all(case.turns.len(), |see| reversals.each(&case.points, see)), new, case)
-}
-
 proptest! {
     #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn reversals_are_those_of_separate_runs(case in cases()) {
-        adhesive(&case, GridEdges::new(case.hess))?;
-        adhesive(&case, SubCellEdges::new(case.hess))?;
         for edges in [Edges::Grid, Edges::SubCell] {
-            let new = || exact::nonadhesive(&case.gaps, edges, case.foundation, case.samples);
-            let mut reversals = Reversals::new(new(), &case.turns).unwrap();
-            compare(&all(case.turns.len(), |see| reversals.each(&case.points, see)), new, &case)?;
+            compare(|| adhesive(&case.gaps, edges, case.hess, case.foundation, case.samples), &case)?;
+            compare(|| nonadhesive(&case.gaps, edges, case.foundation, case.samples), &case)?;
         }
     }
 }
@@ -174,14 +160,16 @@ proptest! {
 #[test]
 fn turning_points_out_of_contact_are_refused() {
     let gaps = [0.0, 0.5, 0.25];
-    let body = || exact::nonadhesive(&gaps, Edges::SubCell, Foundation::endless(0.01, 1.0), 2);
+    let body = || nonadhesive(&gaps, Edges::SubCell, Foundation::endless(0.01, 1.0), 2);
     let leg = Leg::ToIndentation(-0.1);
-    let refused = Reversals::new(body(), &[Leg::ToTouch, leg]).err();
-    assert_eq!(refused, Some(ContactError::NoContact { index: 1, leg }));
-    let refused = Reversals::new(body(), &[Leg::ToForce(-1.0)]).err();
-    assert_eq!(refused, Some(ContactError::NothingToPull { index: 0, force: -1.0 }));
-    let refused = Reversals::new(body(), &[Leg::ToSeparation]).err();
-    assert_eq!(refused, Some(ContactError::NoContact { index: 0, leg: Leg::ToSeparation }));
+    for (turns, index, reason) in [
+        (vec![Leg::ToTouch, leg], 1, ContactError::NoContact),
+        (vec![Leg::ToForce(-1.0)], 0, ContactError::NothingToPull),
+        (vec![Leg::ToSeparation], 0, ContactError::NoContact),
+    ] {
+        let expected = ContactError::Stage { index, target: turns[index], reason: Box::new(reason) };
+        assert_eq!(all(&mut body(), &turns, &[]), Err(expected));
+    }
 }
 
 /// Evaluations of the rule of Hess measure the walked share of the line: 64 reversals of a rough line together take
@@ -196,15 +184,12 @@ fn the_loading_is_passed_once_for_all_reversals() {
     let rms_gradient = 5e-7 * spectrum.gradient_per_height(1e-3);
     for kappa in [6.0_f64, 20.0] {
         let work = 5e-7 * rms_gradient * 2e6 / (kappa * kappa);
-        let edges = SubCellEdges::new(HessRule::new(foundation, work));
-        let tree = ContactTree::build(&line.gaps, Edges::SubCell).unwrap();
-        let body = || exact::adhesive(&line.gaps, &tree, edges, foundation, 2);
+        let mut body = adhesive(&line.gaps, Edges::SubCell, HessRule::new(foundation, work), foundation, 2);
         let deepest = 0.4 * 2e6 * 1e-3 * 5e-7;
         let turn = |share: u32| Leg::ToForce(deepest * f64::from(share) / 64.0);
         let turns: Vec<Leg> = (1..=64).map(turn).collect();
-        let mut reversals = Reversals::new(body(), &turns).unwrap();
-        reversals.each(&[], &mut |_, _| Ok(())).unwrap();
-        let work = reversals.work();
+        body.reversals(&turns, &[], &mut |_, _| Ok(())).unwrap();
+        let work = body.work();
         assert_eq!((work.loading_passes, work.unloading_passes), (1, 64));
     }
 }

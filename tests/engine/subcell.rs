@@ -3,18 +3,14 @@
 pub mod brute_force;
 mod closed_forms;
 mod laws;
-mod manual;
 mod rule;
 mod wavy_sphere;
 
+use super::solvers::{adhesive, nonadhesive};
 use super::{formed, numerics};
-use asperity::contact::{
-    ContactError, ContactTree, CurvePoint, Exact, Foundation, HessRule, History, LegRecord, Solver,
-    SubCellEdges, exact, run,
-};
+use asperity::contact::{CurvePoint, Foundation, HessRule, History, LegRecord, Solver, run};
 use asperity::scene::{Edges, Leg};
 use proptest::prelude::*;
-use std::sync::Arc;
 
 /// Springs under adhesion.
 #[derive(Clone, Debug)]
@@ -29,20 +25,16 @@ struct Body {
 }
 
 impl Body {
-    fn tree(&self) -> ContactTree {
-        ContactTree::build(&self.gaps, Edges::SubCell).unwrap()
+    fn hess(&self) -> HessRule {
+        HessRule::from_works(self.foundation, self.closing_work, self.work)
     }
 
-    fn edges(&self) -> SubCellEdges {
-        SubCellEdges::new(HessRule::from_works(self.foundation, self.closing_work, self.work))
-    }
-
-    fn on<'a>(&'a self, tree: &'a ContactTree, samples: usize) -> Exact<'a> {
-        exact::adhesive(&self.gaps, tree, self.edges(), self.foundation, samples)
+    fn on(&self, samples: usize) -> asperity::contact::Body {
+        adhesive(&self.gaps, Edges::SubCell, self.hess(), self.foundation, samples)
     }
 
     fn history(&self, legs: &[Leg], samples: usize) -> History {
-        run(&mut self.on(&self.tree(), samples), legs, |_, _| Ok(())).unwrap()
+        run(&mut self.on(samples), legs, |_, _| Ok(())).unwrap()
     }
 
     fn deepest(&self) -> f64 {

@@ -1,9 +1,8 @@
 //! Sums of gaps and forces against exact arithmetic: the documented bound also holds where nearly all of a force
 //! cancels, and the order of the springs has no effect.
 
-use asperity::contact::{
-    ContactTotals, ContactTree, Foundation, GapScale, GridEdges, HessRule, Solver, exact,
-};
+use super::solvers::{adhesive, nonadhesive};
+use asperity::contact::{ContactTotals, Foundation, GapScale, HessRule, Solver};
 use asperity::scene::{Edges, Leg};
 use dashu_float::{FBig, round::mode::HalfEven};
 use proptest::prelude::*;
@@ -143,7 +142,7 @@ proptest! {
         let forces = [gaps, other].map(|gaps| {
             let gaps: Vec<f64> = gaps.iter().map(|gap| gap - lowest).collect();
             let foundation = Foundation::endless(1e-3, 3.0);
-            let mut solver = exact::nonadhesive(&gaps, Edges::Grid, foundation, 40);
+            let mut solver = nonadhesive(&gaps, Edges::Grid, foundation, 40);
             let leg = solver.advance(Leg::ToIndentation(share * (largest - lowest))).unwrap();
             leg.curve.iter().map(|point| (point.force.to_bits(), point.springs)).collect::<Vec<_>>()
         });
@@ -189,10 +188,9 @@ fn forces_at_full_contact_keep_the_bound_where_they_vanish() {
     gaps[1000] = 0.0;
     let foundation = Foundation::endless(1e-6, 2.0e6);
     let stiffness = foundation.spring_stiffness();
-    let tree = ContactTree::build(&gaps, Edges::Grid).unwrap();
     // Enough adhesion to hold everything when hardly pressed.
-    let rule = GridEdges::new(HessRule::new(foundation, 4.0e6));
-    let mut solver = exact::adhesive(&gaps, &tree, rule, foundation, 20);
+    let hess = HessRule::new(foundation, 4.0e6);
+    let mut solver = adhesive(&gaps, Edges::Grid, hess, foundation, 20);
     let (scale, sum) = (scale_of(&gaps), sum(&gaps));
     let balanced = balance(gaps.len(), &sum, 2);
     for leg in [Leg::ToIndentation(1.0), Leg::ToZeroForce, Leg::ToIndentation(balanced)] {

@@ -3,7 +3,7 @@
 
 use super::common::deadline::within;
 use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
-use asperity::contact::{ContactError, ContactTree, CurvePoint};
+use asperity::contact::{ContactError, CurvePoint};
 use asperity::explorer::panes::Pane;
 use asperity::explorer::snapshot::{ContactSnapshot, Drive, SolvedScene};
 use asperity::explorer::worker::{
@@ -156,10 +156,6 @@ impl Engine for Double {
 
     fn line(&self) -> Option<&Line> {
         self.simulation.line()
-    }
-
-    fn tree(&self) -> Option<&Arc<ContactTree>> {
-        self.simulation.tree()
     }
 }
 

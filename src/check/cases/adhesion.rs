@@ -155,10 +155,9 @@ fn balance(edges: Edges) -> Result<f64, Fault> {
 fn preload_at_an_event(edges: Edges) -> Result<f64, Fault> {
     let body = rough(300, WORK)?;
     let deepest = Leg::ToIndentation(0.9 * body.deepest());
-    let mut thresholds = Vec::new();
     body.with(edges, 9, |whole| {
         whole.advance(deepest)?;
-        whole.thresholds_along_line(&mut thresholds);
+        let thresholds = whole.leg().thresholds();
         let mut worst = 0.0_f64;
         let mut events: Vec<f64> = thresholds.iter().copied().filter(|at| at.is_finite()).collect();
         events.sort_by(f64::total_cmp);
@@ -177,7 +176,9 @@ fn preload_at_an_event(edges: Edges) -> Result<f64, Fault> {
 fn press_exactly_to(body: &Body, edges: Edges, at: f64, whole: &dyn Solver) -> Result<f64, Fault> {
     body.with(edges, 9, |solver| {
         let point = end(&solver.advance(Leg::ToIndentation(at))?);
-        ensure(solver.fragments(at) == whole.fragments(at), || format!("at {at:e} m another contact"))?;
+        ensure(solver.leg().patches(at) == whole.leg().patches(at), || {
+            format!("at {at:e} m another contact")
+        })?;
         let error = force_error(body, edges, solver, &point)?;
         let back = solver.advance(Leg::ToSeparation)?;
         ensure(end(&back).springs == 0 && back.detached == point.springs, || {

@@ -52,7 +52,7 @@ const POINTS: usize = 4001;
 fn smooth(form: Form, length: f64, work: f64) -> Result<Body, Fault> {
     let line = Line::new(length, POINTS, Some(&form), None, 0.0)?;
     let foundation = Foundation::endless(line.spacing, 1.0);
-    Ok(Body { gaps: line.gaps, foundation, work })
+    Ok(Body { gaps: line.gaps.to_vec(), foundation, work })
 }
 
 fn hertz(edges: Edges) -> Result<f64, Fault> {

@@ -229,8 +229,8 @@ fn mirror(edges: Edges) -> Result<f64, Fault> {
                     }
                     let at = end(&here).indentation;
                     let turned: Vec<_> =
-                        other.fragments(at).iter().rev().map(|(a, b)| (last - b, last - a)).collect();
-                    ensure(one.fragments(at) == turned, || format!("at {at:e} m another contact"))?;
+                        other.leg().patches(at).iter().rev().map(|(a, b)| (last - b, last - a)).collect();
+                    ensure(one.leg().patches(at) == turned, || format!("at {at:e} m another contact"))?;
                 }
                 Ok(error)
             })

@@ -326,7 +326,7 @@ fn far_beyond_roughness(edges: Edges) -> Result<f64, Fault> {
     let sphere = Line::new(LENGTH, 257, Some(&Form::Paraboloid { radius: 1.0e-4 }), None, 0.0)?;
     let mut worst = 0.0_f64;
     for work in [0.0, WORK] {
-        let smooth = Body { gaps: sphere.gaps.clone(), ..rough(257, work)? };
+        let smooth = Body { gaps: sphere.gaps.to_vec(), ..rough(257, work)? };
         for body in [rough(257, work)?, smooth] {
             for power in 0..=30 {
                 worst = worst.max(pressed_far(&body, edges, 10.0_f64.powi(power) * body.deepest())?);

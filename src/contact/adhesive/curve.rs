@@ -1,39 +1,71 @@
-//! The contact along an even grid of indentations.
+//! The contact of a leg: along a grid of indentations, and spring by spring.
 
 use super::edge_model::EdgeModel;
 use super::levels::EdgeSum;
-use super::run::{Ground, Run};
+use super::run::Held;
+use super::search::Search;
 use crate::contact::contact_state::{ContactState, Sampled};
 use crate::contact::grid::Grid;
 use crate::contact::totals::ContactTotals;
 use crate::contact::{ContactError, resized};
 
-impl<E: EdgeModel> Ground<'_, E> {
-    /// Samples a leg.
+impl<E: EdgeModel> Search<'_, E> {
+    /// Patches in contact at an indentation (m), from left to right, with their pinned edges where the next leg `pins`
+    /// them.
+    pub fn held_at(&self, indentation: f64, pins: bool) -> impl Iterator<Item = Held> {
+        let ground = &self.ground;
+        self.runs.iter().rev().filter(move |run| run.is_at(indentation)).map(move |run| {
+            let span = ground.span_at(run, indentation);
+            let [first, last] = span.ends();
+            let pin = pins.then(|| ground.rise(&span, run.pin(), indentation));
+            Held { branch: run.branch, first, last, pin }
+        })
+    }
+
+    /// The smallest indentation at which each spring is in contact, m, along the line: −∞ always, +∞ never.
+    pub fn thresholds(&self) -> Vec<f64> {
+        let mut thresholds = vec![f64::INFINITY; self.ground.gaps.len()];
+        // Larger patches come first; those inside have smaller thresholds.
+        for run in self.runs {
+            let bottom = self.ground.bottom(run);
+            thresholds[bottom.first..=bottom.last].fill(run.from);
+            let mut below = bottom;
+            self.ground.each_span(run, f64::NEG_INFINITY, |span, from, _| {
+                thresholds[span.first..below.first].fill(from);
+                thresholds[below.last + 1..=span.last].fill(from);
+                below = *span;
+                false
+            });
+        }
+        thresholds
+    }
+
+    /// Contact along a grid.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    pub fn sample(&self, runs: &[Run], unloading: bool, grid: Grid) -> Result<Sampled, ContactError> {
+    pub fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {
+        let ground = &self.ground;
         let points = grid.points();
         let count = points.len();
         let place = |at: f64| if at > grid.high() { count } else { grid.first_at_least(at) };
         let mut totals = resized(Vec::new(), count + 1, ContactTotals::default())?;
         let mut sums = resized(Vec::new(), if E::SLIDES { count } else { 0 }, EdgeSum::default())?;
         let (low, high) = (points[0], grid.high());
-        for run in runs.iter().filter(|run| run.from <= high && run.to > low) {
+        for run in self.runs.iter().filter(|run| run.from <= high && run.to > low) {
             let (mut first, end) = (place(run.from), place(run.to));
             if first >= end {
                 continue;
             }
-            let mut span = self.bottom(run);
+            let mut span = ground.bottom(run);
             while first < end {
-                span = self.filled(run, span, unloading, points[first]);
-                let next = place(self.filled_up_to(run, &span, unloading)).min(end);
-                let whole = self.totals(&span);
+                span = ground.filled(run, span, points[first]);
+                let next = place(ground.filled_up_to(run, &span)).min(end);
+                let whole = ground.totals(&span);
                 totals[first] += whole;
                 totals[next] += -whole;
                 if E::SLIDES {
-                    let slider = self.slider(run, &span);
+                    let slider = ground.slider(run, &span);
                     for (sums, &point) in sums[first..next].iter_mut().zip(&points[first..next]) {
                         sums.add(slider.edge_cells(point));
                     }
@@ -44,12 +76,12 @@ impl<E: EdgeModel> Ground<'_, E> {
         totals.truncate(count);
         let mut total = ContactTotals::default();
         let mut states = resized(Vec::new(), count, ContactState::default())?;
-        let scale = self.tree.scale();
+        let scale = ground.tree.scale();
         for (index, (state, &point)) in states.iter_mut().zip(points).enumerate() {
             total += totals[index];
             totals[index] = total;
             let edges = sums.get(index).copied().unwrap_or_default();
-            *state = self.edges.state(point, total, edges.total(), &scale);
+            *state = ground.edges.state(point, total, edges.total(), &scale);
         }
         Ok(Sampled { grid, totals, states })
     }

@@ -6,23 +6,13 @@
 
 use super::edge_model::EdgeModel;
 use super::run::{Ground, Run};
+use super::search::Search;
 use super::span::Span;
 use crate::contact::grid::CompensatedSum;
 use crate::contact::totals::{SquareScale, Squares};
 
-/// Part of a leg.
-#[derive(Clone, Copy, Debug)]
-pub struct Range {
-    /// Indentations above this, m.
-    pub low: f64,
-    /// Up to and including this, m.
-    pub high: f64,
-    /// True if the leg unloads.
-    pub unloading: bool,
-}
-
 /// Sum of squared stretches ∫ (c − θ)² dx, in cells times m²: whole springs or cells as integers, edge cells as numbers.
-pub struct SquaredStretch {
+struct SquaredStretch {
     scale: SquareScale,
     whole: i128,
     edges: CompensatedSum,
@@ -30,19 +20,13 @@ pub struct SquaredStretch {
 
 impl SquaredStretch {
     /// Creates an empty sum for indentations θ up to this size, m.
-    pub fn new<E: EdgeModel>(ground: &Ground<'_, E>, largest: f64) -> Self {
+    fn new<E: EdgeModel>(ground: &Ground<'_, E>, largest: f64) -> Self {
         let scale = SquareScale::new(ground.tree.scale(), largest);
         SquaredStretch { scale, whole: 0, edges: CompensatedSum::default() }
     }
 
     /// Adds (`sign` 1) or subtracts (−1) the squares over a span with edges at a level, m, at the indentation θ, m.
-    pub fn add<E: EdgeModel>(
-        &mut self,
-        ground: &Ground<'_, E>,
-        sign: i8,
-        (span, level): (&Span, f64),
-        at: f64,
-    ) {
+    fn add<E: EdgeModel>(&mut self, ground: &Ground<'_, E>, sign: i8, (span, level): (&Span, f64), at: f64) {
         let (squares, remainder) = self.scale.at(ground.squares(span), at);
         self.edges.add(f64::from(sign) * remainder);
         // Sums of all runs cancel down to the energy: those in between may pass the range of integers.
@@ -57,12 +41,12 @@ impl SquaredStretch {
     }
 
     /// Adds the squares along edges that slide between two spans and levels.
-    pub fn slide(&mut self, squares: f64) {
+    fn slide(&mut self, squares: f64) {
         self.edges.add(squares);
     }
 
     /// Returns the sum.
-    pub fn total(mut self) -> f64 {
+    fn total(mut self) -> f64 {
         self.edges.add(self.scale.in_metres(self.whole));
         // No sum of squares is below zero, but for rounding.
         self.edges.total().max(0.0)
@@ -90,71 +74,52 @@ impl<E: EdgeModel> Ground<'_, E> {
         squares
     }
 
-    /// ∫ (c − θ)² dx over the parts of the line that attach or detach on a range of a leg, in cells times m².
-    pub fn squared_stretch(&self, runs: &[Run], range: Range) -> f64 {
-        let Range { low, high, unloading } = range;
-        if self.edges.stretch() == 0.0 {
-            return 0.0;
-        }
-        let runs = || runs.iter().filter(|run| run.from <= high && run.to > low);
-        let forms = |run: &Run| run.from > low;
-        let events = runs().flat_map(|run| [run.from, run.to]).filter(|at| at.is_finite());
-        let mut sum = SquaredStretch::new(self, events.fold(0.0, |most: f64, at| most.max(at.abs())));
-        for run in runs() {
-            let [(bottom, lower), (top, upper)] = self.ends_of(run, range);
-            if forms(run) {
-                sum.add(self, 1, (&bottom, lower), run.from);
-            }
-            if run.to <= high {
-                sum.add(self, -1, (&top, upper), run.to);
-            }
-            sum.slide(self.edges.squared_stretch_sliding(
-                self.gaps,
-                [(bottom, lower), (top, upper)],
-                unloading,
-            ));
-        }
-        sum.total()
-    }
-
-    /// The smallest and the largest span of a run on a range, with the levels of its edges there, m.
-    fn ends_of(&self, run: &Run, range: Range) -> [(Span, f64); 2] {
-        let Range { low, high, unloading } = range;
-        let top = if run.to > high { self.span_at(run, unloading, high) } else { self.top(run) };
-        let bottom = if run.from < low { self.span_at(run, unloading, low) } else { self.bottom(run) };
-        let lower = self.level(&bottom, run.pin(), run.from.max(low));
-        let upper = self.level_up_to(&top, run.pin(), run.to.min(high), unloading);
-        [(bottom, lower), (top, upper)]
-    }
-
-    /// The smallest indentation at which each spring is in contact on a leg, m, along the line: −∞ always, +∞ never.
-    pub fn thresholds(&self, runs: &[Run], unloading: bool, out: &mut Vec<f64>) {
-        out.clear();
-        out.resize(self.gaps.len(), f64::INFINITY);
-        // Larger patches come first; those inside have smaller thresholds.
-        for run in runs {
-            let bottom = self.bottom(run);
-            out[bottom.first..=bottom.last].fill(run.from);
-            let mut below = bottom;
-            self.each_span(run, unloading, f64::NEG_INFINITY, |span, from, _| {
-                out[span.first..below.first].fill(from);
-                out[below.last + 1..=span.last].fill(from);
-                below = *span;
-                false
-            });
-        }
-    }
-
     /// Level of the edges of a span at the upper end of its run or below, m.
-    pub fn level_up_to(&self, span: &Span, pin: Option<f64>, indentation: f64, unloading: bool) -> f64 {
+    fn level_up_to(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         if let Some(rise) = pin {
             return span.gap + rise;
         }
         match span.wall(self.gaps).map(|wall| self.gaps[wall]) {
             // At the attachment of the wall the level is that of the wall, also after rounding.
-            Some(wall) if !unloading && indentation >= self.attaches_at(span, wall) => wall,
+            Some(wall) if !self.unloading && indentation >= self.attaches_at(span, wall) => wall,
             Some(_) => self.level(span, None, indentation),
             None => span.gap,
         }
+    }
+}
+
+impl<E: EdgeModel> Search<'_, E> {
+    /// ∫ (c − θ)² dx over the parts of the line that attach or detach at an indentation θ above `low` and up to `high`, m,
+    /// in cells times m².
+    pub fn squared_stretch(&self, low: f64, high: f64) -> f64 {
+        let ground = &self.ground;
+        if ground.edges.stretch() == 0.0 {
+            return 0.0;
+        }
+        let runs = || self.runs.iter().filter(|run| run.from <= high && run.to > low);
+        let events = runs().flat_map(|run| [run.from, run.to]).filter(|at| at.is_finite());
+        let mut sum = SquaredStretch::new(ground, events.fold(0.0, |most: f64, at| most.max(at.abs())));
+        for run in runs() {
+            let [(bottom, lower), (top, upper)] = self.ends_of(run, low, high);
+            if run.from > low {
+                sum.add(ground, 1, (&bottom, lower), run.from);
+            }
+            if run.to <= high {
+                sum.add(ground, -1, (&top, upper), run.to);
+            }
+            let ends = [(bottom, lower), (top, upper)];
+            sum.slide(ground.edges.squared_stretch_sliding(ground.gaps, ends, ground.unloading));
+        }
+        sum.total()
+    }
+
+    /// The smallest and the largest span of a run on a range, with the levels of its edges there, m.
+    fn ends_of(&self, run: &Run, low: f64, high: f64) -> [(Span, f64); 2] {
+        let ground = &self.ground;
+        let top = if run.to > high { ground.span_at(run, high) } else { ground.top(run) };
+        let bottom = if run.from < low { ground.span_at(run, low) } else { ground.bottom(run) };
+        let lower = ground.level(&bottom, run.pin(), run.from.max(low));
+        let upper = ground.level_up_to(&top, run.pin(), run.to.min(high));
+        [(bottom, lower), (top, upper)]
     }
 }

@@ -38,12 +38,13 @@ pub struct Held {
     pub pin: Option<f64>,
 }
 
-/// Gaps, contact tree and edge model: the input of all passes of a leg.
+/// Gaps, contact tree and edge model under the rule of one direction: the input of all passes of a leg.
 #[derive(Clone, Copy, Debug)]
 pub struct Ground<'a, E> {
     pub gaps: &'a [f64],
     pub tree: &'a ContactTree,
     pub edges: E,
+    pub unloading: bool,
 }
 
 impl Run {
@@ -89,7 +90,12 @@ impl Run {
     }
 }
 
-impl<E: EdgeModel> Ground<'_, E> {
+impl<'a, E: EdgeModel> Ground<'a, E> {
+    /// Creates the input of a leg in a direction, of edges under the rules of both directions.
+    pub fn new(gaps: &'a [f64], tree: &'a ContactTree, edges: E, direction: Direction) -> Self {
+        Ground { gaps, tree, edges: edges.on(direction), unloading: direction == Direction::Unloading }
+    }
+
     /// The span of a branch between these springs.
     #[inline]
     pub fn span(&self, branch: Branch, [first, last]: [u32; 2]) -> Span {
@@ -148,12 +154,6 @@ impl<E: EdgeModel> Ground<'_, E> {
         pin.unwrap_or_else(|| self.edges.rise(&self.levels(span), indentation))
     }
 
-    /// The same line under the rule of one direction alone.
-    #[inline]
-    pub fn on(&self, direction: Direction) -> Self {
-        Ground { edges: self.edges.on(direction), ..*self }
-    }
-
     /// Whole springs or cells of a span, and the fragment they form.
     #[inline]
     pub fn totals(&self, span: &Span) -> crate::contact::ContactTotals {
@@ -164,18 +164,18 @@ impl<E: EdgeModel> Ground<'_, E> {
 
     /// Upper end of the indentations over which a run fills a span, m: where the span `above` takes its place.
     #[inline]
-    fn upper_end(&self, span: &Span, above: &Span, unloading: bool) -> f64 {
+    fn upper_end(&self, span: &Span, above: &Span) -> f64 {
         // Unloading, the span above parts where this one would go on.
-        if unloading { self.holds_to(above) } else { self.attaches_at(span, above.gap) }
+        if self.unloading { self.holds_to(above) } else { self.attaches_at(span, above.gap) }
     }
 
     /// Upper end of the indentations over which a run fills one of its spans, m.
     #[inline]
-    pub fn filled_up_to(&self, run: &Run, span: &Span, unloading: bool) -> f64 {
+    pub fn filled_up_to(&self, run: &Run, span: &Span) -> f64 {
         if span.ends() == run.top_ends() {
             return run.to;
         }
-        self.upper_end(span, &span.grown(self.gaps), unloading)
+        self.upper_end(span, &span.grown(self.gaps))
     }
 
     /// Lower bound of the gaps of springs outside a span that do not belong to its fragment at this indentation (m), on
@@ -197,18 +197,12 @@ impl<E: EdgeModel> Ground<'_, E> {
     /// run fills it, until `see` returns true. Ranges that end at `low` (m) or below are left out; the first of the others
     /// then begins at `low`.
     #[inline]
-    pub fn each_span(
-        &self,
-        run: &Run,
-        unloading: bool,
-        low: f64,
-        mut see: impl FnMut(&Span, f64, f64) -> bool,
-    ) {
+    pub fn each_span(&self, run: &Run, low: f64, mut see: impl FnMut(&Span, f64, f64) -> bool) {
         let bottom = self.bottom(run);
-        let mut span = self.filled(run, bottom, unloading, low);
+        let mut span = self.filled(run, bottom, low);
         let mut from = if span == bottom { run.from } else { low };
         loop {
-            let to = self.filled_up_to(run, &span, unloading);
+            let to = self.filled_up_to(run, &span);
             if see(&span, from, to) || span.ends() == run.top_ends() {
                 return;
             }
@@ -217,7 +211,7 @@ impl<E: EdgeModel> Ground<'_, E> {
     }
 
     /// The span of a run at an indentation, from one that it fills at a smaller indentation on.
-    pub fn filled(&self, run: &Run, from: Span, unloading: bool, indentation: f64) -> Span {
+    pub fn filled(&self, run: &Run, from: Span, indentation: f64) -> Span {
         let (mut span, top) = (from, run.top_ends());
         while span.ends() != top {
             let sure = span.up_to(self.gaps, self.sure_level(&span, indentation), top);
@@ -226,7 +220,7 @@ impl<E: EdgeModel> Ground<'_, E> {
                 continue;
             }
             let above = span.grown(self.gaps);
-            if indentation < self.upper_end(&span, &above, unloading) {
+            if indentation < self.upper_end(&span, &above) {
                 break;
             }
             span = above;
@@ -236,25 +230,7 @@ impl<E: EdgeModel> Ground<'_, E> {
 
     /// The span of a run at an indentation, m.
     #[inline]
-    pub fn span_at(&self, run: &Run, unloading: bool, indentation: f64) -> Span {
-        self.filled(run, self.bottom(run), unloading, indentation)
-    }
-
-    /// Fragments in contact at an indentation (m) of a leg, from left to right.
-    ///
-    /// Edges are pinned where the next leg `pins` them.
-    pub fn held_at(
-        &self,
-        runs: &[Run],
-        unloading: bool,
-        indentation: f64,
-        pins: bool,
-    ) -> impl Iterator<Item = Held> {
-        runs.iter().rev().filter(move |run| run.is_at(indentation)).map(move |run| {
-            let span = self.span_at(run, unloading, indentation);
-            let [first, last] = span.ends();
-            let pin = pins.then(|| self.rise(&span, run.pin(), indentation));
-            Held { branch: run.branch, first, last, pin }
-        })
+    pub fn span_at(&self, run: &Run, indentation: f64) -> Span {
+        self.filled(run, self.bottom(run), indentation)
     }
 }

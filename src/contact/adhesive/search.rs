@@ -21,19 +21,13 @@ const LEAST_CUT: usize = 8;
 /// Share of the way to the zero of a bound that rounding leaves certain.
 const CERTAIN: f64 = 1.0 - 1e-6;
 
-/// A leg that is searched.
+/// The runs of a leg.
 pub struct Search<'a, E> {
     pub ground: Ground<'a, E>,
     pub runs: &'a [Run],
-    pub unloading: bool,
 }
 
 impl<E: EdgeModel> Search<'_, E> {
-    /// Contact along a grid.
-    pub fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {
-        self.ground.sample(self.runs, self.unloading, grid)
-    }
-
     /// The smallest or largest force on the range of a grid.
     pub fn extreme(&self, extreme: Extreme, leg: &Sampled, sorted: &mut u64) -> ContactState {
         let best_of = |best: ContactState, next: &ContactState| {
@@ -169,7 +163,7 @@ impl<E: EdgeModel> Search<'_, E> {
             if marks[range].iter().all(Option::is_none) {
                 continue;
             }
-            self.ground.each_span(run, self.unloading, low, |span, from, to| {
+            self.ground.each_span(run, low, |span, from, to| {
                 if from > high || to <= low {
                     return from > high;
                 }

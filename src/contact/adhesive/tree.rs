@@ -2,7 +2,7 @@
 
 use super::span::larger;
 use crate::contact::totals::{SQUARE_BITS, Squares};
-use crate::contact::{ContactError, GapScale, reserve};
+use crate::contact::{ContactError, GapScale, TWO_THREADS, reserve};
 use crate::memory;
 use crate::parallel::in_parallel;
 use crate::scene::Edges;
@@ -11,8 +11,6 @@ use crate::scene::Edges;
 const BLOCK: usize = 4;
 /// Springs compared at once.
 const LANES: usize = 64;
-/// Number of springs from which a second thread costs less than it saves.
-pub(super) const TWO_THREADS: usize = 1 << 17;
 
 /// Merge tree of the local maxima of the gap, the turning points, and prefix sums along the line.
 ///
@@ -87,20 +85,18 @@ struct Pending {
 }
 
 impl ContactTree {
-    /// The tree of `gaps` (m, finite, at least zero, at least one, at most 2^28), with sums for this kind of edges.
+    /// Builds the tree of `gaps` (m, finite, at least zero, at least one, at most 2^28), the largest of which is
+    /// `deepest`, with sums for this kind of edges, in the memory of a tree that is no longer needed.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    pub fn build(gaps: &[f64], edges: Edges) -> Result<Self, ContactError> {
-        ContactTree::default().rebuild(gaps, edges)
-    }
-
-    /// Rebuilds the tree in the memory of one that is no longer needed.
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfMemory`].
-    pub fn rebuild(mut self, gaps: &[f64], edges: Edges) -> Result<Self, ContactError> {
-        let scale = GapScale::for_gaps_up_to(largest(gaps));
+    pub(in crate::contact) fn rebuild(
+        mut self,
+        gaps: &[f64],
+        deepest: f64,
+        edges: Edges,
+    ) -> Result<Self, ContactError> {
+        let scale = GapScale::for_gaps_up_to(deepest);
         (self.scale, self.edges) = (Some(scale), Some(edges));
         let sums = std::mem::take(&mut self.sums);
         let is_long = gaps.len() >= TWO_THREADS;
@@ -373,7 +369,7 @@ fn twelfth(number: u128) -> u128 {
 }
 
 /// Largest of finite numbers that are at least zero; zero of none.
-fn largest(gaps: &[f64]) -> f64 {
+pub fn largest(gaps: &[f64]) -> f64 {
     let (blocks, rest) = gaps.as_chunks::<8>();
     let mut lanes = [0.0; 8];
     for block in blocks {

@@ -33,8 +33,6 @@ pub struct Opening {
 pub struct Opened {
     /// Smallest indentation with contact, m; +∞ without any.
     pub separates: f64,
-    /// Springs in contact when the leg begins.
-    pub springs: u64,
     /// Evaluations of the rule of Hess.
     pub evaluations: u64,
 }
@@ -54,11 +52,10 @@ impl Opening {
     ) -> Result<Opened, ContactError> {
         runs.clear();
         let out_of_memory = |_| ContactError::OutOfMemory { springs: ground.gaps.len() };
-        let mut opened = Opened { separates: f64::INFINITY, springs: 0, evaluations: 0 };
+        let mut opened = Opened { separates: f64::INFINITY, evaluations: 0 };
         let mut parts = std::mem::take(&mut self.parts);
         for held in held.iter().rev() {
             let pin = held.pin;
-            opened.springs += u64::from(held.last + 1 - held.first);
             let &Held { branch, first, last, .. } = held;
             parts.push(Part { branch, first, last, opens: from, is_whole: true });
             while let Some(part) = parts.pop() {
@@ -100,7 +97,7 @@ impl<E: EdgeModel> Ground<'_, E> {
         runs: &mut Vec<Run>,
         opened: &mut Opened,
     ) -> Result<[Option<Part>; 2], ContactError> {
-        let Ground { gaps, tree, edges } = *self;
+        let Ground { gaps, tree, edges, .. } = *self;
         let (mut first, mut last) = (part.first as usize, part.last as usize);
         let (mut opens, mut is_whole) = (part.opens, part.is_whole);
         let (bottom, lowest, place) = match part.branch.origin() {

@@ -160,7 +160,7 @@ pub fn shown(model: &mut Model, snapshot: Arc<ContactSnapshot>) {
         let old = manual.path.len().saturating_sub(PATH_KEPT);
         manual.path.drain(..old);
         if !travel.path.is_empty() {
-            (manual.changed, manual.touched) = (travel.changed, travel.touched);
+            manual.changed = travel.changed;
         }
         manual.released_energy = travel.released_energy;
         if let Some(error) = &travel.refused {

@@ -217,7 +217,6 @@ fn work(model: &Model) -> Vec<Part> {
     }
     if let Some(state) = &model.manual {
         parts.push((" · ", format!("{} changed", counted(state.changed, "spring")), Meaning::Text));
-        parts.push((" · ", format!("{} looked at", state.touched), Meaning::Text));
     }
     // Times of the last run only: a kept profile and tree take none.
     if model.shows_times && !model.is_computing() {

@@ -27,7 +27,7 @@ fn compare(body: &Body) -> ([f64; 3], usize) {
             let size = body.deepest() + last.indentation.abs() + body.largest_stretch();
             if last.springs > 0 {
                 let mut touching = vec![false; body.gaps.len()];
-                solver.fragments(last.indentation).iter().for_each(|&(a, b)| touching[a..=b].fill(true));
+                solver.leg().patches(last.indentation).iter().for_each(|&(a, b)| touching[a..=b].fill(true));
                 assert_eq!(touching, events.contact(), "{leg:?}");
                 partial += usize::from(last.fragments > 1);
                 let force = events.compression() * wide(stiffness);

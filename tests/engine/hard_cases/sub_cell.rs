@@ -51,7 +51,7 @@ fn contact_on_ties_and_chains_is_that_of_the_rule() {
                             skipped += 1;
                             break;
                         }
-                        let found = if point.springs > 0 { solver.fragments(to) } else { Vec::new() };
+                        let found = if point.springs > 0 { solver.leg().patches(to) } else { Vec::new() };
                         assert_eq!(found, contacts, "{name}, {points} springs, {reach}, {leg:?}");
                         let [one, more, less] = &relaxed;
                         let slack = 4.0 * (more.force() - less.force()).abs() + 1e-11 * body.force_scale();

@@ -79,11 +79,9 @@ proptest! {
         let work = range * effective_modulus;
         let body = Body { gaps, foundation: Foundation::endless(spacing, effective_modulus), work, closing: 1.0 };
         let springs = body.gaps.len() as u64;
-        let tree = body.tree();
-        let adhesive: Box<dyn Solver> = Box::new(body.on(&tree, samples));
-        let bare: Box<dyn Solver> = Box::new(exact::nonadhesive(&body.gaps, Edges::Grid, body.foundation, samples));
+        let adhesive: Box<dyn Solver> = Box::new(body.on(samples));
+        let bare: Box<dyn Solver> = Box::new(nonadhesive(&body.gaps, Edges::Grid, body.foundation, samples));
         for mut solver in [adhesive, bare] {
-            let mut thresholds = Vec::new();
             let mut held = 0;
             for &leg in &legs {
                 match solver.advance(leg) {
@@ -92,16 +90,16 @@ proptest! {
                         let end = record.curve.last().unwrap();
                         held = end.springs;
                         if held > 0 {
-                            let fragments = solver.fragments(end.indentation);
+                            let fragments = solver.leg().patches(end.indentation);
                             prop_assert_eq!(fragments.len() as u64, end.fragments);
                             prop_assert_eq!(indices(&fragments).len() as u64, held);
                         }
                     }
                     Err(ContactError::DetachesBefore { smallest, .. }) => prop_assert!(smallest.is_finite()),
-                    Err(ContactError::NothingToPull { .. } | ContactError::OutOfReach { .. }) => {}
+                    Err(ContactError::NothingToPull | ContactError::OutOfReach) => {}
                     Err(error) => return Err(TestCaseError::fail(error.to_string())),
                 }
-                solver.thresholds_along_line(&mut thresholds);
+                let thresholds = solver.leg().thresholds();
                 prop_assert!(!thresholds.iter().any(|threshold| threshold.is_nan()));
             }
         }
@@ -116,7 +114,8 @@ proptest! {
     ) {
         let foundation = Foundation::endless(0.01, 1.0);
         let hess = (range > 0.0).then(|| HessRule::new(foundation, range));
-        let mut solver = Stepwise::new(&gaps, hess, foundation, step, 9, &|| false).unwrap();
+        let contact = Contact::new(gaps.clone(), Edges::Grid, foundation, hess);
+        let mut solver = Stepwise::new(&contact, step, 9, &|| false).unwrap();
         let mut held = 0;
         for leg in [0.0, f64::from(to) * step, 0.5 * f64::from(to) * step].map(Leg::ToIndentation) {
             let record = solver.advance(leg).unwrap();

@@ -60,8 +60,7 @@ proptest! {
         probes in prop::collection::vec(0.0..1.0_f64, 6),
     ) {
         let (shallow, deep) = (shallow.min(deep), shallow.max(deep));
-        let tree = body.tree();
-        let (mut less, mut more) = (body.on(&tree, 2), body.on(&tree, 2));
+        let (mut less, mut more) = (body.on(2), body.on(2));
         let [mut of_less, mut of_more] = [0.0; 2];
         for (solver, to, smallest) in [(&mut less, shallow, &mut of_less), (&mut more, deep, &mut of_more)] {
             solver.advance(Leg::ToIndentation(to)).unwrap();
@@ -71,20 +70,18 @@ proptest! {
         let low = -body.largest_stretch();
         for probe in probes {
             let d = low + probe * (shallow - low);
-            let held = indices(&more.fragments(d));
-            prop_assert!(indices(&less.fragments(d)).iter().all(|index| held.binary_search(index).is_ok()));
+            let held = indices(&more.leg().patches(d));
+            prop_assert!(indices(&less.leg().patches(d)).iter().all(|index| held.binary_search(index).is_ok()));
         }
     }
 
     #[test]
     fn what_is_lost_is_what_the_force_has_done(body in body(), turns in indentations(10)) {
-        let tree = body.tree();
-        let mut solver = body.on(&tree, 2);
-        let mut thresholds = Vec::new();
+        let mut solver = body.on(2);
         let (mut position, mut stored, mut lost) = (0.0_f64, 0.0, 0.0);
         for leg in to_indentations(&turns).into_iter().chain([Leg::ToSeparation]) {
             let record = solver.advance(leg).unwrap();
-            solver.thresholds_along_line(&mut thresholds);
+            let thresholds = solver.leg().thresholds();
             let end = record.curve.last().unwrap();
             let steps = Steps::new(&thresholds, &body);
             let stored_now = if end.springs > 0 { steps.stored_energy(end.indentation) } else { 0.0 };
@@ -112,19 +109,17 @@ proptest! {
     fn a_leg_divided_at_an_event_loses_no_more(
         body in body_of_two_works(), deep in 0.2..1.2_f64, springs in prop::array::uniform4(any::<prop::sample::Index>()),
     ) {
-        let tree = body.tree();
-        let mut solver = body.on(&tree, 2);
+        let mut solver = body.on(2);
         let whole = [Leg::ToIndentation(deep), Leg::ToSeparation].map(|leg| {
             let record = solver.advance(leg).unwrap();
-            let mut thresholds = Vec::new();
-            solver.thresholds_along_line(&mut thresholds);
+            let mut thresholds = solver.leg().thresholds();
             thresholds.retain(|threshold| threshold.is_finite());
             (record.released_energy, thresholds)
         });
         let [(loading, attached), (unloading, detached)] = whole;
         let scale = body.force_scale() * (body.deepest() + body.largest_stretch() + deep);
         for spring in springs {
-            let mut parts = body.on(&tree, 2);
+            let mut parts = body.on(2);
             let mut lost = |legs: [Leg; 2]| -> f64 {
                 legs.into_iter().map(|leg| parts.advance(leg).unwrap().released_energy).sum()
             };

@@ -2,47 +2,36 @@
 
 use super::*;
 use asperity::analysis::Figures;
-use asperity::contact::{AdhesiveMemory, ContactRule, LegContact, Stepwise, Work};
+use asperity::contact::{Stepwise, Work};
 use asperity::scene::{Document, Scene};
 use asperity::simulation::{Outcome, Simulation, Timings};
-use std::sync::Arc;
 
 proptest! {
     #![proptest_config(cases(300))]
 
     #[test]
-    fn a_copied_leg_shows_its_contact_after_the_body_has_gone_on(
-        bodies in prop::collection::vec(body(), 2),
+    fn a_leg_shows_its_contact_after_the_body_has_gone_on(
+        body in body(),
         turns in indentations(5),
         kind in 0..3,
         probes in prop::collection::vec(-1.0..1.5_f64, 8),
     ) {
-        // The memory serves for all legs of one body, then of the other.
-        let mut copies: Vec<LegContact> = Vec::new();
-        for body in &bodies {
-            let tree = body.tree();
-            let stop = || false;
-            let hess = Some(HessRule::new(body.foundation, body.work));
-            let mut solver: Box<dyn Solver> = match kind {
-                0 => Box::new(body.on(&tree, 3)),
-                1 => Box::new(exact::nonadhesive(&body.gaps, Edges::Grid, body.foundation, 3)),
-                _ => Box::new(Stepwise::new(&body.gaps, hess, body.foundation, 0.05, 3, &stop).unwrap()),
-            };
-            let tree = (kind == 0).then_some(&tree);
-            let mut expected = Vec::new();
-            let fly = [Leg::ToSeparation, Leg::ToIndentation(-0.5)];
-            copies.resize_with(turns.len() + 2, LegContact::default);
-            for (leg, copy) in to_indentations(&turns).into_iter().chain(fly).zip(&mut copies) {
-                solver.advance(leg).unwrap();
-                solver.copy_leg(copy).unwrap();
-                let found: Vec<_> = probes.iter().map(|&probe| solver.fragments(probe)).collect();
-                expected.push(found);
-            }
-            for (copy, expected) in copies.iter().zip(&expected) {
-                for (&probe, expected) in probes.iter().zip(expected) {
-                    prop_assert_eq!(&copy.view(&body.gaps, tree).fragments(probe), expected, "at {}", probe);
-                }
-            }
+        let contact = body.contact();
+        let stop = || false;
+        let mut solver: Box<dyn Solver> = match kind {
+            0 => Box::new(body.on(3)),
+            1 => Box::new(nonadhesive(&body.gaps, Edges::Grid, body.foundation, 3)),
+            _ => Box::new(Stepwise::new(&contact, 0.05, 3, &stop).unwrap()),
+        };
+        let fly = [Leg::ToSeparation, Leg::ToIndentation(-0.5)];
+        let seen = |leg: &asperity::contact::Leg| probes.iter().map(|&probe| leg.patches(probe)).collect::<Vec<_>>();
+        let mut kept = Vec::new();
+        for target in to_indentations(&turns).into_iter().chain(fly) {
+            solver.advance(target).unwrap();
+            kept.push((solver.leg(), seen(&solver.leg())));
+        }
+        for (leg, expected) in &kept {
+            prop_assert_eq!(&seen(leg), expected);
         }
     }
 }
@@ -54,8 +43,7 @@ proptest! {
     fn a_contact_that_is_formed_again_is_what_it_was(
         body in body(), legs in formed::loadings(), samples in 2_usize..40,
     ) {
-        let tree = body.tree();
-        formed::as_if_new(|| body.on(&tree, samples), &legs, body.force_scale())?;
+        formed::as_if_new(|| body.on(samples), &legs, body.force_scale())?;
     }
 
     #[test]
@@ -63,15 +51,10 @@ proptest! {
         bodies in prop::collection::vec(body(), 2), legs in formed::loadings(), samples in 2_usize..40,
     ) {
         let [one, other] = [&bodies[0], &bodies[1]];
-        let trees = [one.tree(), other.tree()];
-        let mut before = one.on(&trees[0], samples);
-        let mut fresh = other.on(&trees[1], samples);
+        let (mut before, mut fresh) = (one.on(samples), other.on(samples));
         legs.iter().for_each(|leg| drop(before.advance(*leg)));
-        let mut memory = AdhesiveMemory::default();
-        before.give_back(&mut memory);
-        let rule = ContactRule::Hess(HessRule::new(other.foundation, other.work), &trees[1]);
-        let mut again = Exact::new(&mut memory, &other.gaps, rule, other.foundation, samples);
-        prop_assert_eq!(memory.bytes(), 0);
+        let contact = other.contact();
+        let mut again = asperity::contact::Body::new_in(before.into_workspace(), &contact, samples);
         for leg in legs {
             prop_assert_eq!(again.advance(leg), fresh.advance(leg));
         }
@@ -159,23 +142,23 @@ fn what_was_made_for_one_scene_is_made_once() {
 }
 
 #[test]
-fn a_tree_held_by_somebody_else_stays_as_it_is() {
+fn a_leg_kept_by_a_caller_stays_as_it_is() {
     let mut simulation = Simulation::default();
-    assert!(simulation.tree().is_none());
-    outcome(&mut simulation, &scene(&[]));
-    let held = Arc::clone(simulation.tree().unwrap());
-    let before = ContactTree::clone(&held);
-    outcome(&mut simulation, &scene(&[("adhesion.kappa", "3.0")]));
-    assert!(Arc::ptr_eq(&held, simulation.tree().unwrap()));
-    outcome(&mut simulation, &scene(&[("roughness.seed", "2")]));
-    assert_eq!(*held, before);
-    let line = simulation.line().unwrap().gaps.clone();
-    assert_eq!(**simulation.tree().unwrap(), ContactTree::build(&line, Edges::Grid).unwrap());
-    // The tree of another line is not reused.
-    outcome(&mut simulation, &scene(&[("adhesion", "None"), ("roughness.seed", "2")]));
-    assert!(simulation.tree().is_some());
-    outcome(&mut simulation, &scene(&[("adhesion", "None"), ("roughness.seed", "3")]));
-    assert!(simulation.tree().is_none());
+    let mut kept = Vec::new();
+    let mut keep = |_, _: &LegRecord, leg: &asperity::contact::Leg| {
+        kept.push((leg.clone(), leg.thresholds()));
+        Ok(())
+    };
+    for edit in [
+        ("adhesion.kappa", "3.0"),
+        ("roughness.seed", "2"),
+        ("adhesion", "None"),
+        ("numerics.edges", "SubCell"),
+    ] {
+        simulation.run(&scene(&[edit]), &|| false, &mut keep).unwrap();
+    }
+    assert_eq!(kept.len(), 8);
+    kept.iter().for_each(|(leg, thresholds)| assert_eq!(&leg.thresholds(), thresholds));
 }
 
 #[test]

@@ -42,7 +42,7 @@ proptest! {
     ) {
         let legs = [Leg::ToIndentation(deepest), Leg::ToSeparation];
         let adhesive = body.history(&legs, samples);
-        let bare = run(&mut exact::nonadhesive(&body.gaps, Edges::Grid, body.foundation, samples), &legs, |_, _| Ok(())).unwrap();
+        let bare = run(&mut nonadhesive(&body.gaps, Edges::Grid, body.foundation, samples), &legs, |_, _| Ok(())).unwrap();
         for history in [adhesive, bare] {
             let mut back = curve_bits(&history.legs[1]);
             back.reverse();
@@ -59,9 +59,8 @@ proptest! {
         force in 0.0..1.0_f64,
     ) {
         let legs = legs(&body, &turns, force);
-        let tree = body.tree();
-        let mut adhesive = body.on(&tree, 33);
-        let mut bare = exact::nonadhesive(&body.gaps, Edges::Grid, body.foundation, 33);
+        let mut adhesive = body.on(33);
+        let mut bare = nonadhesive(&body.gaps, Edges::Grid, body.foundation, 33);
         for leg in legs {
             let (a, b) = (adhesive.advance(leg).unwrap(), bare.advance(leg).unwrap());
             prop_assert_eq!(leg_bits(&a), leg_bits(&b), "the two solvers, {:?}", leg);
@@ -70,8 +69,8 @@ proptest! {
             if end.springs > 0 {
                 let at_once = body.history(&[Leg::ToIndentation(end.indentation)], 2);
                 prop_assert_eq!(bits(&end), bits(&super::end(&at_once)), "{:?} against going there", leg);
-                prop_assert_eq!(adhesive.fragments(end.indentation), at_once.contacts.clone());
-                prop_assert_eq!(bare.fragments(end.indentation), at_once.contacts);
+                prop_assert_eq!(adhesive.leg().patches(end.indentation), at_once.contacts.clone());
+                prop_assert_eq!(bare.leg().patches(end.indentation), at_once.contacts);
             }
         }
     }
@@ -137,8 +136,7 @@ proptest! {
     ) {
         let mirrored = Body { gaps: body.gaps.iter().rev().copied().collect(), ..body.clone() };
         let last = body.gaps.len() - 1;
-        let (tree, mirrored_tree) = (body.tree(), mirrored.tree());
-        let (mut solver, mut mirrored) = (body.on(&tree, 33), mirrored.on(&mirrored_tree, 33));
+        let (mut solver, mut mirrored) = (body.on(33), mirrored.on(33));
         let mut energy = 0.0;
         for leg in legs(&body, &turns, force) {
             let (one, other) = (solver.advance(leg).unwrap(), mirrored.advance(leg).unwrap());
@@ -150,8 +148,8 @@ proptest! {
             for probe in probes.iter().chain(&[0.0, 1.0]) {
                 let d = one.start() + probe * (one.end() - one.start());
                 let turn = |&(first, end): &(usize, usize)| (last - end, last - first);
-                let turned: Vec<_> = mirrored.fragments(d).iter().rev().map(turn).collect();
-                prop_assert_eq!(solver.fragments(d), turned, "at {} of {:?}", d, leg);
+                let turned: Vec<_> = mirrored.leg().patches(d).iter().rev().map(turn).collect();
+                prop_assert_eq!(solver.leg().patches(d), turned, "at {} of {:?}", d, leg);
             }
         }
     }

@@ -1,8 +1,6 @@
 //! Forces reached exactly where the contact jumps.
 
 use super::*;
-use asperity::contact::{Manual, ManualLoading};
-use std::sync::Arc;
 
 proptest! {
     #![proptest_config(cases(300))]
@@ -19,13 +17,9 @@ proptest! {
         let rule = HessRule::new(foundation, work);
         let attaches = wall - rule.largest_stretch(1);
         let expected = 0.5 * (attaches + wall);
-        let tree = Arc::new(ContactTree::build(&gaps, Edges::Grid).unwrap());
-        let mut body = exact::adhesive(&gaps, &tree, GridEdges::new(rule), foundation, 5);
+        let mut body = adhesive(&gaps, Edges::Grid, rule, foundation, 5);
         let record = body.advance(Leg::ToForce(attaches)).unwrap();
         prop_assert!((record.end() - expected).abs() < 4.0 * f64::EPSILON, "{} {}", record.end(), expected);
-        let mut manual = Manual::new(&gaps, Arc::clone(&tree), GridEdges::new(rule), foundation).unwrap();
-        manual.move_to_force(attaches).unwrap();
-        prop_assert_eq!(manual.point().indentation, record.end());
     }
 
     /// The smallest force of an unloading is reached except for its rounding, and no smaller one.
@@ -33,9 +27,8 @@ proptest! {
     fn the_smallest_force_is_reached_and_none_below(body in body(), deep in 0.2..1.2_f64) {
         let foundation = Foundation::endless(0.25, 4.0);
         let body = Body { foundation, work: body.work / body.foundation.effective_modulus * 0.1, ..body };
-        let tree = body.tree();
         let turned = || {
-            let mut solver = body.on(&tree, 9);
+            let mut solver = body.on(9);
             solver.advance(Leg::ToIndentation(deep)).unwrap();
             solver
         };

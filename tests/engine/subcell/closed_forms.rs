@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 fn smooth(form: Option<Form>, length: f64, points: usize, modulus: f64, work: f64) -> Body {
     let line = Line::new(length, points, form.as_ref(), None, 0.0).unwrap();
     let foundation = Foundation::endless(line.spacing, modulus);
-    Body { gaps: line.gaps, foundation, work, closing_work: work }
+    Body { gaps: line.gaps.to_vec(), foundation, work, closing_work: work }
 }
 
 /// Without a pattern that a form shares, all odd or all even: 100 to 31 623.
@@ -193,7 +193,7 @@ impl WavySphere {
         let wave: Vec<f64> = (0..points).map(|index| (self.wave_vector * distance(index)).cos()).collect();
         let line = Line::new(length, points, Some(&form), Some(&wave), self.amplitude).unwrap();
         let foundation = Foundation::endless(line.spacing, 1.0);
-        let body = Body { gaps: line.gaps, foundation, work: 1.0, closing_work: 1.0 };
+        let body = Body { gaps: line.gaps.to_vec(), foundation, work: 1.0, closing_work: 1.0 };
         let history = body.history(&[Leg::ToIndentation(deepest), Leg::ToSeparation], 2);
         let [loading, unloading] = &history.legs[..] else { panic!() };
         let dissipated = loading.released_energy + unloading.released_energy;
@@ -357,9 +357,9 @@ fn the_wavy_form_follows_both_branches_and_jumps_of_its_closed_form() {
             before = Some(found);
             followed += 1;
         }
-        println!("{:?}: {followed} points, {jumps} jumps", record.leg);
-        assert_eq!(jumps, most, "{:?}", record.leg);
-        assert!(followed > 300, "{:?}: {followed} points", record.leg);
+        println!("{:?}: {followed} points, {jumps} jumps", record.target);
+        assert_eq!(jumps, most, "{:?}", record.target);
+        assert!(followed > 300, "{:?}: {followed} points", record.target);
     }
 }
 
@@ -578,7 +578,7 @@ fn orders_of_rough_lines(name: &str, form: Option<Form>) -> [f64; 2] {
         let line = Line::new(1.0, points, form.as_ref(), Some(&rough.heights), 0.01).unwrap();
         let foundation = Foundation::endless(line.spacing, 1.0);
         let work = 1e-4 * spectrum.gradient_per_height(1.0) / (kappa * kappa);
-        let body = Body { gaps: line.gaps, foundation, work, closing_work: work };
+        let body = Body { gaps: line.gaps.to_vec(), foundation, work, closing_work: work };
         let history = body.history(&[Leg::ToForce(4e-3), Leg::ToSeparation], 64);
         let energy: f64 = history.legs.iter().map(|leg| leg.released_energy).sum();
         [history.legs[1].smallest.force, energy]

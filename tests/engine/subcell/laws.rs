@@ -64,8 +64,7 @@ proptest! {
     fn a_contact_that_is_formed_again_is_what_it_was(
         body in any_body(60), legs in formed::loadings(), samples in 2_usize..40,
     ) {
-        let tree = body.tree();
-        formed::as_if_new(|| body.on(&tree, samples), &legs, body.force_scale())?;
+        formed::as_if_new(|| body.on(samples), &legs, body.force_scale())?;
     }
 
     #[test]
@@ -145,8 +144,7 @@ proptest! {
 
     #[test]
     fn forces_are_reached_there_and_not_before(body in any_body(60), first in 0.0..1.0_f64, then in -0.3..1.0_f64) {
-        let tree = body.tree();
-        let mut solver = body.on(&tree, 5000);
+        let mut solver = body.on(5000);
         let slack = 1e-14 * body.gaps.len() as f64 * body.foundation.spring_stiffness()
             * (1.3 + body.largest_stretch());
         for share in [first, then] {
@@ -182,8 +180,7 @@ fn extreme_values_give_numbers() {
                 let foundation = Foundation::endless(length, 1e6);
                 let gaps: Vec<f64> = gaps.iter().map(|gap| gap * length.min(1.0)).collect();
                 let body = Body { gaps, foundation, work, closing_work: work };
-                let tree = body.tree();
-                let mut solver = body.on(&tree, 17);
+                let mut solver = body.on(17);
                 let legs = [
                     Leg::ToTouch,
                     Leg::ToIndentation(length),
@@ -220,9 +217,8 @@ proptest! {
         turns in prop::collection::vec((any::<bool>(), -0.2..1.3_f64), 1..5),
     ) {
         let body = Body { work: 0.0, closing_work: 0.0, ..body };
-        let tree = body.tree();
-        let mut tree = body.on(&tree, 33);
-        let mut cells = exact::nonadhesive(&body.gaps, Edges::SubCell, body.foundation, 33);
+        let mut tree = body.on(33);
+        let mut cells = nonadhesive(&body.gaps, Edges::SubCell, body.foundation, 33);
         let scale = body.force_scale();
         let near = |a: f64, b: f64, size: f64| (a - b).abs() <= 1e-12 * size;
         for (presses, turn) in turns {

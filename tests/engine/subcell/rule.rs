@@ -11,8 +11,7 @@ proptest! {
         body in any_body(61),
         turns in prop::collection::vec(-0.9..1.3_f64, 1..9),
     ) {
-        let tree = body.tree();
-        let mut solver = body.on(&tree, 6);
+        let mut solver = body.on(6);
         // One body with hardly more and one with hardly less adhesion: where their fragments differ, an event lies at
         // the turning point to rounding and either is right.
         let work = |factor: f64| {
@@ -52,7 +51,7 @@ proptest! {
                 let contacts = one.contacts();
                 prop_assert_eq!(point.fragments, contacts.len() as u64);
                 prop_assert_eq!(point.springs, contacts.iter().map(|(a, b)| (b + 1 - a) as u64).sum::<u64>());
-                prop_assert_eq!(solver.fragments(point.indentation), contacts);
+                prop_assert_eq!(solver.leg().patches(point.indentation), contacts);
             }
             relaxed.iter_mut().for_each(|one| one.move_to(turn));
             prop_assume!(relaxed.iter().all(|one| one.contacts() == relaxed[0].contacts()));

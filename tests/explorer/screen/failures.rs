@@ -4,7 +4,7 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::{generation, is_up_to_date, pressed};
-use asperity::contact::{ContactError, ContactTree};
+use asperity::contact::ContactError;
 use asperity::explorer::action::Action;
 use asperity::explorer::update::Effect;
 use asperity::explorer::worker::Engine;
@@ -12,7 +12,6 @@ use asperity::explorer::worker::Report;
 use asperity::scene::Scene;
 use asperity::simulation::{AfterLeg, Outcome, RunError, Simulation};
 use asperity::surface::Line;
-use std::sync::Arc;
 
 #[test]
 fn reports_of_another_scene_change_nothing() {
@@ -75,10 +74,6 @@ impl Engine for Superstitious {
 
     fn line(&self) -> Option<&Line> {
         self.0.line()
-    }
-
-    fn tree(&self) -> Option<&Arc<ContactTree>> {
-        self.0.tree()
     }
 }
 

@@ -1,0 +1,402 @@
+//! The exact solver: a body moved along any loading history, leg by leg, in linear time and without a step error.
+
+use super::contact_state::{ContactState, Extreme, Sampled};
+use super::grid::Grid;
+use super::leg::{Leg, Workspace};
+use super::target::{Goal, plan};
+use super::{Contact, ContactError, CurvePoint, Direction, History, LegRecord, Work};
+use crate::scene::{Edges, Leg as Target};
+use std::mem::replace;
+use std::time::{Duration, Instant};
+
+/// Intervals in which extremes are searched when the curve has fewer samples: each patch is evaluated at each of their
+/// ends.
+pub(super) const SEARCH_INTERVALS: usize = 256;
+
+/// A body on its foundation that moves from target to target. It begins separated, at d = 0 just before first touch.
+pub trait Solver {
+    /// Moves the body to a target and records the motion.
+    ///
+    /// # Errors
+    /// For a target out of reach; the body then stays in place.
+    fn advance(&mut self, target: Target) -> Result<LegRecord, ContactError>;
+
+    /// Returns the contact at all indentations of the present leg.
+    fn leg(&self) -> Leg;
+
+    /// Work counts since the start.
+    fn work(&self) -> Work;
+
+    /// Seconds spent on curves and extremes since the start, without the thresholds.
+    fn curve_seconds(&self) -> f64;
+}
+
+/// A body on its foundation: the present leg and the position on it, all the memory that the model has.
+pub struct Body {
+    leg: Leg,
+    state: ContactState,
+    samples: usize,
+    workspace: Workspace,
+    /// Contact states of the loading from separation, kept after the first search for a force there: always the same.
+    first: Option<Sampled>,
+    /// Time spent on whole motions, and in it on the thresholds.
+    motion_time: Duration,
+    pass_time: Duration,
+}
+
+/// A motion of a body.
+#[derive(Clone, Debug)]
+pub struct Motion {
+    /// Leg of the motion.
+    pub leg: Leg,
+    /// Smallest and largest indentation of the motion, m.
+    pub low: f64,
+    /// See `low`.
+    pub high: f64,
+    goal: Goal,
+}
+
+impl Body {
+    /// Creates a separated body at d = 0 just before first touch; `samples` (at least 2) curve points are taken in each
+    /// motion.
+    #[must_use]
+    pub fn new(contact: &Contact, samples: usize) -> Self {
+        Self::new_in(Workspace::default(), contact, samples)
+    }
+
+    /// Creates the body of [`Body::new`] in the memory of another one.
+    #[must_use]
+    pub fn new_in(mut workspace: Workspace, contact: &Contact, samples: usize) -> Self {
+        workspace.forget();
+        workspace.work.springs = contact.gaps().len() as u64;
+        Body {
+            workspace,
+            ..Self::on(Leg::apart(contact, Direction::Unloading), ContactState::free(0.0), samples)
+        }
+    }
+
+    /// Creates a body at an indentation of a leg, m.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    pub fn at(leg: &Leg, indentation: f64) -> Result<Self, ContactError> {
+        Ok(Self::on(leg.clone(), leg.state(indentation)?, 2))
+    }
+
+    fn on(leg: Leg, state: ContactState, samples: usize) -> Self {
+        Body {
+            leg,
+            state,
+            samples: samples.max(2),
+            workspace: Workspace::default(),
+            first: None,
+            motion_time: Duration::ZERO,
+            pass_time: Duration::ZERO,
+        }
+    }
+
+    /// Returns the memory for the next body.
+    #[must_use]
+    pub fn into_workspace(mut self) -> Workspace {
+        self.workspace.recycle(self.leg);
+        self.workspace
+    }
+
+    /// Present point of the curve.
+    #[must_use]
+    pub fn point(&self) -> CurvePoint {
+        self.point_of(self.state)
+    }
+
+    /// Present leg.
+    #[must_use]
+    pub fn present_leg(&self) -> &Leg {
+        &self.leg
+    }
+
+    /// Moves the body to a target without a curve; `None` for a body that is there.
+    ///
+    /// # Errors
+    /// For a target out of reach; the body then stays in place.
+    pub fn move_to(&mut self, target: Target) -> Result<Option<Motion>, ContactError> {
+        let Some(motion) = self.plan(target)? else { return Ok(None) };
+        let state = match (motion.leg.direction(), motion.goal) {
+            (Direction::Unloading, Goal::Separation) => ContactState::free(motion.low),
+            (Direction::Unloading, _) => motion.leg.state(motion.low)?,
+            (Direction::Loading, _) => motion.leg.state(motion.high)?,
+        };
+        let contact = motion.leg.contact();
+        let is_apart = state.springs == 0;
+        let leg = if is_apart { Leg::apart(contact, Direction::Unloading) } else { motion.leg.clone() };
+        self.go_to(leg, state);
+        Ok(Some(motion))
+    }
+
+    fn go_to(&mut self, leg: Leg, state: ContactState) {
+        let before = replace(&mut self.leg, leg);
+        self.workspace.recycle(before);
+        self.state = state;
+    }
+
+    fn is_separated(&self) -> bool {
+        self.state.springs == 0
+    }
+
+    pub(super) fn stiffness(&self) -> f64 {
+        self.leg.contact().foundation.spring_stiffness()
+    }
+
+    pub(super) fn point_of(&self, state: ContactState) -> CurvePoint {
+        state.point(self.leg.contact().foundation)
+    }
+
+    pub(super) fn workspace(&mut self) -> &mut Workspace {
+        &mut self.workspace
+    }
+
+    /// Starts a loading from separation.
+    pub(super) fn approach(&mut self) -> Result<Leg, ContactError> {
+        Leg::approach(self.leg.contact(), &mut self.workspace)
+    }
+
+    /// The present leg in its direction, else the one that begins here.
+    fn leg_in(&mut self, direction: Direction) -> Result<Leg, ContactError> {
+        let clock = Instant::now();
+        let leg = if self.is_separated() && direction == Direction::Loading {
+            self.approach()
+        } else if self.leg.direction() == direction {
+            Ok(self.leg.clone())
+        } else {
+            self.leg.turn(self.state.indentation, &mut self.workspace)
+        };
+        self.pass_time += clock.elapsed();
+        leg
+    }
+
+    /// Finds the motion to a target.
+    fn plan(&mut self, target: Target) -> Result<Option<Motion>, ContactError> {
+        let Some((direction, goal)) = plan(target, self.point())? else { return Ok(None) };
+        let (at, separated) = (self.state.indentation, self.is_separated());
+        if let (Goal::Indentation(to), true) = (goal, separated)
+            && to < 0.0
+        {
+            let direction = if to > at { Direction::Loading } else { Direction::Unloading };
+            let leg = Leg::apart(self.leg.contact(), direction);
+            return Ok(Some(Motion { leg, low: at.min(to), high: at.max(to), goal }));
+        }
+        let leg = self.leg_in(direction)?;
+        let (low, high) = match (direction, goal) {
+            // Nothing touches below d = 0.
+            (Direction::Loading, _) => {
+                let low = if separated { at.max(0.0) } else { at };
+                (low, self.load_to(&leg, goal, low)?)
+            }
+            (Direction::Unloading, _) => (self.unload_to(&leg, goal)?, at),
+        };
+        Ok(Some(Motion { leg, low, high, goal }))
+    }
+
+    /// Indentation at which a loading first reaches its goal, m.
+    pub(super) fn load_to(&mut self, leg: &Leg, goal: Goal, low: f64) -> Result<f64, ContactError> {
+        let force = match goal {
+            Goal::Indentation(indentation) => return Ok(indentation),
+            Goal::Separation => return Ok(low),
+            Goal::Force(force) => force,
+        };
+        let wanted = force / self.stiffness();
+        let complete = leg.end().max(low);
+        let forms = self.is_separated();
+        // From d = 0 to full contact.
+        let known = if forms { self.first.take() } else { None };
+        let grid = Grid::new(low, complete, SEARCH_INTERVALS);
+        let work = &mut self.workspace.work;
+        let sampled = match known {
+            Some(sampled) => sampled,
+            None => {
+                work.springs_tallied += work.springs;
+                leg.sample_coarsely(&grid)?
+            }
+        };
+        // Beyond full contact the force rises with all springs.
+        let beyond = || {
+            let end = sampled.last();
+            let scale = leg.contact().springs.scale();
+            let found = match leg.contact().edges {
+                Edges::Grid => sampled.totals.last()?.indentation(wanted, &scale)?,
+                Edges::SubCell => end.indentation + (wanted - end.compression) / end.length,
+            };
+            found.is_finite().then(|| found.max(complete))
+        };
+        let found = leg.first_at_least(&grid, &sampled, wanted, work)?.or_else(beyond);
+        if forms {
+            self.first = Some(sampled);
+        }
+        found.ok_or(ContactError::OutOfReach)
+    }
+
+    /// Indentation at which an unloading reaches its goal, m.
+    fn unload_to(&mut self, leg: &Leg, goal: Goal) -> Result<f64, ContactError> {
+        let high = self.state.indentation;
+        let separates = leg.end().min(high);
+        let force = match goal {
+            Goal::Indentation(indentation) => return Ok(indentation),
+            Goal::Separation => return Ok(separates),
+            Goal::Force(force) => force,
+        };
+        let stiffness = self.stiffness();
+        let work = &mut self.workspace.work;
+        work.springs_tallied += work.springs;
+        let sampled = leg.sample(Grid::new(separates, high, SEARCH_INTERVALS))?;
+        leg.last_at_most(&sampled, force / stiffness, work).ok_or_else(|| {
+            let smallest = leg.extreme(Extreme::Smallest, &sampled, work).compression;
+            ContactError::DetachesBefore { smallest: stiffness * smallest }
+        })
+    }
+
+    /// Grid of a curve: every `stride`-th point is a sample, those between sharpen the search.
+    pub(super) fn grid(&self, low: f64, high: f64) -> (Grid, usize) {
+        let intervals = self.samples - 1;
+        let stride = SEARCH_INTERVALS.div_ceil(intervals);
+        (Grid::new(low, high, intervals * stride), stride)
+    }
+
+    /// The samples of a motion in ascending order of indentation.
+    fn samples(&self, sampled: &Sampled, stride: usize) -> Vec<CurvePoint> {
+        let last = sampled.states.len() - 1;
+        let states = sampled.states.iter().enumerate();
+        let chosen = states.filter(|(index, _)| index % stride == 0 || *index == last);
+        chosen.map(|(_, &state)| self.point_of(state)).collect()
+    }
+
+    fn load(&mut self, target: Target, motion: Motion) -> Result<LegRecord, ContactError> {
+        let Motion { leg, low, high, goal } = motion;
+        let (before, separated) = (self.state, self.is_separated());
+        let (grid, stride) = match goal {
+            // No search follows.
+            Goal::Force(_) => (Grid::new(low, high, self.samples - 1), 1),
+            _ => self.grid(low, high),
+        };
+        // The springs that touch first attach at the first point itself.
+        let from = if separated { f64::NEG_INFINITY } else { grid.points()[0] };
+        let (sampled, squared) = leg.sample_changes(grid, from)?;
+        let mut curve = self.samples(&sampled, stride);
+        if separated {
+            curve.insert(0, self.point_of(ContactState::free(low)));
+            if before.indentation < low {
+                curve.insert(0, self.point_of(before));
+            }
+        }
+        let end = sampled.last();
+        let largest = match goal {
+            // The force is below its target until then.
+            Goal::Force(_) => end,
+            _ => leg.extreme(Extreme::Largest, &sampled, &mut self.workspace.work),
+        };
+        let at_end = self.point_of(end);
+        let smallest = curve.iter().copied().min_by(|a, b| a.force.total_cmp(&b.force)).unwrap_or(at_end);
+        let extremes = [smallest, self.point_of(largest)];
+        Ok(self.end(target, leg, curve, extremes, (end, squared)))
+    }
+
+    fn unload(&mut self, target: Target, motion: Motion) -> Result<LegRecord, ContactError> {
+        let Motion { leg, low, high, goal } = motion;
+        let (grid, stride) = self.grid(low, high);
+        let separates = matches!(goal, Goal::Separation);
+        // The springs held to the first point detach just below.
+        let from = if separates { f64::NEG_INFINITY } else { grid.points()[0] };
+        let (sampled, squared) = leg.sample_changes(grid, from)?;
+        let smallest = leg.extreme(Extreme::Smallest, &sampled, &mut self.workspace.work);
+        let smallest = self.point_of(smallest);
+        let mut curve = self.samples(&sampled, stride);
+        let place = curve.partition_point(|point| point.indentation < smallest.indentation);
+        if curve.get(place) != Some(&smallest) {
+            curve.insert(place, smallest);
+        }
+        curve.reverse();
+        let mut end = sampled.first();
+        if separates {
+            end = ContactState::free(low);
+            curve.push(self.point_of(end));
+        }
+        let largest = curve.first().copied().unwrap_or(smallest);
+        Ok(self.end(target, leg, curve, [smallest, largest], (end, squared)))
+    }
+
+    /// Ends a motion along this curve at a state, with this sum of squared stretches (m²).
+    fn end(
+        &mut self,
+        target: Target,
+        leg: Leg,
+        curve: Vec<CurvePoint>,
+        extremes: [CurvePoint; 2],
+        (end, squared_stretch): (ContactState, f64),
+    ) -> LegRecord {
+        let changed = (end.springs - self.state.springs).unsigned_abs();
+        let energy = 0.5 * self.stiffness() * squared_stretch;
+        let record = LegRecord::moved((target, leg.direction()), curve, extremes, changed, energy);
+        let work = &mut self.workspace.work;
+        work.springs_tallied += work.springs;
+        work.count(&record);
+        self.go_to(leg, end);
+        record
+    }
+}
+
+impl Solver for Body {
+    fn advance(&mut self, target: Target) -> Result<LegRecord, ContactError> {
+        let clock = Instant::now();
+        let here = self.point();
+        let record = match self.plan(target)? {
+            None => {
+                if here.springs == 0 {
+                    self.leg = Leg::apart(self.leg.contact(), self.leg.direction());
+                }
+                LegRecord::still(target, here)
+            }
+            Some(Motion { leg, goal: Goal::Indentation(to), .. }) if here.springs == 0 && to < 0.0 => {
+                self.go_to(leg, ContactState::free(to));
+                LegRecord::free(target, here.indentation, to)
+            }
+            Some(motion) if motion.leg.direction() == Direction::Loading => self.load(target, motion)?,
+            Some(motion) => self.unload(target, motion)?,
+        };
+        self.motion_time += clock.elapsed();
+        Ok(record)
+    }
+
+    fn leg(&self) -> Leg {
+        self.leg.clone()
+    }
+
+    fn work(&self) -> Work {
+        self.workspace.work
+    }
+
+    fn curve_seconds(&self) -> f64 {
+        (self.motion_time - self.pass_time).as_secs_f64()
+    }
+}
+
+/// Runs a whole loading history. `after` receives each completed stage and its leg.
+///
+/// # Errors
+/// The first stage that fails ends the run.
+pub fn run(
+    solver: &mut dyn Solver,
+    targets: &[Target],
+    mut after: impl FnMut(&LegRecord, &Leg) -> Result<(), ContactError>,
+) -> Result<History, ContactError> {
+    let mut history = History::default();
+    for (index, &target) in targets.iter().enumerate() {
+        let record = solver.advance(target).map_err(|reason| reason.in_stage(index, target))?;
+        after(&record, &solver.leg())?;
+        history.legs.push(record);
+    }
+    let end = history.legs.last().and_then(|record| record.curve.last());
+    history.contacts = match end {
+        Some(point) if point.springs > 0 => solver.leg().patches(point.indentation),
+        _ => Vec::new(),
+    };
+    history.work = solver.work();
+    Ok(history)
+}

@@ -1,0 +1,117 @@
+//! The springs under a rigid line and the contact that they form: all that stays the same while the body moves.
+
+use super::adhesive::ContactTree;
+use super::{ContactError, Foundation, GapScale, HessRule};
+use crate::scene::Edges;
+use std::sync::{Arc, OnceLock};
+
+/// Springs under a rigid line: their gaps, and the trees that depend on the gaps and the edge model alone.
+///
+/// A tree is built when a contact first needs it.
+#[derive(Debug, Default)]
+pub struct Springs {
+    gaps: Arc<Vec<f64>>,
+    deepest: f64,
+    /// For whole springs and for edges between springs.
+    trees: [OnceLock<Arc<ContactTree>>; 2],
+}
+
+/// Springs on their foundation under a rule of adhesion.
+#[derive(Clone, Debug)]
+pub struct Contact {
+    /// Springs along the line.
+    pub springs: Arc<Springs>,
+    /// Elastic foundation.
+    pub foundation: Foundation,
+    /// Edge model of the patches.
+    pub edges: Edges,
+    /// Rule of Hess; `None` without adhesion.
+    pub hess: Option<HessRule>,
+}
+
+impl Springs {
+    /// Creates springs of these gaps (m, finite, the smallest 0, at least one, at most 2^28).
+    #[must_use]
+    pub fn new(gaps: impl Into<Arc<Vec<f64>>>) -> Self {
+        let gaps = gaps.into();
+        let deepest = super::adhesive::largest(&gaps);
+        Springs { gaps, deepest, trees: Default::default() }
+    }
+
+    /// Gaps along the line, m.
+    #[must_use]
+    pub fn gaps(&self) -> &[f64] {
+        &self.gaps
+    }
+
+    /// Largest gap, m.
+    #[must_use]
+    pub fn deepest(&self) -> f64 {
+        self.deepest
+    }
+
+    /// Scale of exact sums over the gaps.
+    #[must_use]
+    pub fn scale(&self) -> GapScale {
+        GapScale::for_gaps_up_to(self.deepest)
+    }
+
+    /// Returns the tree of the gaps with the sums of an edge model.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    pub fn tree(&self, edges: Edges) -> Result<&Arc<ContactTree>, ContactError> {
+        self.tree_in(ContactTree::default(), edges)
+    }
+
+    /// Returns the tree of [`Springs::tree`], built in the memory of one that is no longer needed.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    pub fn tree_in(&self, memory: ContactTree, edges: Edges) -> Result<&Arc<ContactTree>, ContactError> {
+        let tree = &self.trees[edges as usize];
+        if let Some(tree) = tree.get() {
+            return Ok(tree);
+        }
+        let built = Arc::new(memory.rebuild(&self.gaps, self.deepest, edges)?);
+        Ok(tree.get_or_init(|| built))
+    }
+
+    /// Returns true once the tree of an edge model has been built.
+    #[must_use]
+    pub fn has_tree(&self, edges: Edges) -> bool {
+        self.trees[edges as usize].get().is_some()
+    }
+
+    /// Returns the memory of a tree that nothing else uses.
+    #[must_use]
+    pub fn into_tree(self) -> ContactTree {
+        let trees = self.trees.into_iter().filter_map(OnceLock::into_inner);
+        trees.filter_map(Arc::into_inner).next().unwrap_or_default()
+    }
+}
+
+impl Contact {
+    /// Creates a contact of springs with these gaps (m, the smallest 0).
+    #[must_use]
+    pub fn new(
+        gaps: impl Into<Arc<Vec<f64>>>,
+        edges: Edges,
+        foundation: Foundation,
+        hess: Option<HessRule>,
+    ) -> Self {
+        Contact { springs: Arc::new(Springs::new(gaps)), foundation, edges, hess }
+    }
+
+    /// Gaps along the line, m.
+    #[must_use]
+    pub fn gaps(&self) -> &[f64] {
+        self.springs.gaps()
+    }
+
+    /// Rule of Hess, without adhesion the one of no stretch.
+    #[must_use]
+    pub fn rule(&self) -> HessRule {
+        self.hess.unwrap_or(HessRule::NO_ADHESION)
+    }
+}
