@@ -13,6 +13,7 @@ use asperity::surface::{Line, SelfAffine, Synthesizer, UnitRoughness};
 use peak::{Changed, arguments, peak};
 use std::mem::take;
 use std::process::{Command, Stdio};
+use std::sync::Arc;
 use std::sync::Mutex;
 
 const ASPERITY: &str = env!("CARGO_BIN_EXE_asperity");
@@ -126,7 +127,7 @@ fn a_line_of_a_new_seed_takes_the_memory_and_the_transform_of_the_one_before() {
                     synthesizer.synthesize(spectrum, seed, points, 0.0, take(&mut heights)).unwrap().heights;
                 Line::new_in(take(&mut gaps), 1.0, points, None, Some(&heights), 1.0).unwrap()
             });
-            gaps = line.gaps;
+            gaps = Arc::into_inner(line.gaps).unwrap();
             // A plan requests its table of sines at once.
             assert_eq!(largest < 1 << 10, seed > 1, "{points} springs, seed {seed}: {largest} bytes at once");
         }

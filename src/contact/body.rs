@@ -247,7 +247,7 @@ impl Body {
         let work = &mut self.workspace.work;
         work.springs_tallied += work.springs;
         let sampled = leg.sample(Grid::new(separates, high, SEARCH_INTERVALS))?;
-        leg.last_at_most(&sampled, force / stiffness, work).ok_or_else(|| {
+        leg.last_at_most(&sampled, force / stiffness, work)?.ok_or_else(|| {
             let smallest = leg.extreme(Extreme::Smallest, &sampled, work).compression;
             ContactError::DetachesBefore { smallest: stiffness * smallest }
         })

@@ -5,10 +5,11 @@ use super::adhesive::{
 };
 use super::contact_state::{ContactState, Extreme, Sampled};
 use super::fragments::runs;
-use super::grid::Grid;
+use super::grid::{CompensatedSum, Grid};
 use super::totals::ContactTotals;
 use super::{
-    Contact, ContactError, ContactTree, CurvePoint, Direction, Nonadhesive, TWO_THREADS, Work, steady,
+    Contact, ContactError, ContactTree, CurvePoint, Direction, HessRule, Nonadhesive, TWO_THREADS, Work,
+    steady,
 };
 use crate::parallel::in_parallel;
 use crate::scene::Edges;
@@ -273,6 +274,37 @@ impl Leg {
         if self.direction == Direction::Loading { 0.0 - energy } else { energy }
     }
 
+    /// Returns the stored elastic energy at ascending indentations, m, in J: ½ Δk Σ (d − c)² over the springs in contact,
+    /// compressed or stretched.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    pub fn stored_energy(&self, indentations: &[f64]) -> Result<Vec<f64>, ContactError> {
+        let squares = match &self.patches {
+            Patches::Apart => vec![0.0; indentations.len()],
+            // The same contact, with the sums of squares that the tree keeps.
+            Patches::Gaps => {
+                let contact = Contact { hess: Some(HessRule::NO_ADHESION), ..self.contact.clone() };
+                return Leg::approach(&contact, &mut Workspace::default())?.stored_energy(indentations);
+            }
+            Patches::Thresholds(thresholds) => {
+                let springs = || self.contact.gaps().iter().zip(thresholds.iter());
+                let square = |at: &f64| {
+                    let mut sum = CompensatedSum::default();
+                    let held = springs().filter(|(_, threshold)| *threshold <= at);
+                    held.for_each(|(gap, _)| sum.add((at - gap).powi(2)));
+                    sum.total()
+                };
+                indentations.iter().map(square).collect()
+            }
+            Patches::Runs(tree, runs) => {
+                along_runs!(self, tree, runs, search => search.stored_squares(indentations)?)
+            }
+        };
+        let half = 0.5 * self.contact.foundation.spring_stiffness();
+        Ok(squares.into_iter().map(|square| half * square).collect())
+    }
+
     /// Evaluates the patch of this number, from the left, at an indentation, m; `None` without such a patch.
     #[must_use]
     pub fn patch_state(&self, indentation: f64, number: usize) -> Option<PatchState> {
@@ -406,15 +438,20 @@ impl Leg {
             Patches::Runs(tree, runs) => along_runs!(self, tree, runs, search => {
                 search.first_at_least(grid, coarse, wanted, &mut work.events_sorted)
             }),
-            _ => Ok(self.nonadhesive().first_at_least(coarse, wanted)),
+            _ => self.nonadhesive().first_at_least(coarse, wanted),
         }
     }
 
     /// Largest indentation of a grid at which the compression is at most `wanted`.
-    pub(super) fn last_at_most(&self, sampled: &Sampled, wanted: f64, work: &mut Work) -> Option<f64> {
+    pub(super) fn last_at_most(
+        &self,
+        sampled: &Sampled,
+        wanted: f64,
+        work: &mut Work,
+    ) -> Result<Option<f64>, ContactError> {
         match &self.patches {
             Patches::Runs(tree, runs) => along_runs!(self, tree, runs, search => {
-                search.last_at_most(sampled, wanted, &mut work.events_sorted)
+                Ok(search.last_at_most(sampled, wanted, &mut work.events_sorted))
             }),
             _ => self.nonadhesive().last_at_most(sampled, wanted),
         }

@@ -78,6 +78,14 @@ pub struct Squares {
     pub second: i128,
 }
 
+impl std::ops::AddAssign for Squares {
+    fn add_assign(&mut self, other: Squares) {
+        self.count += other.count;
+        self.first += other.first;
+        self.second += other.second;
+    }
+}
+
 impl std::ops::SubAssign for Squares {
     fn sub_assign(&mut self, other: Squares) {
         self.count -= other.count;

@@ -2,12 +2,14 @@
 
 use super::edge_model::EdgeModel;
 use super::levels::EdgeSum;
-use super::run::Held;
+use super::run::{Held, Run};
 use super::search::Search;
+use super::span::Span;
 use crate::contact::contact_state::{ContactState, Sampled};
-use crate::contact::grid::Grid;
-use crate::contact::totals::ContactTotals;
+use crate::contact::grid::{CompensatedSum, Grid};
+use crate::contact::totals::{ContactTotals, SquareScale, Squares};
 use crate::contact::{ContactError, resized};
+use std::ops::Range;
 
 impl<E: EdgeModel> Search<'_, E> {
     /// Patches in contact at an indentation (m), from left to right, with their pinned edges where the next leg `pins`
@@ -45,34 +47,21 @@ impl<E: EdgeModel> Search<'_, E> {
     /// # Errors
     /// [`ContactError::OutOfMemory`].
     pub fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {
-        let ground = &self.ground;
-        let points = grid.points();
+        let (ground, points) = (&self.ground, grid.points());
         let count = points.len();
-        let place = |at: f64| if at > grid.high() { count } else { grid.first_at_least(at) };
         let mut totals = resized(Vec::new(), count + 1, ContactTotals::default())?;
         let mut sums = resized(Vec::new(), if E::SLIDES { count } else { 0 }, EdgeSum::default())?;
-        let (low, high) = (points[0], grid.high());
-        for run in self.runs.iter().filter(|run| run.from <= high && run.to > low) {
-            let (mut first, end) = (place(run.from), place(run.to));
-            if first >= end {
-                continue;
-            }
-            let mut span = ground.bottom(run);
-            while first < end {
-                span = ground.filled(run, span, points[first]);
-                let next = place(ground.filled_up_to(run, &span)).min(end);
-                let whole = ground.totals(&span);
-                totals[first] += whole;
-                totals[next] += -whole;
-                if E::SLIDES {
-                    let slider = ground.slider(run, &span);
-                    for (sums, &point) in sums[first..next].iter_mut().zip(&points[first..next]) {
-                        sums.add(slider.edge_cells(point));
-                    }
+        self.each_span_on(&grid, |run, span, filled| {
+            let whole = ground.totals(span);
+            totals[filled.start] += whole;
+            totals[filled.end] += -whole;
+            if E::SLIDES {
+                let slider = ground.slider(run, span);
+                for (sums, &point) in sums[filled.clone()].iter_mut().zip(&points[filled]) {
+                    sums.add(slider.edge_cells(point));
                 }
-                first = next;
             }
-        }
+        });
         totals.truncate(count);
         let mut total = ContactTotals::default();
         let mut states = resized(Vec::new(), count, ContactState::default())?;
@@ -84,5 +73,63 @@ impl<E: EdgeModel> Search<'_, E> {
             *state = ground.edges.state(point, total, edges.total(), &scale);
         }
         Ok(Sampled { grid, totals, states })
+    }
+
+    /// ∫ (d − c)² dx over the contact at ascending indentations d, m, in cells times m².
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    pub fn stored_squares(&self, points: &[f64]) -> Result<Vec<f64>, ContactError> {
+        let (ground, count) = (&self.ground, points.len());
+        if count == 0 {
+            return Ok(Vec::new());
+        }
+        let mut changes = resized(Vec::new(), count + 1, Squares::default())?;
+        let mut edges = resized(Vec::new(), count, CompensatedSum::default())?;
+        self.each_span_on(&Grid::at(points.to_vec()), |run, span, filled| {
+            let whole = ground.squares(span);
+            changes[filled.start] += whole;
+            changes[filled.end] -= whole;
+            for (sum, &point) in edges[filled.clone()].iter_mut().zip(&points[filled]) {
+                let level = ground.level(span, run.pin(), point);
+                ground.edge_cell_squares(span, level, point).for_each(|square| sum.add(square));
+            }
+        });
+        let scale = SquareScale::new(ground.tree.scale(), points[0].abs().max(points[count - 1].abs()));
+        let mut whole = Squares::default();
+        Ok(points
+            .iter()
+            .zip(changes)
+            .zip(edges)
+            .map(|((&point, change), mut sum)| {
+                whole += change;
+                let (squares, remainder) = scale.at(whole, point);
+                sum.add(scale.in_metres(squares));
+                sum.add(remainder);
+                // No sum of squares is below zero, but for rounding.
+                sum.total().max(0.0)
+            })
+            .collect())
+    }
+
+    /// Calls `see` with each run, each span of it, and the indices of the points of a grid at which the run fills it.
+    #[inline]
+    fn each_span_on(&self, grid: &Grid, mut see: impl FnMut(&Run, &Span, Range<usize>)) {
+        let (ground, points) = (&self.ground, grid.points());
+        let (low, high) = (points[0], grid.high());
+        let place = |at: f64| if at > high { points.len() } else { grid.first_at_least(at) };
+        for run in self.runs.iter().filter(|run| run.from <= high && run.to > low) {
+            let (mut first, end) = (place(run.from), place(run.to));
+            if first >= end {
+                continue;
+            }
+            let mut span = ground.bottom(run);
+            while first < end {
+                span = ground.filled(run, span, points[first]);
+                let next = place(ground.filled_up_to(run, &span)).min(end);
+                see(run, &span, first..next);
+                first = next;
+            }
+        }
     }
 }

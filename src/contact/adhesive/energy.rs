@@ -31,13 +31,7 @@ impl SquaredStretch {
         self.edges.add(f64::from(sign) * remainder);
         // Sums of all runs cancel down to the energy: those in between may pass the range of integers.
         self.whole = self.whole.wrapping_add(if sign < 0 { squares.wrapping_neg() } else { squares });
-        if E::SLIDES {
-            let outside = [span.first.checked_sub(1), Some(span.last + 1)];
-            for (spring, outside) in [span.first, span.last].into_iter().zip(outside) {
-                let outside = outside.and_then(|outside| ground.gaps.get(outside)).copied();
-                self.edges.add(f64::from(sign) * edge_cell(ground.gaps[spring], outside, level, at));
-            }
-        }
+        ground.edge_cell_squares(span, level, at).for_each(|square| self.edges.add(f64::from(sign) * square));
     }
 
     /// Adds the squares along edges that slide between two spans and levels.
@@ -72,6 +66,15 @@ impl<E: EdgeModel> Ground<'_, E> {
         let mut squares = self.tree.squares_before(self.gaps, end);
         squares -= self.tree.squares_before(self.gaps, span.first);
         squares
+    }
+
+    /// ∫ (c − θ)² dx over the edge cells of a span up to a level, m, at the indentation θ, m, in cells times m².
+    pub fn edge_cell_squares(&self, span: &Span, level: f64, at: f64) -> impl Iterator<Item = f64> {
+        let edges = [(span.first, span.first.checked_sub(1)), (span.last, Some(span.last + 1))];
+        edges.into_iter().filter(|_| E::SLIDES).map(move |(spring, outside)| {
+            let outside = outside.and_then(|outside| self.gaps.get(outside)).copied();
+            edge_cell(self.gaps[spring], outside, level, at)
+        })
     }
 
     /// Level of the edges of a span at the upper end of its run or below, m.

@@ -84,7 +84,8 @@ proptest! {
             let thresholds = solver.leg().thresholds();
             let end = record.curve.last().unwrap();
             let steps = Steps::new(&thresholds, &body);
-            let stored_now = if end.springs > 0 { steps.stored_energy(end.indentation) } else { 0.0 };
+            let touches = end.springs > 0;
+            let stored_now = if touches { steps.stored_energy(end.indentation) } else { 0.0 };
             // ∫F dd = stored + dissipated energy, to the rounding of the larger energies.
             let done = if position < end.indentation {
                 steps.work(position, end.indentation)
@@ -98,6 +99,10 @@ proptest! {
                 (record.released_energy - expected).abs() <= 1e-14 * springs * reach * reach,
                 "{} against {} on {:?}", record.released_energy, expected, leg
             );
+            // The energy stored at each point, each within the rounding of the stretches and of their sum.
+            let at = [end.indentation];
+            let found = if touches { solver.leg().stored_energy(&at).unwrap()[0] } else { 0.0 };
+            prop_assert!((found - stored_now).abs() <= 1e-14 * springs * reach * reach, "{found} {stored_now}");
             (position, stored) = (end.indentation, stored_now);
             lost += record.released_energy;
         }

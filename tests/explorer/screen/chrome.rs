@@ -150,7 +150,7 @@ fn the_status_line_has_mechanics_or_the_work_of_the_computation() {
             assert!(driver.status().contains(text), "{text}: {}", driver.status());
         }
         driver.press("d {");
-        assert!(driver.status().contains("looked at") && driver.status().contains("springs changed"));
+        assert!(driver.status().contains("springs changed"), "{}", driver.status());
         driver.press("I");
         assert!(
             driver.status().contains("manual: d ") && driver.status().contains("released "),

@@ -201,7 +201,7 @@ fn a_force_out_of_reach_is_stated_and_nothing_is_lost() {
         assert!(point(&driver).indentation > after.indentation);
         driver.press("S");
         go(&mut driver, "-1 µN");
-        assert!(driver.status().contains("nothing touches"), "{}", driver.status());
+        assert!(driver.status().contains("needs a contact"), "{}", driver.status());
         for nonsense in ["", "strong", "1 kg", "NaN"] {
             let at_first = point(&driver);
             go(&mut driver, nonsense);
