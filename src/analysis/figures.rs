@@ -131,6 +131,7 @@ mod tests {
         LegRecord {
             target,
             direction,
+            stored_energy: vec![0.0; curve.len()],
             curve,
             largest: extreme,
             smallest: extreme,

@@ -8,8 +8,7 @@ use super::fragments::runs;
 use super::grid::{CompensatedSum, Grid};
 use super::totals::ContactTotals;
 use super::{
-    Contact, ContactError, ContactTree, CurvePoint, Direction, HessRule, Nonadhesive, TWO_THREADS, Work,
-    steady,
+    Contact, ContactError, ContactTree, CurvePoint, Direction, Nonadhesive, TWO_THREADS, Work, steady,
 };
 use crate::parallel::in_parallel;
 use crate::scene::Edges;
@@ -282,11 +281,7 @@ impl Leg {
     pub fn stored_energy(&self, indentations: &[f64]) -> Result<Vec<f64>, ContactError> {
         let squares = match &self.patches {
             Patches::Apart => vec![0.0; indentations.len()],
-            // The same contact, with the sums of squares that the tree keeps.
-            Patches::Gaps => {
-                let contact = Contact { hess: Some(HessRule::NO_ADHESION), ..self.contact.clone() };
-                return Leg::approach(&contact, &mut Workspace::default())?.stored_energy(indentations);
-            }
+            Patches::Gaps => self.nonadhesive().stored_squares(indentations)?,
             Patches::Thresholds(thresholds) => {
                 let springs = || self.contact.gaps().iter().zip(thresholds.iter());
                 let square = |at: &f64| {

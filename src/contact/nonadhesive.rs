@@ -7,10 +7,10 @@
 //! summed exactly, as whole numbers of quanta; a partly filled cell adds its part at each point of the curve inside it,
 //! which keeps every digit for any slope and any indentation.
 
-use super::adhesive::{EdgeCells, EdgeModel, EdgeSum, GridEdges, SubCellEdges};
+use super::adhesive::{BlockSums, EdgeCells, EdgeModel, EdgeSum, GridEdges, SubCellEdges};
 use super::contact_state::{ContactState, Sampled};
-use super::grid::Grid;
-use super::totals::{ContactTotals, GapScale};
+use super::grid::{CompensatedSum, Grid};
+use super::totals::{ContactTotals, GapScale, SquareScale, Squares};
 use super::{ContactError, HessRule, Springs, resized};
 use crate::scene::Edges;
 
@@ -68,6 +68,39 @@ impl<'a> Nonadhesive<'a> {
         Ok(Sampled { grid, totals, states })
     }
 
+    /// ∫ (d − c)² dx over the contact at ascending indentations d, m, in cells times m².
+    pub fn stored_squares(&self, points: &[f64]) -> Result<Vec<f64>, ContactError> {
+        let mut changes = resized(Vec::new(), points.len() + 1, Squares::default())?;
+        let mut partial = resized(Vec::new(), points.len(), CompensatedSum::default())?;
+        let place = |gap: f64| points.partition_point(|&point| point < gap);
+        match self.edges {
+            Edges::Grid => {
+                self.gaps.iter().for_each(|&gap| changes[place(gap)] += BlockSums::of_spring(gap, self.scale))
+            }
+            Edges::SubCell => {
+                for cell in self.gaps.windows(2) {
+                    let [low, high] = if cell[0] < cell[1] { [cell[0], cell[1]] } else { [cell[1], cell[0]] };
+                    let (first, end) = (place(low), place(high));
+                    changes[end] += BlockSums::of_cell(low, high, self.scale);
+                    for (partial, point) in partial[first..end].iter_mut().zip(&points[first..end]) {
+                        partial.add((point - low).powi(3) / (3.0 * (high - low)));
+                    }
+                }
+                for gap in self.ends() {
+                    let first = place(gap);
+                    let halves = partial[first..].iter_mut().zip(&points[first..]);
+                    halves.for_each(|(partial, point)| partial.add(0.5 * (point - gap).powi(2)));
+                }
+            }
+        }
+        Ok(SquareScale::along(self.scale, points, changes, partial))
+    }
+
+    /// Gaps of the half cells beyond the first and the last spring, as level as these springs.
+    fn ends(&self) -> impl Iterator<Item = f64> {
+        [self.gaps.first(), self.gaps.last()].into_iter().flatten().copied()
+    }
+
     /// Calls `see` with each spring: its contribution to the contact, its gap and that of the spring before it.
     ///
     /// A spring adds a fragment, less one for each neighbour that touches earlier; among equals the left one counts as
@@ -94,9 +127,7 @@ impl<'a> Nonadhesive<'a> {
         match self.edges {
             Edges::Grid => GridEdges::new(rule).state(indentation, full, EdgeCells::default(), &self.scale),
             Edges::SubCell => {
-                // Half a cell as level as its spring at each end of the foundation.
-                let ends = [self.gaps.first(), self.gaps.last()].into_iter().flatten();
-                for gap in ends.filter(|&&gap| gap <= indentation) {
+                for gap in self.ends().filter(|&gap| gap <= indentation) {
                     partial.add(EdgeCells { length: 0.5, compression: 0.5 * (indentation - gap) });
                 }
                 let state = SubCellEdges::new(rule).state(indentation, full, partial.total(), &self.scale);

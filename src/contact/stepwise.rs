@@ -253,9 +253,8 @@ impl<'a> Stepwise<'a> {
         let changed = self.state.totals.springs.abs_diff(here.springs as i64);
         // The sum counts detachments.
         let squared = if loads { -self.state.squared_stretch } else { self.state.squared_stretch };
-        let energy = 0.5 * self.contact.foundation.spring_stiffness() * squared;
         let curve = curve.finish(smallest, direction);
-        let record = LegRecord::moved((target, direction), curve, [smallest, largest], changed, energy);
+        let record = LegRecord::moved((target, &self.leg()), curve, [smallest, largest], changed, squared)?;
         self.work.count(&record);
         Ok(record)
     }
@@ -304,7 +303,10 @@ impl Solver for Stepwise<'_> {
     fn advance(&mut self, target: Target) -> Result<LegRecord, ContactError> {
         let here = self.point();
         match plan(target, here)? {
-            None => Ok(LegRecord::still(target, here)),
+            None => {
+                let stored = self.leg().stored_energy(&[here.indentation])?.iter().sum();
+                Ok(LegRecord::still(target, here, stored))
+            }
             Some((_, Goal::Indentation(end))) if here.springs == 0 && end < 0.0 => {
                 self.state.indentation = end;
                 Ok(LegRecord::free(target, here.indentation, end))

@@ -1,5 +1,6 @@
 //! Totals of the springs in contact, as sums without cancellation: exact counts and fixed-point gaps.
 
+use super::grid::CompensatedSum;
 use crate::scene::Edges;
 
 /// Fixed-point scale of the gaps of one line: a quantum is 2⁻⁶² of the power of two above its largest
@@ -131,6 +132,27 @@ impl SquareScale {
         let part = exact - whole as f64;
         let remainder = part * (2.0 * (count * whole - first) as f64 + count as f64 * part);
         (sum, remainder * self.quantum * self.quantum)
+    }
+
+    /// Σ (d − c)² at each of some ascending indentations d, m, from the changes of the sums at each and the squares of partly
+    /// filled cells, m².
+    pub fn along(
+        scale: GapScale,
+        points: &[f64],
+        changes: Vec<Squares>,
+        partial: Vec<CompensatedSum>,
+    ) -> Vec<f64> {
+        let scale = SquareScale::new(scale, points.iter().fold(0.0, |most, point| point.abs().max(most)));
+        let mut whole = Squares::default();
+        let sums = points.iter().zip(changes).zip(partial).map(|((&point, change), mut sum)| {
+            whole += change;
+            let (squares, remainder) = scale.at(whole, point);
+            sum.add(scale.in_metres(squares));
+            sum.add(remainder);
+            // No sum of squares is below zero, but for rounding.
+            sum.total().max(0.0)
+        });
+        sums.collect()
     }
 
     /// Sum of squares, m².

@@ -30,7 +30,7 @@ const KEYS: &[&str] = &[
     "timings",
 ];
 const LINE_KEYS: &[&str] = &["points", "length", "spacing", "rms_height", "rms_gradient", "modes", "seed"];
-const CURVE_KEYS: &[&str] = &["leg", "indentation", "force", "contact_length", "fragments"];
+const CURVE_KEYS: &[&str] = &["leg", "indentation", "force", "contact_length", "fragments", "stored_energy"];
 
 /// Standard output of a command that succeeds without messages.
 fn done(arguments: &[&str]) -> String {

@@ -60,7 +60,7 @@ fn lines_of_python_read_tables() {
         folder,
         &format!(
             "{code}\nother = {other}{expected}\
-             assert list(frame.columns) == ['leg', 'indentation', 'force', 'contact_length', 'fragments']\n\
+             assert list(frame.columns) == ['leg', 'indentation', 'force', 'contact_length', 'fragments', 'stored_energy']\n\
              assert list(frame['force']) == expected and list(other['force']) == expected\n\
              assert (frame.to_numpy() == other.to_numpy()).all()"
         ),

@@ -95,21 +95,7 @@ impl<E: EdgeModel> Search<'_, E> {
                 ground.edge_cell_squares(span, level, point).for_each(|square| sum.add(square));
             }
         });
-        let scale = SquareScale::new(ground.tree.scale(), points[0].abs().max(points[count - 1].abs()));
-        let mut whole = Squares::default();
-        Ok(points
-            .iter()
-            .zip(changes)
-            .zip(edges)
-            .map(|((&point, change), mut sum)| {
-                whole += change;
-                let (squares, remainder) = scale.at(whole, point);
-                sum.add(scale.in_metres(squares));
-                sum.add(remainder);
-                // No sum of squares is below zero, but for rounding.
-                sum.total().max(0.0)
-            })
-            .collect())
+        Ok(SquareScale::along(ground.tree.scale(), points, changes, edges))
     }
 
     /// Calls `see` with each run, each span of it, and the indices of the points of a grid at which the run fills it.

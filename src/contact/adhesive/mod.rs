@@ -26,5 +26,5 @@ pub(in crate::contact) use search::Search;
 pub(in crate::contact) use span::Span;
 pub use sub_cell_edges::SubCellEdges;
 pub use tree::ContactTree;
-pub(in crate::contact) use tree::largest;
+pub(in crate::contact) use tree::{BlockSums, largest};
 pub(in crate::contact) use unloading::Opening;

@@ -326,7 +326,7 @@ fn sums_along(
 
 /// Sums over a block at most: four quanta below 2^62 fit into 64 bits, and four of their squares into 128.
 #[derive(Default)]
-struct BlockSums {
+pub struct BlockSums {
     quanta: u64,
     squares: u128,
     /// Squared differences of the gaps at the ends of cells.
@@ -334,6 +334,25 @@ struct BlockSums {
 }
 
 impl BlockSums {
+    /// Sums over one spring.
+    pub fn of_spring(gap: f64, scale: GapScale) -> Squares {
+        let mut sums = BlockSums::default();
+        sums.add_spring(gap, scale);
+        sums.squares(1)
+    }
+
+    /// Sums over one cell.
+    pub fn of_cell(one: f64, other: f64, scale: GapScale) -> Squares {
+        let mut sums = BlockSums::default();
+        sums.add_cell(one, other, scale);
+        sums.squares(1)
+    }
+
+    fn squares(&self, count: i64) -> Squares {
+        let [first, second] = self.rounded();
+        Squares { count, first, second }
+    }
+
     #[inline]
     fn add_spring(&mut self, gap: f64, scale: GapScale) {
         self.add(scale.quanta(gap).cast_unsigned());
