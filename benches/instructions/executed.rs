@@ -45,7 +45,7 @@ pub const EFFECTS: &[Effect] = &[
     Effect {
         name: "unloading",
         lines: Lines::Of(&[
-            ("src/contact/exact.rs", "fn unload("),
+            ("src/contact/body.rs", "fn unload("),
             ("src/contact/adhesive/unloading.rs", "pub fn list<"),
         ]),
         called_for: Case::goes_back,

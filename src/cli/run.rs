@@ -48,8 +48,9 @@ pub struct RunArguments {
     /// text, json, csv, npy, svg or png; default: by the extension of FILE
     ///
     /// Text is a summary for a person. JSON is one object with scene, profile, figures, curve,
-    /// contacts and work. CSV is the curve: leg,indentation,force,contact_length,fragments,stored_energy.
-    /// npy is the same as a structured array of NumPy. SVG and PNG are pictures of the curve.
+    /// contacts and work. CSV is the curve: leg, indentation, force, contact_length, fragments,
+    /// stored_energy. npy is the same as a structured array of NumPy. SVG and PNG are pictures of
+    /// the curve.
     #[arg(long, value_parser = Format::parser(FORMATS), hide_possible_values = true, verbatim_doc_comment)]
     pub format: Option<Format>,
     /// Draw the profile and its contact at the largest force instead of the curve

@@ -37,8 +37,6 @@ pub struct Body {
     state: ContactState,
     samples: usize,
     workspace: Workspace,
-    /// Contact states of the loading from separation, kept after the first search for a force there: always the same.
-    first: Option<Sampled>,
     /// Time spent on whole motions, and in it on the thresholds.
     motion_time: Duration,
     pass_time: Duration,
@@ -89,7 +87,6 @@ impl Body {
             state,
             samples: samples.max(2),
             workspace: Workspace::default(),
-            first: None,
             motion_time: Duration::ZERO,
             pass_time: Duration::ZERO,
         }
@@ -205,32 +202,18 @@ impl Body {
         };
         let wanted = force / self.stiffness();
         let complete = leg.end().max(low);
-        let forms = self.is_separated();
-        // From d = 0 to full contact.
-        let known = if forms { self.first.take() } else { None };
-        let grid = Grid::new(low, complete, SEARCH_INTERVALS);
         let work = &mut self.workspace.work;
-        let sampled = match known {
-            Some(sampled) => sampled,
-            None => {
-                work.springs_tallied += work.springs;
-                leg.sample_coarsely(&grid)?
-            }
-        };
-        // Beyond full contact the force rises with all springs.
-        let beyond = || {
-            let end = sampled.last();
-            let scale = leg.contact().springs.scale();
-            let found = match leg.contact().edges {
-                Edges::Grid => sampled.totals.last()?.indentation(wanted, &scale)?,
-                Edges::SubCell => end.indentation + (wanted - end.compression) / end.length,
-            };
-            found.is_finite().then(|| found.max(complete))
-        };
-        let found = leg.first_at_least(&grid, &sampled, wanted, work)?.or_else(beyond);
-        if forms {
-            self.first = Some(sampled);
+        work.springs_tallied += work.springs;
+        if let Some(found) = leg.first_at_least(Grid::new(low, complete, SEARCH_INTERVALS), wanted, work)? {
+            return Ok(found);
         }
+        // Beyond full contact the force rises with all springs.
+        let full = leg.sample(Grid::at(vec![complete]))?;
+        let found = match leg.contact().edges {
+            Edges::Grid => full.totals[0].indentation(wanted, &leg.contact().springs.scale()),
+            Edges::SubCell => Some(complete + (wanted - full.first().compression) / full.first().length),
+        };
+        let found = found.filter(|found| found.is_finite()).map(|found| found.max(complete));
         found.ok_or(ContactError::OutOfReach)
     }
 
@@ -295,6 +278,7 @@ impl Body {
         let at_end = self.point_of(end);
         let smallest = curve.iter().copied().min_by(|a, b| a.force.total_cmp(&b.force)).unwrap_or(at_end);
         let extremes = [smallest, self.point_of(largest)];
+        drop(sampled);
         self.end(target, leg, curve, extremes, (end, squared))
     }
 
@@ -319,6 +303,7 @@ impl Body {
             curve.push(self.point_of(end));
         }
         let largest = curve.first().copied().unwrap_or(smallest);
+        drop(sampled);
         self.end(target, leg, curve, [smallest, largest], (end, squared))
     }
 

@@ -1,7 +1,8 @@
 //! Contact at one indentation and along a grid of indentations, and bounds of the force between two of them.
 
+use super::adhesive::EdgeCells;
 use super::grid::Grid;
-use super::totals::ContactTotals;
+use super::totals::{ContactTotals, GapScale};
 use super::{CurvePoint, Foundation};
 
 /// Contact state at one indentation.
@@ -20,6 +21,26 @@ pub struct ContactState {
 }
 
 impl ContactState {
+    /// The contact of whole springs, or of whole cells and edge cells where edges slide between springs, at an
+    /// indentation, m.
+    #[inline]
+    pub fn new(
+        slides: bool,
+        indentation: f64,
+        totals: ContactTotals,
+        edges: EdgeCells,
+        scale: &GapScale,
+    ) -> Self {
+        let whole = totals.whole(slides);
+        ContactState {
+            indentation,
+            springs: totals.springs,
+            fragments: totals.fragments,
+            length: whole as f64 + edges.length,
+            compression: totals.compression_of(whole, indentation, scale) + edges.compression,
+        }
+    }
+
     /// Nothing in contact at this indentation, m.
     pub fn free(indentation: f64) -> Self {
         ContactState { indentation, ..ContactState::default() }

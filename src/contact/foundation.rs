@@ -78,18 +78,13 @@ impl HessRule {
         HessRule { opening: stretch(opening_work).max(closing), closing }
     }
 
-    /// The rule with this largest stretch of a fragment of one spring, m.
-    pub(super) fn with_stretch(stretch: f64) -> Self {
-        HessRule { opening: stretch, closing: stretch }
-    }
-
-    /// The rule of attachment alone, or of detachment alone.
+    /// Largest stretch of a fragment of unit length, m, before it detaches, or as it attaches on a loading.
     #[must_use]
-    pub fn on(&self, direction: Direction) -> Self {
-        Self::with_stretch(match direction {
+    pub fn stretch(&self, direction: Direction) -> f64 {
+        match direction {
             Direction::Loading => self.closing,
             Direction::Unloading => self.opening,
-        })
+        }
     }
 
     /// Returns true if springs attach and detach by one rule.

@@ -1,7 +1,5 @@
 //! Grids of indentations, and sums that keep their rounding errors.
 
-use std::ops::Range;
-
 /// A grid of ascending indentations, evenly spaced with both ends exact but for a shorter last interval, or at given
 /// points.
 #[derive(Clone, Debug)]
@@ -37,12 +35,6 @@ impl Grid {
         let last = self.points.len() - 1;
         let points = (0..last).step_by(stride).chain([last]).map(|index| self.points[index]).collect();
         Grid { points, intervals_per_metre: self.intervals_per_metre / stride as f64 }
-    }
-
-    /// Its points of these indices, at least one.
-    pub fn part(&self, indices: Range<usize>) -> Self {
-        let points = self.points[indices].to_vec();
-        Grid { points, intervals_per_metre: self.intervals_per_metre }
     }
 
     /// Returns false for a grid of given points, or of its two ends alone.

@@ -2,7 +2,7 @@
 //!
 //! The interval is parted at its middle event until bounds exclude a part or nothing happens inside.
 
-use super::adhesive::{EdgeModel, Slider};
+use super::adhesive::Slider;
 use super::contact_state::{ContactState, Extreme, lower_bound, upper_bound};
 use super::steady::{SteadyContact, state};
 use super::totals::{ContactTotals, GapScale};
@@ -23,8 +23,8 @@ pub struct Piece {
 }
 
 /// An interval of indentations and its events.
-pub struct Interval<E: EdgeModel> {
-    edges: E,
+pub struct Interval {
+    slides: bool,
     scale: GapScale,
     /// First its contact at the lowest indentation; then, once sorted, its events.
     steps: Vec<Step>,
@@ -34,10 +34,10 @@ pub struct Interval<E: EdgeModel> {
 /// Contact at the lowest and at the highest indentation of a part.
 pub type Ends<'s> = (&'s ContactState, &'s ContactState);
 
-impl<E: EdgeModel> Interval<E> {
+impl Interval {
     /// An interval with this contact at its lowest indentation, m.
-    pub fn new(edges: E, scale: GapScale, low: f64, totals: ContactTotals) -> Self {
-        Interval { edges, scale, steps: vec![Step { threshold: low, totals }], pieces: Vec::new() }
+    pub fn new(slides: bool, scale: GapScale, low: f64, totals: ContactTotals) -> Self {
+        Interval { slides, scale, steps: vec![Step { threshold: low, totals }], pieces: Vec::new() }
     }
 
     /// Adds an event at an indentation, m; [`Interval::sort`] follows the last one.
@@ -71,14 +71,14 @@ impl<E: EdgeModel> Interval<E> {
     /// Contact state at an indentation.
     fn at(&self, pieces: &[Piece], indentation: f64) -> ContactState {
         let there = pieces.iter().filter(|piece| piece.is_at(indentation)).map(|piece| piece.slider);
-        state(self.edges, &self.scale, self.totals(indentation), there, indentation)
+        state(self.slides, &self.scale, self.totals(indentation), there, indentation)
     }
 
     /// The contact from an indentation up to the next event.
-    fn steady(&self, pieces: &[Piece], indentation: f64) -> SteadyContact<E> {
+    fn steady(&self, pieces: &[Piece], indentation: f64) -> SteadyContact {
         let there = pieces.iter().filter(|piece| piece.is_at(indentation));
-        let (edges, scale, totals) = (self.edges, self.scale, self.totals(indentation));
-        SteadyContact { edges, scale, totals, sliders: there.map(|piece| piece.slider).collect() }
+        let (slides, scale, totals) = (self.slides, self.scale, self.totals(indentation));
+        SteadyContact { slides, scale, totals, sliders: there.map(|piece| piece.slider).collect() }
     }
 
     /// The middle one of all events inside a part.

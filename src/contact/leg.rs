@@ -12,6 +12,7 @@ use super::{
 };
 use crate::parallel::in_parallel;
 use crate::scene::Edges;
+use std::marker::PhantomData;
 use std::mem::take;
 use std::sync::Arc;
 
@@ -69,15 +70,11 @@ macro_rules! along_runs {
         let (leg, tree, runs): (&Leg, &ContactTree, &[Run]) = ($leg, $tree, $runs);
         match leg.contact.edges {
             Edges::Grid => {
-                let edges = GridEdges::new(leg.contact.rule());
-                let $search =
-                    Search { ground: Ground::new(leg.contact.gaps(), tree, edges, leg.direction), runs };
+                let $search = Search { ground: leg.ground::<GridEdges>(tree), runs };
                 $value
             }
             Edges::SubCell => {
-                let edges = SubCellEdges::new(leg.contact.rule());
-                let $search =
-                    Search { ground: Ground::new(leg.contact.gaps(), tree, edges, leg.direction), runs };
+                let $search = Search { ground: leg.ground::<SubCellEdges>(tree), runs };
                 $value
             }
         }
@@ -154,10 +151,8 @@ impl Leg {
             let end = if direction == Direction::Loading { self.contact.springs.deepest() } else { 0.0 };
             return Ok(Leg { end, ..turned });
         };
-        let rule = self.contact.rule();
-        let pins = self.contact.edges == Edges::SubCell && !rule.is_one();
         workspace.held.clear();
-        along_runs!(self, tree, runs, search => workspace.held.extend(search.held_at(at, pins)));
+        along_runs!(self, tree, runs, search => workspace.held.extend(search.held_at(at, self.pins())));
         turned.list(Arc::clone(tree), workspace, at)
     }
 
@@ -303,38 +298,46 @@ impl Leg {
     /// Evaluates the patch of this number, from the left, at an indentation, m; `None` without such a patch.
     #[must_use]
     pub fn patch_state(&self, indentation: f64, number: usize) -> Option<PatchState> {
-        match self.contact.edges {
-            Edges::Grid => self.patch_under(GridEdges::new(self.contact.rule()), indentation, number),
-            Edges::SubCell => self.patch_under(SubCellEdges::new(self.contact.rule()), indentation, number),
-        }
-    }
-
-    fn patch_under<E: EdgeModel>(&self, edges: E, indentation: f64, number: usize) -> Option<PatchState> {
+        let Contact { springs, foundation, edges, .. } = &self.contact;
         let (first, last) = *self.patches(indentation).get(number)?;
-        let edges = edges.on(self.direction);
-        let gaps = self.contact.gaps();
-        let gap = gaps[first..=last].iter().copied().fold(0.0, f64::max);
-        let span = Span { gap, first, last };
+        let (rule, gaps, scale) = (self.contact.rule(), springs.gaps(), springs.scale());
+        let slides = *edges == Edges::SubCell;
+        let stretch = rule.stretch(self.direction);
+        let span = Span { gap: gaps[first..=last].iter().copied().fold(0.0, f64::max), first, last };
         let pin = match &self.patches {
-            Patches::Runs(tree, runs) if edges.are_pinned() || !self.contact.rule().is_one() => {
-                along_runs!(self, tree, runs, search => {
-                    search.held_at(indentation, true).nth(number).and_then(|held| held.pin)
-                })
-            }
+            Patches::Runs(tree, runs) => along_runs!(self, tree, runs, search => {
+                search.held_at(indentation, self.pins()).nth(number)?.pin
+            }),
             _ => None,
         };
-        let scale = self.contact.springs.scale();
-        let totals = ContactTotals::of_patch(gaps, (first, last), self.contact.edges, &scale);
-        let slider = Slider::new(gaps, &span, edges.stretch(), pin);
-        let state = steady::state(edges, &scale, totals, [slider].into_iter(), indentation);
-        let rise = pin.unwrap_or_else(|| edges.rise(&edges.levels(gaps, &span), indentation));
-        let point = state.point(self.contact.foundation);
+        let totals = ContactTotals::of_patch(gaps, (first, last), *edges, &scale);
+        let slider = Slider::new(gaps, &span, stretch, pin);
+        let state = steady::state(slides, &scale, totals, [slider].into_iter(), indentation);
+        let free = || if slides { SubCellEdges::levels(gaps, &span).rise(stretch, indentation) } else { 0.0 };
+        let point = state.point(*foundation);
         Some(PatchState {
             length: point.contact_length,
             force: point.force,
-            largest_stretch: self.contact.rule().largest_stretch(1) * state.length.sqrt(),
-            most_stretched: span.gap + rise - indentation,
+            largest_stretch: rule.largest_stretch(1) * state.length.sqrt(),
+            most_stretched: span.gap + pin.unwrap_or_else(free) - indentation,
         })
+    }
+
+    /// Returns true where the edges of patches keep their place at first when the direction turns, since the rules of
+    /// loading and of unloading differ. Between springs alone an edge has a place of its own to keep.
+    fn pins(&self) -> bool {
+        self.contact.edges == Edges::SubCell && !self.contact.rule().is_one()
+    }
+
+    fn ground<'a, E: EdgeModel>(&'a self, tree: &'a ContactTree) -> Ground<'a, E> {
+        let unloading = self.direction == Direction::Unloading;
+        Ground {
+            gaps: self.contact.gaps(),
+            tree,
+            edges: PhantomData,
+            stretch: self.contact.rule().stretch(self.direction),
+            unloading,
+        }
     }
 
     /// Contact state at an indentation, m.
@@ -348,8 +351,7 @@ impl Leg {
                 for ends in self.patches(indentation) {
                     totals += ContactTotals::of_patch(self.contact.gaps(), ends, Edges::Grid, &scale);
                 }
-                let edges = GridEdges::new(self.contact.rule());
-                Ok(steady::state(edges, &scale, totals, std::iter::empty(), indentation))
+                Ok(steady::state(false, &scale, totals, std::iter::empty(), indentation))
             }
             Patches::Gaps | Patches::Runs(..) => Ok(self.sample(Grid::at(vec![indentation]))?.first()),
         }
@@ -395,45 +397,28 @@ impl Leg {
         }
     }
 
-    /// Smallest force of an unloading to separation on the range of a grid from there to the turning point, the state at
-    /// which is `turn`.
-    pub(super) fn smallest_below(
-        &self,
-        turn: ContactState,
-        grid: &Grid,
-        work: &mut Work,
-    ) -> Result<ContactState, ContactError> {
+    /// Smallest force of an unloading on the range of a grid.
+    pub(super) fn smallest(&self, grid: &Grid, work: &mut Work) -> Result<ContactState, ContactError> {
         match &self.patches {
             Patches::Runs(tree, runs) => {
-                along_runs!(self, tree, runs, search => search.smallest_below(turn, grid, &mut work.events_sorted))
+                along_runs!(self, tree, runs, search => search.smallest(grid, &mut work.events_sorted))
             }
             _ => self.state(grid.points()[0]),
-        }
-    }
-
-    /// Contact states at those points of a grid from which [`Leg::first_at_least`] proceeds.
-    pub(super) fn sample_coarsely(&self, grid: &Grid) -> Result<Sampled, ContactError> {
-        match &self.patches {
-            Patches::Runs(tree, runs) => {
-                along_runs!(self, tree, runs, search => search.sample_coarsely(grid))
-            }
-            _ => self.sample(grid.clone()),
         }
     }
 
     /// Smallest indentation of a grid at which the compression is at least `wanted`.
     pub(super) fn first_at_least(
         &self,
-        grid: &Grid,
-        coarse: &Sampled,
+        grid: Grid,
         wanted: f64,
         work: &mut Work,
     ) -> Result<Option<f64>, ContactError> {
         match &self.patches {
             Patches::Runs(tree, runs) => along_runs!(self, tree, runs, search => {
-                search.first_at_least(grid, coarse, wanted, &mut work.events_sorted)
+                search.first_at_least(&grid, wanted, &mut work.events_sorted)
             }),
-            _ => self.nonadhesive().first_at_least(coarse, wanted),
+            _ => self.nonadhesive().first_at_least(&self.sample(grid)?, wanted),
         }
     }
 

@@ -13,7 +13,7 @@
 //! one direction, and a [`Body`] a leg and the position on it. [`Leg`] applies these rules in one pass over a tree;
 //! [`Stepwise`] moves by small steps and relaxes, as the paper does.
 
-pub mod adhesive;
+mod adhesive;
 mod body;
 mod contact_state;
 mod crossing;

@@ -7,11 +7,11 @@
 //! summed exactly, as whole numbers of quanta; a partly filled cell adds its part at each point of the curve inside it,
 //! which keeps every digit for any slope and any indentation.
 
-use super::adhesive::{BlockSums, EdgeCells, EdgeModel, EdgeSum, GridEdges, SubCellEdges};
+use super::adhesive::{BlockSums, EdgeCells, EdgeSum};
 use super::contact_state::{ContactState, Sampled};
 use super::grid::{CompensatedSum, Grid};
 use super::totals::{ContactTotals, GapScale, SquareScale, Squares};
-use super::{ContactError, HessRule, Springs, resized};
+use super::{ContactError, Springs, resized};
 use crate::scene::Edges;
 
 /// Intervals into which a search divides the one that encloses a force.
@@ -123,14 +123,13 @@ impl<'a> Nonadhesive<'a> {
 
     /// Contact state of the full springs or cells and of the partly filled cells.
     fn state(&self, indentation: f64, full: ContactTotals, mut partial: EdgeSum) -> ContactState {
-        let rule = HessRule::NO_ADHESION;
         match self.edges {
-            Edges::Grid => GridEdges::new(rule).state(indentation, full, EdgeCells::default(), &self.scale),
+            Edges::Grid => ContactState::new(false, indentation, full, EdgeCells::default(), &self.scale),
             Edges::SubCell => {
                 for gap in self.ends().filter(|&gap| gap <= indentation) {
                     partial.add(EdgeCells { length: 0.5, compression: 0.5 * (indentation - gap) });
                 }
-                let state = SubCellEdges::new(rule).state(indentation, full, partial.total(), &self.scale);
+                let state = ContactState::new(true, indentation, full, partial.total(), &self.scale);
                 ContactState { length: state.length.min(self.gaps.len() as f64), ..state }
             }
         }

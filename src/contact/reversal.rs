@@ -98,7 +98,7 @@ impl Body {
         let unloading = loading.turn(high, self.workspace())?;
         let separation = unloading.end().min(high);
         let (grid, _) = self.grid(separation, high);
-        let smallest = unloading.smallest_below(turn, &grid, &mut self.workspace().work)?;
+        let smallest = unloading.smallest(&grid, &mut self.workspace().work)?;
         let below = &points[..points.partition_point(|&point| point <= high)];
         let apart = below.partition_point(|&point| point < separation);
         let mut forces = vec![0.0; apart];

@@ -1,6 +1,6 @@
 //! A contact that stays the same over a range of indentations: its force and the crossings of a value.
 
-use super::adhesive::{EdgeModel, EdgeSum, Slider};
+use super::adhesive::{EdgeSum, Slider};
 use super::contact_state::ContactState;
 use super::crossing::{bisect, crossing, last_before};
 use super::totals::{ContactTotals, GapScale};
@@ -8,17 +8,17 @@ use super::totals::{ContactTotals, GapScale};
 /// Whole springs or cells and the edge cells of some fragments, none of which jumps, merges or parts.
 ///
 /// The force is convex in the indentation.
-pub struct SteadyContact<E: EdgeModel> {
-    pub edges: E,
+pub struct SteadyContact {
+    pub slides: bool,
     pub scale: GapScale,
     pub totals: ContactTotals,
     pub sliders: Vec<Slider>,
 }
 
-impl<E: EdgeModel> SteadyContact<E> {
+impl SteadyContact {
     /// The contact at an indentation, m.
     pub fn state(&self, indentation: f64) -> ContactState {
-        state(self.edges, &self.scale, self.totals, self.sliders.iter().copied(), indentation)
+        state(self.slides, &self.scale, self.totals, self.sliders.iter().copied(), indentation)
     }
 
     /// Compression ∫ (d − c) dx at an indentation, in cells times metres.
@@ -29,12 +29,12 @@ impl<E: EdgeModel> SteadyContact<E> {
     /// Growth of the compression with the indentation, in cells.
     fn stiffness(&self, indentation: f64) -> f64 {
         let of_edges = self.sliders.iter().map(|slider| slider.stiffness(indentation));
-        self.edges.whole(self.totals) as f64 + of_edges.sum::<f64>()
+        self.totals.whole(self.slides) as f64 + of_edges.sum::<f64>()
     }
 
     /// Indentation of a compression where the force is a straight line.
     pub fn straight(&self, compression: f64) -> Option<f64> {
-        self.edges.indentation_of(self.totals, compression, &self.scale)
+        if self.slides { None } else { self.totals.indentation(compression, &self.scale) }
     }
 
     /// Indentation of the smallest force between two others, m.
@@ -77,16 +77,16 @@ impl<E: EdgeModel> SteadyContact<E> {
 }
 
 /// The contact of whole springs or cells and of these edge cells at an indentation, m.
-pub fn state<E: EdgeModel>(
-    edges: E,
+pub fn state(
+    slides: bool,
     scale: &GapScale,
     totals: ContactTotals,
     sliders: impl Iterator<Item = Slider>,
     indentation: f64,
 ) -> ContactState {
     let mut cells = EdgeSum::default();
-    if E::SLIDES {
+    if slides {
         sliders.for_each(|slider| cells.add(slider.edge_cells(indentation)));
     }
-    edges.state(indentation, totals, cells.total(), scale)
+    ContactState::new(slides, indentation, totals, cells.total(), scale)
 }

@@ -20,8 +20,9 @@ pub struct Stepwise<'a> {
     samples: usize,
     stop: &'a dyn Fn() -> bool,
     state: State,
-    /// Whether each spring is in contact, and the indentation at which it attached or detached on the present leg, m.
+    /// True for each spring in contact.
     holds: Vec<bool>,
+    /// Indentation at which each spring attached or detached on the present leg, m.
     thresholds: Vec<f64>,
     work: Work,
 }
@@ -141,7 +142,7 @@ impl<'a> Stepwise<'a> {
     }
 
     fn largest_stretch(&self, springs: usize, direction: Direction) -> f64 {
-        self.contact.rule().on(direction).largest_stretch(springs as u32)
+        self.contact.rule().stretch(direction) * (springs as f64).sqrt()
     }
 
     fn point(&self) -> CurvePoint {

@@ -198,10 +198,11 @@ impl ContactTotals {
         self.compression_of(self.springs, indentation, scale)
     }
 
-    /// Whole cells between the springs in contact: one less than its springs in each fragment.
-    #[must_use]
-    pub fn cells(&self) -> i64 {
-        self.springs - self.fragments
+    /// Number of whole springs that carry, or of whole cells where edges slide between springs: one less than its springs
+    /// in each fragment.
+    #[inline]
+    pub(super) fn whole(&self, slides: bool) -> i64 {
+        self.springs - if slides { self.fragments } else { 0 }
     }
 
     /// Compression of this number of springs, or of cells where the quanta are sums of their mean gaps: ∫ (d − c) dx

@@ -47,7 +47,10 @@ impl ContactStage<'_> {
                     let touch = [Target::ToTouch, Target::ToSeparation];
                     let touch = run(&mut body(2)?, &touch, |_, _| Ok(()))?;
                     contacted.zero_load_adhesion_force = Figures::of(&touch).adhesion_force;
-                    contacted.history.work.add_effort(&touch.work);
+                    let work = &mut contacted.history.work;
+                    work.steps += touch.work.steps;
+                    work.relaxation_sweeps += touch.work.relaxation_sweeps;
+                    work.spring_updates += touch.work.spring_updates;
                     contacted.zero_load_seconds = clock.elapsed().as_secs_f64();
                 }
                 Ok(contacted)

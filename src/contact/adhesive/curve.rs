@@ -70,7 +70,7 @@ impl<E: EdgeModel> Search<'_, E> {
             total += totals[index];
             totals[index] = total;
             let edges = sums.get(index).copied().unwrap_or_default();
-            *state = ground.edges.state(point, total, edges.total(), &scale);
+            *state = ContactState::new(E::SLIDES, point, total, edges.total(), &scale);
         }
         Ok(Sampled { grid, totals, states })
     }

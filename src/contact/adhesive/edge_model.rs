@@ -1,112 +1,114 @@
-//! Edge model of a contact fragment: its length, its next attachment and detachment, the force of its edge cells.
+//! Edge models of a contact fragment: its length, its next attachment and detachment.
 
-use super::levels::{EdgeCells, Levels};
+use super::levels::{Levels, share_below};
 use super::span::Span;
-use crate::contact::contact_state::ContactState;
-use crate::contact::totals::{ContactTotals, GapScale};
-use crate::contact::{Direction, HessRule};
-use crate::scene::Edges;
 
-/// Length of a fragment, the only input of the rule of Hess, and the force of its edge cells.
+/// Length of a fragment, the only input of the rule of Hess.
 ///
 /// A fragment grows from span to span. On each it has levels from its own largest gap up to that of its wall, and on
-/// each level a length.
+/// each level a length ℓ. Its largest stretch is Δl_max = s √ℓ, eq. (10), with the `stretch` s of a fragment of unit
+/// length, m.
 pub trait EdgeModel: Copy + Send + Sync + 'static {
-    /// Name of this model in a scene; selects the sums of the contact tree.
-    const EDGES: Edges;
     /// True for edges that slide between springs: the force is then curved between two events. Others have one length
     /// at all levels of a span, and no edge cells.
     const SLIDES: bool;
 
-    /// The rule of Hess on which the model is built.
-    fn rule(&self) -> HessRule;
-
-    /// The same edges under the rule of one direction alone. All other functions belong to this direction.
-    fn on(&self, direction: Direction) -> Self;
-
     /// Levels of a span.
-    fn levels(&self, gaps: &[f64], span: &Span) -> Levels;
+    fn levels(gaps: &[f64], span: &Span) -> Levels;
 
     /// Smallest length that a span has at its highest level, in cells, at least 1.
-    fn least_length(&self, first: usize, last: usize) -> f64;
+    fn least_length(first: usize, last: usize) -> f64;
 
     /// Smallest indentation at which a span holds its most stretched spring, m; at most its gap.
-    fn holds_to(&self, levels: &Levels) -> f64;
+    fn holds_to(levels: &Levels, stretch: f64) -> f64;
 
     /// ∫ (c − θ)² dx over the places passed while the edges move between two spans and levels, each place at its own
-    /// indentation θ, in cells times m²: at an edge the stretch is s √ℓ.
-    fn squared_stretch_sliding(&self, gaps: &[f64], between: [(Span, f64); 2], unloading: bool) -> f64;
+    /// indentation θ, in cells times ½ s².
+    fn passed_squares(gaps: &[f64], between: [(Span, f64); 2], unloading: bool) -> f64;
+}
 
-    /// Largest stretch s of a fragment of unit length, m: Δl_max = s √ℓ, eq. (10).
+/// Whole springs, as the paper counts them: a fragment of n springs is n Δx long.
+#[derive(Clone, Copy, Debug)]
+pub struct GridEdges;
+
+impl EdgeModel for GridEdges {
+    const SLIDES: bool = false;
+
     #[inline]
-    fn stretch(&self) -> f64 {
-        self.rule().largest_stretch(1)
+    fn levels(_: &[f64], span: &Span) -> Levels {
+        let length = f64::from(span.springs() as u32);
+        Levels { gap: span.gap, length, growth: 0.0, top: f64::INFINITY }
     }
 
-    /// Returns true for edges that keep their place at first when the direction turns, since the rules of loading and
-    /// of unloading differ. Between springs alone an edge has a place of its own to keep.
     #[inline]
-    fn are_pinned(&self) -> bool {
-        Self::SLIDES && !self.rule().is_one()
+    fn least_length(first: usize, last: usize) -> f64 {
+        (last + 1 - first) as f64
     }
 
-    /// Smallest indentation at which a span attaches its wall of this gap, m.
     #[inline]
-    fn attaches_at(&self, levels: &Levels, wall: f64) -> f64 {
-        let length = if Self::SLIDES { levels.length_at(wall - levels.gap) } else { levels.length };
-        wall - self.stretch() * length.sqrt()
+    fn holds_to(levels: &Levels, stretch: f64) -> f64 {
+        // At this indentation the spring is stretched by just Δl_max and detaches, so the smallest that still holds it
+        // is the next number above; but a spring whose gap is closed stays under any rule.
+        (levels.gap - stretch * levels.length.sqrt()).next_up().min(levels.gap)
     }
 
-    /// Height of the level of the edges at an indentation above the largest gap of the span, m.
+    fn passed_squares(_: &[f64], between: [(Span, f64); 2], unloading: bool) -> f64 {
+        let [fewer, more] = between.map(|(span, _)| span.springs() as f64);
+        // Springs attach one by one to patches of `fewer` springs and more, and detach from those of `more` and fewer.
+        let sign = if unloading { 1.0 } else { -1.0 };
+        (more - fewer) * (more + fewer + sign)
+    }
+}
+
+/// Edges between springs: the line is straight between neighbouring springs, and a fragment ends at the crossing of the
+/// line with the level of the fragment. The error falls with the square of the distance between springs.
+///
+/// A fragment at level t is in equilibrium with the indentation φ(t) = t − Δl_max(ℓ(t)): it grows while φ(t) ≤ d and
+/// recedes while φ(t) ≥ d. Between the gap of its largest spring and that of its wall ℓ is linear in t, so φ is convex:
+/// φ falls to its lowest value and then rises, and a fragment rests only where φ rises.
+#[derive(Clone, Copy, Debug)]
+pub struct SubCellEdges;
+
+impl EdgeModel for SubCellEdges {
+    const SLIDES: bool = true;
+
     #[inline]
-    fn rise(&self, levels: &Levels, indentation: f64) -> f64 {
-        if Self::SLIDES { levels.rise(self.stretch(), indentation) } else { 0.0 }
+    fn levels(gaps: &[f64], span: &Span) -> Levels {
+        Levels::between_springs(gaps, span).0
     }
 
-    /// Level of the edges at an indentation, m.
     #[inline]
-    fn level(&self, levels: &Levels, indentation: f64) -> f64 {
-        levels.gap + self.rise(levels, indentation)
+    fn least_length(first: usize, last: usize) -> f64 {
+        // One of the two edge cells is full at the highest level.
+        (last - first).max(1) as f64
     }
 
-    /// Returns true if the edges pass from a span to the next larger one without a jump.
     #[inline]
-    fn slides_on(&self, lower: &Levels, upper: &Levels) -> bool {
-        !Self::SLIDES || lower.slide_on(self.stretch(), upper)
+    fn holds_to(levels: &Levels, stretch: f64) -> f64 {
+        let gap = levels.gap;
+        // At the smallest φ √ℓ is half of stretch × growth.
+        let root = 0.5 * stretch * levels.growth;
+        let excess = root * root - levels.length;
+        // Without branches: they would often be mispredicted.
+        let rise = excess / levels.growth;
+        let most = levels.top - gap;
+        let rise = if rise < most { rise } else { most };
+        let rise = if excess > 0.0 { rise } else { 0.0 };
+        let holds = (gap + rise) - stretch * levels.length_at(rise).sqrt();
+        if holds < gap { holds } else { gap }
     }
 
-    /// Number of whole springs or cells that carry.
-    #[inline]
-    fn whole(&self, totals: ContactTotals) -> i64 {
-        if Self::SLIDES { totals.cells() } else { totals.springs }
-    }
-
-    /// The contact of whole springs or cells and of edge cells.
-    #[inline]
-    fn state(
-        &self,
-        indentation: f64,
-        totals: ContactTotals,
-        edges: EdgeCells,
-        scale: &GapScale,
-    ) -> ContactState {
-        let whole = self.whole(totals);
-        let mut state = ContactState {
-            indentation,
-            springs: totals.springs,
-            fragments: totals.fragments,
-            length: whole as f64,
-            compression: totals.compression_of(whole, indentation, scale),
+    fn passed_squares(gaps: &[f64], [lower, upper]: [(Span, f64); 2], _: bool) -> f64 {
+        // Twice the stretch s √ℓ of an edge times the change of the length ℓ.
+        let length = |(span, level): (Span, f64)| {
+            let share = |inside: usize, outside: Option<usize>| {
+                share_below(gaps[inside], outside.and_then(|outside| gaps.get(outside)).copied(), level)
+            };
+            let edges = share(span.first, span.first.checked_sub(1)) + share(span.last, Some(span.last + 1));
+            [(span.last - span.first) as f64, edges]
         };
-        if Self::SLIDES {
-            state.length += edges.length;
-            state.compression += edges.compression;
-        }
-        state
-    }
-
-    /// Indentation at which whole springs alone carry a compression, m; `None` if edge cells carry too.
-    fn indentation_of(&self, totals: ContactTotals, compression: f64, scale: &GapScale) -> Option<f64> {
-        if Self::SLIDES { None } else { totals.indentation(compression, scale) }
+        let ([cells0, share0], [cells1, share1]) = (length(lower), length(upper));
+        // Whole cells and shares are subtracted separately: as lengths they would lose digits.
+        ((cells1 - cells0) + (share1 - share0)) * ((cells0 + cells1) + (share0 + share1))
     }
 }

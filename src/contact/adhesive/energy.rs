@@ -5,6 +5,7 @@
 //! stretches at the beginning of each run, less those at its end, and the squares along its sliding edges.
 
 use super::edge_model::EdgeModel;
+use super::levels::share_below;
 use super::run::{Ground, Run};
 use super::search::Search;
 use super::span::Span;
@@ -51,12 +52,9 @@ impl SquaredStretch {
 /// cell as level as its spring, at the end of the foundation.
 fn edge_cell(inside: f64, outside: Option<f64>, level: f64, at: f64) -> f64 {
     let from = inside - at;
-    let Some(outside) = outside else { return 0.5 * from * from };
-    let height = outside - inside;
-    // A level cell attaches whole, with the spring.
-    let share = if height > 0.0 { ((level - inside) / height).min(1.0) } else { 1.0 };
-    let to = level.min(outside) - at;
-    share * (from * from + from * to + to * to) / 3.0
+    // Half a cell at the end of the foundation is as level as its spring.
+    let to = outside.map_or(inside, |outside| level.min(outside)) - at;
+    share_below(inside, outside, level) * (from * from + from * to + to * to) / 3.0
 }
 
 impl<E: EdgeModel> Ground<'_, E> {
@@ -96,7 +94,7 @@ impl<E: EdgeModel> Search<'_, E> {
     /// in cells times m².
     pub fn squared_stretch(&self, low: f64, high: f64) -> f64 {
         let ground = &self.ground;
-        if ground.edges.stretch() == 0.0 {
+        if ground.stretch == 0.0 {
             return 0.0;
         }
         let runs = || self.runs.iter().filter(|run| run.from <= high && run.to > low);
@@ -111,7 +109,8 @@ impl<E: EdgeModel> Search<'_, E> {
                 sum.add(ground, -1, (&top, upper), run.to);
             }
             let ends = [(bottom, lower), (top, upper)];
-            sum.slide(ground.edges.squared_stretch_sliding(ground.gaps, ends, ground.unloading));
+            let half_square = 0.5 * ground.stretch * ground.stretch;
+            sum.slide(half_square * E::passed_squares(ground.gaps, ends, ground.unloading));
         }
         sum.total()
     }

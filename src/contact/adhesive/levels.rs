@@ -46,6 +46,15 @@ impl EdgeSum {
     }
 }
 
+/// Share of an edge cell at or below a level, m, from the gap inside to the gap outside, m: all of a level cell, which
+/// attaches with its spring, and half a cell at the end of the foundation (`None`).
+pub fn share_below(inside: f64, outside: Option<f64>, level: f64) -> f64 {
+    outside.map_or(0.5, |outside| {
+        let (above, height) = (level - inside, outside - inside);
+        if above < height { above / height } else { 1.0 }
+    })
+}
+
 /// The cell in which an edge moves: from the last spring that is held to the first that is not.
 #[derive(Clone, Copy)]
 struct EdgeCell {

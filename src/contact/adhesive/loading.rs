@@ -99,9 +99,7 @@ impl Closing {
                 let closed = if is_leaf { lowest } else { of_node };
                 let mut reach = if is_leaf { [place; 2] } else { known_of_node };
                 let need = node.gap - closed;
-                let taken = if need * need
-                    <= square * ground.edges.least_length(reach[0] as usize, reach[1] as usize)
-                {
+                let taken = if need * need <= square * E::least_length(reach[0] as usize, reach[1] as usize) {
                     closed
                 } else {
                     let gap = if is_leaf { closed } else { ground.tree.nodes()[child].gap };
@@ -248,7 +246,7 @@ impl Closing {
         complete: &mut f64,
         evaluations: &mut u64,
     ) -> Result<(), ContactError> {
-        let Ground { gaps, edges, .. } = *ground;
+        let gaps = ground.gaps;
         let square = ground.square();
         let known = (start.known[0] as usize, start.known[1] as usize);
         let mut span = Span::around(gaps, known, start.gap);
@@ -266,19 +264,21 @@ impl Closing {
             };
             let need = gaps[wall] - closes;
             let mut attaches = closes;
-            if need * need > square * edges.least_length(span.first, span.last) {
+            if need * need > square * E::least_length(span.first, span.last) {
                 *evaluations += 1;
                 let levels = ground.levels(&span);
-                attaches = larger(closes, edges.attaches_at(&levels, gaps[wall]));
+                attaches = larger(closes, ground.attachment(&levels, gaps[wall]));
                 let end = smaller(attaches, climb.merges);
                 if let Some(rise) = pin.take() {
-                    let released = smaller(levels.release(edges.stretch(), rise).0, end);
+                    let released = smaller(levels.release(ground.stretch, rise).0, end);
                     push(runs, Run::pinned(climb.branch, &span, rise, closes, released), gaps.len())?;
                     closes = released;
                 }
                 if closes < end {
                     match (runs.last_mut(), below) {
-                        (Some(run), Some(lower)) if edges.slides_on(&lower, &levels) => run.raise(&span, end),
+                        (Some(run), Some(lower)) if ground.slides_on(&lower, &levels) => {
+                            run.raise(&span, end)
+                        }
                         _ => push(runs, Run::new(climb.branch, &span, closes, end), gaps.len())?,
                     }
                     below = Some(levels);
@@ -315,7 +315,7 @@ impl<E: EdgeModel> Ground<'_, E> {
         let square = self.square();
         let may_rise = |closes: f64, gap: f64, span: &Span| {
             let need = gap - closes;
-            need > 0.0 && need * need > square * self.edges.least_length(span.first, span.last)
+            need > 0.0 && need * need > square * E::least_length(span.first, span.last)
         };
         let known = (start.known[0] as usize, start.known[1] as usize);
         let mut span = Span::around(gaps, known, start.gap);

@@ -7,24 +7,20 @@
 mod curve;
 mod edge_model;
 mod energy;
-mod grid_edges;
 mod levels;
 mod loading;
 mod run;
 mod search;
 mod span;
-mod sub_cell_edges;
 mod tree;
 mod unloading;
 
-pub use edge_model::EdgeModel;
-pub use grid_edges::GridEdges;
+pub(in crate::contact) use edge_model::{EdgeModel, GridEdges, SubCellEdges};
 pub(in crate::contact) use levels::{EdgeCells, EdgeSum, Slider};
 pub(in crate::contact) use loading::Closing;
 pub(in crate::contact) use run::{Ground, Held, Run};
 pub(in crate::contact) use search::Search;
 pub(in crate::contact) use span::Span;
-pub use sub_cell_edges::SubCellEdges;
 pub use tree::ContactTree;
 pub(in crate::contact) use tree::{BlockSums, largest};
 pub(in crate::contact) use unloading::Opening;

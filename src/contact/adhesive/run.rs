@@ -4,7 +4,7 @@ use super::edge_model::EdgeModel;
 use super::levels::{Levels, Slider};
 use super::span::{Span, larger};
 use super::tree::{Branch, ContactTree};
-use crate::contact::Direction;
+use std::marker::PhantomData;
 
 /// Margin of bounds for rounding.
 const ROUNDING: f64 = 1e-12;
@@ -43,7 +43,9 @@ pub struct Held {
 pub struct Ground<'a, E> {
     pub gaps: &'a [f64],
     pub tree: &'a ContactTree,
-    pub edges: E,
+    pub edges: PhantomData<E>,
+    /// Largest stretch of a fragment of unit length, m.
+    pub stretch: f64,
     pub unloading: bool,
 }
 
@@ -90,12 +92,7 @@ impl Run {
     }
 }
 
-impl<'a, E: EdgeModel> Ground<'a, E> {
-    /// Creates the input of a leg in a direction, of edges under the rules of both directions.
-    pub fn new(gaps: &'a [f64], tree: &'a ContactTree, edges: E, direction: Direction) -> Self {
-        Ground { gaps, tree, edges: edges.on(direction), unloading: direction == Direction::Unloading }
-    }
-
+impl<E: EdgeModel> Ground<'_, E> {
     /// The span of a branch between these springs.
     #[inline]
     pub fn span(&self, branch: Branch, [first, last]: [u32; 2]) -> Span {
@@ -121,25 +118,38 @@ impl<'a, E: EdgeModel> Ground<'a, E> {
     /// The edge cells of a run on one of its spans.
     #[inline]
     pub fn slider(&self, run: &Run, span: &Span) -> Slider {
-        Slider::new(self.gaps, span, self.edges.stretch(), run.pin())
+        Slider::new(self.gaps, span, self.stretch, run.pin())
     }
 
     /// Levels of a span.
     #[inline]
     pub fn levels(&self, span: &Span) -> Levels {
-        self.edges.levels(self.gaps, span)
+        E::levels(self.gaps, span)
     }
 
     /// Smallest indentation at which a span attaches its wall of this gap, m.
     #[inline]
     pub fn attaches_at(&self, span: &Span, wall: f64) -> f64 {
-        self.edges.attaches_at(&self.levels(span), wall)
+        self.attachment(&self.levels(span), wall)
+    }
+
+    /// Smallest indentation at which a span of these levels attaches its wall of this gap, m.
+    #[inline]
+    pub fn attachment(&self, levels: &Levels, wall: f64) -> f64 {
+        let length = if E::SLIDES { levels.length_at(wall - levels.gap) } else { levels.length };
+        wall - self.stretch * length.sqrt()
+    }
+
+    /// Returns true if the edges pass from a span to the next larger one without a jump.
+    #[inline]
+    pub fn slides_on(&self, lower: &Levels, upper: &Levels) -> bool {
+        !E::SLIDES || lower.slide_on(self.stretch, upper)
     }
 
     /// Smallest indentation at which a span holds its most stretched spring, m.
     #[inline]
     pub fn holds_to(&self, span: &Span) -> f64 {
-        self.edges.holds_to(&self.levels(span))
+        E::holds_to(&self.levels(span), self.stretch)
     }
 
     /// Level of the edges of a span at an indentation, m, pinned at a rise, m, if there is one.
@@ -151,7 +161,8 @@ impl<'a, E: EdgeModel> Ground<'a, E> {
     /// Height of the level of the edges above the largest gap, m, pinned or not.
     #[inline]
     pub fn rise(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
-        pin.unwrap_or_else(|| self.edges.rise(&self.levels(span), indentation))
+        let free = || if E::SLIDES { self.levels(span).rise(self.stretch, indentation) } else { 0.0 };
+        pin.unwrap_or_else(free)
     }
 
     /// Whole springs or cells of a span, and the fragment they form.
@@ -182,15 +193,14 @@ impl<'a, E: EdgeModel> Ground<'a, E> {
     /// either leg: a spring with a smaller gap needs no evaluation of the rule.
     #[inline]
     pub fn sure_level(&self, span: &Span, indentation: f64) -> f64 {
-        let root = (self.square() * self.edges.least_length(span.first, span.last)).sqrt();
+        let root = (self.square() * E::least_length(span.first, span.last)).sqrt();
         (indentation + root) - ROUNDING * (indentation.abs() + root)
     }
 
     /// Squared stretch of a fragment of unit length, m², rounded down.
     #[inline]
     pub fn square(&self) -> f64 {
-        let stretch = self.edges.stretch();
-        stretch * stretch * (1.0 - ROUNDING)
+        self.stretch * self.stretch * (1.0 - ROUNDING)
     }
 
     /// Calls `see` with each span of a run from the smallest one on and the range of indentations (m) over which the

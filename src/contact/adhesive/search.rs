@@ -15,12 +15,6 @@ use crate::contact::interval::{Interval, Piece};
 /// Points of a grid from one to the next of those evaluated first.
 const STRIDE: usize = 16;
 
-/// Most times that a range is cut where the force is above zero, each time by this part at least.
-const MOST_CUTS: usize = 8;
-const LEAST_CUT: usize = 8;
-/// Share of the way to the zero of a bound that rounding leaves certain.
-const CERTAIN: f64 = 1.0 - 1e-6;
-
 /// The runs of a leg.
 pub struct Search<'a, E> {
     pub ground: Ground<'a, E>,
@@ -53,77 +47,57 @@ impl<E: EdgeModel> Search<'_, E> {
         best
     }
 
-    /// The smallest force of an unloading to separation, on the range of a grid from there to the turning point, the
-    /// state at which is `turn`. Most points of the grid are left out: those where the force is certain to be above
-    /// zero, and those between two neighbours of a coarser grid whose bounds exclude a smaller force.
-    pub fn smallest_below(
-        &self,
-        turn: ContactState,
-        grid: &Grid,
-        sorted: &mut u64,
-    ) -> Result<ContactState, ContactError> {
-        let grid = grid.part(0..self.pulling(grid.points(), turn)?);
-        let points = grid.points();
-        let last = points.len() - 1;
-        let leg = self.sample(grid.coarser(STRIDE))?;
-        let smallest = leg.states.iter().map(|state| state.compression).fold(f64::INFINITY, f64::min);
-        let chosen = leg.choose(|low, high| lower_bound(low, high) < smallest);
-        let between = |&interval: &usize| STRIDE * interval + 1..(STRIDE * (interval + 1)).min(last);
-        let fine: Vec<f64> = chosen.iter().flat_map(between).map(|index| points[index]).collect();
-        if fine.is_empty() {
-            return Ok(self.extreme(Extreme::Smallest, &leg, sorted));
-        }
-        let fine = self.sample(Grid::at(fine))?;
-        Ok(self.extreme(Extreme::Smallest, &leg.merged(fine), sorted))
-    }
-
-    /// Number of points of an unloading, from separation on, beyond which the force is above zero.
-    ///
-    /// On the way back a contact only shrinks, and detaching springs are stretched: the force falls no faster than with
-    /// the length of a contact further up. Just before separation the force is not above zero, so that the smallest
-    /// force lies among these points.
-    fn pulling(&self, points: &[f64], turn: ContactState) -> Result<usize, ContactError> {
-        let (mut points, mut state) = (points, turn);
-        for _ in 0..MOST_CUTS {
-            if !(state.compression > 0.0 && state.length > 0.0) {
-                break;
-            }
-            let crossing = state.indentation - CERTAIN * state.compression / state.length;
-            let end = (points.partition_point(|&point| point < crossing) + 1).min(points.len());
-            let is_worth = points.len() - end >= (points.len() / LEAST_CUT).max(1);
-            points = &points[..end];
-            if !is_worth {
-                break;
-            }
-            let at = Grid::at(vec![points[end - 1]]);
-            state = self.sample(at)?.states[0];
-        }
-        Ok(points.len())
-    }
-
-    /// Contact at those points of a grid from which [`Search::first_at_least`] proceeds.
-    pub fn sample_coarsely(&self, grid: &Grid) -> Result<Sampled, ContactError> {
-        self.sample(grid.coarser(STRIDE))
+    /// The smallest force on the range of a grid. Most points of the grid are left out: those between two neighbours of a
+    /// coarser grid whose bounds exclude a smaller force.
+    pub fn smallest(&self, grid: &Grid, sorted: &mut u64) -> Result<ContactState, ContactError> {
+        let coarse = self.sample(grid.coarser(STRIDE))?;
+        let smallest = coarse.states.iter().map(|state| state.compression).fold(f64::INFINITY, f64::min);
+        let leg = self.refined(grid, coarse, |low, high| lower_bound(low, high) < smallest)?;
+        Ok(self.extreme(Extreme::Smallest, &leg, sorted))
     }
 
     /// The smallest indentation of a grid, m, at which the compression is at least `wanted`.
     pub fn first_at_least(
         &self,
         grid: &Grid,
-        coarse: &Sampled,
         wanted: f64,
         sorted: &mut u64,
     ) -> Result<Option<f64>, ContactError> {
-        let (chosen, end) = first_intervals(coarse, wanted);
-        let (Some(first), Some(last)) = (chosen.first(), chosen.last()) else { return Ok(end) };
-        let end = (STRIDE * (last + 1) + 1).min(grid.points().len());
-        let leg = &self.sample(grid.part(STRIDE * first..end))?;
-        let (chosen, end) = first_intervals(leg, wanted);
-        let intervals = self.intervals(leg, &chosen, sorted);
+        let coarse = self.sample(grid.coarser(STRIDE))?;
+        let reached = |leg: &Sampled| {
+            let reached = leg.states.iter().find(|state| state.compression >= wanted);
+            reached.map(|state| state.indentation)
+        };
+        // Behind the first point that has it nothing is sought.
+        let may_lie = |end: Option<f64>| {
+            let last = end.unwrap_or(f64::INFINITY);
+            move |low: &ContactState, high: &ContactState| {
+                high.indentation <= last && upper_bound(low, high) >= wanted
+            }
+        };
+        let coarse_end = reached(&coarse);
+        let leg = self.refined(grid, coarse, may_lie(coarse_end))?;
+        let end = reached(&leg);
+        let chosen = leg.choose(may_lie(end));
+        let intervals = self.intervals(&leg, &chosen, sorted);
         let mut found = chosen.iter().zip(&intervals);
-        Ok(found
-            .find_map(|(&index, interval)| interval.first_of(&interval.pieces, leg.ends(index), wanted))
-            .or(end))
+        let found =
+            found.find_map(|(&index, interval)| interval.first_of(&interval.pieces, leg.ends(index), wanted));
+        Ok(found.or(end))
+    }
+
+    /// Adds those points of a grid to a coarser one that lie in intervals whose contact at both ends passes `may_lie`.
+    fn refined(
+        &self,
+        grid: &Grid,
+        coarse: Sampled,
+        may_lie: impl Fn(&ContactState, &ContactState) -> bool,
+    ) -> Result<Sampled, ContactError> {
+        let (points, last) = (grid.points(), grid.points().len() - 1);
+        let between = |interval: usize| STRIDE * interval + 1..(STRIDE * (interval + 1)).min(last);
+        let chosen = coarse.choose(may_lie).into_iter();
+        let fine: Vec<f64> = chosen.flat_map(between).map(|index| points[index]).collect();
+        if fine.is_empty() { Ok(coarse) } else { Ok(coarse.merged(self.sample(Grid::at(fine))?)) }
     }
 
     /// The largest indentation of a grid, m, at which the compression is at most `wanted`.
@@ -143,7 +117,7 @@ impl<E: EdgeModel> Search<'_, E> {
     }
 
     /// Events in each of these ascending intervals.
-    fn intervals(&self, leg: &Sampled, chosen: &[usize], sorted: &mut u64) -> Vec<Interval<E>> {
+    fn intervals(&self, leg: &Sampled, chosen: &[usize], sorted: &mut u64) -> Vec<Interval> {
         let points = leg.grid.points();
         let mut marks = vec![None; points.len() - 1];
         let mut intervals: Vec<_> = chosen
@@ -151,8 +125,7 @@ impl<E: EdgeModel> Search<'_, E> {
             .enumerate()
             .map(|(place, &index)| {
                 marks[index] = Some(place);
-                let (edges, scale) = (self.ground.edges, self.ground.tree.scale());
-                Interval::new(edges, scale, points[index], leg.totals[index])
+                Interval::new(E::SLIDES, self.ground.tree.scale(), points[index], leg.totals[index])
             })
             .collect();
         let (Some(&first), Some(&last)) = (chosen.first(), chosen.last()) else { return intervals };
@@ -191,15 +164,4 @@ impl<E: EdgeModel> Search<'_, E> {
         intervals.iter_mut().for_each(Interval::sort);
         intervals
     }
-}
-
-/// The intervals in which the compression may first be at least `wanted`, and the first point at which it is, m.
-fn first_intervals(leg: &Sampled, wanted: f64) -> (Vec<usize>, Option<f64>) {
-    let reached = leg.states.iter().find(|state| state.compression >= wanted).map(|state| state.indentation);
-    // Behind the first point that has it nothing is sought.
-    let last = reached.unwrap_or(f64::INFINITY);
-    let may_lie = |low: &ContactState, high: &ContactState| {
-        high.indentation <= last && upper_bound(low, high) >= wanted
-    };
-    (leg.choose(may_lie), reached)
 }

@@ -74,9 +74,8 @@ impl<E: EdgeModel> Ground<'_, E> {
     /// spring below the indentation `opens`: its length is at most that of these springs and their edge cells.
     #[inline]
     fn may_hold(&self, gap: f64, opens: f64, springs: usize) -> bool {
-        let stretch = self.edges.stretch();
         let need = gap - opens;
-        need <= 0.0 || need * need < stretch * stretch * ABOVE * (springs + 1) as f64
+        need <= 0.0 || need * need < self.stretch * self.stretch * ABOVE * (springs + 1) as f64
     }
 
     /// The parts into which the smallest span of a branch parts at an indentation (m), when a spring detaches.
@@ -97,7 +96,7 @@ impl<E: EdgeModel> Ground<'_, E> {
         runs: &mut Vec<Run>,
         opened: &mut Opened,
     ) -> Result<[Option<Part>; 2], ContactError> {
-        let Ground { gaps, tree, edges, .. } = *self;
+        let Ground { gaps, tree, .. } = *self;
         let (mut first, mut last) = (part.first as usize, part.last as usize);
         let (mut opens, mut is_whole) = (part.opens, part.is_whole);
         let (bottom, lowest, place) = match part.branch.origin() {
@@ -131,12 +130,12 @@ impl<E: EdgeModel> Ground<'_, E> {
             if is_whole || self.may_hold(gap, opens, last + 1 - first) {
                 opened.evaluations += 1;
                 let levels = self.levels(&span);
-                let holds = edges.holds_to(&levels);
+                let holds = E::holds_to(&levels, self.stretch);
                 if is_whole || holds < opens {
                     let mut leaves = smaller(opens, holds);
                     let mut to = if is_whole { f64::INFINITY } else { opens };
                     if let Some(rise) = pin.filter(|_| is_whole) {
-                        let (released, slides) = levels.release(edges.stretch(), rise);
+                        let (released, slides) = levels.release(self.stretch, rise);
                         let released = smaller(opens, released);
                         leaves = if slides { smaller(leaves, released) } else { released };
                         push(runs, Run::pinned(part.branch, &span, rise, released, to), gaps.len())?;
@@ -145,7 +144,7 @@ impl<E: EdgeModel> Ground<'_, E> {
                     match (runs.last_mut(), above) {
                         // Pinned edges run away at once.
                         _ if leaves == to => {}
-                        (Some(run), Some(upper)) if edges.slides_on(&levels, &upper) => {
+                        (Some(run), Some(upper)) if self.slides_on(&levels, &upper) => {
                             run.lower(&span, leaves)
                         }
                         _ => push(runs, Run::new(part.branch, &span, leaves, to), gaps.len())?,
