@@ -122,7 +122,7 @@ mod tests {
     }
 
     fn point(indentation: f64, force: f64, springs: u64) -> CurvePoint {
-        CurvePoint { indentation, force, contact_length: 0.0, springs, fragments: springs.min(1) }
+        CurvePoint { indentation, force, springs, fragments: springs.min(1), ..CurvePoint::default() }
     }
 
     /// A stage with this point as its extremes and these springs at its end.
@@ -131,7 +131,6 @@ mod tests {
         LegRecord {
             target,
             direction,
-            stored_energy: vec![0.0; curve.len()],
             curve,
             largest: extreme,
             smallest: extreme,

@@ -75,7 +75,7 @@ mod tests {
             curve: curve.to_vec(),
             largest,
             smallest,
-            ..LegRecord::still(leg, point(0.0, 0.0, 0), 0.0)
+            ..LegRecord::still(leg, point(0.0, 0.0, 0))
         };
         let legs = [
             leg(Leg::ToForce(3.0), Direction::Loading, &loading, loading[2], loading[1]),
@@ -106,7 +106,7 @@ mod tests {
             curve: curve.to_vec(),
             largest: extreme,
             smallest: extreme,
-            ..LegRecord::still(leg, point(0.0, 0.0, 0), 0.0)
+            ..LegRecord::still(leg, point(0.0, 0.0, 0))
         };
         let legs = vec![
             leg(Leg::ToForce(3.0), Direction::Loading, &loading, loading[2]),

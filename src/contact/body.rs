@@ -278,8 +278,7 @@ impl Body {
         let at_end = self.point_of(end);
         let smallest = curve.iter().copied().min_by(|a, b| a.force.total_cmp(&b.force)).unwrap_or(at_end);
         let extremes = [smallest, self.point_of(largest)];
-        drop(sampled);
-        self.end(target, leg, curve, extremes, (end, squared))
+        Ok(self.end(target, leg, curve, extremes, (end, squared)))
     }
 
     fn unload(&mut self, target: Target, motion: Motion) -> Result<LegRecord, ContactError> {
@@ -303,8 +302,7 @@ impl Body {
             curve.push(self.point_of(end));
         }
         let largest = curve.first().copied().unwrap_or(smallest);
-        drop(sampled);
-        self.end(target, leg, curve, [smallest, largest], (end, squared))
+        Ok(self.end(target, leg, curve, [smallest, largest], (end, squared)))
     }
 
     /// Ends a motion along this curve at a state, with this sum of squared stretches (m²).
@@ -315,14 +313,14 @@ impl Body {
         curve: Vec<CurvePoint>,
         extremes: [CurvePoint; 2],
         (end, squared_stretch): (ContactState, f64),
-    ) -> Result<LegRecord, ContactError> {
+    ) -> LegRecord {
         let changed = (end.springs - self.state.springs).unsigned_abs();
-        let record = LegRecord::moved((target, &leg), curve, extremes, changed, squared_stretch)?;
+        let record = LegRecord::moved((target, &leg), curve, extremes, changed, squared_stretch);
         let work = &mut self.workspace.work;
         work.springs_tallied += work.springs;
         work.count(&record);
         self.go_to(leg, end);
-        Ok(record)
+        record
     }
 }
 
@@ -335,8 +333,7 @@ impl Solver for Body {
                 if here.springs == 0 {
                     self.leg = Leg::apart(self.leg.contact(), self.leg.direction());
                 }
-                let stored = self.leg.stored_energy(&[here.indentation])?.iter().sum();
-                LegRecord::still(target, here, stored)
+                LegRecord::still(target, here)
             }
             Some(Motion { leg, goal: Goal::Indentation(to), .. }) if here.springs == 0 && to < 0.0 => {
                 self.go_to(leg, ContactState::free(to));

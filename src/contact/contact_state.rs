@@ -18,6 +18,8 @@ pub struct ContactState {
     pub length: f64,
     /// Compression ∫ (d − c) dx in units of that distance, m: the force in units of the stiffness of one spring.
     pub compression: f64,
+    /// ∫ (d − c)² dx in units of that distance, m²: twice the stored energy over that stiffness.
+    pub squares: f64,
 }
 
 impl ContactState {
@@ -38,6 +40,8 @@ impl ContactState {
             fragments: totals.fragments,
             length: whole as f64 + edges.length,
             compression: totals.compression_of(whole, indentation, scale) + edges.compression,
+            // No sum of squares is below zero, but for rounding.
+            squares: (totals.squares_of(whole, indentation, scale) + edges.squares).max(0.0),
         }
     }
 
@@ -54,6 +58,7 @@ impl ContactState {
             contact_length: foundation.contact_length(self.length),
             springs: counted(self.springs),
             fragments: counted(self.fragments),
+            stored_energy: 0.5 * foundation.spring_stiffness() * self.squares,
         }
     }
 }

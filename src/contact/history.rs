@@ -1,6 +1,6 @@
 //! Result of a loading history: its legs, their curves and the work counts.
 
-use super::{ContactError, Leg};
+use super::Leg;
 use crate::scene::Leg as Target;
 use serde::Serialize;
 
@@ -27,6 +27,8 @@ pub struct CurvePoint {
     pub springs: u64,
     /// Contact fragments.
     pub fragments: u64,
+    /// Stored elastic energy, J: ½ Δk Σ (d − c)² over the springs in contact, compressed or stretched.
+    pub stored_energy: f64,
 }
 
 /// Record of one leg.
@@ -39,8 +41,6 @@ pub struct LegRecord {
     /// The curve along the leg: its samples, and the point of the smallest force of an unloading leg. A jump into or
     /// out of contact has the points before and after.
     pub curve: Vec<CurvePoint>,
-    /// Stored elastic energy at each point of the curve, J: ½ Δk Σ (d − c)² over the springs in contact.
-    pub stored_energy: Vec<f64>,
     /// Largest force on the leg, exact to rounding (loading legs).
     pub largest: CurvePoint,
     /// Smallest force on the leg, exact to rounding (unloading legs).
@@ -56,13 +56,12 @@ pub struct LegRecord {
 }
 
 impl LegRecord {
-    /// A leg that ends where it begins, with this stored energy there, J.
-    pub(crate) fn still(target: Target, here: CurvePoint, stored: f64) -> Self {
+    /// A leg that ends where it begins.
+    pub(crate) fn still(target: Target, here: CurvePoint) -> Self {
         LegRecord {
             target,
             direction: Direction::Loading,
             curve: vec![here],
-            stored_energy: vec![stored],
             largest: here,
             smallest: here,
             attached: 0,
@@ -75,22 +74,18 @@ impl LegRecord {
     pub(crate) fn free(target: Target, from: f64, to: f64) -> Self {
         let [start, end] = [from, to].map(|indentation| CurvePoint { indentation, ..CurvePoint::default() });
         let direction = if to > from { Direction::Loading } else { Direction::Unloading };
-        let (curve, stored_energy) = (vec![start, end], vec![0.0; 2]);
-        LegRecord { direction, curve, stored_energy, ..LegRecord::still(target, end, 0.0) }
+        LegRecord { direction, curve: vec![start, end], ..LegRecord::still(target, end) }
     }
 
     /// A motion along a leg with this curve, this number of springs attached, or detached on unloading, and this sum of
     /// their squared stretches, m².
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfMemory`].
     pub(crate) fn moved(
         (target, leg): (Target, &Leg),
         curve: Vec<CurvePoint>,
         [smallest, largest]: [CurvePoint; 2],
         changed: u64,
         squared_stretch: f64,
-    ) -> Result<Self, ContactError> {
+    ) -> Self {
         let direction = leg.direction();
         let energy = 0.5 * leg.contact().foundation.spring_stiffness() * squared_stretch;
         let (attached, detached, released_energy) = match direction {
@@ -98,28 +93,7 @@ impl LegRecord {
             Direction::Loading => (changed, 0, 0.0 - energy),
             Direction::Unloading => (0, changed, energy),
         };
-        let mut ascending: Vec<f64> = curve.iter().map(|point| point.indentation).collect();
-        if direction == Direction::Unloading {
-            ascending.reverse();
-        }
-        let mut stored_energy = leg.stored_energy(&ascending)?;
-        if direction == Direction::Unloading {
-            stored_energy.reverse();
-        }
-        // A jump has two points at one indentation, one of them without contact.
-        let apart = stored_energy.iter_mut().zip(&curve).filter(|(_, point)| point.springs == 0);
-        apart.for_each(|(energy, _)| *energy = 0.0);
-        Ok(LegRecord {
-            target,
-            direction,
-            curve,
-            stored_energy,
-            largest,
-            smallest,
-            attached,
-            detached,
-            released_energy,
-        })
+        LegRecord { target, direction, curve, largest, smallest, attached, detached, released_energy }
     }
 
     /// Indentation at the beginning, m.

@@ -5,7 +5,7 @@ use super::adhesive::{
 };
 use super::contact_state::{ContactState, Extreme, Sampled};
 use super::fragments::runs;
-use super::grid::{CompensatedSum, Grid};
+use super::grid::Grid;
 use super::totals::ContactTotals;
 use super::{
     Contact, ContactError, ContactTree, CurvePoint, Direction, Nonadhesive, TWO_THREADS, Work, steady,
@@ -268,33 +268,6 @@ impl Leg {
         if self.direction == Direction::Loading { 0.0 - energy } else { energy }
     }
 
-    /// Returns the stored elastic energy at ascending indentations, m, in J: ½ Δk Σ (d − c)² over the springs in contact,
-    /// compressed or stretched.
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfMemory`].
-    pub fn stored_energy(&self, indentations: &[f64]) -> Result<Vec<f64>, ContactError> {
-        let squares = match &self.patches {
-            Patches::Apart => vec![0.0; indentations.len()],
-            Patches::Gaps => self.nonadhesive().stored_squares(indentations)?,
-            Patches::Thresholds(thresholds) => {
-                let springs = || self.contact.gaps().iter().zip(thresholds.iter());
-                let square = |at: &f64| {
-                    let mut sum = CompensatedSum::default();
-                    let held = springs().filter(|(_, threshold)| *threshold <= at);
-                    held.for_each(|(gap, _)| sum.add((at - gap).powi(2)));
-                    sum.total()
-                };
-                indentations.iter().map(square).collect()
-            }
-            Patches::Runs(tree, runs) => {
-                along_runs!(self, tree, runs, search => search.stored_squares(indentations)?)
-            }
-        };
-        let half = 0.5 * self.contact.foundation.spring_stiffness();
-        Ok(squares.into_iter().map(|square| half * square).collect())
-    }
-
     /// Evaluates the patch of this number, from the left, at an indentation, m; `None` without such a patch.
     #[must_use]
     pub fn patch_state(&self, indentation: f64, number: usize) -> Option<PatchState> {
@@ -310,7 +283,7 @@ impl Leg {
             }),
             _ => None,
         };
-        let totals = ContactTotals::of_patch(gaps, (first, last), *edges, &scale);
+        let totals = ContactTotals::of_patch(gaps, (first, last), *edges, scale);
         let slider = Slider::new(gaps, &span, stretch, pin);
         let state = steady::state(slides, &scale, totals, [slider].into_iter(), indentation);
         let free = || if slides { SubCellEdges::levels(gaps, &span).rise(stretch, indentation) } else { 0.0 };
@@ -349,7 +322,7 @@ impl Leg {
                 let scale = self.contact.springs.scale();
                 let mut totals = ContactTotals::default();
                 for ends in self.patches(indentation) {
-                    totals += ContactTotals::of_patch(self.contact.gaps(), ends, Edges::Grid, &scale);
+                    totals += ContactTotals::of_patch(self.contact.gaps(), ends, Edges::Grid, scale);
                 }
                 Ok(steady::state(false, &scale, totals, std::iter::empty(), indentation))
             }

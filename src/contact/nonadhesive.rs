@@ -7,10 +7,10 @@
 //! summed exactly, as whole numbers of quanta; a partly filled cell adds its part at each point of the curve inside it,
 //! which keeps every digit for any slope and any indentation.
 
-use super::adhesive::{BlockSums, EdgeCells, EdgeSum};
+use super::adhesive::{EdgeCells, EdgeSum};
 use super::contact_state::{ContactState, Sampled};
-use super::grid::{CompensatedSum, Grid};
-use super::totals::{ContactTotals, GapScale, SquareScale, Squares};
+use super::grid::Grid;
+use super::totals::{ContactTotals, FewSprings, GapScale};
 use super::{ContactError, Springs, resized};
 use crate::scene::Edges;
 
@@ -47,7 +47,9 @@ impl<'a> Nonadhesive<'a> {
                 let inside = here.min(place_before)..here.max(place_before);
                 for (partial, point) in partial[inside.clone()].iter_mut().zip(&points[inside]) {
                     let share = (point - low) / (high - low);
-                    partial.add(EdgeCells { length: share, compression: 0.5 * (point - low) * share });
+                    let compression = 0.5 * (point - low) * share;
+                    let squares = compression * (point - low) * (2.0 / 3.0);
+                    partial.add(EdgeCells { length: share, compression, squares });
                 }
             }
             place_before = here;
@@ -68,34 +70,6 @@ impl<'a> Nonadhesive<'a> {
         Ok(Sampled { grid, totals, states })
     }
 
-    /// ∫ (d − c)² dx over the contact at ascending indentations d, m, in cells times m².
-    pub fn stored_squares(&self, points: &[f64]) -> Result<Vec<f64>, ContactError> {
-        let mut changes = resized(Vec::new(), points.len() + 1, Squares::default())?;
-        let mut partial = resized(Vec::new(), points.len(), CompensatedSum::default())?;
-        let place = |gap: f64| points.partition_point(|&point| point < gap);
-        match self.edges {
-            Edges::Grid => {
-                self.gaps.iter().for_each(|&gap| changes[place(gap)] += BlockSums::of_spring(gap, self.scale))
-            }
-            Edges::SubCell => {
-                for cell in self.gaps.windows(2) {
-                    let [low, high] = if cell[0] < cell[1] { [cell[0], cell[1]] } else { [cell[1], cell[0]] };
-                    let (first, end) = (place(low), place(high));
-                    changes[end] += BlockSums::of_cell(low, high, self.scale);
-                    for (partial, point) in partial[first..end].iter_mut().zip(&points[first..end]) {
-                        partial.add((point - low).powi(3) / (3.0 * (high - low)));
-                    }
-                }
-                for gap in self.ends() {
-                    let first = place(gap);
-                    let halves = partial[first..].iter_mut().zip(&points[first..]);
-                    halves.for_each(|(partial, point)| partial.add(0.5 * (point - gap).powi(2)));
-                }
-            }
-        }
-        Ok(SquareScale::along(self.scale, points, changes, partial))
-    }
-
     /// Gaps of the half cells beyond the first and the last spring, as level as these springs.
     fn ends(&self) -> impl Iterator<Item = f64> {
         [self.gaps.first(), self.gaps.last()].into_iter().flatten().copied()
@@ -112,11 +86,18 @@ impl<'a> Nonadhesive<'a> {
         for (index, &gap) in self.gaps.iter().enumerate() {
             let after = self.gaps.get(index + 1).copied().unwrap_or(f64::INFINITY);
             let (left, right) = (before < gap, after <= gap);
-            let cell = |closes, neighbour| if closes { self.scale.mean_quanta(gap, neighbour) } else { 0 };
-            let quanta =
-                if sub_cell { cell(left, before) + cell(right, after) } else { self.scale.quanta(gap) };
+            let mut few = FewSprings::default();
+            if !sub_cell {
+                few.add_spring(gap, self.scale);
+            }
+            for neighbour in
+                [(left, before), (right, after)].into_iter().filter(|(closes, _)| sub_cell && *closes)
+            {
+                few.add_cell(gap, neighbour.1, self.scale);
+            }
+            let [quanta, squares] = few.sums();
             let fragments = 1 - i64::from(left) - i64::from(right);
-            see(ContactTotals { springs: 1, fragments, quanta: i128::from(quanta) }, gap, before);
+            see(ContactTotals { springs: 1, fragments, quanta, squares }, gap, before);
             before = gap;
         }
     }
@@ -127,7 +108,9 @@ impl<'a> Nonadhesive<'a> {
             Edges::Grid => ContactState::new(false, indentation, full, EdgeCells::default(), &self.scale),
             Edges::SubCell => {
                 for gap in self.ends().filter(|&gap| gap <= indentation) {
-                    partial.add(EdgeCells { length: 0.5, compression: 0.5 * (indentation - gap) });
+                    let compression = 0.5 * (indentation - gap);
+                    let squares = compression * (indentation - gap);
+                    partial.add(EdgeCells { length: 0.5, compression, squares });
                 }
                 let state = ContactState::new(true, indentation, full, partial.total(), &self.scale);
                 ContactState { length: state.length.min(self.gaps.len() as f64), ..state }

@@ -3,8 +3,10 @@
 //! The step Δd is its accuracy; each step costs a few sweeps over the whole line. The solver shares only the rules and
 //! the sums with the exact solver.
 
-use super::contact_state::counted;
+use super::adhesive::EdgeCells;
+use super::contact_state::ContactState;
 use super::target::{Goal, plan};
+use super::totals::FewSprings;
 use super::{
     Contact, ContactError, ContactTotals, CurvePoint, Direction, Leg, LegRecord, Solver, Work, resized,
 };
@@ -70,7 +72,11 @@ impl<'a> Stepwise<'a> {
         self.thresholds[index] = at;
         let sign = if attaches { 1 } else { -1 };
         self.state.totals.springs += i64::from(sign);
-        self.state.totals.quanta += i128::from(sign) * i128::from(self.contact.springs.scale().quanta(gap));
+        let mut spring = FewSprings::default();
+        spring.add_spring(gap, self.contact.springs.scale());
+        let [quanta, squares] = spring.sums();
+        self.state.totals.quanta += i128::from(sign) * quanta;
+        self.state.totals.squares += i128::from(sign) * squares;
         let stretch = (gap - at).max(0.0);
         self.state.squared_stretch -= f64::from(sign) * stretch * stretch;
     }
@@ -147,15 +153,11 @@ impl<'a> Stepwise<'a> {
 
     fn point(&self) -> CurvePoint {
         let State { indentation, totals, .. } = self.state;
-        let compression = totals.compression(indentation, &self.contact.springs.scale());
         let fragments = self.holds.chunk_by(PartialEq::eq).filter(|run| run[0]).count();
-        CurvePoint {
-            indentation,
-            force: self.contact.foundation.spring_stiffness() * compression,
-            contact_length: self.contact.foundation.contact_length(totals.springs as f64),
-            springs: counted(totals.springs),
-            fragments: fragments as u64,
-        }
+        let totals = ContactTotals { fragments: fragments as i64, ..totals };
+        let edges = EdgeCells::default();
+        let state = ContactState::new(false, indentation, totals, edges, &self.contact.springs.scale());
+        state.point(self.contact.foundation)
     }
 
     /// Refuses a motion that certainly takes more steps than allowed, before its first step.
@@ -255,7 +257,7 @@ impl<'a> Stepwise<'a> {
         // The sum counts detachments.
         let squared = if loads { -self.state.squared_stretch } else { self.state.squared_stretch };
         let curve = curve.finish(smallest, direction);
-        let record = LegRecord::moved((target, &self.leg()), curve, [smallest, largest], changed, squared)?;
+        let record = LegRecord::moved((target, &self.leg()), curve, [smallest, largest], changed, squared);
         self.work.count(&record);
         Ok(record)
     }
@@ -304,10 +306,7 @@ impl Solver for Stepwise<'_> {
     fn advance(&mut self, target: Target) -> Result<LegRecord, ContactError> {
         let here = self.point();
         match plan(target, here)? {
-            None => {
-                let stored = self.leg().stored_energy(&[here.indentation])?.iter().sum();
-                Ok(LegRecord::still(target, here, stored))
-            }
+            None => Ok(LegRecord::still(target, here)),
             Some((_, Goal::Indentation(end))) if here.springs == 0 && end < 0.0 => {
                 self.state.indentation = end;
                 Ok(LegRecord::free(target, here.indentation, end))

@@ -1,6 +1,5 @@
 //! Totals of the springs in contact, as sums without cancellation: exact counts and fixed-point gaps.
 
-use super::grid::CompensatedSum;
 use crate::scene::Edges;
 
 /// Fixed-point scale of the gaps of one line: a quantum is 2⁻⁶² of the power of two above its largest
@@ -66,125 +65,92 @@ fn power_of_two(exponent: i32) -> f64 {
 }
 
 /// Bits of squared quanta that a sum of squares leaves out: 2^28 squares then fit an `i128`.
-pub const SQUARE_BITS: u32 = 28;
+const SQUARE_BITS: u32 = 28;
 
-/// Springs, or cells by their mean gaps: their number and the sums of their gaps and squared gaps.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Squares {
-    /// Number of springs or cells.
-    pub count: i64,
-    /// Sum of the gaps, quanta.
-    pub first: i128,
-    /// Sum of the squared gaps, 2^28 squared quanta.
-    pub second: i128,
+/// Sums over a few springs, or cells of a line that is straight between springs: four quanta below 2^62 fit into 64 bits,
+/// and four of their squares into 128.
+#[derive(Default)]
+pub struct FewSprings {
+    quanta: u64,
+    squares: u128,
+    /// Squared differences of the gaps at the ends of cells.
+    squared_differences: u128,
 }
 
-impl std::ops::AddAssign for Squares {
-    fn add_assign(&mut self, other: Squares) {
-        self.count += other.count;
-        self.first += other.first;
-        self.second += other.second;
-    }
-}
-
-impl std::ops::SubAssign for Squares {
-    fn sub_assign(&mut self, other: Squares) {
-        self.count -= other.count;
-        self.first -= other.first;
-        self.second -= other.second;
-    }
-}
-
-/// Unit of squared stretches: coarser than that of the gaps where an indentation is far larger than all gaps.
-///
-/// Sums over nested spans at one indentation are integers that differ by the squares of the springs between, each with
-/// an error below 2^28 squared quanta: a relative error of 1e-15 for a stretch of 1e-7 of the largest gap.
-#[derive(Clone, Copy, Debug)]
-pub struct SquareScale {
-    quanta_per_metre: f64,
-    quantum: f64,
-    coarser: u32,
-}
-
-impl SquareScale {
-    /// Scale for gaps of a scale and indentations up to this size, m.
-    pub fn new(scale: GapScale, largest: f64) -> Self {
-        let GapScale { mut quanta_per_metre, mut quantum } = scale;
-        let mut coarser = 0;
-        while largest * quanta_per_metre >= 2.0 * GAP_RANGE {
-            (quanta_per_metre, quantum, coarser) = (0.5 * quanta_per_metre, 2.0 * quantum, coarser + 1);
-        }
-        SquareScale { quanta_per_metre, quantum, coarser }
+impl FewSprings {
+    /// Adds a whole spring.
+    #[inline]
+    pub fn add_spring(&mut self, gap: f64, scale: GapScale) {
+        self.add(scale.quanta(gap).cast_unsigned());
     }
 
-    /// Σ (c − θ)² at the indentation θ, m, as an integer and a remainder, m².
-    pub fn at(&self, squares: Squares, indentation: f64) -> (i128, f64) {
-        let shifted = |sum: i128, bits: u32| sum.checked_shr(bits).unwrap_or(0);
-        let (first, second) =
-            (shifted(squares.first, self.coarser), shifted(squares.second, 2 * self.coarser));
-        let exact = indentation * self.quanta_per_metre;
-        let whole = i128::from(exact as i64);
-        let count = i128::from(squares.count);
-        let factor = count * whole - 2 * first;
-        let rest = factor & ((1 << SQUARE_BITS) - 1);
-        let product = (factor >> SQUARE_BITS).wrapping_mul(whole);
-        let sum = second.wrapping_add(product).wrapping_add((rest * whole) >> SQUARE_BITS);
-        let part = exact - whole as f64;
-        let remainder = part * (2.0 * (count * whole - first) as f64 + count as f64 * part);
-        (sum, remainder * self.quantum * self.quantum)
+    /// Adds the cell between two springs.
+    #[inline]
+    pub fn add_cell(&mut self, one: f64, other: f64, scale: GapScale) {
+        self.add(scale.mean_quanta(one, other).cast_unsigned());
+        let difference = u128::from(scale.quanta((one - other).abs()).cast_unsigned());
+        self.squared_differences += difference * difference;
     }
 
-    /// Σ (d − c)² at each of some ascending indentations d, m, from the changes of the sums at each and the squares of partly
-    /// filled cells, m².
-    pub fn along(
-        scale: GapScale,
-        points: &[f64],
-        changes: Vec<Squares>,
-        partial: Vec<CompensatedSum>,
-    ) -> Vec<f64> {
-        let scale = SquareScale::new(scale, points.iter().fold(0.0, |most, point| point.abs().max(most)));
-        let mut whole = Squares::default();
-        let sums = points.iter().zip(changes).zip(partial).map(|((&point, change), mut sum)| {
-            whole += change;
-            let (squares, remainder) = scale.at(whole, point);
-            sum.add(scale.in_metres(squares));
-            sum.add(remainder);
-            // No sum of squares is below zero, but for rounding.
-            sum.total().max(0.0)
-        });
-        sums.collect()
+    #[inline]
+    fn add(&mut self, quanta: u64) {
+        self.quanta += quanta;
+        self.squares += u128::from(quanta) * u128::from(quanta);
     }
 
-    /// Sum of squares, m².
-    pub fn in_metres(&self, squares: i128) -> f64 {
-        squares as f64 * self.quantum * self.quantum * f64::from(1 << SQUARE_BITS)
+    /// Sums of the gaps and of their squares in the units of [`ContactTotals`]: the mean square along a cell is
+    /// (mean gap)² + (difference)²/12.
+    #[inline]
+    pub fn sums(&self) -> [i128; 2] {
+        let squares = self.squares + twelfth(self.squared_differences);
+        [i128::from(self.quanta), (squares >> SQUARE_BITS).cast_signed()]
     }
 }
 
-/// The springs in contact at one indentation: their number, their fragments, and the sum of their gaps.
+/// A twelfth, at most 13 too small; a division of 128 bits would take longer than all other sums.
+#[inline]
+fn twelfth(number: u128) -> u128 {
+    let [high, low] = [(number >> 64) as u64, number as u64];
+    (u128::from(high / 12) << 64) + u128::from(high % 12) * u128::from(u64::MAX / 12) + u128::from(low / 12)
+}
+
+/// The springs in contact at one indentation: their number, their fragments, and the sums of their gaps and squared gaps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ContactTotals {
     /// Springs in contact.
     pub springs: i64,
     /// Contact fragments.
     pub fragments: i64,
-    /// Sum of their gaps, in quanta of a [`GapScale`].
+    /// Sum of their gaps, or of the mean gaps of their cells, in quanta of a [`GapScale`].
     pub quanta: i128,
+    /// Sum of their squared gaps, in 2^28 squared quanta.
+    pub squares: i128,
 }
 
 impl ContactTotals {
     /// Sums the springs of one patch, or its cells where edges slide between springs.
     #[must_use]
-    pub fn of_patch(gaps: &[f64], (first, last): (usize, usize), edges: Edges, scale: &GapScale) -> Self {
+    pub fn of_patch(gaps: &[f64], (first, last): (usize, usize), edges: Edges, scale: GapScale) -> Self {
+        let mut totals =
+            ContactTotals { springs: (last + 1 - first) as i64, fragments: 1, ..Self::default() };
         let springs = &gaps[first..=last];
-        let quanta = match edges {
-            Edges::Grid => springs.iter().map(|&gap| i128::from(scale.quanta(gap))).sum(),
-            Edges::SubCell => {
-                let cells = springs.windows(2);
-                cells.map(|cell| i128::from(scale.mean_quanta(cell[0], cell[1]))).sum()
-            }
+        let mut add = |few: FewSprings| {
+            let [quanta, squares] = few.sums();
+            (totals.quanta, totals.squares) = (totals.quanta + quanta, totals.squares + squares);
         };
-        ContactTotals { springs: springs.len() as i64, fragments: 1, quanta }
+        match edges {
+            Edges::Grid => springs.iter().for_each(|&gap| {
+                let mut few = FewSprings::default();
+                few.add_spring(gap, scale);
+                add(few);
+            }),
+            Edges::SubCell => springs.windows(2).for_each(|cell| {
+                let mut few = FewSprings::default();
+                few.add_cell(cell[0], cell[1], scale);
+                add(few);
+            }),
+        }
+        totals
     }
 
     /// Sum of the compressions Σ (d − c_i), m: the force in units of the spring stiffness.
@@ -233,6 +199,16 @@ impl ContactTotals {
         let low = (self.quanta - high as i128) as f64;
         Some((high * scale.quantum + (low * scale.quantum + compression)) / self.springs as f64)
     }
+
+    /// Squared compressions Σ (d − c)² of this number of springs or cells, in m².
+    ///
+    /// Sums over nested spans at one indentation are integers that differ by the squares of the springs between, each
+    /// with an error below 2^28 squared quanta: a relative error of 1e-15 for a stretch of 1e-7 of the largest gap.
+    pub(super) fn squares_of(&self, count: i64, indentation: f64, scale: &GapScale) -> f64 {
+        let scale = SquareScale::new(*scale, indentation.abs());
+        let (squares, remainder) = scale.at(self, count, indentation);
+        scale.in_metres(squares) + remainder
+    }
 }
 
 impl std::ops::Neg for ContactTotals {
@@ -240,7 +216,8 @@ impl std::ops::Neg for ContactTotals {
 
     #[inline]
     fn neg(self) -> ContactTotals {
-        ContactTotals { springs: -self.springs, fragments: -self.fragments, quanta: -self.quanta }
+        let ContactTotals { springs, fragments, quanta, squares } = self;
+        ContactTotals { springs: -springs, fragments: -fragments, quanta: -quanta, squares: -squares }
     }
 }
 
@@ -250,5 +227,48 @@ impl std::ops::AddAssign for ContactTotals {
         self.springs += other.springs;
         self.fragments += other.fragments;
         self.quanta += other.quanta;
+        self.squares += other.squares;
+    }
+}
+
+/// Unit of squared stretches: coarser than that of the gaps where an indentation is far larger than all gaps.
+#[derive(Clone, Copy, Debug)]
+pub struct SquareScale {
+    quanta_per_metre: f64,
+    quantum: f64,
+    coarser: u32,
+}
+
+impl SquareScale {
+    /// Scale for gaps of a scale and indentations up to this size, m.
+    pub fn new(scale: GapScale, largest: f64) -> Self {
+        let GapScale { mut quanta_per_metre, mut quantum } = scale;
+        let mut coarser = 0;
+        while largest * quanta_per_metre >= 2.0 * GAP_RANGE {
+            (quanta_per_metre, quantum, coarser) = (0.5 * quanta_per_metre, 2.0 * quantum, coarser + 1);
+        }
+        SquareScale { quanta_per_metre, quantum, coarser }
+    }
+
+    /// Σ (c − θ)² over this number of springs or cells at the indentation θ, m, as an integer and a remainder, m².
+    pub fn at(&self, totals: &ContactTotals, count: i64, indentation: f64) -> (i128, f64) {
+        let shifted = |sum: i128, bits: u32| sum.checked_shr(bits).unwrap_or(0);
+        let (first, second) =
+            (shifted(totals.quanta, self.coarser), shifted(totals.squares, 2 * self.coarser));
+        let exact = indentation * self.quanta_per_metre;
+        let whole = i128::from(exact as i64);
+        let number = i128::from(count);
+        let factor = number * whole - 2 * first;
+        let rest = factor & ((1 << SQUARE_BITS) - 1);
+        let product = (factor >> SQUARE_BITS).wrapping_mul(whole);
+        let sum = second.wrapping_add(product).wrapping_add((rest * whole) >> SQUARE_BITS);
+        let part = exact - whole as f64;
+        let remainder = part * (2.0 * (number * whole - first) as f64 + count as f64 * part);
+        (sum, remainder * self.quantum * self.quantum)
+    }
+
+    /// Sum of squares, m².
+    pub fn in_metres(&self, squares: i128) -> f64 {
+        squares as f64 * self.quantum * self.quantum * f64::from(1 << SQUARE_BITS)
     }
 }

@@ -7,17 +7,14 @@ use crate::simulation::Outcome;
 use crate::surface::Line;
 use std::io::{self, Write};
 
-/// A point of the curve, with its loading stage and its stored elastic energy, J.
-pub(super) type CurveRow = (usize, CurvePoint, f64);
-
 /// Columns of [`write_curve`].
-pub(super) const CURVE: &[Column<CurveRow>] = &[
-    Column("leg", Value::Whole(|(leg, ..)| *leg as u64)),
-    Column("indentation", Value::Real(|(_, point, _)| point.indentation)),
-    Column("force", Value::Real(|(_, point, _)| point.force)),
-    Column("contact_length", Value::Real(|(_, point, _)| point.contact_length)),
-    Column("fragments", Value::Whole(|(_, point, _)| point.fragments)),
-    Column("stored_energy", Value::Real(|(.., stored)| *stored)),
+pub(super) const CURVE: &[Column<(usize, CurvePoint)>] = &[
+    Column("leg", Value::Whole(|(leg, _)| *leg as u64)),
+    Column("indentation", Value::Real(|(_, point)| point.indentation)),
+    Column("force", Value::Real(|(_, point)| point.force)),
+    Column("contact_length", Value::Real(|(_, point)| point.contact_length)),
+    Column("fragments", Value::Whole(|(_, point)| point.fragments)),
+    Column("stored_energy", Value::Real(|(_, point)| point.stored_energy)),
 ];
 
 /// Columns of [`write_line`].
@@ -25,11 +22,9 @@ const PROFILE: &[Column<(f64, f64)>] =
     &[Column("x", Value::Real(|point| point.0)), Column("z", Value::Real(|point| point.1))];
 
 /// Points of all loading stages in sequence.
-pub(super) fn curve(outcome: &Outcome) -> impl Iterator<Item = CurveRow> {
+pub(super) fn curve(outcome: &Outcome) -> impl Iterator<Item = (usize, CurvePoint)> {
     let legs = outcome.history.legs.iter().enumerate();
-    legs.flat_map(|(leg, record)| {
-        record.curve.iter().zip(&record.stored_energy).map(move |(point, stored)| (leg, *point, *stored))
-    })
+    legs.flat_map(|(leg, record)| record.curve.iter().map(move |point| (leg, *point)))
 }
 
 /// Writes the force curve: number of the loading stage from 0, indentation in m, force in N, contact length in m,

@@ -128,6 +128,7 @@ fn teeth_that_do_not_know_of_each_other_add_up() {
         contact_length: teeth as f64 * point.contact_length,
         springs: teeth as u64 * point.springs,
         fragments: teeth as u64 * point.fragments,
+        stored_energy: teeth as f64 * point.stored_energy,
         ..*point
     };
     for (whole, single) in whole.iter().zip(&single) {

@@ -29,7 +29,8 @@ fn scale_of(gaps: &[f64]) -> GapScale {
 fn totals(gaps: &[f64], scale: &GapScale) -> ContactTotals {
     let mut totals = ContactTotals::default();
     for &gap in gaps {
-        totals += ContactTotals { springs: 1, fragments: 0, quanta: i128::from(scale.quanta(gap)) };
+        let quanta = i128::from(scale.quanta(gap));
+        totals += ContactTotals { springs: 1, quanta, ..ContactTotals::default() };
     }
     totals
 }

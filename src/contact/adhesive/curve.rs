@@ -6,8 +6,8 @@ use super::run::{Held, Run};
 use super::search::Search;
 use super::span::Span;
 use crate::contact::contact_state::{ContactState, Sampled};
-use crate::contact::grid::{CompensatedSum, Grid};
-use crate::contact::totals::{ContactTotals, SquareScale, Squares};
+use crate::contact::grid::Grid;
+use crate::contact::totals::ContactTotals;
 use crate::contact::{ContactError, resized};
 use std::ops::Range;
 
@@ -73,29 +73,6 @@ impl<E: EdgeModel> Search<'_, E> {
             *state = ContactState::new(E::SLIDES, point, total, edges.total(), &scale);
         }
         Ok(Sampled { grid, totals, states })
-    }
-
-    /// ∫ (d − c)² dx over the contact at ascending indentations d, m, in cells times m².
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfMemory`].
-    pub fn stored_squares(&self, points: &[f64]) -> Result<Vec<f64>, ContactError> {
-        let (ground, count) = (&self.ground, points.len());
-        if count == 0 {
-            return Ok(Vec::new());
-        }
-        let mut changes = resized(Vec::new(), count + 1, Squares::default())?;
-        let mut edges = resized(Vec::new(), count, CompensatedSum::default())?;
-        self.each_span_on(&Grid::at(points.to_vec()), |run, span, filled| {
-            let whole = ground.squares(span);
-            changes[filled.start] += whole;
-            changes[filled.end] -= whole;
-            for (sum, &point) in edges[filled.clone()].iter_mut().zip(&points[filled]) {
-                let level = ground.level(span, run.pin(), point);
-                ground.edge_cell_squares(span, level, point).for_each(|square| sum.add(square));
-            }
-        });
-        Ok(SquareScale::along(ground.tree.scale(), points, changes, edges))
     }
 
     /// Calls `see` with each run, each span of it, and the indices of the points of a grid at which the run fills it.

@@ -10,7 +10,7 @@ use super::run::{Ground, Run};
 use super::search::Search;
 use super::span::Span;
 use crate::contact::grid::CompensatedSum;
-use crate::contact::totals::{SquareScale, Squares};
+use crate::contact::totals::SquareScale;
 
 /// Sum of squared stretches ∫ (c − θ)² dx, in cells times m²: whole springs or cells as integers, edge cells as numbers.
 struct SquaredStretch {
@@ -28,7 +28,8 @@ impl SquaredStretch {
 
     /// Adds (`sign` 1) or subtracts (−1) the squares over a span with edges at a level, m, at the indentation θ, m.
     fn add<E: EdgeModel>(&mut self, ground: &Ground<'_, E>, sign: i8, (span, level): (&Span, f64), at: f64) {
-        let (squares, remainder) = self.scale.at(ground.squares(span), at);
+        let totals = ground.totals(span);
+        let (squares, remainder) = self.scale.at(&totals, totals.whole(E::SLIDES), at);
         self.edges.add(f64::from(sign) * remainder);
         // Sums of all runs cancel down to the energy: those in between may pass the range of integers.
         self.whole = self.whole.wrapping_add(if sign < 0 { squares.wrapping_neg() } else { squares });
@@ -58,14 +59,6 @@ fn edge_cell(inside: f64, outside: Option<f64>, level: f64, at: f64) -> f64 {
 }
 
 impl<E: EdgeModel> Ground<'_, E> {
-    /// Whole springs or cells of a span: their number, and the sums of their gaps and squared gaps.
-    pub fn squares(&self, span: &Span) -> Squares {
-        let end = span.last + usize::from(!E::SLIDES);
-        let mut squares = self.tree.squares_before(self.gaps, end);
-        squares -= self.tree.squares_before(self.gaps, span.first);
-        squares
-    }
-
     /// ∫ (c − θ)² dx over the edge cells of a span up to a level, m, at the indentation θ, m, in cells times m².
     pub fn edge_cell_squares(&self, span: &Span, level: f64, at: f64) -> impl Iterator<Item = f64> {
         let edges = [(span.first, span.first.checked_sub(1)), (span.last, Some(span.last + 1))];

@@ -23,6 +23,8 @@ pub struct EdgeCells {
     pub length: f64,
     /// The compression ∫ (d − c) dx over that, in cells times metres.
     pub compression: f64,
+    /// ∫ (d − c)² dx over that, in cells times m².
+    pub squares: f64,
 }
 
 /// Edge cells of many fragments, summed without loss.
@@ -30,6 +32,7 @@ pub struct EdgeCells {
 pub struct EdgeSum {
     pub length: CompensatedSum,
     pub compression: CompensatedSum,
+    pub squares: CompensatedSum,
 }
 
 impl EdgeSum {
@@ -38,11 +41,13 @@ impl EdgeSum {
     pub fn add(&mut self, cells: EdgeCells) {
         self.length.add(cells.length);
         self.compression.add(cells.compression);
+        self.squares.add(cells.squares);
     }
 
     /// All edge cells.
     pub fn total(&self) -> EdgeCells {
-        EdgeCells { length: self.length.total(), compression: self.compression.total() }
+        let EdgeSum { length, compression, squares } = *self;
+        EdgeCells { length: length.total(), compression: compression.total(), squares: squares.total() }
     }
 }
 
@@ -66,6 +71,8 @@ struct EdgeCell {
     growth: f64,
     /// Twice the compression of the cell at that level and indentation, m.
     carries: f64,
+    /// Its squared compression there, m².
+    squares: f64,
 }
 
 impl EdgeCell {
@@ -77,33 +84,42 @@ impl EdgeCell {
             return EdgeCell::without_growth(outside, height, above);
         }
         let share = if above < height { above * growth } else { 1.0 };
-        EdgeCell { outside, share, growth, carries: above * share }
+        let carries = above * share;
+        EdgeCell { outside, share, growth, carries, squares: carries * above * (1.0 / 3.0) }
     }
 
     /// Half a cell as level as its spring at the end of the foundation, or a cell too steep or too level to grow.
     #[cold]
     fn without_growth(outside: f64, height: f64, above: f64) -> Self {
         if height == f64::INFINITY {
-            return EdgeCell { outside, share: 0.5, growth: 0.0, carries: above };
+            return EdgeCell {
+                outside,
+                share: 0.5,
+                growth: 0.0,
+                carries: above,
+                squares: 0.5 * above * above,
+            };
         }
         // 0/0 for a level cell: all of it counts.
         let share = if above < height { above / height } else { 1.0 };
-        EdgeCell { outside, share, growth: 0.0, carries: above * share }
+        let carries = above * share;
+        EdgeCell { outside, share, growth: 0.0, carries, squares: carries * above * (1.0 / 3.0) }
     }
 }
 
 impl Levels {
-    /// Levels of a span on a line that is straight between springs, and the compression of its edge cells at the level
-    /// and the indentation of its largest gap: ∫ (c − c(x)) dx over them, in cells times metres.
+    /// Levels of a span on a line that is straight between springs, and for its edge cells at the level and the indentation
+    /// c of its largest gap ∫ (c − c(x)) dx, in cells times metres, and ∫ (c − c(x))² dx.
     #[inline]
-    pub fn between_springs(gaps: &[f64], span: &Span) -> (Self, f64) {
+    pub fn between_springs(gaps: &[f64], span: &Span) -> (Self, [f64; 2]) {
         let Span { gap, first, last } = *span;
         let before = if first > 0 { gaps[first - 1] } else { f64::INFINITY };
         let after = gaps.get(last + 1).copied().unwrap_or(f64::INFINITY);
         let [left, right] = [EdgeCell::new(gaps[first], before, gap), EdgeCell::new(gaps[last], after, gap)];
         let length = (last - first) as f64 + (left.share + right.share);
         let (growth, top) = (left.growth + right.growth, left.outside.min(right.outside));
-        (Levels { gap, length, growth, top }, 0.5 * (left.carries + right.carries))
+        let sums = [0.5 * (left.carries + right.carries), left.squares + right.squares];
+        (Levels { gap, length, growth, top }, sums)
     }
 
     /// Length at a level of this rise above the gap, in cells.
@@ -184,23 +200,25 @@ pub struct Slider {
     cells: f64,
     /// Part of its edge cells in contact at its lowest level, in cells.
     edges: f64,
-    /// Compression of the edge cells there at the indentation of the gap of the span.
+    /// Compression of the edge cells there at the indentation of the gap of the span, and their squared compression.
     compression: f64,
+    squares: f64,
 }
 
 impl Slider {
     /// The edge cells of a span under this stretch (m) of a fragment of one cell, pinned at a rise, m, if there is one.
     #[inline]
     pub fn new(gaps: &[f64], span: &Span, stretch: f64, pin: Option<f64>) -> Self {
-        let (levels, compression) = Levels::between_springs(gaps, span);
+        let (levels, [compression, squares]) = Levels::between_springs(gaps, span);
         let cells = span.springs() as f64 - 1.0;
-        let mut slider =
-            Slider { slide: Slide::new(levels, stretch), cells, edges: levels.length - cells, compression };
+        let (slide, edges) = (Slide::new(levels, stretch), levels.length - cells);
+        let mut slider = Slider { slide, cells, edges, compression, squares };
         if let Some(rise) = pin {
             let grown = levels.growth * rise;
             slider.slide.levels.growth = 0.0;
             slider.edges += grown;
             slider.compression -= 0.5 * grown * rise;
+            slider.squares += grown * rise * rise * (1.0 / 3.0);
         }
         slider
     }
@@ -215,6 +233,9 @@ impl Slider {
         EdgeCells {
             length: self.edges + grown,
             compression: (self.edges * above + self.compression) + grown * (above - 0.5 * rise),
+            squares: (self.edges * above + 2.0 * self.compression) * above
+                + self.squares
+                + grown * (above * (above - rise) + rise * rise * (1.0 / 3.0)),
         }
     }
 

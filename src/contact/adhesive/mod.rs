@@ -22,5 +22,5 @@ pub(in crate::contact) use run::{Ground, Held, Run};
 pub(in crate::contact) use search::Search;
 pub(in crate::contact) use span::Span;
 pub use tree::ContactTree;
-pub(in crate::contact) use tree::{BlockSums, largest};
+pub(in crate::contact) use tree::largest;
 pub(in crate::contact) use unloading::Opening;

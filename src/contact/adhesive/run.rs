@@ -4,6 +4,7 @@ use super::edge_model::EdgeModel;
 use super::levels::{Levels, Slider};
 use super::span::{Span, larger};
 use super::tree::{Branch, ContactTree};
+use crate::contact::ContactTotals;
 use std::marker::PhantomData;
 
 /// Margin of bounds for rounding.
@@ -167,10 +168,12 @@ impl<E: EdgeModel> Ground<'_, E> {
 
     /// Whole springs or cells of a span, and the fragment they form.
     #[inline]
-    pub fn totals(&self, span: &Span) -> crate::contact::ContactTotals {
+    pub fn totals(&self, span: &Span) -> ContactTotals {
         let end = span.last + usize::from(!E::SLIDES);
-        let quanta = self.tree.sum_before(self.gaps, end) - self.tree.sum_before(self.gaps, span.first);
-        crate::contact::ContactTotals { springs: span.springs() as i64, fragments: 1, quanta }
+        let [high, high_squares] = self.tree.sums_before(self.gaps, end);
+        let [low, low_squares] = self.tree.sums_before(self.gaps, span.first);
+        let (quanta, squares) = (high - low, high_squares - low_squares);
+        ContactTotals { springs: span.springs() as i64, fragments: 1, quanta, squares }
     }
 
     /// Upper end of the indentations over which a run fills a span, m: where the span `above` takes its place.

@@ -1,7 +1,7 @@
 //! The contact tree: the merging of the fragments of a line, over its local maxima alone.
 
 use super::span::larger;
-use crate::contact::totals::{SQUARE_BITS, Squares};
+use crate::contact::totals::FewSprings;
 use crate::contact::{ContactError, GapScale, TWO_THREADS, reserve};
 use crate::memory;
 use crate::parallel::in_parallel;
@@ -181,39 +181,19 @@ impl ContactTree {
         ]
     }
 
-    /// Sum from the first spring to this one, in quanta.
+    /// Sums of the gaps and of their squares from the first spring to this one, in the units of
+    /// [`ContactTotals`](crate::contact::ContactTotals).
     #[inline]
-    pub(super) fn sum_before(&self, gaps: &[f64], spring: usize) -> i128 {
-        let block = spring / BLOCK;
-        let scale = self.scale();
-        let start = block * BLOCK;
-        let rest: i128 = match self.edges() {
-            // All are read, also those that do not count: a branch would often be mispredicted.
-            Edges::SubCell => (1..BLOCK)
-                .map(|k| {
-                    let at = if start + k <= spring { start + k } else { spring };
-                    let quanta = scale.mean_quanta(gaps[at.max(1) - 1], gaps[at]);
-                    i128::from(if start + k <= spring { quanta } else { 0 })
-                })
-                .sum(),
-            Edges::Grid => gaps[start..spring].iter().map(|&gap| i128::from(scale.quanta(gap))).sum(),
-        };
-        self.sums[block][0] + rest
-    }
-
-    /// Sums from the first spring to this one.
-    pub(super) fn squares_before(&self, gaps: &[f64], spring: usize) -> Squares {
+    pub(super) fn sums_before(&self, gaps: &[f64], spring: usize) -> [i128; 2] {
         let (block, scale) = (spring / BLOCK, self.scale());
-        let [first, second] = self.sums[block];
-        let mut rest = BlockSums::default();
-        for at in block * BLOCK..spring {
-            match self.edges() {
-                Edges::Grid => rest.add_spring(gaps[at], scale),
-                Edges::SubCell => rest.add_cell(gaps[at], gaps[at + 1], scale),
-            }
+        let mut rest = FewSprings::default();
+        let springs = block * BLOCK..spring;
+        match self.edges() {
+            Edges::Grid => gaps[springs].iter().for_each(|&gap| rest.add_spring(gap, scale)),
+            Edges::SubCell => springs.for_each(|at| rest.add_cell(gaps[at], gaps[at + 1], scale)),
         }
-        let [rest, rest_squares] = rest.rounded();
-        Squares { count: spring as i64, first: first + rest, second: second + rest_squares }
+        let ([first, second], [rest, rest_squares]) = (self.sums[block], rest.sums());
+        [first + rest, second + rest_squares]
     }
 
     /// Finds the turning points: of neighbours with equal gaps the right one counts as lower.
@@ -304,87 +284,24 @@ fn sums_along(
     }
     let mut sum = [0_i128; 2];
     sums.push(sum);
-    let mut add = |block: BlockSums| {
-        let [gaps, squares] = block.rounded();
+    let mut add = |block: FewSprings| {
+        let [gaps, squares] = block.sums();
         sum = [sum[0] + gaps, sum[1] + squares];
         sums.push(sum);
     };
     match edges {
         Edges::Grid => gaps.as_chunks::<BLOCK>().0.iter().for_each(|springs| {
-            let mut block = BlockSums::default();
+            let mut block = FewSprings::default();
             springs.iter().for_each(|&gap| block.add_spring(gap, scale));
             add(block);
         }),
         Edges::SubCell => gaps.windows(BLOCK + 1).step_by(BLOCK).for_each(|springs| {
-            let mut block = BlockSums::default();
+            let mut block = FewSprings::default();
             springs.windows(2).for_each(|cell| block.add_cell(cell[0], cell[1], scale));
             add(block);
         }),
     }
     Ok(sums)
-}
-
-/// Sums over a block at most: four quanta below 2^62 fit into 64 bits, and four of their squares into 128.
-#[derive(Default)]
-pub struct BlockSums {
-    quanta: u64,
-    squares: u128,
-    /// Squared differences of the gaps at the ends of cells.
-    squared_differences: u128,
-}
-
-impl BlockSums {
-    /// Sums over one spring.
-    pub fn of_spring(gap: f64, scale: GapScale) -> Squares {
-        let mut sums = BlockSums::default();
-        sums.add_spring(gap, scale);
-        sums.squares(1)
-    }
-
-    /// Sums over one cell.
-    pub fn of_cell(one: f64, other: f64, scale: GapScale) -> Squares {
-        let mut sums = BlockSums::default();
-        sums.add_cell(one, other, scale);
-        sums.squares(1)
-    }
-
-    fn squares(&self, count: i64) -> Squares {
-        let [first, second] = self.rounded();
-        Squares { count, first, second }
-    }
-
-    #[inline]
-    fn add_spring(&mut self, gap: f64, scale: GapScale) {
-        self.add(scale.quanta(gap).cast_unsigned());
-    }
-
-    #[inline]
-    fn add_cell(&mut self, one: f64, other: f64, scale: GapScale) {
-        self.add(scale.mean_quanta(one, other).cast_unsigned());
-        let difference = u128::from(scale.quanta((one - other).abs()).cast_unsigned());
-        self.squared_differences += difference * difference;
-    }
-
-    #[inline]
-    fn add(&mut self, quanta: u64) {
-        self.quanta += quanta;
-        self.squares += u128::from(quanta) * u128::from(quanta);
-    }
-
-    /// Sum of the gaps, in quanta, and of their squares in the unit of [`Squares`]: the mean square along a cell is
-    /// (mean gap)² + (difference)²/12.
-    #[inline]
-    fn rounded(&self) -> [i128; 2] {
-        let squares = self.squares + twelfth(self.squared_differences);
-        [i128::from(self.quanta), (squares >> SQUARE_BITS).cast_signed()]
-    }
-}
-
-/// A twelfth, at most 13 too small; a division of 128 bits would take longer than all other sums.
-#[inline]
-fn twelfth(number: u128) -> u128 {
-    let [high, low] = [(number >> 64) as u64, number as u64];
-    (u128::from(high / 12) << 64) + u128::from(high % 12) * u128::from(u64::MAX / 12) + u128::from(low / 12)
 }
 
 /// Largest of finite numbers that are at least zero; zero of none.

@@ -91,7 +91,7 @@ impl Plan {
             // At most, if the whole contact under load also exists at first touch.
             Stage::ZeroLoadAdhesion,
         ];
-        let curves = call.curve_points * (size_of::<CurvePoint>() + size_of::<f64>()) as u64 + call.bytes_of_sampling();
+        let curves = call.curve_points * size_of::<CurvePoint>() as u64 + call.bytes_of_sampling();
         let contact = contact.map(|stage| self.bytes(stage)).iter().sum::<u64>();
         (kept + HEIGHT * call.springs + contact + curves).max(self.bytes(Stage::Synthesis))
     }

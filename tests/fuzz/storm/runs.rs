@@ -172,10 +172,12 @@ fn assert_written(scene: &Scene, outcome: &Outcome) -> Result<(), TestCaseError>
         numbers.iter().map(|number| number.to_bits()).collect::<Vec<_>>()
     });
     let legs = outcome.history.legs.iter().enumerate();
-    let points = legs.flat_map(|(index, leg)| leg.curve.iter().zip(&leg.stored_energy).map(move |point| (index, point)));
-    let computed = points.map(|(index, (point, stored))| {
-        let CurvePoint { indentation, force, contact_length, fragments, springs: _ } = *point;
-        [index as f64, indentation, force, contact_length, fragments as f64, *stored].map(f64::to_bits).to_vec()
+    let points = legs.flat_map(|(index, leg)| leg.curve.iter().map(move |point| (index, point)));
+    let computed = points.map(|(index, point)| {
+        let CurvePoint { indentation, force, contact_length, fragments, stored_energy, springs: _ } = *point;
+        [index as f64, indentation, force, contact_length, fragments as f64, stored_energy]
+            .map(f64::to_bits)
+            .to_vec()
     });
     prop_assert!(read.eq(computed), "{}", table);
     Ok(())
