@@ -9,10 +9,9 @@
 
 use asperity::analysis::ideal_adhesion_force;
 use asperity::contact::{
-    Body, Contact, ContactTree, Foundation, HessRule, Leg as Motion, LegRecord, Solver, Springs, Work,
-    Workspace,
+    Body, Contact, ContactTree, Foundation, HessRule, Leg, LegRecord, Solver, Springs, Work, Workspace,
 };
-use asperity::scene::{Adhesion, Document, Edges, Leg, Roughness, Scene};
+use asperity::scene::{Adhesion, Document, Edges, Move, Roughness, Scene};
 use asperity::simulation::Simulation;
 use asperity::surface::{Line, SelfAffine, Synthesizer, UnitRoughness};
 use realfft::{RealFftPlanner, RealToComplex};
@@ -241,7 +240,7 @@ impl Lines {
 /// kept.
 struct Edits {
     simulation: Simulation,
-    legs: Vec<Motion>,
+    legs: Vec<Leg>,
     /// Shortest seconds from an edit to the outcome: under each κ with the line kept, and for another seed
     /// under each κ.
     kappa: [f64; 2],
@@ -313,7 +312,7 @@ impl Timed {
         let contact = contact(tree, edges, hess, rough);
         self.tree = self.tree.min(seconds_since(whole));
         let mut solver = Body::new_in(take(&mut self.memory), &contact, SAMPLES);
-        let legs = [Leg::ToForce(LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT), Leg::ToSeparation];
+        let legs = [Move::ToForce(LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT), Move::ToSeparation];
         let clock = Instant::now();
         self.records = legs.map(|leg| solver.advance(leg).expect("a reachable leg")).into();
         let legs_seconds = seconds_since(clock);
@@ -334,7 +333,7 @@ impl Timed {
         rough: &Rough,
     ) -> ContactTree {
         let force = LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT / f64::from(REVERSALS);
-        let turns: Vec<Leg> = (1..=REVERSALS).map(|turn| Leg::ToForce(force * f64::from(turn))).collect();
+        let turns: Vec<Move> = (1..=REVERSALS).map(|turn| Move::ToForce(force * f64::from(turn))).collect();
         let clock = Instant::now();
         let contact = contact(tree, edges, hess, rough);
         let mut solver = Body::new_in(take(&mut self.memory), &contact, SAMPLES);

@@ -5,7 +5,7 @@
 //! `cargo bench --bench sweep` prints the figures and fails if a bar is missed. After `--`: `--quick` takes fewer lines
 //! and cells. Without `--bench`, as started by `cargo test --benches`, it only checks that it runs.
 
-use asperity::scene::{Adhesion, Leg, Roughness, Scene};
+use asperity::scene::{Adhesion, Move, Roughness, Scene};
 use asperity::simulation::Simulation;
 use asperity::study::{Changes, Folder, Options, Plan, Shard, merge, run};
 use realfft::RealFftPlanner;
@@ -196,7 +196,7 @@ fn one_by_one(plan: &Plan) {
             };
             (*hurst, *seed) = (values[0], plan.seed_of(line));
             let unit = scene.material.effective_modulus() * rms_height.unwrap_or(1.0) * scene.length;
-            scene.loading = vec![Leg::ToForce(values[2] * unit), Leg::ToSeparation];
+            scene.loading = vec![Move::ToForce(values[2] * unit), Move::ToSeparation];
             let mut simulation = Simulation::new(PathBuf::new());
             let outcome = simulation.run(&scene, &|| false, &mut |_, _, _| Ok(()));
             black_box(outcome.unwrap_or_else(|error| panic!("{error}")));

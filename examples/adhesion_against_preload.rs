@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release --example adhesion_against_preload`
 
-use asperity::{Contact, Leg, Material, Profile, SelfAffine};
+use asperity::{Contact, Material, Move, Profile, SelfAffine};
 
 fn main() -> Result<(), asperity::Error> {
     let spectrum = SelfAffine { hurst: 0.6, first: 2, last: 4096 };
@@ -11,7 +11,7 @@ fn main() -> Result<(), asperity::Error> {
     println!("preload, µN   pull-off force, µN");
     let mut before = 0.0;
     let preloads = [0.0, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 6.0];
-    let reversals = contact.reversals(&preloads.map(|preload| Leg::ToForce(1.0e-6 * preload)))?;
+    let reversals = contact.reversals(&preloads.map(|preload| Move::ToForce(1.0e-6 * preload)))?;
     for (preload, reversal) in preloads.iter().zip(reversals) {
         let pull_off = reversal.adhesion_force().unwrap_or(0.0);
         println!("{preload:>11}   {:.4}", 1.0e6 * pull_off);

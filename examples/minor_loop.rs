@@ -3,7 +3,7 @@
 //!
 //! `cargo run --release --example minor_loop`
 
-use asperity::{Contact, Leg, Material, Profile, SelfAffine};
+use asperity::{Contact, Material, Move, Profile, SelfAffine};
 
 fn main() -> Result<(), asperity::Error> {
     let spectrum = SelfAffine { hurst: 0.7, first: 1, last: 1024 };
@@ -11,12 +11,12 @@ fn main() -> Result<(), asperity::Error> {
     let contact = Contact::builder(&profile, Material::effective(1.0e6)).work_of_adhesion(2.0e-5).build()?;
     let preload = 4.0e-6; // N
     let history = [
-        Leg::ToForce(preload),
-        Leg::ToForce(0.2 * preload),
-        Leg::ToForce(preload),
-        Leg::ToForce(0.2 * preload),
-        Leg::ToForce(preload),
-        Leg::ToSeparation,
+        Move::ToForce(preload),
+        Move::ToForce(0.2 * preload),
+        Move::ToForce(preload),
+        Move::ToForce(0.2 * preload),
+        Move::ToForce(preload),
+        Move::ToSeparation,
     ];
     let cycle = contact.load(&history)?;
     println!("leg   force at its end, µN   indentation, nm   dissipated, fJ");

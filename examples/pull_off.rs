@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release --example pull_off`
 
-use asperity::{Contact, Leg, Material, Profile};
+use asperity::{Contact, Material, Move, Profile};
 
 const RADIUS: f64 = 1.0e-4; // m
 const LENGTH: f64 = 1.0e-4; // m
@@ -21,7 +21,7 @@ fn main() -> Result<(), asperity::Error> {
         let contact = Contact::builder(&profile, Material::effective(1.0e6))
             .work_of_adhesion(WORK_OF_ADHESION)
             .build()?;
-        let cycle = contact.load(&[Leg::ToForce(1.0e-4), Leg::ToSeparation])?;
+        let cycle = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?;
         let share = cycle.pull_off_force().unwrap_or(0.0) / jkr;
         println!("{:>13.0}   {share:.4}", 1.0e9 * amplitude);
         if amplitude == 0.0 {

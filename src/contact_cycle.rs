@@ -5,7 +5,7 @@ use crate::contact::{
     Body, Contact as Springs, ContactError, CurvePoint, Foundation, HessRule, History, LegRecord, Reversal,
     run,
 };
-use crate::scene::{Edges, Leg, Material};
+use crate::scene::{Edges, Material, Move};
 use crate::simulation::RunError;
 use crate::{Error, Profile};
 use std::sync::Arc;
@@ -13,11 +13,11 @@ use std::sync::Arc;
 /// A rigid profile on an elastic half-space, with or without adhesion; the contact of a loading history is exact.
 ///
 /// ```
-/// use asperity::{Contact, Leg, Material, Profile};
+/// use asperity::{Contact, Material, Move, Profile};
 ///
 /// let sphere = Profile::sphere(1.0e-4, 1.0e-4, 4096)?;
 /// let contact = Contact::builder(&sphere, Material::effective(1.0e6)).work_of_adhesion(0.05).build()?;
-/// let cycle = contact.load(&[Leg::ToForce(1.0e-4), Leg::ToSeparation])?;
+/// let cycle = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?;
 /// // Johnson, Kendall and Roberts: (3/2)πγR.
 /// let expected = 1.5 * std::f64::consts::PI * 0.05 * 1.0e-4;
 /// assert!((cycle.pull_off_force().unwrap() / expected - 1.0).abs() < 1e-4);
@@ -62,17 +62,17 @@ impl Contact {
     ///
     /// # Errors
     /// [`Error::Run`] for a force or an indentation that is not finite or that the contact cannot reach.
-    pub fn load(&self, legs: &[Leg]) -> Result<Cycle, Error> {
+    pub fn load(&self, legs: &[Move]) -> Result<Cycle, Error> {
         let history = run(&mut self.body(), legs, |_, _| Ok(())).map_err(RunError::Contact)?;
         Ok(Cycle { figures: Figures::of(&history), history })
     }
 
     /// Loads the separated body once and unloads it from the ends of these stages, each of which begins at separation:
-    /// the results of [`Contact::load`] for each stage followed by [`Leg::ToSeparation`], at the cost of a few.
+    /// the results of [`Contact::load`] for each stage followed by [`Move::ToSeparation`], at the cost of a few.
     ///
     /// # Errors
     /// [`Error::Run`] for an end that is not finite, without contact, or out of reach.
-    pub fn reversals(&self, ends: &[Leg]) -> Result<Vec<Reversal>, Error> {
+    pub fn reversals(&self, ends: &[Move]) -> Result<Vec<Reversal>, Error> {
         let mut found: Vec<(usize, Reversal)> = Vec::with_capacity(ends.len());
         let mut see = |index, reversal| {
             found.push((index, reversal));
@@ -193,18 +193,18 @@ mod tests {
     #[test]
     fn reversals_are_those_of_loads_of_their_own() {
         let sphere = Profile::sphere(1e-4, 1e-4, 512).unwrap();
-        let ends = [Leg::ToForce(2e-4), Leg::ToTouch, Leg::ToIndentation(1e-6)];
+        let ends = [Move::ToForce(2e-4), Move::ToTouch, Move::ToIndentation(1e-6)];
         for (work, edges) in [(0.05, Edges::Grid), (0.05, Edges::SubCell), (0.0, Edges::SubCell)] {
             let contact =
                 Contact::builder(&sphere, Material::effective(1e6)).work_of_adhesion(work).edges(edges);
             let contact = contact.build().unwrap();
             let reversals = contact.reversals(&ends).unwrap();
             for (end, reversal) in ends.iter().zip(&reversals) {
-                let cycle = contact.load(&[*end, Leg::ToSeparation]).unwrap();
+                let cycle = contact.load(&[*end, Move::ToSeparation]).unwrap();
                 assert_eq!(reversal.adhesion_force(), cycle.pull_off_force());
                 assert_eq!(Some(reversal.dissipated_energy), cycle.dissipated_energy());
             }
-            assert!(contact.reversals(&[Leg::ToForce(-1.0)]).is_err());
+            assert!(contact.reversals(&[Move::ToForce(-1.0)]).is_err());
             assert_eq!(contact.reversals(&[]).unwrap(), []);
         }
     }

@@ -11,12 +11,12 @@
 //! # A contact in five lines
 //!
 //! ```
-//! use asperity::{Contact, Leg, Material, Profile};
+//! use asperity::{Contact, Material, Move, Profile};
 //!
 //! let heights: Vec<f64> = (0..1024).map(|i| 1.0e-7 * (0.3 * f64::from(i)).sin()).collect(); // m
 //! let profile = Profile::from_heights(&heights, 1.0e-7)?; // spacing, m
 //! let contact = Contact::builder(&profile, Material::effective(1.0e6)).work_of_adhesion(0.05).build()?;
-//! let cycle = contact.load(&[Leg::ToForce(1.0e-4), Leg::ToSeparation])?; // N
+//! let cycle = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?; // N
 //! println!("{:?} N, {:?} J", cycle.pull_off_force(), cycle.dissipated_energy());
 //! # assert!(cycle.pull_off_force().unwrap() > 0.0);
 //! # Ok::<(), asperity::Error>(())
@@ -88,7 +88,7 @@ pub mod topography;
 
 pub use contact_cycle::{Contact, ContactBuilder, Cycle};
 pub use profile::{Profile, ProfileError};
-pub use scene::{Edges, Leg, Material, Scene};
+pub use scene::{Edges, Material, Move, Scene};
 pub use surface::SelfAffine;
 
 use simulation::{Outcome, RunError, Simulation};

@@ -7,7 +7,7 @@ mod allocations;
 mod peak;
 
 use asperity::contact::{Body, Contact, Foundation, HessRule};
-use asperity::scene::{Document, Edges, Leg, open};
+use asperity::scene::{Document, Edges, Move, open};
 use asperity::simulation::{Plan, Simulation};
 use asperity::surface::{Line, SelfAffine, Synthesizer, UnitRoughness};
 use peak::{Changed, arguments, peak};
@@ -197,8 +197,8 @@ fn memory_of_512_reversals_is_that_of_a_few() {
             contact.springs.tree(Edges::SubCell).unwrap();
             let most = |count: u32| {
                 let deepest = 0.4 * 2e6 * 1e-3 * 5e-7;
-                let turn = |turn: u32| Leg::ToForce(deepest * f64::from(turn) / f64::from(count));
-                let turns: Vec<Leg> = (1..=count).map(turn).collect();
+                let turn = |turn: u32| Move::ToForce(deepest * f64::from(turn) / f64::from(count));
+                let turns: Vec<Move> = (1..=count).map(turn).collect();
                 let of = || {
                     Body::new(&contact, 512).reversals(&turns, &[], &mut |_, _| Ok(())).unwrap();
                 };
@@ -233,7 +233,7 @@ fn preloads_of_a_line_of_events_take_what_a_study_counts() {
     let hess = HessRule::new(foundation, work);
     let contact = Contact::new(Arc::clone(&line.gaps), Edges::SubCell, foundation, Some(hess));
     contact.springs.tree(Edges::SubCell).unwrap();
-    let turns = [0.01, 0.1, 1.0].map(|share| Leg::ToForce(share * 2e6 * 1e-3 * 5e-7));
+    let turns = [0.01, 0.1, 1.0].map(|share| Move::ToForce(share * 2e6 * 1e-3 * 5e-7));
     let held = allocations::most_held(|| {
         Body::new(&contact, 2).reversals(&turns, &[], &mut |_, _| Ok(())).unwrap();
     })

@@ -6,17 +6,17 @@ use super::cases::{
     SEED, WORK_OF_ADHESION,
 };
 use asperity::analysis::Figures;
-use asperity::contact::{Body, Contact, Foundation, HessRule, History, Leg as Motion, LegRecord, run};
-use asperity::scene::{Form, Leg};
+use asperity::contact::{Body, Contact, Foundation, HessRule, History, Leg, LegRecord, run};
+use asperity::scene::{Form, Move};
 use asperity::surface::{Histogram, Line, SelfAffine, Synthesizer};
 use std::sync::Arc;
 
 /// Bins of the histogram of heights.
 const BINS: usize = 64;
 
-const LOOP: [Leg; 2] = [Leg::ToForce(FORCE), Leg::ToSeparation];
-const TOUCH: [Leg; 2] = [Leg::ToTouch, Leg::ToSeparation];
-const PRESS: [Leg; 1] = [Leg::ToForce(FORCE)];
+const LOOP: [Move; 2] = [Move::ToForce(FORCE), Move::ToSeparation];
+const TOUCH: [Move; 2] = [Move::ToTouch, Move::ToSeparation];
+const PRESS: [Move; 1] = [Move::ToForce(FORCE)];
 
 /// Result of a kernel.
 #[derive(Default)]
@@ -29,7 +29,7 @@ pub struct Given {
 
 /// Runs the kernel of a case.
 pub fn kernel(case: &Case) -> Given {
-    let (smooth_or_rough, legs): (Line, &[Leg]) = match case.class {
+    let (smooth_or_rough, legs): (Line, &[Move]) = match case.class {
         Class::SmoothPressed => (smooth(), &PRESS),
         Class::AdhesivePressed => (rough(), &PRESS),
         Class::AdhesiveTouch => (rough(), &TOUCH),
@@ -61,9 +61,9 @@ fn rough() -> Line {
 }
 
 /// A loading under adhesion, with the other results of its case beside the curve.
-fn adhesive(case: &Case, mut body: Body, legs: &[Leg]) -> Given {
+fn adhesive(case: &Case, mut body: Body, legs: &[Move]) -> Given {
     let mut fragments = Vec::new();
-    let history = run(&mut body, legs, |record: &LegRecord, leg: &Motion| {
+    let history = run(&mut body, legs, |record: &LegRecord, leg: &Leg| {
         if case.is_observed() {
             let end = record.curve.last().filter(|end| end.springs > 0);
             fragments.push(end.map_or_else(Vec::new, |end| leg.patches(end.indentation)));

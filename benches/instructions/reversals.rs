@@ -2,7 +2,7 @@
 
 use crate::instructions::callgrind;
 use asperity::contact::{Body, Contact, Foundation, HessRule, Solver};
-use asperity::scene::{Edges, Leg};
+use asperity::scene::{Edges, Move};
 use asperity::surface::{Line, SelfAffine, UnitRoughness};
 use std::hint::black_box;
 use std::sync::Arc;
@@ -60,13 +60,13 @@ pub fn run_as_child() -> bool {
         Part::Line => drop(black_box(line.gaps.len())),
         Part::Loop => {
             let mut body = body();
-            for leg in [Leg::ToForce(force), Leg::ToSeparation] {
+            for leg in [Move::ToForce(force), Move::ToSeparation] {
                 black_box(body.advance(leg).expect("a reachable leg"));
             }
         }
         Part::Reversals => {
-            let turn = |turn: u32| Leg::ToForce(force * f64::from(turn) / f64::from(REVERSALS));
-            let turns: Vec<Leg> = (1..=REVERSALS).map(turn).collect();
+            let turn = |turn: u32| Move::ToForce(force * f64::from(turn) / f64::from(REVERSALS));
+            let turns: Vec<Move> = (1..=REVERSALS).map(turn).collect();
             let mut see = |_, reversal| {
                 black_box(reversal);
                 Ok(())

@@ -3,7 +3,7 @@
 use super::curve::ForceCurve;
 use crate::contact::{ContactError, Direction};
 use crate::reference::{PowerLaw, smooth_adhesion_force};
-use crate::scene::{Edges, Form, Leg, Numerics, Scene, Solver, check};
+use crate::scene::{Edges, Form, Move, Numerics, Scene, Solver, check};
 use crate::simulation::{Outcome, RunError, Simulation};
 use crate::surface::SurfaceError;
 use serde::Serialize;
@@ -188,7 +188,7 @@ pub(super) fn refined(scene: &Scene, points: u64, edges: Edges) -> Scene {
 pub(super) fn loaded(scene: &Scene, factor: f64) -> Option<Scene> {
     let mut other = scene.clone();
     for leg in &mut other.loading {
-        if let Leg::ToForce(target) | Leg::ToIndentation(target) = leg
+        if let Move::ToForce(target) | Move::ToIndentation(target) = leg
             && *target > 0.0
         {
             *target *= factor;

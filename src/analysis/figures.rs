@@ -1,7 +1,7 @@
 //! The headline figures of a loading history.
 
 use crate::contact::{CurvePoint, Direction, History, LegRecord, Reversal};
-use crate::scene::{Leg, Scene};
+use crate::scene::{Move, Scene};
 
 /// Figures of one history; `None` for a figure that the history does not have.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -37,7 +37,7 @@ impl Figures {
 
     /// Figures of a loading from separation to the end of this stage, at the turning point of `reversal`, and back.
     #[must_use]
-    pub fn of_reversal(leg: Leg, reversal: &Reversal) -> Self {
+    pub fn of_reversal(leg: Move, reversal: &Reversal) -> Self {
         let touches = reversal.turn.springs > 0;
         Figures::at(
             touches.then_some((leg, reversal.turn)),
@@ -48,12 +48,12 @@ impl Figures {
 
     /// Figures from the point of the largest force with its stage, the pull-off, and the energy
     /// of all stages, J.
-    fn at(pressed: Option<(Leg, CurvePoint)>, pull_off: Option<CurvePoint>, energy: Option<f64>) -> Self {
+    fn at(pressed: Option<(Move, CurvePoint)>, pull_off: Option<CurvePoint>, energy: Option<f64>) -> Self {
         let preload = pressed.map(|(_, point)| point.force);
         // Not −F, which would make a force of zero negative.
         let adhesion_force = pull_off.map(|point| 0.0 - point.force);
         // For a target force of zero the remaining force is rounding.
-        let under_load = pressed.is_some_and(|(leg, _)| leg != Leg::ToForce(0.0));
+        let under_load = pressed.is_some_and(|(leg, _)| leg != Move::ToForce(0.0));
         Figures {
             preload,
             preload_indentation: pressed.map(|(_, point)| point.indentation),
@@ -71,7 +71,7 @@ impl Figures {
     /// Returns true if a scene's own loading is that of the touch protocol, so that its adhesion force is F_a(0).
     #[must_use]
     pub fn is_touch_protocol(scene: &Scene) -> bool {
-        scene.loading == [Leg::ToTouch, Leg::ToSeparation]
+        scene.loading == [Move::ToTouch, Move::ToSeparation]
     }
 }
 
@@ -112,9 +112,9 @@ mod tests {
         let contact = Contact::new(gaps, Edges::Grid, foundation, Some(HessRule::new(foundation, 0.001)));
         let figures = |first| {
             let mut body = Body::new(&contact, 16);
-            Figures::of(&run(&mut body, &[first, Leg::ToSeparation], |_, _| Ok(())).unwrap())
+            Figures::of(&run(&mut body, &[first, Move::ToSeparation], |_, _| Ok(())).unwrap())
         };
-        let (pressed, returned) = (figures(Leg::ToForce(0.01)), figures(Leg::ToForce(0.0)));
+        let (pressed, returned) = (figures(Move::ToForce(0.01)), figures(Move::ToForce(0.0)));
         let adhesion = pressed.adhesion_force.unwrap();
         assert_eq!(pressed.adhesion_coefficient, Some(adhesion / pressed.preload.unwrap()));
         assert!(returned.adhesion_force.unwrap() > 0.0 && returned.preload.is_some());
@@ -126,7 +126,7 @@ mod tests {
     }
 
     /// A stage with this point as its extremes and these springs at its end.
-    fn leg(target: Leg, direction: Direction, extreme: CurvePoint, springs: u64) -> LegRecord {
+    fn leg(target: Move, direction: Direction, extreme: CurvePoint, springs: u64) -> LegRecord {
         let curve = vec![point(0.0, 0.5, 1), extreme, point(extreme.indentation, 0.0, springs)];
         LegRecord {
             target,
@@ -145,11 +145,11 @@ mod tests {
     }
 
     fn pressed(force: f64) -> LegRecord {
-        leg(Leg::ToForce(force), Direction::Loading, point(force / 10.0, force, 3), 3)
+        leg(Move::ToForce(force), Direction::Loading, point(force / 10.0, force, 3), 3)
     }
 
     fn pulled(force: f64, springs: u64) -> LegRecord {
-        leg(Leg::ToSeparation, Direction::Unloading, point(-0.3, force, 2), springs)
+        leg(Move::ToSeparation, Direction::Unloading, point(-0.3, force, 2), springs)
     }
 
     #[test]
@@ -176,7 +176,7 @@ mod tests {
     #[test]
     fn a_separated_body_has_no_extremes() {
         let free = |direction| {
-            let mut leg = leg(Leg::ToIndentation(-1.0), direction, point(-1.0, 0.0, 0), 0);
+            let mut leg = leg(Move::ToIndentation(-1.0), direction, point(-1.0, 0.0, 0), 0);
             leg.curve = vec![point(-2.0, 0.0, 0), point(-1.0, 0.0, 0)];
             leg
         };
@@ -205,9 +205,9 @@ mod tests {
     fn the_touch_protocol_is_touch_and_separation() {
         let mut scene = crate::scene::open("jkr-sphere").unwrap().scene().clone();
         for (loading, is_touch) in [
-            (vec![Leg::ToTouch, Leg::ToSeparation], true),
-            (vec![Leg::ToZeroForce, Leg::ToSeparation], false),
-            (vec![Leg::ToTouch], false),
+            (vec![Move::ToTouch, Move::ToSeparation], true),
+            (vec![Move::ToZeroForce, Move::ToSeparation], false),
+            (vec![Move::ToTouch], false),
         ] {
             scene.loading = loading;
             assert_eq!(Figures::is_touch_protocol(&scene), is_touch, "{:?}", scene.loading);

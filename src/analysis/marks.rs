@@ -59,7 +59,7 @@ mod tests {
     use super::*;
     use crate::analysis::Figures;
     use crate::contact::History;
-    use crate::scene::Leg;
+    use crate::scene::Move;
 
     fn point(indentation: f64, force: f64, springs: u64) -> CurvePoint {
         CurvePoint { indentation, force, springs, ..CurvePoint::default() }
@@ -78,8 +78,8 @@ mod tests {
             ..LegRecord::still(leg, point(0.0, 0.0, 0))
         };
         let legs = [
-            leg(Leg::ToForce(3.0), Direction::Loading, &loading, loading[2], loading[1]),
-            leg(Leg::ToSeparation, Direction::Unloading, &unloading, unloading[0], unloading[1]),
+            leg(Move::ToForce(3.0), Direction::Loading, &loading, loading[2], loading[1]),
+            leg(Move::ToSeparation, Direction::Unloading, &unloading, unloading[0], unloading[1]),
         ];
         let expected = [
             (Mark::JumpIn, loading[1]),
@@ -92,7 +92,7 @@ mod tests {
         torn[1].curve.remove(2);
         assert_eq!(marks(&torn), expected[..3], "the contact is lost at pull-off");
         let pressed = [point(0.0, 0.0, 0), point(0.0, 0.0, 1), point(1.0, 1.0, 4)];
-        let legs = [leg(Leg::ToForce(1.0), Direction::Loading, &pressed, pressed[2], pressed[0])];
+        let legs = [leg(Move::ToForce(1.0), Direction::Loading, &pressed, pressed[2], pressed[0])];
         assert_eq!(marks(&legs), [(Mark::Preload, pressed[2])]);
         assert_eq!(marks(&[]), []);
     }
@@ -109,10 +109,10 @@ mod tests {
             ..LegRecord::still(leg, point(0.0, 0.0, 0))
         };
         let legs = vec![
-            leg(Leg::ToForce(3.0), Direction::Loading, &loading, loading[2]),
-            leg(Leg::ToSeparation, Direction::Unloading, &unloading, unloading[1]),
-            LegRecord::free(Leg::ToIndentation(-2.0), -1.5, -2.0),
-            LegRecord::free(Leg::ToIndentation(-1.0), -2.0, -1.0),
+            leg(Move::ToForce(3.0), Direction::Loading, &loading, loading[2]),
+            leg(Move::ToSeparation, Direction::Unloading, &unloading, unloading[1]),
+            LegRecord::free(Move::ToIndentation(-2.0), -1.5, -2.0),
+            LegRecord::free(Move::ToIndentation(-1.0), -2.0, -1.0),
         ];
         let marked =
             |wanted| marks(&legs).into_iter().find(|(mark, _)| *mark == wanted).map(|(_, at)| at.force);

@@ -3,7 +3,7 @@
 
 use super::Fault;
 use crate::contact::{self, Contact, CurvePoint, Foundation, HessRule, History, LegRecord, Solver, run};
-use crate::scene::{Edges, Leg};
+use crate::scene::{Edges, Move};
 use crate::surface::{Line, SelfAffine, UnitRoughness, phases};
 use std::f64::consts::{PI, TAU};
 
@@ -125,18 +125,18 @@ impl Body {
     ///
     /// # Errors
     /// Errors of a loading stage that cannot be computed.
-    pub fn history(&self, edges: Edges, legs: &[Leg], samples: usize) -> Result<History, Fault> {
+    pub fn history(&self, edges: Edges, legs: &[Move], samples: usize) -> Result<History, Fault> {
         self.with(edges, samples, |solver| Ok(run(solver, legs, |_, _| Ok(()))?))
     }
 
     /// Turning points, as shares of the depth, that cover all states of a body: a first contact, minor loops, below
     /// first touch, full contact and back.
     #[must_use]
-    pub fn tour(&self) -> Vec<Leg> {
+    pub fn tour(&self) -> Vec<Move> {
         let depth = self.deepest() + self.largest_stretch();
         let shares = [0.31, 0.123, 0.57, -0.017, 0.71, 0.69, 1.03, 0.43, 0.47, -0.07];
-        let turns = shares.iter().map(|share| Leg::ToIndentation(share * depth));
-        turns.chain([Leg::ToSeparation]).collect()
+        let turns = shares.iter().map(|share| Move::ToIndentation(share * depth));
+        turns.chain([Move::ToSeparation]).collect()
     }
 }
 

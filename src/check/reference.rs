@@ -5,7 +5,7 @@ use super::body::end;
 use super::relaxation::Relaxation;
 use super::{Body, Extended, Fault};
 use crate::contact::{CurvePoint, Direction, LegRecord, Solver};
-use crate::scene::{Edges, Leg};
+use crate::scene::{Edges, Move};
 
 /// Differences of a solver from the rules.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -36,7 +36,7 @@ const ENERGY: f64 = 1e-9;
 ///
 /// # Errors
 /// [`Fault::Wrong`] if the contact differs, and errors of a loading stage that cannot be computed.
-pub fn follow(body: &Body, edges: Edges, legs: &[Leg]) -> Result<Agreement, Fault> {
+pub fn follow(body: &Body, edges: Edges, legs: &[Move]) -> Result<Agreement, Fault> {
     body.with(edges, 64, |solver| {
         let mut agreement = Agreement::default();
         let mut relaxed = Relaxation::pair(body);
@@ -78,7 +78,7 @@ fn same_contact(
         return if more.is_separated() { Ok(false) } else { Err(wrong(last, "nothing is held")) };
     }
     more.move_to(last.indentation);
-    if last.springs == 0 && record.target == Leg::ToSeparation {
+    if last.springs == 0 && record.target == Move::ToSeparation {
         // The contact still holds at the last indentation, and not at the next number below.
         let size = last.indentation.abs() + body.deepest() + body.largest_stretch();
         let beyond = (32.0 * f64::EPSILON * size).max(f64::from_bits(1));

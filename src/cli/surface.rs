@@ -7,7 +7,7 @@ use crate::export::{
 };
 use crate::io::{check_writable, hexadecimal, write_new};
 use crate::scene::{
-    Adhesion, Document, Leg, MOST_POINTS, Material, MeasuredHash, Numerics, Provenance, Roughness,
+    Adhesion, Document, MOST_POINTS, Material, MeasuredHash, Move, Numerics, Provenance, Roughness,
     SCENE_VERSIONS, Scene, exact_quantity, named_from, parse_quantity,
 };
 use crate::simulation::measured_roughness_options;
@@ -425,7 +425,7 @@ fn scene(
         form: None,
         roughness: Some(arguments.roughness(path)),
         adhesion: arguments.work.map(|work| Adhesion::default().with_work(work)),
-        loading: vec![arguments.preload.map_or(Leg::ToZeroForce, Leg::ToForce), Leg::ToSeparation],
+        loading: vec![arguments.preload.map_or(Move::ToZeroForce, Move::ToForce), Move::ToSeparation],
         numerics: Numerics { points, ..Numerics::default() },
         observe: Vec::new(),
     }

@@ -3,9 +3,9 @@
 use super::contact_state::{ContactState, Extreme, Sampled};
 use super::grid::Grid;
 use super::leg::{Leg, Workspace};
-use super::target::{Goal, plan};
+use super::moves::{Goal, plan};
 use super::{Contact, ContactError, CurvePoint, Direction, History, LegRecord, Work};
-use crate::scene::{Edges, Leg as Target};
+use crate::contact::{Edges, Move};
 use std::mem::replace;
 use std::time::{Duration, Instant};
 
@@ -19,7 +19,7 @@ pub trait Solver {
     ///
     /// # Errors
     /// For a target out of reach; the body then stays in place.
-    fn advance(&mut self, target: Target) -> Result<LegRecord, ContactError>;
+    fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError>;
 
     /// Returns the contact at all indentations of the present leg.
     fn leg(&self) -> Leg;
@@ -115,7 +115,7 @@ impl Body {
     ///
     /// # Errors
     /// For a target out of reach; the body then stays in place.
-    pub fn move_to(&mut self, target: Target) -> Result<Option<Motion>, ContactError> {
+    pub fn move_to(&mut self, target: Move) -> Result<Option<Motion>, ContactError> {
         let Some(motion) = self.plan(target)? else { return Ok(None) };
         let state = match (motion.leg.direction(), motion.goal) {
             (Direction::Unloading, Goal::Separation) => ContactState::free(motion.low),
@@ -171,7 +171,7 @@ impl Body {
     }
 
     /// Finds the motion to a target.
-    fn plan(&mut self, target: Target) -> Result<Option<Motion>, ContactError> {
+    fn plan(&mut self, target: Move) -> Result<Option<Motion>, ContactError> {
         let Some((direction, goal)) = plan(target, self.point())? else { return Ok(None) };
         let (at, separated) = (self.state.indentation, self.is_separated());
         if let (Goal::Indentation(to), true) = (goal, separated)
@@ -251,7 +251,7 @@ impl Body {
         chosen.map(|(_, &state)| self.point_of(state)).collect()
     }
 
-    fn load(&mut self, target: Target, motion: Motion) -> Result<LegRecord, ContactError> {
+    fn load(&mut self, target: Move, motion: Motion) -> Result<LegRecord, ContactError> {
         let Motion { leg, low, high, goal } = motion;
         let (before, separated) = (self.state, self.is_separated());
         let (grid, stride) = match goal {
@@ -281,7 +281,7 @@ impl Body {
         Ok(self.end(target, leg, curve, extremes, (end, squared)))
     }
 
-    fn unload(&mut self, target: Target, motion: Motion) -> Result<LegRecord, ContactError> {
+    fn unload(&mut self, target: Move, motion: Motion) -> Result<LegRecord, ContactError> {
         let Motion { leg, low, high, goal } = motion;
         let (grid, stride) = self.grid(low, high);
         let separates = matches!(goal, Goal::Separation);
@@ -308,7 +308,7 @@ impl Body {
     /// Ends a motion along this curve at a state, with this sum of squared stretches (m²).
     fn end(
         &mut self,
-        target: Target,
+        target: Move,
         leg: Leg,
         curve: Vec<CurvePoint>,
         extremes: [CurvePoint; 2],
@@ -325,7 +325,7 @@ impl Body {
 }
 
 impl Solver for Body {
-    fn advance(&mut self, target: Target) -> Result<LegRecord, ContactError> {
+    fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError> {
         let clock = Instant::now();
         let here = self.point();
         let record = match self.plan(target)? {
@@ -365,7 +365,7 @@ impl Solver for Body {
 /// The first stage that fails ends the run.
 pub fn run(
     solver: &mut dyn Solver,
-    targets: &[Target],
+    targets: &[Move],
     mut after: impl FnMut(&LegRecord, &Leg) -> Result<(), ContactError>,
 ) -> Result<History, ContactError> {
     let mut history = History::default();

@@ -1,6 +1,6 @@
 //! Errors of the contact solvers.
 
-use crate::scene::Leg as Target;
+use crate::contact::Move;
 use thiserror::Error;
 
 /// Reason why a body does not move to a target.
@@ -11,8 +11,8 @@ pub enum ContactError {
     Stage {
         /// Index of the stage.
         index: usize,
-        /// Target of the stage.
-        target: Target,
+        /// Move of the stage.
+        target: Move,
         /// Reason of the refusal.
         reason: Box<ContactError>,
     },
@@ -74,7 +74,7 @@ impl ContactError {
 
     /// Names the stage that is refused; memory, stops and defects concern the whole loading.
     #[must_use]
-    pub(crate) fn in_stage(self, index: usize, target: Target) -> Self {
+    pub(crate) fn in_stage(self, index: usize, target: Move) -> Self {
         match self {
             ContactError::Stage { .. }
             | ContactError::OutOfMemory { .. }

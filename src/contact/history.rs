@@ -1,7 +1,7 @@
 //! Result of a loading history: its legs, their curves and the work counts.
 
 use super::Leg;
-use crate::scene::Leg as Target;
+use crate::contact::Move;
 use serde::Serialize;
 
 /// Direction of a leg.
@@ -34,8 +34,8 @@ pub struct CurvePoint {
 /// Record of one leg.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LegRecord {
-    /// Target of the motion.
-    pub target: Target,
+    /// Move of the motion.
+    pub target: Move,
     /// Direction of the motion.
     pub direction: Direction,
     /// The curve along the leg: its samples, and the point of the smallest force of an unloading leg. A jump into or
@@ -57,7 +57,7 @@ pub struct LegRecord {
 
 impl LegRecord {
     /// A leg that ends where it begins.
-    pub(crate) fn still(target: Target, here: CurvePoint) -> Self {
+    pub(crate) fn still(target: Move, here: CurvePoint) -> Self {
         LegRecord {
             target,
             direction: Direction::Loading,
@@ -71,7 +71,7 @@ impl LegRecord {
     }
 
     /// A leg of a separated body that does not touch.
-    pub(crate) fn free(target: Target, from: f64, to: f64) -> Self {
+    pub(crate) fn free(target: Move, from: f64, to: f64) -> Self {
         let [start, end] = [from, to].map(|indentation| CurvePoint { indentation, ..CurvePoint::default() });
         let direction = if to > from { Direction::Loading } else { Direction::Unloading };
         LegRecord { direction, curve: vec![start, end], ..LegRecord::still(target, end) }
@@ -80,7 +80,7 @@ impl LegRecord {
     /// A motion along a leg with this curve, this number of springs attached, or detached on unloading, and this sum of
     /// their squared stretches, m².
     pub(crate) fn moved(
-        (target, leg): (Target, &Leg),
+        (target, leg): (Move, &Leg),
         curve: Vec<CurvePoint>,
         [smallest, largest]: [CurvePoint; 2],
         changed: u64,

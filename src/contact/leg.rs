@@ -10,8 +10,8 @@ use super::totals::ContactTotals;
 use super::{
     Contact, ContactError, ContactTree, CurvePoint, Direction, Nonadhesive, TWO_THREADS, Work, steady,
 };
+use crate::contact::Edges;
 use crate::parallel::in_parallel;
-use crate::scene::Edges;
 use std::marker::PhantomData;
 use std::mem::take;
 use std::sync::Arc;

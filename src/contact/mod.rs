@@ -24,12 +24,12 @@ mod grid;
 mod history;
 mod interval;
 mod leg;
+mod moves;
 mod nonadhesive;
 mod reversal;
 mod springs;
 mod steady;
 pub mod stepwise;
-mod target;
 mod totals;
 
 pub use adhesive::ContactTree;
@@ -38,9 +38,10 @@ pub use error::ContactError;
 pub use foundation::{Foundation, HessRule};
 pub use history::{CurvePoint, Direction, History, LegRecord, Work};
 pub use leg::{Leg, PatchState, Workspace};
+pub use moves::Move;
 pub(crate) use nonadhesive::Nonadhesive;
 pub use reversal::Reversal;
-pub use springs::{Contact, Springs};
+pub use springs::{Contact, Edges, Springs};
 pub use stepwise::Stepwise;
 pub use totals::{ContactTotals, GapScale};
 

@@ -12,7 +12,7 @@ use super::contact_state::{ContactState, Sampled};
 use super::grid::Grid;
 use super::totals::{ContactTotals, FewSprings, GapScale};
 use super::{ContactError, Springs, resized};
-use crate::scene::Edges;
+use crate::contact::Edges;
 
 /// Intervals into which a search divides the one that encloses a force.
 const DIVISIONS: usize = 256;

@@ -4,9 +4,9 @@ use super::body::{Body, SEARCH_INTERVALS};
 use super::contact_state::{ContactState, Extreme};
 use super::grid::Grid;
 use super::leg::Leg;
-use super::target::{Goal, plan};
+use super::moves::{Goal, plan};
 use super::{ContactError, CurvePoint};
-use crate::scene::Leg as Target;
+use crate::contact::Move;
 
 /// The unloading from one turning point to separation, exact to rounding.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,7 +41,7 @@ impl Body {
     /// A target out of reach or without contact, [`ContactError::OutOfMemory`]; the first error of `see`.
     pub fn reversals(
         &mut self,
-        targets: &[Target],
+        targets: &[Move],
         points: &[f64],
         see: &mut dyn FnMut(usize, Reversal) -> Result<(), ContactError>,
     ) -> Result<(), ContactError> {

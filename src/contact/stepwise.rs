@@ -5,12 +5,12 @@
 
 use super::adhesive::EdgeCells;
 use super::contact_state::ContactState;
-use super::target::{Goal, plan};
+use super::moves::{Goal, plan};
 use super::totals::FewSprings;
 use super::{
     Contact, ContactError, ContactTotals, CurvePoint, Direction, Leg, LegRecord, Solver, Work, resized,
 };
-use crate::scene::Leg as Target;
+use crate::contact::Move;
 
 /// Most steps of one motion.
 pub const STEP_LIMIT: u64 = 10_000_000;
@@ -201,7 +201,7 @@ impl<'a> Stepwise<'a> {
     }
 
     /// Steps to the goal.
-    fn walk(&mut self, target: Target, direction: Direction, goal: Goal) -> Result<LegRecord, ContactError> {
+    fn walk(&mut self, target: Move, direction: Direction, goal: Goal) -> Result<LegRecord, ContactError> {
         for (threshold, &holds) in self.thresholds.iter_mut().zip(&self.holds) {
             *threshold = if holds { f64::NEG_INFINITY } else { f64::INFINITY };
         }
@@ -303,7 +303,7 @@ impl Thinned {
 }
 
 impl Solver for Stepwise<'_> {
-    fn advance(&mut self, target: Target) -> Result<LegRecord, ContactError> {
+    fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError> {
         let here = self.point();
         match plan(target, here)? {
             None => Ok(LegRecord::still(target, here)),

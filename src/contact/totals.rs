@@ -1,6 +1,6 @@
 //! Totals of the springs in contact, as sums without cancellation: exact counts and fixed-point gaps.
 
-use crate::scene::Edges;
+use crate::contact::Edges;
 
 /// Fixed-point scale of the gaps of one line: a quantum is 2⁻⁶² of the power of two above its largest
 /// gap.

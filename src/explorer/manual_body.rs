@@ -3,7 +3,7 @@
 use super::request::ManualMove;
 use super::snapshot::{ManualPath, Refusal};
 use crate::contact::{Body, CurvePoint, Leg, Motion};
-use crate::scene::Leg as Target;
+use crate::scene::Move;
 
 /// Points of the curve along the way of one order.
 const POINTS: u32 = 16;
@@ -58,16 +58,16 @@ impl ManualBody {
         let from = self.body.point();
         let target = match order {
             ManualMove::Take { .. } | ManualMove::Give => return,
-            ManualMove::To(indentation) => Target::ToIndentation(indentation),
-            ManualMove::By(way) => Target::ToIndentation(from.indentation + way),
-            ManualMove::ToForce(force) => Target::ToForce(force),
-            ManualMove::Separate => Target::ToSeparation,
+            ManualMove::To(indentation) => Move::ToIndentation(indentation),
+            ManualMove::By(way) => Move::ToIndentation(from.indentation + way),
+            ManualMove::ToForce(force) => Move::ToForce(force),
+            ManualMove::Separate => Move::ToSeparation,
         };
         self.travel.refused = self.go(from, target).err();
     }
 
-    fn go(&mut self, from: CurvePoint, target: Target) -> Result<(), Refusal> {
-        if let Target::ToForce(force) = target
+    fn go(&mut self, from: CurvePoint, target: Move) -> Result<(), Refusal> {
+        if let Move::ToForce(force) = target
             && force > self.largest.max(from.force)
         {
             return Err(Refusal::BeyondFullContact {
@@ -79,11 +79,11 @@ impl ManualBody {
         let to = self.body.point();
         let way = to.indentation - from.indentation;
         let points = match target {
-            Target::ToSeparation => ((-way / self.step) as u32).min(MOST_POINTS),
+            Move::ToSeparation => ((-way / self.step) as u32).min(MOST_POINTS),
             _ => POINTS - 1,
         };
         let step = match target {
-            Target::ToSeparation => -self.step,
+            Move::ToSeparation => -self.step,
             _ => way / f64::from(POINTS),
         };
         let mut at: Vec<f64> = (1..=points).map(|k| from.indentation + step * f64::from(k)).collect();

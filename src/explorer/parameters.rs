@@ -2,7 +2,7 @@
 
 use super::fuzzy::Candidate;
 use crate::scene::{
-    Document, Effect, Field, Leg, Range, RoughnessParameter, field, format_quantity, ron_float,
+    Document, Effect, Field, Move, Range, RoughnessParameter, field, format_quantity, ron_float,
 };
 
 /// Groups in the order of the list. The parameters that are varied most come first: adhesion, load, roughness, and the
@@ -156,13 +156,13 @@ pub fn parameters(document: &Document) -> Vec<Parameter> {
 }
 
 /// The loading history in short: `10 µN, separation`.
-fn stages(loading: &[Leg]) -> String {
-    let stage = |leg: &Leg| match leg {
-        Leg::ToForce(force) => format_quantity(*force, "N"),
-        Leg::ToIndentation(indentation) => format_quantity(*indentation, "m"),
-        Leg::ToTouch => "touch".to_owned(),
-        Leg::ToZeroForce => "0 N".to_owned(),
-        Leg::ToSeparation => "separation".to_owned(),
+fn stages(loading: &[Move]) -> String {
+    let stage = |leg: &Move| match leg {
+        Move::ToForce(force) => format_quantity(*force, "N"),
+        Move::ToIndentation(indentation) => format_quantity(*indentation, "m"),
+        Move::ToTouch => "touch".to_owned(),
+        Move::ToZeroForce => "0 N".to_owned(),
+        Move::ToSeparation => "separation".to_owned(),
     };
     loading.iter().map(stage).collect::<Vec<_>>().join(", ")
 }
@@ -221,9 +221,9 @@ fn observers(document: &Document, field: &'static Field) -> impl Iterator<Item =
     })
 }
 
-fn leg_targets(loading: &[Leg]) -> impl Iterator<Item = Parameter> {
+fn leg_targets(loading: &[Move]) -> impl Iterator<Item = Parameter> {
     loading.iter().enumerate().filter_map(|(index, leg)| {
-        let (field, value) = leg.target()?;
+        let (field, value) = leg.field()?;
         Some(Parameter {
             leg: Some(index),
             written: ron_float(value),

@@ -5,7 +5,7 @@ use super::verdict;
 use crate::accuracy::Estimate;
 use crate::analysis::{LEAST_TABOR_NUMBER, SteepWaves};
 use crate::contact::Work;
-use crate::scene::{Leg, Scene, format_quantity};
+use crate::scene::{Move, Scene, format_quantity};
 use crate::simulation::{Outcome, Timings};
 use crate::text::grouped;
 
@@ -138,13 +138,13 @@ fn adhesion_force(outcome: &Outcome) -> String {
     quantity(outcome.figures.adhesion_force, "N").unwrap_or_else(|| NO_PULL.into())
 }
 
-fn loading(legs: &[Leg]) -> String {
-    let words = |leg: &Leg| match *leg {
-        Leg::ToForce(force) => format!("to {}", format_quantity(force, "N")),
-        Leg::ToIndentation(indentation) => format!("to d = {}", format_quantity(indentation, "m")),
-        Leg::ToTouch => "to first touch".into(),
-        Leg::ToZeroForce => "to zero force".into(),
-        Leg::ToSeparation => "to separation".into(),
+fn loading(legs: &[Move]) -> String {
+    let words = |leg: &Move| match *leg {
+        Move::ToForce(force) => format!("to {}", format_quantity(force, "N")),
+        Move::ToIndentation(indentation) => format!("to d = {}", format_quantity(indentation, "m")),
+        Move::ToTouch => "to first touch".into(),
+        Move::ToZeroForce => "to zero force".into(),
+        Move::ToSeparation => "to separation".into(),
     };
     let mut named: Vec<String> = legs.iter().take(MOST_LEGS).map(words).collect();
     if legs.len() > MOST_LEGS {

@@ -5,7 +5,7 @@ use super::sheet::Sheet;
 use super::spectrum_figure::{SpectrumPoint, spectrum_name, wave_numbers};
 use super::table::{Column, TableFormat, Value, write_table};
 use crate::io::{object, write_json_value};
-use crate::scene::{Leg, Provenance, Scene, format_quantity, format_rounded};
+use crate::scene::{Move, Provenance, Scene, format_quantity, format_rounded};
 use crate::spectrum::{Analysis, Bin, Direction, End, Estimate, LineMoments, Moment};
 use crate::study::MeasuredAdhesion;
 use crate::surface::EquivalentLine;
@@ -124,7 +124,7 @@ impl SurfaceAdhesion {
     /// Preload, N; `None` for touch alone.
     fn preload(&self) -> Option<f64> {
         match self.scene.loading.first() {
-            Some(Leg::ToForce(force)) => Some(*force),
+            Some(Move::ToForce(force)) => Some(*force),
             _ => None,
         }
     }

@@ -55,7 +55,7 @@ fn name_of(path: &str, scene: &Document) -> (String, Option<&'static Field>) {
     let mut parts = path.strip_prefix("loading.").unwrap_or_default().split('.');
     if let Some(index) = parts.next().and_then(|index| index.parse::<usize>().ok()) {
         let leg = parts.next().and(scene.scene().loading.get(index));
-        let target = leg.and_then(|leg| leg.target()).map(|(field, _)| field);
+        let target = leg.and_then(|leg| leg.field()).map(|(field, _)| field);
         let symbol = target.map(|field| format!(" {}", symbol(field))).unwrap_or_default();
         return (format!("leg {}{symbol}", index + 1), target);
     }

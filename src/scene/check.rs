@@ -8,7 +8,7 @@ use super::errors::SceneError;
 use super::fields::{FIELDS, LEG_INDENTATION, field};
 use super::form::Form;
 use super::found::Found;
-use super::model::{Adhesion, Edges, Leg, Roughness, Scene, Solver};
+use super::model::{Adhesion, Edges, Move, Roughness, Scene, Solver};
 use super::text::ron_float;
 use super::write::leg;
 use crate::topography::{Unit, UnitError};
@@ -239,8 +239,8 @@ fn check_loading(found: &mut Found) {
     let mut separated = true;
     for (index, stage) in scene.loading.iter().enumerate() {
         let pulls = match *stage {
-            Leg::ToSeparation => true,
-            Leg::ToForce(force) => force < 0.0,
+            Move::ToSeparation => true,
+            Move::ToForce(force) => force < 0.0,
             _ => false,
         };
         if separated && pulls {
@@ -248,7 +248,7 @@ fn check_loading(found: &mut Found) {
                 "from separation nothing can pull: press first, with ToTouch, ToForce or ToIndentation";
             found.refuse_value(format!("loading.{index}"), leg(stage), "", reason, &["loading"]);
         }
-        separated = *stage == Leg::ToSeparation;
+        separated = *stage == Move::ToSeparation;
     }
     let stages = scene.loading.len() as u64;
     let is_too_fine = stages.saturating_mul(scene.numerics.samples) > MOST_SAMPLES;
@@ -461,7 +461,7 @@ mod tests {
 
     #[test]
     fn nothing_is_pulled_that_does_not_touch() {
-        use Leg::*;
+        use Move::*;
         let mut scene = sound();
         for (loading, field) in [
             (vec![ToSeparation], "loading.0"),
@@ -480,7 +480,7 @@ mod tests {
     #[test]
     fn samples_of_all_legs_are_bounded_together() {
         let mut scene = sound();
-        scene.loading = vec![Leg::ToTouch; 1 << 14];
+        scene.loading = vec![Move::ToTouch; 1 << 14];
         scene.numerics.samples = 1 << 10;
         assert_eq!(check(&scene), vec![]);
         scene.numerics.samples += 1;
@@ -540,7 +540,7 @@ mod tests {
             scene.adhesion = Some(Adhesion::default().with_work(value));
             assert_eq!(fields_of(&scene), ["adhesion.work"], "{value}");
             let mut scene = sound();
-            scene.loading = vec![Leg::ToForce(1.0), Leg::ToIndentation(value), Leg::ToForce(value)];
+            scene.loading = vec![Move::ToForce(1.0), Move::ToIndentation(value), Move::ToForce(value)];
             assert_eq!(fields_of(&scene), ["loading.1.0", "loading.2.0"], "{value}");
             let mut scene = sound();
             scene.numerics.solver = Solver::Stepwise { step: value };

@@ -383,7 +383,7 @@ fn check_length(text: &str) -> Result<(), String> {
 #[cfg(test)]
 mod tests {
     use super::super::form::Form;
-    use super::super::model::{Adhesion, Leg, Roughness, Solver};
+    use super::super::model::{Adhesion, Move, Roughness, Solver};
     use super::super::strategies::sound;
     use super::*;
 
@@ -501,7 +501,7 @@ mod tests {
         assert_eq!(set("form", "Cone(angle: 0.1)").form, Some(Form::Cone { angle: 0.1 }));
         assert_eq!(set("roughness", "None").roughness, None);
         assert_eq!(set("numerics.points", "2048").numerics.points, 2048);
-        assert_eq!(set("loading.0", "ToTouch").loading, [Leg::ToTouch, Leg::ToSeparation]);
+        assert_eq!(set("loading.0", "ToTouch").loading, [Move::ToTouch, Move::ToSeparation]);
         let stepwise = document.set("numerics.solver", "Stepwise(step: 1e-9)").unwrap();
         let stepwise = stepwise.set("numerics.solver.step", "2e-9").unwrap();
         assert_eq!(stepwise.scene().numerics.solver, Solver::Stepwise { step: 2e-9 });

@@ -1,7 +1,7 @@
 //! Optional effects of a scene beyond the nonadhesive contact of a flat body.
 
 use super::fields::field;
-use super::model::{Adhesion, Leg, Observer, Scene};
+use super::model::{Adhesion, Move, Observer, Scene};
 use super::roughness_parameter::RoughnessParameter;
 use super::text::ron_float;
 use super::write::{legs, observers};
@@ -96,7 +96,7 @@ impl Effect {
                 Adhesion { range: adhesion.range, ..Adhesion::default() }.with_kappa(2.0)
             }),
             Effect::Adhesion => by_work(scene, 0.05),
-            Effect::Unloading => legs(&[&scene.loading[..], &[Leg::ToSeparation]].concat()),
+            Effect::Unloading => legs(&[&scene.loading[..], &[Move::ToSeparation]].concat()),
             Effect::Fragments | Effect::HeightHistogram => {
                 let all = Effect::ALL.into_iter().filter(|effect| *effect == self || effect.is_on(scene));
                 observers(&all.filter_map(Effect::observer).collect::<Vec<_>>())
@@ -106,7 +106,7 @@ impl Effect {
 }
 
 /// Returns true for a stage that may pull. A first stage cannot, since it begins at separation.
-fn may_pull(loading: &[Leg]) -> bool {
+fn may_pull(loading: &[Move]) -> bool {
     let mut reached = f64::NEG_INFINITY;
     loading.iter().enumerate().any(|(index, leg)| {
         let pulls = index > 0 && goes_back(*leg, reached);
@@ -116,27 +116,27 @@ fn may_pull(loading: &[Leg]) -> bool {
 }
 
 /// Returns true for a stage that may return from the deepest indentation that earlier stages can reach.
-fn goes_back(leg: Leg, reached: f64) -> bool {
+fn goes_back(leg: Move, reached: f64) -> bool {
     match leg {
-        Leg::ToIndentation(to) => to < reached,
-        Leg::ToTouch => 0.0 < reached,
-        Leg::ToForce(_) | Leg::ToZeroForce | Leg::ToSeparation => true,
+        Move::ToIndentation(to) => to < reached,
+        Move::ToTouch => 0.0 < reached,
+        Move::ToForce(_) | Move::ToZeroForce | Move::ToSeparation => true,
     }
 }
 
 /// The deepest indentation that a loading stage can reach, m; infinite for a force, whose indentation is unknown.
-fn deepest(leg: Leg) -> f64 {
+fn deepest(leg: Move) -> f64 {
     match leg {
-        Leg::ToIndentation(to) => to,
-        Leg::ToTouch => 0.0,
-        Leg::ToForce(_) | Leg::ToZeroForce => f64::INFINITY,
-        Leg::ToSeparation => f64::NEG_INFINITY,
+        Move::ToIndentation(to) => to,
+        Move::ToTouch => 0.0,
+        Move::ToForce(_) | Move::ToZeroForce => f64::INFINITY,
+        Move::ToSeparation => f64::NEG_INFINITY,
     }
 }
 
 /// Indices of the loading stages that remain without those that may pull: the path to the largest force, or the
 /// deepest indentation, that certainly leads inwards. Keeps at least the first stage, or one that passes its end.
-pub(super) fn pressing(loading: &[Leg]) -> Vec<usize> {
+pub(super) fn pressing(loading: &[Move]) -> Vec<usize> {
     let mut kept: Vec<usize> = Vec::new();
     let mut reached = f64::NEG_INFINITY;
     for (index, leg) in loading.iter().enumerate() {
@@ -154,14 +154,14 @@ pub(super) fn pressing(loading: &[Leg]) -> Vec<usize> {
 }
 
 /// Returns true for a stage that certainly passes the end of another one on its path inwards: a larger force.
-fn passes(leg: Leg, other: Leg) -> bool {
-    let Leg::ToForce(force) = leg else { return false };
+fn passes(leg: Move, other: Move) -> bool {
+    let Move::ToForce(force) = leg else { return false };
     match other {
-        Leg::ToForce(before) => force > before,
+        Move::ToForce(before) => force > before,
         // Up to first touch nothing is pressed, so the force is zero or tensile.
-        Leg::ToZeroForce | Leg::ToTouch => force > 0.0,
-        Leg::ToIndentation(indentation) => indentation <= 0.0 && force > 0.0,
-        Leg::ToSeparation => false,
+        Move::ToZeroForce | Move::ToTouch => force > 0.0,
+        Move::ToIndentation(indentation) => indentation <= 0.0 && force > 0.0,
+        Move::ToSeparation => false,
     }
 }
 
@@ -193,7 +193,7 @@ mod tests {
 
     use super::super::strategies::{sound, sound_scenes};
     use super::*;
-    use Leg::{ToForce, ToIndentation, ToSeparation, ToTouch, ToZeroForce};
+    use Move::{ToForce, ToIndentation, ToSeparation, ToTouch, ToZeroForce};
 
     #[test]
     fn effects_have_names_of_their_own_and_fields_of_the_table() {
@@ -218,7 +218,7 @@ mod tests {
         assert_eq!(on(&scene), [Effect::Adhesion, Effect::HeightHistogram]);
     }
 
-    fn left_of(loading: &[Leg]) -> Vec<Leg> {
+    fn left_of(loading: &[Move]) -> Vec<Move> {
         pressing(loading).into_iter().map(|index| loading[index]).collect()
     }
 
@@ -255,7 +255,7 @@ mod tests {
                 prop_assert_eq!(&left, &scene.loading);
             }
             // Neither the largest force nor the deepest certain indentation is lost.
-            let force = |legs: &[Leg]| legs.iter().fold(0.0_f64, |most, leg| match *leg {
+            let force = |legs: &[Move]| legs.iter().fold(0.0_f64, |most, leg| match *leg {
                 ToForce(force) => most.max(force),
                 _ => most,
             });

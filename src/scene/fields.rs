@@ -7,7 +7,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::field::{Field, Step};
 use super::form::Form;
-use super::model::{Edges, Leg, Roughness, SCENE_VERSIONS, Scene, Solver};
+use super::model::{Edges, Move, Roughness, SCENE_VERSIONS, Scene, Solver};
 use super::range::Range;
 use super::value::{Access, Part, at};
 
@@ -299,13 +299,13 @@ pub const FIELDS: &[Field] = &[
         .meaning("observed quantities beside the force curve"),
 ];
 
-/// The force of a loading stage [`ToForce`](super::Leg::ToForce), at `loading.0.0` for the first stage.
+/// The force of a loading stage [`ToForce`](super::Move::ToForce), at `loading.0.0` for the first stage.
 pub const LEG_FORCE: Field = Field::new("loading", Some("ToForce"), Access::NONE)
     .quantity("force of a stage", "F", "N")
     .range(Range::closed(-1e30, 1e30))
     .meaning("target: the stage ends where the force first reaches this value; compression is positive");
 
-/// The indentation of a loading stage [`ToIndentation`](super::Leg::ToIndentation), at `loading.0.0`
+/// The indentation of a loading stage [`ToIndentation`](super::Move::ToIndentation), at `loading.0.0`
 /// for the first stage.
 pub const LEG_INDENTATION: Field = Field::new("loading", Some("ToIndentation"), Access::NONE)
     .quantity("indentation of a stage", "d", "m")
@@ -322,13 +322,13 @@ impl Field {
     }
 }
 
-impl Leg {
+impl Move {
     /// Field and value of the target, if the stage has a numeric target.
-    pub fn target(&self) -> Option<(&'static Field, f64)> {
+    pub fn field(&self) -> Option<(&'static Field, f64)> {
         match *self {
-            Leg::ToForce(force) => Some((&LEG_FORCE, force)),
-            Leg::ToIndentation(indentation) => Some((&LEG_INDENTATION, indentation)),
-            Leg::ToTouch | Leg::ToZeroForce | Leg::ToSeparation => None,
+            Move::ToForce(force) => Some((&LEG_FORCE, force)),
+            Move::ToIndentation(indentation) => Some((&LEG_INDENTATION, indentation)),
+            Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => None,
         }
     }
 }
@@ -367,7 +367,7 @@ mod tests {
             Range::Whole { .. } => Value::Whole(12_345),
             Range::Band { .. } => Value::Band(123, 1234),
             Range::Text { .. } => Value::Text("unusual"),
-            Range::List { .. } if field.path == "loading" => Value::Legs(&[Leg::ToTouch; 7]),
+            Range::List { .. } if field.path == "loading" => Value::Legs(&[Move::ToTouch; 7]),
             Range::List { .. } if field.path == "observe" => Value::Observers(&[Observer::Fragments; 7]),
             Range::List { .. } => Value::Texts(&UNUSUAL),
             Range::Choice(_) | Range::Group => return None,

@@ -3,7 +3,7 @@
 use super::errors::SceneError;
 use super::field::Field;
 use super::fields::{FIELDS, FILE_NAME, fields_inside};
-use super::model::{Leg, Scene};
+use super::model::{Move, Scene};
 use super::range::Range;
 use super::text::{is_within, ron_float, ron_string};
 use super::value::Value;
@@ -106,9 +106,9 @@ impl Found<'_> {
         }
     }
 
-    fn check_targets(&mut self, legs: &[Leg]) {
+    fn check_targets(&mut self, legs: &[Move]) {
         for (index, leg) in legs.iter().enumerate() {
-            if let Some((field, value)) = leg.target()
+            if let Some((field, value)) = leg.field()
                 && !field.range.contains(value)
             {
                 let path = format!("loading.{index}.0");

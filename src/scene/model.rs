@@ -3,6 +3,7 @@
 //! These types hold values as written; [`super::check()`] finds the invalid ones.
 
 use super::form::Form;
+pub use crate::contact::{Edges, Move};
 use crate::spectrum::Detrend;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -40,7 +41,7 @@ pub struct Scene {
     pub adhesion: Option<Adhesion>,
     /// Loading history from separation: consecutive loading stages.
     #[serde(default = "default_loading")]
-    pub loading: Vec<Leg>,
+    pub loading: Vec<Move>,
     /// Resolution and solver.
     #[serde(default)]
     pub numerics: Numerics,
@@ -312,21 +313,6 @@ impl Adhesion {
     }
 }
 
-/// One loading stage.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub enum Leg {
-    /// Until the force first reaches this value, N (compression positive).
-    ToForce(f64),
-    /// To this indentation, m (0 at first touch).
-    ToIndentation(f64),
-    /// To the indentation of first touch, d = 0.
-    ToTouch,
-    /// Until the force is zero; from separation, beyond touch until the force is back at zero.
-    ToZeroForce,
-    /// To separation.
-    ToSeparation,
-}
-
 /// Resolution and solver.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "NumericsText")]
@@ -392,24 +378,6 @@ impl Solver {
     }
 }
 
-/// Edge model of a contact patch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
-pub enum Edges {
-    /// The rule of the paper: a patch of n springs is n Δx long.
-    Grid,
-    /// The profile is straight from spring to spring, and a patch ends where the profile crosses the level of the
-    /// patch: the error falls with Δx².
-    SubCell,
-}
-
-impl Edges {
-    /// Name in scene files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        self.into()
-    }
-}
-
 /// A quantity observed beside the force curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Observer {
@@ -419,8 +387,8 @@ pub enum Observer {
     HeightHistogram,
 }
 
-pub(super) fn default_loading() -> Vec<Leg> {
-    vec![Leg::ToZeroForce, Leg::ToSeparation]
+pub(super) fn default_loading() -> Vec<Move> {
+    vec![Move::ToZeroForce, Move::ToSeparation]
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::document::{Document, pair};
 use super::edit;
 use super::field::Field;
 use super::fields::fields_inside;
-use super::model::{Leg, Scene};
+use super::model::{Move, Scene};
 use super::read::read;
 use super::text::ron_float;
 use super::value::Value;
@@ -83,10 +83,10 @@ fn differences(field: &Field, mine: &Scene, theirs: &Scene) -> Overrides {
 }
 
 /// The differing loading stages, or their numbers, if both have as many stages.
-fn different_legs(mine: &[Leg], theirs: &[Leg]) -> Option<Overrides> {
-    let different = |(index, (mine, theirs)): (usize, (&Leg, &Leg))| match (mine, theirs) {
+fn different_legs(mine: &[Move], theirs: &[Move]) -> Option<Overrides> {
+    let different = |(index, (mine, theirs)): (usize, (&Move, &Move))| match (mine, theirs) {
         (mine, theirs) if mine == theirs => None,
-        (Leg::ToForce(value), Leg::ToForce(_)) | (Leg::ToIndentation(value), Leg::ToIndentation(_)) => {
+        (Move::ToForce(value), Move::ToForce(_)) | (Move::ToIndentation(value), Move::ToIndentation(_)) => {
             Some((format!("loading.{index}.0"), ron_float(*value)))
         }
         (mine, _) => Some((format!("loading.{index}"), leg(mine))),

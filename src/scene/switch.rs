@@ -155,7 +155,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::super::form::Form;
-    use super::super::model::Leg;
+    use super::super::model::Move;
     use super::super::strategies::{Drawn, sound_scenes};
     use super::super::text::is_within;
     use super::super::write::legs;
@@ -289,7 +289,7 @@ mod tests {
         // Other stages that press are kept.
         let held = off(&document, Effect::Unloading).set("loading.0", "ToForce(3.0e-5)").unwrap();
         let pulled = held.with(Effect::Unloading).unwrap();
-        assert_eq!(pulled.scene().loading, [Leg::ToForce(3e-5), Leg::ToSeparation]);
+        assert_eq!(pulled.scene().loading, [Move::ToForce(3e-5), Move::ToSeparation]);
     }
 
     #[test]
@@ -488,7 +488,7 @@ mod tests {
             let document = Document::from_scene(&scene, "scene").unwrap();
             let without = document.without(Effect::Unloading, &Computed::default()).unwrap();
             let (kept, pressing_others) = (pressing(&scene.loading), pressing(&other.loading));
-            let pressed: Vec<Leg> =
+            let pressed: Vec<Move> =
                 kept.iter().enumerate().map(|(at, kept)| match pressing_others.get(at) {
                     Some(index) => other.loading[*index],
                     None => scene.loading[*kept],

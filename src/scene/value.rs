@@ -1,7 +1,7 @@
 //! Values of the fields of a scene: reading and writing one by one.
 
 use super::form::Form;
-use super::model::{Adhesion, Edges, Leg, Material, Numerics, Observer, Roughness, Scene, Solver};
+use super::model::{Adhesion, Edges, Material, Move, Numerics, Observer, Roughness, Scene, Solver};
 use crate::spectrum::Detrend;
 
 /// Value of a field.
@@ -22,7 +22,7 @@ pub enum Value<'s> {
     /// Name of the variant of a choice; empty for a group of fields without variants.
     Choice(&'static str),
     /// Loading stages.
-    Legs(&'s [Leg]),
+    Legs(&'s [Move]),
     /// Observed quantities.
     Observers(&'s [Observer]),
 }
@@ -146,7 +146,7 @@ parts! {
     bool: part => Value::Choice(if *part { "true" } else { "false" }), Value::Choice(name) => name.parse().ok();
     String: part => Value::Text(part), Value::Text(text) => Some(text.to_owned());
     Vec<String>: part => Value::Texts(part), Value::Texts(texts) => Some(texts.to_vec());
-    Vec<Leg>: part => Value::Legs(part), Value::Legs(legs) => Some(legs.to_vec());
+    Vec<Move>: part => Value::Legs(part), Value::Legs(legs) => Some(legs.to_vec());
     Vec<Observer>: part => Value::Observers(part), Value::Observers(observers) => Some(observers.to_vec());
     Form: part => Value::Choice(part.into()), Value::Choice(_) => None;
     Roughness: part => Value::Choice(part.into()), Value::Choice(_) => None;

@@ -2,7 +2,7 @@
 
 use super::field::Field;
 use super::fields::fields_inside;
-use super::model::{Leg, Observer, Scene};
+use super::model::{Move, Observer, Scene};
 use super::text::{ron_float, ron_string};
 use super::value::Value;
 
@@ -45,7 +45,7 @@ fn entries(path: &str, variant: Option<&str>, scene: &Scene) -> impl Iterator<It
 }
 
 /// Loading stages in RON.
-pub(super) fn legs(legs: &[Leg]) -> String {
+pub(super) fn legs(legs: &[Move]) -> String {
     list(legs.iter().map(leg))
 }
 
@@ -59,8 +59,8 @@ fn list(items: impl Iterator<Item = String>) -> String {
 }
 
 /// One loading stage in RON.
-pub(super) fn leg(leg: &Leg) -> String {
-    match (leg.target(), leg) {
+pub(super) fn leg(leg: &Move) -> String {
+    match (leg.field(), leg) {
         (Some((field, value)), _) => format!("{}({})", field.variant.unwrap_or_default(), ron_float(value)),
         (None, leg) => format!("{leg:?}"),
     }

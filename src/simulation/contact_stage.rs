@@ -5,7 +5,7 @@ use crate::analysis::Figures;
 use crate::contact::{
     Body, Contact, ContactError, History, Leg, LegRecord, Solver, Stepwise, Workspace, run,
 };
-use crate::scene::{Leg as Target, Scene, Solver as SolverChoice};
+use crate::scene::{Move, Scene, Solver as SolverChoice};
 use std::mem::take;
 use std::time::Instant;
 
@@ -44,7 +44,7 @@ impl ContactStage<'_> {
                 let mut contacted = self.load(&mut body(samples)?, after)?;
                 if zero_load {
                     let clock = Instant::now();
-                    let touch = [Target::ToTouch, Target::ToSeparation];
+                    let touch = [Move::ToTouch, Move::ToSeparation];
                     let touch = run(&mut body(2)?, &touch, |_, _| Ok(()))?;
                     contacted.zero_load_adhesion_force = Figures::of(&touch).adhesion_force;
                     let work = &mut contacted.history.work;

@@ -4,7 +4,7 @@ use super::stages::Prepared;
 use super::{Plan, RunError, Simulation};
 use crate::analysis::{MinorLoops, ReversalMap};
 use crate::contact::{ContactError, LegRecord, Reversal};
-use crate::scene::{Leg, Scene, Solver as SolverChoice};
+use crate::scene::{Move, Scene, Solver as SolverChoice};
 use std::ops::RangeInclusive;
 
 /// Turning points of a map.
@@ -36,13 +36,13 @@ impl Simulation {
     pub fn reverse(
         &mut self,
         scene: &Scene,
-        (ends, points): (&[Leg], &[f64]),
+        (ends, points): (&[Move], &[f64]),
         stop: &dyn Fn() -> bool,
         see: &mut SeeReversal<'_>,
     ) -> Result<(), RunError> {
         needs_exact_solver(scene)?;
-        let deepest = ends.last().copied().unwrap_or(Leg::ToTouch);
-        let plan = Plan::of(&Scene { loading: vec![deepest, Leg::ToSeparation], ..scene.clone() });
+        let deepest = ends.last().copied().unwrap_or(Move::ToTouch);
+        let plan = Plan::of(&Scene { loading: vec![deepest, Move::ToSeparation], ..scene.clone() });
         let interrupted = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
         let Prepared { contact, memory, .. } = self.prepare(&plan, scene, stop)?;
         let mut see = |index, reversal| {
@@ -83,12 +83,12 @@ impl Simulation {
                     found[index] = reversal.turn.indentation;
                     Ok(())
                 };
-                self.reverse(&scene, (&[Leg::ToForce(from), Leg::ToForce(to)], &[]), stop, see)?;
+                self.reverse(&scene, (&[Move::ToForce(from), Move::ToForce(to)], &[]), stop, see)?;
                 found
             }
         };
         let mut separation = low;
-        self.reverse(&scene, (&[Leg::ToIndentation(high)], &[]), stop, &mut |_, reversal| {
+        self.reverse(&scene, (&[Move::ToIndentation(high)], &[]), stop, &mut |_, reversal| {
             separation = reversal.separation;
             Ok(())
         })?;
@@ -99,7 +99,7 @@ impl Simulation {
         let below = (((low - separation) / step).ceil() as usize + 1).min(MOST_BELOW * count);
         let at = |index: usize| low + step * (index as f64 - below as f64);
         let points: Vec<f64> = (0..below + count).map(at).collect();
-        let ends: Vec<Leg> = points[below..].iter().map(|&point| Leg::ToIndentation(point)).collect();
+        let ends: Vec<Move> = points[below..].iter().map(|&point| Move::ToIndentation(point)).collect();
         let mut reversals = Vec::with_capacity(count);
         self.reverse(&scene, (&ends, &points), stop, &mut |_, reversal| {
             reversals.push(reversal);
@@ -130,18 +130,18 @@ impl Simulation {
                 limits.push((deepest.separation + share * (high - deepest.separation), high));
             }
         }
-        let to = Leg::ToIndentation;
+        let to = Move::ToIndentation;
         let legs = |&(low, high): &(f64, f64)| {
             [
                 to(high),
                 to(low),
                 to(high),
-                Leg::ToSeparation,
+                Move::ToSeparation,
                 to(top),
                 to(low),
                 to(high),
                 to(low),
-                Leg::ToSeparation,
+                Move::ToSeparation,
             ]
         };
         let mut scene = scene.clone();

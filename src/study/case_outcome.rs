@@ -4,7 +4,7 @@ use super::height_shape::HeightShape;
 use crate::analysis::{Figures, Governing, Regime, ideal_adhesion_force, preload_point, scene_tabor_number};
 use crate::contact::{CurvePoint, History, LegRecord, Reversal};
 use crate::reference::smooth_adhesion_force;
-use crate::scene::{Leg, Scene};
+use crate::scene::{Move, Scene};
 
 /// Outcome of one loading on one profile; a figure that the case does not have is `None`.
 pub(super) struct CaseOutcome<'o> {
@@ -43,7 +43,7 @@ impl LoadingOutcome {
     }
 
     /// Outcome of a loading from separation to the end of this stage and back.
-    pub fn of_reversal(leg: Leg, reversal: &Reversal) -> Self {
+    pub fn of_reversal(leg: Move, reversal: &Reversal) -> Self {
         LoadingOutcome {
             figures: Figures::of_reversal(leg, reversal),
             contact_length: Some(reversal.turn.contact_length),
@@ -129,11 +129,11 @@ mod tests {
                 scene.numerics.edges = edges;
                 scene.numerics.samples = 2;
                 let presses = [
-                    Leg::ToTouch,
-                    Leg::ToZeroForce,
-                    Leg::ToForce(0.0),
-                    Leg::ToForce(1e-6),
-                    Leg::ToForce(3e-5),
+                    Move::ToTouch,
+                    Move::ToZeroForce,
+                    Move::ToForce(0.0),
+                    Move::ToForce(1e-6),
+                    Move::ToForce(3e-5),
                 ];
                 let mut reversed = vec![None; presses.len()];
                 let mut simulation = Simulation::new(document.resolve(""));
@@ -143,7 +143,7 @@ mod tests {
                 };
                 simulation.reverse(&scene, (&presses, &[]), &|| false, see).unwrap();
                 for (press, reversed) in presses.into_iter().zip(reversed) {
-                    scene.loading = vec![press, Leg::ToSeparation];
+                    scene.loading = vec![press, Move::ToSeparation];
                     let run = simulation.run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
                     let legs = LoadingOutcome::of_legs(run.history.legs);
                     assert_eq!(reversed, Some(legs), "{name}, {edges:?}, {press:?}");

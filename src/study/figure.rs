@@ -6,7 +6,7 @@ use super::quantity::Quantity;
 use super::target::symbol_and_unit;
 use crate::analysis::{Regime, VANISHING_SHARE};
 pub use crate::draw::AxisScale;
-use crate::scene::{Leg, field, format_quantity};
+use crate::scene::{Move, field, format_quantity};
 
 /// Smallest ratio of the values on a logarithmic scale.
 const LOGARITHMIC_RATIO: f64 = 50.0;
@@ -39,7 +39,7 @@ impl FigureAxis {
         let leg =
             path.strip_prefix("loading.").and_then(|rest| rest.strip_suffix(".0")?.parse::<usize>().ok());
         let (name, unit) = match (path, leg.and_then(|leg| plan.scene.loading.get(leg).zip(Some(leg + 1)))) {
-            (_, Some((Leg::ToIndentation(_), leg))) => (format!("indentation of leg {leg}"), "m"),
+            (_, Some((Move::ToIndentation(_), leg))) => (format!("indentation of leg {leg}"), "m"),
             (_, Some((_, leg))) => (format!("force of leg {leg}"), "N"),
             ("kappa" | "adhesion.kappa", _) => ("governing parameter".into(), unit),
             ("elastic_energy_ratio", _) => ("elastic energy ratio".into(), unit),

@@ -4,7 +4,7 @@ use super::lines::{LinesError, solve_profiles};
 use super::plan::Plan;
 use super::statistics::{Statistics, StudentT};
 use crate::contact::Reversal;
-use crate::scene::{Leg, Scene};
+use crate::scene::{Move, Scene};
 use crate::simulation::{RunError, Simulation};
 use serde::Serialize;
 use std::path::Path;
@@ -50,7 +50,7 @@ pub fn solve_preloads(
     stop: &dyn Fn() -> bool,
     see: &mut dyn FnMut(Preloaded),
 ) -> Result<(), RunError> {
-    let ends: Vec<Leg> = forces.iter().map(|&force| Leg::ToForce(force)).collect();
+    let ends: Vec<Move> = forces.iter().map(|&force| Move::ToForce(force)).collect();
     simulation.reverse(scene, (&ends, &[]), stop, &mut |index, reversal| {
         see(Preloaded::new(forces[index], &reversal));
         Ok(())
@@ -114,7 +114,7 @@ mod tests {
         // One profile is the scene itself, loaded to one of the forces.
         let mut scene = document.scene().clone();
         scene.set_seed(lines[3].0);
-        scene.loading = vec![Leg::ToForce(forces[4]), Leg::ToSeparation];
+        scene.loading = vec![Move::ToForce(forces[4]), Move::ToSeparation];
         let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
         assert_eq!(lines[3].1[4].adhesion_force, outcome.figures.adhesion_force);
         assert_eq!(lines[3].1[4].dissipated_energy, outcome.figures.dissipated_energy.unwrap());

@@ -5,7 +5,7 @@ use super::height_shape::HeightShape;
 use super::plan::{Plan, StiffnessRange};
 use super::quantity::Needs;
 use crate::analysis::Governing;
-use crate::scene::{Leg, Roughness, Scene, Solver};
+use crate::scene::{Move, Roughness, Scene, Solver};
 use crate::simulation::{Outcome, RunError, Simulation};
 
 /// Curve samples on a loading stage: all recorded quantities are at the ends of stages or exact extremes.
@@ -46,7 +46,7 @@ impl<'p> Recorder<'p> {
         if plan.records(Needs::Loading) {
             match &plan.preloads {
                 Some(preloads) => loops.extend(preloads.values().into_iter().map(|preload| {
-                    vec![Leg::ToForce(preload * unit.unwrap_or(f64::NAN)), Leg::ToSeparation]
+                    vec![Move::ToForce(preload * unit.unwrap_or(f64::NAN)), Move::ToSeparation]
                 })),
                 None => loops.push(own.clone()),
             }
@@ -54,7 +54,7 @@ impl<'p> Recorder<'p> {
         let count = loops.len();
         let zero_force = plan.records(Needs::ZeroForce);
         if zero_force {
-            loops.push(vec![Leg::ToZeroForce, Leg::ToSeparation]);
+            loops.push(vec![Move::ToZeroForce, Move::ToSeparation]);
         }
         let mut zero_load = None;
         let mut each = Vec::new();
@@ -79,16 +79,18 @@ impl<'p> Recorder<'p> {
         &mut self,
         scene: &mut Scene,
         governing: &Governing,
-        loops: Vec<Vec<Leg>>,
+        loops: Vec<Vec<Move>>,
     ) -> Result<(Vec<LoadingOutcome>, Option<f64>), RunError> {
-        let press = |legs: &Vec<Leg>| match legs[..] {
-            [press @ (Leg::ToForce(_) | Leg::ToTouch | Leg::ToZeroForce), Leg::ToSeparation] => Some(press),
+        let press = |legs: &Vec<Move>| match legs[..] {
+            [press @ (Move::ToForce(_) | Move::ToTouch | Move::ToZeroForce), Move::ToSeparation] => {
+                Some(press)
+            }
             _ => None,
         };
-        let turned: Option<Vec<Leg>> = loops.iter().map(press).collect();
+        let turned: Option<Vec<Move>> = loops.iter().map(press).collect();
         if let (Some(turned), Solver::Exact) = (turned, scene.numerics.solver) {
             // One loading serves all reversals.
-            let ends = [&[Leg::ToTouch], turned.as_slice()].concat();
+            let ends = [&[Move::ToTouch], turned.as_slice()].concat();
             let mut each = vec![LoadingOutcome::default(); ends.len()];
             self.simulation.reverse(scene, (&ends, &[]), self.stop, &mut |index, reversal| {
                 each[index] = LoadingOutcome::of_reversal(ends[index], &reversal);
@@ -97,9 +99,9 @@ impl<'p> Recorder<'p> {
             let at_touch = each.remove(0).figures.adhesion_force;
             return Ok((each, at_touch.filter(|_| governing.adhesive_work().is_some())));
         }
-        let loops = if loops.is_empty() { vec![vec![Leg::ToTouch, Leg::ToSeparation]] } else { loops };
+        let loops = if loops.is_empty() { vec![vec![Move::ToTouch, Move::ToSeparation]] } else { loops };
         // A loading that begins at separation equals the same loading alone.
-        let ends_apart = loops.iter().all(|legs| legs.last() == Some(&Leg::ToSeparation));
+        let ends_apart = loops.iter().all(|legs| legs.last() == Some(&Move::ToSeparation));
         let together = if ends_apart { loops.len() } else { 1 };
         let mut zero_load = None;
         let mut each = Vec::with_capacity(loops.len());
@@ -168,7 +170,7 @@ impl<'p> Recorder<'p> {
         let StiffnessRange { from, to, count } = self.plan.stiffness;
         let step = (to / from).ln() / (count - 1) as f64;
         let force = |index: u64| unit * from * (step * index as f64).exp();
-        let loading = (0..count).map(|index| Leg::ToForce(force(index))).collect();
+        let loading = (0..count).map(|index| Move::ToForce(force(index))).collect();
         let outcome = self.run(&Scene { loading, ..scene.clone() })?;
         let points = outcome.history.legs.iter().filter_map(|leg| leg.curve.last());
         let points: Vec<_> = points.filter(|point| point.force > 0.0 && point.indentation > 0.0).collect();

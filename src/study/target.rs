@@ -1,7 +1,7 @@
 //! Quantities that an axis may vary: the numbers of a scene by their paths, and others that are derived from several.
 
 use crate::analysis::Governing;
-use crate::scene::{FIELDS, Field, Leg, Range, Roughness, RoughnessParameter, Scene, Value, field, nearest};
+use crate::scene::{FIELDS, Field, Move, Range, Roughness, RoughnessParameter, Scene, Value, field, nearest};
 use crate::surface::SelfAffine;
 
 /// Quantities that are not fields of a scene.
@@ -143,7 +143,7 @@ impl Target {
                 Some(scene.numerics.points as f64 / last)
             }
             Target::Leg(index) => match scene.loading.get(index)? {
-                Leg::ToForce(to) | Leg::ToIndentation(to) => Some(*to),
+                Move::ToForce(to) | Move::ToIndentation(to) => Some(*to),
                 _ => None,
             },
             Target::Field(field, part) => {
@@ -174,7 +174,7 @@ impl Target {
                 set(scene, "roughness.modes", Part::Last, last)?;
             }
             Target::Leg(index) => match scene.loading.get_mut(index) {
-                Some(Leg::ToForce(to) | Leg::ToIndentation(to)) => *to = value,
+                Some(Move::ToForce(to) | Move::ToIndentation(to)) => *to = value,
                 Some(_) => return Err(format!("leg {index} of the scene has no number")),
                 None => return Err(format!("the scene has {} legs, the first is 0", scene.loading.len())),
             },

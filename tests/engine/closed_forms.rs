@@ -4,7 +4,7 @@ use super::numerics::{integral, invert, observed_order};
 use super::solvers::adhesive;
 use asperity::contact::{Foundation, HessRule, LegRecord, Solver};
 use asperity::reference::PowerLaw;
-use asperity::scene::{Edges, Form, Leg};
+use asperity::scene::{Edges, Form, Move};
 use asperity::surface::{Line, power_law_factor};
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
@@ -76,7 +76,7 @@ fn closed_loop(problem: &Problem, points: usize) -> [LegRecord; 2] {
     let hess = HessRule::new(foundation, problem.work);
     let mut solver = adhesive(&line.gaps, Edges::Grid, hess, foundation, 257);
     let [loading, unloading] =
-        [Leg::ToIndentation(problem.deepest), Leg::ToSeparation].map(|leg| solver.advance(leg).unwrap());
+        [Move::ToIndentation(problem.deepest), Move::ToSeparation].map(|leg| solver.advance(leg).unwrap());
     let separated = unloading.curve.last().unwrap();
     assert_eq!((separated.springs, separated.force), (0, 0.0), "{problem:?} is not separated");
     assert!(loading.largest.springs < points as u64 || problem.form.is_none(), "the line is too short");

@@ -2,7 +2,7 @@
 
 use super::solvers::adhesive;
 use asperity::contact::{ContactError, Foundation, HessRule, Solver};
-use asperity::scene::{Edges, Leg};
+use asperity::scene::{Edges, Move};
 use proptest::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -188,35 +188,35 @@ fn order() -> impl Strategy<Value = Order> {
 
 /// A leg as drawn.
 #[derive(Clone, Copy, Debug)]
-enum Move {
+enum Step {
     /// To an indentation, m.
     To(f64),
     Touch,
     ZeroForce,
     /// To the present force plus this, N.
-    ForceStep(f64),
+    ForceBy(f64),
     /// To this share of the present force.
     ForceShare(f64),
     Separation,
 }
 
 /// Lines are about 1 m deep; on those with few levels, some indentations hit a level exactly.
-fn step() -> impl Strategy<Value = Move> {
+fn step() -> impl Strategy<Value = Step> {
     prop_oneof![
-        6 => (-1.5..1.5_f64).prop_map(Move::To),
-        2 => (-4_i8..8).prop_map(|l| Move::To(f64::from(l) * 0.25)),
-        1 => Just(Move::Touch),
-        1 => Just(Move::ZeroForce),
+        6 => (-1.5..1.5_f64).prop_map(Step::To),
+        2 => (-4_i8..8).prop_map(|l| Step::To(f64::from(l) * 0.25)),
+        1 => Just(Step::Touch),
+        1 => Just(Step::ZeroForce),
         2 => ((-4.0..0.5_f64), any::<bool>()).prop_map(|(p, up)| {
-            Move::ForceStep(if up { 10_f64.powf(p) } else { -10_f64.powf(p) })
+            Step::ForceBy(if up { 10_f64.powf(p) } else { -10_f64.powf(p) })
         }),
-        2 => (-2.0..2.0_f64).prop_map(Move::ForceShare),
-        1 => Just(Move::Separation),
+        2 => (-2.0..2.0_f64).prop_map(Step::ForceShare),
+        1 => Just(Step::Separation),
     ]
 }
 
 /// Legs, each with probes on its way as shares of it.
-fn steps() -> impl Strategy<Value = Vec<(Move, Vec<f64>)>> {
+fn steps() -> impl Strategy<Value = Vec<(Step, Vec<f64>)>> {
     prop::collection::vec((step(), prop::collection::vec(0.001..1.0_f64, 0..8)), 1..=8)
 }
 
@@ -281,7 +281,7 @@ fn compare(
     gaps: &[f64],
     ranges: [f64; 2],
     order: Order,
-    legs: &[(Move, Vec<f64>)],
+    legs: &[(Step, Vec<f64>)],
     compared: &Compared,
 ) -> Result<(), TestCaseError> {
     let foundation = Foundation::endless(SPACING, 1.0);
@@ -294,12 +294,12 @@ fn compare(
     let (mut present, mut force) = (0.0, 0.0);
     for &(step, ref probes) in legs {
         let leg = match step {
-            Move::To(to) => Leg::ToIndentation(to),
-            Move::Touch => Leg::ToTouch,
-            Move::ZeroForce => Leg::ToZeroForce,
-            Move::ForceStep(by) => Leg::ToForce(force + by),
-            Move::ForceShare(share) => Leg::ToForce(force * share),
-            Move::Separation => Leg::ToSeparation,
+            Step::To(to) => Move::ToIndentation(to),
+            Step::Touch => Move::ToTouch,
+            Step::ZeroForce => Move::ToZeroForce,
+            Step::ForceBy(by) => Move::ToForce(force + by),
+            Step::ForceShare(share) => Move::ToForce(force * share),
+            Step::Separation => Move::ToSeparation,
         };
         let record = match solver.advance(leg) {
             Ok(record) => record,
@@ -318,7 +318,7 @@ fn compare(
         let end = record.curve.last().unwrap();
         // A separated body that stays may be at d = 0, just before first touch.
         let stays = record.curve.len() == 1;
-        let separates = leg == Leg::ToSeparation;
+        let separates = leg == Move::ToSeparation;
         // Separation ends just where the last springs still hold: to rounding, the blind relaxation may be on either
         // side of it. Elsewhere both are at the same number.
         let to = if separates { (end.indentation + ROUNDING).min(present) } else { end.indentation };
@@ -395,11 +395,11 @@ fn few_springs_agree_with_blind_relaxation() {
     let compared = Compared::nothing();
     // Without adhesion the deepest spring touches last, though its neighbours are in contact.
     let gaps = [0.0, 0.718_352_439_046_38, 0.747_622_633_866_587_6];
-    compare(&gaps, [0.0; 2], Order::LeftToRight, &[(Move::To(0.75), vec![0.99])], &compared).unwrap();
+    compare(&gaps, [0.0; 2], Order::LeftToRight, &[(Step::To(0.75), vec![0.99])], &compared).unwrap();
     // A single spring is held below first touch, then detaches, and must touch to attach again.
     let legs =
         [0.0, -0.183_601_704_731_071_62, -2.344_984_497_776_057e-5, -0.493_355_240_886_346_4, -0.1, 0.0]
-            .map(|to| (Move::To(to), vec![0.25, 0.5, 1.0]));
+            .map(|to| (Step::To(to), vec![0.25, 0.5, 1.0]));
     compare(&[0.0], [1.0; 2], Order::LeftToRight, &legs, &compared).unwrap();
     assert_eq!(compared.states.into_inner(), 26);
 }

@@ -5,7 +5,7 @@ use super::equilibrium::{Blind, Order};
 use super::solvers::adhesive;
 use asperity::contact::{Foundation, HessRule, Solver};
 use asperity::scene::Edges;
-use asperity::scene::Leg;
+use asperity::scene::Move;
 
 const SPACING: f64 = 0.01;
 /// Gaps of the levels, m: no difference of two is a largest stretch.
@@ -97,12 +97,12 @@ fn compare(gaps: &[f64], range: f64, edges: Edges) {
         assert!(agree, "{gaps:?}, γ/E* = {range} m, {edges:?}: {found:?}, not {expected:?}");
     };
     let deepest = gaps.iter().copied().fold(0.0, f64::max) + 0.1;
-    solver.advance(Leg::ToIndentation(deepest)).unwrap();
+    solver.advance(Move::ToIndentation(deepest)).unwrap();
     let mut expected = vec![f64::INFINITY; gaps.len()];
     definition.close(0, gaps.len() - 1, &mut expected);
     check(&solver, &expected);
     if edges == Edges::Grid {
-        solver.advance(Leg::ToIndentation(deepest - 0.05)).unwrap();
+        solver.advance(Move::ToIndentation(deepest - 0.05)).unwrap();
         definition.open(0, gaps.len() - 1, deepest, &mut expected);
         check(&solver, &expected);
     }
@@ -172,7 +172,7 @@ fn every_history(step: usize) {
                 let mut solver = adhesive(&gaps, Edges::Grid, hess, foundation, 2);
                 let mut blind = Blind::new(&gaps, [closing, opening], Order::LeftToRight);
                 for turn in digits(history, turns.len()).take(3).map(|digit| turns[digit]) {
-                    solver.advance(Leg::ToIndentation(turn)).unwrap();
+                    solver.advance(Move::ToIndentation(turn)).unwrap();
                     blind.relax(turn);
                     let found = solver.leg().patches(turn);
                     assert_eq!(

@@ -1,17 +1,17 @@
 //! A body that forms its contact several times, compared with new bodies that form it once.
 
 use asperity::contact::Solver;
-use asperity::scene::Leg;
+use asperity::scene::Move;
 use proptest::prelude::*;
 
 /// Loadings with several separations; forces are shares, indentations metres.
-pub fn loadings() -> impl Strategy<Value = Vec<Leg>> {
+pub fn loadings() -> impl Strategy<Value = Vec<Move>> {
     let leg = prop_oneof![
-        3 => (-0.5..1.3_f64).prop_map(Leg::ToIndentation),
-        3 => (-0.2..1.0_f64).prop_map(Leg::ToForce),
-        1 => Just(Leg::ToTouch),
-        1 => Just(Leg::ToZeroForce),
-        4 => Just(Leg::ToSeparation),
+        3 => (-0.5..1.3_f64).prop_map(Move::ToIndentation),
+        3 => (-0.2..1.0_f64).prop_map(Move::ToForce),
+        1 => Just(Move::ToTouch),
+        1 => Just(Move::ToZeroForce),
+        4 => Just(Move::ToSeparation),
     ];
     prop::collection::vec(leg, 2..14)
 }
@@ -19,16 +19,16 @@ pub fn loadings() -> impl Strategy<Value = Vec<Leg>> {
 /// Moves a body along the legs, shares of this force instead of forces, and beside it a new one from each separation
 /// on, and compares their records and contacts. A contact that forms again closes as before, without another pass over
 /// the tree.
-pub fn as_if_new<S: Solver>(new: impl Fn() -> S, legs: &[Leg], force: f64) -> Result<(), TestCaseError> {
+pub fn as_if_new<S: Solver>(new: impl Fn() -> S, legs: &[Move], force: f64) -> Result<(), TestCaseError> {
     let (mut body, mut beside) = (new(), new());
     let (mut passes_beside, mut formed, mut free) = (0, 0_u64, true);
     let mut at = 0.0;
     for leg in legs {
-        let leg = if let Leg::ToForce(share) = *leg { Leg::ToForce(share * force) } else { *leg };
+        let leg = if let Move::ToForce(share) = *leg { Move::ToForce(share * force) } else { *leg };
         if free {
             passes_beside += beside.work().loading_passes;
             beside = new();
-            beside.advance(Leg::ToIndentation(f64::min(at, -1e-300))).unwrap();
+            beside.advance(Move::ToIndentation(f64::min(at, -1e-300))).unwrap();
         }
         match (body.advance(leg), beside.advance(leg)) {
             (Ok(one), Ok(other)) => {

@@ -3,7 +3,7 @@
 
 use super::solvers::adhesive;
 use asperity::contact::{CurvePoint, Foundation, HessRule, LegRecord, Solver};
-use asperity::scene::{Edges, Leg};
+use asperity::scene::{Edges, Move};
 use std::f64::consts::PI;
 
 const SPRINGS: usize = 1 << 20;
@@ -16,9 +16,9 @@ fn foundation(springs: usize) -> Foundation {
 /// The legs of a line on springs of this foundation, with the fragments in contact after the first.
 fn legs(gaps: &[f64], foundation: Foundation, work: f64, deepest: f64) -> ([LegRecord; 2], usize) {
     let mut solver = adhesive(gaps, Edges::Grid, HessRule::new(foundation, work), foundation, 64);
-    let loading = solver.advance(Leg::ToIndentation(deepest)).unwrap();
+    let loading = solver.advance(Move::ToIndentation(deepest)).unwrap();
     let fragments = solver.leg().patches(deepest).len();
-    let unloading = solver.advance(Leg::ToSeparation).unwrap();
+    let unloading = solver.advance(Move::ToSeparation).unwrap();
     assert_eq!((loading.attached, unloading.attached), (unloading.detached, 0));
     ([loading, unloading], fragments)
 }

@@ -15,7 +15,7 @@ mod work;
 use super::formed;
 use super::solvers::{adhesive, nonadhesive};
 use asperity::contact::{Contact, CurvePoint, Foundation, HessRule, History, LegRecord, Solver, run};
-use asperity::scene::{Edges, Leg};
+use asperity::scene::{Edges, Move};
 use proptest::prelude::*;
 
 /// Springs under adhesion.
@@ -44,7 +44,7 @@ impl Body {
         adhesive(&self.gaps, Edges::Grid, self.hess(), self.foundation, samples)
     }
 
-    fn history(&self, legs: &[Leg], samples: usize) -> History {
+    fn history(&self, legs: &[Move], samples: usize) -> History {
         run(&mut self.on(samples), legs, |_, _| Ok(())).unwrap()
     }
 
@@ -136,6 +136,6 @@ fn indices(fragments: &[(usize, usize)]) -> Vec<usize> {
     fragments.iter().flat_map(|&(first, last)| first..=last).collect()
 }
 
-fn to_indentations(indentations: &[f64]) -> Vec<Leg> {
-    indentations.iter().map(|&to| Leg::ToIndentation(to)).collect()
+fn to_indentations(indentations: &[f64]) -> Vec<Move> {
+    indentations.iter().map(|&to| Move::ToIndentation(to)).collect()
 }

@@ -3,7 +3,7 @@
 use super::solvers::{adhesive, nonadhesive};
 use asperity::analysis::Figures;
 use asperity::contact::{Body, ContactError, Foundation, HessRule, History, Reversal, Solver, run};
-use asperity::scene::{Edges, Leg};
+use asperity::scene::{Edges, Move};
 use asperity::surface::{Line, SelfAffine, UnitRoughness};
 use proptest::prelude::*;
 
@@ -16,7 +16,7 @@ struct Case {
     hess: HessRule,
     samples: usize,
     /// Turning points; forces as shares of the order of the acting ones.
-    turns: Vec<Leg>,
+    turns: Vec<Move>,
     /// Indentations of the requested forces, m.
     points: Vec<f64>,
 }
@@ -54,14 +54,14 @@ fn gaps() -> impl Strategy<Value = Vec<f64>> {
     })
 }
 
-fn turns() -> impl Strategy<Value = Vec<Leg>> {
+fn turns() -> impl Strategy<Value = Vec<Move>> {
     let turn = prop_oneof![
-        4 => (0.0..1.3_f64).prop_map(Leg::ToIndentation),
+        4 => (0.0..1.3_f64).prop_map(Move::ToIndentation),
         // At levels of the line with levels.
-        1 => (0_u8..6).prop_map(|level| Leg::ToIndentation(0.25 * f64::from(level))),
-        4 => (0.0..1.0_f64).prop_map(Leg::ToForce),
-        1 => Just(Leg::ToTouch),
-        1 => Just(Leg::ToZeroForce),
+        1 => (0_u8..6).prop_map(|level| Move::ToIndentation(0.25 * f64::from(level))),
+        4 => (0.0..1.0_f64).prop_map(Move::ToForce),
+        1 => Just(Move::ToTouch),
+        1 => Just(Move::ToZeroForce),
     ];
     prop::collection::vec(turn, 1..24)
 }
@@ -79,7 +79,7 @@ fn cases() -> impl Strategy<Value = Case> {
         let deepest = gaps.iter().copied().fold(1e-3, f64::max);
         let force = gaps.len() as f64 * foundation.spring_stiffness() * deepest;
         for turn in &mut turns {
-            if let Leg::ToForce(share) = turn {
+            if let Move::ToForce(share) = turn {
                 *share *= force;
             }
         }
@@ -116,7 +116,7 @@ fn bits_of_history(history: &History) -> Vec<Option<u64>> {
 }
 
 /// All reversals in the order of their legs.
-fn all(body: &mut Body, turns: &[Leg], points: &[f64]) -> Result<Vec<Reversal>, ContactError> {
+fn all(body: &mut Body, turns: &[Move], points: &[f64]) -> Result<Vec<Reversal>, ContactError> {
     let mut found = vec![None; turns.len()];
     let see = &mut |index: usize, reversal| {
         assert!(found[index].replace(reversal).is_none());
@@ -130,13 +130,13 @@ fn all(body: &mut Body, turns: &[Leg], points: &[f64]) -> Result<Vec<Reversal>, 
 fn compare(new: impl Fn() -> Body, case: &Case) -> Result<(), TestCaseError> {
     let reversals = all(&mut new(), &case.turns, &case.points).unwrap();
     for (leg, reversal) in case.turns.iter().zip(&reversals) {
-        let separate = run(&mut new(), &[*leg, Leg::ToSeparation], |_, _| Ok(())).unwrap();
+        let separate = run(&mut new(), &[*leg, Move::ToSeparation], |_, _| Ok(())).unwrap();
         prop_assert_eq!(bits_of(reversal), bits_of_history(&separate), "{:?}: {:?}", leg, reversal);
         let below: Vec<_> =
             case.points.iter().copied().filter(|&point| point <= reversal.turn.indentation).collect();
         prop_assert_eq!(reversal.forces.len(), below.len());
         for (point, force) in below.iter().zip(&reversal.forces) {
-            let to_point = [*leg, Leg::ToIndentation(*point)];
+            let to_point = [*leg, Move::ToIndentation(*point)];
             let separate = run(&mut new(), &to_point, |_, _| Ok(())).unwrap();
             let end = separate.legs[1].curve.last().unwrap();
             prop_assert_eq!(force.to_bits(), end.force.to_bits(), "{:?} at {:?}", leg, point);
@@ -161,11 +161,11 @@ proptest! {
 fn turning_points_out_of_contact_are_refused() {
     let gaps = [0.0, 0.5, 0.25];
     let body = || nonadhesive(&gaps, Edges::SubCell, Foundation::endless(0.01, 1.0), 2);
-    let leg = Leg::ToIndentation(-0.1);
+    let leg = Move::ToIndentation(-0.1);
     for (turns, index, reason) in [
-        (vec![Leg::ToTouch, leg], 1, ContactError::NoContact),
-        (vec![Leg::ToForce(-1.0)], 0, ContactError::NothingToPull),
-        (vec![Leg::ToSeparation], 0, ContactError::NoContact),
+        (vec![Move::ToTouch, leg], 1, ContactError::NoContact),
+        (vec![Move::ToForce(-1.0)], 0, ContactError::NothingToPull),
+        (vec![Move::ToSeparation], 0, ContactError::NoContact),
     ] {
         let expected = ContactError::Stage { index, target: turns[index], reason: Box::new(reason) };
         assert_eq!(all(&mut body(), &turns, &[]), Err(expected));
@@ -186,8 +186,8 @@ fn the_loading_is_passed_once_for_all_reversals() {
         let work = 5e-7 * rms_gradient * 2e6 / (kappa * kappa);
         let mut body = adhesive(&line.gaps, Edges::SubCell, HessRule::new(foundation, work), foundation, 2);
         let deepest = 0.4 * 2e6 * 1e-3 * 5e-7;
-        let turn = |share: u32| Leg::ToForce(deepest * f64::from(share) / 64.0);
-        let turns: Vec<Leg> = (1..=64).map(turn).collect();
+        let turn = |share: u32| Move::ToForce(deepest * f64::from(share) / 64.0);
+        let turns: Vec<Move> = (1..=64).map(turn).collect();
         body.reversals(&turns, &[], &mut |_, _| Ok(())).unwrap();
         let work = body.work();
         assert_eq!((work.loading_passes, work.unloading_passes), (1, 64));

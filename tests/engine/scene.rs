@@ -1,7 +1,7 @@
 //! Scenes from outside: any text gets an answer, and a change to one field changes that field alone.
 
 use asperity::scene::{
-    DEFAULT, Document, Effect, FIELDS, Form, LONGEST_TEXT, Leg, Range, Scene, Span, Text, line_column, open,
+    DEFAULT, Document, Effect, FIELDS, Form, LONGEST_TEXT, Move, Range, Scene, Span, Text, line_column, open,
     presets, to_ron,
 };
 use asperity::simulation::{Plan, Stage};
@@ -89,15 +89,15 @@ fn nesting_does_not_overflow_the_stack() {
 fn effects_are_on_where_their_stages_run() {
     let document = open_default();
     let legs = [
-        Leg::ToForce(1e-6),
-        Leg::ToForce(1e-5),
-        Leg::ToIndentation(-1e-9),
-        Leg::ToIndentation(1e-8),
-        Leg::ToTouch,
-        Leg::ToZeroForce,
-        Leg::ToSeparation,
+        Move::ToForce(1e-6),
+        Move::ToForce(1e-5),
+        Move::ToIndentation(-1e-9),
+        Move::ToIndentation(1e-8),
+        Move::ToTouch,
+        Move::ToZeroForce,
+        Move::ToSeparation,
     ];
-    let mut loadings: Vec<Vec<Leg>> = legs.iter().map(|leg| vec![*leg]).collect();
+    let mut loadings: Vec<Vec<Move>> = legs.iter().map(|leg| vec![*leg]).collect();
     for length in 1..3 {
         let longer = loadings.iter().filter(|loading| loading.len() == length);
         let longer: Vec<_> =

@@ -4,7 +4,7 @@ use super::solvers::adhesive;
 use asperity::contact::{
     Contact, ContactError, Direction, Foundation, HessRule, LegRecord, Solver, Stepwise, Work,
 };
-use asperity::scene::{Document, Edges, Leg};
+use asperity::scene::{Document, Edges, Move};
 use asperity::simulation::{Outcome, Simulation};
 use asperity::surface::{SelfAffine, UnitRoughness};
 use proptest::prelude::*;
@@ -29,7 +29,7 @@ fn stepwise(contact: &Contact, step: f64) -> Stepwise<'_> {
 }
 
 /// Runs legs with the stepwise solver and with the exact one.
-fn both(gaps: &[f64], work: f64, step: f64, legs: &[Leg]) -> [Vec<LegRecord>; 2] {
+fn both(gaps: &[f64], work: f64, step: f64, legs: &[Move]) -> [Vec<LegRecord>; 2] {
     let hess = HessRule::new(FOUNDATION, work);
     let mut exact = adhesive(gaps, Edges::Grid, hess, FOUNDATION, 64);
     let contact = contact(gaps, (work > 0.0).then_some(hess));
@@ -51,7 +51,7 @@ fn observed_order(steps: &[f64], errors: &[f64]) -> f64 {
 fn pull_off_force_and_energy_converge_with_the_step() {
     // One number of one line converges by leaps; the mean error of several lines, evenly.
     let lines: Vec<Vec<f64>> = (1..=12).map(|seed| rough(128, seed)).collect();
-    let legs = [Leg::ToIndentation(0.4), Leg::ToSeparation];
+    let legs = [Move::ToIndentation(0.4), Move::ToSeparation];
     let steps: Vec<f64> = (0..7).map(|halvings| 0.02 * 0.5_f64.powi(halvings)).collect();
     let mut force_errors = Vec::new();
     let mut energy_errors = Vec::new();
@@ -97,7 +97,7 @@ fn contact_sets_on_the_way_converge_with_the_step() {
             let contact = contact(&gaps, Some(hess));
             let mut stepwise = stepwise(&contact, step);
             for (leg, from, to) in
-                [(Leg::ToIndentation(0.6), 0.0, 0.6), (Leg::ToIndentation(-0.3), 0.6, -0.3)]
+                [(Move::ToIndentation(0.6), 0.0, 0.6), (Move::ToIndentation(-0.3), 0.6, -0.3)]
             {
                 exact.advance(leg).unwrap();
                 stepwise.advance(leg).unwrap();
@@ -132,7 +132,7 @@ proptest! {
         let mut exact = adhesive(&gaps, Edges::Grid, hess, FOUNDATION, 2);
         let contact = contact(&gaps, Some(hess));
         let mut stepwise = stepwise(&contact, step);
-        for leg in turns.into_iter().map(Leg::ToIndentation) {
+        for leg in turns.into_iter().map(Move::ToIndentation) {
             let (one, other) = (stepwise.advance(leg).unwrap(), exact.advance(leg).unwrap());
             // The end of a leg does not depend on the step: the same springs and, bit for bit, the same force.
             prop_assert_eq!(one.curve.last(), other.curve.last());
@@ -170,10 +170,10 @@ proptest! {
         let hess = HessRule::new(FOUNDATION, 10_f64.powf(range));
         let contact = contact(&gaps, Some(hess));
         let (mut asked, mut spared) = (stepwise(&contact, 0.01), stepwise(&contact, 0.01));
-        for leg in [to, back].map(Leg::ToIndentation).into_iter().chain([Leg::ToSeparation]) {
+        for leg in [to, back].map(Move::ToIndentation).into_iter().chain([Move::ToSeparation]) {
             let (one, other) = (asked.advance(leg).unwrap(), spared.advance(leg).unwrap());
             prop_assert_eq!(one, other, "{:?} after a refused leg", leg);
-            let refused = asked.advance(Leg::ToForce(-1e30));
+            let refused = asked.advance(Move::ToForce(-1e30));
             let because = matches!(
                 refused,
                 Err(ContactError::DetachesBefore { .. } | ContactError::NothingToPull)
@@ -186,14 +186,14 @@ proptest! {
     fn legs_without_motion_are_stated_alike(seed in any::<u64>(), to in 0.0..0.5_f64, below in 0.1..1.0_f64) {
         let gaps = rough(32, seed);
         let legs = [
-            Leg::ToSeparation,
-            Leg::ToIndentation(-below),
-            Leg::ToIndentation(-below),
-            Leg::ToIndentation(-0.5 * below),
-            Leg::ToIndentation(to),
-            Leg::ToIndentation(to),
-            Leg::ToSeparation,
-            Leg::ToSeparation,
+            Move::ToSeparation,
+            Move::ToIndentation(-below),
+            Move::ToIndentation(-below),
+            Move::ToIndentation(-0.5 * below),
+            Move::ToIndentation(to),
+            Move::ToIndentation(to),
+            Move::ToSeparation,
+            Move::ToSeparation,
         ];
         let [found, expected] = both(&gaps, 0.01, 0.01, &legs);
         for (index, (one, other)) in found.iter().zip(&expected).enumerate() {
@@ -211,7 +211,7 @@ fn one_spring_has_a_closed_form() {
     // Touches at d = 0 and detaches at d = −√(πΔxγ/E*).
     let work = 0.3;
     let stretch = (PI * FOUNDATION.spacing * work / FOUNDATION.effective_modulus).sqrt();
-    let legs = [Leg::ToIndentation(0.1), Leg::ToSeparation];
+    let legs = [Move::ToIndentation(0.1), Move::ToSeparation];
     for step in [0.03, 0.003, 0.000_3] {
         let [found, expected] = both(&[0.0], work, step, &legs);
         for (records, allowed) in [(&found, step), (&expected, 1e-15)] {
@@ -235,7 +235,7 @@ fn one_spring_has_a_closed_form() {
 #[test]
 fn of_equal_forces_the_first_is_the_smallest() {
     let step = 0.003;
-    let [records, _] = both(&[0.0], 0.0, step, &[Leg::ToIndentation(0.1), Leg::ToIndentation(-0.05)]);
+    let [records, _] = both(&[0.0], 0.0, step, &[Move::ToIndentation(0.1), Move::ToIndentation(-0.05)]);
     let smallest = records[1].smallest;
     assert_eq!(smallest.force, 0.0);
     assert!((-step..=0.0).contains(&smallest.indentation), "{smallest:?}");
@@ -247,10 +247,10 @@ fn it_gives_up_on_demand_or_when_steps_are_too_many() {
     let stop = || true;
     let rough = contact(&gaps, None);
     let mut solver = Stepwise::new(&rough, 0.01, 9, &stop).unwrap();
-    assert_eq!(solver.advance(Leg::ToIndentation(1.0)), Err(ContactError::Interrupted));
+    assert_eq!(solver.advance(Move::ToIndentation(1.0)), Err(ContactError::Interrupted));
     let single = contact(&[0.0], None);
     let mut solver = stepwise(&single, 1e-9);
-    let refused = solver.advance(Leg::ToIndentation(1.0));
+    let refused = solver.advance(Move::ToIndentation(1.0));
     let limit = asperity::contact::stepwise::STEP_LIMIT;
     assert_eq!(refused, Err(ContactError::TooManySteps { step: 1e-9, limit }));
 }
@@ -271,24 +271,24 @@ fn targets_out_of_reach_leave_the_body_in_place() {
         let limit = asperity::contact::stepwise::STEP_LIMIT;
         let too_many = Err(ContactError::TooManySteps { step, limit });
         // Too many steps are refused before the first one.
-        let far = solver.advance(Leg::ToForce(1e9));
+        let far = solver.advance(Move::ToForce(1e9));
         assert!(far == too_many.clone(), "{far:?}");
         if step < 1e-3 {
-            assert_eq!(solver.advance(Leg::ToTouch).unwrap().attached, 1);
+            assert_eq!(solver.advance(Move::ToTouch).unwrap().attached, 1);
             assert_eq!(
-                (solver.advance(Leg::ToSeparation), solver.advance(Leg::ToForce(1e-3))),
+                (solver.advance(Move::ToSeparation), solver.advance(Move::ToForce(1e-3))),
                 (too_many.clone(), too_many)
             );
             continue;
         }
-        solver.advance(Leg::ToIndentation(0.3)).unwrap();
+        solver.advance(Move::ToIndentation(0.3)).unwrap();
         let before = steps.replace(0);
         assert!(before > 300);
-        let beyond = solver.advance(Leg::ToForce(-1e9));
+        let beyond = solver.advance(Move::ToForce(-1e9));
         let Err(ContactError::DetachesBefore { smallest }) = beyond else { panic!("{beyond:?}") };
         // The body pulled off before it was put back.
         assert!(steps.replace(0) > 300);
-        let record = solver.advance(Leg::ToSeparation).unwrap();
+        let record = solver.advance(Move::ToSeparation).unwrap();
         assert_eq!(record.smallest.force, smallest);
         steps.set(0);
     }

@@ -9,7 +9,7 @@ mod wavy_sphere;
 use super::solvers::{adhesive, nonadhesive};
 use super::{formed, numerics};
 use asperity::contact::{CurvePoint, Foundation, HessRule, History, LegRecord, Solver, run};
-use asperity::scene::{Edges, Leg};
+use asperity::scene::{Edges, Move};
 use proptest::prelude::*;
 
 /// Springs under adhesion.
@@ -33,7 +33,7 @@ impl Body {
         adhesive(&self.gaps, Edges::SubCell, self.hess(), self.foundation, samples)
     }
 
-    fn history(&self, legs: &[Leg], samples: usize) -> History {
+    fn history(&self, legs: &[Move], samples: usize) -> History {
         run(&mut self.on(samples), legs, |_, _| Ok(())).unwrap()
     }
 

@@ -3,7 +3,7 @@
 
 use super::solvers::{adhesive, nonadhesive};
 use asperity::contact::{ContactTotals, Foundation, GapScale, HessRule, Solver};
-use asperity::scene::{Edges, Leg};
+use asperity::scene::{Edges, Move};
 use dashu_float::{FBig, round::mode::HalfEven};
 use proptest::prelude::*;
 
@@ -144,7 +144,7 @@ proptest! {
             let gaps: Vec<f64> = gaps.iter().map(|gap| gap - lowest).collect();
             let foundation = Foundation::endless(1e-3, 3.0);
             let mut solver = nonadhesive(&gaps, Edges::Grid, foundation, 40);
-            let leg = solver.advance(Leg::ToIndentation(share * (largest - lowest))).unwrap();
+            let leg = solver.advance(Move::ToIndentation(share * (largest - lowest))).unwrap();
             leg.curve.iter().map(|point| (point.force.to_bits(), point.springs)).collect::<Vec<_>>()
         });
         prop_assert_eq!(&forces[0], &forces[1]);
@@ -194,7 +194,7 @@ fn forces_at_full_contact_keep_the_bound_where_they_vanish() {
     let mut solver = adhesive(&gaps, Edges::Grid, hess, foundation, 20);
     let (scale, sum) = (scale_of(&gaps), sum(&gaps));
     let balanced = balance(gaps.len(), &sum, 2);
-    for leg in [Leg::ToIndentation(1.0), Leg::ToZeroForce, Leg::ToIndentation(balanced)] {
+    for leg in [Move::ToIndentation(1.0), Move::ToZeroForce, Move::ToIndentation(balanced)] {
         let record = solver.advance(leg).unwrap();
         let end = record.curve.last().unwrap();
         assert_eq!(end.springs, 1 << 20, "{leg:?}");
@@ -205,7 +205,7 @@ fn forces_at_full_contact_keep_the_bound_where_they_vanish() {
         let error = magnitude(unrounded(end.force) - exact);
         assert!(error <= allowed, "{leg:?}: error {:e} of {:e}", error.to_f64().value(), end.force);
         // Pressed at d = 1 m, the remainder at balance is the rounding of the indentation.
-        if leg != Leg::ToIndentation(1.0) {
+        if leg != Move::ToIndentation(1.0) {
             let rounding = f64::EPSILON * stiffness * gaps.len() as f64;
             assert!(end.force.abs() <= 2.0 * rounding, "{leg:?}: {:e}", end.force);
         }

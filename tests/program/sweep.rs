@@ -2,7 +2,7 @@
 
 use super::common::effort::cases;
 use asperity::analysis::Regime;
-use asperity::scene::{Adhesion, Leg, Roughness, Scene};
+use asperity::scene::{Adhesion, Move, Roughness, Scene};
 use asperity::simulation::{Outcome, Simulation};
 use asperity::study::{
     Changes, Finished, Folder, Options, Plan, Quantity, RESULTS, SUMMARY, Shard, Status, StudyError, merge,
@@ -94,7 +94,7 @@ fn undisturbed(plan: &Plan) -> [String; 2] {
 }
 
 /// One loop by itself.
-fn alone(scene: &Scene, loading: [Leg; 2]) -> Outcome {
+fn alone(scene: &Scene, loading: [Move; 2]) -> Outcome {
     let mut scene = scene.clone();
     scene.loading = loading.to_vec();
     scene.numerics.samples = 2;
@@ -122,9 +122,9 @@ fn cells_are_what_single_runs_give() {
             };
             (*hurst, *seed) = (values[1], row.seed);
             let unit = values[2] * rms_height.unwrap() * scene.length;
-            let pressed = alone(&scene, [Leg::ToForce(values[3] * unit), Leg::ToSeparation]);
-            let touched = alone(&scene, [Leg::ToTouch, Leg::ToSeparation]);
-            let balanced = alone(&scene, [Leg::ToZeroForce, Leg::ToSeparation]);
+            let pressed = alone(&scene, [Move::ToForce(values[3] * unit), Move::ToSeparation]);
+            let touched = alone(&scene, [Move::ToTouch, Move::ToSeparation]);
+            let balanced = alone(&scene, [Move::ToZeroForce, Move::ToSeparation]);
             let figures = pressed.figures;
             let of =
                 |quantity: Quantity| row.values[plan.record.iter().position(|one| *one == quantity).unwrap()];

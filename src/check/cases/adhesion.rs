@@ -4,7 +4,7 @@ use super::{RULES, WORK, ensure, on_tour, press_and_pull, relative_error, rough,
 use crate::check::case::{CASE, Case, Evidence, Scope};
 use crate::check::{Body, Extended, Fault, end, force_error};
 use crate::contact::Solver;
-use crate::scene::{Edges, Leg};
+use crate::scene::{Edges, Move};
 use std::f64::consts::PI;
 
 pub const CASES: &[Case] = &[
@@ -76,7 +76,7 @@ fn no_adhesion(edges: Edges) -> Result<f64, Fault> {
 
 fn vanishing_adhesion(edges: Edges) -> Result<f64, Fault> {
     let bare = rough(1024, 0.0)?;
-    let deepest = Leg::ToIndentation(0.6 * bare.deepest());
+    let deepest = Move::ToIndentation(0.6 * bare.deepest());
     let without = bare.history(edges, &[deepest], 2)?;
     let mut worst = 0.0_f64;
     for power in [-280, -200, -100, -50, -30, -20, -12, -9, -7, -6, -5, -4, -3] {
@@ -103,7 +103,7 @@ fn everything_sticks(edges: Edges) -> Result<f64, Fault> {
             let stretch = reach * bare.deepest();
             let work = stretch * stretch * bare.foundation.effective_modulus / (PI * bare.foundation.spacing);
             let body = Body { work, ..bare.clone() };
-            let history = body.history(edges, &[Leg::ToTouch, Leg::ToSeparation], 9)?;
+            let history = body.history(edges, &[Move::ToTouch, Move::ToSeparation], 9)?;
             let count = points as u64;
             let touch = end(&history.legs[0]);
             ensure(touch.springs == count, || {
@@ -142,8 +142,8 @@ fn balance(edges: Edges) -> Result<f64, Fault> {
     body.with(edges, 9, |solver| {
         let mut worst = 0.0_f64;
         let beside = [mean, mean.next_up(), mean.next_down(), mean * (1.0 + 1e-12), mean * (1.0 - 1e-9)];
-        let legs = [Leg::ToIndentation(1.1 * body.deepest()), Leg::ToZeroForce];
-        for leg in legs.into_iter().chain(beside.map(Leg::ToIndentation)) {
+        let legs = [Move::ToIndentation(1.1 * body.deepest()), Move::ToZeroForce];
+        for leg in legs.into_iter().chain(beside.map(Move::ToIndentation)) {
             let point = end(&solver.advance(leg)?);
             ensure(point.springs == body.gaps.len() as u64, || "not all in contact".into())?;
             worst = worst.max(force_error(&body, edges, solver, &point)?);
@@ -154,7 +154,7 @@ fn balance(edges: Edges) -> Result<f64, Fault> {
 
 fn preload_at_an_event(edges: Edges) -> Result<f64, Fault> {
     let body = rough(300, WORK)?;
-    let deepest = Leg::ToIndentation(0.9 * body.deepest());
+    let deepest = Move::ToIndentation(0.9 * body.deepest());
     body.with(edges, 9, |whole| {
         whole.advance(deepest)?;
         let thresholds = whole.leg().thresholds();
@@ -175,12 +175,12 @@ fn preload_at_an_event(edges: Edges) -> Result<f64, Fault> {
 /// Presses a separated body to an indentation on a single loading stage.
 fn press_exactly_to(body: &Body, edges: Edges, at: f64, whole: &dyn Solver) -> Result<f64, Fault> {
     body.with(edges, 9, |solver| {
-        let point = end(&solver.advance(Leg::ToIndentation(at))?);
+        let point = end(&solver.advance(Move::ToIndentation(at))?);
         ensure(solver.leg().patches(at) == whole.leg().patches(at), || {
             format!("at {at:e} m another contact")
         })?;
         let error = force_error(body, edges, solver, &point)?;
-        let back = solver.advance(Leg::ToSeparation)?;
+        let back = solver.advance(Move::ToSeparation)?;
         ensure(end(&back).springs == 0 && back.detached == point.springs, || {
             format!("at {at:e} m some springs stay attached")
         })?;
@@ -188,7 +188,7 @@ fn press_exactly_to(body: &Body, edges: Edges, at: f64, whole: &dyn Solver) -> R
         // rounding is reached only beyond it.
         if point.force > 0.0 {
             let wanted = point.force * (1.0 - 4.0 * f64::EPSILON);
-            let again = end(&solver.advance(Leg::ToForce(wanted))?);
+            let again = end(&solver.advance(Move::ToForce(wanted))?);
             let slack = 1e-15 * body.force_scale();
             ensure(again.indentation <= at && again.force >= wanted - slack, || {
                 format!("the force at {at:e} m is reached at {:e} m", again.indentation)

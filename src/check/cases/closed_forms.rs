@@ -5,7 +5,7 @@ use crate::check::case::{CASE, Case, Evidence, Scope};
 use crate::check::{Body, Fault, end};
 use crate::contact::Foundation;
 use crate::reference::PowerLaw;
-use crate::scene::{Edges, Form, Leg};
+use crate::scene::{Edges, Form, Move};
 use crate::surface::Line;
 
 /// Shared fields of the cases that compare a pull-off with a closed form.
@@ -57,7 +57,7 @@ fn smooth(form: Form, length: f64, work: f64) -> Result<Body, Fault> {
 
 fn hertz(edges: Edges) -> Result<f64, Fault> {
     let body = smooth(Form::Paraboloid { radius: 1.0 }, 4.0, 0.0)?;
-    let history = body.history(edges, &[Leg::ToIndentation(1.0)], 257)?;
+    let history = body.history(edges, &[Move::ToIndentation(1.0)], 257)?;
     // F = (4/3) E* √R d^(3/2).
     let force = |d: f64| 4.0 / 3.0 * d.powf(1.5);
     let errors = history.legs[0].curve.iter().map(|point| (point.force - force(point.indentation)).abs());

@@ -4,7 +4,7 @@ use super::{RULES, WORK, ensure, indices, largest, points, press_and_pull, rough
 use crate::check::case::{CASE, Case, Evidence, Scope};
 use crate::check::{Body, Fault, end, follow};
 use crate::contact::{CurvePoint, Foundation};
-use crate::scene::{Document, Edges, Leg};
+use crate::scene::{Document, Edges, Move};
 use crate::study;
 use crate::surface::{SelfAffine, UnitRoughness, phases};
 use std::cell::Cell;
@@ -132,13 +132,13 @@ fn ordered_threes(body: &Body, seed: u64) -> Vec<[f64; 3]> {
     turns.chunks_exact(3).map(ordered).collect()
 }
 
-fn to(turns: &[f64]) -> Vec<Leg> {
-    turns.iter().map(|&to| Leg::ToIndentation(to)).collect()
+fn to(turns: &[f64]) -> Vec<Move> {
+    turns.iter().map(|&to| Move::ToIndentation(to)).collect()
 }
 
 fn thousand_legs(edges: Edges) -> Result<f64, Fault> {
     let body = rough(400, WORK)?;
-    let legs: Vec<Leg> = to(&turns(&body, 9).take(1000).collect::<Vec<_>>());
+    let legs: Vec<Move> = to(&turns(&body, 9).take(1000).collect::<Vec<_>>());
     let agreement = follow(&body, edges, &legs)?;
     ensure(agreement.undecided * 10 < agreement.states && agreement.partial > 500, || {
         format!("{agreement:?}: too few states that the bounds decide")
@@ -147,7 +147,7 @@ fn thousand_legs(edges: Edges) -> Result<f64, Fault> {
 }
 
 /// The contact and the last point of a loading.
-fn state(body: &Body, edges: Edges, legs: &[Leg]) -> Result<(Vec<(usize, usize)>, CurvePoint), Fault> {
+fn state(body: &Body, edges: Edges, legs: &[Move]) -> Result<(Vec<(usize, usize)>, CurvePoint), Fault> {
     let history = body.history(edges, legs, 2)?;
     let last = history.legs.last().map(end).unwrap_or_default();
     Ok((history.contacts, last))
@@ -202,7 +202,7 @@ fn energy(edges: Edges) -> Result<f64, Fault> {
         let history = body.history(edges, &to(&[high, low, high]), 2)?;
         let lost: f64 = history.legs[1..].iter().map(|leg| leg.released_energy).sum();
         ensure(lost >= -1e-14 * scale, || format!("a loop from {high:e} to {low:e} m gains {:e} J", -lost))?;
-        let legs = [to(&[high, low, high]), vec![Leg::ToSeparation]].concat();
+        let legs = [to(&[high, low, high]), vec![Move::ToSeparation]].concat();
         let history = body.history(edges, &legs, 20_000)?;
         let lost: f64 = history.legs.iter().map(|leg| leg.released_energy).sum();
         // A jump may lie anywhere between two points of the curve: the remaining error of the trapezia falls with

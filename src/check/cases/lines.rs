@@ -5,7 +5,7 @@ use super::{
 };
 use crate::check::case::{CASE, Case, Evidence, Scope};
 use crate::check::{Body, Extended, Fault, LENGTH, MODULUS, RMS_HEIGHT, end, follow, force_error};
-use crate::scene::{Edges, Form, Leg};
+use crate::scene::{Edges, Form, Move};
 use crate::surface::{Line, MeasuredProfile, SelfAffine, UnitRoughness, phases};
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
@@ -245,9 +245,9 @@ fn many_springs(edges: Edges) -> Result<f64, Fault> {
     let points = 1 << 24;
     let body = Body::rough(SelfAffine { last: points as u64 / 2, ..SPECTRUM }, 7, points, WORK)?;
     body.with(edges, 33, |solver| {
-        let loading = solver.advance(Leg::ToIndentation(0.4 * body.deepest()))?;
+        let loading = solver.advance(Move::ToIndentation(0.4 * body.deepest()))?;
         let mut worst = force_error(&body, edges, solver, &end(&loading))?;
-        let unloading = solver.advance(Leg::ToSeparation)?;
+        let unloading = solver.advance(Move::ToSeparation)?;
         ensure(unloading.smallest.force < 0.0, || "it does not stick".into())?;
         worst = worst.max(force_error(&body, edges, solver, &unloading.smallest)?);
         ensure(unloading.detached == loading.attached && end(&unloading).springs == 0, || {
@@ -313,7 +313,8 @@ fn near_ties(edges: Edges) -> Result<f64, Fault> {
             let heights: Vec<f64> = heights_of(points, shape).into_iter().map(&mut jitter).collect();
             for work in [0.0, 0.01 * WORK, WORK] {
                 let body = Body::below(heights.clone(), LENGTH, MODULUS, work);
-                let pressed = [1.0, 2.0, 10.0, 100.0].map(|share| Leg::ToIndentation(share * body.deepest()));
+                let pressed =
+                    [1.0, 2.0, 10.0, 100.0].map(|share| Move::ToIndentation(share * body.deepest()));
                 let legs = [pressed.to_vec(), body.tour()].concat();
                 worst = worst.max(follow(&body, edges, &legs)?.force);
             }
@@ -344,10 +345,10 @@ fn pressed_far(body: &Body, edges: Edges, indentation: f64) -> Result<f64, Fault
     let stiffness = body.foundation.spring_stiffness();
     let most = LENGTH * (1.0 + 2.0 * f64::EPSILON);
     body.with(edges, 17, |solver| {
-        let pressed = solver.advance(Leg::ToIndentation(indentation))?;
-        let back = solver.advance(Leg::ToIndentation(0.5 * body.deepest()))?;
+        let pressed = solver.advance(Move::ToIndentation(indentation))?;
+        let back = solver.advance(Move::ToIndentation(0.5 * body.deepest()))?;
         let force = end(&pressed).force;
-        let again = solver.advance(Leg::ToForce(force))?;
+        let again = solver.advance(Move::ToForce(force))?;
         for record in [&pressed, &back, &again] {
             let mut points: Vec<_> = record.curve.clone();
             points.sort_by(|a, b| a.indentation.total_cmp(&b.indentation));

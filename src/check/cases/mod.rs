@@ -9,7 +9,7 @@ pub mod scales;
 use super::case::{CASE, Case, Evidence, Scope};
 use super::{Body, Extended, Fault, ensure, follow};
 use crate::contact::{CurvePoint, History, LegRecord};
-use crate::scene::{Edges, Leg};
+use crate::scene::{Edges, Move};
 use crate::surface::SelfAffine;
 
 /// Spectrum of profiles whose spectrum does not matter.
@@ -58,8 +58,8 @@ fn two_legs(history: &History) -> Result<[&LegRecord; 2], Fault> {
 }
 
 /// Loading to an indentation, and unloading.
-fn press_and_pull(indentation: f64) -> [Leg; 2] {
-    [Leg::ToIndentation(indentation), Leg::ToSeparation]
+fn press_and_pull(indentation: f64) -> [Move; 2] {
+    [Move::ToIndentation(indentation), Move::ToSeparation]
 }
 
 /// All points of a loading stage.

@@ -4,7 +4,7 @@ use super::{Body, RULES, WORK, ensure, largest, on_tour, points, press_and_pull,
 use crate::check::case::{CASE, Case, Evidence, Scope};
 use crate::check::{Fault, LENGTH, RMS_HEIGHT, end};
 use crate::contact::{Foundation, History};
-use crate::scene::{Adhesion, Document, Edges, Leg, Roughness, Scene};
+use crate::scene::{Adhesion, Document, Edges, Move, Roughness, Scene};
 use crate::simulation::Simulation;
 
 pub const CASES: &[Case] = &[
@@ -81,8 +81,8 @@ fn scaled(scene: &Scene, length: f64, height: f64, stress: f64) -> Scene {
     }
     for leg in &mut scene.loading {
         match leg {
-            Leg::ToIndentation(to) => *to *= height,
-            Leg::ToForce(to) => *to *= stress * length * height,
+            Move::ToIndentation(to) => *to *= height,
+            Move::ToForce(to) => *to *= stress * length * height,
             _ => {}
         }
     }
@@ -187,7 +187,7 @@ fn subnormal(edges: Edges) -> Result<f64, Fault> {
                 .windows(2)
                 .all(|pair| pair[0].indentation <= pair[1].indentation && pair[0].springs <= pair[1].springs);
             ensure(ordered, || format!("heights times 2^−{k}: not in order"))?;
-            let expected = end(&large.history(edges, &[Leg::ToIndentation(up(to))], 33)?.legs[0]);
+            let expected = end(&large.history(edges, &[Move::ToIndentation(up(to))], 33)?.legs[0]);
             let found = end(&found.legs[0]);
             ensure(found.springs == expected.springs, || format!("heights times 2^−{k}: another contact"))?;
             // In units without subnormal numbers.

@@ -1,11 +1,11 @@
 //! The contact tree: the merging of the fragments of a line, over its local maxima alone.
 
 use super::span::larger;
+use crate::contact::Edges;
 use crate::contact::totals::FewSprings;
 use crate::contact::{ContactError, GapScale, TWO_THREADS, reserve};
 use crate::memory;
 use crate::parallel::in_parallel;
-use crate::scene::Edges;
 
 /// Springs between two kept sums.
 const BLOCK: usize = 4;

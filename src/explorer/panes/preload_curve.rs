@@ -118,7 +118,7 @@ impl PreloadCurve {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Leg, open};
+    use crate::scene::{Move, open};
     use std::cell::Cell;
 
     fn computed(name: &str) -> SolvedScene {
@@ -163,7 +163,7 @@ mod tests {
         one.scene = Arc::new(scene.clone());
         assert!(PreloadCurve::new(&one).unwrap_err().contains("exact solver"));
         scene.numerics.solver = Solver::Exact;
-        scene.loading = vec![Leg::ToIndentation(-1e-9)];
+        scene.loading = vec![Move::ToIndentation(-1e-9)];
         one.outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
         one.scene = Arc::new(scene.clone());
         assert!(PreloadCurve::new(&one).unwrap_err().contains("presses"));

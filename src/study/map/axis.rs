@@ -1,7 +1,7 @@
 //! Axes of maps: quantities of a scene that can be read and changed.
 
 use crate::analysis::Governing;
-use crate::scene::{Adhesion, Document, Leg, RoughnessParameter, Scene, SceneErrors, ron_float};
+use crate::scene::{Adhesion, Document, Move, RoughnessParameter, Scene, SceneErrors, ron_float};
 use crate::study::figure::FigureAxis;
 use crate::study::target::{Target, governing};
 
@@ -33,7 +33,7 @@ impl MapAxis {
             return known.and_then(|known| known.parameter(parameter)).or(stated.map(|(_, value)| value));
         }
         match (target, scene.loading.first()) {
-            (Target::Preload, Some(Leg::ToForce(force))) => Some(force / force_unit(scene)?),
+            (Target::Preload, Some(Move::ToForce(force))) => Some(force / force_unit(scene)?),
             _ => target.get(scene),
         }
     }

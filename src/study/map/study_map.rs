@@ -3,7 +3,7 @@
 use super::axis::{MapAxis, force_unit, moved};
 use super::model::{Layer, MapModel};
 use super::template::Template;
-use crate::scene::{Adhesion, Document, Leg, Numerics, Roughness, Scene, SceneErrors};
+use crate::scene::{Adhesion, Document, Move, Numerics, Roughness, Scene, SceneErrors};
 use crate::study::axis::Axis;
 use crate::study::error::StudyError;
 use crate::study::figure::{FigureAxis, fixed};
@@ -199,7 +199,7 @@ impl StudyMap {
         let preload = values.iter().find(|(path, _)| *path == "preload").map(|(_, value)| *value);
         let first = || self.plan().preloads.as_ref().map(|axis| axis.value(0));
         if let Some((preload, unit)) = preload.or_else(first).zip(force_unit(&scene)) {
-            scene.loading = vec![Leg::ToForce(preload * unit), Leg::ToSeparation];
+            scene.loading = vec![Move::ToForce(preload * unit), Move::ToSeparation];
         }
         scene
     }
@@ -405,7 +405,7 @@ mod tests {
         let Some(Roughness::SelfAffine { seed, modes, hurst, .. }) = scene.roughness else { panic!() };
         assert_eq!((seed, modes, hurst), (7, (1, 16), 0.5));
         // 0.5 E* h L.
-        let Leg::ToForce(force) = scene.loading[0] else { panic!("{:?}", scene.loading) };
+        let Move::ToForce(force) = scene.loading[0] else { panic!("{:?}", scene.loading) };
         assert!((force / (0.5 * 2.0e6 * 1.0e-7 * 1.0e-4) - 1.0).abs() < 1e-12, "{force}");
         for slice in 0..4 {
             assert_eq!(study_map.is_of(slice, scene), slice == 0);

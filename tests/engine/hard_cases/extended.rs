@@ -3,7 +3,7 @@
 use super::events::Events;
 use super::wide::{Wide, distance, pi, rounded, wide};
 use asperity::check::{Body, Extended, end};
-use asperity::scene::{Edges, Leg};
+use asperity::scene::{Edges, Move};
 use asperity::surface::{MeasuredProfile, SelfAffine, UnitRoughness, phases};
 
 /// Moves a body through a tour by the exact solver and from event to event; returns the largest errors of
@@ -18,7 +18,7 @@ fn compare(body: &Body) -> ([f64; 3], usize) {
         for leg in body.tour() {
             let record = solver.advance(leg)?;
             let moved = match leg {
-                Leg::ToIndentation(to) => events.move_to(to),
+                Move::ToIndentation(to) => events.move_to(to),
                 _ => events.separate(),
             };
             let last = end(&record);
@@ -33,12 +33,12 @@ fn compare(body: &Body) -> ([f64; 3], usize) {
                 let force = events.compression() * wide(stiffness);
                 let unit = rounded(&force).abs() + all * body.deepest() / 512.0;
                 worst[0] = worst[0].max(distance(last.force, &force) / unit);
-            } else if let Some(at) = moved.separated_at.as_ref().filter(|_| leg == Leg::ToSeparation) {
+            } else if let Some(at) = moved.separated_at.as_ref().filter(|_| leg == Move::ToSeparation) {
                 assert!(distance(last.indentation, at) <= 4.0 * f64::EPSILON * size, "{leg:?}");
             }
             // The smallest force is at an event, and moves with the rounding of the event.
             if let Some((smallest, _)) =
-                moved.smallest.filter(|_| last.springs > 0 || leg == Leg::ToSeparation)
+                moved.smallest.filter(|_| last.springs > 0 || leg == Move::ToSeparation)
             {
                 let smallest = smallest * wide(stiffness);
                 worst[1] = worst[1].max(distance(record.smallest.force, &smallest) / (all * size));

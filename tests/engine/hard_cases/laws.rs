@@ -3,7 +3,7 @@
 
 use asperity::check::{Body, end};
 use asperity::contact::Foundation;
-use asperity::scene::{Edges, Leg};
+use asperity::scene::{Edges, Move};
 use proptest::prelude::*;
 
 fn cases(cases: u32) -> ProptestConfig {
@@ -20,12 +20,12 @@ fn shares() -> impl Strategy<Value = Vec<f64>> {
 }
 
 /// From separation to full contact.
-fn legs(body: &Body, shares: &[f64]) -> Vec<Leg> {
+fn legs(body: &Body, shares: &[f64]) -> Vec<Move> {
     let (low, high) = (-body.largest_stretch(), 1.1 * body.deepest() + 1e-3 * body.largest_stretch());
-    shares.iter().map(|share| Leg::ToIndentation(low + share * (high - low))).collect()
+    shares.iter().map(|share| Move::ToIndentation(low + share * (high - low))).collect()
 }
 
-fn springs(body: &Body, edges: Edges, legs: &[Leg]) -> Vec<usize> {
+fn springs(body: &Body, edges: Edges, legs: &[Move]) -> Vec<usize> {
     let contacts = body.history(edges, legs, 2).unwrap().contacts;
     contacts.iter().flat_map(|&(first, last)| first..=last).collect()
 }
@@ -58,8 +58,8 @@ proptest! {
             work: body.work * height * height / length * stress,
         };
         let legs = legs(&body, &shares);
-        let higher: Vec<Leg> = legs.iter().map(|leg| match *leg {
-            Leg::ToIndentation(to) => Leg::ToIndentation(height * to),
+        let higher: Vec<Move> = legs.iter().map(|leg| match *leg {
+            Move::ToIndentation(to) => Move::ToIndentation(height * to),
             other => other,
         }).collect();
         let (one, other) =

@@ -2,7 +2,7 @@
 
 use super::level_by_level::Relaxed;
 use asperity::check::{Body, LENGTH, MODULUS, RMS_HEIGHT, end, follow};
-use asperity::scene::{Edges, Leg};
+use asperity::scene::{Edges, Move};
 use asperity::surface::phases;
 use std::f64::consts::PI;
 
@@ -43,7 +43,7 @@ fn contact_on_ties_and_chains_is_that_of_the_rule() {
                 let mut relaxed = [relaxed(1.0), relaxed(1.0 + 1e-11), relaxed(1.0 - 1e-11)];
                 let done = body.with(Edges::SubCell, 9, |solver| {
                     for leg in body.tour() {
-                        let Leg::ToIndentation(to) = leg else { break };
+                        let Move::ToIndentation(to) = leg else { break };
                         let point = end(&solver.advance(leg)?);
                         relaxed.iter_mut().for_each(|one| one.move_to(to));
                         let contacts = relaxed[0].contacts();

@@ -27,13 +27,13 @@ fn extreme_gaps() -> impl Strategy<Value = Vec<f64>> {
     })
 }
 
-fn extreme_leg() -> impl Strategy<Value = Leg> {
+fn extreme_leg() -> impl Strategy<Value = Move> {
     prop_oneof![
-        4 => signed(-20.0, 15.0).prop_map(Leg::ToIndentation),
-        4 => signed(-40.0, 30.0).prop_map(Leg::ToForce),
-        1 => Just(Leg::ToTouch),
-        1 => Just(Leg::ToZeroForce),
-        1 => Just(Leg::ToSeparation),
+        4 => signed(-20.0, 15.0).prop_map(Move::ToIndentation),
+        4 => signed(-40.0, 30.0).prop_map(Move::ToForce),
+        1 => Just(Move::ToTouch),
+        1 => Just(Move::ToZeroForce),
+        1 => Just(Move::ToSeparation),
     ]
 }
 
@@ -117,7 +117,7 @@ proptest! {
         let contact = Contact::new(gaps.clone(), Edges::Grid, foundation, hess);
         let mut solver = Stepwise::new(&contact, step, 9, &|| false).unwrap();
         let mut held = 0;
-        for leg in [0.0, f64::from(to) * step, 0.5 * f64::from(to) * step].map(Leg::ToIndentation) {
+        for leg in [0.0, f64::from(to) * step, 0.5 * f64::from(to) * step].map(Move::ToIndentation) {
             let record = solver.advance(leg).unwrap();
             check_leg(&record, held, gaps.len() as u64)?;
             held = record.curve.last().unwrap().springs;

@@ -63,8 +63,8 @@ proptest! {
         let (mut less, mut more) = (body.on(2), body.on(2));
         let [mut of_less, mut of_more] = [0.0; 2];
         for (solver, to, smallest) in [(&mut less, shallow, &mut of_less), (&mut more, deep, &mut of_more)] {
-            solver.advance(Leg::ToIndentation(to)).unwrap();
-            *smallest = solver.advance(Leg::ToSeparation).unwrap().smallest.force;
+            solver.advance(Move::ToIndentation(to)).unwrap();
+            *smallest = solver.advance(Move::ToSeparation).unwrap().smallest.force;
         }
         prop_assert!(of_more <= of_less + 4.0 * f64::EPSILON * of_less.abs(), "{} {}", of_more, of_less);
         let low = -body.largest_stretch();
@@ -79,7 +79,7 @@ proptest! {
     fn what_is_lost_is_what_the_force_has_done(body in body(), turns in indentations(10)) {
         let mut solver = body.on(2);
         let (mut position, mut stored, mut lost) = (0.0_f64, 0.0, 0.0);
-        for leg in to_indentations(&turns).into_iter().chain([Leg::ToSeparation]) {
+        for leg in to_indentations(&turns).into_iter().chain([Move::ToSeparation]) {
             let record = solver.advance(leg).unwrap();
             let thresholds = solver.leg().thresholds();
             let end = record.curve.last().unwrap();
@@ -114,7 +114,7 @@ proptest! {
         body in body_of_two_works(), deep in 0.2..1.2_f64, springs in prop::array::uniform4(any::<prop::sample::Index>()),
     ) {
         let mut solver = body.on(2);
-        let whole = [Leg::ToIndentation(deep), Leg::ToSeparation].map(|leg| {
+        let whole = [Move::ToIndentation(deep), Move::ToSeparation].map(|leg| {
             let record = solver.advance(leg).unwrap();
             let mut thresholds = solver.leg().thresholds();
             thresholds.retain(|threshold| threshold.is_finite());
@@ -124,15 +124,15 @@ proptest! {
         let scale = body.force_scale() * (body.deepest() + body.largest_stretch() + deep);
         for spring in springs {
             let mut parts = body.on(2);
-            let mut lost = |legs: [Leg; 2]| -> f64 {
+            let mut lost = |legs: [Move; 2]| -> f64 {
                 legs.into_iter().map(|leg| parts.advance(leg).unwrap().released_energy).sum()
             };
             let event = spring.get(&attached).min(deep);
-            let found = lost([Leg::ToIndentation(event), Leg::ToIndentation(deep)]);
+            let found = lost([Move::ToIndentation(event), Move::ToIndentation(deep)]);
             prop_assert!((found - loading).abs() <= 1e-14 * scale, "{found} against {loading} at {event}");
             if !detached.is_empty() {
                 let event = spring.get(&detached).min(deep);
-                let found = lost([Leg::ToIndentation(event), Leg::ToSeparation]);
+                let found = lost([Move::ToIndentation(event), Move::ToSeparation]);
                 prop_assert!((found - unloading).abs() <= 1e-14 * scale, "{found} against {unloading} at {event}");
             }
         }

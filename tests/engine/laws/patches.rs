@@ -4,7 +4,7 @@ use super::*;
 use asperity::contact::{Body as Moving, ContactError};
 
 /// Moves a body along legs and compares points of each curve with the sums over the patches there.
-fn patches_add_up(body: &Body, edges: Edges, hess: HessRule, legs: &[Leg]) -> Result<(), TestCaseError> {
+fn patches_add_up(body: &Body, edges: Edges, hess: HessRule, legs: &[Move]) -> Result<(), TestCaseError> {
     let mut solver = adhesive(&body.gaps, edges, hess, body.foundation, 12);
     let tolerance = 1e-9 * body.force_scale();
     let spread = 1e-9 * body.foundation.spacing * body.gaps.len() as f64;
@@ -51,7 +51,7 @@ fn patches_add_up(body: &Body, edges: Edges, hess: HessRule, legs: &[Leg]) -> Re
 /// Moves a body to targets twice: along recorded legs, and without a curve by moves of several parts.
 fn moves_alike(
     new: impl Fn() -> Moving,
-    targets: &[Leg],
+    targets: &[Move],
     parts: &[f64],
     scale: f64,
 ) -> Result<(), TestCaseError> {
@@ -81,10 +81,10 @@ fn moves_alike(
             }
         };
         // The rounding of a crossing depends on the indentation from which it is sought.
-        let divided = from.springs > 0 && matches!(target, Leg::ToIndentation(_) | Leg::ToSeparation);
+        let divided = from.springs > 0 && matches!(target, Move::ToIndentation(_) | Move::ToSeparation);
         for part in parts.iter().filter(|_| divided) {
             let at = from.indentation + part * (end.indentation - from.indentation);
-            go(&mut moved, Leg::ToIndentation(at));
+            go(&mut moved, Move::ToIndentation(at));
         }
         go(&mut moved, target);
         prop_assert_eq!(bits(&moved.point()), bits(end), "{:?}", target);
@@ -104,12 +104,12 @@ fn moves_alike(
 }
 
 trait PlanOf {
-    fn plan_of(&self, target: Leg) -> Result<(), ContactError>;
+    fn plan_of(&self, target: Move) -> Result<(), ContactError>;
 }
 
 impl PlanOf for Moving {
     /// Moves a copy of the body.
-    fn plan_of(&self, target: Leg) -> Result<(), ContactError> {
+    fn plan_of(&self, target: Move) -> Result<(), ContactError> {
         let mut copy = Moving::at(self.present_leg(), self.point().indentation)?;
         copy.move_to(target).map(drop)
     }
@@ -135,7 +135,7 @@ proptest! {
     fn a_history_ends_with_the_contacts_of_its_last_point(body in body(), turns in indentations(5), apart: bool) {
         let mut legs = to_indentations(&turns);
         if apart {
-            legs.push(Leg::ToSeparation);
+            legs.push(Move::ToSeparation);
         }
         let history = body.history(&legs, 8);
         prop_assert_eq!(history.contacts.len() as u64, end(&history).fragments);
@@ -154,8 +154,8 @@ proptest! {
     ) {
         let mut parts = parts;
         parts.sort_by(f64::total_cmp);
-        let share = |target: &Leg| match *target {
-            Leg::ToForce(share) => Leg::ToForce(share * body.force_scale()),
+        let share = |target: &Move| match *target {
+            Move::ToForce(share) => Move::ToForce(share * body.force_scale()),
             other => other,
         };
         let targets: Vec<_> = targets.iter().map(share).collect();

@@ -23,9 +23,9 @@ proptest! {
         });
         let mut separated = true;
         for (leg, &force) in
-            to_indentations(&turns).into_iter().chain([Leg::ToSeparation]).zip(&refused)
+            to_indentations(&turns).into_iter().chain([Move::ToSeparation]).zip(&refused)
         {
-            let error = asked.advance(Leg::ToForce(force)).unwrap_err();
+            let error = asked.advance(Move::ToForce(force)).unwrap_err();
             let expected = match (force > 0.0, separated) {
                 (true, _) => ContactError::OutOfReach,
                 (false, true) => ContactError::NothingToPull,
@@ -49,7 +49,7 @@ proptest! {
         let (mut flown, mut fresh) = (body.on(17), body.on(17));
         let mut below = 0.0;
         for height in heights.iter().map(|height| height + 1e-9) {
-            let record = flown.advance(Leg::ToIndentation(-height)).unwrap();
+            let record = flown.advance(Move::ToIndentation(-height)).unwrap();
             let direction = if -height > below { Direction::Loading } else { Direction::Unloading };
             prop_assert_eq!(record.direction, direction);
             prop_assert_eq!((record.start(), record.end()), (below, -height));
@@ -59,14 +59,14 @@ proptest! {
             below = -height;
         }
         // The body is already separated.
-        let record = flown.advance(Leg::ToSeparation).unwrap();
+        let record = flown.advance(Move::ToSeparation).unwrap();
         prop_assert_eq!(record.curve.len(), 1);
         prop_assert_eq!((record.start(), record.detached, record.released_energy), (below, 0, 0.0));
         // From up there first touch is the same; the way there is one more point.
-        let (touch, expected) = (flown.advance(Leg::ToTouch).unwrap(), fresh.advance(Leg::ToTouch).unwrap());
+        let (touch, expected) = (flown.advance(Move::ToTouch).unwrap(), fresh.advance(Move::ToTouch).unwrap());
         prop_assert_eq!(&curve_bits(&touch)[1..], &curve_bits(&expected)[..]);
         prop_assert_eq!((touch.start(), touch.attached), (below, expected.attached));
-        let [one, other] = [&mut flown, &mut fresh].map(|solver| solver.advance(Leg::ToSeparation).unwrap());
+        let [one, other] = [&mut flown, &mut fresh].map(|solver| solver.advance(Move::ToSeparation).unwrap());
         prop_assert_eq!(one, other);
     }
 
@@ -76,22 +76,22 @@ proptest! {
         to in 0.0..1.0_f64,
         heights in prop::collection::vec(0.0..2.0_f64, 1..5),
     ) {
-        let mut legs = vec![Leg::ToIndentation(to), Leg::ToSeparation];
+        let mut legs = vec![Move::ToIndentation(to), Move::ToSeparation];
         let figures = Figures::of(&body.history(&legs, 17));
         prop_assert!(figures.adhesion_force.is_some() && figures.dissipated_energy.is_some());
         // High enough not to be moved towards the body from its point of detachment.
         let low = body.largest_stretch() + 1.0;
-        legs.extend(heights.iter().map(|height| Leg::ToIndentation(-low - height)));
-        legs.push(Leg::ToSeparation);
+        legs.extend(heights.iter().map(|height| Move::ToIndentation(-low - height)));
+        legs.push(Move::ToSeparation);
         prop_assert_eq!(Figures::of(&body.history(&legs, 17)), figures);
     }
 
     #[test]
     fn a_leg_to_where_the_body_is_does_nothing(body in body(), to in 0.0..1.0_f64) {
         let mut solver = body.on(17);
-        let there = *solver.advance(Leg::ToIndentation(to)).unwrap().curve.last().unwrap();
+        let there = *solver.advance(Move::ToIndentation(to)).unwrap().curve.last().unwrap();
         let before = solver.work();
-        for leg in [Leg::ToIndentation(to), Leg::ToForce(there.force)] {
+        for leg in [Move::ToIndentation(to), Move::ToForce(there.force)] {
             let record = solver.advance(leg).unwrap();
             prop_assert_eq!(record.curve.iter().map(bits).collect::<Vec<_>>(), [bits(&there)], "{:?}", leg);
             prop_assert_eq!((record.attached, record.detached, record.released_energy), (0, 0, 0.0));

@@ -23,7 +23,7 @@ proptest! {
             1 => Box::new(nonadhesive(&body.gaps, Edges::Grid, body.foundation, 3)),
             _ => Box::new(Stepwise::new(&contact, 0.05, 3, &stop).unwrap()),
         };
-        let fly = [Leg::ToSeparation, Leg::ToIndentation(-0.5)];
+        let fly = [Move::ToSeparation, Move::ToIndentation(-0.5)];
         let seen = |leg: &asperity::contact::Leg| probes.iter().map(|&probe| leg.patches(probe)).collect::<Vec<_>>();
         let mut kept = Vec::new();
         for target in to_indentations(&turns).into_iter().chain(fly) {
@@ -117,7 +117,7 @@ fn what_a_simulation_keeps_changes_no_bit() {
         assert_eq!(found, expected, "{edit:?}");
 
         let mut touch = scene.clone();
-        touch.loading = vec![Leg::ToTouch, Leg::ToSeparation];
+        touch.loading = vec![Move::ToTouch, Move::ToSeparation];
         let touch = outcome(&mut Simulation::default(), &touch);
         assert_eq!(found.zero_load_adhesion_force, touch.zero_load_adhesion_force, "{edit:?}");
         assert_eq!(touch.zero_load_adhesion_force.is_some(), scene.adhesion.is_some());

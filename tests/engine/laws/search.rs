@@ -6,34 +6,34 @@ use asperity::contact::{ContactError, Direction, Workspace};
 
 /// Legs as drawn: forces as shares of a scale.
 #[derive(Clone, Copy, Debug)]
-enum Move {
+enum Step {
     To(f64),
     Force(f64),
-    ForceStep(f64),
+    ForceBy(f64),
     ZeroForce,
     Separation,
 }
 
-fn moves() -> impl Strategy<Value = Vec<Move>> {
+fn moves() -> impl Strategy<Value = Vec<Step>> {
     let step = prop_oneof![
-        3 => (-0.5..1.2_f64).prop_map(Move::To),
-        3 => (-0.5..1.0_f64).prop_map(Move::Force),
+        3 => (-0.5..1.2_f64).prop_map(Step::To),
+        3 => (-0.5..1.0_f64).prop_map(Step::Force),
         4 => (-4.0..0.0_f64, any::<bool>())
-            .prop_map(|(p, up)| Move::ForceStep(if up { 1.0 } else { -1.0 } * 10_f64.powf(p))),
-        1 => Just(Move::ZeroForce),
-        1 => Just(Move::Separation),
+            .prop_map(|(p, up)| Step::ForceBy(if up { 1.0 } else { -1.0 } * 10_f64.powf(p))),
+        1 => Just(Step::ZeroForce),
+        1 => Just(Step::Separation),
     ];
     prop::collection::vec(step, 1..8)
 }
 
-impl Move {
-    fn leg(self, body: &Body, present: f64) -> Leg {
+impl Step {
+    fn leg(self, body: &Body, present: f64) -> Move {
         match self {
-            Move::To(to) => Leg::ToIndentation(to),
-            Move::Force(share) => Leg::ToForce(share * body.force_scale()),
-            Move::ForceStep(share) => Leg::ToForce(present + share * body.force_scale()),
-            Move::ZeroForce => Leg::ToZeroForce,
-            Move::Separation => Leg::ToSeparation,
+            Step::To(to) => Move::ToIndentation(to),
+            Step::Force(share) => Move::ToForce(share * body.force_scale()),
+            Step::ForceBy(share) => Move::ToForce(present + share * body.force_scale()),
+            Step::ZeroForce => Move::ToZeroForce,
+            Step::Separation => Move::ToSeparation,
         }
     }
 }
@@ -73,19 +73,19 @@ proptest! {
             let steps = Steps::new(&thresholds, &body);
             let record = match outcome {
                 Ok(record) => record,
-                Err(ContactError::DetachesBefore { smallest }) if target == Leg::ToZeroForce => {
+                Err(ContactError::DetachesBefore { smallest }) if target == Move::ToZeroForce => {
                     prop_assert!(smallest > 0.0);
                     continue;
                 }
                 Err(ContactError::DetachesBefore { smallest }) => {
-                    let Leg::ToForce(force) = target else { panic!("{target:?}") };
+                    let Move::ToForce(force) = target else { panic!("{target:?}") };
                     let expected = steps.smallest(f64::NEG_INFINITY, start);
                     prop_assert!((smallest - expected).abs() <= rounding(&body, start, expected));
                     prop_assert!(smallest > force, "{} was in reach, at least {}", force, smallest);
                     continue;
                 }
                 Err(ContactError::NothingToPull) => {
-                    prop_assert!(separated && matches!(target, Leg::ToForce(force) if force < 0.0));
+                    prop_assert!(separated && matches!(target, Move::ToForce(force) if force < 0.0));
                     continue;
                 }
                 Err(error) => return Err(TestCaseError::fail(error.to_string())),
@@ -93,8 +93,8 @@ proptest! {
             let end = *record.curve.last().unwrap();
             let d = end.indentation;
             let wanted = match target {
-                Leg::ToForce(force) => Some(force),
-                Leg::ToZeroForce => Some(0.0),
+                Move::ToForce(force) => Some(force),
+                Move::ToZeroForce => Some(0.0),
                 _ => None,
             };
             let moved = record.curve.len() > 1 && (end.springs > 0 || !separated);

@@ -14,20 +14,20 @@ fn scaled(point: &CurvePoint, length: f64, force: f64) -> [u64; 4] {
 }
 
 /// The legs with lengths and forces scaled.
-fn scaled_legs(legs: &[Leg], length: f64, force: f64) -> Vec<Leg> {
-    let scale = |leg: &Leg| match *leg {
-        Leg::ToIndentation(to) => Leg::ToIndentation(to * length),
-        Leg::ToForce(to) => Leg::ToForce(to * force),
+fn scaled_legs(legs: &[Move], length: f64, force: f64) -> Vec<Move> {
+    let scale = |leg: &Move| match *leg {
+        Move::ToIndentation(to) => Move::ToIndentation(to * length),
+        Move::ToForce(to) => Move::ToForce(to * force),
         other => other,
     };
     legs.iter().map(scale).collect()
 }
 
 /// A history possible for every body.
-fn legs(body: &Body, turns: &[f64], force: f64) -> Vec<Leg> {
-    let mut legs = vec![Leg::ToForce(force * body.force_scale())];
+fn legs(body: &Body, turns: &[f64], force: f64) -> Vec<Move> {
+    let mut legs = vec![Move::ToForce(force * body.force_scale())];
     legs.extend(to_indentations(turns));
-    legs.extend([Leg::ToZeroForce, Leg::ToSeparation]);
+    legs.extend([Move::ToZeroForce, Move::ToSeparation]);
     legs
 }
 
@@ -40,7 +40,7 @@ proptest! {
         deepest in 0.0..1.5_f64,
         samples in 2_usize..700,
     ) {
-        let legs = [Leg::ToIndentation(deepest), Leg::ToSeparation];
+        let legs = [Move::ToIndentation(deepest), Move::ToSeparation];
         let adhesive = body.history(&legs, samples);
         let bare = run(&mut nonadhesive(&body.gaps, Edges::Grid, body.foundation, samples), &legs, |_, _| Ok(())).unwrap();
         for history in [adhesive, bare] {
@@ -67,7 +67,7 @@ proptest! {
             prop_assert_eq!(a.released_energy, 0.0);
             let end = *a.curve.last().unwrap();
             if end.springs > 0 {
-                let at_once = body.history(&[Leg::ToIndentation(end.indentation)], 2);
+                let at_once = body.history(&[Move::ToIndentation(end.indentation)], 2);
                 prop_assert_eq!(bits(&end), bits(&super::end(&at_once)), "{:?} against going there", leg);
                 prop_assert_eq!(adhesive.leg().patches(end.indentation), at_once.contacts.clone());
                 prop_assert_eq!(bare.leg().patches(end.indentation), at_once.contacts);

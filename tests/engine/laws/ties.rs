@@ -18,7 +18,7 @@ proptest! {
         let attaches = wall - rule.largest_stretch(1);
         let expected = 0.5 * (attaches + wall);
         let mut body = adhesive(&gaps, Edges::Grid, rule, foundation, 5);
-        let record = body.advance(Leg::ToForce(attaches)).unwrap();
+        let record = body.advance(Move::ToForce(attaches)).unwrap();
         prop_assert!((record.end() - expected).abs() < 4.0 * f64::EPSILON, "{} {}", record.end(), expected);
     }
 
@@ -29,15 +29,15 @@ proptest! {
         let body = Body { foundation, work: body.work / body.foundation.effective_modulus * 0.1, ..body };
         let turned = || {
             let mut solver = body.on(9);
-            solver.advance(Leg::ToIndentation(deep)).unwrap();
+            solver.advance(Move::ToIndentation(deep)).unwrap();
             solver
         };
-        let smallest = turned().advance(Leg::ToSeparation).unwrap().smallest;
+        let smallest = turned().advance(Move::ToSeparation).unwrap().smallest;
         prop_assume!(smallest.springs > 0 && smallest.force < 0.0);
         let rounding = 1e-14 * body.force_scale();
-        let reached = turned().advance(Leg::ToForce(smallest.force + rounding)).unwrap();
+        let reached = turned().advance(Move::ToForce(smallest.force + rounding)).unwrap();
         prop_assert!(reached.end() >= smallest.indentation);
         prop_assert!((reached.curve.last().unwrap().force - smallest.force).abs() <= 2.0 * rounding);
-        prop_assert!(turned().advance(Leg::ToForce(smallest.force - rounding)).is_err());
+        prop_assert!(turned().advance(Move::ToForce(smallest.force - rounding)).is_err());
     }
 }

@@ -24,9 +24,9 @@ proptest! {
         let mut bare = nonadhesive(&body.gaps, Edges::Grid, body.foundation, samples);
         let solvers: [&mut dyn Solver; 2] = [&mut adhesive, &mut bare];
         for solver in solvers {
-            solver.advance(Leg::ToIndentation(deep)).unwrap();
+            solver.advance(Move::ToIndentation(deep)).unwrap();
             for to in [back * deep, deep] {
-                let record = solver.advance(Leg::ToIndentation(to)).unwrap();
+                let record = solver.advance(Move::ToIndentation(to)).unwrap();
                 prop_assert!(record.curve.len() >= samples && record.curve.len() <= samples + 1);
                 let step = (record.end() - record.start()) / (samples - 1) as f64;
                 let near = |wanted: f64| {
@@ -45,7 +45,7 @@ proptest! {
 fn a_leg_takes_memory_as_its_contact_has_parts() {
     let bytes = |body: &mut dyn Solver| {
         assert_eq!(body.leg().bytes(), 0);
-        body.advance(Leg::ToIndentation(0.1)).unwrap();
+        body.advance(Move::ToIndentation(0.1)).unwrap();
         body.leg().bytes()
     };
     let of_punches = |count| {
@@ -60,7 +60,7 @@ fn a_leg_takes_memory_as_its_contact_has_parts() {
     let body = punches(2, 8);
     let contact = body.contact();
     let mut stepwise = Stepwise::new(&contact, 0.05, 2, &|| false).unwrap();
-    stepwise.advance(Leg::ToTouch).unwrap();
+    stepwise.advance(Move::ToTouch).unwrap();
     assert_eq!(stepwise.leg().bytes(), size_of::<f64>() * body.gaps.len());
     assert_eq!(bytes(&mut nonadhesive(&body.gaps, Edges::Grid, body.foundation, 2)), 0);
 }
@@ -72,7 +72,7 @@ fn memory_left_to_the_next_body_grows_with_the_line() {
         let body = punches(count, 8);
         let mut solver = body.on(2);
         for to in [0.1, 0.0, 0.1] {
-            solver.advance(Leg::ToIndentation(to)).unwrap();
+            solver.advance(Move::ToIndentation(to)).unwrap();
         }
         // For each node of the tree an indentation and a range of springs, and a list of the parts of the contact.
         let least = 16 * solver.work().tree_nodes as usize + solver.leg().bytes();
@@ -88,8 +88,8 @@ proptest! {
     /// F_a(0) takes one pass and visits the springs that touch first and those that these attach.
     #[test]
     fn the_way_back_from_first_touch_looks_at_the_springs_in_contact(body in body()) {
-        let touch = body.on(2).advance(Leg::ToTouch).unwrap();
-        let back = body.history(&[Leg::ToTouch, Leg::ToSeparation], 2);
+        let touch = body.on(2).advance(Move::ToTouch).unwrap();
+        let back = body.history(&[Move::ToTouch, Move::ToSeparation], 2);
         let mut solver = body.on(2);
         let force = solver.pull_off_at_touch().unwrap();
         let work = solver.work();
@@ -126,7 +126,7 @@ fn curves_take_some_of_the_time_and_not_more() {
     let clock = std::time::Instant::now();
     let mut exact = body.on(50);
     let mut stepwise = Stepwise::new(&contact, 0.5, 2, &|| false).unwrap();
-    for leg in [Leg::ToIndentation(1.0), Leg::ToSeparation] {
+    for leg in [Move::ToIndentation(1.0), Move::ToSeparation] {
         exact.advance(leg).unwrap();
         stepwise.advance(leg).unwrap();
     }

@@ -22,7 +22,7 @@ fn grids(odd: bool) -> Vec<usize> {
 
 #[test]
 fn a_sphere_of_a_thousand_springs_is_exact_to_two_hundred_thousandths() {
-    let legs = [Leg::ToIndentation(1.5), Leg::ToSeparation];
+    let legs = [Move::ToIndentation(1.5), Move::ToSeparation];
     let form = Some(Form::Paraboloid { radius: 1.0 });
     let smallest = smooth(form, 12.0, 1000, 1.0, 1.0).history(&legs, 512).legs[1].smallest;
     let error = smallest.force / (-1.5 * PI) - 1.0;
@@ -41,7 +41,7 @@ fn errors(form: Form, length: f64, points: usize) -> [f64; 4] {
     };
     let lost = -integral(|a| body.force(a) * slope(a), last.0, radius(0.0));
     let turns_at = body.indentation(pull_off.0);
-    let legs = [Leg::ToIndentation(1.5), Leg::ToSeparation];
+    let legs = [Move::ToIndentation(1.5), Move::ToSeparation];
     let history = smooth(Some(form), length, points, 1.0, 1.0).history(&legs, 257);
     let [loading, unloading] = &history.legs[..] else { panic!() };
     assert!(loading.largest.springs < points as u64, "{form:?}: the line is too short");
@@ -194,7 +194,7 @@ impl WavySphere {
         let line = Line::new(length, points, Some(&form), Some(&wave), self.amplitude).unwrap();
         let foundation = Foundation::endless(line.spacing, 1.0);
         let body = Body { gaps: line.gaps.to_vec(), foundation, work: 1.0, closing_work: 1.0 };
-        let history = body.history(&[Leg::ToIndentation(deepest), Leg::ToSeparation], 2);
+        let history = body.history(&[Move::ToIndentation(deepest), Move::ToSeparation], 2);
         let [loading, unloading] = &history.legs[..] else { panic!() };
         let dissipated = loading.released_energy + unloading.released_energy;
         [unloading.smallest.force, unloading.end(), dissipated]
@@ -240,7 +240,7 @@ fn waves(sphere: &WavyForm, deepest: f64, points: usize) -> [f64; 3] {
     let WavyForm { radius, amplitude, wavelength, .. } = *sphere;
     let form = Form::WavySphere { radius, amplitude, wavelength };
     let body = smooth(Some(form), 1.0, points, sphere.effective_modulus, sphere.work_of_adhesion);
-    let history = body.history(&[Leg::ToIndentation(deepest), Leg::ToSeparation], 2);
+    let history = body.history(&[Move::ToIndentation(deepest), Move::ToSeparation], 2);
     let [loading, unloading] = &history.legs[..] else { panic!() };
     let energy = loading.released_energy + unloading.released_energy;
     [unloading.smallest.force, unloading.end(), energy]
@@ -329,8 +329,8 @@ fn the_wavy_form_follows_both_branches_and_jumps_of_its_closed_form() {
     assert!(exact.is_monotone());
     let form = Form::WavySphere { radius: 1.0, amplitude, wavelength };
     let body = smooth(Some(form), 1.0, 1601, exact.effective_modulus, exact.work_of_adhesion);
-    let to = Leg::ToIndentation;
-    let history = body.history(&[to(deepest), to(BACK), to(deepest), Leg::ToSeparation], 401);
+    let to = Move::ToIndentation;
+    let history = body.history(&[to(deepest), to(BACK), to(deepest), Move::ToSeparation], 401);
     let widest = 0.51 * history.legs[0].curve.last().unwrap().contact_length;
     let pull_off = -history.legs[3].smallest.force;
     let branches = [true, false].map(|loading| Branch::new(&exact, loading, widest));
@@ -495,7 +495,7 @@ fn a_sphere_under_two_works_converges_with_the_square_of_the_distance_on_each_of
             .map(|&points| {
                 let body = smooth(Some(TwoWorks::FORM), 12.0, points, 1.0, 1.0);
                 let body = Body { closing_work, ..body };
-                let history = body.history(&[Leg::ToIndentation(deepest), Leg::ToSeparation], 257);
+                let history = body.history(&[Move::ToIndentation(deepest), Move::ToSeparation], 257);
                 let [loading, unloading] = &history.legs[..] else { panic!() };
                 let of = |curve: &[CurvePoint], from: f64, to: f64, force: &dyn Fn(f64) -> f64| {
                     let inside = curve
@@ -535,7 +535,7 @@ fn a_sphere_under_two_works_converges_with_the_square_of_the_distance_on_each_of
 fn flat_faces_are_exact_to_rounding() {
     for points in [1, 2, 3, 10, 1001] {
         let body = smooth(None, 0.7, points, 3.0, 0.2);
-        let record = body.history(&[Leg::ToTouch, Leg::ToSeparation], 2);
+        let record = body.history(&[Move::ToTouch, Move::ToSeparation], 2);
         let expected = -(PI * 0.2 * 3.0 * 0.7_f64.powi(3)).sqrt();
         let found = record.legs[1].smallest.force;
         assert!((found / expected - 1.0).abs() < 2e-15, "{points}: {found} for {expected}");
@@ -548,7 +548,7 @@ fn without_adhesion_loading_and_unloading_agree_bit_for_bit_with_order_two() {
     let mut errors = Vec::new();
     for &points in &grids(true) {
         let body = smooth(Some(Form::Paraboloid { radius: 2.0 }), 8.0, points, 5.0, 0.0);
-        let history = body.history(&[Leg::ToIndentation(1.0), Leg::ToIndentation(0.0)], 65);
+        let history = body.history(&[Move::ToIndentation(1.0), Move::ToIndentation(0.0)], 65);
         let [up, down] = &history.legs[..] else { panic!() };
         let bits = |curve: &[CurvePoint]| -> Vec<[u64; 2]> {
             curve.iter().map(|point| [point.indentation.to_bits(), point.force.to_bits()]).collect()
@@ -579,7 +579,7 @@ fn orders_of_rough_lines(name: &str, form: Option<Form>) -> [f64; 2] {
         let foundation = Foundation::endless(line.spacing, 1.0);
         let work = 1e-4 * spectrum.gradient_per_height(1.0) / (kappa * kappa);
         let body = Body { gaps: line.gaps.to_vec(), foundation, work, closing_work: work };
-        let history = body.history(&[Leg::ToForce(4e-3), Leg::ToSeparation], 64);
+        let history = body.history(&[Move::ToForce(4e-3), Move::ToSeparation], 64);
         let energy: f64 = history.legs.iter().map(|leg| leg.released_energy).sum();
         [history.legs[1].smallest.force, energy]
     };

@@ -8,8 +8,8 @@ fn bits(point: &CurvePoint) -> [u64; 6] {
     [d, force, length, energy, springs, fragments]
 }
 
-fn to(turns: &[f64]) -> Vec<Leg> {
-    turns.iter().map(|&to| Leg::ToIndentation(to)).collect()
+fn to(turns: &[f64]) -> Vec<Move> {
+    turns.iter().map(|&to| Move::ToIndentation(to)).collect()
 }
 
 /// Compares all bits of two points. With a smaller work on closing an edge that keeps its place may do so up to the
@@ -39,7 +39,7 @@ proptest! {
         let scale = body.gaps.len() as f64 * body.foundation.spring_stiffness();
         let depth = 1.3 + body.largest_stretch();
         let (mut stored, mut lost) = (0.0, 0.0);
-        for target in [to(&turns), vec![Leg::ToSeparation]].concat() {
+        for target in [to(&turns), vec![Move::ToSeparation]].concat() {
             let record = solver.advance(target).unwrap();
             let work: f64 = record.curve.windows(2).map(|p| {
                 0.5 * (p[0].force + p[1].force) * (p[1].indentation - p[0].indentation)
@@ -88,7 +88,7 @@ proptest! {
         };
         let held = indices(&more.contacts);
         prop_assert!(indices(&less.contacts).iter().all(|index| held.contains(index)));
-        let most = |turn: f64| body.history(&[Leg::ToIndentation(turn), Leg::ToSeparation], 2).legs[1].smallest;
+        let most = |turn: f64| body.history(&[Move::ToIndentation(turn), Move::ToSeparation], 2).legs[1].smallest;
         let slack = 1e-14 * body.force_scale();
         let (more, less) = (most(deep), most(shallow));
         prop_assert!(more.force <= less.force + slack, "{more:?} {less:?}");
@@ -130,7 +130,7 @@ proptest! {
     fn extremes_are_those_of_very_many_points_whatever_the_samples(
         body in any_body(60), deep in 0.0..1.2_f64, samples in 2_usize..40,
     ) {
-        let legs = [Leg::ToIndentation(deep), Leg::ToSeparation];
+        let legs = [Move::ToIndentation(deep), Move::ToSeparation];
         let (few, many) = (body.history(&legs, samples), body.history(&legs, 20_011));
         let slack = 4e-15 * body.gaps.len() as f64 * body.foundation.spring_stiffness()
             * (1.3 + body.largest_stretch());
@@ -157,7 +157,7 @@ proptest! {
             * (1.3 + body.largest_stretch());
         for share in [first, then] {
             let wanted = share * body.force_scale();
-            let Ok(record) = solver.advance(Leg::ToForce(wanted)) else { continue };
+            let Ok(record) = solver.advance(Move::ToForce(wanted)) else { continue };
             let (last, before) = record.curve.split_last().unwrap();
             let presses = record.direction == asperity::contact::Direction::Loading;
             let past = |point: &CurvePoint| if presses { point.force - wanted } else { wanted - point.force };
@@ -190,14 +190,14 @@ fn extreme_values_give_numbers() {
                 let body = Body { gaps, foundation, work, closing_work: work };
                 let mut solver = body.on(17);
                 let legs = [
-                    Leg::ToTouch,
-                    Leg::ToIndentation(length),
-                    Leg::ToIndentation(-length),
-                    Leg::ToForce(1e3 * length),
-                    Leg::ToZeroForce,
-                    Leg::ToSeparation,
-                    Leg::ToForce(1.0),
-                    Leg::ToSeparation,
+                    Move::ToTouch,
+                    Move::ToIndentation(length),
+                    Move::ToIndentation(-length),
+                    Move::ToForce(1e3 * length),
+                    Move::ToZeroForce,
+                    Move::ToSeparation,
+                    Move::ToForce(1.0),
+                    Move::ToSeparation,
                 ];
                 for leg in legs {
                     let Ok(record) = solver.advance(leg) else { continue };
@@ -230,7 +230,7 @@ proptest! {
         let scale = body.force_scale();
         let near = |a: f64, b: f64, size: f64| (a - b).abs() <= 1e-12 * size;
         for (presses, turn) in turns {
-            let leg = if presses { Leg::ToForce(turn.max(0.0).powi(3) * scale) } else { Leg::ToIndentation(turn) };
+            let leg = if presses { Move::ToForce(turn.max(0.0).powi(3) * scale) } else { Move::ToIndentation(turn) };
             let (one, other) = (tree.advance(leg).unwrap(), cells.advance(leg).unwrap());
             prop_assert_eq!((one.direction, one.curve.len()), (other.direction, other.curve.len()));
             for (a, b) in one.curve.iter().zip(&other.curve) {

@@ -22,7 +22,7 @@ proptest! {
         let springs = body.gaps.len() as f64 * body.foundation.spring_stiffness();
         let largest = 0.01 * springs * (1.3 + body.largest_stretch());
         for turn in turns {
-            let record = solver.advance(Leg::ToIndentation(turn)).unwrap();
+            let record = solver.advance(Move::ToIndentation(turn)).unwrap();
             let before = record.curve.iter().filter(|point| point.springs > 0).count();
             for (index, point) in record.curve.iter().enumerate() {
                 // At a jump, the point before and the point after.

@@ -11,7 +11,7 @@ use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::model::{Mode, ModeKind, Pane};
 use asperity::explorer::study::Task;
 use asperity::explorer::update::{Effect, study_tasks};
-use asperity::scene::{Leg, Roughness};
+use asperity::scene::{Move, Roughness};
 use asperity::study::Quantity;
 use asperity::study::map::Charted;
 use tempfile::TempDir;
@@ -39,7 +39,7 @@ fn place(driver: &Driver) -> (f64, f64) {
 
 fn preload(driver: &Driver) -> f64 {
     match driver.model.document.scene().loading[..] {
-        [Leg::ToForce(force), Leg::ToSeparation] => force,
+        [Move::ToForce(force), Move::ToSeparation] => force,
         ref other => panic!("{other:?}"),
     }
 }

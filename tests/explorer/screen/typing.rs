@@ -11,7 +11,7 @@ use asperity::explorer::snapshot::Preview;
 use asperity::explorer::theme::Theme;
 use asperity::explorer::update::{Effect, update};
 use asperity::explorer::worker::Report;
-use asperity::scene::Leg;
+use asperity::scene::Move;
 use ratatui::buffer::Cell;
 use std::sync::Arc;
 
@@ -43,7 +43,7 @@ fn values_are_typed_with_prefix_and_unit() {
         driver.select("loading");
         driver.press("j");
         driver.enter("30 µN");
-        assert_eq!(driver.model.document.scene().loading, [Leg::ToForce(3e-5), Leg::ToSeparation]);
+        assert_eq!(driver.model.document.scene().loading, [Move::ToForce(3e-5), Move::ToSeparation]);
     });
 }
 

@@ -3,7 +3,7 @@
 use super::*;
 use asperity::contact::{ContactError, CurvePoint, Direction, LegRecord};
 use asperity::export::{TableFormat, write_curve};
-use asperity::scene::{Leg, Provenance, Roughness, TableContent};
+use asperity::scene::{Move, Provenance, Roughness, TableContent};
 use asperity::simulation::{Outcome, RunError, Simulation};
 use asperity::surface::SurfaceError;
 use profiles::{FILE, Shape};
@@ -131,11 +131,11 @@ fn assert_target(leg: &LegRecord, end: &CurvePoint, rounding: f64) -> Result<(),
         Ok(())
     };
     match leg.target {
-        Leg::ToForce(target) => force(target)?,
-        Leg::ToZeroForce => force(0.0)?,
-        Leg::ToIndentation(target) => prop_assert_eq!(end.indentation, target),
-        Leg::ToTouch => prop_assert_eq!(end.indentation, 0.0),
-        Leg::ToSeparation => prop_assert_eq!((end.springs, end.fragments), (0, 0)),
+        Move::ToForce(target) => force(target)?,
+        Move::ToZeroForce => force(0.0)?,
+        Move::ToIndentation(target) => prop_assert_eq!(end.indentation, target),
+        Move::ToTouch => prop_assert_eq!(end.indentation, 0.0),
+        Move::ToSeparation => prop_assert_eq!((end.springs, end.fragments), (0, 0)),
     }
     Ok(())
 }
@@ -195,9 +195,9 @@ fn assert_refused(error: &RunError, scene: &Scene) -> Result<(), TestCaseError> 
                 return Ok(());
             }
             // Without adhesion every pressing force has its indentation, unless that exceeds all numbers.
-            let presses = matches!(target, Leg::ToForce(force) if *force > 0.0);
+            let presses = matches!(target, Move::ToForce(force) if *force > 0.0);
             let stiffness = scene.material.effective_modulus() * scene.length;
-            let reaches = matches!(target, Leg::ToForce(force) if (force / stiffness).is_finite());
+            let reaches = matches!(target, Move::ToForce(force) if (force / stiffness).is_finite());
             prop_assert!(scene.adhesion.is_some() || !presses || !reaches, "{}", message);
         }
         RunError::Surface(SurfaceError::NotFinite { .. }) => {

@@ -1,8 +1,23 @@
-//! Direction and end of a motion to a target.
+//! Targets of a body, and the direction and end of the motion to each.
 
 use super::{ContactError, CurvePoint, Direction};
-use crate::scene::Leg as Target;
+use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
+
+/// Target of a body: one loading stage.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Move {
+    /// Until the force first reaches this value, N (compression positive).
+    ToForce(f64),
+    /// To this indentation, m (0 at first touch).
+    ToIndentation(f64),
+    /// To the indentation of first touch, d = 0.
+    ToTouch,
+    /// Until the force is zero; from separation, beyond touch until the force is back at zero.
+    ToZeroForce,
+    /// To separation.
+    ToSeparation,
+}
 
 /// End of a motion.
 #[derive(Clone, Copy, Debug)]
@@ -15,14 +30,14 @@ pub(super) enum Goal {
     Separation,
 }
 
-impl From<Target> for Goal {
-    fn from(target: Target) -> Self {
+impl From<Move> for Goal {
+    fn from(target: Move) -> Self {
         match target {
-            Target::ToIndentation(indentation) => Goal::Indentation(indentation),
-            Target::ToTouch => Goal::Indentation(0.0),
-            Target::ToForce(force) => Goal::Force(force),
-            Target::ToZeroForce => Goal::Force(0.0),
-            Target::ToSeparation => Goal::Separation,
+            Move::ToIndentation(indentation) => Goal::Indentation(indentation),
+            Move::ToTouch => Goal::Indentation(0.0),
+            Move::ToForce(force) => Goal::Force(force),
+            Move::ToZeroForce => Goal::Force(0.0),
+            Move::ToSeparation => Goal::Separation,
         }
     }
 }
@@ -31,7 +46,7 @@ impl From<Target> for Goal {
 ///
 /// # Errors
 /// [`ContactError::NotFinite`], [`ContactError::NothingToPull`].
-pub(super) fn plan(target: Target, here: CurvePoint) -> Result<Option<(Direction, Goal)>, ContactError> {
+pub(super) fn plan(target: Move, here: CurvePoint) -> Result<Option<(Direction, Goal)>, ContactError> {
     let separated = here.springs == 0;
     let goal = Goal::from(target);
     let order = match goal {
