@@ -10,6 +10,7 @@ mod body;
 mod case;
 mod cases;
 mod catalogue;
+mod exhaustive;
 mod extended;
 mod reference;
 mod relaxation;

@@ -1,6 +1,6 @@
 //! The exact solver: a body moved along any loading history, leg by leg, in linear time and without a step error.
 
-use super::contact_state::{ContactState, Extreme, Sampled};
+use super::contact_state::{ContactState, Extreme};
 use super::grid::Grid;
 use super::leg::{Leg, Workspace};
 use super::moves::{Goal, plan};
@@ -243,84 +243,55 @@ impl Body {
         (Grid::new(low, high, intervals * stride), stride)
     }
 
-    /// The samples of a motion in ascending order of indentation.
-    fn samples(&self, sampled: &Sampled, stride: usize) -> Vec<CurvePoint> {
+    /// Carries out a motion and records it.
+    fn record(&mut self, target: Move, motion: Motion) -> Result<LegRecord, ContactError> {
+        let Motion { leg, low, high, goal } = motion;
+        let (before, touches) = (self.state, self.is_separated());
+        let loads = leg.direction() == Direction::Loading;
+        let separates = !loads && matches!(goal, Goal::Separation);
+        // A loading to a force needs no search: the force is below its target until then.
+        let ends_at_largest = loads && matches!(goal, Goal::Force(_));
+        let (grid, stride) =
+            if ends_at_largest { (Grid::new(low, high, self.samples - 1), 1) } else { self.grid(low, high) };
+        // The springs that touch first attach at the first point itself; those held to it detach just below.
+        let from = if touches || separates { f64::NEG_INFINITY } else { low };
+        let (sampled, squared_stretch) = leg.sample_changes(grid, from)?;
         let last = sampled.states.len() - 1;
-        let states = sampled.states.iter().enumerate();
-        let chosen = states.filter(|(index, _)| index % stride == 0 || *index == last);
-        chosen.map(|(_, &state)| self.point_of(state)).collect()
-    }
-
-    fn load(&mut self, target: Move, motion: Motion) -> Result<LegRecord, ContactError> {
-        let Motion { leg, low, high, goal } = motion;
-        let (before, separated) = (self.state, self.is_separated());
-        let (grid, stride) = match goal {
-            // No search follows.
-            Goal::Force(_) => (Grid::new(low, high, self.samples - 1), 1),
-            _ => self.grid(low, high),
-        };
-        // The springs that touch first attach at the first point itself.
-        let from = if separated { f64::NEG_INFINITY } else { grid.points()[0] };
-        let (sampled, squared) = leg.sample_changes(grid, from)?;
-        let mut curve = self.samples(&sampled, stride);
-        if separated {
-            curve.insert(0, self.point_of(ContactState::free(low)));
-            if before.indentation < low {
-                curve.insert(0, self.point_of(before));
-            }
-        }
-        let end = sampled.last();
-        let largest = match goal {
-            // The force is below its target until then.
-            Goal::Force(_) => end,
-            _ => leg.extreme(Extreme::Largest, &sampled, &mut self.workspace.work),
-        };
-        let at_end = self.point_of(end);
-        let smallest = curve.iter().copied().min_by(|a, b| a.force.total_cmp(&b.force)).unwrap_or(at_end);
-        let extremes = [smallest, self.point_of(largest)];
-        Ok(self.end(target, leg, curve, extremes, (end, squared)))
-    }
-
-    fn unload(&mut self, target: Move, motion: Motion) -> Result<LegRecord, ContactError> {
-        let Motion { leg, low, high, goal } = motion;
-        let (grid, stride) = self.grid(low, high);
-        let separates = matches!(goal, Goal::Separation);
-        // The springs held to the first point detach just below.
-        let from = if separates { f64::NEG_INFINITY } else { grid.points()[0] };
-        let (sampled, squared) = leg.sample_changes(grid, from)?;
-        let smallest = leg.extreme(Extreme::Smallest, &sampled, &mut self.workspace.work);
-        let smallest = self.point_of(smallest);
-        let mut curve = self.samples(&sampled, stride);
-        let place = curve.partition_point(|point| point.indentation < smallest.indentation);
-        if curve.get(place) != Some(&smallest) {
-            curve.insert(place, smallest);
-        }
-        curve.reverse();
-        let mut end = sampled.first();
-        if separates {
-            end = ContactState::free(low);
-            curve.push(self.point_of(end));
-        }
-        let largest = curve.first().copied().unwrap_or(smallest);
-        Ok(self.end(target, leg, curve, [smallest, largest], (end, squared)))
-    }
-
-    /// Ends a motion along this curve at a state, with this sum of squared stretches (m²).
-    fn end(
-        &mut self,
-        target: Move,
-        leg: Leg,
-        curve: Vec<CurvePoint>,
-        extremes: [CurvePoint; 2],
-        (end, squared_stretch): (ContactState, f64),
-    ) -> LegRecord {
-        let changed = (end.springs - self.state.springs).unsigned_abs();
-        let record = LegRecord::moved((target, &leg), curve, extremes, changed, squared_stretch);
+        let chosen = sampled.states.iter().enumerate();
+        let chosen = chosen.filter(|(index, _)| index % stride == 0 || *index == last);
+        let mut curve: Vec<CurvePoint> = chosen.map(|(_, &state)| self.point_of(state)).collect();
         let work = &mut self.workspace.work;
         work.springs_tallied += work.springs;
-        work.count(&record);
+        let (end, smallest, largest);
+        if loads {
+            let found =
+                if ends_at_largest { sampled.last() } else { leg.extreme(Extreme::Largest, &sampled, work) };
+            if touches {
+                curve.insert(0, self.point_of(ContactState::free(low)));
+            }
+            if touches && before.indentation < low {
+                curve.insert(0, self.point_of(before));
+            }
+            end = sampled.last();
+            largest = self.point_of(found);
+            smallest = curve.iter().copied().min_by(|a, b| a.force.total_cmp(&b.force)).unwrap_or(largest);
+        } else {
+            let found = leg.extreme(Extreme::Smallest, &sampled, work);
+            smallest = self.point_of(found);
+            let place = curve.partition_point(|point| point.indentation < smallest.indentation);
+            if curve.get(place).is_none_or(|point| point.indentation > smallest.indentation) {
+                curve.insert(place, smallest);
+            }
+            curve.reverse();
+            largest = curve.first().copied().unwrap_or(smallest);
+            end = if separates { ContactState::free(low) } else { sampled.first() };
+            curve.extend(separates.then(|| self.point_of(end)));
+        }
+        let changed = end.springs.abs_diff(before.springs);
+        let record = LegRecord::moved((target, &leg), curve, [smallest, largest], changed, squared_stretch);
+        self.workspace.work.count(&record);
         self.go_to(leg, end);
-        record
+        Ok(record)
     }
 }
 
@@ -339,8 +310,7 @@ impl Solver for Body {
                 self.go_to(leg, ContactState::free(to));
                 LegRecord::free(target, here.indentation, to)
             }
-            Some(motion) if motion.leg.direction() == Direction::Loading => self.load(target, motion)?,
-            Some(motion) => self.unload(target, motion)?,
+            Some(motion) => self.record(target, motion)?,
         };
         self.motion_time += clock.elapsed();
         Ok(record)

@@ -82,12 +82,6 @@ macro_rules! along_runs {
 }
 
 impl Workspace {
-    /// Bytes held.
-    #[must_use]
-    pub fn bytes(&self) -> usize {
-        self.closing.bytes() + size_of::<Run>() * self.spare.capacity()
-    }
-
     /// Forgets the springs and the rule, and the work done.
     pub(super) fn forget(&mut self) {
         self.closing.forget();
@@ -165,7 +159,7 @@ impl Leg {
     ) -> Result<Self, ContactError> {
         let Workspace { closing, opening, spare, held, work } = workspace;
         let mut runs = take(spare);
-        work.tree_nodes = tree.len() as u64;
+        work.tree_nodes = tree.node_count() as u64;
         let direction = self.direction;
         let end = along_runs!(&self, &tree, &[], search => match direction {
             Direction::Loading => {

@@ -13,6 +13,12 @@ pub struct GapScale {
     quantum: f64,
 }
 
+impl Default for GapScale {
+    fn default() -> Self {
+        GapScale::for_gaps_up_to(0.0)
+    }
+}
+
 /// Gaps below 2^62 quanta fit an `i64`, and 2^28 of them an `i128`.
 const GAP_BITS: i32 = 62;
 

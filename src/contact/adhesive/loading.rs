@@ -55,11 +55,6 @@ struct Climb {
 }
 
 impl Closing {
-    /// Bytes held.
-    pub fn bytes(&self) -> usize {
-        size_of::<f64>() * self.closes.capacity() + size_of::<[u32; 2]>() * self.known.capacity()
-    }
-
     /// Forgets the line and the rule.
     pub fn forget(&mut self) {
         self.ready = false;
@@ -78,7 +73,7 @@ impl Closing {
         if self.ready {
             return Ok(0);
         }
-        let count = ground.tree.len();
+        let count = ground.tree.node_count();
         self.closes = resized(std::mem::take(&mut self.closes), count, 0.0)?;
         self.known = resized(std::mem::take(&mut self.known), count, [0; 2])?;
         let square = ground.square();

@@ -28,9 +28,9 @@ pub struct ContactTree {
     nodes: Vec<Node>,
     /// Sums before each `BLOCK`-th spring: of the gaps, or of the mean gaps of cells, in quanta; and of their squares.
     sums: Vec<[i128; 2]>,
-    /// Edge model for which the sums are taken.
-    edges: Option<Edges>,
-    scale: Option<GapScale>,
+    /// True for sums of cells between springs.
+    of_cells: bool,
+    scale: GapScale,
     pending: Vec<Pending>,
 }
 
@@ -97,7 +97,7 @@ impl ContactTree {
         edges: Edges,
     ) -> Result<Self, ContactError> {
         let scale = GapScale::for_gaps_up_to(deepest);
-        (self.scale, self.edges) = (Some(scale), Some(edges));
+        (self.scale, self.of_cells) = (scale, edges == Edges::SubCell);
         let sums = std::mem::take(&mut self.sums);
         let is_long = gaps.len() >= TWO_THREADS;
         let (merged, sums) = in_parallel(
@@ -112,34 +112,14 @@ impl ContactTree {
 
     /// Nodes: local maxima of the gap inside the line.
     #[must_use]
-    pub fn len(&self) -> usize {
+    pub fn node_count(&self) -> usize {
         self.nodes.len()
-    }
-
-    /// Returns true if the gap has no local maximum inside the line.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.nodes.is_empty()
-    }
-
-    /// Bytes held.
-    #[must_use]
-    pub fn bytes(&self) -> usize {
-        size_of::<u32>() * self.turns.capacity()
-            + size_of::<Node>() * self.nodes.capacity()
-            + size_of::<[i128; 2]>() * self.sums.capacity()
-    }
-
-    /// Edge model of its sums.
-    #[must_use]
-    pub fn edges(&self) -> Edges {
-        self.edges.unwrap_or(Edges::SubCell)
     }
 
     /// The scale of its sums.
     #[inline]
     pub(crate) fn scale(&self) -> GapScale {
-        self.scale.unwrap_or_else(|| GapScale::for_gaps_up_to(0.0))
+        self.scale
     }
 
     #[inline]
@@ -188,9 +168,10 @@ impl ContactTree {
         let (block, scale) = (spring / BLOCK, self.scale());
         let mut rest = FewSprings::default();
         let springs = block * BLOCK..spring;
-        match self.edges() {
-            Edges::Grid => gaps[springs].iter().for_each(|&gap| rest.add_spring(gap, scale)),
-            Edges::SubCell => springs.for_each(|at| rest.add_cell(gaps[at], gaps[at + 1], scale)),
+        if self.of_cells {
+            springs.for_each(|at| rest.add_cell(gaps[at], gaps[at + 1], scale));
+        } else {
+            gaps[springs].iter().for_each(|&gap| rest.add_spring(gap, scale));
         }
         let ([first, second], [rest, rest_squares]) = (self.sums[block], rest.sums());
         [first + rest, second + rest_squares]
