@@ -10,9 +10,9 @@ use crate::reference::smooth_adhesion_force;
 use crate::scene::{Edges, Form, Roughness, Scene};
 use crate::surface::{
     Amplitude, EquivalentLine, Histogram, Line, MeasuredOptions, MeasuredProfile, MeasuredRoughness,
-    SelfAffine, SurfaceError, Synthesizer, WaveNumbers,
+    SelfAffine, SurfaceError, Synthesizer, WaveNumbers, read_faces,
 };
-use crate::topography::{Cut, Missing, ReadOptions, Unit};
+use crate::topography::{Cut, Missing, ReadOptions, Unit, content};
 use std::mem::take;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -498,7 +498,9 @@ impl Simulation {
                 let profile = match self.measured.as_deref() {
                     Some(MeasuredRoughness::Profile(known)) => known,
                     _ => {
-                        read = MeasuredProfile::read_observed(first(faces), options, &mut |_| ())?;
+                        let path = first(faces);
+                        let profile = content(path).and_then(|bytes| MeasuredProfile::new(&bytes, options));
+                        read = profile.map_err(|error| SurfaceError::measured(path, &error))?;
                         &read
                     }
                 };
@@ -525,7 +527,7 @@ impl Simulation {
         {
             return Ok(line.clone());
         }
-        let line = EquivalentLine::read(faces, options, &mut |_| ())?;
+        let line = EquivalentLine::new(&read_faces(faces)?, options)?;
         self.equivalent = Some((faces.to_vec(), *options, line.clone()));
         Ok(line)
     }

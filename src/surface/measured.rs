@@ -3,9 +3,8 @@
 use super::{Amplitude, MeasuredOptions, SurfaceError};
 use crate::memory::check_room;
 use crate::spectrum::Detrend;
-use crate::topography::{ReadOptions, Topography, TopographyError, UNEVEN, Unit, parse};
+use crate::topography::{ReadOptions, TopographyError, UNEVEN, Unit, first_uneven};
 use realfft::RealFftPlanner;
-use std::path::Path;
 
 /// Most bytes per point of the transform and its arrays: an odd number of points transforms at twice the length.
 const TRANSFORM_BYTES: u64 = 96;
@@ -22,51 +21,26 @@ pub struct MeasuredProfile {
 }
 
 impl MeasuredProfile {
-    /// Reads a profile from a regular file of at most 1 GiB; see [`Self::parse`].
+    /// Reads a profile from text. By convention lengths without a stated unit are in m, as written by `asperity line`.
     ///
     /// # Errors
-    /// [`SurfaceError::Measured`] if the file cannot be read or is no profile.
-    pub fn read(path: &Path) -> Result<Self, SurfaceError> {
+    /// As [`Self::new`].
+    pub fn parse(text: &str) -> Result<Self, TopographyError> {
         let reading = ReadOptions { convention: Some(Unit::METRE), ..ReadOptions::default() };
-        let options = MeasuredOptions { as_line: true, reading, ..MeasuredOptions::default() };
-        Self::read_observed(path, &options, &mut |_| ())
+        Self::new(text.as_bytes(), &MeasuredOptions { reading, ..MeasuredOptions::default() })
     }
 
-    /// Reads a profile, or a row or column of a map; `seen` receives all bytes of the file. Detrending
-    /// requires equally spaced points.
+    /// Reads a profile, or a row or column of a map, from the content of a file. Detrending requires equally spaced
+    /// points.
     ///
     /// # Errors
-    /// As [`Self::read`].
-    pub fn read_observed(
-        path: &Path,
-        options: &MeasuredOptions,
-        seen: &mut (dyn FnMut(&[u8]) + Send),
-    ) -> Result<Self, SurfaceError> {
-        let read = options.read(path, seen).and_then(|surface| match options.detrend {
-            Some(detrend) if detrend != Detrend::None => {
-                surface.spacing()?;
-                Ok(surface.with_heights(|heights, columns| detrend.remove(heights, columns)))
-            }
-            _ => Ok(surface),
-        });
-        read.and_then(Self::from_topography).map_err(|error| SurfaceError::measured(path, &error))
-    }
-
-    /// Reads a profile from text or another format of [`crate::topography`]. By convention lengths without a stated
-    /// unit are in m, as written by `asperity line`.
-    ///
-    /// # Errors
-    /// [`TopographyError`], also for a map.
-    pub fn parse(content: &str) -> Result<Self, TopographyError> {
-        let in_metres = ReadOptions { convention: Some(Unit::METRE), ..ReadOptions::default() };
-        parse(content.as_bytes(), &in_metres).and_then(Self::from_topography)
-    }
-
-    /// The profile of a surface.
-    ///
-    /// # Errors
-    /// [`TopographyError`] for a map.
-    pub fn from_topography(surface: Topography) -> Result<Self, TopographyError> {
+    /// [`TopographyError`] if the content is no profile.
+    pub fn new(content: &[u8], options: &MeasuredOptions) -> Result<Self, TopographyError> {
+        let mut surface = options.parse(content)?;
+        if let Some(detrend) = options.detrend.filter(|detrend| *detrend != Detrend::None) {
+            surface.spacing()?;
+            surface = surface.with_heights(|heights, columns| detrend.remove(heights, columns));
+        }
         let (positions, heights) = surface.into_profile()?;
         Ok(MeasuredProfile { positions, heights })
     }
@@ -97,7 +71,7 @@ impl MeasuredProfile {
     /// Distance between points, m, if these are the centres of cells that begin at x = 0.
     fn cell(&self) -> Option<f64> {
         let cell = self.span() / (self.positions.len() - 1) as f64;
-        self.are_even(0.5 * cell, cell).then_some(cell)
+        first_uneven(&self.positions, 0.5 * cell, cell).is_none().then_some(cell)
     }
 
     /// Root mean square height about the mean and root mean square gradient of the straight pieces
@@ -189,21 +163,19 @@ impl MeasuredProfile {
     fn begins(&self, length: f64) -> Result<f64, f64> {
         let points = self.positions.len() as f64;
         let (first, distance) = (self.positions[0], self.span() / (points - 1.0));
-        let (begins, covers) = if self.are_even(0.5 * distance, distance) {
-            (0.0, points * distance)
-        } else if length > self.span() && self.are_even(first, distance) {
-            (first - 0.5 * distance, points * distance)
+        let is_even_from = |first: f64| first_uneven(&self.positions, first, distance).is_none();
+        let begins = if is_even_from(0.5 * distance) {
+            0.0
+        } else if length <= self.span() {
+            return Ok(first);
+        } else if is_even_from(first) {
+            first - 0.5 * distance
         } else {
-            return if length <= self.span() { Ok(first) } else { Err(self.span()) };
+            return Err(self.span());
         };
         // The last half cell may be displaced as far as points may.
+        let covers = points * distance;
         if length <= covers + UNEVEN * distance { Ok(begins) } else { Err(covers) }
-    }
-
-    /// Returns true for equally spaced points, m, from a first position, m, on.
-    fn are_even(&self, first: f64, distance: f64) -> bool {
-        let middles = (0..self.positions.len()).map(|index| first + index as f64 * distance);
-        self.positions.iter().zip(middles).all(|(x, middle)| (x - middle).abs() <= UNEVEN * distance)
     }
 
     /// Height, m, subtracted from all others: the first one, if all differences are exact, else 0.
@@ -304,13 +276,10 @@ mod tests {
 
     #[test]
     fn lengths_are_in_metres_unless_the_file_or_the_scene_states_a_unit() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("line.csv");
         let read = |text: &str, unit: Option<Unit>| {
-            std::fs::write(&path, text).unwrap();
             let reading = ReadOptions { unit, convention: Some(Unit::METRE), ..ReadOptions::default() };
             let options = MeasuredOptions { as_line: true, reading, ..MeasuredOptions::default() };
-            MeasuredProfile::read_observed(&path, &options, &mut |_| ())
+            MeasuredProfile::new(text.as_bytes(), &options)
         };
         let millimetre: Unit = "mm".parse().unwrap();
         let metres = read("0,1\n1,2", None).unwrap();
@@ -326,7 +295,7 @@ mod tests {
     #[test]
     fn devices_are_not_read() {
         for device in ["/dev/zero", "/dev/null", "/dev/tty"] {
-            let message = MeasuredProfile::read(Path::new(device)).unwrap_err().to_string();
+            let message = crate::topography::content(device.as_ref()).unwrap_err().to_string();
             assert!(message.contains("not a regular file"), "{device}: {message}");
         }
     }

@@ -7,6 +7,13 @@ use super::{Format, missing};
 /// Share of the distance between points by which points of an even grid may be displaced due to rounding.
 pub(crate) const UNEVEN: f64 = 1.0e-3;
 
+/// Returns the index of the first position that lies off an even grid from a first position, m, at a distance, m.
+pub(crate) fn first_uneven(positions: &[f64], first: f64, distance: f64) -> Option<usize> {
+    let is_even =
+        |(index, x): (usize, &f64)| (x - first - index as f64 * distance).abs() <= UNEVEN * distance.abs();
+    positions.iter().enumerate().position(|point| !is_even(point))
+}
+
 /// Positions of heights.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Grid {
@@ -66,19 +73,17 @@ impl Topography {
 
     /// Index of the first point of a row after an excessive slope, and the slope.
     fn first_steep(&self) -> Option<(usize, f64)> {
-        let slope = |heights: &[f64], distance: f64| (heights[1] - heights[0]).abs() / distance;
-        let spacing = match &self.grid {
-            Grid::Positions(positions) => {
-                let pairs = self.heights.windows(2).zip(positions.windows(2));
-                return first_steep(pairs.map(|(z, x)| slope(z, x[1] - x[0])));
-            }
-            Grid::Profile { spacing } => *spacing,
-            Grid::Map { spacing: [along, between], .. } => along.min(*between),
-        };
         let columns = self.columns();
-        let in_row = |row: &[f64]| first_steep(row.windows(2).map(|z| slope(z, spacing)));
-        let mut rows = self.heights.chunks_exact(columns).zip((0..).step_by(columns));
-        rows.find_map(|(row, first)| in_row(row).map(|(index, slope)| (first + index, slope)))
+        let slope = |index: usize| {
+            let distance = match &self.grid {
+                Grid::Positions(positions) => positions[index] - positions[index - 1],
+                Grid::Profile { spacing } => *spacing,
+                Grid::Map { spacing: [along, between], .. } => along.min(*between),
+            };
+            (self.heights[index] - self.heights[index - 1]).abs() / distance
+        };
+        let neighbours = (1..self.heights.len()).filter(|index| index % columns > 0);
+        neighbours.map(|index| (index, slope(index))).find(|(_, slope)| slope.is_nan() || *slope > LARGEST)
     }
 
     /// Format of the file.
@@ -180,19 +185,18 @@ impl Topography {
         };
         let heights = gathered(points, self.heights.iter().skip(first).step_by(step).take(points).copied())?;
         let place = |index: &usize| {
-            index.checked_sub(first).filter(|index| index % step == 0).map(|index| index / step)
+            let offset = index.checked_sub(first).filter(|offset| offset % step == 0)?;
+            Some(offset / step).filter(|place| *place < points)
         };
-        let interpolated =
-            self.interpolated.iter().filter_map(place).filter(|place| *place < points).collect();
+        let interpolated = self.interpolated.iter().filter_map(place).collect();
         Ok(Topography { heights, grid: Grid::Profile { spacing }, interpolated, ..self })
     }
 
     /// The same surface with the same number of other heights, m.
-    pub(crate) fn with_heights(self, change: impl FnOnce(&mut [f64], usize)) -> Self {
+    pub(crate) fn with_heights(mut self, change: impl FnOnce(&mut [f64], usize)) -> Self {
         let columns = self.columns();
-        let mut changed = self;
-        change(&mut changed.heights, columns);
-        changed
+        change(&mut self.heights, columns);
+        self
     }
 
     /// Distances between points along and between rows, m; those of a profile are equal.
@@ -206,21 +210,14 @@ impl Topography {
             Grid::Profile { spacing } => Ok([*spacing; 2]),
             Grid::Positions(positions) => {
                 let (first, mean) = (positions[0], mean_distance(positions));
-                let off = |(index, x): (usize, &f64)| (x - first - index as f64 * mean).abs() > UNEVEN * mean;
-                match positions.iter().enumerate().position(off) {
-                    None => Ok([mean; 2]),
-                    Some(index) => Err(refused(
-                        Place::Point(index + 1),
-                        format!(
-                            "x = {:e} m is off the even grid by {:.1e} of the mean distance {mean:e} m",
-                            positions[index],
-                            (positions[index] - first) / mean - index as f64
-                        ),
-                        format!(
-                            "at most {UNEVEN}, or --resample, in a scene roughness.resample, which interpolates linearly"
-                        ),
-                    )),
-                }
+                let Some(index) = first_uneven(positions, first, mean) else { return Ok([mean; 2]) };
+                let (x, off) = (positions[index], (positions[index] - first) / mean - index as f64);
+                let fault =
+                    format!("x = {x:e} m is off the even grid by {off:.1e} of the mean distance {mean:e} m");
+                let allowed = format!(
+                    "at most {UNEVEN}, or --resample, in a scene roughness.resample, which interpolates linearly"
+                );
+                Err(refused(Place::Point(index + 1), fault, allowed))
             }
         }
     }
@@ -247,16 +244,6 @@ impl Topography {
         self.grid = Grid::Profile { spacing };
         Ok(self)
     }
-}
-
-/// The first excessive slope, and the index of the point after it. First examines all slopes without a branch for
-/// each.
-fn first_steep(slopes: impl Iterator<Item = f64> + Clone) -> Option<(usize, f64)> {
-    let is_steep = |slope: f64| slope.is_nan() || slope > LARGEST;
-    if !slopes.clone().fold(false, |any, slope| any | is_steep(slope)) {
-        return None;
-    }
-    (1..).zip(slopes).find(|(_, slope)| is_steep(*slope))
 }
 
 /// Mean distance between positions, m.

@@ -58,10 +58,11 @@ impl Unit {
         self.name
     }
 
-    /// Unit stated by a file at a place.
-    pub(super) fn stated(text: &str, place: Place) -> Result<Unit, TopographyError> {
+    /// Returns the unit stated by a file at a place; `None` for an empty text.
+    pub(super) fn stated(text: &str, place: Place) -> Result<Option<Unit>, TopographyError> {
         let fault = || format!("{:?} is no unit of length", shown(text));
-        text.parse().map_err(|_| refused(place, fault(), UnitError::ALLOWED))
+        let unit = Some(text).filter(|text| !text.is_empty()).map(str::parse).transpose();
+        unit.map_err(|_: UnitError| refused(place, fault(), UnitError::ALLOWED))
     }
 
     /// Value in m of a value in this unit.

@@ -305,8 +305,8 @@ fn a_scene_holds_all_that_decides_the_equivalent_line() {
         let document = asperity::scene::open(folder.join(&scene).to_str().unwrap()).unwrap();
         let options = asperity::simulation::measured_options(document.scene());
         let faces = document.scene().measured_paths(&document.resolve(""));
-        let moments =
-            asperity::surface::EquivalentLine::read(&faces, &options, &mut |_| ()).unwrap().moments();
+        let faces = asperity::surface::read_faces(&faces).unwrap();
+        let moments = asperity::surface::EquivalentLine::new(&faces, &options).unwrap().moments();
         for (name, found) in [
             ("rms_height", moments.rms_height),
             ("rms_gradient", moments.rms_gradient),
