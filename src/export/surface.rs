@@ -399,7 +399,7 @@ fn face_json<'a>(
     let bin = |bin: &Bin| json!({"wave_number": bin.wave_number, "power": bin.power, "waves": bin.waves});
     let spectrum = |(direction, bins): &(Direction, Vec<Bin>)| {
         let bins: Vec<_> = bins.iter().map(bin).collect();
-        json!({"name": direction.name(), "bins": bins})
+        json!({"name": spectrum_name(0, *direction), "bins": bins})
     };
     object! {
         "version": env!("CARGO_PKG_VERSION"),

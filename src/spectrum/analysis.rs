@@ -9,7 +9,7 @@ use super::periodogram::{Bin, Direction, MapPower, ProfilePower, bins};
 use super::power_law::{self, PowerLaw};
 use super::reliability::reliability_cutoff;
 use super::statistics::{Statistics, Sums};
-use crate::topography::Topography;
+use crate::topography::{Topography, TopographyError};
 use std::f64::consts::{PI, TAU};
 
 /// Share of the squared gradient that may be beyond the end of the spectrum.
@@ -61,8 +61,6 @@ pub struct Analysis {
     pub maps: u64,
     /// Largest length along a row, m.
     pub length: f64,
-    /// Smallest distance between points, m.
-    pub spacing: f64,
     /// End of the spectrum.
     pub end: End,
     /// True if the spectrum ends before the last resolved wave.
@@ -96,25 +94,19 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         return Err(SpectrumError::Nothing);
     }
     let mut sums = Sums::default();
-    let mut powers = Powers::default();
     let mut reliability: Option<f64> = None;
-    let (mut length, mut spacing) = (0.0_f64, f64::INFINITY);
-    for (index, surface) in surfaces.iter().enumerate() {
-        let distances = surface.spacing().map_err(|error| SpectrumError::Surface { index, error })?;
+    let mut length = 0.0_f64;
+    let powers = Powers::of(surfaces, options, Topography::copied_heights, |surface, heights, distances| {
         let columns = surface.columns();
-        check_points(surface, index)?;
-        let mut heights = copied(surface.heights())?;
-        options.detrend.remove(&mut heights, columns);
-        check_rough(surface.heights(), &heights)?;
-        sums.add(&heights, columns, distances);
+        check_rough(surface.heights(), heights)?;
+        sums.add(heights, columns, distances);
         if let Some(radius) = options.tip_radius {
-            let cutoff = reliability_cutoff(&heights, columns, distances[0], radius);
+            let cutoff = reliability_cutoff(heights, columns, distances[0], radius);
             reliability = reliability.into_iter().chain(cutoff).reduce(f64::max);
         }
-        powers.add(&heights, columns, distances, !options.periodic)?;
         length = length.max(columns as f64 * distances[0]);
-        spacing = spacing.min(distances[0]).min(distances[1]);
-    }
+        Ok(())
+    })?;
     let (range, resolved) = (powers.range(last_significant), powers.range(|count, _| count)[1]);
     let ends_inside = range[1] < resolved;
     let observations = powers.observations(range[1]);
@@ -135,7 +127,9 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     let mut largest = [0.0_f64; 4];
     let places = if surfaces.iter().any(|surface| surface.interpolated() > 0) { 1..4 } else { 0..0 };
     for quarters in places {
-        let observations = interpolated_again(surfaces, options, quarters)?.observations(range[1]);
+        let heights = |surface: &Topography| surface.interpolated_again(quarters);
+        let powers = Powers::of(surfaces, options, heights, |_, _, _| Ok(()))?;
+        let observations = powers.observations(range[1]);
         let again = fitted(&observations, range, options.end)?;
         let hurst = self_affine(&observations, &again).zip(power_law);
         let change = hurst.map_or(0.0, |(again, before)| again.hurst.value - before.hurst.value);
@@ -176,29 +170,11 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         profiles: powers.profiles.iter().map(|power| power.profiles).sum(),
         maps: powers.maps.len() as u64,
         length,
-        spacing,
         end: options.end,
         ends_inside,
         offsets: powers.maps.iter().any(|map| map.offsets),
         apart,
     })
-}
-
-/// Powers of the surfaces with as many points interpolated once more.
-fn interpolated_again(
-    surfaces: &[Topography],
-    options: &Options,
-    quarters: usize,
-) -> Result<Powers, SpectrumError> {
-    let mut powers = Powers::default();
-    for (index, surface) in surfaces.iter().enumerate() {
-        let refused = |error| SpectrumError::Surface { index, error };
-        let (columns, distances) = (surface.columns(), surface.spacing().map_err(refused)?);
-        let mut heights = surface.interpolated_again(quarters).map_err(refused)?;
-        options.detrend.remove(&mut heights, columns);
-        powers.add(&heights, columns, distances, !options.periodic)?;
-    }
-    Ok(powers)
 }
 
 fn fitted(
@@ -209,20 +185,6 @@ fn fitted(
     Model::new(observations, range, end).fit().ok_or(SpectrumError::NoMaximum)
 }
 
-fn copied(heights: &[f64]) -> Result<Vec<f64>, SpectrumError> {
-    let mut copy = Vec::new();
-    let points = heights.len();
-    copy.try_reserve_exact(points).map_err(|_| SpectrumError::OutOfMemory { points })?;
-    copy.extend_from_slice(heights);
-    Ok(copy)
-}
-
-fn check_points(surface: &Topography, index: usize) -> Result<(), SpectrumError> {
-    let rows = if surface.rows() > 1 { surface.rows() } else { LEAST_POINTS };
-    let points = surface.columns().min(rows);
-    if points < LEAST_POINTS { Err(SpectrumError::TooFew { index, points }) } else { Ok(()) }
-}
-
 /// Checks that the heights after detrending exceed the rounding errors of the original ones.
 fn check_rough(before: &[f64], after: &[f64]) -> Result<(), SpectrumError> {
     let largest = |heights: &[f64]| heights.iter().fold(0.0_f64, |largest, z| largest.max(z.abs()));
@@ -231,6 +193,30 @@ fn check_rough(before: &[f64], after: &[f64]) -> Result<(), SpectrumError> {
 }
 
 impl Powers {
+    /// Powers of the detrended heights of surfaces, which `check` receives with the distances between the points.
+    fn of(
+        surfaces: &[Topography],
+        options: &Options,
+        heights: impl Fn(&Topography) -> Result<Vec<f64>, TopographyError>,
+        mut check: impl FnMut(&Topography, &[f64], [f64; 2]) -> Result<(), SpectrumError>,
+    ) -> Result<Powers, SpectrumError> {
+        let mut powers = Powers::default();
+        for (index, surface) in surfaces.iter().enumerate() {
+            let refused = |error| SpectrumError::Surface { index, error };
+            let (columns, rows) = (surface.columns(), surface.rows());
+            let distances = surface.spacing().map_err(refused)?;
+            let points = if rows > 1 { columns.min(rows) } else { columns };
+            if points < LEAST_POINTS {
+                return Err(SpectrumError::TooFew { index, points });
+            }
+            let mut heights = heights(surface).map_err(refused)?;
+            options.detrend.remove(&mut heights, columns);
+            check(surface, &heights, distances)?;
+            powers.add(&heights, columns, distances, !options.periodic)?;
+        }
+        Ok(powers)
+    }
+
     fn add(
         &mut self,
         heights: &[f64],

@@ -3,9 +3,9 @@
 //! Over the values x = ln C2D at the nodes, Σ w (P/m + ln m) + λ Σ (x_{i−1} − 2x_i + x_{i+1})² is minimised, with the
 //! observed powers P of w waves and their means m(x). Steps are those of Fisher's scoring, halved until they descend.
 
-use super::isotropic::{End, IsotropicSpectrum, Nodes};
+use super::isotropic::{End, IsotropicSpectrum, Nodes, Term};
 use super::linear::Cholesky;
-use super::observation::{Observation, Term};
+use super::observation::Observation;
 use std::f64::consts::TAU;
 
 /// Weight λ of the second differences.
@@ -44,7 +44,7 @@ impl<'a> Model<'a> {
 
     /// Means of the observed powers for these values.
     pub fn means<'b>(&'b self, values: &'b [f64]) -> impl Iterator<Item = f64> + 'b {
-        self.terms.iter().map(|terms| terms.iter().map(|term| value(term, values)).sum::<f64>())
+        self.terms.iter().map(|terms| terms.iter().map(|term| term.value(values)).sum::<f64>())
     }
 
     fn objective(&self, values: &[f64]) -> f64 {
@@ -52,20 +52,19 @@ impl<'a> Model<'a> {
         self.misfit(self.means(values)) + SMOOTHNESS * rough
     }
 
-    /// Gradient and information matrix of the objective.
-    fn linearise(&self, values: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let count = values.len();
+    /// Gradient and information matrix of the misfit over so many parameters; `add` adds the value of a term and its
+    /// derivatives to the mean and the slopes of an observation.
+    pub fn misfit_linearised(
+        &self,
+        count: usize,
+        add: impl Fn(&Term, &mut f64, &mut [f64]),
+    ) -> (Vec<f64>, Vec<f64>) {
         let (mut gradient, mut information) = (vec![0.0; count], vec![0.0; count * count]);
         let mut slope = vec![0.0; count];
         for (observed, terms) in self.observations.iter().zip(&self.terms) {
             slope.fill(0.0);
             let mut mean = 0.0;
-            for term in terms {
-                let value = value(term, values);
-                mean += value;
-                slope[term.index] += (1.0 - term.share) * value;
-                slope[term.index + 1] += term.share * value;
-            }
+            terms.iter().for_each(|term| add(term, &mut mean, &mut slope));
             slope.iter_mut().for_each(|slope| *slope /= mean);
             let residual = observed.waves * (1.0 - observed.power / mean);
             for row in 0..count {
@@ -75,6 +74,18 @@ impl<'a> Model<'a> {
                 }
             }
         }
+        (gradient, information)
+    }
+
+    /// Gradient and information matrix of the objective.
+    fn linearise(&self, values: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let count = values.len();
+        let (mut gradient, mut information) = self.misfit_linearised(count, |term, mean, slope| {
+            let value = term.value(values);
+            *mean += value;
+            slope[term.index] += (1.0 - term.share) * value;
+            slope[term.index + 1] += term.share * value;
+        });
         for (first, x) in values.windows(3).enumerate() {
             let difference = x[0] - 2.0 * x[1] + x[2];
             for (row, a) in [1.0, -2.0, 1.0].into_iter().enumerate() {
@@ -184,8 +195,4 @@ pub(super) fn descend<P>(
         }
     }
     least.is_finite().then_some((parameters, least))
-}
-
-fn value(term: &Term, values: &[f64]) -> f64 {
-    term.weight * ((1.0 - term.share) * values[term.index] + term.share * values[term.index + 1]).exp()
 }

@@ -1,6 +1,6 @@
 //! Observed powers with the model of their means: integrals of the isotropic spectrum.
 
-use super::isotropic::{End, Nodes, gauss};
+use super::isotropic::{End, Nodes, Term, gauss};
 use super::periodogram::{MapPower, ProfilePower};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -135,15 +135,6 @@ fn dispersion(bands: &[Observation], squares: &[f64]) -> f64 {
     if waves > 0.0 { (sum / waves).max(1.0) } else { 1.0 }
 }
 
-/// A term of the mean of an observation: a weight times C2D at ln q, between two nodes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Term {
-    pub weight: f64,
-    pub ln_q: f64,
-    pub index: usize,
-    pub share: f64,
-}
-
 impl Observation {
     /// Share of the moments ∫ q^(p+1) C2D dq/2π of the equivalent line, p = 0, 1, 2, for this mean power. Those of a cut are
     /// 1, 2/π and 1/2 of them.
@@ -152,12 +143,14 @@ impl Observation {
         let q = self.wave_number;
         [1.0, first * q, second * q * q].map(|factor| factor * self.range * power)
     }
+
     /// Terms of the mean power for a spectrum with these nodes.
     pub fn terms(&self, nodes: &Nodes, end: End) -> Vec<Term> {
         let mut terms = Vec::new();
+        let (Kind::Cut { windowed, .. } | Kind::Plane { windowed, .. }) = self.kind;
+        let shares: &[(f64, f64)] = if windowed { &HANN_SHARES } else { &[(0.0, 1.0)] };
         match self.kind {
-            Kind::Cut { step, windowed, nyquist } => {
-                let shares: &[(f64, f64)] = if windowed { &HANN_SHARES } else { &[(0.0, 1.0)] };
+            Kind::Cut { step, nyquist, .. } => {
                 for (waves, share) in shares {
                     let q = self.wave_number + waves * step;
                     add_cut(&mut terms, nodes, q.abs(), *share);
@@ -170,11 +163,10 @@ impl Observation {
                     }
                 }
             }
-            Kind::Plane { steps, windowed, sampling } => {
+            Kind::Plane { steps, sampling, .. } => {
                 if let End::Continues(_) = end {
                     add_aliases(&mut terms, nodes, self.wave_number, sampling);
                 }
-                let shares: &[(f64, f64)] = if windowed { &HANN_SHARES } else { &[(0.0, 1.0)] };
                 // Waves between rows have their neighbours at the distances along them.
                 let turned = [steps[1], steps[0]];
                 let ways = if steps == turned { vec![steps] } else { vec![steps, turned] };
@@ -185,13 +177,7 @@ impl Observation {
                         let q =
                             (self.wave_number + along * ahead).hypot(between * aside).max(f64::MIN_POSITIVE);
                         if q <= nodes.end {
-                            let (index, share) = nodes.place(q.ln());
-                            terms.push(Term {
-                                weight: x * y / ways.len() as f64,
-                                ln_q: q.ln(),
-                                index,
-                                share,
-                            });
+                            terms.push(nodes.term(q, x * y / ways.len() as f64));
                         }
                     }
                 }
@@ -207,8 +193,7 @@ fn add_aliases(terms: &mut Vec<Term>, nodes: &Nodes, wave_number: f64, [x, y]: [
     let most = f64::from(MOST_ALIASES);
     let mut add = |q: f64, weight: f64| {
         if q <= nodes.end {
-            let (index, share) = nodes.place(q.ln());
-            terms.push(Term { weight, ln_q: q.ln(), index, share });
+            terms.push(nodes.term(q, weight));
         }
     };
     let orders = || (0..=2 * MOST_ALIASES).map(|order| f64::from(order) - most);
@@ -232,17 +217,14 @@ fn add_aliases(terms: &mut Vec<Term>, nodes: &Nodes, wave_number: f64, [x, y]: [
 fn add_cut(terms: &mut Vec<Term>, nodes: &Nodes, k: f64, factor: f64) {
     for (low, high) in nodes.pieces_from(k) {
         let along = |q: f64| ((q - k) * (q + k)).max(0.0).sqrt();
-        for (t, weight) in gauss(along(low), along(high)) {
-            let ln_q = k.hypot(t).ln();
-            let (index, share) = nodes.place(ln_q);
-            terms.push(Term { weight: factor * weight / PI, ln_q, index, share });
-        }
+        let points = gauss(along(low), along(high));
+        terms.extend(points.map(|(t, weight)| nodes.term(k.hypot(t), factor * weight / PI)));
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::isotropic::tests::known;
+    use super::super::isotropic::known;
     use super::*;
 
     fn mean(terms: &[Term], values: &[f64]) -> f64 {

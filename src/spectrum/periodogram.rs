@@ -1,7 +1,7 @@
 //! Periodograms: power of each wave of a profile or a map.
 
 use super::error::SpectrumError;
-use crate::memory::{check_room, resized};
+use crate::memory::{check_room, emptied};
 use realfft::RealFftPlanner;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
@@ -20,28 +20,6 @@ pub enum Direction {
     Y,
     /// All directions of a map: q C2D/π, m³.
     Radial,
-}
-
-impl Direction {
-    /// Name for readers.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Direction::X => "1D PSD along x",
-            Direction::Y => "1D PSD along y",
-            Direction::Radial => "q/π × 2D PSD",
-        }
-    }
-
-    /// Name of the spectrum of the opposite face.
-    #[must_use]
-    pub fn opposite_name(self) -> &'static str {
-        match self {
-            Direction::X => "opposite, 1D PSD along x",
-            Direction::Y => "opposite, 1D PSD along y",
-            Direction::Radial => "opposite, q/π × 2D PSD",
-        }
-    }
 }
 
 /// Mean power of the waves within a range of wave numbers.
@@ -82,23 +60,13 @@ impl ProfilePower {
         &mut self,
         rows: impl Iterator<Item = impl Iterator<Item = f64>>,
     ) -> Result<(), SpectrumError> {
-        let plan = RealFftPlanner::<f64>::new().plan_fft_forward(self.points);
-        let (mut input, mut output) = (plan.make_input_vec(), plan.make_output_vec());
-        let mut scratch = plan.make_scratch_vec();
-        let window = window(self.points, self.windowed);
         let scale = self.spacing / self.points as f64;
-        for row in rows {
-            for ((value, height), weight) in input.iter_mut().zip(row).zip(&window) {
-                *value = height * weight;
-            }
-            plan.process_with_scratch(&mut input, &mut output, &mut scratch)
-                .map_err(|error| SpectrumError::Transform(error.to_string()))?;
-            for (sum, coefficient) in self.power.iter_mut().zip(&output[1..]) {
+        transform(rows, self.points, self.windowed, |coefficients| {
+            for (sum, coefficient) in self.power.iter_mut().zip(&coefficients[1..]) {
                 *sum += scale * coefficient.norm_sqr();
             }
             self.profiles += 1;
-        }
-        Ok(())
+        })
     }
 }
 
@@ -197,8 +165,9 @@ impl MapPower {
         let points = heights.len();
         let out_of_memory = |_| SpectrumError::OutOfMemory { points };
         check_room(48 * points as u64).map_err(out_of_memory)?;
-        let mut coefficients = resized(Vec::new(), half * rows, Complex64::ZERO).map_err(out_of_memory)?;
-        transform_rows(heights, columns, windowed, &mut coefficients)?;
+        let mut coefficients: Vec<Complex64> = emptied(Vec::new(), half * rows).map_err(out_of_memory)?;
+        let in_rows = heights.chunks_exact(columns).map(|row| row.iter().copied());
+        transform(in_rows, columns, windowed, |row| coefficients.extend_from_slice(row))?;
         let steps = [TAU / (columns as f64 * along), TAU / (rows as f64 * between)];
         let largest = (PI / along).min(PI / between);
         let scale = along * between / points as f64;
@@ -255,23 +224,24 @@ impl MapPower {
     }
 }
 
-fn transform_rows(
-    heights: &[f64],
-    columns: usize,
+/// Calls `each` with the Fourier coefficients of each row of so many heights.
+fn transform(
+    rows: impl Iterator<Item = impl Iterator<Item = f64>>,
+    points: usize,
     windowed: bool,
-    coefficients: &mut [Complex64],
+    mut each: impl FnMut(&[Complex64]),
 ) -> Result<(), SpectrumError> {
-    let plan = RealFftPlanner::<f64>::new().plan_fft_forward(columns);
-    let mut input = plan.make_input_vec();
+    let plan = RealFftPlanner::<f64>::new().plan_fft_forward(points);
+    let (mut input, mut output) = (plan.make_input_vec(), plan.make_output_vec());
     let mut scratch = plan.make_scratch_vec();
-    let window = window(columns, windowed);
-    let half = columns / 2 + 1;
-    for (row, output) in heights.chunks_exact(columns).zip(coefficients.chunks_exact_mut(half)) {
+    let window = window(points, windowed);
+    for row in rows {
         for ((value, height), weight) in input.iter_mut().zip(row).zip(&window) {
             *value = height * weight;
         }
-        plan.process_with_scratch(&mut input, output, &mut scratch)
+        plan.process_with_scratch(&mut input, &mut output, &mut scratch)
             .map_err(|error| SpectrumError::Transform(error.to_string()))?;
+        each(&output);
     }
     Ok(())
 }

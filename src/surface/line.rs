@@ -53,18 +53,14 @@ impl Line {
         scale: f64,
     ) -> Result<Self, SurfaceError> {
         let springs = Springs::new(length, points, form)?;
-        let Springs { first, end, .. } = springs;
+        let under = springs.first..springs.end;
         let mut heights =
-            memory::emptied(memory, end - first).map_err(|_| SurfaceError::OutOfMemory { points })?;
-        match (form, roughness) {
-            (None, None) => heights.resize(points, 0.0),
-            (None, Some(rough)) => heights.extend(rough.iter().map(|z| scale * z)),
-            (Some(form), None) => heights.extend((first..end).map(|i| 0.0 - springs.depth(form, i))),
-            (Some(form), Some(rough)) => {
-                heights.extend((first..end).map(|i| scale * rough[i] - springs.depth(form, i)));
-            }
+            memory::emptied(memory, under.len()).map_err(|_| SurfaceError::OutOfMemory { points })?;
+        match roughness {
+            Some(rough) => heights.extend_from_slice(&rough[under]),
+            None => heights.resize(under.len(), 0.0),
         }
-        springs.line(heights)
+        springs.line(heights, form, scale)
     }
 
     /// The same for a form and roughness, whose memory becomes that of the gaps.
@@ -80,14 +76,7 @@ impl Line {
         let springs = Springs::new(length, heights.len(), form)?;
         heights.truncate(springs.end);
         heights.drain(..springs.first);
-        match form {
-            None => heights.iter_mut().for_each(|z| *z *= scale),
-            Some(form) => {
-                let under = (springs.first..).zip(&mut heights);
-                under.for_each(|(index, z)| *z = scale * *z - springs.depth(form, index));
-            }
-        }
-        springs.line(heights)
+        springs.line(heights, form, scale)
     }
 
     /// Heights z, m, of the points under the body; summit − z is their gap, bit for bit.
@@ -148,9 +137,16 @@ impl Springs {
         mdr_profile(form, (index as f64 - axis) * self.spacing)
     }
 
-    /// The profile of these heights of the springs under the form, m, in their memory.
-    fn line(self, mut gaps: Vec<f64>) -> Result<Line, SurfaceError> {
+    /// The profile of a form and these heights of roughness of the springs under it, times `scale` m, in their memory.
+    fn line(self, mut gaps: Vec<f64>, form: Option<&Form>, scale: f64) -> Result<Line, SurfaceError> {
         let Springs { length, points, spacing, first, .. } = self;
+        match form {
+            None => gaps.iter_mut().for_each(|z| *z *= scale),
+            Some(form) => {
+                let under = (first..).zip(&mut gaps);
+                under.for_each(|(index, z)| *z = scale * *z - self.depth(form, index));
+            }
+        }
         let not_finite = |index| SurfaceError::NotFinite { index: first + index };
         let summit = largest(&gaps).map_err(not_finite)?;
         gaps.iter_mut().for_each(|height| *height = summit - *height);

@@ -110,6 +110,11 @@ impl Topography {
         self.interpolated.len()
     }
 
+    /// Copies the heights, m, if the memory suffices.
+    pub(crate) fn copied_heights(&self) -> Result<Vec<f64>, TopographyError> {
+        gathered(self.heights.len(), self.heights.iter().copied())
+    }
+
     /// Heights, m, with as many points interpolated once more: those some quarters of length and width from the interpolated
     /// ones. What changes is an estimate of what interpolation has changed before.
     ///
@@ -117,7 +122,7 @@ impl Topography {
     /// Insufficient memory.
     pub(crate) fn interpolated_again(&self, quarters: usize) -> Result<Vec<f64>, TopographyError> {
         let (columns, rows) = (self.columns(), self.rows());
-        let mut heights = gathered(self.heights.len(), self.heights.iter().copied())?;
+        let mut heights = self.copied_heights()?;
         for index in &self.interpolated {
             let moved = |place: usize, count: usize| (place + quarters * count / 4) % count;
             let (row, column) = (moved(index / columns, rows), moved(index % columns, columns));
