@@ -64,7 +64,7 @@ impl SurfaceFile {
         let spacing = surface.spacing().unwrap_or_default();
         SurfaceFile {
             path,
-            format: surface.format().name(),
+            format: surface.format().into(),
             points,
             lengths: [0, 1].map(|axis| points[axis] as f64 * spacing[axis]),
             interpolated: surface.interpolated(),

@@ -12,7 +12,7 @@ use crate::surface::{
     Amplitude, EquivalentLine, Histogram, Line, MeasuredOptions, MeasuredProfile, MeasuredRoughness,
     SelfAffine, SurfaceError, Synthesizer, WaveNumbers, read_faces,
 };
-use crate::topography::{Cut, Missing, ReadOptions, Unit, content};
+use crate::topography::{Cut, ReadOptions, Unit, content};
 use std::mem::take;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -456,7 +456,7 @@ pub fn measured_roughness_options(roughness: &Roughness, as_line: bool) -> Measu
             height_unit: height_unit.parse().ok(),
             convention: as_line.then_some(Unit::METRE),
             spacing: *spacing,
-            missing: if *interpolate { Missing::Interpolate } else { Missing::Refuse },
+            interpolate: *interpolate,
             channel: channel.and_then(|channel| channel.try_into().ok()),
         },
         resample: *resample,

@@ -52,19 +52,20 @@ impl<'a> Model<'a> {
         self.misfit(self.means(values)) + SMOOTHNESS * rough
     }
 
-    /// Gradient and information matrix of the misfit over so many parameters; `add` adds the value of a term and its
-    /// derivatives to the mean and the slopes of an observation.
-    pub fn misfit_linearised(
-        &self,
-        count: usize,
-        add: impl Fn(&Term, &mut f64, &mut [f64]),
-    ) -> (Vec<f64>, Vec<f64>) {
+    /// Gradient and information matrix of the objective.
+    fn linearise(&self, values: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let count = values.len();
         let (mut gradient, mut information) = (vec![0.0; count], vec![0.0; count * count]);
         let mut slope = vec![0.0; count];
         for (observed, terms) in self.observations.iter().zip(&self.terms) {
             slope.fill(0.0);
             let mut mean = 0.0;
-            terms.iter().for_each(|term| add(term, &mut mean, &mut slope));
+            for term in terms {
+                let value = term.value(values);
+                mean += value;
+                slope[term.index] += (1.0 - term.share) * value;
+                slope[term.index + 1] += term.share * value;
+            }
             slope.iter_mut().for_each(|slope| *slope /= mean);
             let residual = observed.waves * (1.0 - observed.power / mean);
             for row in 0..count {
@@ -74,18 +75,6 @@ impl<'a> Model<'a> {
                 }
             }
         }
-        (gradient, information)
-    }
-
-    /// Gradient and information matrix of the objective.
-    fn linearise(&self, values: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let count = values.len();
-        let (mut gradient, mut information) = self.misfit_linearised(count, |term, mean, slope| {
-            let value = term.value(values);
-            *mean += value;
-            slope[term.index] += (1.0 - term.share) * value;
-            slope[term.index + 1] += term.share * value;
-        });
         for (first, x) in values.windows(3).enumerate() {
             let difference = x[0] - 2.0 * x[1] + x[2];
             for (row, a) in [1.0, -2.0, 1.0].into_iter().enumerate() {

@@ -144,11 +144,25 @@ fn search(
 
 /// Gradient and information matrix of the misfit by the first `free` parameters.
 fn linearise(model: &Model<'_>, parameters: &Parameters, free: usize) -> (Vec<f64>, Vec<f64>) {
-    model.misfit_linearised(free, |term, mean, slope| {
-        let value = term.weight * parameters.value(term.ln_q);
-        let above = (term.ln_q - parameters.roll_off).max(0.0);
-        let corner = if above > 0.0 { parameters.exponent() * value } else { 0.0 };
-        *mean += value;
-        slope.iter_mut().zip([value, -2.0 * above * value, corner]).for_each(|(sum, one)| *sum += one);
-    })
+    let (mut gradient, mut information) = (vec![0.0; free], vec![0.0; free * free]);
+    for (observed, terms) in model.observations.iter().zip(&model.terms) {
+        let (mut mean, mut slope) = (0.0, [0.0; 3]);
+        for term in terms {
+            let value = term.weight * parameters.value(term.ln_q);
+            let above = (term.ln_q - parameters.roll_off).max(0.0);
+            mean += value;
+            slope[0] += value;
+            slope[1] -= 2.0 * above * value;
+            slope[2] += if above > 0.0 { parameters.exponent() * value } else { 0.0 };
+        }
+        let residual = observed.waves * (1.0 - observed.power / mean);
+        for row in 0..free {
+            gradient[row] += residual * slope[row] / mean;
+            for column in 0..=row {
+                information[row * free + column] +=
+                    observed.waves * slope[row] * slope[column] / (mean * mean);
+            }
+        }
+    }
+    (gradient, information)
 }

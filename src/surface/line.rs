@@ -3,6 +3,7 @@
 use super::{SurfaceError, mdr_profile};
 use crate::memory;
 use crate::scene::Form;
+use std::ops::Range;
 
 /// The rigid profile above springs at x = (i + ½)Δx.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,15 +53,15 @@ impl Line {
         roughness: Option<&[f64]>,
         scale: f64,
     ) -> Result<Self, SurfaceError> {
-        let springs = Springs::new(length, points, form)?;
-        let under = springs.first..springs.end;
-        let mut heights =
-            memory::emptied(memory, under.len()).map_err(|_| SurfaceError::OutOfMemory { points })?;
-        match roughness {
-            Some(rough) => heights.extend_from_slice(&rough[under]),
-            None => heights.resize(under.len(), 0.0),
-        }
-        springs.line(heights, form, scale)
+        Line::over(length, points, form, scale, |under| {
+            let mut heights =
+                memory::emptied(memory, under.len()).map_err(|_| SurfaceError::OutOfMemory { points })?;
+            match roughness {
+                Some(rough) => heights.extend_from_slice(&rough[under]),
+                None => heights.resize(under.len(), 0.0),
+            }
+            Ok(heights)
+        })
     }
 
     /// The same for a form and roughness, whose memory becomes that of the gaps.
@@ -73,10 +74,42 @@ impl Line {
         form: Option<&Form>,
         scale: f64,
     ) -> Result<Self, SurfaceError> {
-        let springs = Springs::new(length, heights.len(), form)?;
-        heights.truncate(springs.end);
-        heights.drain(..springs.first);
-        springs.line(heights, form, scale)
+        Line::over(length, heights.len(), form, scale, |under| {
+            heights.truncate(under.end);
+            heights.drain(..under.start);
+            Ok(heights)
+        })
+    }
+
+    /// The profile of a form and `heights` of roughness of the springs under it, times `scale` m, in their memory.
+    fn over(
+        length: f64,
+        points: usize,
+        form: Option<&Form>,
+        scale: f64,
+        heights: impl FnOnce(Range<usize>) -> Result<Vec<f64>, SurfaceError>,
+    ) -> Result<Self, SurfaceError> {
+        let spacing = length / points as f64;
+        let under = form.map_or(0..points as u64, |form| form.springs_under(length, points as u64));
+        if under.is_empty() {
+            return Err(SurfaceError::NoSprings { least: spacing / 4.0 });
+        }
+        let first = under.start as usize;
+        let mut gaps = heights(first..under.end as usize)?;
+        match form {
+            None => gaps.iter_mut().for_each(|z| *z *= scale),
+            Some(form) => {
+                // Whole cells from the axis: exact, so that the profile is as symmetric as its form.
+                let axis = Form::spring_on_axis(points as u64) as f64;
+                let depth = |index: usize| mdr_profile(form, (index as f64 - axis) * spacing);
+                (first..).zip(&mut gaps).for_each(|(index, z)| *z = scale * *z - depth(index));
+            }
+        }
+        let not_finite = |index| SurfaceError::NotFinite { index: first + index };
+        let summit = largest(&gaps).map_err(not_finite)?;
+        gaps.iter_mut().for_each(|height| *height = summit - *height);
+        let deepest = largest(&gaps).map_err(not_finite)?;
+        Ok(Line { gaps, first, points, length, spacing, summit, deepest })
     }
 
     /// Heights z, m, of the points under the body; summit − z is their gap, bit for bit.
@@ -108,50 +141,6 @@ impl Line {
     #[must_use]
     pub fn deepest(&self) -> f64 {
         self.deepest
-    }
-}
-
-/// Springs of a foundation, and those of them under a form.
-struct Springs {
-    length: f64,
-    points: usize,
-    spacing: f64,
-    first: usize,
-    end: usize,
-}
-
-impl Springs {
-    fn new(length: f64, points: usize, form: Option<&Form>) -> Result<Self, SurfaceError> {
-        let spacing = length / points as f64;
-        let under = form.map_or(0..points as u64, |form| form.springs_under(length, points as u64));
-        if under.is_empty() {
-            return Err(SurfaceError::NoSprings { least: spacing / 4.0 });
-        }
-        Ok(Springs { length, points, spacing, first: under.start as usize, end: under.end as usize })
-    }
-
-    /// Depth of a form below its apex at a spring, m.
-    fn depth(&self, form: &Form, index: usize) -> f64 {
-        // Whole cells from the axis: exact, so that the profile is as symmetric as its form.
-        let axis = Form::spring_on_axis(self.points as u64) as f64;
-        mdr_profile(form, (index as f64 - axis) * self.spacing)
-    }
-
-    /// The profile of a form and these heights of roughness of the springs under it, times `scale` m, in their memory.
-    fn line(self, mut gaps: Vec<f64>, form: Option<&Form>, scale: f64) -> Result<Line, SurfaceError> {
-        let Springs { length, points, spacing, first, .. } = self;
-        match form {
-            None => gaps.iter_mut().for_each(|z| *z *= scale),
-            Some(form) => {
-                let under = (first..).zip(&mut gaps);
-                under.for_each(|(index, z)| *z = scale * *z - self.depth(form, index));
-            }
-        }
-        let not_finite = |index| SurfaceError::NotFinite { index: first + index };
-        let summit = largest(&gaps).map_err(not_finite)?;
-        gaps.iter_mut().for_each(|height| *height = summit - *height);
-        let deepest = largest(&gaps).map_err(not_finite)?;
-        Ok(Line { gaps, first, points, length, spacing, summit, deepest })
     }
 }
 

@@ -1,9 +1,9 @@
 //! Measured profiles used as the line themselves.
 
 use super::{Amplitude, MeasuredOptions, SurfaceError};
-use crate::memory::check_room;
+use crate::memory::{check_room, emptied};
 use crate::spectrum::Detrend;
-use crate::topography::{ReadOptions, TopographyError, UNEVEN, Unit, first_uneven};
+use crate::topography::{ReadOptions, TopographyError, UNEVEN, Unit, first_uneven, interpolated};
 use realfft::RealFftPlanner;
 
 /// Most bytes per point of the transform and its arrays: an odd number of points transforms at twice the length.
@@ -134,25 +134,11 @@ impl MeasuredProfile {
         let begins = self.begins(length).map_err(|covers| {
             format!("the profile covers {covers:e} m; allowed: at least length = {length:e} m")
         })?;
-        let mut heights = Vec::new();
-        heights.try_reserve_exact(points).map_err(|_| format!("not enough memory for {points} points"))?;
-        let level = self.level();
-        let mut piece = 0;
-        for index in 0..points {
-            let x = begins + (index as f64 + 0.5 - shift) * (length / points as f64);
-            while piece + 2 < self.positions.len() && self.positions[piece + 1] < x {
-                piece += 1;
-            }
-            let (x0, x1) = (self.positions[piece], self.positions[piece + 1]);
-            let (z0, z1) = (self.heights[piece] - level, self.heights[piece + 1] - level);
-            heights.push(if x <= x0 {
-                z0
-            } else if x >= x1 {
-                z1
-            } else {
-                z0 + (z1 - z0) * ((x - x0) / (x1 - x0))
-            });
-        }
+        let mut heights =
+            emptied(Vec::new(), points).map_err(|_| format!("not enough memory for {points} points"))?;
+        let places =
+            (0..points).map(|index| begins + (index as f64 + 0.5 - shift) * (length / points as f64));
+        heights.extend(interpolated(&self.positions, &self.heights, self.level(), places));
         Ok(heights)
     }
 

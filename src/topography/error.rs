@@ -65,12 +65,6 @@ impl From<ReadError> for TopographyError {
     }
 }
 
-impl From<std::io::Error> for TopographyError {
-    fn from(error: std::io::Error) -> Self {
-        ReadError::from(error).into()
-    }
-}
-
 /// Error of invalid content.
 pub(super) fn refused(place: Place, fault: impl Into<String>, allowed: impl Into<String>) -> TopographyError {
     TopographyError::Content { place, fault: fault.into(), allowed: allowed.into() }

@@ -25,14 +25,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     let sizes = header.number("xreal")?.zip(header.number("yreal")?);
     let spacing = sizes.map(|(width, height)| [width / columns as f64, height / rows as f64]);
     let unit = |key: &str| header.text(key).map_or(Ok(None), |(value, place)| Unit::stated(value, place));
-    Ok(Reading {
-        format: Format::Gsf,
-        heights,
-        grid: RawGrid::of(columns, rows, spacing),
-        lateral_unit: unit("xyunits")?,
-        height_unit: unit("zunits")?,
-        first_missing: None,
-    })
+    let units = [unit("xyunits")?, unit("zunits")?];
+    Ok(Reading::new(Format::Gsf, heights, RawGrid::of(columns, rows, spacing), units))
 }
 
 #[cfg(test)]

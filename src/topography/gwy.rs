@@ -140,14 +140,9 @@ impl<'a> Field<'a> {
             return Err(refused(place(), fault, "a height for each point"));
         }
         let [width, height] = self.sizes;
-        Ok(Reading {
-            format: Format::Gwy,
-            heights: values.numbers(count, Number::F64)?,
-            grid: RawGrid::of(columns, rows, Some([width / columns as f64, height / rows as f64])),
-            lateral_unit: Unit::stated(&self.unit_xy, place())?,
-            height_unit: Unit::stated(&self.unit_z, place())?,
-            first_missing: None,
-        })
+        let grid = RawGrid::of(columns, rows, Some([width / columns as f64, height / rows as f64]));
+        let units = [Unit::stated(&self.unit_xy, place())?, Unit::stated(&self.unit_z, place())?];
+        Ok(Reading::new(Format::Gwy, values.numbers(count, Number::F64)?, grid, units))
     }
 }
 

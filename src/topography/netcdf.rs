@@ -82,14 +82,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
             return Err(refused(Place::File, fault, "one of a profile, or two of a map"));
         }
     };
-    Ok(Reading {
-        format: Format::NetCdf,
-        heights: values,
-        grid,
-        lateral_unit: position_unit,
-        height_unit: heights.unit.or(position_unit),
-        first_missing: None,
-    })
+    Ok(Reading::new(Format::NetCdf, values, grid, [position_unit, heights.unit.or(position_unit)]))
 }
 
 impl<'a> Dataset<'a> {

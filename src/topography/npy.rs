@@ -9,19 +9,6 @@ use super::error::{Place, TopographyError, refused, shown};
 use super::reading::{Format, RawGrid, Reading};
 pub(super) use crate::io::npy::SIGNATURE;
 
-const NUMBERS: [(&str, Number); 10] = [
-    ("f8", Number::F64),
-    ("f4", Number::F32),
-    ("i1", Number::I8),
-    ("i2", Number::I16),
-    ("i4", Number::I32),
-    ("i8", Number::I64),
-    ("u1", Number::U8),
-    ("u2", Number::U16),
-    ("u4", Number::U32),
-    ("u8", Number::U64),
-];
-
 /// Reads an array of format version 1, 2 or 3.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     let mut data = Bytes::new(bytes, Order::Little);
@@ -73,9 +60,21 @@ impl Header {
             Some((">", name)) => (Order::Big, name),
             _ => return Err(wrong("no order of bytes")),
         };
-        let Some((_, number)) = NUMBERS.into_iter().find(|(one, _)| *one == name) else {
-            let fault = format!("numbers of type {:?}", shown(descr));
-            return Err(refused(Place::Byte(10), fault, "real and whole numbers: f4, f8, i1 to u8"));
+        let number = match name {
+            "f8" => Number::F64,
+            "f4" => Number::F32,
+            "i1" => Number::I8,
+            "i2" => Number::I16,
+            "i4" => Number::I32,
+            "i8" => Number::I64,
+            "u1" => Number::U8,
+            "u2" => Number::U16,
+            "u4" => Number::U32,
+            "u8" => Number::U64,
+            _ => {
+                let fault = format!("numbers of type {:?}", shown(descr));
+                return Err(refused(Place::Byte(10), fault, "real and whole numbers: f4, f8, i1 to u8"));
+            }
         };
         let is_column_major = match entry("fortran_order")? {
             value if value.starts_with("True") => true,
@@ -126,14 +125,7 @@ impl Header {
             let fault = format!("x = {:e} after {:e}", positions[index + 1], positions[index]);
             return Err(refused(Place::Point(index + 2), fault, "positions that ascend, or descend"));
         }
-        Ok(Reading {
-            format: Format::Npy,
-            heights: values,
-            grid,
-            lateral_unit: None,
-            height_unit: None,
-            first_missing: None,
-        })
+        Ok(Reading::new(Format::Npy, values, grid, [None, None]))
     }
 }
 

@@ -165,7 +165,7 @@ mod tests {
             "line 2: 1 of 4 points are missing (25.00 %), the first here; allowed: --interpolate, in a scene \
              roughness.interpolate, which fills them from their neighbours"
         );
-        let options = ReadOptions { missing: crate::topography::Missing::Interpolate, ..metres() };
+        let options = ReadOptions { interpolate: true, ..metres() };
         let surface = parse(text, &options).unwrap();
         assert_eq!((surface.heights(), surface.interpolated()), (&[1.0, 2.0, 3.0, 4.0][..], 1));
     }

@@ -33,14 +33,8 @@ impl Header {
         for height in &mut heights {
             *height = if Some(*height) == self.missing { f64::NAN } else { *height * unit };
         }
-        Reading {
-            format: Format::Sdf,
-            heights,
-            grid: RawGrid::of(self.columns, self.rows, Some([along, between])),
-            lateral_unit: Some(Unit::METRE),
-            height_unit: Some(Unit::METRE),
-            first_missing,
-        }
+        let grid = RawGrid::of(self.columns, self.rows, Some([along, between]));
+        Reading { first_missing, ..Reading::new(Format::Sdf, heights, grid, [Some(Unit::METRE); 2]) }
     }
 }
 

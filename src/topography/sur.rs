@@ -67,14 +67,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     // Distances in the unit of the rows; another unit between rows is rare, and converted.
     let units = unit_along.zip(unit_between);
     let between_factor = units.map_or(1.0, |(along, between)| between.to_metres(1.0) / along.to_metres(1.0));
-    Ok(Reading {
-        format: Format::Sur,
-        heights,
-        grid: RawGrid::of(columns, rows, Some([along, between * between_factor])),
-        lateral_unit: unit_along,
-        height_unit,
-        first_missing: None,
-    })
+    let grid = RawGrid::of(columns, rows, Some([along, between * between_factor]));
+    Ok(Reading::new(Format::Sur, heights, grid, [unit_along, height_unit]))
 }
 
 fn count(data: &mut Bytes<'_>) -> Result<usize, TopographyError> {

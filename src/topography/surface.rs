@@ -64,26 +64,22 @@ impl Topography {
         interpolated: Vec<usize>,
     ) -> Result<Self, TopographyError> {
         let surface = Topography { format, heights, grid, interpolated };
-        if let Some((index, slope)) = surface.first_steep() {
-            let fault = format!("a slope of {slope:e} from the point before");
-            return Err(refused(Place::Point(index + 1), fault, format!("at most {LARGEST:e}")));
-        }
-        Ok(surface)
-    }
-
-    /// Index of the first point of a row after an excessive slope, and the slope.
-    fn first_steep(&self) -> Option<(usize, f64)> {
-        let columns = self.columns();
+        let columns = surface.columns();
         let slope = |index: usize| {
-            let distance = match &self.grid {
+            let distance = match &surface.grid {
                 Grid::Positions(positions) => positions[index] - positions[index - 1],
                 Grid::Profile { spacing } => *spacing,
                 Grid::Map { spacing: [along, between], .. } => along.min(*between),
             };
-            (self.heights[index] - self.heights[index - 1]).abs() / distance
+            (surface.heights[index] - surface.heights[index - 1]).abs() / distance
         };
-        let neighbours = (1..self.heights.len()).filter(|index| index % columns > 0);
-        neighbours.map(|index| (index, slope(index))).find(|(_, slope)| slope.is_nan() || *slope > LARGEST)
+        let is_steep = |index: &usize| slope(*index).is_nan() || slope(*index) > LARGEST;
+        let Some(index) = (1..surface.heights.len()).filter(|index| index % columns > 0).find(is_steep)
+        else {
+            return Ok(surface);
+        };
+        let fault = format!("a slope of {:e} from the point before", slope(index));
+        Err(refused(Place::Point(index + 1), fault, format!("at most {LARGEST:e}")))
     }
 
     /// Format of the file.
@@ -235,20 +231,36 @@ impl Topography {
     pub fn resampled(mut self) -> Result<Self, TopographyError> {
         let Grid::Positions(positions) = &self.grid else { return Ok(self) };
         let (first, spacing, points) = (positions[0], mean_distance(positions), positions.len());
-        let mut piece = 0;
-        let height = |index: usize| {
-            let x = first + index as f64 * spacing;
-            while piece + 2 < points && positions[piece + 1] < x {
-                piece += 1;
-            }
-            let (x0, x1) = (positions[piece], positions[piece + 1]);
-            let share = ((x - x0) / (x1 - x0)).clamp(0.0, 1.0);
-            self.heights[piece] + share * (self.heights[piece + 1] - self.heights[piece])
-        };
-        self.heights = gathered(points, (0..points).map(height))?;
+        let places = (0..points).map(|index| first + index as f64 * spacing);
+        self.heights = gathered(points, interpolated(positions, &self.heights, 0.0, places))?;
         self.grid = Grid::Profile { spacing };
         Ok(self)
     }
+}
+
+/// Returns the heights above a level, m, at ascending places, m, by linear interpolation between at least two points; at
+/// a point its own height, bit for bit, and beyond the first and the last point the height of that.
+pub(crate) fn interpolated(
+    positions: &[f64],
+    heights: &[f64],
+    level: f64,
+    places: impl Iterator<Item = f64>,
+) -> impl Iterator<Item = f64> {
+    let mut piece = 0;
+    places.map(move |x| {
+        while piece + 2 < positions.len() && positions[piece + 1] < x {
+            piece += 1;
+        }
+        let (x0, x1) = (positions[piece], positions[piece + 1]);
+        let (z0, z1) = (heights[piece] - level, heights[piece + 1] - level);
+        if x <= x0 {
+            z0
+        } else if x >= x1 {
+            z1
+        } else {
+            z0 + (z1 - z0) * ((x - x0) / (x1 - x0))
+        }
+    })
 }
 
 /// Mean distance between positions, m.

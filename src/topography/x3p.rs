@@ -55,14 +55,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
         None => listed(root, points)?,
     };
     heights.iter_mut().for_each(|height| *height = *height * scale + offset);
-    Ok(Reading {
-        format: Format::X3p,
-        heights,
-        grid: RawGrid::of(columns, rows, steps[0].zip(steps[1]).map(|(along, between)| [along, between])),
-        lateral_unit: Some(Unit::METRE),
-        height_unit: Some(Unit::METRE),
-        first_missing: None,
-    })
+    let grid = RawGrid::of(columns, rows, steps[0].zip(steps[1]).map(|(along, between)| [along, between]));
+    Ok(Reading::new(Format::X3p, heights, grid, [Some(Unit::METRE); 2]))
 }
 
 /// Refuses an index that takes the parser much more time or memory than its length.
