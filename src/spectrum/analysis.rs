@@ -276,20 +276,16 @@ impl Powers {
     }
 
     fn spectra(&self) -> Vec<(Direction, Vec<Bin>)> {
-        let mean = |powers: Vec<&ProfilePower>| {
-            let waves = powers.iter().flat_map(|power| {
-                let profiles = power.profiles;
-                power.power.iter().enumerate().map(move |(index, sum)| {
-                    ((index + 1) as f64 * power.step(), sum / profiles as f64, profiles)
-                })
-            });
-            bins(waves.collect::<Vec<_>>().into_iter())
+        let mean = |powers: &mut dyn Iterator<Item = &ProfilePower>| {
+            bins(powers.flat_map(|power| {
+                power.waves().map(|(q, sum)| (q, sum / power.profiles as f64, power.profiles))
+            }))
         };
         let radial =
             self.maps.iter().flat_map(|map| map.waves.iter().map(|(q, power)| (*q, q * power / PI, 1)));
         [
-            (Direction::X, mean(self.profiles.iter().chain(&self.rows).collect())),
-            (Direction::Y, mean(self.columns.iter().collect())),
+            (Direction::X, mean(&mut self.profiles.iter().chain(&self.rows))),
+            (Direction::Y, mean(&mut self.columns.iter())),
             (Direction::Radial, bins(radial)),
         ]
         .into_iter()

@@ -55,6 +55,11 @@ impl ProfilePower {
         TAU / (self.points as f64 * self.spacing)
     }
 
+    /// Wave number, rad/m, and summed power, m³, of each wave.
+    pub fn waves(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.power.iter().enumerate().map(|(index, power)| ((index + 1) as f64 * self.step(), *power))
+    }
+
     /// Adds the power of profiles of equal points: consecutive rows.
     pub fn add(
         &mut self,
@@ -79,9 +84,7 @@ pub fn line_spectrum(heights: &[f64], spacing: f64, windowed: bool) -> Result<Ve
     // The mean of windowed heights would leak into the first waves.
     let mean = heights.iter().sum::<f64>() / heights.len() as f64;
     power.add(std::iter::once(heights.iter().map(|height| height - mean)))?;
-    let waves =
-        power.power.iter().enumerate().map(|(index, value)| ((index + 1) as f64 * power.step(), *value, 1));
-    Ok(bins(waves))
+    Ok(bins(power.waves().map(|(wave_number, power)| (wave_number, power, 1))))
 }
 
 /// Power of the waves of a map.
