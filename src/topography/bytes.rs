@@ -1,6 +1,17 @@
-//! Numbers of binary files, each read only if the file has its bytes.
+//! Numbers of binary files, each read only if the file has its bytes, and the limits of their decompression.
 
 use super::error::{Place, TopographyError, gathered, refused};
+
+/// Decompressed bytes allowed per byte of the file: texts of numbers expand by factors of three to six.
+pub(super) const MOST_EXPANSION: usize = 32;
+
+/// Decompressed bytes allowed in addition.
+const LEAST_EXPANDED: usize = 1 << 20;
+
+/// Returns the largest number of decompressed bytes from so many bytes.
+pub(super) fn most_expanded(bytes: usize) -> usize {
+    bytes.saturating_mul(MOST_EXPANSION).saturating_add(LEAST_EXPANDED)
+}
 
 /// Order of the bytes of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

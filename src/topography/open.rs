@@ -1,5 +1,6 @@
 //! The format of a file, determined by its first bytes, and its reader.
 
+use super::bytes::{MOST_EXPANSION, most_expanded};
 use super::error::{Place, TopographyError, refused};
 use super::reading::{ReadOptions, Reading};
 use super::{Topography, gsf, gwy, netcdf, npy, sdf, sur, text, x3p};
@@ -9,12 +10,6 @@ use std::path::Path;
 
 /// Most bytes of a file.
 pub const MOST_BYTES: usize = 1 << 30;
-
-/// Decompressed bytes allowed per byte of the file: texts of numbers expand by factors of three to six.
-const MOST_EXPANSION: usize = 32;
-
-/// Decompressed bytes allowed in addition.
-const LEAST_EXPANDED: usize = 1 << 20;
 
 /// First bytes of gzip.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
@@ -64,11 +59,6 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, Topograp
     }
     let reader = SIGNATURES.iter().find(|(signature, _)| content.starts_with(signature));
     reader.map_or_else(|| text::read(content), |(_, read)| read(content, options))?.resolve(options)
-}
-
-/// Returns the largest number of decompressed bytes from so many bytes.
-pub(super) fn most_expanded(bytes: usize) -> usize {
-    bytes.saturating_mul(MOST_EXPANSION).saturating_add(LEAST_EXPANDED)
 }
 
 /// Decompresses gzip.

@@ -1,9 +1,8 @@
 //! Digital Surf SUR: a header of 512 bytes, comments, and integers, plain or compressed.
 
 use super::Unit;
-use super::bytes::{Bytes, Number, Order};
+use super::bytes::{Bytes, Number, Order, most_expanded};
 use super::error::{Place, TopographyError, refused};
-use super::open::most_expanded;
 use super::reading::{Format, RawGrid, Reading};
 use crate::io::read_limited;
 use encoding_rs::WINDOWS_1252;

@@ -1,9 +1,8 @@
 //! X3P of ISO 25178-72: an archive with `main.xml` and usually a binary file of heights. Lengths are in m.
 
 use super::Unit;
-use super::bytes::{Bytes, Number, Order};
+use super::bytes::{Bytes, Number, Order, most_expanded};
 use super::error::{Place, TopographyError, refused, shown};
-use super::open::most_expanded;
 use super::reading::{Format, RawGrid, Reading};
 use crate::io::{into_text, read_limited};
 use roxmltree::{Document, Node, ParsingOptions};
