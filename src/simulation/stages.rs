@@ -229,7 +229,7 @@ impl Simulation {
     fn roughen(&mut self, scene: &Scene, key: &RoughnessKey, memory: Vec<f64>) -> Result<(), RunError> {
         let points = scene.numerics.points as usize;
         // The transform allocates its own memory, and would end the process on failure.
-        check_room(Plan::of(scene).line_bytes()).map_err(|_| SurfaceError::OutOfMemory { points })?;
+        check_room(Plan::of(scene).line_bytes()).map_err(|_| SurfaceError::OutOfMemory(points))?;
         self.roughness = Some((key.clone(), self.make_roughness(key, memory)?));
         if self.single {
             self.synthesizer = Synthesizer::default();

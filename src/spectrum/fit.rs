@@ -94,23 +94,18 @@ impl<'a> Model<'a> {
         let mut sums = vec![(0.0, 0.0); count];
         for (observed, terms) in self.observations.iter().zip(&self.terms) {
             // The mean of a spectrum of ones is the normalisation.
-            let weight: f64 = terms
-                .iter()
-                .map(|term| term.weight * ((observed.wave_number.ln() - term.ln_q) * 3.0).exp())
-                .sum();
+            let ln_q = observed.wave_number.ln();
+            let weights = terms.iter().map(|term| term.weight * ((ln_q - term.ln_q) * 3.0).exp());
+            let weight: f64 = weights.sum();
             if observed.power > 0.0 && weight > 0.0 {
-                let (index, share) = self.nodes.place(observed.wave_number.ln());
+                let (index, share) = self.nodes.place(ln_q);
                 let nearest = if share < 0.5 { index } else { (index + 1).min(count - 1) };
                 sums[nearest].0 += observed.waves * (observed.power / weight).ln();
                 sums[nearest].1 += observed.waves;
             }
         }
-        let known: Vec<(usize, f64)> = sums
-            .iter()
-            .enumerate()
-            .filter(|(_, sum)| sum.1 > 0.0)
-            .map(|(index, sum)| (index, sum.0 / sum.1))
-            .collect();
+        let known = (0..count).filter(|index| sums[*index].1 > 0.0);
+        let known: Vec<_> = known.map(|index| (index, sums[index].0 / sums[index].1)).collect();
         let between = |index: usize| {
             let after = known.iter().find(|(place, _)| *place >= index);
             let before = known.iter().rev().find(|(place, _)| *place <= index);

@@ -240,9 +240,7 @@ impl IsotropicSpectrum {
     /// Wave number (rad/m), C2D (m⁴) and standard error of ln C2D at each node.
     pub fn nodes(&self) -> impl Iterator<Item = (f64, f64, f64)> {
         self.values.iter().enumerate().map(|(index, value)| {
-            let mut gradient = vec![0.0; self.values.len()];
-            gradient[index] = 1.0;
-            (self.nodes.wave_number(index), value.exp(), self.information.variance(&gradient).sqrt())
+            (self.nodes.wave_number(index), value.exp(), self.information.standard_error(index))
         })
     }
 

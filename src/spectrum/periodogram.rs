@@ -166,7 +166,7 @@ impl MapPower {
         let rows = heights.len() / columns;
         let half = columns / 2 + 1;
         let points = heights.len();
-        let out_of_memory = |_| SpectrumError::OutOfMemory { points };
+        let out_of_memory = |_| SpectrumError::OutOfMemory(points);
         check_room(48 * points as u64).map_err(out_of_memory)?;
         let mut coefficients: Vec<Complex64> = emptied(Vec::new(), half * rows).map_err(out_of_memory)?;
         let in_rows = heights.chunks_exact(columns).map(|row| row.iter().copied());

@@ -55,7 +55,7 @@ impl Line {
     ) -> Result<Self, SurfaceError> {
         Line::over(length, points, form, scale, |under| {
             let mut heights =
-                memory::emptied(memory, under.len()).map_err(|_| SurfaceError::OutOfMemory { points })?;
+                memory::emptied(memory, under.len()).map_err(|_| SurfaceError::OutOfMemory(points))?;
             match roughness {
                 Some(rough) => heights.extend_from_slice(&rough[under]),
                 None => heights.resize(under.len(), 0.0),
@@ -92,7 +92,7 @@ impl Line {
         let spacing = length / points as f64;
         let under = form.map_or(0..points as u64, |form| form.springs_under(length, points as u64));
         if under.is_empty() {
-            return Err(SurfaceError::NoSprings { least: spacing / 4.0 });
+            return Err(SurfaceError::NoSprings(spacing / 4.0));
         }
         let first = under.start as usize;
         let mut gaps = heights(first..under.end as usize)?;
@@ -105,7 +105,7 @@ impl Line {
                 (first..).zip(&mut gaps).for_each(|(index, z)| *z = scale * *z - depth(index));
             }
         }
-        let not_finite = |index| SurfaceError::NotFinite { index: first + index };
+        let not_finite = |index| SurfaceError::NotFinite(first + index);
         let summit = largest(&gaps).map_err(not_finite)?;
         gaps.iter_mut().for_each(|height| *height = summit - *height);
         let deepest = largest(&gaps).map_err(not_finite)?;
@@ -193,7 +193,7 @@ mod tests {
         let line = Line::new(1.0, 10, Some(&Form::Punch { radius: 0.2 }), None, 0.0).unwrap();
         assert_eq!((line.first, line.gaps.len()), (3, 4));
         let none = Line::new(1.0, 10, Some(&Form::Punch { radius: 0.02 }), None, 0.0);
-        assert_eq!(none, Err(SurfaceError::NoSprings { least: 0.025 }));
+        assert_eq!(none, Err(SurfaceError::NoSprings(0.025)));
     }
 
     #[test]
@@ -211,9 +211,9 @@ mod tests {
     fn a_gap_beyond_all_numbers_is_refused_at_its_spring() {
         let rough = [0.0, 0.0, 1e308, 0.0, -1e308, 0.0];
         let line = |form: Option<&Form>| Line::new(1.0, 6, form, Some(&rough), 1.0);
-        assert_eq!(line(None), Err(SurfaceError::NotFinite { index: 4 }));
+        assert_eq!(line(None), Err(SurfaceError::NotFinite(4)));
         // The first spring under the punch is the second of the foundation.
-        assert_eq!(line(Some(&Form::Punch { radius: 0.3 })), Err(SurfaceError::NotFinite { index: 4 }));
+        assert_eq!(line(Some(&Form::Punch { radius: 0.3 })), Err(SurfaceError::NotFinite(4)));
     }
 
     #[test]
@@ -243,7 +243,7 @@ mod tests {
         let error = Line::new(1.0, 40, Some(&thin), Some(&rough), 0.3);
         assert_eq!(Line::from_roughness(rough, 1.0, Some(&thin), 0.3), error);
         let not_finite = Line::from_roughness(vec![0.0, f64::INFINITY], 1.0, None, 1.0);
-        assert_eq!(not_finite, Err(SurfaceError::NotFinite { index: 1 }));
+        assert_eq!(not_finite, Err(SurfaceError::NotFinite(1)));
     }
 
     #[test]
@@ -266,7 +266,7 @@ mod tests {
     #[test]
     fn heights_that_are_not_finite_are_refused() {
         let result = Line::new(1.0, 3, None, Some(&[0.0, 1e300, 0.0]), 1e300);
-        assert_eq!(result, Err(SurfaceError::NotFinite { index: 1 }));
+        assert_eq!(result, Err(SurfaceError::NotFinite(1)));
         for points in 1..40 {
             for bad in 0..points {
                 let mut rough: Vec<f64> = (0..points).map(|i| (i * i % 7) as f64).collect();
@@ -276,7 +276,7 @@ mod tests {
                 assert_eq!(line.deepest(), line.gaps.iter().copied().fold(0.0, f64::max));
                 rough[bad..].fill(f64::NAN);
                 let result = Line::new(1.0, points, None, Some(&rough), 1.0);
-                assert_eq!(result, Err(SurfaceError::NotFinite { index: bad }));
+                assert_eq!(result, Err(SurfaceError::NotFinite(bad)));
             }
         }
     }

@@ -103,7 +103,7 @@ impl MeasuredProfile {
     pub fn amplitude(&self) -> Result<Amplitude, SurfaceError> {
         let (rms_height, rms_gradient) = self.rms_height_and_gradient();
         let points = self.positions.len();
-        let out_of_memory = || SurfaceError::OutOfMemory { points };
+        let out_of_memory = || SurfaceError::OutOfMemory(points);
         check_room(TRANSFORM_BYTES * points as u64).map_err(|_| out_of_memory())?;
         let mut heights = self.sample(self.length(), points, 0.0).map_err(|_| out_of_memory())?;
         let curvature = rms_curvature(&heights, self.length() / points as f64);

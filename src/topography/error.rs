@@ -51,12 +51,9 @@ pub enum TopographyError {
         /// Allowed content.
         allowed: String,
     },
-    /// Insufficient memory.
-    #[error("not enough memory for {points} points")]
-    OutOfMemory {
-        /// Points of the surface.
-        points: usize,
-    },
+    /// Insufficient memory for so many points.
+    #[error("not enough memory for {0} points")]
+    OutOfMemory(usize),
 }
 
 impl From<ReadError> for TopographyError {
@@ -76,7 +73,7 @@ pub(super) fn gathered(
     values: impl Iterator<Item = f64>,
 ) -> Result<Vec<f64>, TopographyError> {
     let mut gathered = Vec::new();
-    gathered.try_reserve_exact(points).map_err(|_| TopographyError::OutOfMemory { points })?;
+    gathered.try_reserve_exact(points).map_err(|_| TopographyError::OutOfMemory(points))?;
     gathered.extend(values);
     Ok(gathered)
 }

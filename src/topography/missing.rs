@@ -28,7 +28,7 @@ pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<Vec<usi
     }
     let rows = heights.len() / columns;
     let mut filled: Vec<(usize, f64)> = Vec::new();
-    filled.try_reserve_exact(missing).map_err(|_| TopographyError::OutOfMemory { points: missing })?;
+    filled.try_reserve_exact(missing).map_err(|_| TopographyError::OutOfMemory(missing))?;
     for row in 0..rows {
         for_each_gap(heights, row * columns, 1, columns, |index, height| filled.push((index, height)));
     }

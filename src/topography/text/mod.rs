@@ -80,7 +80,7 @@ impl Rows {
         let columns = self.columns;
         let positions = if columns <= 3 { columns - 1 } else { 0 };
         let points = self.heights.len();
-        self.heights.try_reserve(columns).map_err(|_| TopographyError::OutOfMemory { points })?;
+        self.heights.try_reserve(columns).map_err(|_| TopographyError::OutOfMemory(points))?;
         let mut found = 0;
         for cell in self.separator.split(line) {
             found += 1;
@@ -90,7 +90,7 @@ impl Rows {
             let value = self.value(&place, cell, found <= positions)?;
             if found <= positions {
                 let column = &mut self.positions[found - 1];
-                column.try_reserve(1).map_err(|_| TopographyError::OutOfMemory { points })?;
+                column.try_reserve(1).map_err(|_| TopographyError::OutOfMemory(points))?;
                 column.push(value);
             } else {
                 self.heights.push(value);
