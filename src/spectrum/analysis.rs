@@ -5,7 +5,7 @@ use super::error::{LEAST_POINTS, SpectrumError};
 use super::fit::Model;
 use super::isotropic::{End, IsotropicSpectrum, LineMoments};
 use super::observation::{self, Observation};
-use super::periodogram::{Bin, Direction, MapPower, ProfilePower, bins};
+use super::periodogram::{Bin, Direction, MapPower, ProfilePower, bins, square};
 use super::power_law::{self, PowerLaw};
 use super::reliability::reliability_cutoff;
 use super::statistics::{Statistics, Sums};
@@ -107,7 +107,7 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         length = length.max(columns as f64 * distances[0]);
         Ok(())
     })?;
-    let (range, resolved) = (powers.range(last_significant), powers.range(|count, _| count)[1]);
+    let (range, resolved) = (powers.range(last_significant), powers.range(<[_]>::len)[1]);
     let ends_inside = range[1] < resolved;
     let observations = powers.observations(range[1]);
     if let End::Continues(to) = options.end
@@ -260,17 +260,15 @@ impl Powers {
     }
 
     /// Wave numbers from wave 1 of the longest surface to half a wave beyond the last of the finest profile, or the last of the
-    /// finest map; `last` of their waves (number, wave number and power of each by its index).
-    fn range(&self, last: impl Fn(usize, &dyn Fn(usize) -> (f64, f64)) -> usize) -> [f64; 2] {
+    /// finest map; `last` of their waves.
+    fn range(&self, last: fn(&[(f64, f64)]) -> usize) -> [f64; 2] {
         let profiles = self.profiles.iter().map(|power| {
-            let step = power.step();
-            let count = last(power.power.len(), &|index| ((index + 1) as f64 * step, power.power[index]));
-            [step, (count as f64 + 0.5) * step]
+            let count = last(&power.waves);
+            [power.step, (count as f64 + 0.5) * power.step]
         });
         let maps = self.maps.iter().map(|map| {
             let step = map.steps[0].min(map.steps[1]);
-            let count = last(map.waves.len(), &|index| map.waves[index]);
-            [step, count.checked_sub(1).map_or(step, |index| map.waves[index].0)]
+            [step, last(&map.waves).checked_sub(1).map_or(step, |index| map.waves[index].0)]
         });
         profiles.chain(maps).fold([f64::INFINITY, 0.0], |[low, high], [a, b]| [low.min(a), high.max(b)])
     }
@@ -278,7 +276,7 @@ impl Powers {
     fn spectra(&self) -> Vec<(Direction, Vec<Bin>)> {
         let mean = |powers: &mut dyn Iterator<Item = &ProfilePower>| {
             bins(powers.flat_map(|power| {
-                power.waves().map(|(q, sum)| (q, sum / power.profiles as f64, power.profiles))
+                power.waves.iter().map(|(q, sum)| (*q, sum / power.profiles as f64, power.profiles))
             }))
         };
         let radial =
@@ -294,23 +292,20 @@ impl Powers {
     }
 }
 
-/// Finds the end of a spectrum, given the wave number and the power of each wave by its index: the number of waves after which
-/// the rest has a negligible share of the squared gradient and far smaller powers. Returns `count` if the spectrum has no end.
-fn last_significant(count: usize, wave: &dyn Fn(usize) -> (f64, f64)) -> usize {
-    let square = |index: usize| {
-        let (q, power) = wave(index);
-        q * q * power
-    };
-    let negligible = NEGLIGIBLE * (0..count).map(square).sum::<f64>();
-    let (mut end, mut rest) = (count, 0.0);
-    while end > 1 && rest + square(end - 1) <= negligible {
+/// Finds the end of a spectrum of waves (wave number, power): the number of waves after which the rest has a negligible share
+/// of the squared gradient and far smaller powers; all waves if the spectrum has no end.
+fn last_significant(waves: &[(f64, f64)]) -> usize {
+    let sum = |waves: &[(f64, f64)]| waves.iter().map(square).sum::<f64>();
+    let negligible = NEGLIGIBLE * sum(waves);
+    let (mut end, mut rest) = (waves.len(), 0.0);
+    while end > 1 && rest + square(&waves[end - 1]) <= negligible {
         end -= 1;
-        rest += square(end);
+        rest += square(&waves[end]);
     }
-    let beyond = count - end;
+    let beyond = waves.len() - end;
     let before = beyond.min(end);
-    let as_many: f64 = (end - before..end).map(square).sum();
-    if rest * before as f64 <= DROP * as_many * beyond as f64 { end } else { count }
+    let as_many = sum(&waves[end - before..end]);
+    if rest * before as f64 <= DROP * as_many * beyond as f64 { end } else { waves.len() }
 }
 
 /// The powers of profiles of these points, newly made if there are none yet.

@@ -57,24 +57,24 @@ pub(super) enum Kind {
 
 /// Bands of the powers of profiles, from wave 1 on, or from wave 2 on under a window: detrending reduces wave 1.
 pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
-    let kind = Kind::Cut { step: power.step(), windowed: power.windowed, nyquist: PI / power.spacing };
+    let kind = Kind::Cut { step: power.step, windowed: power.windowed, nyquist: PI / power.spacing };
     let correlated = if power.windowed { HANN_CORRELATED } else { 1.0 };
     let first = if power.windowed { 2 } else { 1 };
     let profiles = power.profiles as f64;
     let mut observed = Vec::new();
     let mut low = first;
-    let count = power.power.len().min((last / power.step()) as usize);
+    let count = power.waves.len().min((last / power.step) as usize);
     while low <= count {
         let ratio = 10.0_f64.powf(1.0 / BANDS_PER_DECADE);
         let next = if low <= SINGLE { low + 1 } else { ((low as f64 * ratio) as usize).max(low + 1) };
         let next = next.min(count + 1);
         let waves = (next - low) as f64;
-        let sum: f64 = power.power[low - 1..next - 1].iter().sum();
+        let sum: f64 = power.waves[low - 1..next - 1].iter().map(|(_, power)| power).sum();
         observed.push(Observation {
-            wave_number: 0.5 * (low + next - 1) as f64 * power.step(),
+            wave_number: 0.5 * (low + next - 1) as f64 * power.step,
             power: sum / (waves * profiles),
             waves: waves * profiles / correlated,
-            range: waves * power.step() / PI,
+            range: waves * power.step / PI,
             kind,
         });
         low = next;

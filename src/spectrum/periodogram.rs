@@ -41,23 +41,17 @@ pub(super) struct ProfilePower {
     pub windowed: bool,
     /// Number of summed profiles.
     pub profiles: u64,
-    /// C1D, m³, of the waves 1, 2, … below half the number of points, summed.
-    pub power: Vec<f64>,
+    /// Wave number of wave 1, rad/m.
+    pub step: f64,
+    /// Wave number and C1D, m³, summed, of the waves 1, 2, … below half the number of points.
+    pub waves: Vec<(f64, f64)>,
 }
 
 impl ProfilePower {
     pub fn new(points: usize, spacing: f64, windowed: bool) -> Self {
-        ProfilePower { points, spacing, windowed, profiles: 0, power: vec![0.0; (points - 1) / 2] }
-    }
-
-    /// Wave number of wave 1, rad/m.
-    pub fn step(&self) -> f64 {
-        TAU / (self.points as f64 * self.spacing)
-    }
-
-    /// Wave number, rad/m, and summed power, m³, of each wave.
-    pub fn waves(&self) -> impl Iterator<Item = (f64, f64)> {
-        self.power.iter().enumerate().map(|(index, power)| ((index + 1) as f64 * self.step(), *power))
+        let step = TAU / (points as f64 * spacing);
+        let waves = (1..=(points - 1) / 2).map(|wave| (wave as f64 * step, 0.0)).collect();
+        ProfilePower { points, spacing, windowed, profiles: 0, step, waves }
     }
 
     /// Adds the power of profiles of equal points: consecutive rows.
@@ -67,7 +61,7 @@ impl ProfilePower {
     ) -> Result<(), SpectrumError> {
         let scale = self.spacing / self.points as f64;
         transform(rows, self.points, self.windowed, |coefficients| {
-            for (sum, coefficient) in self.power.iter_mut().zip(&coefficients[1..]) {
+            for ((_, sum), coefficient) in self.waves.iter_mut().zip(&coefficients[1..]) {
                 *sum += scale * coefficient.norm_sqr();
             }
             self.profiles += 1;
@@ -84,7 +78,7 @@ pub fn line_spectrum(heights: &[f64], spacing: f64, windowed: bool) -> Result<Ve
     // The mean of windowed heights would leak into the first waves.
     let mean = heights.iter().sum::<f64>() / heights.len() as f64;
     power.add(std::iter::once(heights.iter().map(|height| height - mean)))?;
-    Ok(bins(power.waves().map(|(wave_number, power)| (wave_number, power, 1))))
+    Ok(bins(power.waves.into_iter().map(|(wave_number, power)| (wave_number, power, 1))))
 }
 
 /// Power of the waves of a map.
@@ -133,7 +127,8 @@ struct AxisPower {
     near: [(f64, f64); 2],
 }
 
-fn square((q, power): &(f64, f64)) -> f64 {
+/// Squared gradient of a wave (wave number, power), but for a factor.
+pub(super) fn square((q, power): &(f64, f64)) -> f64 {
     q * q * power
 }
 
@@ -290,9 +285,9 @@ mod tests {
             let mut power = ProfilePower::new(points, 0.5, false);
             power.add([wave(points, 5.0).into_iter()].into_iter()).unwrap();
             // h² = 9/2 = (1/π) C1D Δq.
-            let expected = 4.5 * PI / power.step();
-            assert!((power.power[4] / expected - 1.0).abs() < 1e-12);
-            let others: f64 = power.power.iter().sum::<f64>() - power.power[4];
+            let expected = 4.5 * PI / power.step;
+            assert!((power.waves[4].1 / expected - 1.0).abs() < 1e-12);
+            let others: f64 = power.waves.iter().map(|(_, power)| power).sum::<f64>() - power.waves[4].1;
             assert!(others.abs() < 1e-12 * expected, "{others}");
         }
     }
@@ -302,7 +297,7 @@ mod tests {
         let points = 128;
         let mut power = ProfilePower::new(points, 1.0, true);
         power.add([wave(points, 20.0).into_iter()].into_iter()).unwrap();
-        let total: f64 = power.power.iter().sum::<f64>() * power.step() / PI;
+        let total: f64 = power.waves.iter().map(|(_, power)| power).sum::<f64>() * power.step / PI;
         assert!((total - 4.5).abs() < 1e-10, "{total}");
     }
 
