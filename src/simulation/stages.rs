@@ -473,10 +473,10 @@ impl Simulation {
         match key {
             RoughnessKey::SelfAffine { spectrum, seed, points, shift } => {
                 let unit = self.synthesizer.synthesize(*spectrum, *seed, *points, *shift, memory)?;
-                self.phases_drawn += unit.random_phases;
+                self.phases_drawn += spectrum.last + 1 - spectrum.first;
                 Ok(Rough {
                     heights: unit.heights,
-                    wave_numbers: Some(unit.wave_numbers),
+                    wave_numbers: Some(spectrum.wave_numbers(1.0)),
                     measured: None,
                     modes: Some((spectrum.first, spectrum.last)),
                 })
