@@ -179,25 +179,18 @@ fn number(header: &mut Bytes) -> Result<Option<Number>, TopographyError> {
     }))
 }
 
-/// Value of an attribute: text, or its first number.
-enum Value<'a> {
-    Text(&'a [u8]),
-    Number(f64),
-    Empty,
-}
+/// Name of an attribute, and its text or its first number, if it has any.
+type Attribute<'a> = (&'a [u8], Option<&'a [u8]>, Option<f64>);
 
-/// Returns the name and the value of an attribute.
-fn attribute<'a>(header: &mut Bytes<'a>) -> Result<(&'a [u8], Value<'a>), TopographyError> {
+fn attribute<'a>(header: &mut Bytes<'a>) -> Result<Attribute<'a>, TopographyError> {
     let name = name(header)?;
     let of = number(header)?;
     let count = header.size(Number::U32)?;
     let bytes = padded(header, count.saturating_mul(of.map_or(1, Number::size)))?;
-    let value = match of {
-        None => Value::Text(bytes),
-        Some(_) if count == 0 => Value::Empty,
-        Some(of) => Value::Number(Bytes::new(bytes, Order::Big).number(of)?),
-    };
-    Ok((name, value))
+    Ok(match of {
+        None => (name, Some(bytes), None),
+        Some(of) => (name, None, Bytes::new(bytes, Order::Big).number(of).ok()),
+    })
 }
 
 fn variable<'a>(header: &mut Bytes<'a>, offsets: Number) -> Result<Variable<'a>, TopographyError> {
@@ -209,13 +202,13 @@ fn variable<'a>(header: &mut Bytes<'a>, offsets: Number) -> Result<Variable<'a>,
     let (mut unit, mut missing, mut scale, mut offset) = (None, [f64::NAN; 2], 1.0, 0.0);
     for attribute in list(header, ATTRIBUTES, attribute)? {
         match attribute {
-            (b"unit" | b"units", Value::Text(text)) => {
+            (b"unit" | b"units", Some(text), _) => {
                 unit = str::from_utf8(text).ok().and_then(|text| text.trim().parse().ok());
             }
-            (b"missing_value", Value::Number(value)) => missing[0] = value,
-            (b"_FillValue", Value::Number(value)) => missing[1] = value,
-            (b"scale_factor", Value::Number(value)) => scale = value,
-            (b"add_offset", Value::Number(value)) => offset = value,
+            (b"missing_value", _, Some(value)) => missing[0] = value,
+            (b"_FillValue", _, Some(value)) => missing[1] = value,
+            (b"scale_factor", _, Some(value)) => scale = value,
+            (b"add_offset", _, Some(value)) => offset = value,
             _ => {}
         }
     }
