@@ -31,33 +31,22 @@ pub(super) struct Observation {
     pub waves: f64,
     /// Range of wave numbers: the power times this range times q^p is a share of the moment of the equivalent line.
     pub range: f64,
+    pub windowed: bool,
     pub kind: Kind,
 }
 
-/// Kind of a power.
+/// Kind of a power, with the wave numbers of wave 1 and of the sampling, rad/m: waves apart by the latter are aliases.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
     /// Power of a cut: C1D.
-    Cut {
-        /// Wave number of wave 1, rad/m.
-        step: f64,
-        windowed: bool,
-        /// Nyquist wave number, rad/m.
-        nyquist: f64,
-    },
-    /// Power of a map: C2D.
-    Plane {
-        /// Wave numbers of wave 1 along and between rows, rad/m.
-        steps: [f64; 2],
-        windowed: bool,
-        /// Wave numbers of the sampling along and between rows, rad/m: waves apart by these are aliases.
-        sampling: [f64; 2],
-    },
+    Cut { step: f64, sampling: f64 },
+    /// Power of a map, C2D: along and between rows.
+    Plane { steps: [f64; 2], sampling: [f64; 2] },
 }
 
 /// Bands of the powers of profiles, from wave 1 on, or from wave 2 on under a window: detrending reduces wave 1.
 pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
-    let kind = Kind::Cut { step: power.step, windowed: power.windowed, nyquist: PI / power.spacing };
+    let kind = Kind::Cut { step: power.step, sampling: TAU / power.spacing };
     let correlated = if power.windowed { HANN_CORRELATED } else { 1.0 };
     let first = if power.windowed { 2 } else { 1 };
     let profiles = power.profiles as f64;
@@ -75,6 +64,7 @@ pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
             power: sum / (waves * profiles),
             waves: waves * profiles / correlated,
             range: waves * power.step / PI,
+            windowed: power.windowed,
             kind,
         });
         low = next;
@@ -89,47 +79,39 @@ pub(super) fn least_of_map(power: &MapPower) -> f64 {
 
 /// Bands of the powers of a map.
 pub(super) fn of_map(power: &MapPower, last: f64) -> Vec<Observation> {
-    let kind = Kind::Plane { steps: power.steps, windowed: power.windowed, sampling: power.sampling };
-    let correlated = if power.windowed { HANN_CORRELATED * HANN_CORRELATED } else { 1.0 };
-    let mut squares = Vec::new();
-    let least = least_of_map(power);
-    let mut observed: Vec<Observation> = Vec::new();
-    let mut band = None;
-    for (q, power) in power.waves.iter().filter(|(q, _)| *q >= least * (1.0 - 1e-9) && *q <= last) {
-        let number = (BANDS_PER_DECADE * q.log10()).floor() as i64;
-        match observed.last_mut() {
-            Some(last) if band == Some(number) => {
-                last.wave_number += q;
-                last.power += power;
-                last.waves += 1.0;
-            }
-            _ => {
-                observed.push(Observation { wave_number: *q, power: *power, waves: 1.0, range: 0.0, kind });
-                squares.push(0.0);
-                band = Some(number);
-            }
-        }
-        squares.last_mut().into_iter().for_each(|sum| *sum += power * power);
-    }
-    let dispersion = dispersion(&observed, &squares);
-    for band in &mut observed {
-        band.wave_number /= band.waves;
-        band.power /= band.waves;
+    let MapPower { windowed, steps, sampling, ref waves, .. } = *power;
+    let correlated = if windowed { HANN_CORRELATED * HANN_CORRELATED } else { 1.0 };
+    let least = least_of_map(power) * (1.0 - 1e-9);
+    let (first, end) =
+        (waves.partition_point(|(q, _)| *q < least), waves.partition_point(|(q, _)| *q <= last));
+    let number = |wave: &(f64, f64)| (BANDS_PER_DECADE * wave.0.log10()).floor();
+    let bands = waves[first..end.max(first)].chunk_by(|one, next| number(one) == number(next));
+    let sums = bands.map(|band| {
+        let sum = |of: fn(&(f64, f64)) -> f64| band.iter().map(of).sum::<f64>();
+        [band.len() as f64, sum(|(q, _)| *q), sum(|(_, power)| *power), sum(|(_, power)| power * power)]
+    });
+    let sums: Vec<[f64; 4]> = sums.collect();
+    let dispersion = dispersion(&sums);
+    let observed = sums.into_iter().map(|[count, wave_number, power, _]| Observation {
+        wave_number: wave_number / count,
+        power: power / count,
         // Of a wave and its mirror image one is counted.
-        band.range = 2.0 * band.waves * power.steps[0] * power.steps[1] / (4.0 * PI * PI);
-        band.waves /= correlated * dispersion;
-    }
-    observed
+        range: 2.0 * count * steps[0] * steps[1] / (4.0 * PI * PI),
+        waves: count / (correlated * dispersion),
+        windowed,
+        kind: Kind::Plane { steps, sampling },
+    });
+    observed.collect()
 }
 
 /// Mean over the waves of the variance of powers in a band over the square of their mean: 1 for a surface that is equal
-/// in all directions, more for an anisotropic one, whose bands are known less.
-fn dispersion(bands: &[Observation], squares: &[f64]) -> f64 {
-    let many = bands.iter().zip(squares).filter(|(band, _)| band.waves > 8.0 && band.power > 0.0);
-    let (sum, waves) = many.fold((0.0, 0.0), |(sum, waves), (band, squares)| {
-        let n = band.waves;
+/// in all directions, more for an anisotropic one, whose bands are known less. The bands are their numbers of waves and
+/// their sums of wave numbers, powers and squares of powers.
+fn dispersion(bands: &[[f64; 4]]) -> f64 {
+    let many = bands.iter().filter(|[count, _, power, _]| *count > 8.0 && *power > 0.0);
+    let (sum, waves) = many.fold((0.0, 0.0), |(sum, waves), [n, _, power, squares]| {
         // For exponentially distributed powers the mean of the first factor is (n − 1)/(n + 1).
-        let variance = (n * squares / (band.power * band.power) - 1.0) * (n + 1.0) / (n - 1.0);
+        let variance = (n * squares / (power * power) - 1.0) * (n + 1.0) / (n - 1.0);
         (sum + n * variance, waves + n)
     });
     if waves > 0.0 { (sum / waves).max(1.0) } else { 1.0 }
@@ -147,23 +129,22 @@ impl Observation {
     /// Terms of the mean power for a spectrum with these nodes.
     pub fn terms(&self, nodes: &Nodes, end: End) -> Vec<Term> {
         let mut terms = Vec::new();
-        let (Kind::Cut { windowed, .. } | Kind::Plane { windowed, .. }) = self.kind;
-        let shares: &[(f64, f64)] = if windowed { &HANN_SHARES } else { &[(0.0, 1.0)] };
+        let shares: &[(f64, f64)] = if self.windowed { &HANN_SHARES } else { &[(0.0, 1.0)] };
         match self.kind {
-            Kind::Cut { step, nyquist, .. } => {
+            Kind::Cut { step, sampling } => {
                 for (waves, share) in shares {
                     let q = self.wave_number + waves * step;
                     add_cut(&mut terms, nodes, q.abs(), *share);
                     if let End::Continues(_) = end {
                         for alias in 1..=MOST_ALIASES {
-                            let period = 2.0 * nyquist * f64::from(alias);
+                            let period = sampling * f64::from(alias);
                             add_cut(&mut terms, nodes, period - q, *share);
                             add_cut(&mut terms, nodes, period + q, *share);
                         }
                     }
                 }
             }
-            Kind::Plane { steps, sampling, .. } => {
+            Kind::Plane { steps, sampling } => {
                 if let End::Continues(_) = end {
                     add_aliases(&mut terms, nodes, self.wave_number, sampling);
                 }
