@@ -429,13 +429,8 @@ impl Timed {
     fn print_outcome(&self, rough: &Rough, kappa: f64) {
         let work = &self.work;
         println!(
-            "    tree nodes {}, rule of Hess {}, events sorted {}, joins {}, leaves {}; {:.1} bytes for each spring",
-            work.tree_nodes,
-            work.hess_evaluations,
-            work.events_sorted,
-            work.attached,
-            work.detached,
-            self.memory.bytes() as f64 / rough.points as f64
+            "    tree nodes {}, rule of Hess {}, events sorted {}, joins {}, leaves {}",
+            work.tree_nodes, work.hess_evaluations, work.events_sorted, work.attached, work.detached
         );
         let [loading, unloading] = &self.records[..] else { return };
         let ideal = ideal_adhesion_force(rough.work_of_adhesion(kappa), EFFECTIVE_MODULUS, LENGTH);

@@ -18,13 +18,8 @@ pub struct Profile {
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ProfileError {
     /// The number of points is out of range.
-    #[error("{points} points; allowed: from 1 to {most}")]
-    Points {
-        /// Points.
-        points: usize,
-        /// Most points.
-        most: usize,
-    },
+    #[error("{0} points; allowed: from 1 to {MOST_POINTS}")]
+    Points(usize),
     /// A length is out of range.
     #[error("{name} = {value:e} m; allowed: finite and above 0 m")]
     Length {
@@ -144,8 +139,7 @@ impl Profile {
 }
 
 fn check_points(points: usize) -> Result<(), ProfileError> {
-    let most = MOST_POINTS as usize;
-    if (1..=most).contains(&points) { Ok(()) } else { Err(ProfileError::Points { points, most }) }
+    if (1..=MOST_POINTS as usize).contains(&points) { Ok(()) } else { Err(ProfileError::Points(points)) }
 }
 
 fn check_length(name: &'static str, value: f64) -> Result<(), ProfileError> {

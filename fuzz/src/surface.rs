@@ -2,7 +2,7 @@
 
 use super::assert_message;
 use asperity::spectrum::{Options, analyse};
-use asperity::topography::{Grid, Missing, ReadOptions, Topography, TopographyError, Unit, parse};
+use asperity::topography::{Grid, ReadOptions, Topography, TopographyError, Unit, parse};
 
 /// Most points of an analysed surface, so that no input takes long.
 const MOST_ANALYSED: usize = 128;
@@ -15,10 +15,10 @@ pub fn surface(bytes: &[u8]) {
         height_unit: None,
         convention: None,
         spacing: Some(1.0e-6),
-        missing: Missing::Interpolate,
+        interpolate: true,
         channel: None,
     };
-    let unstated = ReadOptions { missing: Missing::Interpolate, ..ReadOptions::default() };
+    let unstated = ReadOptions { interpolate: true, ..ReadOptions::default() };
     let mut read = Vec::new();
     for options in [ReadOptions::default(), unstated, stated, ReadOptions { channel: Some(0), ..stated }] {
         match parse(bytes, &options) {

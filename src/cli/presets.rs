@@ -5,7 +5,7 @@ use crate::export::sheet::Sheet;
 use crate::io::object;
 use crate::scene::{self, Document, Entry, Library, Text, line_column};
 use crate::simulation::measured_options;
-use crate::surface::MeasuredRoughness;
+use crate::surface::{MeasuredRoughness, read_faces};
 use crate::text::printable;
 use clap::Subcommand;
 use std::io::{self, Write};
@@ -125,10 +125,11 @@ fn profile_error(document: &Document) -> Option<String> {
     if faces.is_empty() {
         return None;
     }
-    let error = match MeasuredRoughness::read(&faces, &measured_options(scene), &mut |_| ()) {
-        Err(error) => error.to_string(),
-        Ok(measured) => measured.check(scene.length, scene.numerics.points as usize).err()?,
-    };
+    let error =
+        match read_faces(&faces).and_then(|faces| MeasuredRoughness::new(&faces, &measured_options(scene))) {
+            Err(error) => error.to_string(),
+            Ok(measured) => measured.check(scene.length, scene.numerics.points as usize).err()?,
+        };
     let offset = Text::new(document.text())
         .ok()
         .and_then(|text| text.span("roughness.file"))

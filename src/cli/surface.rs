@@ -15,7 +15,7 @@ use crate::spectrum::{Analysis, Detrend, Options, analyse};
 use crate::study::MeasuredAdhesion;
 use crate::surface::EquivalentLine;
 use crate::text::path_name;
-use crate::topography::Unit;
+use crate::topography::{Unit, content};
 use clap::{Args, ValueEnum};
 use sha2::{Digest, Sha256};
 use std::error::Error;
@@ -320,12 +320,12 @@ impl SurfaceArguments {
         let (mut surfaces, mut facts) = (Vec::new(), Vec::new());
         for file in files {
             let path = self.folder.join(file);
-            let mut hasher = hashes.as_ref().map(|_| Sha256::new());
-            let mut seen = |bytes: &[u8]| hasher.iter_mut().for_each(|hasher| hasher.update(bytes));
-            let surface = options.read(&path, &mut seen);
-            let surface = surface.map_err(|error| CliError::named(path_name(&path), error))?;
-            if let (Some(hashes), Some(hasher)) = (hashes.as_mut(), hasher) {
-                hashes.push(MeasuredHash { file: self.in_table(file), sha256: hexadecimal(hasher) });
+            let failed = |error| CliError::named(path_name(&path), error);
+            let bytes = content(&path).map_err(failed)?;
+            let surface = options.parse(&bytes).map_err(failed)?;
+            if let Some(hashes) = hashes {
+                let sha256 = hexadecimal(Sha256::new_with_prefix(bytes));
+                hashes.push(MeasuredHash { file: self.in_table(file), sha256 });
             }
             facts.push(SurfaceFile::new(path, &surface));
             surfaces.push(surface);

@@ -4,7 +4,7 @@ use super::snapshot::SolvedScene;
 use crate::scene::{Roughness, Scene, Solver};
 use crate::simulation::{RunError, measured_options};
 use crate::study::{MeasuredAdhesion, ProfileAdhesion};
-use crate::surface::EquivalentLine;
+use crate::surface::{EquivalentLine, read_faces};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -48,7 +48,7 @@ impl AdhesionSpread {
     ) -> Result<(), RunError> {
         let scene = Arc::clone(&self.scene);
         let line =
-            EquivalentLine::read(&scene.measured_paths(folder), &measured_options(&scene), &mut |_| ())?;
+            EquivalentLine::new(&read_faces(&scene.measured_paths(folder))?, &measured_options(&scene))?;
         let first = scene.seed().unwrap_or(0);
         while !self.is_whole() {
             let seed = first.wrapping_add(self.found.profiles.len() as u64);

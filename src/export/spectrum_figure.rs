@@ -37,7 +37,14 @@ pub struct Spectra {
 
 /// Name of a spectrum of a face: the first one, or the opposite one.
 pub(super) fn spectrum_name(face: usize, direction: Direction) -> &'static str {
-    if face == 0 { direction.name() } else { direction.opposite_name() }
+    match (face, direction) {
+        (0, Direction::X) => "1D PSD along x",
+        (0, Direction::Y) => "1D PSD along y",
+        (0, Direction::Radial) => "q/π × 2D PSD",
+        (_, Direction::X) => "opposite, 1D PSD along x",
+        (_, Direction::Y) => "opposite, 1D PSD along y",
+        (_, Direction::Radial) => "opposite, q/π × 2D PSD",
+    }
 }
 
 /// Logarithmically spaced wave numbers, about `per_decade` in each decade.

@@ -26,6 +26,9 @@ const MANY_LONG_WAVES: f64 = 0.3;
 /// Number of profiles from which on the moments are as accurate as those of a map.
 const MANY_PROFILES: u64 = 100;
 
+/// Least and largest factor by which adhesion near its boundary varies between single profiles, as `docs/surfaces.md` states.
+const BOUNDARY_FACTORS: [f64; 2] = [1.4, 3.3];
+
 /// Name of the spectrum of the equivalent line.
 const LINE: &str = "equivalent line";
 
@@ -64,7 +67,7 @@ impl SurfaceFile {
         let spacing = surface.spacing().unwrap_or_default();
         SurfaceFile {
             path,
-            format: surface.format().name(),
+            format: surface.format().into(),
             points,
             lengths: [0, 1].map(|axis| points[axis] as f64 * spacing[axis]),
             interpolated: surface.interpolated(),
@@ -339,10 +342,10 @@ fn warnings(analysis: &Analysis) -> Vec<String> {
         ));
     }
     if analysis.maps == 0 && analysis.profiles < MANY_PROFILES {
-        warnings.push(
-            "adhesion near its boundary cannot be had from few profiles (a factor from 1.4 to 3.3 either way)"
-                .to_owned(),
-        );
+        let [low, high] = BOUNDARY_FACTORS;
+        warnings.push(format!(
+            "adhesion near its boundary cannot be had from few profiles (a factor from {low} to {high} either way)"
+        ));
     }
     if analysis.end == End::Ends && !analysis.ends_inside {
         warnings.push(
@@ -399,7 +402,7 @@ fn face_json<'a>(
     let bin = |bin: &Bin| json!({"wave_number": bin.wave_number, "power": bin.power, "waves": bin.waves});
     let spectrum = |(direction, bins): &(Direction, Vec<Bin>)| {
         let bins: Vec<_> = bins.iter().map(bin).collect();
-        json!({"name": direction.name(), "bins": bins})
+        json!({"name": spectrum_name(0, *direction), "bins": bins})
     };
     object! {
         "version": env!("CARGO_PKG_VERSION"),
@@ -456,4 +459,16 @@ pub fn write_surface_table(
         Column("waves", Value::Count(|(.., waves)| *waves)),
     ];
     write_table(out, format, provenance, &columns, rows.len(), rows.iter())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn warnings_promise_what_the_documentation_states() {
+        let [low, high] = BOUNDARY_FACTORS;
+        let stated = format!("by a factor from {low} to {high} either way");
+        assert!(include_str!("../../docs/surfaces.md").contains(&stated), "{stated}");
+    }
 }

@@ -10,9 +10,9 @@ use crate::reference::smooth_adhesion_force;
 use crate::scene::{Edges, Form, Roughness, Scene};
 use crate::surface::{
     Amplitude, EquivalentLine, Histogram, Line, MeasuredOptions, MeasuredProfile, MeasuredRoughness,
-    SelfAffine, SurfaceError, Synthesizer, WaveNumbers,
+    SelfAffine, SurfaceError, Synthesizer, WaveNumbers, read_faces,
 };
-use crate::topography::{Cut, Missing, ReadOptions, Unit};
+use crate::topography::{Cut, ReadOptions, Unit, content};
 use std::mem::take;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -230,7 +230,7 @@ impl Simulation {
     fn roughen(&mut self, scene: &Scene, key: &RoughnessKey, memory: Vec<f64>) -> Result<(), RunError> {
         let points = scene.numerics.points as usize;
         // The transform allocates its own memory, and would end the process on failure.
-        check_room(Plan::of(scene).line_bytes()).map_err(|_| SurfaceError::OutOfMemory { points })?;
+        check_room(Plan::of(scene).line_bytes()).map_err(|_| SurfaceError::OutOfMemory(points))?;
         self.roughness = Some((key.clone(), self.make_roughness(key, memory)?));
         if self.single {
             self.synthesizer = Synthesizer::default();
@@ -446,7 +446,7 @@ pub fn measured_roughness_options(roughness: &Roughness, as_line: bool) -> Measu
             height_unit: height_unit.parse().ok(),
             convention: as_line.then_some(Unit::METRE),
             spacing: *spacing,
-            missing: if *interpolate { Missing::Interpolate } else { Missing::Refuse },
+            interpolate: *interpolate,
             channel: channel.and_then(|channel| channel.try_into().ok()),
         },
         resample: *resample,
@@ -463,10 +463,10 @@ impl Simulation {
         match key {
             RoughnessKey::SelfAffine { spectrum, seed, points, shift } => {
                 let unit = self.synthesizer.synthesize(*spectrum, *seed, *points, *shift, memory)?;
-                self.phases_drawn += unit.random_phases;
+                self.phases_drawn += spectrum.last + 1 - spectrum.first;
                 Ok(Rough {
                     heights: unit.heights,
-                    wave_numbers: Some(unit.wave_numbers),
+                    wave_numbers: Some(spectrum.wave_numbers(1.0)),
                     measured: None,
                     modes: Some((spectrum.first, spectrum.last)),
                 })
@@ -488,7 +488,9 @@ impl Simulation {
                 let profile = match self.measured.as_deref() {
                     Some(MeasuredRoughness::Profile(known)) => known,
                     _ => {
-                        read = MeasuredProfile::read_observed(first(faces), options, &mut |_| ())?;
+                        let path = first(faces);
+                        let profile = content(path).and_then(|bytes| MeasuredProfile::new(&bytes, options));
+                        read = profile.map_err(|error| SurfaceError::measured(path, &error))?;
                         &read
                     }
                 };
@@ -515,7 +517,7 @@ impl Simulation {
         {
             return Ok(line.clone());
         }
-        let line = EquivalentLine::read(faces, options, &mut |_| ())?;
+        let line = EquivalentLine::new(&read_faces(faces)?, options)?;
         self.equivalent = Some((faces.to_vec(), *options, line.clone()));
         Ok(line)
     }

@@ -5,11 +5,11 @@ use super::error::{LEAST_POINTS, SpectrumError};
 use super::fit::Model;
 use super::isotropic::{End, IsotropicSpectrum, LineMoments};
 use super::observation::{self, Observation};
-use super::periodogram::{Bin, Direction, MapPower, ProfilePower, bins};
+use super::periodogram::{Bin, Direction, MapPower, ProfilePower, bins, square};
 use super::power_law::{self, PowerLaw};
 use super::reliability::reliability_cutoff;
 use super::statistics::{Statistics, Sums};
-use crate::topography::Topography;
+use crate::topography::{Topography, TopographyError};
 use std::f64::consts::{PI, TAU};
 
 /// Share of the squared gradient that may be beyond the end of the spectrum.
@@ -61,8 +61,6 @@ pub struct Analysis {
     pub maps: u64,
     /// Largest length along a row, m.
     pub length: f64,
-    /// Smallest distance between points, m.
-    pub spacing: f64,
     /// End of the spectrum.
     pub end: End,
     /// True if the spectrum ends before the last resolved wave.
@@ -96,26 +94,20 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         return Err(SpectrumError::Nothing);
     }
     let mut sums = Sums::default();
-    let mut powers = Powers::default();
     let mut reliability: Option<f64> = None;
-    let (mut length, mut spacing) = (0.0_f64, f64::INFINITY);
-    for (index, surface) in surfaces.iter().enumerate() {
-        let distances = surface.spacing().map_err(|error| SpectrumError::Surface { index, error })?;
+    let mut length = 0.0_f64;
+    let powers = Powers::of(surfaces, options, Topography::copied_heights, |surface, heights, distances| {
         let columns = surface.columns();
-        check_points(surface, index)?;
-        let mut heights = copied(surface.heights())?;
-        options.detrend.remove(&mut heights, columns);
-        check_rough(surface.heights(), &heights)?;
-        sums.add(&heights, columns, distances);
+        check_rough(surface.heights(), heights)?;
+        sums.add(heights, columns, distances);
         if let Some(radius) = options.tip_radius {
-            let cutoff = reliability_cutoff(&heights, columns, distances[0], radius);
+            let cutoff = reliability_cutoff(heights, columns, distances[0], radius);
             reliability = reliability.into_iter().chain(cutoff).reduce(f64::max);
         }
-        powers.add(&heights, columns, distances, !options.periodic)?;
         length = length.max(columns as f64 * distances[0]);
-        spacing = spacing.min(distances[0]).min(distances[1]);
-    }
-    let (range, resolved) = (powers.range(last_significant), powers.range(|count, _| count)[1]);
+        Ok(())
+    })?;
+    let (range, resolved) = (powers.range(last_significant), powers.range(<[_]>::len)[1]);
     let ends_inside = range[1] < resolved;
     let observations = powers.observations(range[1]);
     if let End::Continues(to) = options.end
@@ -135,7 +127,9 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     let mut largest = [0.0_f64; 4];
     let places = if surfaces.iter().any(|surface| surface.interpolated() > 0) { 1..4 } else { 0..0 };
     for quarters in places {
-        let observations = interpolated_again(surfaces, options, quarters)?.observations(range[1]);
+        let heights = |surface: &Topography| surface.interpolated_again(quarters);
+        let powers = Powers::of(surfaces, options, heights, |_, _, _| Ok(()))?;
+        let observations = powers.observations(range[1]);
         let again = fitted(&observations, range, options.end)?;
         let hurst = self_affine(&observations, &again).zip(power_law);
         let change = hurst.map_or(0.0, |(again, before)| again.hurst.value - before.hurst.value);
@@ -176,29 +170,11 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         profiles: powers.profiles.iter().map(|power| power.profiles).sum(),
         maps: powers.maps.len() as u64,
         length,
-        spacing,
         end: options.end,
         ends_inside,
         offsets: powers.maps.iter().any(|map| map.offsets),
         apart,
     })
-}
-
-/// Powers of the surfaces with as many points interpolated once more.
-fn interpolated_again(
-    surfaces: &[Topography],
-    options: &Options,
-    quarters: usize,
-) -> Result<Powers, SpectrumError> {
-    let mut powers = Powers::default();
-    for (index, surface) in surfaces.iter().enumerate() {
-        let refused = |error| SpectrumError::Surface { index, error };
-        let (columns, distances) = (surface.columns(), surface.spacing().map_err(refused)?);
-        let mut heights = surface.interpolated_again(quarters).map_err(refused)?;
-        options.detrend.remove(&mut heights, columns);
-        powers.add(&heights, columns, distances, !options.periodic)?;
-    }
-    Ok(powers)
 }
 
 fn fitted(
@@ -209,20 +185,6 @@ fn fitted(
     Model::new(observations, range, end).fit().ok_or(SpectrumError::NoMaximum)
 }
 
-fn copied(heights: &[f64]) -> Result<Vec<f64>, SpectrumError> {
-    let mut copy = Vec::new();
-    let points = heights.len();
-    copy.try_reserve_exact(points).map_err(|_| SpectrumError::OutOfMemory { points })?;
-    copy.extend_from_slice(heights);
-    Ok(copy)
-}
-
-fn check_points(surface: &Topography, index: usize) -> Result<(), SpectrumError> {
-    let rows = if surface.rows() > 1 { surface.rows() } else { LEAST_POINTS };
-    let points = surface.columns().min(rows);
-    if points < LEAST_POINTS { Err(SpectrumError::TooFew { index, points }) } else { Ok(()) }
-}
-
 /// Checks that the heights after detrending exceed the rounding errors of the original ones.
 fn check_rough(before: &[f64], after: &[f64]) -> Result<(), SpectrumError> {
     let largest = |heights: &[f64]| heights.iter().fold(0.0_f64, |largest, z| largest.max(z.abs()));
@@ -231,6 +193,30 @@ fn check_rough(before: &[f64], after: &[f64]) -> Result<(), SpectrumError> {
 }
 
 impl Powers {
+    /// Powers of the detrended heights of surfaces, which `check` receives with the distances between the points.
+    fn of(
+        surfaces: &[Topography],
+        options: &Options,
+        heights: impl Fn(&Topography) -> Result<Vec<f64>, TopographyError>,
+        mut check: impl FnMut(&Topography, &[f64], [f64; 2]) -> Result<(), SpectrumError>,
+    ) -> Result<Powers, SpectrumError> {
+        let mut powers = Powers::default();
+        for (index, surface) in surfaces.iter().enumerate() {
+            let refused = |error| SpectrumError::Surface { index, error };
+            let (columns, rows) = (surface.columns(), surface.rows());
+            let distances = surface.spacing().map_err(refused)?;
+            let points = if rows > 1 { columns.min(rows) } else { columns };
+            if points < LEAST_POINTS {
+                return Err(SpectrumError::TooFew { index, points });
+            }
+            let mut heights = heights(surface).map_err(refused)?;
+            options.detrend.remove(&mut heights, columns);
+            check(surface, &heights, distances)?;
+            powers.add(&heights, columns, distances, !options.periodic)?;
+        }
+        Ok(powers)
+    }
+
     fn add(
         &mut self,
         heights: &[f64],
@@ -274,36 +260,30 @@ impl Powers {
     }
 
     /// Wave numbers from wave 1 of the longest surface to half a wave beyond the last of the finest profile, or the last of the
-    /// finest map; `last` of their waves (number, wave number and power of each by its index).
-    fn range(&self, last: impl Fn(usize, &dyn Fn(usize) -> (f64, f64)) -> usize) -> [f64; 2] {
+    /// finest map; `last` of their waves.
+    fn range(&self, last: fn(&[(f64, f64)]) -> usize) -> [f64; 2] {
         let profiles = self.profiles.iter().map(|power| {
-            let step = power.step();
-            let count = last(power.power.len(), &|index| ((index + 1) as f64 * step, power.power[index]));
-            [step, (count as f64 + 0.5) * step]
+            let count = last(&power.waves);
+            [power.step, (count as f64 + 0.5) * power.step]
         });
         let maps = self.maps.iter().map(|map| {
             let step = map.steps[0].min(map.steps[1]);
-            let count = last(map.waves.len(), &|index| map.waves[index]);
-            [step, count.checked_sub(1).map_or(step, |index| map.waves[index].0)]
+            [step, last(&map.waves).checked_sub(1).map_or(step, |index| map.waves[index].0)]
         });
         profiles.chain(maps).fold([f64::INFINITY, 0.0], |[low, high], [a, b]| [low.min(a), high.max(b)])
     }
 
     fn spectra(&self) -> Vec<(Direction, Vec<Bin>)> {
-        let mean = |powers: Vec<&ProfilePower>| {
-            let waves = powers.iter().flat_map(|power| {
-                let profiles = power.profiles;
-                power.power.iter().enumerate().map(move |(index, sum)| {
-                    ((index + 1) as f64 * power.step(), sum / profiles as f64, profiles)
-                })
-            });
-            bins(waves.collect::<Vec<_>>().into_iter())
+        let mean = |powers: &mut dyn Iterator<Item = &ProfilePower>| {
+            bins(powers.flat_map(|power| {
+                power.waves.iter().map(|(q, sum)| (*q, sum / power.profiles as f64, power.profiles))
+            }))
         };
         let radial =
             self.maps.iter().flat_map(|map| map.waves.iter().map(|(q, power)| (*q, q * power / PI, 1)));
         [
-            (Direction::X, mean(self.profiles.iter().chain(&self.rows).collect())),
-            (Direction::Y, mean(self.columns.iter().collect())),
+            (Direction::X, mean(&mut self.profiles.iter().chain(&self.rows))),
+            (Direction::Y, mean(&mut self.columns.iter())),
             (Direction::Radial, bins(radial)),
         ]
         .into_iter()
@@ -312,23 +292,20 @@ impl Powers {
     }
 }
 
-/// Finds the end of a spectrum, given the wave number and the power of each wave by its index: the number of waves after which
-/// the rest has a negligible share of the squared gradient and far smaller powers. Returns `count` if the spectrum has no end.
-fn last_significant(count: usize, wave: &dyn Fn(usize) -> (f64, f64)) -> usize {
-    let square = |index: usize| {
-        let (q, power) = wave(index);
-        q * q * power
-    };
-    let negligible = NEGLIGIBLE * (0..count).map(square).sum::<f64>();
-    let (mut end, mut rest) = (count, 0.0);
-    while end > 1 && rest + square(end - 1) <= negligible {
+/// Finds the end of a spectrum of waves (wave number, power): the number of waves after which the rest has a negligible share
+/// of the squared gradient and far smaller powers; all waves if the spectrum has no end.
+fn last_significant(waves: &[(f64, f64)]) -> usize {
+    let sum = |waves: &[(f64, f64)]| waves.iter().map(square).sum::<f64>();
+    let negligible = NEGLIGIBLE * sum(waves);
+    let (mut end, mut rest) = (waves.len(), 0.0);
+    while end > 1 && rest + square(&waves[end - 1]) <= negligible {
         end -= 1;
-        rest += square(end);
+        rest += square(&waves[end]);
     }
-    let beyond = count - end;
+    let beyond = waves.len() - end;
     let before = beyond.min(end);
-    let as_many: f64 = (end - before..end).map(square).sum();
-    if rest * before as f64 <= DROP * as_many * beyond as f64 { end } else { count }
+    let as_many = sum(&waves[end - before..end]);
+    if rest * before as f64 <= DROP * as_many * beyond as f64 { end } else { waves.len() }
 }
 
 /// The powers of profiles of these points, newly made if there are none yet.

@@ -22,15 +22,15 @@ pub enum Detrend {
 
 impl Detrend {
     /// Monomials (powers of x and y) removed from a profile or a map.
-    fn monomials(self, is_map: bool) -> &'static [[i32; 2]] {
-        match (self, is_map) {
-            (Detrend::None, _) => &[],
-            (Detrend::Mean, _) => &[[0, 0]],
-            (Detrend::Tilt, false) => &[[0, 0], [1, 0]],
-            (Detrend::Tilt, true) => &[[0, 0], [1, 0], [0, 1]],
-            (Detrend::Curvature, false) => &[[0, 0], [1, 0], [2, 0]],
-            (Detrend::Curvature, true) => &[[0, 0], [1, 0], [0, 1], [2, 0], [1, 1], [0, 2]],
-        }
+    fn monomials(self, is_map: bool) -> Vec<[i32; 2]> {
+        let degrees = match self {
+            Detrend::None => 0..0,
+            Detrend::Mean => 0..1,
+            Detrend::Tilt => 0..2,
+            Detrend::Curvature => 0..3,
+        };
+        let of_degree = |degree: i32| (0..=degree).map(move |y| [degree - y, y]);
+        degrees.flat_map(of_degree).filter(|[_, y]| is_map || *y == 0).collect()
     }
 
     /// Removes the polynomial of least squares from the heights of rows of so many columns.
@@ -64,7 +64,7 @@ impl Detrend {
                     .map(|(column, z)| z * place(column, columns).powi(power as i32));
                 terms.sum()
             });
-            for (value, [a, b]) in right.iter_mut().zip(monomials) {
+            for (value, [a, b]) in right.iter_mut().zip(&monomials) {
                 *value += sums[*a as usize] * y.powi(*b);
             }
         }
@@ -74,7 +74,8 @@ impl Detrend {
             let y = place(row, rows);
             for (column, height) in heights.iter_mut().enumerate() {
                 let x = place(column, columns);
-                let terms = coefficients.iter().zip(monomials).map(|(c, [a, b])| c * x.powi(*a) * y.powi(*b));
+                let terms =
+                    coefficients.iter().zip(&monomials).map(|(c, [a, b])| c * x.powi(*a) * y.powi(*b));
                 *height -= terms.sum::<f64>();
             }
         }

@@ -46,12 +46,9 @@ pub enum SpectrumError {
         "the likelihood has no maximum: heights without noise or with few digits; allowed: measured heights"
     )]
     NoMaximum,
-    /// Insufficient memory.
-    #[error("not enough memory for the transform of {points} points")]
-    OutOfMemory {
-        /// Points.
-        points: usize,
-    },
+    /// Insufficient memory for so many points.
+    #[error("not enough memory for the transform of {0} points")]
+    OutOfMemory(usize),
     /// The Fourier transform refused its input.
     #[error("the Fourier transform failed: {0}")]
     Transform(String),

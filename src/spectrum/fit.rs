@@ -3,9 +3,9 @@
 //! Over the values x = ln C2D at the nodes, Σ w (P/m + ln m) + λ Σ (x_{i−1} − 2x_i + x_{i+1})² is minimised, with the
 //! observed powers P of w waves and their means m(x). Steps are those of Fisher's scoring, halved until they descend.
 
-use super::isotropic::{End, IsotropicSpectrum, Nodes};
+use super::isotropic::{End, IsotropicSpectrum, Nodes, Term};
 use super::linear::Cholesky;
-use super::observation::{Observation, Term};
+use super::observation::Observation;
 use std::f64::consts::TAU;
 
 /// Weight λ of the second differences.
@@ -44,7 +44,7 @@ impl<'a> Model<'a> {
 
     /// Means of the observed powers for these values.
     pub fn means<'b>(&'b self, values: &'b [f64]) -> impl Iterator<Item = f64> + 'b {
-        self.terms.iter().map(|terms| terms.iter().map(|term| value(term, values)).sum::<f64>())
+        self.terms.iter().map(|terms| terms.iter().map(|term| term.value(values)).sum::<f64>())
     }
 
     fn objective(&self, values: &[f64]) -> f64 {
@@ -61,7 +61,7 @@ impl<'a> Model<'a> {
             slope.fill(0.0);
             let mut mean = 0.0;
             for term in terms {
-                let value = value(term, values);
+                let value = term.value(values);
                 mean += value;
                 slope[term.index] += (1.0 - term.share) * value;
                 slope[term.index + 1] += term.share * value;
@@ -94,23 +94,18 @@ impl<'a> Model<'a> {
         let mut sums = vec![(0.0, 0.0); count];
         for (observed, terms) in self.observations.iter().zip(&self.terms) {
             // The mean of a spectrum of ones is the normalisation.
-            let weight: f64 = terms
-                .iter()
-                .map(|term| term.weight * ((observed.wave_number.ln() - term.ln_q) * 3.0).exp())
-                .sum();
+            let ln_q = observed.wave_number.ln();
+            let weights = terms.iter().map(|term| term.weight * ((ln_q - term.ln_q) * 3.0).exp());
+            let weight: f64 = weights.sum();
             if observed.power > 0.0 && weight > 0.0 {
-                let (index, share) = self.nodes.place(observed.wave_number.ln());
+                let (index, share) = self.nodes.place(ln_q);
                 let nearest = if share < 0.5 { index } else { (index + 1).min(count - 1) };
                 sums[nearest].0 += observed.waves * (observed.power / weight).ln();
                 sums[nearest].1 += observed.waves;
             }
         }
-        let known: Vec<(usize, f64)> = sums
-            .iter()
-            .enumerate()
-            .filter(|(_, sum)| sum.1 > 0.0)
-            .map(|(index, sum)| (index, sum.0 / sum.1))
-            .collect();
+        let known = (0..count).filter(|index| sums[*index].1 > 0.0);
+        let known: Vec<_> = known.map(|index| (index, sums[index].0 / sums[index].1)).collect();
         let between = |index: usize| {
             let after = known.iter().find(|(place, _)| *place >= index);
             let before = known.iter().rev().find(|(place, _)| *place <= index);
@@ -184,8 +179,4 @@ pub(super) fn descend<P>(
         }
     }
     least.is_finite().then_some((parameters, least))
-}
-
-fn value(term: &Term, values: &[f64]) -> f64 {
-    term.weight * ((1.0 - term.share) * values[term.index] + term.share * values[term.index + 1]).exp()
 }

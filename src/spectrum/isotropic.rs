@@ -7,6 +7,9 @@ use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 
+#[cfg(test)]
+pub(super) use tests::known;
+
 /// Separates this use of the random generator from others.
 const PURPOSE: &[u8; 24] = b"asperity-spectrum-draws\0";
 
@@ -152,22 +155,40 @@ impl Nodes {
     }
 
     /// Limits of the wave numbers between which the spectrum is a power law: the given one, nodes, the end.
-    pub fn pieces_from(&self, low: f64) -> impl Iterator<Item = (f64, f64)> {
-        let last = ((self.end.ln() - self.first) / self.step).ceil() as usize;
-        let first = if low > 0.0 {
-            (((low.ln() - self.first) / self.step).floor() + 1.0).max(0.0) as usize
-        } else {
-            0
-        };
-        let end = self.end;
-        let node = |index: usize| self.wave_number(index).min(end);
-        let mut begin = low.min(end);
-        let bounds: Vec<f64> = (first..=last).map(node).chain([end]).collect();
-        bounds.into_iter().filter_map(move |bound| {
+    pub fn pieces_from(self, low: f64) -> impl Iterator<Item = (f64, f64)> {
+        let index = |wave_number: f64| (wave_number.ln() - self.first) / self.step;
+        // The logarithm of zero is below all nodes.
+        let (first, last) = ((index(low).floor() + 1.0).max(0.0) as usize, index(self.end).ceil() as usize);
+        let node = move |index: usize| self.wave_number(index).min(self.end);
+        let mut begin = low.min(self.end);
+        (first..=last).map(node).chain([self.end]).filter_map(move |bound| {
             let piece = (begin, bound);
             begin = begin.max(bound);
             (piece.1 > piece.0).then_some(piece)
         })
+    }
+
+    /// Value at a wave number, rad/m, times a weight: a term of a sum over the spectrum.
+    pub fn term(&self, q: f64, weight: f64) -> Term {
+        let ln_q = q.ln();
+        let (index, share) = self.place(ln_q);
+        Term { weight, ln_q, index, share }
+    }
+}
+
+/// A weight times C2D at ln q, between a node and the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Term {
+    pub weight: f64,
+    pub ln_q: f64,
+    pub index: usize,
+    pub share: f64,
+}
+
+impl Term {
+    /// Value for these ln C2D of the nodes.
+    pub fn value(&self, values: &[f64]) -> f64 {
+        self.weight * ((1.0 - self.share) * values[self.index] + self.share * values[self.index + 1]).exp()
     }
 }
 
@@ -219,9 +240,7 @@ impl IsotropicSpectrum {
     /// Wave number (rad/m), C2D (m⁴) and standard error of ln C2D at each node.
     pub fn nodes(&self) -> impl Iterator<Item = (f64, f64, f64)> {
         self.values.iter().enumerate().map(|(index, value)| {
-            let mut gradient = vec![0.0; self.values.len()];
-            gradient[index] = 1.0;
-            (self.nodes.wave_number(index), value.exp(), self.information.variance(&gradient).sqrt())
+            (self.nodes.wave_number(index), value.exp(), self.information.standard_error(index))
         })
     }
 
@@ -345,7 +364,7 @@ pub(crate) fn line_moments(faces: &[IsotropicSpectrum]) -> LineMoments {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+mod tests {
     use super::*;
 
     /// Spectrum with these values of ln C2D, known exactly.

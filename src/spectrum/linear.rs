@@ -47,6 +47,13 @@ impl Cholesky {
         right
     }
 
+    /// √(M⁻¹)ᵢᵢ: the standard error of a parameter, if M is an information matrix.
+    pub fn standard_error(&self, index: usize) -> f64 {
+        let mut gradient = vec![0.0; self.size];
+        gradient[index] = 1.0;
+        self.variance(&gradient).sqrt()
+    }
+
     /// vᵀ M⁻¹ v for a vector v: the variance of a quantity with the gradient v, if M is an information matrix.
     pub fn variance(&self, gradient: &[f64]) -> f64 {
         let solved = self.solve(gradient.to_vec());

@@ -1,6 +1,6 @@
 //! Observed powers with the model of their means: integrals of the isotropic spectrum.
 
-use super::isotropic::{End, Nodes, gauss};
+use super::isotropic::{End, Nodes, Term, gauss};
 use super::periodogram::{MapPower, ProfilePower};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -31,50 +31,40 @@ pub(super) struct Observation {
     pub waves: f64,
     /// Range of wave numbers: the power times this range times q^p is a share of the moment of the equivalent line.
     pub range: f64,
+    pub windowed: bool,
     pub kind: Kind,
 }
 
-/// Kind of a power.
+/// Kind of a power, with the wave numbers of wave 1 and of the sampling, rad/m: waves apart by the latter are aliases.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
     /// Power of a cut: C1D.
-    Cut {
-        /// Wave number of wave 1, rad/m.
-        step: f64,
-        windowed: bool,
-        /// Nyquist wave number, rad/m.
-        nyquist: f64,
-    },
-    /// Power of a map: C2D.
-    Plane {
-        /// Wave numbers of wave 1 along and between rows, rad/m.
-        steps: [f64; 2],
-        windowed: bool,
-        /// Wave numbers of the sampling along and between rows, rad/m: waves apart by these are aliases.
-        sampling: [f64; 2],
-    },
+    Cut { step: f64, sampling: f64 },
+    /// Power of a map, C2D: along and between rows.
+    Plane { steps: [f64; 2], sampling: [f64; 2] },
 }
 
 /// Bands of the powers of profiles, from wave 1 on, or from wave 2 on under a window: detrending reduces wave 1.
 pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
-    let kind = Kind::Cut { step: power.step(), windowed: power.windowed, nyquist: PI / power.spacing };
+    let kind = Kind::Cut { step: power.step, sampling: TAU / power.spacing };
     let correlated = if power.windowed { HANN_CORRELATED } else { 1.0 };
     let first = if power.windowed { 2 } else { 1 };
     let profiles = power.profiles as f64;
     let mut observed = Vec::new();
     let mut low = first;
-    let count = power.power.len().min((last / power.step()) as usize);
+    let count = power.waves.len().min((last / power.step) as usize);
     while low <= count {
         let ratio = 10.0_f64.powf(1.0 / BANDS_PER_DECADE);
         let next = if low <= SINGLE { low + 1 } else { ((low as f64 * ratio) as usize).max(low + 1) };
         let next = next.min(count + 1);
         let waves = (next - low) as f64;
-        let sum: f64 = power.power[low - 1..next - 1].iter().sum();
+        let sum: f64 = power.waves[low - 1..next - 1].iter().map(|(_, power)| power).sum();
         observed.push(Observation {
-            wave_number: 0.5 * (low + next - 1) as f64 * power.step(),
+            wave_number: 0.5 * (low + next - 1) as f64 * power.step,
             power: sum / (waves * profiles),
             waves: waves * profiles / correlated,
-            range: waves * power.step() / PI,
+            range: waves * power.step / PI,
+            windowed: power.windowed,
             kind,
         });
         low = next;
@@ -89,59 +79,42 @@ pub(super) fn least_of_map(power: &MapPower) -> f64 {
 
 /// Bands of the powers of a map.
 pub(super) fn of_map(power: &MapPower, last: f64) -> Vec<Observation> {
-    let kind = Kind::Plane { steps: power.steps, windowed: power.windowed, sampling: power.sampling };
-    let correlated = if power.windowed { HANN_CORRELATED * HANN_CORRELATED } else { 1.0 };
-    let mut squares = Vec::new();
-    let least = least_of_map(power);
-    let mut observed: Vec<Observation> = Vec::new();
-    let mut band = None;
-    for (q, power) in power.waves.iter().filter(|(q, _)| *q >= least * (1.0 - 1e-9) && *q <= last) {
-        let number = (BANDS_PER_DECADE * q.log10()).floor() as i64;
-        match observed.last_mut() {
-            Some(last) if band == Some(number) => {
-                last.wave_number += q;
-                last.power += power;
-                last.waves += 1.0;
-            }
-            _ => {
-                observed.push(Observation { wave_number: *q, power: *power, waves: 1.0, range: 0.0, kind });
-                squares.push(0.0);
-                band = Some(number);
-            }
-        }
-        squares.last_mut().into_iter().for_each(|sum| *sum += power * power);
-    }
-    let dispersion = dispersion(&observed, &squares);
-    for band in &mut observed {
-        band.wave_number /= band.waves;
-        band.power /= band.waves;
+    let MapPower { windowed, steps, sampling, ref waves, .. } = *power;
+    let correlated = if windowed { HANN_CORRELATED * HANN_CORRELATED } else { 1.0 };
+    let least = least_of_map(power) * (1.0 - 1e-9);
+    let (first, end) =
+        (waves.partition_point(|(q, _)| *q < least), waves.partition_point(|(q, _)| *q <= last));
+    let number = |wave: &(f64, f64)| (BANDS_PER_DECADE * wave.0.log10()).floor();
+    let bands = waves[first..end.max(first)].chunk_by(|one, next| number(one) == number(next));
+    let sums = bands.map(|band| {
+        let sum = |of: fn(&(f64, f64)) -> f64| band.iter().map(of).sum::<f64>();
+        [band.len() as f64, sum(|(q, _)| *q), sum(|(_, power)| *power), sum(|(_, power)| power * power)]
+    });
+    let sums: Vec<[f64; 4]> = sums.collect();
+    let dispersion = dispersion(&sums);
+    let observed = sums.into_iter().map(|[count, wave_number, power, _]| Observation {
+        wave_number: wave_number / count,
+        power: power / count,
         // Of a wave and its mirror image one is counted.
-        band.range = 2.0 * band.waves * power.steps[0] * power.steps[1] / (4.0 * PI * PI);
-        band.waves /= correlated * dispersion;
-    }
-    observed
+        range: 2.0 * count * steps[0] * steps[1] / (4.0 * PI * PI),
+        waves: count / (correlated * dispersion),
+        windowed,
+        kind: Kind::Plane { steps, sampling },
+    });
+    observed.collect()
 }
 
 /// Mean over the waves of the variance of powers in a band over the square of their mean: 1 for a surface that is equal
-/// in all directions, more for an anisotropic one, whose bands are known less.
-fn dispersion(bands: &[Observation], squares: &[f64]) -> f64 {
-    let many = bands.iter().zip(squares).filter(|(band, _)| band.waves > 8.0 && band.power > 0.0);
-    let (sum, waves) = many.fold((0.0, 0.0), |(sum, waves), (band, squares)| {
-        let n = band.waves;
+/// in all directions, more for an anisotropic one, whose bands are known less. The bands are their numbers of waves and
+/// their sums of wave numbers, powers and squares of powers.
+fn dispersion(bands: &[[f64; 4]]) -> f64 {
+    let many = bands.iter().filter(|[count, _, power, _]| *count > 8.0 && *power > 0.0);
+    let (sum, waves) = many.fold((0.0, 0.0), |(sum, waves), [n, _, power, squares]| {
         // For exponentially distributed powers the mean of the first factor is (n − 1)/(n + 1).
-        let variance = (n * squares / (band.power * band.power) - 1.0) * (n + 1.0) / (n - 1.0);
+        let variance = (n * squares / (power * power) - 1.0) * (n + 1.0) / (n - 1.0);
         (sum + n * variance, waves + n)
     });
     if waves > 0.0 { (sum / waves).max(1.0) } else { 1.0 }
-}
-
-/// A term of the mean of an observation: a weight times C2D at ln q, between two nodes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Term {
-    pub weight: f64,
-    pub ln_q: f64,
-    pub index: usize,
-    pub share: f64,
 }
 
 impl Observation {
@@ -152,29 +125,29 @@ impl Observation {
         let q = self.wave_number;
         [1.0, first * q, second * q * q].map(|factor| factor * self.range * power)
     }
+
     /// Terms of the mean power for a spectrum with these nodes.
     pub fn terms(&self, nodes: &Nodes, end: End) -> Vec<Term> {
         let mut terms = Vec::new();
+        let shares: &[(f64, f64)] = if self.windowed { &HANN_SHARES } else { &[(0.0, 1.0)] };
         match self.kind {
-            Kind::Cut { step, windowed, nyquist } => {
-                let shares: &[(f64, f64)] = if windowed { &HANN_SHARES } else { &[(0.0, 1.0)] };
+            Kind::Cut { step, sampling } => {
                 for (waves, share) in shares {
                     let q = self.wave_number + waves * step;
                     add_cut(&mut terms, nodes, q.abs(), *share);
                     if let End::Continues(_) = end {
                         for alias in 1..=MOST_ALIASES {
-                            let period = 2.0 * nyquist * f64::from(alias);
+                            let period = sampling * f64::from(alias);
                             add_cut(&mut terms, nodes, period - q, *share);
                             add_cut(&mut terms, nodes, period + q, *share);
                         }
                     }
                 }
             }
-            Kind::Plane { steps, windowed, sampling } => {
+            Kind::Plane { steps, sampling } => {
                 if let End::Continues(_) = end {
                     add_aliases(&mut terms, nodes, self.wave_number, sampling);
                 }
-                let shares: &[(f64, f64)] = if windowed { &HANN_SHARES } else { &[(0.0, 1.0)] };
                 // Waves between rows have their neighbours at the distances along them.
                 let turned = [steps[1], steps[0]];
                 let ways = if steps == turned { vec![steps] } else { vec![steps, turned] };
@@ -185,13 +158,7 @@ impl Observation {
                         let q =
                             (self.wave_number + along * ahead).hypot(between * aside).max(f64::MIN_POSITIVE);
                         if q <= nodes.end {
-                            let (index, share) = nodes.place(q.ln());
-                            terms.push(Term {
-                                weight: x * y / ways.len() as f64,
-                                ln_q: q.ln(),
-                                index,
-                                share,
-                            });
+                            terms.push(nodes.term(q, x * y / ways.len() as f64));
                         }
                     }
                 }
@@ -207,8 +174,7 @@ fn add_aliases(terms: &mut Vec<Term>, nodes: &Nodes, wave_number: f64, [x, y]: [
     let most = f64::from(MOST_ALIASES);
     let mut add = |q: f64, weight: f64| {
         if q <= nodes.end {
-            let (index, share) = nodes.place(q.ln());
-            terms.push(Term { weight, ln_q: q.ln(), index, share });
+            terms.push(nodes.term(q, weight));
         }
     };
     let orders = || (0..=2 * MOST_ALIASES).map(|order| f64::from(order) - most);
@@ -232,17 +198,14 @@ fn add_aliases(terms: &mut Vec<Term>, nodes: &Nodes, wave_number: f64, [x, y]: [
 fn add_cut(terms: &mut Vec<Term>, nodes: &Nodes, k: f64, factor: f64) {
     for (low, high) in nodes.pieces_from(k) {
         let along = |q: f64| ((q - k) * (q + k)).max(0.0).sqrt();
-        for (t, weight) in gauss(along(low), along(high)) {
-            let ln_q = k.hypot(t).ln();
-            let (index, share) = nodes.place(ln_q);
-            terms.push(Term { weight: factor * weight / PI, ln_q, index, share });
-        }
+        let points = gauss(along(low), along(high));
+        terms.extend(points.map(|(t, weight)| nodes.term(k.hypot(t), factor * weight / PI)));
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::isotropic::tests::known;
+    use super::super::isotropic::known;
     use super::*;
 
     fn mean(terms: &[Term], values: &[f64]) -> f64 {

@@ -1,7 +1,7 @@
 //! Periodograms: power of each wave of a profile or a map.
 
 use super::error::SpectrumError;
-use crate::memory::{check_room, resized};
+use crate::memory::{check_room, emptied};
 use realfft::RealFftPlanner;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
@@ -20,28 +20,6 @@ pub enum Direction {
     Y,
     /// All directions of a map: q C2D/π, m³.
     Radial,
-}
-
-impl Direction {
-    /// Name for readers.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Direction::X => "1D PSD along x",
-            Direction::Y => "1D PSD along y",
-            Direction::Radial => "q/π × 2D PSD",
-        }
-    }
-
-    /// Name of the spectrum of the opposite face.
-    #[must_use]
-    pub fn opposite_name(self) -> &'static str {
-        match self {
-            Direction::X => "opposite, 1D PSD along x",
-            Direction::Y => "opposite, 1D PSD along y",
-            Direction::Radial => "opposite, q/π × 2D PSD",
-        }
-    }
 }
 
 /// Mean power of the waves within a range of wave numbers.
@@ -63,18 +41,17 @@ pub(super) struct ProfilePower {
     pub windowed: bool,
     /// Number of summed profiles.
     pub profiles: u64,
-    /// C1D, m³, of the waves 1, 2, … below half the number of points, summed.
-    pub power: Vec<f64>,
+    /// Wave number of wave 1, rad/m.
+    pub step: f64,
+    /// Wave number and C1D, m³, summed, of the waves 1, 2, … below half the number of points.
+    pub waves: Vec<(f64, f64)>,
 }
 
 impl ProfilePower {
     pub fn new(points: usize, spacing: f64, windowed: bool) -> Self {
-        ProfilePower { points, spacing, windowed, profiles: 0, power: vec![0.0; (points - 1) / 2] }
-    }
-
-    /// Wave number of wave 1, rad/m.
-    pub fn step(&self) -> f64 {
-        TAU / (self.points as f64 * self.spacing)
+        let step = TAU / (points as f64 * spacing);
+        let waves = (1..=(points - 1) / 2).map(|wave| (wave as f64 * step, 0.0)).collect();
+        ProfilePower { points, spacing, windowed, profiles: 0, step, waves }
     }
 
     /// Adds the power of profiles of equal points: consecutive rows.
@@ -82,23 +59,13 @@ impl ProfilePower {
         &mut self,
         rows: impl Iterator<Item = impl Iterator<Item = f64>>,
     ) -> Result<(), SpectrumError> {
-        let plan = RealFftPlanner::<f64>::new().plan_fft_forward(self.points);
-        let (mut input, mut output) = (plan.make_input_vec(), plan.make_output_vec());
-        let mut scratch = plan.make_scratch_vec();
-        let window = window(self.points, self.windowed);
         let scale = self.spacing / self.points as f64;
-        for row in rows {
-            for ((value, height), weight) in input.iter_mut().zip(row).zip(&window) {
-                *value = height * weight;
-            }
-            plan.process_with_scratch(&mut input, &mut output, &mut scratch)
-                .map_err(|error| SpectrumError::Transform(error.to_string()))?;
-            for (sum, coefficient) in self.power.iter_mut().zip(&output[1..]) {
+        transform(rows, self.points, self.windowed, |coefficients| {
+            for ((_, sum), coefficient) in self.waves.iter_mut().zip(&coefficients[1..]) {
                 *sum += scale * coefficient.norm_sqr();
             }
             self.profiles += 1;
-        }
-        Ok(())
+        })
     }
 }
 
@@ -111,9 +78,7 @@ pub fn line_spectrum(heights: &[f64], spacing: f64, windowed: bool) -> Result<Ve
     // The mean of windowed heights would leak into the first waves.
     let mean = heights.iter().sum::<f64>() / heights.len() as f64;
     power.add(std::iter::once(heights.iter().map(|height| height - mean)))?;
-    let waves =
-        power.power.iter().enumerate().map(|(index, value)| ((index + 1) as f64 * power.step(), *value, 1));
-    Ok(bins(waves))
+    Ok(bins(power.waves.into_iter().map(|(wave_number, power)| (wave_number, power, 1))))
 }
 
 /// Power of the waves of a map.
@@ -162,7 +127,8 @@ struct AxisPower {
     near: [(f64, f64); 2],
 }
 
-fn square((q, power): &(f64, f64)) -> f64 {
+/// Squared gradient of a wave (wave number, power), but for a factor.
+pub(super) fn square((q, power): &(f64, f64)) -> f64 {
     q * q * power
 }
 
@@ -195,10 +161,11 @@ impl MapPower {
         let rows = heights.len() / columns;
         let half = columns / 2 + 1;
         let points = heights.len();
-        let out_of_memory = |_| SpectrumError::OutOfMemory { points };
+        let out_of_memory = |_| SpectrumError::OutOfMemory(points);
         check_room(48 * points as u64).map_err(out_of_memory)?;
-        let mut coefficients = resized(Vec::new(), half * rows, Complex64::ZERO).map_err(out_of_memory)?;
-        transform_rows(heights, columns, windowed, &mut coefficients)?;
+        let mut coefficients: Vec<Complex64> = emptied(Vec::new(), half * rows).map_err(out_of_memory)?;
+        let in_rows = heights.chunks_exact(columns).map(|row| row.iter().copied());
+        transform(in_rows, columns, windowed, |row| coefficients.extend_from_slice(row))?;
         let steps = [TAU / (columns as f64 * along), TAU / (rows as f64 * between)];
         let largest = (PI / along).min(PI / between);
         let scale = along * between / points as f64;
@@ -255,23 +222,24 @@ impl MapPower {
     }
 }
 
-fn transform_rows(
-    heights: &[f64],
-    columns: usize,
+/// Calls `each` with the Fourier coefficients of each row of so many heights.
+fn transform(
+    rows: impl Iterator<Item = impl Iterator<Item = f64>>,
+    points: usize,
     windowed: bool,
-    coefficients: &mut [Complex64],
+    mut each: impl FnMut(&[Complex64]),
 ) -> Result<(), SpectrumError> {
-    let plan = RealFftPlanner::<f64>::new().plan_fft_forward(columns);
-    let mut input = plan.make_input_vec();
+    let plan = RealFftPlanner::<f64>::new().plan_fft_forward(points);
+    let (mut input, mut output) = (plan.make_input_vec(), plan.make_output_vec());
     let mut scratch = plan.make_scratch_vec();
-    let window = window(columns, windowed);
-    let half = columns / 2 + 1;
-    for (row, output) in heights.chunks_exact(columns).zip(coefficients.chunks_exact_mut(half)) {
+    let window = window(points, windowed);
+    for row in rows {
         for ((value, height), weight) in input.iter_mut().zip(row).zip(&window) {
             *value = height * weight;
         }
-        plan.process_with_scratch(&mut input, output, &mut scratch)
+        plan.process_with_scratch(&mut input, &mut output, &mut scratch)
             .map_err(|error| SpectrumError::Transform(error.to_string()))?;
+        each(&output);
     }
     Ok(())
 }
@@ -317,9 +285,9 @@ mod tests {
             let mut power = ProfilePower::new(points, 0.5, false);
             power.add([wave(points, 5.0).into_iter()].into_iter()).unwrap();
             // h² = 9/2 = (1/π) C1D Δq.
-            let expected = 4.5 * PI / power.step();
-            assert!((power.power[4] / expected - 1.0).abs() < 1e-12);
-            let others: f64 = power.power.iter().sum::<f64>() - power.power[4];
+            let expected = 4.5 * PI / power.step;
+            assert!((power.waves[4].1 / expected - 1.0).abs() < 1e-12);
+            let others: f64 = power.waves.iter().map(|(_, power)| power).sum::<f64>() - power.waves[4].1;
             assert!(others.abs() < 1e-12 * expected, "{others}");
         }
     }
@@ -329,7 +297,7 @@ mod tests {
         let points = 128;
         let mut power = ProfilePower::new(points, 1.0, true);
         power.add([wave(points, 20.0).into_iter()].into_iter()).unwrap();
-        let total: f64 = power.power.iter().sum::<f64>() * power.step() / PI;
+        let total: f64 = power.waves.iter().map(|(_, power)| power).sum::<f64>() * power.step / PI;
         assert!((total - 4.5).abs() < 1e-10, "{total}");
     }
 

@@ -82,11 +82,8 @@ pub(super) fn fit(model: &Model<'_>, spectrum: &IsotropicSpectrum) -> Option<Pow
         // Level and exponent first, then all three.
         let near = search(model, start(model, roll_off), 2, bounds, FEW_STEPS);
         let found = near.and_then(|(near, _)| search(model, near, 3, bounds, FEW_STEPS));
-        if let Some(found) = found
-            && best.is_none_or(|best| found.1 < best.1)
-        {
-            best = Some(found);
-        }
+        best =
+            best.into_iter().chain(found).reduce(|best, found| if found.1 < best.1 { found } else { best });
     }
     let best = best.and_then(|(parameters, _)| search(model, parameters, 3, bounds, MOST_STEPS));
     let with_roll_off = best.map_or(without.0.hurst, |(parameters, _)| parameters.hurst);
@@ -97,11 +94,7 @@ pub(super) fn fit(model: &Model<'_>, spectrum: &IsotropicSpectrum) -> Option<Pow
     let scale = (excess / (spectrum.values.len() - free) as f64).max(1.0).sqrt();
     let (_, information) = linearise(model, &parameters, free);
     let information = Cholesky::new(information, free)?;
-    let error = |index: usize| {
-        let mut gradient = vec![0.0; free];
-        gradient[index] = 1.0;
-        scale * information.variance(&gradient).sqrt()
-    };
+    let error = |index: usize| scale * information.standard_error(index);
     let exponential = |value: f64, error: f64| Estimate { value: value.exp(), error: value.exp() * error };
     (0.0 < parameters.hurst && parameters.hurst < 1.0).then(|| PowerLaw {
         // A roll-off may be there even though chance could show it.

@@ -9,7 +9,7 @@ use super::plan::{PLAN_FILE, Plan};
 use crate::io::hexadecimal;
 use crate::scene::Scene;
 use crate::simulation::measured_options;
-use crate::surface::MeasuredRoughness;
+use crate::surface::{MeasuredRoughness, read_faces};
 use crate::text::path_name;
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
@@ -61,15 +61,10 @@ fn expect(plan: &Plan, file: &Path, found: &str, origin: impl Fn() -> String) ->
 
 /// A surface, and the hash of its bytes; several files are hashed one after the other.
 fn read(scene: &Scene) -> Result<(MeasuredRoughness, String), StudyError> {
+    let faces = read_faces(&scene.measured_paths(Path::new("")))?;
     let mut hasher = Sha256::new();
-    let profile = MeasuredRoughness::read(
-        &scene.measured_paths(Path::new("")),
-        &measured_options(scene),
-        &mut |bytes| {
-            hasher.update(bytes);
-        },
-    )?;
-    Ok((profile, hexadecimal(hasher)))
+    faces.iter().flatten().for_each(|(_, content)| hasher.update(content));
+    Ok((MeasuredRoughness::new(&faces, &measured_options(scene))?, hexadecimal(hasher)))
 }
 
 #[cfg(test)]

@@ -124,7 +124,6 @@ mod tests {
     use super::*;
     use crate::scene::Document;
     use crate::simulation::measured_options;
-    use crate::topography::{ReadOptions, parse};
 
     fn scene_and_line(adhesion: &str) -> (Scene, EquivalentLine) {
         let text = format!(
@@ -135,8 +134,8 @@ mod tests {
         let scene = Document::parse(&text, "test").unwrap().scene().clone();
         let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
         let rows: String = (0..256).map(|i| format!("{i} {}\n", 30.0 * height(i))).collect();
-        let surface = parse(format!("x [um] z [nm]\n{rows}").as_bytes(), &ReadOptions::default()).unwrap();
-        let line = EquivalentLine::new(surface, &measured_options(&scene)).unwrap();
+        let face = vec![("".into(), format!("x [um] z [nm]\n{rows}").into_bytes())];
+        let line = EquivalentLine::new(&[face], &measured_options(&scene)).unwrap();
         (scene, line)
     }
 

@@ -1,11 +1,10 @@
 //! Equivalent line of a measured surface: its own spectrum, random phases.
 
-use super::SurfaceError;
-use super::{Amplitude, MeasuredProfile};
+use super::{Amplitude, MeasuredProfile, SurfaceError};
 use crate::spectrum::{
-    Analysis, Detrend, End, IsotropicSpectrum, LineMoments, Options, SpectrumError, analyse, line_moments,
+    Analysis, Detrend, End, IsotropicSpectrum, LineMoments, Options, analyse, line_moments,
 };
-use crate::topography::{Cut, ReadOptions, Topography, TopographyError, read_observed};
+use crate::topography::{Cut, ReadOptions, Topography, TopographyError, content, parse};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
@@ -31,52 +30,56 @@ pub struct MeasuredOptions {
     pub continue_to: Option<f64>,
 }
 
+/// Files of a face with their content: samples of one roughness.
+pub type Face = Vec<(PathBuf, Vec<u8>)>;
+
+/// Reads the files of one or both faces.
+///
+/// # Errors
+/// [`SurfaceError::Measured`] if a file cannot be read.
+pub fn read_faces(faces: &[Vec<PathBuf>]) -> Result<Vec<Face>, SurfaceError> {
+    let read = |path: &PathBuf| match content(path) {
+        Ok(content) => Ok((path.clone(), content)),
+        Err(error) => Err(SurfaceError::measured(path, &error)),
+    };
+    faces.iter().map(|face| face.iter().map(read).collect()).collect()
+}
+
 impl MeasuredOptions {
-    /// Reads and analyses the files of a face, samples of one roughness; `seen` receives all bytes of the files.
+    /// Analyses the files of a face.
     ///
     /// # Errors
-    /// [`SurfaceError::Measured`] without a file, or if a file cannot be read, is no surface, or has no spectrum.
-    pub fn analyse(
-        &self,
-        face: &[impl AsRef<Path>],
-        seen: &mut (dyn FnMut(&[u8]) + Send),
-    ) -> Result<Analysis, SurfaceError> {
-        let read = |path: &Path, seen: &mut (dyn FnMut(&[u8]) + Send)| {
-            self.read(path, seen).map_err(|error| SurfaceError::measured(path, &error))
+    /// [`SurfaceError::Measured`] without a file, or if a file is no surface, or has no spectrum.
+    pub fn analyse(&self, face: &Face) -> Result<Analysis, SurfaceError> {
+        let parse = |(path, content): &(PathBuf, Vec<u8>)| {
+            self.parse(content).map_err(|error| SurfaceError::measured(path, &error))
         };
-        let surfaces =
-            face.iter().map(|path| read(path.as_ref(), seen)).collect::<Result<Vec<_>, SurfaceError>>()?;
+        let surfaces = face.iter().map(parse).collect::<Result<Vec<_>, SurfaceError>>()?;
         analyse(&surfaces, &self.analysis()).map_err(|error| {
-            let path = face.get(error.surface().unwrap_or(0)).map_or(Path::new(""), AsRef::as_ref);
-            SurfaceError::measured(path, &error)
+            let file = face.get(error.surface().unwrap_or(0));
+            SurfaceError::measured(file.map_or(Path::new(""), |(path, _)| path), &error)
         })
     }
 
-    /// Options of the analysis.
+    /// Returns the options of the analysis.
     #[must_use]
     pub fn analysis(&self) -> Options {
         let end = self.continue_to.map_or(End::Ends, |wavelength| End::Continues(TAU / wavelength));
-        let periodic = self.periodic;
         // A plane fitted to a periodic surface would leave a step at its borders.
-        let default = if periodic { Detrend::Mean } else { Detrend::Tilt };
+        let default = if self.periodic { Detrend::Mean } else { Detrend::Tilt };
         let detrend = self.detrend.unwrap_or(default);
-        Options { detrend, periodic, end, tip_radius: None }
+        Options { detrend, periodic: self.periodic, end, tip_radius: None }
     }
 
-    /// Reads a surface; `seen` receives all bytes of the file.
+    /// Reads a surface from the content of a file.
     ///
     /// # Errors
-    /// [`TopographyError`] if the file cannot be read, is no surface, or has no such row or column.
-    pub fn read(
-        &self,
-        path: &Path,
-        seen: &mut (dyn FnMut(&[u8]) + Send),
-    ) -> Result<Topography, TopographyError> {
-        let surface = read_observed(path, &self.reading, seen)?;
-        let surface = match self.cut {
-            Some(cut) => surface.cut(cut)?,
-            None => surface,
-        };
+    /// [`TopographyError`] if the content is no surface or has no such row or column.
+    pub fn parse(&self, content: &[u8]) -> Result<Topography, TopographyError> {
+        let mut surface = parse(content, &self.reading)?;
+        if let Some(cut) = self.cut {
+            surface = surface.cut(cut)?;
+        }
         if self.resample { surface.resampled() } else { Ok(surface) }
     }
 }
@@ -91,22 +94,20 @@ pub enum MeasuredRoughness {
 }
 
 impl MeasuredRoughness {
-    /// Reads the measured surfaces of one or both faces; `seen` receives all bytes of the files.
+    /// Reads the measured surfaces of one or both faces.
     ///
     /// # Errors
-    /// [`SurfaceError::Measured`] if a file cannot be read, is no surface, or has no spectrum.
-    pub fn read(
-        faces: &[Vec<PathBuf>],
-        options: &MeasuredOptions,
-        seen: &mut (dyn FnMut(&[u8]) + Send),
-    ) -> Result<Self, SurfaceError> {
-        if let [face] = faces
-            && let [file] = face.as_slice()
-            && options.as_line
-        {
-            return MeasuredProfile::read_observed(file, options, seen).map(MeasuredRoughness::Profile);
+    /// [`SurfaceError::Measured`] if a file is no surface, or has no spectrum.
+    pub fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
+        match faces {
+            [face] if options.as_line && face.len() == 1 => {
+                let (path, content) = &face[0];
+                let profile = MeasuredProfile::new(content, options);
+                let profile = profile.map_err(|error| SurfaceError::measured(path, &error))?;
+                Ok(MeasuredRoughness::Profile(profile))
+            }
+            _ => EquivalentLine::new(faces, options).map(MeasuredRoughness::Equivalent),
         }
-        EquivalentLine::read(faces, options, seen).map(MeasuredRoughness::Equivalent)
     }
 
     /// Checks that a line of a length (m) can be made on so many springs.
@@ -128,12 +129,13 @@ pub struct EquivalentLine {
 }
 
 impl EquivalentLine {
-    /// Equivalent line of the surface of one face.
+    /// Equivalent line of the surfaces in the files of all faces.
     ///
     /// # Errors
-    /// The reason why the surface has no spectrum.
-    pub fn new(surface: Topography, options: &MeasuredOptions) -> Result<Self, SpectrumError> {
-        Ok(EquivalentLine { faces: vec![analyse(&[surface], &options.analysis())?.isotropic] })
+    /// [`SurfaceError::Measured`] without a file, or if a file is no surface, or has no spectrum.
+    pub fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
+        let spectra = faces.iter().map(|face| Ok(options.analyse(face)?.isotropic));
+        EquivalentLine::from_spectra(spectra.collect::<Result<_, SurfaceError>>()?)
     }
 
     /// Equivalent line of the faces with these spectra; at least one.
@@ -156,19 +158,6 @@ impl EquivalentLine {
             spectrum.drawn(number ^ face.rotate_right(1), share)
         };
         EquivalentLine { faces: (0..).zip(&self.faces).map(of_face).collect() }
-    }
-
-    /// Reads the surfaces of all faces for their equivalent line; `seen` receives all bytes of the files.
-    ///
-    /// # Errors
-    /// [`SurfaceError::Measured`] without a file, or if a file cannot be read, is no surface, or has no spectrum.
-    pub fn read(
-        faces: &[Vec<PathBuf>],
-        options: &MeasuredOptions,
-        seen: &mut (dyn FnMut(&[u8]) + Send),
-    ) -> Result<Self, SurfaceError> {
-        let spectra = faces.iter().map(|face| Ok(options.analyse(face, seen)?.isotropic));
-        EquivalentLine::from_spectra(spectra.collect::<Result<_, SurfaceError>>()?)
     }
 
     /// Moments of the line, over the waves known of all faces, with their standard errors.
@@ -237,18 +226,21 @@ mod tests {
     use super::*;
     use crate::spectrum::Moment;
     use crate::surface::Synthesizer;
-    use crate::topography::parse;
 
-    fn surface() -> Topography {
+    fn face() -> Face {
         let height =
             |i: u32| (0..120).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(1 + k)).sum::<f64>();
         let text: String = (0..256).map(|i| format!("{i} {}\n", height(i))).collect();
-        parse(format!("x [um] z [nm]\n{text}").as_bytes(), &ReadOptions::default()).unwrap()
+        vec![(PathBuf::new(), format!("x [um] z [nm]\n{text}").into_bytes())]
+    }
+
+    fn line_with(options: &MeasuredOptions) -> EquivalentLine {
+        EquivalentLine::new(&[face()], options).unwrap()
     }
 
     #[test]
     fn the_line_has_the_waves_that_scan_and_springs_resolve() {
-        let line = EquivalentLine::new(surface(), &MeasuredOptions::default()).unwrap();
+        let line = line_with(&MeasuredOptions::default());
         let scan = 256e-6;
         assert_eq!(line.modes(scan, 1024).unwrap(), (1, 127));
         assert_eq!(line.modes(scan, 64).unwrap(), (1, 32));
@@ -256,15 +248,15 @@ mod tests {
         assert!(line.modes(scan, 1).unwrap_err().contains("allowed: at least 2 springs"));
         assert!(line.modes(1e-6, 64).unwrap_err().contains("no wave of the spectrum"));
         let further = MeasuredOptions { continue_to: Some(0.5e-6), ..MeasuredOptions::default() };
-        let longer = EquivalentLine::new(surface(), &further).unwrap();
+        let longer = line_with(&further);
         assert_eq!(longer.modes(scan, 1024).unwrap(), (1, 512));
     }
 
     #[test]
     fn spectra_of_two_faces_add() {
         let further = MeasuredOptions { continue_to: Some(0.5e-6), ..MeasuredOptions::default() };
-        let one = EquivalentLine::new(surface(), &MeasuredOptions::default()).unwrap();
-        let other = EquivalentLine::new(surface(), &further).unwrap();
+        let one = line_with(&MeasuredOptions::default());
+        let other = line_with(&further);
         let faces = |one: &EquivalentLine, other: &EquivalentLine| EquivalentLine {
             faces: [one.faces.as_slice(), &other.faces].concat(),
         };
@@ -294,14 +286,14 @@ mod tests {
         let energies = [one, other, both].map(|moments| moments.energy_per_modulus);
         assert!((energies[2].value / (energies[0].value + energies[1].value) - 1.0).abs() < 1e-12);
         assert!((energies[2].error / energies[0].error.hypot(energies[1].error) - 1.0).abs() < 1e-9);
-        assert!(EquivalentLine::read(&[], &further, &mut |_| ()).is_err());
-        assert!(EquivalentLine::read(&[Vec::new()], &further, &mut |_| ()).is_err());
+        assert!(EquivalentLine::new(&[], &further).is_err());
+        assert!(EquivalentLine::new(&[Vec::new()], &further).is_err());
     }
 
     #[test]
     fn the_line_has_the_moments_of_its_spectrum() {
-        let line = EquivalentLine::new(surface(), &MeasuredOptions::default()).unwrap();
-        let analysis = analyse(&[surface()], &Options::default()).unwrap();
+        let line = line_with(&MeasuredOptions::default());
+        let analysis = MeasuredOptions::default().analyse(&face()).unwrap();
         let length = 256e-6;
         let modes = line.modes(length, 4096).unwrap();
         let Amplitude { rms_height: height, rms_gradient: gradient, .. } =

@@ -1,27 +1,20 @@
 //! Errors of the rigid profile.
 
-use thiserror::Error;
-
 use std::path::Path;
+use thiserror::Error;
 
 /// Reason why a profile could not be made.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SurfaceError {
-    /// An array does not fit into memory.
-    #[error("numerics.points: not enough memory for {points} springs")]
-    OutOfMemory {
-        /// Requested springs.
-        points: usize,
-    },
+    /// The arrays of so many springs do not fit into memory.
+    #[error("numerics.points: not enough memory for {0} springs")]
+    OutOfMemory(usize),
     /// The Fourier transform refused its input.
     #[error("roughness: the Fourier transform failed: {0}")]
     Transform(String),
-    /// A height is not finite.
-    #[error("the line has a height that is not finite at spring {index}; form and roughness are too large")]
-    NotFinite {
-        /// First such spring.
-        index: usize,
-    },
+    /// The height at a spring, the first such one, is not finite.
+    #[error("the line has a height that is not finite at spring {0}; form and roughness are too large")]
+    NotFinite(usize),
     /// A measured profile could not be read.
     #[error("roughness.file = {file:?}: {reason}")]
     Measured {
@@ -30,14 +23,11 @@ pub enum SurfaceError {
         /// Fault, with its row if known.
         reason: String,
     },
-    /// No spring lies under the body.
+    /// No spring lies under the punch, with the smallest allowed radius, m: the diameter is rounded to whole cells.
     #[error(
-        "form.radius: no spring lies under the punch; allowed: at least a quarter of the spacing, {least:e} m"
+        "form.radius: no spring lies under the punch; allowed: at least a quarter of the spacing, {0:e} m"
     )]
-    NoSprings {
-        /// Smallest allowed radius, m: the diameter is rounded to whole cells.
-        least: f64,
-    },
+    NoSprings(f64),
 }
 
 impl SurfaceError {

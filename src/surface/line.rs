@@ -3,6 +3,7 @@
 use super::{SurfaceError, mdr_profile};
 use crate::memory;
 use crate::scene::Form;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// The rigid profile above springs at x = (i + ½)Δx.
@@ -53,19 +54,15 @@ impl Line {
         roughness: Option<&[f64]>,
         scale: f64,
     ) -> Result<Self, SurfaceError> {
-        let springs = Springs::new(length, points, form)?;
-        let Springs { first, end, .. } = springs;
-        let mut heights =
-            memory::emptied(memory, end - first).map_err(|_| SurfaceError::OutOfMemory { points })?;
-        match (form, roughness) {
-            (None, None) => heights.resize(points, 0.0),
-            (None, Some(rough)) => heights.extend(rough.iter().map(|z| scale * z)),
-            (Some(form), None) => heights.extend((first..end).map(|i| 0.0 - springs.depth(form, i))),
-            (Some(form), Some(rough)) => {
-                heights.extend((first..end).map(|i| scale * rough[i] - springs.depth(form, i)));
+        Line::over(length, points, form, scale, |under| {
+            let mut heights =
+                memory::emptied(memory, under.len()).map_err(|_| SurfaceError::OutOfMemory(points))?;
+            match roughness {
+                Some(rough) => heights.extend_from_slice(&rough[under]),
+                None => heights.resize(under.len(), 0.0),
             }
-        }
-        springs.line(heights)
+            Ok(heights)
+        })
     }
 
     /// The same for a form and roughness, whose memory becomes that of the gaps.
@@ -78,17 +75,42 @@ impl Line {
         form: Option<&Form>,
         scale: f64,
     ) -> Result<Self, SurfaceError> {
-        let springs = Springs::new(length, heights.len(), form)?;
-        heights.truncate(springs.end);
-        heights.drain(..springs.first);
+        Line::over(length, heights.len(), form, scale, |under| {
+            heights.truncate(under.end);
+            heights.drain(..under.start);
+            Ok(heights)
+        })
+    }
+
+    /// The profile of a form and `heights` of roughness of the springs under it, times `scale` m, in their memory.
+    fn over(
+        length: f64,
+        points: usize,
+        form: Option<&Form>,
+        scale: f64,
+        heights: impl FnOnce(Range<usize>) -> Result<Vec<f64>, SurfaceError>,
+    ) -> Result<Self, SurfaceError> {
+        let spacing = length / points as f64;
+        let under = form.map_or(0..points as u64, |form| form.springs_under(length, points as u64));
+        if under.is_empty() {
+            return Err(SurfaceError::NoSprings(spacing / 4.0));
+        }
+        let first = under.start as usize;
+        let mut gaps = heights(first..under.end as usize)?;
         match form {
-            None => heights.iter_mut().for_each(|z| *z *= scale),
+            None => gaps.iter_mut().for_each(|z| *z *= scale),
             Some(form) => {
-                let under = (springs.first..).zip(&mut heights);
-                under.for_each(|(index, z)| *z = scale * *z - springs.depth(form, index));
+                // Whole cells from the axis: exact, so that the profile is as symmetric as its form.
+                let axis = Form::spring_on_axis(points as u64) as f64;
+                let depth = |index: usize| mdr_profile(form, (index as f64 - axis) * spacing);
+                (first..).zip(&mut gaps).for_each(|(index, z)| *z = scale * *z - depth(index));
             }
         }
-        springs.line(heights)
+        let not_finite = |index| SurfaceError::NotFinite(first + index);
+        let summit = largest(&gaps).map_err(not_finite)?;
+        gaps.iter_mut().for_each(|height| *height = summit - *height);
+        let deepest = largest(&gaps).map_err(not_finite)?;
+        Ok(Line { gaps: Arc::new(gaps), first, points, length, spacing, summit, deepest })
     }
 
     /// Heights z, m, of the points under the body; summit − z is their gap, bit for bit.
@@ -120,43 +142,6 @@ impl Line {
     #[must_use]
     pub fn deepest(&self) -> f64 {
         self.deepest
-    }
-}
-
-/// Springs of a foundation, and those of them under a form.
-struct Springs {
-    length: f64,
-    points: usize,
-    spacing: f64,
-    first: usize,
-    end: usize,
-}
-
-impl Springs {
-    fn new(length: f64, points: usize, form: Option<&Form>) -> Result<Self, SurfaceError> {
-        let spacing = length / points as f64;
-        let under = form.map_or(0..points as u64, |form| form.springs_under(length, points as u64));
-        if under.is_empty() {
-            return Err(SurfaceError::NoSprings { least: spacing / 4.0 });
-        }
-        Ok(Springs { length, points, spacing, first: under.start as usize, end: under.end as usize })
-    }
-
-    /// Depth of a form below its apex at a spring, m.
-    fn depth(&self, form: &Form, index: usize) -> f64 {
-        // Whole cells from the axis: exact, so that the profile is as symmetric as its form.
-        let axis = Form::spring_on_axis(self.points as u64) as f64;
-        mdr_profile(form, (index as f64 - axis) * self.spacing)
-    }
-
-    /// The profile of these heights of the springs under the form, m, in their memory.
-    fn line(self, mut gaps: Vec<f64>) -> Result<Line, SurfaceError> {
-        let Springs { length, points, spacing, first, .. } = self;
-        let not_finite = |index| SurfaceError::NotFinite { index: first + index };
-        let summit = largest(&gaps).map_err(not_finite)?;
-        gaps.iter_mut().for_each(|height| *height = summit - *height);
-        let deepest = largest(&gaps).map_err(not_finite)?;
-        Ok(Line { gaps: Arc::new(gaps), first, points, length, spacing, summit, deepest })
     }
 }
 
@@ -209,7 +194,7 @@ mod tests {
         let line = Line::new(1.0, 10, Some(&Form::Punch { radius: 0.2 }), None, 0.0).unwrap();
         assert_eq!((line.first, line.gaps.len()), (3, 4));
         let none = Line::new(1.0, 10, Some(&Form::Punch { radius: 0.02 }), None, 0.0);
-        assert_eq!(none, Err(SurfaceError::NoSprings { least: 0.025 }));
+        assert_eq!(none, Err(SurfaceError::NoSprings(0.025)));
     }
 
     #[test]
@@ -227,9 +212,9 @@ mod tests {
     fn a_gap_beyond_all_numbers_is_refused_at_its_spring() {
         let rough = [0.0, 0.0, 1e308, 0.0, -1e308, 0.0];
         let line = |form: Option<&Form>| Line::new(1.0, 6, form, Some(&rough), 1.0);
-        assert_eq!(line(None), Err(SurfaceError::NotFinite { index: 4 }));
+        assert_eq!(line(None), Err(SurfaceError::NotFinite(4)));
         // The first spring under the punch is the second of the foundation.
-        assert_eq!(line(Some(&Form::Punch { radius: 0.3 })), Err(SurfaceError::NotFinite { index: 4 }));
+        assert_eq!(line(Some(&Form::Punch { radius: 0.3 })), Err(SurfaceError::NotFinite(4)));
     }
 
     #[test]
@@ -259,7 +244,7 @@ mod tests {
         let error = Line::new(1.0, 40, Some(&thin), Some(&rough), 0.3);
         assert_eq!(Line::from_roughness(rough, 1.0, Some(&thin), 0.3), error);
         let not_finite = Line::from_roughness(vec![0.0, f64::INFINITY], 1.0, None, 1.0);
-        assert_eq!(not_finite, Err(SurfaceError::NotFinite { index: 1 }));
+        assert_eq!(not_finite, Err(SurfaceError::NotFinite(1)));
     }
 
     #[test]
@@ -282,7 +267,7 @@ mod tests {
     #[test]
     fn heights_that_are_not_finite_are_refused() {
         let result = Line::new(1.0, 3, None, Some(&[0.0, 1e300, 0.0]), 1e300);
-        assert_eq!(result, Err(SurfaceError::NotFinite { index: 1 }));
+        assert_eq!(result, Err(SurfaceError::NotFinite(1)));
         for points in 1..40 {
             for bad in 0..points {
                 let mut rough: Vec<f64> = (0..points).map(|i| (i * i % 7) as f64).collect();
@@ -292,7 +277,7 @@ mod tests {
                 assert_eq!(line.deepest(), line.gaps.iter().copied().fold(0.0, f64::max));
                 rough[bad..].fill(f64::NAN);
                 let result = Line::new(1.0, points, None, Some(&rough), 1.0);
-                assert_eq!(result, Err(SurfaceError::NotFinite { index: bad }));
+                assert_eq!(result, Err(SurfaceError::NotFinite(bad)));
             }
         }
     }

@@ -1,11 +1,10 @@
 //! Measured profiles used as the line themselves.
 
 use super::{Amplitude, MeasuredOptions, SurfaceError};
-use crate::memory::check_room;
+use crate::memory::{check_room, emptied};
 use crate::spectrum::Detrend;
-use crate::topography::{ReadOptions, Topography, TopographyError, UNEVEN, Unit, parse};
+use crate::topography::{ReadOptions, TopographyError, UNEVEN, Unit, first_uneven, interpolated};
 use realfft::RealFftPlanner;
-use std::path::Path;
 
 /// Most bytes per point of the transform and its arrays: an odd number of points transforms at twice the length.
 const TRANSFORM_BYTES: u64 = 96;
@@ -22,51 +21,26 @@ pub struct MeasuredProfile {
 }
 
 impl MeasuredProfile {
-    /// Reads a profile from a regular file of at most 1 GiB; see [`Self::parse`].
+    /// Reads a profile from text. By convention lengths without a stated unit are in m, as written by `asperity line`.
     ///
     /// # Errors
-    /// [`SurfaceError::Measured`] if the file cannot be read or is no profile.
-    pub fn read(path: &Path) -> Result<Self, SurfaceError> {
+    /// As [`Self::new`].
+    pub fn parse(text: &str) -> Result<Self, TopographyError> {
         let reading = ReadOptions { convention: Some(Unit::METRE), ..ReadOptions::default() };
-        let options = MeasuredOptions { as_line: true, reading, ..MeasuredOptions::default() };
-        Self::read_observed(path, &options, &mut |_| ())
+        Self::new(text.as_bytes(), &MeasuredOptions { reading, ..MeasuredOptions::default() })
     }
 
-    /// Reads a profile, or a row or column of a map; `seen` receives all bytes of the file. Detrending
-    /// requires equally spaced points.
+    /// Reads a profile, or a row or column of a map, from the content of a file. Detrending requires equally spaced
+    /// points.
     ///
     /// # Errors
-    /// As [`Self::read`].
-    pub fn read_observed(
-        path: &Path,
-        options: &MeasuredOptions,
-        seen: &mut (dyn FnMut(&[u8]) + Send),
-    ) -> Result<Self, SurfaceError> {
-        let read = options.read(path, seen).and_then(|surface| match options.detrend {
-            Some(detrend) if detrend != Detrend::None => {
-                surface.spacing()?;
-                Ok(surface.with_heights(|heights, columns| detrend.remove(heights, columns)))
-            }
-            _ => Ok(surface),
-        });
-        read.and_then(Self::from_topography).map_err(|error| SurfaceError::measured(path, &error))
-    }
-
-    /// Reads a profile from text or another format of [`crate::topography`]. By convention lengths without a stated
-    /// unit are in m, as written by `asperity line`.
-    ///
-    /// # Errors
-    /// [`TopographyError`], also for a map.
-    pub fn parse(content: &str) -> Result<Self, TopographyError> {
-        let in_metres = ReadOptions { convention: Some(Unit::METRE), ..ReadOptions::default() };
-        parse(content.as_bytes(), &in_metres).and_then(Self::from_topography)
-    }
-
-    /// The profile of a surface.
-    ///
-    /// # Errors
-    /// [`TopographyError`] for a map.
-    pub fn from_topography(surface: Topography) -> Result<Self, TopographyError> {
+    /// [`TopographyError`] if the content is no profile.
+    pub fn new(content: &[u8], options: &MeasuredOptions) -> Result<Self, TopographyError> {
+        let mut surface = options.parse(content)?;
+        if let Some(detrend) = options.detrend.filter(|detrend| *detrend != Detrend::None) {
+            surface.spacing()?;
+            surface = surface.with_heights(|heights, columns| detrend.remove(heights, columns));
+        }
         let (positions, heights) = surface.into_profile()?;
         Ok(MeasuredProfile { positions, heights })
     }
@@ -97,7 +71,7 @@ impl MeasuredProfile {
     /// Distance between points, m, if these are the centres of cells that begin at x = 0.
     fn cell(&self) -> Option<f64> {
         let cell = self.span() / (self.positions.len() - 1) as f64;
-        self.are_even(0.5 * cell, cell).then_some(cell)
+        first_uneven(&self.positions, 0.5 * cell, cell).is_none().then_some(cell)
     }
 
     /// Root mean square height about the mean and root mean square gradient of the straight pieces
@@ -129,7 +103,7 @@ impl MeasuredProfile {
     pub fn amplitude(&self) -> Result<Amplitude, SurfaceError> {
         let (rms_height, rms_gradient) = self.rms_height_and_gradient();
         let points = self.positions.len();
-        let out_of_memory = || SurfaceError::OutOfMemory { points };
+        let out_of_memory = || SurfaceError::OutOfMemory(points);
         check_room(TRANSFORM_BYTES * points as u64).map_err(|_| out_of_memory())?;
         let mut heights = self.sample(self.length(), points, 0.0).map_err(|_| out_of_memory())?;
         let curvature = rms_curvature(&heights, self.length() / points as f64);
@@ -160,25 +134,11 @@ impl MeasuredProfile {
         let begins = self.begins(length).map_err(|covers| {
             format!("the profile covers {covers:e} m; allowed: at least length = {length:e} m")
         })?;
-        let mut heights = Vec::new();
-        heights.try_reserve_exact(points).map_err(|_| format!("not enough memory for {points} points"))?;
-        let level = self.level();
-        let mut piece = 0;
-        for index in 0..points {
-            let x = begins + (index as f64 + 0.5 - shift) * (length / points as f64);
-            while piece + 2 < self.positions.len() && self.positions[piece + 1] < x {
-                piece += 1;
-            }
-            let (x0, x1) = (self.positions[piece], self.positions[piece + 1]);
-            let (z0, z1) = (self.heights[piece] - level, self.heights[piece + 1] - level);
-            heights.push(if x <= x0 {
-                z0
-            } else if x >= x1 {
-                z1
-            } else {
-                z0 + (z1 - z0) * ((x - x0) / (x1 - x0))
-            });
-        }
+        let mut heights =
+            emptied(Vec::new(), points).map_err(|_| format!("not enough memory for {points} points"))?;
+        let places =
+            (0..points).map(|index| begins + (index as f64 + 0.5 - shift) * (length / points as f64));
+        heights.extend(interpolated(&self.positions, &self.heights, self.level(), places));
         Ok(heights)
     }
 
@@ -189,21 +149,19 @@ impl MeasuredProfile {
     fn begins(&self, length: f64) -> Result<f64, f64> {
         let points = self.positions.len() as f64;
         let (first, distance) = (self.positions[0], self.span() / (points - 1.0));
-        let (begins, covers) = if self.are_even(0.5 * distance, distance) {
-            (0.0, points * distance)
-        } else if length > self.span() && self.are_even(first, distance) {
-            (first - 0.5 * distance, points * distance)
+        let is_even_from = |first: f64| first_uneven(&self.positions, first, distance).is_none();
+        let begins = if is_even_from(0.5 * distance) {
+            0.0
+        } else if length <= self.span() {
+            return Ok(first);
+        } else if is_even_from(first) {
+            first - 0.5 * distance
         } else {
-            return if length <= self.span() { Ok(first) } else { Err(self.span()) };
+            return Err(self.span());
         };
         // The last half cell may be displaced as far as points may.
+        let covers = points * distance;
         if length <= covers + UNEVEN * distance { Ok(begins) } else { Err(covers) }
-    }
-
-    /// Returns true for equally spaced points, m, from a first position, m, on.
-    fn are_even(&self, first: f64, distance: f64) -> bool {
-        let middles = (0..self.positions.len()).map(|index| first + index as f64 * distance);
-        self.positions.iter().zip(middles).all(|(x, middle)| (x - middle).abs() <= UNEVEN * distance)
     }
 
     /// Height, m, subtracted from all others: the first one, if all differences are exact, else 0.
@@ -290,27 +248,11 @@ mod tests {
     }
 
     #[test]
-    fn says_what_is_wrong_and_where() {
-        let wrong = |text: &str| MeasuredProfile::parse(text).unwrap_err().to_string();
-        assert!(wrong("0 1\n1 NaN\n").contains("line 2"));
-        assert!(wrong("0 1\n0 2\n").contains("line 2: x = 0e0 after 0e0"));
-        assert!(wrong("0 1\n1 2 3\n").contains("line 2: 3 columns"));
-        assert!(wrong("x z\n0 1\nx z\n").contains("line 3"));
-        assert!(wrong("").contains("no line of numbers"));
-        assert!(wrong("0 1").contains("1 points; allowed: from 2 to"));
-        let long = wrong(&format!("0 1\n1 {}", "κ".repeat(1000)));
-        assert!(long.chars().count() < 120, "{long}");
-    }
-
-    #[test]
     fn lengths_are_in_metres_unless_the_file_or_the_scene_states_a_unit() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("line.csv");
         let read = |text: &str, unit: Option<Unit>| {
-            std::fs::write(&path, text).unwrap();
             let reading = ReadOptions { unit, convention: Some(Unit::METRE), ..ReadOptions::default() };
             let options = MeasuredOptions { as_line: true, reading, ..MeasuredOptions::default() };
-            MeasuredProfile::read_observed(&path, &options, &mut |_| ())
+            MeasuredProfile::new(text.as_bytes(), &options)
         };
         let millimetre: Unit = "mm".parse().unwrap();
         let metres = read("0,1\n1,2", None).unwrap();
@@ -326,7 +268,7 @@ mod tests {
     #[test]
     fn devices_are_not_read() {
         for device in ["/dev/zero", "/dev/null", "/dev/tty"] {
-            let message = MeasuredProfile::read(Path::new(device)).unwrap_err().to_string();
+            let message = crate::topography::content(device.as_ref()).unwrap_err().to_string();
             assert!(message.contains("not a regular file"), "{device}: {message}");
         }
     }
@@ -334,6 +276,9 @@ mod tests {
     #[test]
     fn what_a_length_or_a_mean_square_cannot_hold_is_refused() {
         let wrong = |text: &str| MeasuredProfile::parse(text).unwrap_err().to_string();
+        assert!(wrong("0 1").contains("1 points; allowed: from 2 to"));
+        let long = wrong(&format!("0 1\n1 {}", "κ".repeat(1000)));
+        assert!(long.chars().count() < 120, "{long}");
         assert_eq!(wrong("-1e308 0\n1e308 0"), "line 1: \"-1e308\"; allowed: a number from -1e9 to 1e9");
         assert!(
             wrong("-1e10 0\n1 0").contains("point 1: a position of -1e10 m; allowed: from -1e9 to 1e9 m")
@@ -349,12 +294,6 @@ mod tests {
     }
 
     #[test]
-    fn a_level_is_read_however_high() {
-        let level = MeasuredProfile::parse("0 1e9\n1 1e9").unwrap();
-        assert_eq!((level.heights(), level.length()), (&[1e9, 1e9][..], 1.0));
-    }
-
-    #[test]
     fn samples_lie_on_the_straight_pieces() {
         let profile = MeasuredProfile::parse("-2 7\n0 3\n1 6\n4 0").unwrap();
         // At −1.5, −0.5 … 3.5.
@@ -364,18 +303,6 @@ mod tests {
         assert_eq!(
             (profile.positions(), profile.heights()),
             (&[-2.0, 0.0, 1.0, 4.0][..], &[7.0, 3.0, 6.0, 0.0][..])
-        );
-    }
-
-    #[test]
-    fn uneven_pieces_count_by_their_lengths() {
-        let profile = MeasuredProfile::parse("5 1\n6 3\n9 -3").unwrap();
-        let (height, gradient) = profile.rms_height_and_gradient();
-        // Mean 1/2; ∫ (z − 1/2)² dx is 31/12 and 39/4 on the two pieces, and the slopes are 2 and −2.
-        let square: f64 = (31.0 / 12.0 + 39.0 / 4.0) / 4.0;
-        assert!(
-            (height - square.sqrt()).abs() < 1e-15 && (gradient - 2.0).abs() < 1e-15,
-            "{height} {gradient}"
         );
     }
 
@@ -420,13 +347,18 @@ mod tests {
 
     #[test]
     fn statistics_are_those_of_the_straight_pieces() {
-        // A triangle of height 1 over length 2: mean 1/2, variance 1/12, slope 1.
-        let profile = MeasuredProfile::parse("5 0\n6 1\n7 0").unwrap();
-        let (height, gradient) = profile.rms_height_and_gradient();
-        assert!((height - (1.0_f64 / 12.0).sqrt()).abs() < 1e-15);
-        assert!((gradient - 1.0).abs() < 1e-15);
-        // A constant height is no roughness.
-        let level = MeasuredProfile::parse("6e-5 5\n1 5\n3 5").unwrap();
-        assert_eq!(level.rms_height_and_gradient(), (0.0, 0.0));
+        // A triangle of height 1 over length 2: mean 1/2, variance 1/12, slope 1. Uneven pieces: mean 1/2; ∫ (z − 1/2)² dx
+        // is 31/12 and 39/4 on the two pieces, and the slopes are 2 and −2. A constant height is no roughness.
+        for (text, square, slope) in [
+            ("5 0\n6 1\n7 0", 1.0 / 12.0, 1.0),
+            ("5 1\n6 3\n9 -3", (31.0 / 12.0 + 39.0 / 4.0) / 4.0, 2.0),
+            ("6e-5 5\n1 5\n3 5", 0.0, 0.0),
+        ] {
+            let (height, gradient) = MeasuredProfile::parse(text).unwrap().rms_height_and_gradient();
+            assert!((height - f64::sqrt(square)).abs() < 1e-15 && (gradient - slope).abs() < 1e-15, "{text}");
+            assert!(square > 0.0 || (height, gradient) == (0.0, 0.0), "{text}");
+        }
+        let level = MeasuredProfile::parse("0 1e9\n1 1e9").unwrap();
+        assert_eq!((level.heights(), level.length()), (&[1e9, 1e9][..], 1.0));
     }
 }

@@ -6,7 +6,7 @@ mod error;
 mod form;
 mod histogram;
 mod line;
-pub mod measured;
+mod measured;
 mod modes;
 mod phases;
 mod roughness;
@@ -14,7 +14,7 @@ mod spectrum;
 mod struve;
 
 pub use amplitude::{Amplitude, WaveNumbers};
-pub use equivalent::{EquivalentLine, MeasuredOptions, MeasuredRoughness};
+pub use equivalent::{EquivalentLine, Face, MeasuredOptions, MeasuredRoughness, read_faces};
 pub use error::SurfaceError;
 pub use form::{line_power_law, mdr_profile, power_law_factor};
 pub use histogram::Histogram;

@@ -2,7 +2,7 @@
 
 use super::modes::Modes;
 use super::phases::phases;
-use super::{SelfAffine, SurfaceError, WaveNumbers};
+use super::{SelfAffine, SurfaceError};
 use crate::memory;
 use crate::parallel::in_parallel;
 use realfft::{ComplexToReal, RealFftPlanner};
@@ -24,10 +24,6 @@ const LONGEST_KEPT: usize = 1 << 22;
 pub struct UnitRoughness {
     /// Heights in units of the rms height.
     pub heights: Vec<f64>,
-    /// Number of random phases drawn.
-    pub random_phases: u64,
-    /// Rms and mean wave number of the profile on a length of 1 m.
-    pub wave_numbers: WaveNumbers,
 }
 
 impl UnitRoughness {
@@ -62,7 +58,7 @@ impl Transform {
     fn planned(points: usize) -> Result<Self, SurfaceError> {
         let plan = RealFftPlanner::<f64>::new().plan_fft_inverse(points);
         let zeros = |count| memory::resized(Vec::new(), count, Complex64::ZERO);
-        let out_of_memory = |_| SurfaceError::OutOfMemory { points };
+        let out_of_memory = |_| SurfaceError::OutOfMemory(points);
         let coefficients = zeros(points / 2 + 1).map_err(out_of_memory)?;
         let scratch = zeros(plan.get_scratch_len()).map_err(out_of_memory)?;
         Ok(Transform { points, plan, coefficients, scratch })
@@ -94,11 +90,8 @@ impl Synthesizer {
                 || modes.draw(first as u64, lower),
             );
         };
-        Ok(UnitRoughness {
-            heights: self.transform((spectrum.first, spectrum.last), points, memory, draw)?,
-            random_phases: spectrum.last + 1 - spectrum.first,
-            wave_numbers: spectrum.wave_numbers(1.0),
-        })
+        let heights = self.transform((spectrum.first, spectrum.last), points, memory, draw)?;
+        Ok(UnitRoughness { heights })
     }
 
     /// Sum of cosines with these amplitudes of the modes from a first to a last one, at most `points`/2, and the phases of
@@ -133,7 +126,7 @@ impl Synthesizer {
         memory: Vec<f64>,
         draw: impl FnOnce(usize, &mut [Complex64]),
     ) -> Result<Vec<f64>, SurfaceError> {
-        let out_of_memory = |_| SurfaceError::OutOfMemory { points };
+        let out_of_memory = |_| SurfaceError::OutOfMemory(points);
         let kept = self.transform.take().filter(|kept| kept.points == points);
         let mut transform = kept.map_or_else(|| Transform::planned(points), Ok)?;
         let mut heights = memory::resized(memory, points, 0.0).map_err(out_of_memory)?;
@@ -183,7 +176,6 @@ mod tests {
         for (points, first, last) in [(64, 1, 32), (100, 3, 50), (101, 1, 50), (97, 2, 40), (2, 1, 1)] {
             let spectrum = SelfAffine { hurst: 0.6, first, last };
             let line = UnitRoughness::synthesize(spectrum, 42, points).unwrap();
-            assert_eq!(line.random_phases, last + 1 - first);
             for (i, &height) in line.heights.iter().enumerate() {
                 let expected = direct(spectrum, 42, (i as f64 + 0.5) / points as f64);
                 assert!((height - expected).abs() < 1e-12, "N = {points}, i = {i}: {height} {expected}");
@@ -265,7 +257,6 @@ mod tests {
             let spectrum = SelfAffine { hurst, first, last };
             let kept = synthesizer.synthesize(spectrum, seed, points, 0.0, memory).unwrap();
             assert_eq!(kept, UnitRoughness::synthesize(spectrum, seed, points).unwrap());
-            assert_eq!(kept.wave_numbers, spectrum.wave_numbers(1.0));
             // The same as on one thread and by another plan.
             let alone = on_this_thread(|| UnitRoughness::synthesize(spectrum, seed, points).unwrap());
             assert_eq!(kept, alone);

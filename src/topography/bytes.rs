@@ -1,38 +1,71 @@
-//! Numbers of binary files, each read only if the file has its bytes.
+//! Numbers of binary files, each read only if the file has its bytes, and the limits of their decompression.
 
 use super::error::{Place, TopographyError, gathered, refused};
+
+/// Decompressed bytes allowed per byte of the file: texts of numbers expand by factors of three to six.
+pub(super) const MOST_EXPANSION: usize = 32;
+
+/// Decompressed bytes allowed in addition.
+const LEAST_EXPANDED: usize = 1 << 20;
+
+/// Returns the largest number of decompressed bytes from so many bytes.
+pub(super) fn most_expanded(bytes: usize) -> usize {
+    bytes.saturating_mul(MOST_EXPANSION).saturating_add(LEAST_EXPANDED)
+}
+
+/// Order of the bytes of a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Order {
+    Little,
+    Big,
+}
+
+macro_rules! numbers {
+    ($($name:ident: $type:ty),*) => {
+        /// Type of a number.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub(super) enum Number {
+            $($name),*
+        }
+
+        impl Number {
+            /// Returns the number of bytes.
+            pub fn size(self) -> usize {
+                match self {
+                    $(Number::$name => size_of::<$type>()),*
+                }
+            }
+
+            /// Returns the value of the bytes, [`Self::size`] of them.
+            fn value(self, bytes: &[u8], order: Order) -> f64 {
+                match self {
+                    $(Number::$name => {
+                        let mut little = [0; size_of::<$type>()];
+                        little.copy_from_slice(bytes);
+                        if order == Order::Big {
+                            little.reverse();
+                        }
+                        <$type>::from_le_bytes(little) as f64
+                    })*
+                }
+            }
+        }
+    };
+}
+
+numbers!(U8: u8, I8: i8, U16: u16, I16: i16, U32: u32, I32: i32, U64: u64, I64: i64, F32: f32, F64: f64);
 
 /// Part of a binary file, read in sequence.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bytes<'a> {
     bytes: &'a [u8],
     at: usize,
-}
-
-/// Little-endian numbers of a fixed size.
-macro_rules! numbers {
-    ($($name:ident: $type:ty),*) => {
-        $(pub fn $name(&mut self) -> Result<$type, TopographyError> {
-            Ok(<$type>::from_le_bytes(self.array()?))
-        })*
-    };
+    pub order: Order,
 }
 
 impl<'a> Bytes<'a> {
-    pub fn new(bytes: &'a [u8]) -> Self {
-        Bytes { bytes, at: 0 }
-    }
-
-    numbers!(u16: u16, u32: u32, i32: i32, f32: f32, f64: f64);
-
-    /// Big-endian number.
-    pub fn big_u32(&mut self) -> Result<u32, TopographyError> {
-        Ok(u32::from_be_bytes(self.array()?))
-    }
-
-    /// Big-endian number.
-    pub fn big_u64(&mut self) -> Result<u64, TopographyError> {
-        Ok(u64::from_be_bytes(self.array()?))
+    pub fn new(bytes: &'a [u8], order: Order) -> Self {
+        Bytes { bytes, at: 0, order }
     }
 
     /// Offset from the beginning of the file.
@@ -44,104 +77,57 @@ impl<'a> Bytes<'a> {
         self.bytes.len() - self.at
     }
 
-    /// The next `count` bytes.
+    /// Returns the next `count` bytes.
     pub fn take(&mut self, count: usize) -> Result<&'a [u8], TopographyError> {
         let left = &self.bytes[self.at..];
         let taken = left.get(..count).ok_or_else(|| {
-            refused(
-                self.place(),
-                format!("{} bytes up to the end", left.len()),
-                format!("at least {count} bytes"),
-            )
+            let fault = format!("{} bytes up to the end", left.len());
+            refused(self.place(), fault, format!("at least {count} bytes"))
         })?;
         self.at += count;
         Ok(taken)
     }
 
-    /// The next `count` bytes, with their places in the file.
+    /// Returns the next `count` bytes, with their places in the file.
     pub fn part(&mut self, count: usize) -> Result<Bytes<'a>, TopographyError> {
-        let begin = self.at;
+        let at = self.at;
         self.take(count)?;
-        Ok(Bytes { bytes: &self.bytes[..begin + count], at: begin })
+        Ok(Bytes { bytes: &self.bytes[..self.at], at, order: self.order })
     }
 
-    /// The next `count` numbers of a type.
-    pub fn numbers(&mut self, count: usize, of: Number, order: Order) -> Result<Vec<f64>, TopographyError> {
-        let size = of.size();
-        let bytes = count.checked_mul(size).ok_or_else(|| {
-            refused(self.place(), format!("{count} points"), "as many as the file has bytes for")
-        })?;
-        let bytes = self.take(bytes)?;
-        gathered(count, bytes.chunks_exact(size).map(|bytes| of.value(bytes, order)))
+    /// Returns the next number.
+    pub fn number(&mut self, of: Number) -> Result<f64, TopographyError> {
+        Ok(of.value(self.take(of.size())?, self.order))
     }
 
-    /// Bytes up to the next zero, which is skipped.
-    pub fn text(&mut self) -> Result<&'a [u8], TopographyError> {
-        let left = &self.bytes[self.at..];
-        let end = left.iter().position(|byte| *byte == 0).ok_or_else(|| {
-            refused(self.place(), "a text without an end", "a text that ends with a zero byte")
-        })?;
-        self.at += end + 1;
-        Ok(&left[..end])
-    }
-
-    fn array<const SIZE: usize>(&mut self) -> Result<[u8; SIZE], TopographyError> {
-        let mut array = [0; SIZE];
-        array.copy_from_slice(self.take(SIZE)?);
+    /// Returns the next N numbers.
+    pub fn array<const N: usize>(&mut self, of: Number) -> Result<[f64; N], TopographyError> {
+        let mut array = [0.0; N];
+        for value in &mut array {
+            *value = self.number(of)?;
+        }
         Ok(array)
     }
-}
 
-/// Order of the bytes of a number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Order {
-    Little,
-    Big,
-}
-
-/// Type of a number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Number {
-    U8,
-    I8,
-    U16,
-    I16,
-    U32,
-    I32,
-    U64,
-    I64,
-    F32,
-    F64,
-}
-
-impl Number {
-    /// Number of bytes.
-    pub fn size(self) -> usize {
-        match self {
-            Number::U8 | Number::I8 => 1,
-            Number::U16 | Number::I16 => 2,
-            Number::U32 | Number::I32 | Number::F32 => 4,
-            Number::U64 | Number::I64 | Number::F64 => 8,
-        }
+    /// Returns the next number as a size, an offset or a code; 0 for a negative one.
+    pub fn size(&mut self, of: Number) -> Result<usize, TopographyError> {
+        Ok(self.number(of)? as usize)
     }
 
-    /// Value of the bytes, [`Self::size`] of them.
-    fn value(self, bytes: &[u8], order: Order) -> f64 {
-        let mut little = [0; 8];
-        little[..bytes.len()].copy_from_slice(bytes);
-        if order == Order::Big {
-            little[..bytes.len()].reverse();
-        }
-        let bits = u64::from_le_bytes(little);
-        match self {
-            Number::U8 | Number::U16 | Number::U32 | Number::U64 => bits as f64,
-            Number::I8 => f64::from(bits as u8 as i8),
-            Number::I16 => f64::from(bits as u16 as i16),
-            Number::I32 => f64::from(bits as u32 as i32),
-            Number::I64 => bits as i64 as f64,
-            Number::F32 => f64::from(f32::from_bits(bits as u32)),
-            Number::F64 => f64::from_bits(bits),
-        }
+    /// Returns the next `count` numbers of a type.
+    pub fn numbers(&mut self, count: usize, of: Number) -> Result<Vec<f64>, TopographyError> {
+        let bytes = self.take(count.saturating_mul(of.size()))?;
+        gathered(count, bytes.chunks_exact(of.size()).map(|bytes| of.value(bytes, self.order)))
+    }
+
+    /// Returns the bytes up to the next zero, which is skipped.
+    pub fn text(&mut self) -> Result<&'a [u8], TopographyError> {
+        let end = self.bytes[self.at..].iter().position(|byte| *byte == 0).ok_or_else(|| {
+            refused(self.place(), "a text without an end", "a text that ends with a zero byte")
+        })?;
+        let text = self.take(end)?;
+        self.take(1)?;
+        Ok(text)
     }
 }
 
@@ -160,19 +146,19 @@ mod tests {
             (Number::F64, (-0.1_f64).to_le_bytes().into(), -0.1),
         ];
         for (of, mut bytes, value) in cases {
-            assert_eq!(Bytes::new(&bytes).numbers(1, of, Order::Little).unwrap(), [value], "{of:?}");
+            assert_eq!(Bytes::new(&bytes, Order::Little).numbers(1, of).unwrap(), [value], "{of:?}");
             bytes.reverse();
-            assert_eq!(Bytes::new(&bytes).numbers(1, of, Order::Big).unwrap(), [value], "{of:?}");
+            assert_eq!(Bytes::new(&bytes, Order::Big).numbers(1, of).unwrap(), [value], "{of:?}");
         }
     }
 
     #[test]
     fn no_byte_beyond_the_end_is_read() {
-        let mut bytes = Bytes::new(b"ab\0cd");
+        let mut bytes = Bytes::new(b"ab\0cd", Order::Little);
         assert_eq!(bytes.text().unwrap(), b"ab");
-        let error = bytes.f64().unwrap_err();
+        let error = bytes.number(Number::F64).unwrap_err();
         assert_eq!(error.to_string(), "byte 3: 2 bytes up to the end; allowed: at least 8 bytes");
-        assert!(bytes.numbers(usize::MAX, Number::F64, Order::Little).is_err());
+        assert!(bytes.numbers(usize::MAX, Number::F64).is_err());
         assert!(bytes.text().unwrap_err().to_string().starts_with("byte 3: a text without an end"));
     }
 }

@@ -51,23 +51,14 @@ pub enum TopographyError {
         /// Allowed content.
         allowed: String,
     },
-    /// Insufficient memory.
-    #[error("not enough memory for {points} points")]
-    OutOfMemory {
-        /// Points of the surface.
-        points: usize,
-    },
+    /// Insufficient memory for so many points.
+    #[error("not enough memory for {0} points")]
+    OutOfMemory(usize),
 }
 
 impl From<ReadError> for TopographyError {
     fn from(error: ReadError) -> Self {
         TopographyError::Read(error.to_string())
-    }
-}
-
-impl From<std::io::Error> for TopographyError {
-    fn from(error: std::io::Error) -> Self {
-        ReadError::from(error).into()
     }
 }
 
@@ -82,7 +73,7 @@ pub(super) fn gathered(
     values: impl Iterator<Item = f64>,
 ) -> Result<Vec<f64>, TopographyError> {
     let mut gathered = Vec::new();
-    gathered.try_reserve_exact(points).map_err(|_| TopographyError::OutOfMemory { points })?;
+    gathered.try_reserve_exact(points).map_err(|_| TopographyError::OutOfMemory(points))?;
     gathered.extend(values);
     Ok(gathered)
 }

@@ -19,28 +19,14 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     }
     let count = |key: &str| header.count(key, "XRes and YRes");
     let (columns, rows) = (count("xres")?, count("yres")?);
-    let mut data = Bytes::new(bytes);
+    let mut data = Bytes::new(bytes, Order::Little);
     data.take((end / 4 + 1) * 4)?;
-    let points = columns.saturating_mul(rows);
-    let heights = data.numbers(points, Number::F32, Order::Little)?;
-    let size =
-        |key: &str, points: usize| header.number(key).map(|size| size.map(|size| size / points as f64));
-    let spacing = match (size("xreal", columns)?, size("yreal", rows)?) {
-        (Some(along), Some(between)) => Some([along, between]),
-        _ => None,
-    };
-    let unit = |key: &str| match header.text(key) {
-        None | Some(("", _)) => Ok(None),
-        Some((value, place)) => Unit::stated(value, place).map(Some),
-    };
-    Ok(Reading {
-        format: Format::Gsf,
-        heights,
-        grid: RawGrid::of(columns, rows, spacing),
-        lateral_unit: unit("xyunits")?,
-        height_unit: unit("zunits")?,
-        first_missing: None,
-    })
+    let heights = data.numbers(columns.saturating_mul(rows), Number::F32)?;
+    let sizes = header.number("xreal")?.zip(header.number("yreal")?);
+    let spacing = sizes.map(|(width, height)| [width / columns as f64, height / rows as f64]);
+    let unit = |key: &str| header.text(key).map_or(Ok(None), |(value, place)| Unit::stated(value, place));
+    let units = [unit("xyunits")?, unit("zunits")?];
+    Ok(Reading::new(Format::Gsf, heights, RawGrid::of(columns, rows, spacing), units))
 }
 
 #[cfg(test)]

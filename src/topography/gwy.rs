@@ -10,7 +10,7 @@ pub(super) const SIGNATURE: &[u8] = b"GWYP";
 /// Reads the data field of a channel: `/N/data` for number N; without a number, of the only channel whose heights
 /// have a unit of length.
 pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, TopographyError> {
-    let mut file = Bytes::new(bytes);
+    let mut file = Bytes::new(bytes, Order::Little);
     file.take(SIGNATURE.len())?;
     let mut fields = Vec::new();
     for_each_component(object(&mut file)?, &mut |name, value| {
@@ -21,55 +21,34 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Topogr
         Ok(())
     })?;
     let numbers = fields.iter().map(|(number, _)| number.to_string()).collect::<Vec<_>>().join(", ");
-    let is_height = |field: &Field<'_>| field.unit_z == "m";
-    let mut chosen: Vec<(u32, Field<'_>)> = match channel {
-        Some(channel) => fields.into_iter().filter(|(number, _)| *number == channel).collect(),
-        None => fields.into_iter().filter(|(_, field)| is_height(field)).collect(),
+    let is_chosen =
+        |(number, field): &(u32, Field)| channel.map_or(field.unit_z == "m", |one| one == *number);
+    let mut chosen: Vec<_> = fields.into_iter().filter(is_chosen).collect();
+    let (fault, allowed) = match (chosen.pop(), chosen.is_empty(), channel) {
+        (Some((number, field)), true, _) => return field.into_reading(number),
+        (Some(_), false, _) => {
+            ("several channels of heights; all channels".to_owned(), "--channel with the number of one")
+        }
+        (None, _, Some(channel)) => (format!("no channel {channel}; channels"), "a channel of heights"),
+        (None, ..) => ("no channel with heights in m; channels".to_owned(), "a channel of heights"),
     };
-    match (chosen.pop(), chosen.is_empty()) {
-        (Some((number, field)), true) => field.into_reading(number),
-        (Some(_), false) => Err(refused(
-            Place::File,
-            format!("several channels of heights; all channels: {}", shown(&numbers)),
-            "--channel with the number of one",
-        )),
-        (None, _) => Err(refused(
-            Place::File,
-            match channel {
-                Some(channel) => format!("no channel {channel}; channels: {}", shown(&numbers)),
-                None => format!("no channel with heights in m; channels: {}", shown(&numbers)),
-            },
-            "a channel of heights",
-        )),
-    }
+    Err(refused(Place::File, format!("{fault}: {}", shown(&numbers)), allowed))
 }
 
 /// Value of a component, as far as needed.
 enum Value<'a> {
     Object(Bytes<'a>),
-    Integer(i32),
-    Double(f64),
+    Number(f64),
     Text(&'a str),
     Doubles { count: usize, values: Bytes<'a> },
     Other,
 }
 
-/// Content of the next object, after its name and its size.
+/// Returns the content of the next object, after its name and its size.
 fn object<'a>(bytes: &mut Bytes<'a>) -> Result<Bytes<'a>, TopographyError> {
     bytes.text()?;
-    let size = bytes.u32()? as usize;
+    let size = bytes.size(Number::U32)?;
     bytes.part(size)
-}
-
-/// Skips so many bytes.
-fn skipped<'a>(content: &mut Bytes<'a>, bytes: usize) -> Result<Value<'a>, TopographyError> {
-    content.take(bytes).map(|_| Value::Other)
-}
-
-/// Skips a list of values of so many bytes each.
-fn skipped_list<'a>(content: &mut Bytes<'a>, size: usize) -> Result<Value<'a>, TopographyError> {
-    let count = content.u32()? as usize;
-    skipped(content, count.saturating_mul(size))
 }
 
 /// Calls `each` for the components of an object, without those of nested objects.
@@ -81,28 +60,28 @@ fn for_each_component<'a>(
         let name = String::from_utf8_lossy(content.text()?);
         let place = content.place();
         let kind = content.take(1)?[0];
+        let count = match kind {
+            b'C' | b'I' | b'Q' | b'D' | b'S' | b'O' => content.size(Number::U32)?,
+            _ => 1,
+        };
         let value = match kind {
-            b'b' | b'c' => skipped(&mut content, 1)?,
-            b'q' => skipped(&mut content, 8)?,
-            b'i' => Value::Integer(content.i32()?),
-            b'd' => Value::Double(content.f64()?),
+            b'i' => Value::Number(content.number(Number::I32)?),
+            b'd' => Value::Number(content.number(Number::F64)?),
             b's' => Value::Text(str::from_utf8(content.text()?).unwrap_or("\u{fffd}")),
             b'o' => Value::Object(object(&mut content)?),
-            b'D' => {
-                let count = content.u32()? as usize;
-                let values = content.part(count.saturating_mul(8))?;
-                Value::Doubles { count, values }
+            b'D' => Value::Doubles { count, values: content.part(count.saturating_mul(8))? },
+            b'b' | b'c' | b'q' | b'C' | b'I' | b'Q' => {
+                let size = match kind {
+                    b'I' => 4,
+                    b'q' | b'Q' => 8,
+                    _ => 1,
+                };
+                content.take(count.saturating_mul(size))?;
+                Value::Other
             }
-            b'C' => skipped_list(&mut content, 1)?,
-            b'I' => skipped_list(&mut content, 4)?,
-            b'Q' => skipped_list(&mut content, 8)?,
             b'S' | b'O' => {
-                for _ in 0..content.u32()? {
-                    if kind == b'S' {
-                        content.text()?;
-                    } else {
-                        object(&mut content)?;
-                    }
+                for _ in 0..count {
+                    if kind == b'S' { content.text().map(drop)? } else { object(&mut content).map(drop)? }
                 }
                 Value::Other
             }
@@ -119,8 +98,8 @@ fn for_each_component<'a>(
 /// Components of a data field.
 #[derive(Default)]
 struct Field<'a> {
-    columns: i32,
-    rows: i32,
+    columns: f64,
+    rows: f64,
     sizes: [f64; 2],
     unit_xy: String,
     unit_z: String,
@@ -132,10 +111,10 @@ impl<'a> Field<'a> {
         let mut field = Field::default();
         for_each_component(content, &mut |name, value| {
             match (name, value) {
-                ("xres", Value::Integer(columns)) => field.columns = columns,
-                ("yres", Value::Integer(rows)) => field.rows = rows,
-                ("xreal", Value::Double(size)) => field.sizes[0] = size,
-                ("yreal", Value::Double(size)) => field.sizes[1] = size,
+                ("xres", Value::Number(columns)) => field.columns = columns,
+                ("yres", Value::Number(rows)) => field.rows = rows,
+                ("xreal", Value::Number(size)) => field.sizes[0] = size,
+                ("yreal", Value::Number(size)) => field.sizes[1] = size,
                 ("si_unit_xy", Value::Object(unit)) => field.unit_xy = unit_text(unit)?,
                 ("si_unit_z", Value::Object(unit)) => field.unit_z = unit_text(unit)?,
                 ("data", Value::Doubles { count, values }) => field.heights = Some((count, values)),
@@ -151,28 +130,19 @@ impl<'a> Field<'a> {
         let Some((count, mut values)) = self.heights else {
             return Err(refused(place(), "no heights", "a component data of numbers"));
         };
-        let axis = |points: i32| usize::try_from(points).ok().filter(|points| *points > 0);
-        let (Some(columns), Some(rows)) = (axis(self.columns), axis(self.rows)) else {
+        let (columns, rows) = (self.columns as usize, self.rows as usize);
+        if columns == 0 || rows == 0 {
             let fault = format!("xres = {}, yres = {}", self.columns, self.rows);
             return Err(refused(place(), fault, "above 0"));
-        };
+        }
         if columns.checked_mul(rows) != Some(count) {
             let fault = format!("{count} heights for {columns} times {rows} points");
             return Err(refused(place(), fault, "a height for each point"));
         }
-        let unit = |text: &str| match text {
-            "" => Ok(None),
-            text => Unit::stated(text, place()).map(Some),
-        };
         let [width, height] = self.sizes;
-        Ok(Reading {
-            format: Format::Gwy,
-            heights: values.numbers(count, Number::F64, Order::Little)?,
-            grid: RawGrid::of(columns, rows, Some([width / columns as f64, height / rows as f64])),
-            lateral_unit: unit(&self.unit_xy)?,
-            height_unit: unit(&self.unit_z)?,
-            first_missing: None,
-        })
+        let grid = RawGrid::of(columns, rows, Some([width / columns as f64, height / rows as f64]));
+        let units = [Unit::stated(&self.unit_xy, place())?, Unit::stated(&self.unit_z, place())?];
+        Ok(Reading::new(Format::Gwy, values.numbers(count, Number::F64)?, grid, units))
     }
 }
 
@@ -188,7 +158,7 @@ fn unit_text(content: Bytes<'_>) -> Result<String, TopographyError> {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+mod tests {
     use super::*;
 
     fn component(name: &str, kind: u8, value: &[u8]) -> Vec<u8> {
@@ -218,7 +188,7 @@ pub(super) mod tests {
     }
 
     /// A file with channels 0, 1, … with the units of their numbers.
-    pub fn file(units: &[&str]) -> Vec<u8> {
+    fn file(units: &[&str]) -> Vec<u8> {
         let channels = units.iter().enumerate().map(|(number, unit)| {
             component(
                 &format!("/{number}/data"),

@@ -28,35 +28,21 @@ pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<Vec<usi
     }
     let rows = heights.len() / columns;
     let mut filled: Vec<(usize, f64)> = Vec::new();
-    filled.try_reserve_exact(missing).map_err(|_| TopographyError::OutOfMemory { points: missing })?;
+    filled.try_reserve_exact(missing).map_err(|_| TopographyError::OutOfMemory(missing))?;
     for row in 0..rows {
-        let at = |column: usize| row * columns + column;
-        for_each_gap(
-            columns,
-            |column| heights[at(column)],
-            |column, height| {
-                filled.push((at(column), height));
-            },
-        );
+        for_each_gap(heights, row * columns, 1, columns, |index, height| filled.push((index, height)));
     }
     // Heights along rows are in order; those along columns are added to them, or appended.
     let along_rows = filled.len();
-    if rows > 1 {
-        for column in 0..columns {
-            let at = |row: usize| row * columns + column;
-            for_each_gap(
-                rows,
-                |row| heights[at(row)],
-                |row, height| match filled[..along_rows].binary_search_by_key(&at(row), |(index, _)| *index) {
-                    Ok(place) => filled[place].1 = 0.5 * (filled[place].1 + height),
-                    Err(_) => filled.push((at(row), height)),
-                },
-            );
-        }
+    for column in (0..columns).filter(|_| rows > 1) {
+        for_each_gap(heights, column, columns, rows, |index, height| {
+            match filled[..along_rows].binary_search_by_key(&index, |(index, _)| *index) {
+                Ok(place) => filled[place].1 = 0.5 * (filled[place].1 + height),
+                Err(_) => filled.push((index, height)),
+            }
+        });
     }
-    for (index, height) in &filled {
-        heights[*index] = *height;
-    }
+    filled.iter().for_each(|(index, height)| heights[*index] = *height);
     match heights.iter().position(|height| !height.is_finite()) {
         Some(index) => Err(refused(
             Place::Point(index + 1),
@@ -67,28 +53,25 @@ pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<Vec<usi
     }
 }
 
-/// Calls `fill` for each missing one of `count` values with its interpolated height.
-fn for_each_gap(count: usize, value: impl Fn(usize) -> f64, mut fill: impl FnMut(usize, f64)) {
+/// Calls `fill` with the index and the interpolated height of each missing one of `count` heights, `step` indices apart.
+fn for_each_gap(heights: &[f64], first: usize, step: usize, count: usize, mut fill: impl FnMut(usize, f64)) {
+    let at = |place: usize| heights[first + place * step];
     let mut before = None;
-    let mut index = 0;
-    while index < count {
-        if value(index).is_finite() {
-            before = Some(index);
-            index += 1;
-            continue;
-        }
-        let end = (index..count).find(|index| value(*index).is_finite());
-        for gap in index..end.unwrap_or(count) {
-            match (before, end) {
+    let mut place = 0;
+    while place < count {
+        let end = (place..count).find(|place| at(*place).is_finite());
+        for gap in place..end.unwrap_or(count) {
+            let height = match (before, end) {
                 (Some(from), Some(to)) => {
-                    let share = (gap - from) as f64 / (to - from) as f64;
-                    fill(gap, value(from) + share * (value(to) - value(from)));
+                    at(from) + (gap - from) as f64 / (to - from) as f64 * (at(to) - at(from))
                 }
-                (Some(near), None) | (None, Some(near)) => fill(gap, value(near)),
-                (None, None) => {}
-            }
+                (Some(near), None) | (None, Some(near)) => at(near),
+                (None, None) => continue,
+            };
+            fill(first + gap * step, height);
         }
-        index = end.unwrap_or(count);
+        before = end;
+        place = end.map_or(count, |end| end + 1);
     }
 }
 

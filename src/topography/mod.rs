@@ -8,7 +8,6 @@
 mod bytes;
 mod entries;
 mod error;
-mod expansion;
 mod gsf;
 mod gwy;
 mod missing;
@@ -24,8 +23,8 @@ mod unit;
 mod x3p;
 
 pub use error::{Place, TopographyError};
-pub use open::{MOST_BYTES, parse, read, read_observed};
-pub use reading::{Format, Missing, ReadOptions};
-pub(crate) use surface::UNEVEN;
+pub use open::{content, parse, read};
+pub use reading::{Format, ReadOptions};
 pub use surface::{Cut, Grid, Topography};
+pub(crate) use surface::{UNEVEN, first_uneven, interpolated};
 pub use unit::{Unit, UnitError};

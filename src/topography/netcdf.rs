@@ -1,28 +1,28 @@
 //! NetCDF in its classic format (CDF-1 and CDF-2), as written by contact.engineering and SurfaceTopography: a
 //! variable `heights` over positions `x`, and `y` for a map.
 
-use super::UNEVEN;
 use super::bytes::{Bytes, Number, Order};
 use super::error::{Place, TopographyError, gathered, refused};
 use super::reading::{Format, RawGrid, Reading};
+use super::surface::first_uneven;
 use super::unit::Unit;
 
 /// First bytes, without the version.
 pub(super) const SIGNATURE: &[u8] = b"CDF";
 
 /// Tags of the lists of dimensions, variables and attributes.
-const DIMENSIONS: u32 = 10;
-const VARIABLES: u32 = 11;
-const ATTRIBUTES: u32 = 12;
+const DIMENSIONS: usize = 10;
+const VARIABLES: usize = 11;
+const ATTRIBUTES: usize = 12;
 
 /// Type of characters; all others are numbers.
-const CHARACTERS: u32 = 2;
+const CHARACTERS: usize = 2;
 
 /// A variable of a file.
 struct Variable<'a> {
     name: &'a [u8],
     /// Indices of its dimensions, the fastest last.
-    dimensions: Vec<u32>,
+    dimensions: Vec<usize>,
     unit: Option<Unit>,
     /// Values that mark missing points; NaN where there is none.
     missing: [f64; 2],
@@ -52,11 +52,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
         values.iter_mut().zip(mask).filter(|(_, mask)| *mask != 0.0).for_each(|(value, _)| *value = f64::NAN);
     }
     // The positions of a dimension have its name, or that of the axis.
-    let over = |dimension: u32| {
-        let is_over = |variable: &&Variable| {
-            variable.dimensions == [dimension] && [&b"x"[..], b"y"].contains(&variable.name)
-        };
-        dataset.variables.iter().find(is_over)
+    let over = |dimension: usize| {
+        let is_position = |variable: &&Variable| [&b"x"[..], b"y"].contains(&variable.name);
+        dataset.variables.iter().filter(is_position).find(|variable| variable.dimensions == [dimension])
     };
     let position_unit = dataset.variable(b"x").and_then(|x| x.unit);
     let grid = match heights.dimensions[..] {
@@ -65,15 +63,15 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
             None => RawGrid::Profile(None),
         },
         [slow, fast] => {
-            let spacing = |dimension: u32| {
+            let spacing = |dimension: usize| {
                 over(dimension).map(|positions| even_distance(&dataset.values(positions)?)).transpose()
             };
-            let [rows, columns] = [slow, fast].map(|dimension| dataset.length(dimension));
-            let (rows, columns) = (rows?, columns?);
+            let (rows, columns) = (dataset.length(slow)?, dataset.length(fast)?);
             let spacings = spacing(fast)?.zip(spacing(slow)?).map(|(fast, slow)| [fast, slow]);
             if over(slow).is_some_and(|variable| variable.name == b"x") {
                 // Rows are along x.
-                values = transposed(&values, columns)?;
+                let turned = (0..columns).flat_map(|x| values.iter().skip(x).step_by(columns).copied());
+                values = gathered(values.len(), turned)?;
                 RawGrid::of(rows, columns, spacings.map(|[fast, slow]| [slow, fast]))
             } else {
                 RawGrid::of(columns, rows, spacings)
@@ -84,46 +82,29 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
             return Err(refused(Place::File, fault, "one of a profile, or two of a map"));
         }
     };
-    Ok(Reading {
-        format: Format::NetCdf,
-        heights: values,
-        grid,
-        lateral_unit: position_unit,
-        height_unit: heights.unit.or(position_unit),
-        first_missing: None,
-    })
+    Ok(Reading::new(Format::NetCdf, values, grid, [position_unit, heights.unit.or(position_unit)]))
 }
 
 impl<'a> Dataset<'a> {
     fn new(bytes: &'a [u8]) -> Result<Self, TopographyError> {
-        let mut header = Bytes::new(bytes);
+        let mut header = Bytes::new(bytes, Order::Big);
         header.take(SIGNATURE.len())?;
         let place = header.place();
-        let is_wide = match header.take(1)? {
-            [1] => false,
-            [2] => true,
-            [version, ..] => {
-                return Err(refused(
-                    place,
-                    format!("version {version} of NetCDF"),
-                    "1 or 2, the classic format",
-                ));
+        let offsets = match header.size(Number::U8)? {
+            1 => Number::U32,
+            2 => Number::U64,
+            version => {
+                let fault = format!("version {version} of NetCDF");
+                return Err(refused(place, fault, "1 or 2, the classic format"));
             }
-            [] => return Err(refused(place, "no version of NetCDF", "1 or 2, the classic format")),
         };
         header.take(4)?; // Number of records.
-        let mut dimensions = Vec::new();
-        for _ in 0..list(&mut header, DIMENSIONS)? {
-            name(&mut header)?;
-            dimensions.push(header.big_u32()? as usize);
-        }
-        for _ in 0..list(&mut header, ATTRIBUTES)? {
-            attribute(&mut header)?;
-        }
-        let mut variables = Vec::new();
-        for _ in 0..list(&mut header, VARIABLES)? {
-            variables.push(variable(&mut header, is_wide)?);
-        }
+        let dimensions = list(&mut header, DIMENSIONS, |header| {
+            name(header)?;
+            header.size(Number::U32)
+        })?;
+        list(&mut header, ATTRIBUTES, |header| attribute(header).map(drop))?;
+        let variables = list(&mut header, VARIABLES, |header| variable(header, offsets))?;
         Ok(Dataset { bytes, dimensions, variables })
     }
 
@@ -131,27 +112,24 @@ impl<'a> Dataset<'a> {
         self.variables.iter().find(|variable| variable.name == name)
     }
 
-    fn length(&self, dimension: u32) -> Result<usize, TopographyError> {
-        match self.dimensions.get(dimension as usize) {
-            Some(0) => Err(refused(Place::File, "a dimension without a fixed length", "fixed lengths")),
-            Some(length) => Ok(*length),
-            None => Err(refused(
-                Place::File,
-                format!("dimension {dimension}"),
-                format!("below {}", self.dimensions.len()),
-            )),
-        }
+    fn length(&self, dimension: usize) -> Result<usize, TopographyError> {
+        let (fault, allowed) = match self.dimensions.get(dimension) {
+            Some(0) => ("a dimension without a fixed length".to_owned(), "fixed lengths".to_owned()),
+            Some(length) => return Ok(*length),
+            None => (format!("dimension {dimension}"), format!("below {}", self.dimensions.len())),
+        };
+        Err(refused(Place::File, fault, allowed))
     }
 
-    /// Values of a variable; NaN for missing points.
+    /// Returns the values of a variable; NaN for missing points.
     fn values(&self, variable: &Variable) -> Result<Vec<f64>, TopographyError> {
         let mut count = 1_usize;
         for dimension in &variable.dimensions {
             count = count.saturating_mul(self.length(*dimension)?);
         }
-        let mut data = Bytes::new(self.bytes);
+        let mut data = Bytes::new(self.bytes, Order::Big);
         data.take(variable.begin)?;
-        let mut values = data.numbers(count, variable.of, Order::Big)?;
+        let mut values = data.numbers(count, variable.of)?;
         for value in &mut values {
             let is_missing = variable.missing.contains(value);
             *value = if is_missing { f64::NAN } else { variable.offset + variable.scale * *value };
@@ -160,17 +138,22 @@ impl<'a> Dataset<'a> {
     }
 }
 
-/// Number of entries of a list.
-fn list(header: &mut Bytes, mark: u32) -> Result<u32, TopographyError> {
+/// Reads the entries of a list.
+fn list<'a, T>(
+    header: &mut Bytes<'a>,
+    tag: usize,
+    entry: impl Fn(&mut Bytes<'a>) -> Result<T, TopographyError>,
+) -> Result<Vec<T>, TopographyError> {
     let place = header.place();
-    match (header.big_u32()?, header.big_u32()?) {
-        (0, 0) => Ok(0),
-        (found, count) if found == mark => Ok(count),
-        (found, _) => Err(refused(place, format!("mark {found}"), format!("{mark}, or an empty list"))),
+    match (header.size(Number::U32)?, header.size(Number::U32)?) {
+        (0, 0) => Ok(Vec::new()),
+        // No memory is reserved for the number, which the file may overstate.
+        (found, count) if found == tag => std::iter::repeat_with(|| entry(header)).take(count).collect(),
+        (found, _) => Err(refused(place, format!("mark {found}"), format!("{tag}, or an empty list"))),
     }
 }
 
-/// Bytes padded to a multiple of four.
+/// Returns bytes that are padded to a multiple of four.
 fn padded<'a>(header: &mut Bytes<'a>, count: usize) -> Result<&'a [u8], TopographyError> {
     let bytes = header.take(count)?;
     header.take(count.next_multiple_of(4) - count)?;
@@ -178,95 +161,74 @@ fn padded<'a>(header: &mut Bytes<'a>, count: usize) -> Result<&'a [u8], Topograp
 }
 
 fn name<'a>(header: &mut Bytes<'a>) -> Result<&'a [u8], TopographyError> {
-    let length = header.big_u32()? as usize;
+    let length = header.size(Number::U32)?;
     padded(header, length)
 }
 
-/// Type of numbers; `None` for characters.
+/// Returns the type of numbers; `None` for characters.
 fn number(header: &mut Bytes) -> Result<Option<Number>, TopographyError> {
     let place = header.place();
-    match header.big_u32()? {
-        1 => Ok(Some(Number::I8)),
-        CHARACTERS => Ok(None),
-        3 => Ok(Some(Number::I16)),
-        4 => Ok(Some(Number::I32)),
-        5 => Ok(Some(Number::F32)),
-        6 => Ok(Some(Number::F64)),
-        other => Err(refused(place, format!("type {other}"), "types 1 to 6")),
-    }
+    Ok(Some(match header.size(Number::U32)? {
+        1 => Number::I8,
+        CHARACTERS => return Ok(None),
+        3 => Number::I16,
+        4 => Number::I32,
+        5 => Number::F32,
+        6 => Number::F64,
+        other => return Err(refused(place, format!("type {other}"), "types 1 to 6")),
+    }))
 }
 
-/// Value of an attribute: text, or its first number.
-enum Value<'a> {
-    Text(&'a [u8]),
-    Number(f64),
-    Empty,
-}
+/// Name of an attribute, and its text or its first number, if it has any.
+type Attribute<'a> = (&'a [u8], Option<&'a [u8]>, Option<f64>);
 
-/// Name and value of an attribute.
-fn attribute<'a>(header: &mut Bytes<'a>) -> Result<(&'a [u8], Value<'a>), TopographyError> {
+fn attribute<'a>(header: &mut Bytes<'a>) -> Result<Attribute<'a>, TopographyError> {
     let name = name(header)?;
     let of = number(header)?;
-    let count = header.big_u32()? as usize;
-    let size = of.map_or(1, Number::size);
-    let bytes = padded(header, count.saturating_mul(size))?;
-    let value = match of {
-        None => Value::Text(bytes),
-        Some(_) if count == 0 => Value::Empty,
-        Some(of) => Value::Number(Bytes::new(bytes).numbers(1, of, Order::Big)?[0]),
-    };
-    Ok((name, value))
+    let count = header.size(Number::U32)?;
+    let bytes = padded(header, count.saturating_mul(of.map_or(1, Number::size)))?;
+    Ok(match of {
+        None => (name, Some(bytes), None),
+        Some(of) => (name, None, Bytes::new(bytes, Order::Big).number(of).ok()),
+    })
 }
 
-fn variable<'a>(header: &mut Bytes<'a>, is_wide: bool) -> Result<Variable<'a>, TopographyError> {
+fn variable<'a>(header: &mut Bytes<'a>, offsets: Number) -> Result<Variable<'a>, TopographyError> {
     let name = name(header)?;
     let mut dimensions = Vec::new();
-    for _ in 0..header.big_u32()? {
-        dimensions.push(header.big_u32()?);
+    for _ in 0..header.size(Number::U32)? {
+        dimensions.push(header.size(Number::U32)?);
     }
     let (mut unit, mut missing, mut scale, mut offset) = (None, [f64::NAN; 2], 1.0, 0.0);
-    for _ in 0..list(header, ATTRIBUTES)? {
-        match attribute(header)? {
-            (b"unit" | b"units", Value::Text(text)) => {
+    for attribute in list(header, ATTRIBUTES, attribute)? {
+        match attribute {
+            (b"unit" | b"units", Some(text), _) => {
                 unit = str::from_utf8(text).ok().and_then(|text| text.trim().parse().ok());
             }
-            (b"missing_value", Value::Number(value)) => missing[0] = value,
-            (b"_FillValue", Value::Number(value)) => missing[1] = value,
-            (b"scale_factor", Value::Number(value)) => scale = value,
-            (b"add_offset", Value::Number(value)) => offset = value,
+            (b"missing_value", _, Some(value)) => missing[0] = value,
+            (b"_FillValue", _, Some(value)) => missing[1] = value,
+            (b"scale_factor", _, Some(value)) => scale = value,
+            (b"add_offset", _, Some(value)) => offset = value,
             _ => {}
         }
     }
-    let place = header.place();
-    let of = number(header)?;
-    header.take(4)?; // Bytes of the values, which follow from the dimensions.
-    let begin = if is_wide { header.big_u64()? } else { u64::from(header.big_u32()?) };
-    let begin = usize::try_from(begin)
-        .map_err(|_| refused(place, format!("values from byte {begin} on"), "bytes of the file"))?;
     // The values of text are never read.
-    Ok(Variable { name, dimensions, unit, missing, scale, offset, of: of.unwrap_or(Number::U8), begin })
+    let of = number(header)?.unwrap_or(Number::U8);
+    header.take(4)?; // Bytes of the values, which follow from the dimensions.
+    let begin = header.size(offsets)?;
+    Ok(Variable { name, dimensions, unit, missing, scale, offset, of, begin })
 }
 
-/// Distance between equally spaced positions.
+/// Returns the distance between equally spaced positions.
 fn even_distance(positions: &[f64]) -> Result<f64, TopographyError> {
     let ([first, .., last], count) = (positions, positions.len()) else {
         return Err(refused(Place::File, "a map of one row", "at least 2 positions along each axis"));
     };
     let distance = (last - first) / (count - 1) as f64;
-    let is_off = |(index, x): (usize, &f64)| {
-        let off = (x - first - index as f64 * distance).abs();
-        off.is_nan() || off > UNEVEN * distance.abs()
-    };
-    match positions.iter().enumerate().position(is_off) {
+    match first_uneven(positions, *first, distance) {
         Some(index) => Err(refused(Place::Point(index + 1), "uneven positions of a map", "even ones")),
         None => Ok(distance.abs()),
     }
-}
-
-/// Exchanges rows and columns.
-fn transposed(values: &[f64], columns: usize) -> Result<Vec<f64>, TopographyError> {
-    let turned = (0..columns).flat_map(|column| values.iter().skip(column).step_by(columns).copied());
-    gathered(values.len(), turned)
 }
 
 #[cfg(test)]
@@ -286,18 +248,19 @@ mod tests {
             bytes
         };
         let words = |words: &[u32]| words.iter().flat_map(|word| word.to_be_bytes()).collect::<Vec<u8>>();
-        let mut bytes = [b"CDF\x01".to_vec(), words(&[0, DIMENSIONS, dimensions.len() as u32])].concat();
+        let mut bytes =
+            [b"CDF\x01".to_vec(), words(&[0, DIMENSIONS as u32, dimensions.len() as u32])].concat();
         for (name, length) in dimensions {
             bytes.extend([text(name), words(&[*length])].concat());
         }
-        bytes.extend(words(&[0, 0, VARIABLES, variables.len() as u32]));
+        bytes.extend(words(&[0, 0, VARIABLES as u32, variables.len() as u32]));
         let header = |begin: &dyn Fn(usize) -> u32| {
             let of = |(index, (name, dimensions, unit, values)): (usize, &Variable<'_>)| {
                 let fill = [text("_FillValue"), words(&[4, 1, 999_999])].concat();
-                let unit = [text("unit"), words(&[CHARACTERS]), text(unit)].concat();
+                let unit = [text("unit"), words(&[CHARACTERS as u32]), text(unit)].concat();
                 let head = [text(name), words(&[dimensions.len() as u32]), words(dimensions)].concat();
                 let data = words(&[6, 8 * values.len() as u32, begin(index)]);
-                [head, words(&[ATTRIBUTES, 2]), fill, unit, data].concat()
+                [head, words(&[ATTRIBUTES as u32, 2]), fill, unit, data].concat()
             };
             variables.iter().enumerate().flat_map(of).collect::<Vec<u8>>()
         };

@@ -1,49 +1,35 @@
 //! Arrays of NumPy: a header in Python's notation, then the numbers.
 //!
 //! An array of n heights is a profile, one of n × 2 or of n pairs of fields the columns x z of a profile, any other
-//! with two axes a map of rows.
+//! with two axes a map of rows. The header is parsed here: the parser of the crate npyz takes seconds for 20 nested
+//! brackets, and twice as long for each further one.
 
 use super::bytes::{Bytes, Number, Order};
 use super::error::{Place, TopographyError, refused, shown};
 use super::reading::{Format, RawGrid, Reading};
 pub(super) use crate::io::npy::SIGNATURE;
 
-const NUMBERS: [(&str, Number); 10] = [
-    ("f8", Number::F64),
-    ("f4", Number::F32),
-    ("i1", Number::I8),
-    ("i2", Number::I16),
-    ("i4", Number::I32),
-    ("i8", Number::I64),
-    ("u1", Number::U8),
-    ("u2", Number::U16),
-    ("u4", Number::U32),
-    ("u8", Number::U64),
-];
-
 /// Reads an array of format version 1, 2 or 3.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
-    let mut data = Bytes::new(bytes);
+    let mut data = Bytes::new(bytes, Order::Little);
     data.take(SIGNATURE.len())?;
-    let version = data.take(2)?;
-    let length = match version[0] {
-        1 => usize::from(data.u16()?),
-        2 | 3 => data.u32()? as usize,
+    let length = match data.take(2)?[0] {
+        1 => data.size(Number::U16)?,
+        2 | 3 => data.size(Number::U32)?,
         other => return Err(refused(Place::Byte(6), format!("version {other}"), "1, 2 or 3")),
     };
     let header = Header::parse(&String::from_utf8_lossy(data.take(length)?))?;
-    let points = header.shape.iter().try_fold(1_usize, |points, axis| points.checked_mul(*axis));
-    let points = points.unwrap_or(usize::MAX);
-    let values = data.numbers(points, header.number, header.order)?;
+    data.order = header.order;
+    let points = header.shape.iter().fold(1, |points: usize, axis| points.saturating_mul(*axis));
+    let values = data.numbers(points, header.number)?;
     header.into_reading(values)
 }
 
 /// Content of the header.
-#[derive(Debug, PartialEq)]
 struct Header {
     number: Number,
     order: Order,
-    column_major: bool,
+    is_column_major: bool,
     shape: Vec<usize>,
 }
 
@@ -57,108 +43,101 @@ impl Header {
         let entry = |key: &str| {
             let (_, rest) =
                 text.split_once(&format!("'{key}'")).ok_or_else(|| wrong(&format!("no {key}")))?;
-            let value =
-                rest.trim_start().strip_prefix(':').ok_or_else(|| wrong(&format!("no value of {key}")))?;
-            Ok::<&str, TopographyError>(value.trim_start())
+            let value = rest.trim_start().strip_prefix(':').map(str::trim_start);
+            value.ok_or_else(|| wrong(&format!("no value of {key}")))
         };
-        let between = |value: &'_ str, open: char, close: char| {
-            value.strip_prefix(open)?.split_once(close).map(|(inside, _)| inside.to_owned())
-        };
-        let (descr, fields) = match entry("descr")? {
-            list if list.starts_with('[') => {
-                let types = field_types(list).ok_or_else(|| wrong("fields that are not understood"))?;
-                let [first, ..] = types[..] else { return Err(wrong("no field")) };
-                if types.len() > 2 || types.iter().any(|one| *one != first) {
-                    return Err(wrong("other fields than one or two of the same type"));
-                }
-                (first.to_owned(), Some(types.len()))
-            }
-            name => (between(name, '\'', '\'').ok_or_else(|| wrong("no type"))?, None),
-        };
+        let descr = entry("descr")?;
+        let is_list = descr.starts_with('[');
+        let types = if is_list { field_types(descr) } else { quoted(descr).map(|name| vec![name]) };
+        let types =
+            types.ok_or_else(|| wrong(if is_list { "fields that are not understood" } else { "no type" }))?;
+        let [descr, ref others @ ..] = types[..] else { return Err(wrong("no field")) };
+        if others.len() > 1 || others.iter().any(|other| *other != descr) {
+            return Err(wrong("other fields than one or two of the same type"));
+        }
         let (order, name) = match descr.split_at_checked(1) {
             Some(("<" | "|", name)) => (Order::Little, name),
             Some((">", name)) => (Order::Big, name),
             _ => return Err(wrong("no order of bytes")),
         };
-        let number =
-            NUMBERS.iter().find(|(one, _)| *one == name).map(|(_, number)| *number).ok_or_else(|| {
-                refused(
-                    Place::Byte(10),
-                    format!("numbers of type {:?}", shown(&descr)),
-                    "real and whole numbers: f4, f8, i1 to u8",
-                )
-            })?;
-        let column_major = match entry("fortran_order")? {
+        let number = match name {
+            "f8" => Number::F64,
+            "f4" => Number::F32,
+            "i1" => Number::I8,
+            "i2" => Number::I16,
+            "i4" => Number::I32,
+            "i8" => Number::I64,
+            "u1" => Number::U8,
+            "u2" => Number::U16,
+            "u4" => Number::U32,
+            "u8" => Number::U64,
+            _ => {
+                let fault = format!("numbers of type {:?}", shown(descr));
+                return Err(refused(Place::Byte(10), fault, "real and whole numbers: f4, f8, i1 to u8"));
+            }
+        };
+        let is_column_major = match entry("fortran_order")? {
             value if value.starts_with("True") => true,
             value if value.starts_with("False") => false,
             _ => return Err(wrong("neither True nor False")),
         };
-        let shape = between(entry("shape")?, '(', ')').ok_or_else(|| wrong("no shape"))?;
-        let axes = shape.split(',').map(str::trim).filter(|axis| !axis.is_empty());
-        let mut shape: Vec<usize> =
-            axes.map(|axis| axis.parse().map_err(|_| wrong("no shape"))).collect::<Result<_, _>>()?;
-        match fields {
-            Some(_) if shape.len() != 1 => return Err(wrong("fields along several axes")),
+        let shape = entry("shape")?.strip_prefix('(').and_then(|rest| rest.split_once(')'));
+        let axes = shape.ok_or_else(|| wrong("no shape"))?.0.split(',').map(str::trim);
+        let axes =
+            axes.filter(|axis| !axis.is_empty()).map(|axis| axis.parse().map_err(|_| wrong("no shape")));
+        let mut shape = axes.collect::<Result<Vec<usize>, _>>()?;
+        if is_list && shape.len() != 1 {
+            return Err(wrong("fields along several axes"));
+        }
+        if types.len() == 2 {
             // Fields of a point are consecutive, like the columns of a row.
-            Some(2) => shape.push(2),
-            _ => {}
+            shape.push(2);
         }
         // A list of points with fields has one axis and no order of axes.
-        Ok(Header { number, order, column_major: column_major && fields.is_none(), shape })
+        Ok(Header { number, order, is_column_major: is_column_major && !is_list, shape })
     }
 
-    fn into_reading(self, values: Vec<f64>) -> Result<Reading, TopographyError> {
-        let reading = |heights, grid| Reading {
-            format: Format::Npy,
-            heights,
-            grid,
-            lateral_unit: None,
-            height_unit: None,
-            first_missing: None,
-        };
-        match self.shape[..] {
-            [_] => Ok(reading(values, RawGrid::Profile(None))),
-            [points, 2] => {
+    fn into_reading(self, mut values: Vec<f64>) -> Result<Reading, TopographyError> {
+        // A transposed array has exchanged axes, and with them rows and columns.
+        let grid = match (&self.shape[..], self.is_column_major) {
+            ([_], _) => RawGrid::Profile(None),
+            ([points, 2], is_column_major) => {
                 let at = |index: usize, axis: usize| {
-                    if self.column_major { axis * points + index } else { 2 * index + axis }
+                    values[if is_column_major { axis * points + index } else { 2 * index + axis }]
                 };
-                let mut positions: Vec<f64> = (0..points).map(|index| values[at(index, 0)]).collect();
-                let mut heights: Vec<f64> = (0..points).map(|index| values[at(index, 1)]).collect();
-                if points > 1 && positions[0] > positions[1] {
-                    // A profile scanned backwards is the same profile.
-                    positions.reverse();
-                    heights.reverse();
-                }
-                // NaN compares as false.
-                let ascends = |pair: &[f64]| pair[0] < pair[1];
-                match positions.windows(2).position(|pair| !ascends(pair)) {
-                    Some(index) => Err(refused(
-                        Place::Point(index + 2),
-                        format!("x = {:e} after {:e}", positions[index + 1], positions[index]),
-                        "positions that ascend, or descend",
-                    )),
-                    None => Ok(reading(heights, RawGrid::Positions(positions))),
-                }
+                let positions = (0..*points).map(|index| at(index, 0)).collect();
+                let mut heights: Vec<f64> = (0..*points).map(|index| at(index, 1)).collect();
+                let grid = RawGrid::scanned(positions, &mut heights);
+                values = heights;
+                grid
             }
-            // A transposed array has exchanged axes, and with them rows and columns.
-            [rows, columns] if self.column_major => Ok(reading(values, RawGrid::of(rows, columns, None))),
-            [rows, columns] => Ok(reading(values, RawGrid::of(columns, rows, None))),
-            _ => {
-                let fault = format!("an array with {} axes", self.shape.len());
-                Err(refused(Place::Byte(10), fault, "1 or 2 axes"))
+            ([columns, rows], true) | ([rows, columns], false) => RawGrid::of(*columns, *rows, None),
+            (shape, _) => {
+                let fault = format!("an array with {} axes", shape.len());
+                return Err(refused(Place::Byte(10), fault, "1 or 2 axes"));
             }
+        };
+        // NaN compares as false.
+        let ascends = |pair: &[f64]| pair[0] < pair[1];
+        if let RawGrid::Positions(positions) = &grid
+            && let Some(index) = positions.windows(2).position(|pair| !ascends(pair))
+        {
+            let fault = format!("x = {:e} after {:e}", positions[index + 1], positions[index]);
+            return Err(refused(Place::Point(index + 2), fault, "positions that ascend, or descend"));
         }
+        Ok(Reading::new(Format::Npy, values, grid, [None, None]))
     }
 }
 
-/// Types of the fields in a list such as `[('x', '<f8'), ('z', '<f8')]`.
+/// Returns the text within the quotation marks that begin a text.
+fn quoted(text: &str) -> Option<&str> {
+    text.strip_prefix('\'')?.split_once('\'').map(|(inside, _)| inside)
+}
+
+/// Returns the types of the fields in a list such as `[('x', '<f8'), ('z', '<f8')]`.
 fn field_types(list: &str) -> Option<Vec<&str>> {
     let (list, _) = list.strip_prefix('[')?.split_once(']')?;
-    let fields = list.split('(').skip(1).map(|field| {
-        let (_, rest) = field.split_once(',')?;
-        rest.trim_start().strip_prefix('\'')?.split_once('\'').map(|(name, _)| name)
-    });
-    fields.collect()
+    list.split('(').skip(1).map(|field| quoted(field.split_once(',')?.1.trim_start())).collect()
 }
 
 #[cfg(test)]

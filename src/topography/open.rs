@@ -1,7 +1,7 @@
 //! The format of a file, determined by its first bytes, and its reader.
 
+use super::bytes::{MOST_EXPANSION, most_expanded};
 use super::error::{Place, TopographyError, refused};
-use super::expansion::{MOST_EXPANSION, most_expanded};
 use super::reading::{ReadOptions, Reading};
 use super::{Topography, gsf, gwy, netcdf, npy, sdf, sur, text, x3p};
 use crate::io::{ReadError, read_limited, read_regular};
@@ -9,7 +9,7 @@ use flate2::read::MultiGzDecoder;
 use std::path::Path;
 
 /// Most bytes of a file.
-pub const MOST_BYTES: u64 = 1 << 30;
+pub const MOST_BYTES: usize = 1 << 30;
 
 /// First bytes of gzip.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
@@ -36,21 +36,15 @@ const SIGNATURES: [(&[u8], BinaryReader); 10] = [
 /// # Errors
 /// [`TopographyError`] if the file cannot be read or is no surface.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Topography, TopographyError> {
-    read_observed(path, options, &mut |_| ())
+    parse(&content(path)?, options)
 }
 
-/// [`read`] with the content of the file passed to `seen`.
+/// Reads the bytes of a regular file of at most 1 GiB, for [`parse`].
 ///
 /// # Errors
-/// As [`read`].
-pub fn read_observed(
-    path: &Path,
-    options: &ReadOptions,
-    seen: &mut (dyn FnMut(&[u8]) + Send),
-) -> Result<Topography, TopographyError> {
-    let bytes = read_regular(path, MOST_BYTES as usize)?;
-    seen(&bytes);
-    parse(&bytes, options)
+/// [`TopographyError`] if the file cannot be read or is longer.
+pub fn content(path: &Path) -> Result<Vec<u8>, TopographyError> {
+    Ok(read_regular(path, MOST_BYTES)?)
 }
 
 /// Reads a surface from the content of a file.
@@ -58,32 +52,25 @@ pub fn read_observed(
 /// # Errors
 /// As [`read`].
 pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, TopographyError> {
-    let reading = if bytes.starts_with(&GZIP) {
-        from_content(&expanded(bytes)?, options)
-    } else {
-        from_content(bytes, options)
-    };
-    reading?.resolve(options)
+    let expanded = bytes.starts_with(&GZIP).then(|| expanded(bytes)).transpose()?;
+    let content = expanded.as_deref().unwrap_or(bytes);
+    if content.starts_with(&GZIP) {
+        return Err(refused(Place::Byte(0), "gzip within gzip", "gzip once"));
+    }
+    let reader = SIGNATURES.iter().find(|(signature, _)| content.starts_with(signature));
+    reader.map_or_else(|| text::read(content), |(_, read)| read(content, options))?.resolve(options)
 }
 
-/// Content of gzip.
+/// Decompresses gzip.
 fn expanded(bytes: &[u8]) -> Result<Vec<u8>, TopographyError> {
-    let most = most_expanded(bytes.len() as u64);
-    read_limited(MultiGzDecoder::new(bytes), most.min(MOST_BYTES) as usize).map_err(|error| match error {
+    let most = most_expanded(bytes.len());
+    read_limited(MultiGzDecoder::new(bytes), most.min(MOST_BYTES)).map_err(|error| match error {
         ReadError::TooLong { .. } if most <= MOST_BYTES => {
             let fault = format!("gzip expands to more than {MOST_EXPANSION} times its size");
             refused(Place::File, fault, "at most that and 1 MiB")
         }
         error => error.into(),
     })
-}
-
-fn from_content(bytes: &[u8], options: &ReadOptions) -> Result<Reading, TopographyError> {
-    if bytes.starts_with(&GZIP) {
-        return Err(refused(Place::Byte(0), "gzip within gzip", "gzip once"));
-    }
-    let reader = SIGNATURES.iter().find(|(signature, _)| bytes.starts_with(signature));
-    reader.map_or_else(|| text::read(bytes), |(_, read)| read(bytes, options))
 }
 
 #[cfg(test)]
@@ -125,18 +112,13 @@ mod tests {
     }
 
     #[test]
-    fn all_bytes_of_a_file_are_seen() {
+    fn folders_and_long_files_are_refused() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("profile");
-        let content = gzip(b"0 1\n1 2\n2 1\n");
-        std::fs::write(&path, &content).unwrap();
-        let mut seen = Vec::new();
-        read_observed(&path, &metres(), &mut |bytes| seen.extend_from_slice(bytes)).unwrap();
-        assert_eq!(seen, content);
         let error = read(folder.path(), &metres()).unwrap_err().to_string();
         assert!(error.contains("this is a folder"), "{error}");
         // A sparse file takes no room on the disk.
-        std::fs::File::create(&path).unwrap().set_len(MOST_BYTES + 1).unwrap();
+        std::fs::File::create(&path).unwrap().set_len(MOST_BYTES as u64 + 1).unwrap();
         let error = read(&path, &metres()).unwrap_err().to_string();
         assert_eq!(error, "longer than 1073741824 bytes; allowed: at most 1073741824 bytes");
     }
@@ -173,7 +155,7 @@ mod tests {
             "line 2: 1 of 4 points are missing (25.00 %), the first here; allowed: --interpolate, in a scene \
              roughness.interpolate, which fills them from their neighbours"
         );
-        let options = ReadOptions { missing: crate::topography::Missing::Interpolate, ..metres() };
+        let options = ReadOptions { interpolate: true, ..metres() };
         let surface = parse(text, &options).unwrap();
         assert_eq!((surface.heights(), surface.interpolated()), (&[1.0, 2.0, 3.0, 4.0][..], 1));
     }

@@ -2,7 +2,7 @@
 
 use super::error::{Place, TopographyError, refused};
 use super::{Grid, Topography, Unit, missing};
-use std::fmt;
+use strum::IntoStaticStr;
 
 /// Largest position and height, m, and largest slope between neighbours: beyond these, lengths and mean squares
 /// could overflow.
@@ -22,67 +22,42 @@ pub struct ReadOptions {
     pub convention: Option<Unit>,
     /// Distance between points, m, if the file states none.
     pub spacing: Option<f64>,
-    /// Treatment of missing points.
-    pub missing: Missing,
+    /// True if missing heights are interpolated from their neighbours along row and column; else they are an error.
+    pub interpolate: bool,
     /// Number of the channel of a file with several.
     pub channel: Option<u32>,
 }
 
-/// Treatment of missing points.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Missing {
-    /// A missing point is an error.
-    #[default]
-    Refuse,
-    /// A missing height is interpolated from its neighbours along its row and its column.
-    Interpolate,
-}
-
 /// Format of a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
 pub enum Format {
-    /// Columns of text: x z, or x y z, or z.
+    /// Columns x z, or x y z, or z.
+    #[strum(serialize = "text columns")]
     Columns,
-    /// Matrix of text.
+    /// Rows of heights.
+    #[strum(serialize = "text matrix")]
     Matrix,
-    /// SDF of ISO 25178-71.
+    /// ISO 25178-71.
+    #[strum(serialize = "SDF")]
     Sdf,
     /// Gwyddion Simple Field.
+    #[strum(serialize = "GSF")]
     Gsf,
-    /// Array of NumPy.
+    /// `.npy`.
+    #[strum(serialize = "NumPy array")]
     Npy,
-    /// X3P of ISO 25178-72.
+    /// ISO 25178-72.
+    #[strum(serialize = "X3P")]
     X3p,
     /// Gwyddion's own format.
+    #[strum(serialize = "GWY")]
     Gwy,
-    /// Digital Surf SUR.
+    /// Digital Surf.
+    #[strum(serialize = "SUR")]
     Sur,
-    /// NetCDF in its classic format.
+    /// The classic format.
+    #[strum(serialize = "NetCDF")]
     NetCdf,
-}
-
-impl Format {
-    /// Name for readers.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Format::Columns => "text columns",
-            Format::Matrix => "text matrix",
-            Format::Sdf => "SDF",
-            Format::Gsf => "GSF",
-            Format::Npy => "NumPy array",
-            Format::X3p => "X3P",
-            Format::Gwy => "GWY",
-            Format::Sur => "SUR",
-            Format::NetCdf => "NetCDF",
-        }
-    }
-}
-
-impl fmt::Display for Format {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
 }
 
 /// Positions of the heights of a file, in its unit.
@@ -106,39 +81,14 @@ impl RawGrid {
         }
     }
 
-    /// The grid in m.
-    ///
-    /// # Errors
-    /// An unknown unit or distance, positions out of range.
-    fn in_metres(
-        self,
-        format: Format,
-        stated: Option<Unit>,
-        options: &ReadOptions,
-    ) -> Result<Grid, TopographyError> {
-        let unit = |name: &str| unit(name, stated, options.unit, options.convention);
-        let even = |distance: Option<f64>| match (distance, options.spacing) {
-            (Some(distance), _) => check_spacing(unit("distances")?.to_metres(distance)),
-            (None, Some(spacing)) => check_spacing(spacing),
-            (None, None) => Err(refused(
-                Place::File,
-                format!("{} without a distance between points", format.name()),
-                "a distance beside the file: --spacing 0.5um, in a scene roughness.spacing",
-            )),
-        };
-        match self {
-            RawGrid::Positions(mut positions) => {
-                let unit = unit("positions")?;
-                positions.iter_mut().for_each(|x| *x = unit.to_metres(*x));
-                check_positions(&positions)?;
-                Ok(Grid::Positions(positions))
-            }
-            RawGrid::Profile(spacing) => Ok(Grid::Profile { spacing: even(spacing)? }),
-            RawGrid::Map { columns, spacing } => {
-                let [along, between] = spacing.map_or([None; 2], |spacing| spacing.map(Some));
-                Ok(Grid::Map { columns, spacing: [even(along)?, even(between)?] })
-            }
+    /// Positions of a profile in the order of the file. A profile scanned backwards is the same profile: both columns are
+    /// reversed.
+    pub fn scanned(mut positions: Vec<f64>, heights: &mut [f64]) -> RawGrid {
+        if positions.len() > 1 && positions[0] > positions[1] {
+            positions.reverse();
+            heights.reverse();
         }
+        RawGrid::Positions(positions)
     }
 }
 
@@ -157,127 +107,116 @@ pub(super) struct Reading {
 }
 
 impl Reading {
-    /// Heights and positions in m.
+    /// Numbers of a file with its units of positions and of heights.
+    pub fn new(format: Format, heights: Vec<f64>, grid: RawGrid, units: [Option<Unit>; 2]) -> Reading {
+        let [lateral_unit, height_unit] = units;
+        Reading { format, heights, grid, lateral_unit, height_unit, first_missing: None }
+    }
+
+    /// Converts heights and positions to m.
     ///
     /// # Errors
     /// An unknown unit or distance, missing or too many points, values out of range.
-    pub fn resolve(self, options: &ReadOptions) -> Result<Topography, TopographyError> {
-        let Reading { format, mut heights, grid, lateral_unit, height_unit, first_missing } = self;
-        check_points(&heights, &grid)?;
-        let height_option = options.height_unit.or(options.unit);
-        let height_unit = unit("heights", height_unit, height_option, options.convention)?;
-        let missing = heights_in_metres(&mut heights, height_unit, first_missing, options.missing)?;
-        let grid = grid.in_metres(format, lateral_unit, options)?;
-        let mut interpolated = Vec::new();
-        if missing > 0 {
-            let columns = if let Grid::Map { columns, .. } = grid { columns } else { heights.len() };
-            interpolated = missing::interpolate(&mut heights, columns)?;
+    pub fn resolve(mut self, options: &ReadOptions) -> Result<Topography, TopographyError> {
+        let points = self.heights.len();
+        if !(2..=MOST_POINTS).contains(&points) {
+            return Err(refused(Place::File, format!("{points} points"), format!("from 2 to {MOST_POINTS}")));
         }
+        let height_option = options.height_unit.or(options.unit);
+        let height_unit = unit("heights", self.height_unit, height_option, options.convention)?;
+        let missing = self.heights_in_metres(height_unit, options.interpolate)?;
+        let Reading { format, mut heights, grid, lateral_unit, .. } = self;
+        let unit = |name: &str| unit(name, lateral_unit, options.unit, options.convention);
+        let even = |distance: Option<f64>| match (distance, options.spacing) {
+            (Some(distance), _) => check_spacing(unit("distances")?.to_metres(distance)),
+            (None, Some(spacing)) => check_spacing(spacing),
+            (None, None) => {
+                let fault = format!("{} without a distance between points", <&str>::from(format));
+                let allowed = "a distance beside the file: --spacing 0.5um, in a scene roughness.spacing";
+                Err(refused(Place::File, fault, allowed))
+            }
+        };
+        let grid = match grid {
+            RawGrid::Positions(mut positions) => {
+                let unit = unit("positions")?;
+                positions.iter_mut().for_each(|x| *x = unit.to_metres(*x));
+                check_positions(&positions)?;
+                Grid::Positions(positions)
+            }
+            RawGrid::Profile(spacing) => Grid::Profile { spacing: even(spacing)? },
+            RawGrid::Map { columns, spacing } => {
+                let [along, between] = spacing.map_or([None; 2], |spacing| spacing.map(Some));
+                Grid::Map { columns, spacing: [even(along)?, even(between)?] }
+            }
+        };
+        let columns = if let Grid::Map { columns, .. } = grid { columns } else { points };
+        let interpolated = if missing { missing::interpolate(&mut heights, columns)? } else { Vec::new() };
         Topography::new(format, heights, grid, interpolated)
     }
-}
 
-/// Converts heights to m. Returns the number of missing ones.
-///
-/// # Errors
-/// Missing points if refused, heights out of range.
-fn heights_in_metres(
-    heights: &mut [f64],
-    unit: Unit,
-    first_missing: Option<Place>,
-    treatment: Missing,
-) -> Result<usize, TopographyError> {
-    let missing = missing::count(heights);
-    if missing > 0 && treatment == Missing::Refuse {
-        let first = heights.iter().position(|height| !height.is_finite()).unwrap_or(0);
-        let share = 100.0 * missing as f64 / heights.len() as f64;
-        return Err(refused(
-            first_missing.unwrap_or(Place::Point(first + 1)),
-            format!("{missing} of {} points are missing ({share:.2} %), the first here", heights.len()),
-            "--interpolate, in a scene roughness.interpolate, which fills them from their neighbours",
-        ));
-    }
-    heights.iter_mut().for_each(|height| *height = unit.to_metres(*height));
-    let is_beyond = |height: &f64| height.abs() > LARGEST && height.is_finite();
-    match first_of(heights, is_beyond) {
-        Some(index) => Err(refused(
-            Place::Point(index + 1),
-            format!("a height of {:e} m", heights[index]),
-            format!("from -{LARGEST:e} to {LARGEST:e} m"),
-        )),
-        None => Ok(missing),
-    }
-}
-
-fn check_points(heights: &[f64], grid: &RawGrid) -> Result<(), TopographyError> {
-    let points = heights.len();
-    if !(2..=MOST_POINTS).contains(&points) {
-        return Err(refused(Place::File, format!("{points} points"), format!("from 2 to {MOST_POINTS}")));
-    }
-    match grid {
-        RawGrid::Map { columns, .. } if *columns == 0 || !points.is_multiple_of(*columns) => {
-            Err(refused(Place::File, format!("{points} points in rows of {columns}"), "whole rows"))
-        }
-        RawGrid::Positions(positions) if positions.len() != points => {
-            Err(refused(Place::File, format!("{points} heights at {} positions", positions.len()), "as many"))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// Checks ascending positions, m: they lie within the range if both ends do.
-fn check_positions(positions: &[f64]) -> Result<(), TopographyError> {
-    for index in [0, positions.len() - 1] {
-        let x = positions[index];
-        if x.abs() > LARGEST {
-            let fault = format!("a position of {x:e} m");
+    /// Converts heights to m. Returns true if some are missing.
+    ///
+    /// # Errors
+    /// Missing points if these are not interpolated, heights out of range.
+    fn heights_in_metres(&mut self, unit: Unit, interpolate: bool) -> Result<bool, TopographyError> {
+        let points = self.heights.len();
+        let first = self.heights.iter().position(|height| !height.is_finite());
+        if let (Some(first), false) = (first, interpolate) {
+            let missing = missing::count(&self.heights);
+            let share = 100.0 * missing as f64 / points as f64;
             return Err(refused(
-                Place::Point(index + 1),
-                fault,
-                format!("from -{LARGEST:e} to {LARGEST:e} m"),
+                self.first_missing.take().unwrap_or(Place::Point(first + 1)),
+                format!("{missing} of {points} points are missing ({share:.2} %), the first here"),
+                "--interpolate, in a scene roughness.interpolate, which fills them from their neighbours",
             ));
         }
+        self.heights.iter_mut().for_each(|height| *height = unit.to_metres(*height));
+        check_range("height", &self.heights, f64::is_finite)?;
+        Ok(first.is_some())
     }
+}
+
+/// Checks that no length, m, is beyond the largest one, of those that `counts`.
+fn check_range(name: &str, lengths: &[f64], counts: fn(f64) -> bool) -> Result<(), TopographyError> {
+    let is_beyond = |length: &f64| counts(*length) && (length.is_nan() || length.abs() > LARGEST);
+    let Some(index) = lengths.iter().position(is_beyond) else { return Ok(()) };
+    let fault = format!("a {name} of {:e} m", lengths[index]);
+    Err(refused(Place::Point(index + 1), fault, format!("from -{LARGEST:e} to {LARGEST:e} m")))
+}
+
+/// Checks ascending positions, m.
+fn check_positions(positions: &[f64]) -> Result<(), TopographyError> {
+    check_range("position", positions, |_| true)?;
     // Units divide, and neighbours closer than the last digit coincide.
-    match positions.windows(2).position(|pair| pair[0] >= pair[1]) {
-        Some(index) => {
-            Err(refused(Place::Point(index + 2), "the position of the point before", "ascending positions"))
-        }
-        None => Ok(()),
-    }
+    let Some(index) = positions.windows(2).position(|pair| pair[0] >= pair[1]) else { return Ok(()) };
+    Err(refused(Place::Point(index + 2), "the position of the point before", "ascending positions"))
 }
 
-/// Index of the first value with a property. First examines all values without a branch for each: a tenth of the
-/// time for most files, in which there is none.
-fn first_of<T>(values: &[T], has: impl Fn(&T) -> bool) -> Option<usize> {
-    let any = values.iter().fold(false, |any, value| any | has(value));
-    if any { values.iter().position(has) } else { None }
-}
-
-/// Unit of a quantity: stated by the file, else by the user, else by convention.
+/// Returns the unit of a quantity: stated by the file, else by the user, else by convention.
 fn unit(
     name: &str,
     stated: Option<Unit>,
     option: Option<Unit>,
     convention: Option<Unit>,
 ) -> Result<Unit, TopographyError> {
-    match (stated, option.or(convention.filter(|_| stated.is_none()))) {
-        (Some(stated), Some(option)) if stated != option => Err(refused(
-            Place::File,
+    let (fault, allowed) = match (stated, option) {
+        (Some(stated), Some(option)) if stated != option => (
             format!("the file states {stated} as the unit of {name}, the options state {option}"),
             "the unit of the file, or none",
-        )),
-        (Some(unit), _) | (None, Some(unit)) => Ok(unit),
-        (None, None) => Err(refused(
-            Place::File,
-            format!("no unit of {name} is stated"),
-            "a unit in the file or beside it: --unit um, in a scene roughness.unit",
-        )),
-    }
+        ),
+        _ => match stated.or(option).or(convention) {
+            Some(unit) => return Ok(unit),
+            None => (
+                format!("no unit of {name} is stated"),
+                "a unit in the file or beside it: --unit um, in a scene roughness.unit",
+            ),
+        },
+    };
+    Err(refused(Place::File, fault, allowed))
 }
 
 fn check_spacing(spacing: f64) -> Result<f64, TopographyError> {
-    if spacing > 0.0 && (1.0 / LARGEST / LARGEST..=LARGEST).contains(&spacing) {
+    if (1.0 / LARGEST / LARGEST..=LARGEST).contains(&spacing) {
         return Ok(spacing);
     }
     let fault = format!("a distance of {spacing:e} m between points");

@@ -33,14 +33,8 @@ impl Header {
         for height in &mut heights {
             *height = if Some(*height) == self.missing { f64::NAN } else { *height * unit };
         }
-        Reading {
-            format: Format::Sdf,
-            heights,
-            grid: RawGrid::of(self.columns, self.rows, Some([along, between])),
-            lateral_unit: Some(Unit::METRE),
-            height_unit: Some(Unit::METRE),
-            first_missing,
-        }
+        let grid = RawGrid::of(self.columns, self.rows, Some([along, between]));
+        Reading { first_missing, ..Reading::new(Format::Sdf, heights, grid, [Some(Unit::METRE); 2]) }
     }
 }
 
@@ -87,16 +81,16 @@ pub(super) fn read_text(bytes: &[u8]) -> Result<Reading, TopographyError> {
 fn text_header<'a>(lines: &mut impl Iterator<Item = (usize, &'a str)>) -> Result<Header, TopographyError> {
     const REQUIRED: &str = "NumPoints, NumProfiles, Xscale, Yscale, Zscale";
     let mut entries = Entries::default();
-    let mut ended = false;
-    for (number, line) in lines.by_ref().skip(1).filter(|(_, line)| !line.is_empty()) {
-        if line == "*" {
-            ended = true;
-            break;
+    let mut lines = lines.skip(1).filter(|(_, line)| !line.is_empty());
+    loop {
+        match lines.next() {
+            Some((_, "*")) => break,
+            Some((number, line)) => entries.take(number, line, "key = value, or * before the heights")?,
+            None => {
+                let allowed = "a line with * before the heights";
+                return Err(refused(Place::File, "a header without an end", allowed));
+            }
         }
-        entries.take(number, line, "key = value, or * before the heights")?;
-    }
-    if !ended {
-        return Err(refused(Place::File, "a header without an end", "a line with * before the heights"));
     }
     let scale = |key: &str| entries.number(key)?.ok_or_else(|| missing(key, REQUIRED));
     let scales = [scale("Xscale")?, scale("Yscale")?, scale("Zscale")?];
@@ -110,19 +104,19 @@ fn text_header<'a>(lines: &mut impl Iterator<Item = (usize, &'a str)>) -> Result
 
 /// Reads the binary form, little-endian.
 pub(super) fn read_binary(bytes: &[u8]) -> Result<Reading, TopographyError> {
-    let mut data = Bytes::new(bytes);
+    let mut data = Bytes::new(bytes, Order::Little);
     // Version, manufacturer, dates.
     data.take(8 + 10 + 12 + 12)?;
-    let (columns, rows) = (usize::from(data.u16()?), usize::from(data.u16()?));
-    let scales = [data.f64()?, data.f64()?, data.f64()?];
-    let _resolution = data.f64()?;
+    let (columns, rows) = (data.size(Number::U16)?, data.size(Number::U16)?);
+    let scales = data.array(Number::F64)?;
+    let _resolution = data.number(Number::F64)?;
     let place = data.place();
     let flags = data.take(3)?;
     if flags[0] != 0 {
         return Err(refused(place, "compressed heights", "Compression = 0"));
     }
     let (number, missing) = data_type(usize::from(flags[1]), place)?;
-    let heights = data.numbers(columns * rows, number, Order::Little)?;
+    let heights = data.numbers(columns * rows, number)?;
     Ok(Header { columns, rows, scales, missing }.into_reading(heights, None))
 }
 

@@ -1,133 +1,111 @@
 //! Digital Surf SUR: a header of 512 bytes, comments, and integers, plain or compressed.
 
 use super::Unit;
-use super::bytes::{Bytes, Number, Order};
+use super::bytes::{Bytes, Number, Order, most_expanded};
 use super::error::{Place, TopographyError, refused};
-use super::expansion::most_expanded;
 use super::reading::{Format, RawGrid, Reading};
 use crate::io::read_limited;
 use encoding_rs::WINDOWS_1252;
 use flate2::read::ZlibDecoder;
 
 /// Distance of the mark of missing points below the smallest height.
-const MISSING_BELOW: i64 = 2;
+const MISSING_BELOW: f64 = 2.0;
 
-/// Types of studies with one profile or one map of heights.
-const PROFILE: u16 = 1;
-const MAP: u16 = 2;
+/// Most compressed parts: each takes some microseconds, also for a single byte.
+const MOST_PARTS: usize = 1 << 16;
 
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
-    let mut data = Bytes::new(bytes);
-    let compressed = data.take(12)? == b"DSCOMPRESSED";
-    if data.u16()? != 0 {
+    let mut data = Bytes::new(bytes, Order::Little);
+    let is_compressed = data.take(12)? == b"DSCOMPRESSED";
+    let [order, _objects, _version, study] = data.array(Number::U16)?;
+    if order != 0.0 {
         return Err(refused(Place::Byte(12), "numbers in the order of Motorola", "the order of a PC"));
     }
-    let (_objects, _version, study) = (data.u16()?, data.u16()?, data.u16()?);
-    if study != PROFILE && study != MAP {
+    if ![1.0, 2.0].contains(&study) {
         let fault = format!("a study of type {study}");
         return Err(refused(Place::Byte(18), fault, "1, a profile, or 2, a map"));
     }
     // Names, material, acquisition, range.
     data.take(30 + 30 + 6)?;
-    let has_missing = data.u16()? == 1;
+    let has_missing = data.size(Number::U16)? == 1;
     // Absolute heights, gauge resolution, reserved.
     data.take(2 + 4 + 4)?;
-    let number = match data.u16()? {
+    let number = match data.size(Number::U16)? {
         16 => Number::I16,
         32 => Number::I32,
         bits => return Err(refused(Place::Byte(98), format!("heights of {bits} bits"), "16 or 32")),
     };
-    let (lowest, _highest) = (data.i32()?, data.i32()?);
+    let [lowest, _highest] = data.array(Number::I32)?;
     let (columns, rows) = (count(&mut data)?, count(&mut data)?);
     let points = columns.saturating_mul(rows);
     data.take(4)?;
-    let scales = [data.f32()?, data.f32()?, data.f32()?].map(f64::from);
+    let [along, between, scale] = data.array(Number::F32)?;
     // Names of the axes.
     data.take(3 * 16)?;
     let mut unit = || {
         let place = data.place();
         unit_of(data.take(16)?, place)
     };
-    let (along, between, height_unit) = (unit()?, unit()?, unit()?);
+    let (unit_along, unit_between, height_unit) = (unit()?, unit()?, unit()?);
     // Units of axes and ratios of units, imprint; further on times.
     data.take(3 * 16 + 3 * 4 + 2)?;
-    let inverted = data.u16()? != 0;
+    let is_inverted = data.size(Number::U16)? != 0;
     data.take(334 - 292)?;
-    let (comment, private) = (usize::from(data.u16()?), usize::from(data.u16()?));
-    data.take(512 - 338)?;
-    data.take(comment)?;
-    data.take(private)?;
-    let raw = if compressed {
-        let content = expand(&mut data, points, number)?;
-        Bytes::new(&content).numbers(points, number, Order::Little)?
+    let (comment, private) = (data.size(Number::U16)?, data.size(Number::U16)?);
+    data.take(512 - 338 + comment + private)?;
+    let mut heights = if is_compressed {
+        Bytes::new(&expand(&mut data, points, number)?, Order::Little).numbers(points, number)?
     } else {
-        data.numbers(points, number, Order::Little)?
+        data.numbers(points, number)?
     };
-    let missing = has_missing.then_some((i64::from(lowest) - MISSING_BELOW) as f64);
-    let scale = if inverted { -scales[2] } else { scales[2] };
-    let heights = raw
-        .into_iter()
-        .map(|height| if Some(height) == missing { f64::NAN } else { height * scale })
-        .collect();
+    let scale = if is_inverted { -scale } else { scale };
+    for height in &mut heights {
+        let is_missing = has_missing && *height == lowest - MISSING_BELOW;
+        *height = if is_missing { f64::NAN } else { *height * scale };
+    }
     // Distances in the unit of the rows; another unit between rows is rare, and converted.
-    let between_factor = match (along, between) {
-        (Some(along), Some(between)) => between.to_metres(1.0) / along.to_metres(1.0),
-        _ => 1.0,
-    };
-    Ok(Reading {
-        format: Format::Sur,
-        heights,
-        grid: RawGrid::of(columns, rows, Some([scales[0], scales[1] * between_factor])),
-        lateral_unit: along,
-        height_unit,
-        first_missing: None,
-    })
+    let units = unit_along.zip(unit_between);
+    let between_factor = units.map_or(1.0, |(along, between)| between.to_metres(1.0) / along.to_metres(1.0));
+    let grid = RawGrid::of(columns, rows, Some([along, between * between_factor]));
+    Ok(Reading::new(Format::Sur, heights, grid, [unit_along, height_unit]))
 }
 
 fn count(data: &mut Bytes<'_>) -> Result<usize, TopographyError> {
     let place = data.place();
-    let count = data.i32()?;
-    match usize::try_from(count) {
-        Ok(count) if count > 0 => Ok(count),
-        _ => Err(refused(place, format!("{count} points along an axis"), "above 0")),
+    match data.number(Number::I32)? {
+        count if count > 0.0 => Ok(count as usize),
+        count => Err(refused(place, format!("{count} points along an axis"), "above 0")),
     }
 }
 
-/// Unit in a field padded with spaces or zeros. Old files write µ in an MS-DOS code page, read as æ in Windows-1252.
+/// Returns the unit in a field padded with spaces or zeros. Old files write µ in an MS-DOS code page, read as æ in
+/// Windows-1252.
 fn unit_of(field: &[u8], place: Place) -> Result<Option<Unit>, TopographyError> {
-    let end = field.iter().position(|byte| *byte == 0).unwrap_or(field.len());
-    let text = match str::from_utf8(&field[..end]) {
+    let field = field.split(|byte| *byte == 0).next().unwrap_or_default();
+    let text = match str::from_utf8(field) {
         Ok(text) => text.into(),
-        Err(_) => WINDOWS_1252.decode_without_bom_handling(&field[..end]).0,
+        Err(_) => WINDOWS_1252.decode_without_bom_handling(field).0,
     };
-    match text.trim() {
-        "" => Ok(None),
-        "æm" => Unit::stated("µm", place).map(Some),
-        text => Unit::stated(text, place).map(Some),
-    }
+    Unit::stated(if text.trim() == "æm" { "µm" } else { text.trim() }, place)
 }
-
-/// Most compressed parts: each takes some microseconds, also for a single byte.
-const MOST_PARTS: usize = 1 << 16;
 
 /// Decompresses heights: a table of the sizes of the parts before and after, then the parts.
 fn expand(data: &mut Bytes<'_>, points: usize, number: Number) -> Result<Vec<u8>, TopographyError> {
     let expected = points.saturating_mul(number.size());
-    let most = most_expanded(data.left() as u64);
+    let most = most_expanded(data.left());
     let place = data.place();
-    if expected as u64 > most {
+    if expected > most {
         let fault = format!("{expected} bytes of heights");
         return Err(refused(place, fault, format!("at most 32 times the compressed size and 1 MiB, {most}")));
     }
-    let place = data.place();
-    let parts = data.u32()? as usize;
+    let parts = data.size(Number::U32)?;
     if parts > MOST_PARTS {
         return Err(refused(place, format!("{parts} compressed parts"), format!("at most {MOST_PARTS}")));
     }
-    let mut sizes = Bytes::new(data.take(parts.saturating_mul(8))?);
+    let mut sizes = data.part(8 * parts)?;
     let mut content = Vec::new();
     for _ in 0..parts {
-        let (plain, packed) = (sizes.u32()? as usize, sizes.u32()? as usize);
+        let (plain, packed) = (sizes.size(Number::U32)?, sizes.size(Number::U32)?);
         let place = data.place();
         if content.len() + plain > expected {
             return Err(refused(place, "more heights than points", format!("{expected} bytes in all")));
@@ -144,14 +122,14 @@ fn expand(data: &mut Bytes<'_>, points: usize, number: Number) -> Result<Vec<u8>
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+mod tests {
     use super::*;
     use flate2::Compression;
     use flate2::write::ZlibEncoder;
     use std::io::Write;
 
     /// A file of 3 × 2 heights, 16 bits each.
-    pub fn file(compressed: bool) -> Vec<u8> {
+    fn file(compressed: bool) -> Vec<u8> {
         let mut bytes = if compressed { b"DSCOMPRESSED".to_vec() } else { b"DIGITAL SURF".to_vec() };
         bytes.resize(512, 0);
         let mut put = |at: usize, value: &[u8]| bytes[at..at + value.len()].copy_from_slice(value);

@@ -7,6 +7,13 @@ use super::{Format, missing};
 /// Share of the distance between points by which points of an even grid may be displaced due to rounding.
 pub(crate) const UNEVEN: f64 = 1.0e-3;
 
+/// Returns the index of the first position that lies off an even grid from a first position, m, at a distance, m.
+pub(crate) fn first_uneven(positions: &[f64], first: f64, distance: f64) -> Option<usize> {
+    let is_even =
+        |(index, x): (usize, &f64)| (x - first - index as f64 * distance).abs() <= UNEVEN * distance.abs();
+    positions.iter().enumerate().position(|point| !is_even(point))
+}
+
 /// Positions of heights.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Grid {
@@ -57,28 +64,22 @@ impl Topography {
         interpolated: Vec<usize>,
     ) -> Result<Self, TopographyError> {
         let surface = Topography { format, heights, grid, interpolated };
-        if let Some((index, slope)) = surface.first_steep() {
-            let fault = format!("a slope of {slope:e} from the point before");
-            return Err(refused(Place::Point(index + 1), fault, format!("at most {LARGEST:e}")));
-        }
-        Ok(surface)
-    }
-
-    /// Index of the first point of a row after an excessive slope, and the slope.
-    fn first_steep(&self) -> Option<(usize, f64)> {
-        let slope = |heights: &[f64], distance: f64| (heights[1] - heights[0]).abs() / distance;
-        let spacing = match &self.grid {
-            Grid::Positions(positions) => {
-                let pairs = self.heights.windows(2).zip(positions.windows(2));
-                return first_steep(pairs.map(|(z, x)| slope(z, x[1] - x[0])));
-            }
-            Grid::Profile { spacing } => *spacing,
-            Grid::Map { spacing: [along, between], .. } => along.min(*between),
+        let columns = surface.columns();
+        let slope = |index: usize| {
+            let distance = match &surface.grid {
+                Grid::Positions(positions) => positions[index] - positions[index - 1],
+                Grid::Profile { spacing } => *spacing,
+                Grid::Map { spacing: [along, between], .. } => along.min(*between),
+            };
+            (surface.heights[index] - surface.heights[index - 1]).abs() / distance
         };
-        let columns = self.columns();
-        let in_row = |row: &[f64]| first_steep(row.windows(2).map(|z| slope(z, spacing)));
-        let mut rows = self.heights.chunks_exact(columns).zip((0..).step_by(columns));
-        rows.find_map(|(row, first)| in_row(row).map(|(index, slope)| (first + index, slope)))
+        let is_steep = |index: &usize| slope(*index).is_nan() || slope(*index) > LARGEST;
+        let Some(index) = (1..surface.heights.len()).filter(|index| index % columns > 0).find(is_steep)
+        else {
+            return Ok(surface);
+        };
+        let fault = format!("a slope of {:e} from the point before", slope(index));
+        Err(refused(Place::Point(index + 1), fault, format!("at most {LARGEST:e}")))
     }
 
     /// Format of the file.
@@ -105,6 +106,11 @@ impl Topography {
         self.interpolated.len()
     }
 
+    /// Copies the heights, m, if the memory suffices.
+    pub(crate) fn copied_heights(&self) -> Result<Vec<f64>, TopographyError> {
+        gathered(self.heights.len(), self.heights.iter().copied())
+    }
+
     /// Heights, m, with as many points interpolated once more: those some quarters of length and width from the interpolated
     /// ones. What changes is an estimate of what interpolation has changed before.
     ///
@@ -112,7 +118,7 @@ impl Topography {
     /// Insufficient memory.
     pub(crate) fn interpolated_again(&self, quarters: usize) -> Result<Vec<f64>, TopographyError> {
         let (columns, rows) = (self.columns(), self.rows());
-        let mut heights = gathered(self.heights.len(), self.heights.iter().copied())?;
+        let mut heights = self.copied_heights()?;
         for index in &self.interpolated {
             let moved = |place: usize, count: usize| (place + quarters * count / 4) % count;
             let (row, column) = (moved(index / columns, rows), moved(index % columns, columns));
@@ -180,19 +186,18 @@ impl Topography {
         };
         let heights = gathered(points, self.heights.iter().skip(first).step_by(step).take(points).copied())?;
         let place = |index: &usize| {
-            index.checked_sub(first).filter(|index| index % step == 0).map(|index| index / step)
+            let offset = index.checked_sub(first).filter(|offset| offset % step == 0)?;
+            Some(offset / step).filter(|place| *place < points)
         };
-        let interpolated =
-            self.interpolated.iter().filter_map(place).filter(|place| *place < points).collect();
+        let interpolated = self.interpolated.iter().filter_map(place).collect();
         Ok(Topography { heights, grid: Grid::Profile { spacing }, interpolated, ..self })
     }
 
     /// The same surface with the same number of other heights, m.
-    pub(crate) fn with_heights(self, change: impl FnOnce(&mut [f64], usize)) -> Self {
+    pub(crate) fn with_heights(mut self, change: impl FnOnce(&mut [f64], usize)) -> Self {
         let columns = self.columns();
-        let mut changed = self;
-        change(&mut changed.heights, columns);
-        changed
+        change(&mut self.heights, columns);
+        self
     }
 
     /// Distances between points along and between rows, m; those of a profile are equal.
@@ -206,21 +211,14 @@ impl Topography {
             Grid::Profile { spacing } => Ok([*spacing; 2]),
             Grid::Positions(positions) => {
                 let (first, mean) = (positions[0], mean_distance(positions));
-                let off = |(index, x): (usize, &f64)| (x - first - index as f64 * mean).abs() > UNEVEN * mean;
-                match positions.iter().enumerate().position(off) {
-                    None => Ok([mean; 2]),
-                    Some(index) => Err(refused(
-                        Place::Point(index + 1),
-                        format!(
-                            "x = {:e} m is off the even grid by {:.1e} of the mean distance {mean:e} m",
-                            positions[index],
-                            (positions[index] - first) / mean - index as f64
-                        ),
-                        format!(
-                            "at most {UNEVEN}, or --resample, in a scene roughness.resample, which interpolates linearly"
-                        ),
-                    )),
-                }
+                let Some(index) = first_uneven(positions, first, mean) else { return Ok([mean; 2]) };
+                let (x, off) = (positions[index], (positions[index] - first) / mean - index as f64);
+                let fault =
+                    format!("x = {x:e} m is off the even grid by {off:.1e} of the mean distance {mean:e} m");
+                let allowed = format!(
+                    "at most {UNEVEN}, or --resample, in a scene roughness.resample, which interpolates linearly"
+                );
+                Err(refused(Place::Point(index + 1), fault, allowed))
             }
         }
     }
@@ -233,30 +231,36 @@ impl Topography {
     pub fn resampled(mut self) -> Result<Self, TopographyError> {
         let Grid::Positions(positions) = &self.grid else { return Ok(self) };
         let (first, spacing, points) = (positions[0], mean_distance(positions), positions.len());
-        let mut piece = 0;
-        let height = |index: usize| {
-            let x = first + index as f64 * spacing;
-            while piece + 2 < points && positions[piece + 1] < x {
-                piece += 1;
-            }
-            let (x0, x1) = (positions[piece], positions[piece + 1]);
-            let share = ((x - x0) / (x1 - x0)).clamp(0.0, 1.0);
-            self.heights[piece] + share * (self.heights[piece + 1] - self.heights[piece])
-        };
-        self.heights = gathered(points, (0..points).map(height))?;
+        let places = (0..points).map(|index| first + index as f64 * spacing);
+        self.heights = gathered(points, interpolated(positions, &self.heights, 0.0, places))?;
         self.grid = Grid::Profile { spacing };
         Ok(self)
     }
 }
 
-/// The first excessive slope, and the index of the point after it. First examines all slopes without a branch for
-/// each.
-fn first_steep(slopes: impl Iterator<Item = f64> + Clone) -> Option<(usize, f64)> {
-    let is_steep = |slope: f64| slope.is_nan() || slope > LARGEST;
-    if !slopes.clone().fold(false, |any, slope| any | is_steep(slope)) {
-        return None;
-    }
-    (1..).zip(slopes).find(|(_, slope)| is_steep(*slope))
+/// Returns the heights above a level, m, at ascending places, m, by linear interpolation between at least two points; at
+/// a point its own height, bit for bit, and beyond the first and the last point the height of that.
+pub(crate) fn interpolated(
+    positions: &[f64],
+    heights: &[f64],
+    level: f64,
+    places: impl Iterator<Item = f64>,
+) -> impl Iterator<Item = f64> {
+    let mut piece = 0;
+    places.map(move |x| {
+        while piece + 2 < positions.len() && positions[piece + 1] < x {
+            piece += 1;
+        }
+        let (x0, x1) = (positions[piece], positions[piece + 1]);
+        let (z0, z1) = (heights[piece] - level, heights[piece + 1] - level);
+        if x <= x0 {
+            z0
+        } else if x >= x1 {
+            z1
+        } else {
+            z0 + (z1 - z0) * ((x - x0) / (x1 - x0))
+        }
+    })
 }
 
 /// Mean distance between positions, m.

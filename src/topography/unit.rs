@@ -5,30 +5,16 @@ use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// Spellings of each unit, the usual one first, and their number per metre: powers of ten that are exact numbers,
-/// so that a division by them rounds once.
-const UNITS: [(&[&str], f64); 7] = [
-    (&["m", "meter", "metre", "meters", "metres"], 1.0),
-    (&["cm", "centimeter", "centimetre"], 1e2),
-    (&["mm", "millimeter", "millimetre", "millimeters", "millimetres"], 1e3),
-    (
-        &[
-            "µm",
-            "μm",
-            "um",
-            "mum",
-            "micron",
-            "microns",
-            "micrometer",
-            "micrometre",
-            "micrometers",
-            "micrometres",
-        ],
-        1e6,
-    ),
-    (&["nm", "nanometer", "nanometre", "nanometers", "nanometres"], 1e9),
-    (&["Å", "Å", "Ang", "angstrom", "ångström", "angstroms"], 1e10),
-    (&["pm", "picometer", "picometre"], 1e12),
+/// Usual name, other spellings and number per metre of each unit: powers of ten that are exact numbers, so that a
+/// division by them rounds once.
+const UNITS: [(&str, &str, f64); 7] = [
+    ("m", "meter metre meters metres", 1.0),
+    ("cm", "centimeter centimetre", 1e2),
+    ("mm", "millimeter millimetre millimeters millimetres", 1e3),
+    ("µm", "μm um mum micron microns micrometer micrometre micrometers micrometres", 1e6),
+    ("nm", "nanometer nanometre nanometers nanometres", 1e9),
+    ("Å", "\u{212b} Ang angstrom ångström angstroms", 1e10),
+    ("pm", "picometer picometre", 1e12),
 ];
 
 /// Unit of length.
@@ -58,10 +44,11 @@ impl Unit {
         self.name
     }
 
-    /// Unit stated by a file at a place.
-    pub(super) fn stated(text: &str, place: Place) -> Result<Unit, TopographyError> {
+    /// Returns the unit stated by a file at a place; `None` for an empty text.
+    pub(super) fn stated(text: &str, place: Place) -> Result<Option<Unit>, TopographyError> {
         let fault = || format!("{:?} is no unit of length", shown(text));
-        text.parse().map_err(|_| refused(place, fault(), UnitError::ALLOWED))
+        let unit = Some(text).filter(|text| !text.is_empty()).map(str::parse).transpose();
+        unit.map_err(|_: UnitError| refused(place, fault(), UnitError::ALLOWED))
     }
 
     /// Value in m of a value in this unit.
@@ -78,12 +65,11 @@ impl FromStr for Unit {
     fn from_str(text: &str) -> Result<Unit, UnitError> {
         let text = text.trim();
         let is_name =
-            |name: &&&str| **name == text || (name.chars().count() > 3 && name.eq_ignore_ascii_case(text));
-        UNITS
-            .iter()
-            .find(|(names, _)| names.iter().any(|name| is_name(&name)))
-            .map(|(names, per_metre)| Unit { name: names[0], per_metre: *per_metre })
-            .ok_or_else(|| UnitError(text.to_owned()))
+            |name: &str| name == text || (name.chars().count() > 3 && name.eq_ignore_ascii_case(text));
+        let found =
+            UNITS.into_iter().find(|(name, others, _)| *name == text || others.split(' ').any(is_name));
+        let unit = found.map(|(name, _, per_metre)| Unit { name, per_metre });
+        unit.ok_or_else(|| UnitError(text.to_owned()))
     }
 }
 

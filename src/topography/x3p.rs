@@ -1,9 +1,8 @@
 //! X3P of ISO 25178-72: an archive with `main.xml` and usually a binary file of heights. Lengths are in m.
 
 use super::Unit;
-use super::bytes::{Bytes, Number, Order};
+use super::bytes::{Bytes, Number, Order, most_expanded};
 use super::error::{Place, TopographyError, refused, shown};
-use super::expansion::most_expanded;
 use super::reading::{Format, RawGrid, Reading};
 use crate::io::{into_text, read_limited};
 use roxmltree::{Document, Node, ParsingOptions};
@@ -12,7 +11,7 @@ use zip::ZipArchive;
 use zip::result::ZipError;
 
 /// Most bytes of `main.xml`.
-const LONGEST_INDEX: u64 = 1 << 26;
+const LONGEST_INDEX: usize = 1 << 26;
 
 /// Most attributes of `main.xml`, declarations of namespaces among them. The parser compares each with all others of
 /// its element, and those of an element with all that it inherits.
@@ -28,144 +27,112 @@ const TYPES: [(&str, Number); 4] =
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     let archive = ZipArchive::new(Cursor::new(bytes))
         .map_err(|error| refused(Place::File, format!("a damaged archive ({error})"), "an X3P archive"))?;
-    let mut archive = Archive { archive, most: most_expanded(bytes.len() as u64) };
-    let content = archive.read(INDEX, LONGEST_INDEX)?;
-    let index =
-        into_text(content).map_err(|error| refused(part(INDEX), error.to_string(), "XML in UTF-8"))?;
+    let mut archive = Archive { archive, most: most_expanded(bytes.len()) };
+    let index = into_text(archive.read(INDEX, LONGEST_INDEX)?)
+        .map_err(|error| wrong(error.to_string(), "XML in UTF-8"))?;
     check_index(&index)?;
     let options = ParsingOptions { allow_dtd: false, ..ParsingOptions::default() };
     let document = Document::parse_with_options(&index, options)
-        .map_err(|error| refused(part(INDEX), shown(&error.to_string()), "XML without a document type"))?;
+        .map_err(|error| wrong(shown(&error.to_string()), "XML without a document type"))?;
     let root = document.root_element();
-    let axes = [axis(root, "CX")?, axis(root, "CY")?, axis(root, "CZ")?];
-    for (axis, name) in axes[..2].iter().zip(["CX", "CY"]) {
-        if axis.kind != "I" {
-            let fault = format!("the axis {name} is of type {:?}", shown(&axis.kind));
-            return Err(refused(part(INDEX), fault, "\"I\", even distances"));
-        }
+    let axis = |name: &str| find(root, name).ok_or_else(|| wrong(format!("no axis {name}"), "CX, CY and CZ"));
+    let [x, y, z] = [axis("CX")?, axis("CY")?, axis("CZ")?];
+    let steps = [number(x, "Increment")?, number(y, "Increment")?];
+    let (scale, offset) = (number(z, "Increment")?.unwrap_or(1.0), number(z, "Offset")?.unwrap_or(0.0));
+    if let Some(axis) = [x, y].into_iter().find(|axis| text(*axis, "AxisType") != "I") {
+        let kind = shown(text(axis, "AxisType"));
+        let fault = format!("the axis {} is of type {kind:?}", axis.tag_name().name());
+        return Err(wrong(fault, "\"I\", even distances"));
     }
-    let columns = count(root, "SizeX")?;
-    let rows = count(root, "SizeY")?;
+    let (columns, rows) = (count(root, "SizeX")?, count(root, "SizeY")?);
     if count(root, "SizeZ")? != 1 {
-        return Err(refused(part(INDEX), "several layers", "SizeZ of 1"));
+        return Err(wrong("several layers", "SizeZ of 1"));
     }
     let points = columns.saturating_mul(rows);
-    let raw = match find(root, "PointDataLink") {
-        Some(link) => linked(&mut archive, root, &text_of(link), points, &axes[2])?,
+    let mut heights = match find(root, "PointDataLink") {
+        Some(link) => linked(&mut archive, root, trimmed(link), points, text(z, "DataType"))?,
         None => listed(root, points)?,
     };
-    let z = &axes[2];
-    let heights = raw.into_iter().map(|height| height * z.increment.unwrap_or(1.0) + z.offset).collect();
-    let spacing = axes[0].increment.zip(axes[1].increment).map(|(along, between)| [along, between]);
-    Ok(Reading {
-        format: Format::X3p,
-        heights,
-        grid: RawGrid::of(columns, rows, spacing),
-        lateral_unit: Some(Unit::METRE),
-        height_unit: Some(Unit::METRE),
-        first_missing: None,
-    })
+    heights.iter_mut().for_each(|height| *height = *height * scale + offset);
+    let grid = RawGrid::of(columns, rows, steps[0].zip(steps[1]).map(|(along, between)| [along, between]));
+    Ok(Reading::new(Format::X3p, heights, grid, [Some(Unit::METRE); 2]))
 }
 
 /// Refuses an index that takes the parser much more time or memory than its length.
 fn check_index(index: &str) -> Result<(), TopographyError> {
     // The parser reserves memory for each of these signs; an element has four characters.
     if index.bytes().filter(|byte| b"<=".contains(byte)).count() > index.len() / 4 {
-        return Err(refused(part(INDEX), "more than a quarter of the characters are < or =", "XML"));
+        return Err(wrong("more than a quarter of the characters are < or =", "XML"));
     }
     let is_quoted = |value: &&str| value.trim_start().starts_with(['"', '\'']);
     let attributes = index.split('=').skip(1).filter(is_quoted).count();
     if attributes > MOST_ATTRIBUTES {
         let fault = format!("{attributes} attributes and declarations of namespaces");
-        return Err(refused(part(INDEX), fault, format!("at most {MOST_ATTRIBUTES}")));
+        return Err(wrong(fault, &format!("at most {MOST_ATTRIBUTES}")));
     }
     Ok(())
 }
 
-fn part(name: &str) -> Place {
-    Place::Part(name.to_owned())
+/// Error of the index.
+fn wrong(fault: impl Into<String>, allowed: &str) -> TopographyError {
+    refused(Place::Part(INDEX.to_owned()), fault, allowed)
 }
 
 /// Archive with a limit of its expanded size.
 struct Archive<'a> {
     archive: ZipArchive<Cursor<&'a [u8]>>,
-    most: u64,
+    most: usize,
 }
 
 impl Archive<'_> {
-    /// Content of a file of the archive, at most `most` bytes.
-    fn read(&mut self, name: &str, most: u64) -> Result<Vec<u8>, TopographyError> {
+    /// Returns the content of a file of the archive, at most `most` bytes.
+    fn read(&mut self, name: &str, most: usize) -> Result<Vec<u8>, TopographyError> {
         let damaged = |error: &dyn std::fmt::Display| {
-            refused(part(name), format!("cannot be unpacked ({error})"), "a file stored or deflated")
+            let fault = format!("cannot be unpacked ({error})");
+            refused(Place::Part(name.to_owned()), fault, "a file stored or deflated")
         };
-        let entry = match self.archive.by_name(name) {
-            Ok(entry) => entry,
-            Err(ZipError::FileNotFound) => {
-                return Err(refused(
-                    Place::File,
-                    format!("no file {} in the archive", shown(name)),
-                    "an X3P archive",
-                ));
+        let entry = self.archive.by_name(name).map_err(|error| match error {
+            ZipError::FileNotFound => {
+                let fault = format!("no file {} in the archive", shown(name));
+                refused(Place::File, fault, "an X3P archive")
             }
-            Err(error) => return Err(damaged(&error)),
-        };
-        let most = most.min(self.most);
-        read_limited(entry, most as usize).map_err(|error| damaged(&error))
+            error => damaged(&error),
+        })?;
+        read_limited(entry, most.min(self.most)).map_err(|error| damaged(&error))
+    }
+
+    /// Returns the content of a file of the archive, exactly so many bytes for the points.
+    fn read_exactly(
+        &mut self,
+        name: &str,
+        bytes: usize,
+        allowed: String,
+    ) -> Result<Vec<u8>, TopographyError> {
+        let content = self.read(name, bytes)?;
+        if content.len() == bytes {
+            return Ok(content);
+        }
+        Err(refused(Place::Part(name.to_owned()), format!("{} bytes", content.len()), allowed))
     }
 }
 
-/// An axis of the record of axes.
-struct Axis {
-    kind: String,
-    data: String,
-    increment: Option<f64>,
-    offset: f64,
-}
-
-fn axis(root: Node<'_, '_>, name: &str) -> Result<Axis, TopographyError> {
-    let found = find(root, name);
-    let node = found.ok_or_else(|| refused(part(INDEX), format!("no axis {name}"), "CX, CY and CZ"))?;
-    let number = |key: &str| match find(node, key).map(text_of) {
-        None => Ok(None),
-        Some(text) => match text.parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(Some(value)),
-            _ => Err(refused(part(INDEX), format!("{key} of {name} = {:?}", shown(&text)), "a number")),
-        },
-    };
-    let text = |key: &str| find(node, key).map(text_of).unwrap_or_default();
-    Ok(Axis {
-        kind: text("AxisType"),
-        data: text("DataType"),
-        increment: number("Increment")?,
-        offset: number("Offset")?.unwrap_or(0.0),
-    })
-}
-
-/// Heights of a binary file of the archive; those marked invalid in its bit field are missing.
+/// Reads the heights of a binary file of the archive; those marked invalid in its bit field are missing.
 fn linked(
     archive: &mut Archive<'_>,
     root: Node<'_, '_>,
     link: &str,
     points: usize,
-    axis: &Axis,
+    kind: &str,
 ) -> Result<Vec<f64>, TopographyError> {
-    let number = TYPES.iter().find(|(letter, _)| *letter == axis.data).map(|(_, number)| *number);
-    let number = number.ok_or_else(|| {
-        refused(part(INDEX), format!("heights of type {:?}", shown(&axis.data)), "I, L, F or D")
-    })?;
+    let Some((_, number)) = TYPES.into_iter().find(|(letter, _)| *letter == kind) else {
+        return Err(wrong(format!("heights of type {:?}", shown(kind)), "I, L, F or D"));
+    };
     let expected = points.saturating_mul(number.size());
-    let content = archive.read(link, expected as u64)?;
-    if content.len() != expected {
-        let fault = format!("{} bytes", content.len());
-        return Err(refused(part(link), fault, format!("{expected} bytes for {points} points")));
-    }
-    let mut heights = Bytes::new(&content).numbers(points, number, Order::Little)?;
-    if let Some(link) = find(root, "ValidPointsLink").map(text_of) {
-        let valid = archive.read(&link, points.div_ceil(8) as u64)?;
-        if valid.len() != points.div_ceil(8) {
-            let fault = format!("{} bytes", valid.len());
-            return Err(refused(part(&link), fault, format!("a bit for each of {points} points")));
-        }
+    let content = archive.read_exactly(link, expected, format!("{expected} bytes for {points} points"))?;
+    let mut heights = Bytes::new(&content, Order::Little).numbers(points, number)?;
+    if let Some(link) = find(root, "ValidPointsLink") {
+        let allowed = format!("a bit for each of {points} points");
+        let valid = archive.read_exactly(trimmed(link), points.div_ceil(8), allowed)?;
         for (index, height) in heights.iter_mut().enumerate() {
             if valid[index / 8] >> (index % 8) & 1 == 0 {
                 *height = f64::NAN;
@@ -175,50 +142,62 @@ fn linked(
     Ok(heights)
 }
 
-/// Heights of a list in the index: the last number of each entry; an empty entry is a missing point.
+/// Reads the heights of a list in the index: the last number of each entry; an empty entry is a missing point.
 fn listed(root: Node<'_, '_>, points: usize) -> Result<Vec<f64>, TopographyError> {
-    let list = find(root, "DataList")
-        .ok_or_else(|| refused(part(INDEX), "neither PointDataLink nor DataList", "one of them"))?;
+    let list =
+        find(root, "DataList").ok_or_else(|| wrong("neither PointDataLink nor DataList", "one of them"))?;
     let mut heights = Vec::new();
     for datum in list.children().filter(|node| node.tag_name().name() == "Datum") {
-        let text = text_of(datum);
+        let text = trimmed(datum);
         let last = text.rsplit(';').next().unwrap_or_default().trim();
         let height = if last.is_empty() { Ok(f64::NAN) } else { last.parse::<f64>() };
-        heights.push(height.map_err(|_| {
-            refused(part(INDEX), format!("Datum {} = {:?}", heights.len() + 1, shown(&text)), "numbers")
-        })?);
+        heights.push(
+            height
+                .map_err(|_| wrong(format!("Datum {} = {:?}", heights.len() + 1, shown(text)), "numbers"))?,
+        );
     }
     if heights.len() != points {
         let fault = format!("{} heights in the list", heights.len());
-        return Err(refused(part(INDEX), fault, format!("{points}, SizeX times SizeY")));
+        return Err(wrong(fault, &format!("{points}, SizeX times SizeY")));
     }
     Ok(heights)
 }
 
-/// The first element of this name below a node, in any namespace.
+/// Returns the first element of this name below a node, in any namespace.
 fn find<'a, 'input>(node: Node<'a, 'input>, name: &str) -> Option<Node<'a, 'input>> {
     node.descendants().find(|node| node.is_element() && node.tag_name().name() == name)
 }
 
-fn text_of(node: Node<'_, '_>) -> String {
-    node.text().unwrap_or_default().trim().to_owned()
+fn trimmed<'a>(node: Node<'a, '_>) -> &'a str {
+    node.text().unwrap_or_default().trim()
+}
+
+/// Returns the text of the first element of this name below a node; without one, an empty text.
+fn text<'a>(node: Node<'a, '_>, name: &str) -> &'a str {
+    find(node, name).map_or("", trimmed)
+}
+
+/// Returns the number of an axis, if the axis has it.
+fn number(axis: Node<'_, '_>, name: &str) -> Result<Option<f64>, TopographyError> {
+    let Some(text) = find(axis, name).map(trimmed) else { return Ok(None) };
+    let number = text.parse().ok().filter(|number: &f64| number.is_finite());
+    let fault = || format!("{name} of {} = {:?}", axis.tag_name().name(), shown(text));
+    number.map(Some).ok_or_else(|| wrong(fault(), "a number"))
 }
 
 fn count(root: Node<'_, '_>, name: &str) -> Result<usize, TopographyError> {
-    let text = find(root, name).map(text_of).unwrap_or_default();
-    match text.parse::<usize>() {
-        Ok(count) if count > 0 => Ok(count),
-        _ => Err(refused(part(INDEX), format!("{name} = {:?}", shown(&text)), "a whole number above 0")),
-    }
+    let text = text(root, name);
+    let count = text.parse().ok().filter(|count| *count > 0);
+    count.ok_or_else(|| wrong(format!("{name} = {:?}", shown(text)), "a whole number above 0"))
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+mod tests {
     use super::*;
     use std::io::Write;
     use zip::write::SimpleFileOptions;
 
-    pub const MAIN: &str = "<?xml version='1.0' encoding='UTF-8'?>\n\
+    const MAIN: &str = "<?xml version='1.0' encoding='UTF-8'?>\n\
         <p:ISO5436_2 xmlns:p='http://www.opengps.eu/2008/ISO5436_2'><Record1><Revision>ISO5436 - 2000</Revision>\
         <FeatureType>SUR</FeatureType><Axes>\
         <CX><AxisType>I</AxisType><DataType>D</DataType><Increment>1e-6</Increment><Offset>0</Offset></CX>\
@@ -228,7 +207,7 @@ pub(super) mod tests {
         <DataLink><PointDataLink>bindata/data.bin</PointDataLink>\
         <ValidPointsLink>bindata/valid.bin</ValidPointsLink></DataLink></Record3></p:ISO5436_2>";
 
-    pub fn archive(files: &[(&str, &[u8])]) -> Vec<u8> {
+    fn archive(files: &[(&str, &[u8])]) -> Vec<u8> {
         let mut writer = zip::ZipWriter::new(Cursor::new(Vec::new()));
         for (name, content) in files {
             writer.start_file(*name, SimpleFileOptions::default()).unwrap();
@@ -237,7 +216,7 @@ pub(super) mod tests {
         writer.finish().unwrap().into_inner()
     }
 
-    pub fn heights() -> Vec<u8> {
+    fn heights() -> Vec<u8> {
         [1_i16, 2, 3, 4, 5, 6].iter().flat_map(|height| height.to_le_bytes()).collect()
     }
 

@@ -146,19 +146,3 @@ fn what_is_found_is_small() {
         assert!(found.len() <= 200 && bytes <= 100_000, "{target}: {} inputs, {bytes} bytes", found.len());
     }
 }
-
-#[test]
-fn a_file_is_read_as_its_text_is() {
-    let folder = tempfile::tempdir().unwrap();
-    for (name, input) in inputs("profile") {
-        let path = folder.path().join("profile");
-        std::fs::write(&path, &input).unwrap();
-        let read = asperity::surface::MeasuredProfile::read(&path);
-        if let Ok(text) = std::str::from_utf8(&input) {
-            match asperity::surface::MeasuredProfile::parse(text) {
-                Ok(profile) => assert_eq!(read.as_ref(), Ok(&profile), "{name}"),
-                Err(error) => assert!(read.unwrap_err().to_string().ends_with(&error.to_string()), "{name}"),
-            }
-        }
-    }
-}

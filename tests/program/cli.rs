@@ -1,7 +1,7 @@
 //! The command line as for its users: the program itself, its output and its exit code.
 
 use super::common::deadline::within;
-use super::program::{Finished, asperity, failed, json, program};
+use super::program::{Finished, asperity, failed, json, program, rows};
 use serde_json::Value;
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
@@ -45,11 +45,6 @@ fn with_input(arguments: &[&str], text: &str) -> String {
     let mut child = command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
     child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
     String::from_utf8(child.wait_with_output().unwrap().stdout).unwrap()
-}
-
-/// Lines of a table without its provenance.
-fn rows(table: &str) -> impl Iterator<Item = &str> {
-    table.lines().filter(|line| !line.starts_with('#'))
 }
 
 fn number(value: &Value) -> f64 {

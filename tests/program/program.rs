@@ -55,3 +55,8 @@ pub fn failed(code: i32, arguments: &[&str]) -> String {
 pub fn json(arguments: &[&str]) -> Value {
     serde_json::from_str(&asperity(arguments).succeeded()).unwrap()
 }
+
+/// Lines of a table without its provenance.
+pub fn rows(table: &str) -> impl Iterator<Item = &str> {
+    table.lines().filter(|line| !line.starts_with('#'))
+}

@@ -5,7 +5,7 @@ use crate::memory::check_room;
 use crate::scene::{Form, Roughness, Scene};
 use crate::simulation::{Outcome, measured_options};
 use crate::spectrum::{Analysis, LineMoments, line_spectrum};
-use crate::surface::{EquivalentLine, Line, SelfAffine, mdr_profile};
+use crate::surface::{EquivalentLine, Line, SelfAffine, mdr_profile, read_faces};
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -52,8 +52,9 @@ impl SceneSpectra {
 /// Analyses of the measured surfaces.
 fn analyses(scene: &Scene) -> Result<Vec<Analysis>, String> {
     let options = measured_options(scene);
-    let faces = scene.measured_paths(Path::new(""));
-    faces.iter().map(|face| options.analyse(face, &mut |_| ()).map_err(|error| error.to_string())).collect()
+    let faces = read_faces(&scene.measured_paths(Path::new("")));
+    let analyses = faces.and_then(|faces| faces.iter().map(|face| options.analyse(face)).collect());
+    analyses.map_err(|error| error.to_string())
 }
 
 /// Expected spectrum of the line, at some of its modes: A²L/4 of a mode with the amplitude A.

@@ -70,7 +70,7 @@ impl Header {
 fn size(text: &str) -> Option<f64> {
     let (number, unit) = text.split_once(char::is_whitespace)?;
     let unit: Unit = unit.parse().ok()?;
-    match Decimal::default().read(number, Separator::Space) {
+    match Decimal::default().read(number, Separator::SPACE) {
         Cell::Number(value) if value.is_finite() => Some(unit.to_metres(value)),
         _ => None,
     }

@@ -1,50 +1,34 @@
 //! Columns of a line of numbers: separators and decimal marks.
 
-/// Separator of the columns of a text, from its first line of numbers.
+/// Separator of the columns of a text, from its first line of numbers: a semicolon, a tab, a comma, or a space for any
+/// white space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Separator {
-    Semicolon,
-    Tab,
-    Comma,
-    Space,
-}
+pub(super) struct Separator(char);
 
 impl Separator {
+    pub const SPACE: Separator = Separator(' ');
+
     /// Separator of a line of numbers: a semicolon if there is one, else a tab, else a comma, else spaces. Commas
     /// are decimal marks beside semicolons and tabs, and if each word between spaces is a number with a comma
     /// inside, as in `0,5 1,25`; `0.5, 1.25` and `0,5` are two columns.
     pub fn of(line: &str) -> Separator {
-        if line.contains(';') {
-            Separator::Semicolon
-        } else if line.contains('\t') {
-            Separator::Tab
-        } else if line.contains(',') && !has_decimal_commas(line) {
-            Separator::Comma
-        } else {
-            Separator::Space
-        }
+        let is_in_line = |mark: &char| line.contains(*mark) && (*mark != ',' || !has_decimal_commas(line));
+        [';', '\t', ','].into_iter().find(is_in_line).map_or(Separator::SPACE, Separator)
     }
 
     /// Columns of a line without spaces around it. Separators other than spaces have columns on both sides, which may
     /// be empty.
-    pub fn split(self, line: &str) -> impl Iterator<Item = &str> + Clone {
-        let (mark, space) = match self {
-            Separator::Semicolon => (Some(';'), None),
-            Separator::Tab => (Some('\t'), None),
-            Separator::Comma => (Some(','), None),
-            Separator::Space => (None, Some(())),
-        };
-        let marked = mark.map(|mark| line.split(mark).map(str::trim));
-        let spaced = space.map(|()| line.split_ascii_whitespace());
-        marked.into_iter().flatten().chain(spaced.into_iter().flatten())
+    pub fn split(self, line: &str) -> impl Iterator<Item = &str> {
+        let is_spaced = self == Separator::SPACE;
+        let is_mark = move |c: char| if is_spaced { c.is_ascii_whitespace() } else { c == self.0 };
+        line.split(is_mark).filter(move |cell| !(is_spaced && cell.is_empty())).map(str::trim)
     }
 }
 
 /// Returns true for two or more words, each a number, at least one with a comma inside and none with a point.
 fn has_decimal_commas(line: &str) -> bool {
     let is_number = |word: &str| {
-        let parts = word.split_once(',');
-        let inside = parts.is_none_or(|(before, after)| {
+        let inside = word.split_once(',').is_none_or(|(before, after)| {
             before.ends_with(|c: char| c.is_ascii_digit()) && after.starts_with(|c: char| c.is_ascii_digit())
         });
         inside && !word.contains('.') && word.replacen(',', ".", 1).parse::<f64>().is_ok()
@@ -68,53 +52,30 @@ const MISSING: [&str; 9] = ["bad", "missing", "void", "n/a", "#n/a", "--", "---"
 
 /// Decimal mark of a text: the first one found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Decimal {
-    found: Option<u8>,
-}
+pub(super) struct Decimal(Option<char>);
 
 impl Decimal {
-    /// Returns true if the mark is a comma.
-    pub fn is_comma(self) -> bool {
-        self.found == Some(b',')
-    }
-
-    /// Searches numbers without a comma for a decimal point.
-    pub fn look_for_point(&mut self, numbers: &[u8]) {
-        if self.found.is_none() && numbers.contains(&b'.') {
-            self.found = Some(b'.');
-        }
-    }
-
     /// Reads a column.
     pub fn read(&mut self, cell: &str, separator: Separator) -> Cell {
-        // Fast path of most numbers.
-        if let Ok(value) = cell.parse::<f64>() {
-            if value.is_nan() {
-                return Cell::Missing;
-            }
-            return if self.found == Some(b',') && cell.contains('.') {
-                Cell::OtherMark
-            } else {
-                if self.found.is_none() && cell.contains('.') {
-                    self.found = Some(b'.');
-                }
-                Cell::Number(value)
-            };
-        }
-        if cell.is_empty() || MISSING.iter().any(|mark| mark.eq_ignore_ascii_case(cell)) {
+        let (value, mark) = if let Ok(value) = cell.parse::<f64>() {
+            (value, cell.contains('.').then_some('.'))
+        } else if cell.is_empty() || MISSING.iter().any(|mark| mark.eq_ignore_ascii_case(cell)) {
+            return Cell::Missing;
+        } else if separator == Separator(',') || cell.contains('.') {
+            return Cell::NoNumber;
+        } else {
+            let Ok(value) = cell.replacen(',', ".", 1).parse() else { return Cell::NoNumber };
+            (value, Some(','))
+        };
+        if value.is_nan() {
             return Cell::Missing;
         }
-        if separator == Separator::Comma || !cell.contains(',') || cell.contains('.') {
-            return Cell::NoNumber;
+        match (self.0, mark) {
+            (Some(found), Some(mark)) if found != mark => return Cell::OtherMark,
+            (None, mark) => self.0 = mark,
+            _ => {}
         }
-        match cell.replacen(',', ".", 1).parse::<f64>() {
-            Ok(_) if self.found == Some(b'.') => Cell::OtherMark,
-            Ok(value) => {
-                self.found = Some(b',');
-                Cell::Number(value)
-            }
-            Err(_) => Cell::NoNumber,
-        }
+        Cell::Number(value)
     }
 }
 

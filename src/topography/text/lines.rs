@@ -1,77 +1,40 @@
-//! Lines of a text in sequence, in any supported encoding.
+//! Encodings and lines of a text.
 
 use super::super::error::{Place, TopographyError, refused};
-use encoding_rs::{UTF_16BE, UTF_16LE, WINDOWS_1252};
+use crate::memory::check_room;
+use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
 use std::borrow::Cow;
 
 /// Longest line, bytes: a row of a large matrix.
-pub(super) const LONGEST_LINE: usize = 1 << 24;
+const LONGEST_LINE: usize = 1 << 24;
 
-/// The bytes of a text without a byte order mark; UTF-16 as UTF-8, with U+FFFD for invalid characters.
+/// Returns the bytes of a text without a byte order mark; UTF-16 as UTF-8, with U+FFFD for invalid characters.
 pub(super) fn decoded(bytes: &[u8]) -> Result<Cow<'_, [u8]>, TopographyError> {
-    let encoding = match bytes {
-        [0xff, 0xfe, ..] => UTF_16LE,
-        [0xfe, 0xff, ..] => UTF_16BE,
-        [0xef, 0xbb, 0xbf, rest @ ..] => return Ok(Cow::Borrowed(rest)),
-        _ => return Ok(Cow::Borrowed(bytes)),
+    let (encoding, mark) = Encoding::for_bom(bytes).unwrap_or((UTF_8, 0));
+    let text = &bytes[mark..];
+    if encoding == UTF_8 {
+        return Ok(Cow::Borrowed(text));
+    }
+    check_room(2 * text.len() as u64).map_err(|_| {
+        TopographyError::Read(format!("not enough memory for {} bytes of UTF-16", text.len()))
+    })?;
+    Ok(Cow::Owned(encoding.decode_without_bom_handling(text).0.into_owned().into_bytes()))
+}
+
+/// Returns a line without white space around it: UTF-8, or, if that is invalid, Windows-1252, in which older programs
+/// write µ and °.
+pub(super) fn line_text<'a>(line: &'a [u8], place: &Place) -> Result<Cow<'a, str>, TopographyError> {
+    let (fault, allowed) = if line.len() > LONGEST_LINE {
+        (format!("longer than {LONGEST_LINE} bytes"), format!("at most {LONGEST_LINE} bytes"))
+    } else if let Some(at) = line.iter().position(|byte| *byte == 0) {
+        let formats = "text, SDF, GSF, NumPy array, X3P, GWY, SUR, NetCDF, or these in gzip";
+        (format!("byte {at} of the line is zero, so this is no text"), formats.to_owned())
+    } else {
+        let line = line.trim_ascii();
+        let other = |_| WINDOWS_1252.decode_without_bom_handling(line).0;
+        return Ok(str::from_utf8(line).map_or_else(other, Cow::Borrowed));
     };
-    let mut decoder = encoding.new_decoder_with_bom_removal();
-    let mut text = String::new();
-    let reserved = decoder.max_utf8_buffer_length(bytes.len()).map(|length| text.try_reserve_exact(length));
-    if !matches!(reserved, Some(Ok(()))) {
-        return Err(TopographyError::Read(format!("not enough memory for {} bytes of UTF-16", bytes.len())));
-    }
-    let _ = decoder.decode_to_string(bytes, &mut text, true);
-    Ok(Cow::Owned(text.into_bytes()))
-}
-
-/// Lines of a text in UTF-8, or, for invalid UTF-8, in Windows-1252, in which older programs write µ and °. Lines end
-/// with a line feed, with or without a carriage return before.
-pub(super) struct Lines<'a> {
-    rest: &'a [u8],
-    number: usize,
-}
-
-impl<'a> Lines<'a> {
-    pub fn new(text: &'a [u8]) -> Self {
-        Lines { rest: text, number: 0 }
-    }
-
-    /// Passes at most `most` of the next bytes to `take`, which reads whole lines from their beginning and returns
-    /// their bytes and number.
-    pub fn take_block(&mut self, most: usize, take: impl FnOnce(&[u8]) -> (usize, usize)) {
-        let (bytes, lines) = take(&self.rest[..self.rest.len().min(most)]);
-        self.rest = &self.rest[bytes..];
-        self.number += lines;
-    }
-
-    /// The next line without its end, and its number from 1, or `None` after the last.
-    pub fn next(&mut self) -> Result<Option<(usize, Cow<'a, str>)>, TopographyError> {
-        if self.rest.is_empty() {
-            return Ok(None);
-        }
-        let end = self.rest.iter().take(LONGEST_LINE + 1).position(|byte| *byte == b'\n');
-        let (line, rest) = self.rest.split_at(end.map_or(self.rest.len(), |end| end + 1));
-        self.rest = rest;
-        self.number += 1;
-        let place = Place::Line(self.number);
-        if line.len() > LONGEST_LINE {
-            let fault = format!("longer than {LONGEST_LINE} bytes");
-            return Err(refused(place, fault, format!("at most {LONGEST_LINE} bytes")));
-        }
-        if let Some(at) = line.iter().position(|byte| *byte == 0) {
-            let fault = format!("byte {at} of the line is zero, so this is no text");
-            return Err(refused(
-                place,
-                fault,
-                "text, SDF, GSF, NumPy array, X3P, GWY, SUR, NetCDF, or these in gzip",
-            ));
-        }
-        let line = line.trim_ascii_end();
-        let text = str::from_utf8(line)
-            .map_or_else(|_| WINDOWS_1252.decode_without_bom_handling(line).0, Cow::Borrowed);
-        Ok(Some((self.number, text)))
-    }
+    Err(refused(place.clone(), fault, allowed))
 }
 
 #[cfg(test)]
@@ -80,13 +43,8 @@ mod tests {
 
     fn all(bytes: &[u8]) -> Vec<String> {
         let text = decoded(bytes).unwrap();
-        let mut lines = Lines::new(&text);
-        let mut found = Vec::new();
-        while let Some((number, line)) = lines.next().unwrap() {
-            assert_eq!(number, found.len() + 1);
-            found.push(line.into_owned());
-        }
-        found
+        let lines = text.split(|byte| *byte == b'\n');
+        lines.map(|line| line_text(line, &Place::File).unwrap().into_owned()).collect()
     }
 
     #[test]
@@ -104,21 +62,17 @@ mod tests {
         ] {
             assert_eq!(all(&bytes), expected, "{bytes:?}");
         }
-        assert_eq!(all(b"").len(), 0);
+        // Half a character at the end.
+        assert_eq!(all(b"\xff\xfe1\x00\x02"), ["1\u{fffd}"]);
     }
 
     #[test]
     fn binary_content_and_endless_lines_are_refused() {
-        let mut lines = Lines::new(b"a\nb\0");
-        lines.next().unwrap();
-        assert!(lines.next().unwrap_err().to_string().starts_with("line 2: byte 1 of the line is zero"));
-        let mut longest = vec![b'1'; LONGEST_LINE - 1];
-        longest.push(b'\n');
-        let mut lines = Lines::new(&longest);
-        assert_eq!(lines.next().unwrap().map(|(_, line)| line.len()), Some(LONGEST_LINE - 1));
-        let long = vec![b'1'; LONGEST_LINE + 1];
-        assert!(Lines::new(&long).next().unwrap_err().to_string().contains("longer than"));
-        // Half a character at the end.
-        assert_eq!(all(b"\xff\xfe1\x00\x02"), ["1\u{fffd}"]);
+        let error = |line: &[u8]| line_text(line, &Place::Line(2)).unwrap_err().to_string();
+        assert!(error(b"b\0").starts_with("line 2: byte 1 of the line is zero"));
+        let mut long = vec![b'1'; LONGEST_LINE];
+        assert_eq!(line_text(&long, &Place::File).unwrap().len(), LONGEST_LINE);
+        long.push(b'1');
+        assert!(error(&long).starts_with("line 2: longer than 16777216 bytes"));
     }
 }

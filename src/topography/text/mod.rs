@@ -8,7 +8,6 @@ mod grid;
 mod header;
 mod layout;
 mod lines;
-mod plain;
 
 use super::Unit;
 use super::error::{Place, TopographyError, refused, shown};
@@ -16,64 +15,49 @@ use super::reading::{Format, LARGEST, RawGrid, Reading};
 use crate::io::PROVENANCE;
 use header::Header;
 use layout::{Cell, Decimal, Separator};
-use lines::{Lines, decoded};
-use plain::{Direction, PlainForm, Points};
-
-/// Most bytes whose plain lines are read at once: their points are reserved before.
-const BLOCK: usize = 1 << 16;
+use lines::{decoded, line_text};
 
 /// Reads a text line by line.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
-    read_in_blocks(&decoded(bytes)?, BLOCK)
-}
-
-fn read_in_blocks(text: &[u8], block: usize) -> Result<Reading, TopographyError> {
-    let mut lines = Lines::new(text);
     let mut header = Header::default();
     let mut rows: Option<Rows> = None;
     let mut in_provenance = false;
-    while let Some((number, line)) = lines.next()? {
-        let line = line.trim_ascii();
+    for (index, line) in decoded(bytes)?.split(|byte| *byte == b'\n').enumerate() {
+        let place = Place::Line(index + 1);
+        let line = line_text(line, &place)?;
         if line.is_empty() {
             continue;
         }
-        let comment = line.starts_with(['#', '%', '!']);
+        let is_comment = line.starts_with(['#', '%', '!']);
         // The words of a scene may look like units.
-        in_provenance = comment && (in_provenance || line.starts_with(PROVENANCE));
+        in_provenance = is_comment && (in_provenance || line.starts_with(PROVENANCE));
         match &mut rows {
-            Some(_) if comment => {}
-            None if in_provenance => {}
-            Some(rows) => {
-                rows.take(number, line)?;
-                lines.take_block(block, |plain| rows.take_plain(plain));
-            }
-            None if comment || is_header(line) => header.take(line),
-            None => {
-                let mut first = Rows::new(line);
-                first.take(number, line)?;
-                rows = Some(first);
-            }
+            Some(rows) if !is_comment => rows.take(place, &line)?,
+            None if !is_comment && !is_header(&line) => rows.insert(Rows::new(&line)).take(place, &line)?,
+            None if !in_provenance => header.take(&line),
+            _ => {}
         }
     }
-    match rows {
-        Some(rows) => rows.finish(&header),
-        None => Err(refused(Place::File, "no line of numbers", "a line of numbers for each point or row")),
-    }
+    let none = || refused(Place::File, "no line of numbers", "a line of numbers for each point or row");
+    rows.ok_or_else(none)?.finish(&header)
 }
 
 /// Returns true for a line whose first column is neither a number nor a mark of a missing point.
 fn is_header(line: &str) -> bool {
     let separator = Separator::of(line);
     let first = separator.split(line).next().unwrap_or_default();
-    matches!(Decimal::default().read(first, separator), Cell::NoNumber)
+    Decimal::default().read(first, separator) == Cell::NoNumber
 }
 
-/// Lines of numbers.
+/// Lines of numbers, in the units of the file.
 struct Rows {
     separator: Separator,
     decimal: Decimal,
     columns: usize,
-    points: Points,
+    /// Positions x, or x and y.
+    positions: [Vec<f64>; 2],
+    /// Heights row by row.
+    heights: Vec<f64>,
     first_missing: Option<Place>,
 }
 
@@ -85,163 +69,109 @@ impl Rows {
             separator,
             decimal: Decimal::default(),
             columns: separator.split(line).count(),
-            points: Points::default(),
+            positions: [Vec::new(), Vec::new()],
+            heights: Vec::new(),
             first_missing: None,
         }
     }
 
-    fn form(&self) -> PlainForm {
-        let has_commas = self.decimal.is_comma();
-        PlainForm { separator: self.separator, has_commas, columns: self.columns }
-    }
-
-    /// Reads the plain lines at the beginning of a block. Returns their bytes and their number.
-    fn take_plain(&mut self, block: &[u8]) -> (usize, usize) {
-        let read = self.points.read(block, self.form());
-        if self.separator != Separator::Comma {
-            self.decimal.look_for_point(&block[..read.0]);
-        }
-        read
-    }
-
-    /// Reads a line without spaces around it.
-    fn take(&mut self, number: usize, line: &str) -> Result<(), TopographyError> {
-        let positions = self.form().position_columns();
+    /// Reads a line without white space around it.
+    fn take(&mut self, place: Place, line: &str) -> Result<(), TopographyError> {
+        let columns = self.columns;
+        let positions = if columns <= 3 { columns - 1 } else { 0 };
+        let points = self.heights.len();
+        self.heights.try_reserve(columns).map_err(|_| TopographyError::OutOfMemory(points))?;
         let mut found = 0;
         for cell in self.separator.split(line) {
-            let value = self.value(number, cell, found < positions)?;
-            let values = match found {
-                0 | 1 if found < positions => &mut self.points.positions[found],
-                _ => &mut self.points.heights,
-            };
-            let points = values.len();
-            values.try_reserve(1).map_err(|_| TopographyError::OutOfMemory { points })?;
-            values.push(value);
             found += 1;
-            if found > self.columns {
-                break;
+            if found > columns {
+                continue;
+            }
+            let value = self.value(&place, cell, found <= positions)?;
+            if found <= positions {
+                let column = &mut self.positions[found - 1];
+                column.try_reserve(1).map_err(|_| TopographyError::OutOfMemory(points))?;
+                column.push(value);
+            } else {
+                self.heights.push(value);
             }
         }
-        if found != self.columns {
-            let count = self.separator.split(line).count();
-            let expected = match self.columns {
+        if found != columns {
+            let expected = match columns {
                 1 => "1, the height".to_owned(),
                 2 => "2, position and height".to_owned(),
                 3 => "3, two positions and height".to_owned(),
                 columns => format!("{columns}, as in the first row"),
             };
-            return Err(refused(Place::Line(number), format!("{count} columns"), expected));
+            return Err(refused(place, format!("{found} columns"), expected));
         }
-        if self.columns == 2 { self.check_order(number) } else { Ok(()) }
+        if columns == 2 { self.check_order(place) } else { Ok(()) }
     }
 
-    fn value(&mut self, number: usize, cell: &str, is_position: bool) -> Result<f64, TopographyError> {
-        let place = Place::Line(number);
-        let range = format!("a number from -{LARGEST:e} to {LARGEST:e}");
-        match self.decimal.read(cell, self.separator) {
-            Cell::Number(value) if value.abs() <= LARGEST * 1e12 && value.is_finite() => Ok(value),
+    fn value(&mut self, place: &Place, cell: &str, is_position: bool) -> Result<f64, TopographyError> {
+        let quoted = || format!("{:?}", shown(cell));
+        let fault = match self.decimal.read(cell, self.separator) {
+            Cell::Number(value) if value.abs() <= LARGEST * 1e12 => return Ok(value),
             Cell::Missing if !is_position => {
-                self.first_missing.get_or_insert(place);
-                Ok(f64::NAN)
+                self.first_missing.get_or_insert_with(|| place.clone());
+                return Ok(f64::NAN);
             }
-            Cell::Missing if cell.is_empty() => Err(refused(place, "a column is empty", range)),
-            Cell::OtherMark => Err(refused(
-                place,
-                format!("{} has another decimal mark than the numbers before", quoted(cell)),
-                "one decimal mark throughout",
-            )),
-            Cell::Number(_) | Cell::Missing | Cell::NoNumber => Err(refused(place, quoted(cell), range)),
-        }
+            Cell::OtherMark => {
+                let fault = format!("{} has another decimal mark than the numbers before", quoted());
+                return Err(refused(place.clone(), fault, "one decimal mark throughout"));
+            }
+            Cell::Missing if cell.is_empty() => "a column is empty".to_owned(),
+            Cell::Number(_) | Cell::Missing | Cell::NoNumber => quoted(),
+        };
+        Err(refused(place.clone(), fault, format!("a number from -{LARGEST:e} to {LARGEST:e}")))
     }
 
     /// Checks that the positions of a profile either ascend or descend.
-    fn check_order(&mut self, number: usize) -> Result<(), TopographyError> {
-        let [.., before, x] = self.points.positions[0][..] else { return Ok(()) };
-        let now = if x > before { Direction::Ascending } else { Direction::Descending };
-        if self.points.direction == Direction::Unknown && x != before {
-            self.points.direction = now;
-        }
-        if x == before || now != self.points.direction {
-            let order = match self.points.direction {
-                Direction::Unknown => "another position than before",
-                Direction::Ascending => "ascending positions, as before",
-                Direction::Descending => "descending positions, as before",
-            };
-            return Err(refused(Place::Line(number), format!("x = {x:e} after {before:e}"), order));
-        }
-        Ok(())
+    fn check_order(&self, place: Place) -> Result<(), TopographyError> {
+        let ([first, second, ..], [.., before, x]) = (&self.positions[0][..], &self.positions[0][..]) else {
+            return Ok(());
+        };
+        let (is_in_order, allowed) = if first < second {
+            (before < x, "ascending positions, as before")
+        } else if first > second {
+            (before > x, "descending positions, as before")
+        } else {
+            (false, "another position than before")
+        };
+        let fault = || format!("x = {x:e} after {before:e}");
+        if is_in_order { Ok(()) } else { Err(refused(place, fault(), allowed)) }
     }
 
-    fn finish(mut self, header: &Header) -> Result<Reading, TopographyError> {
-        let (mut lateral_unit, height_unit) = header.units(self.columns);
-        let (format, grid) = match self.columns {
-            1 => (Format::Columns, RawGrid::Profile(None)),
+    fn finish(self, header: &Header) -> Result<Reading, TopographyError> {
+        let Rows { columns, positions, mut heights, first_missing, .. } = self;
+        let (mut lateral_unit, height_unit) = header.units(columns);
+        let mut format = Format::Columns;
+        let grid = match columns {
+            1 => RawGrid::Profile(None),
             2 => {
-                let [mut positions, _] = std::mem::take(&mut self.points.positions);
-                if self.points.direction == Direction::Descending {
-                    // A profile scanned backwards is the same profile.
-                    positions.reverse();
-                    self.points.heights.reverse();
-                }
-                (Format::Columns, RawGrid::Positions(positions))
+                let [positions, _] = positions;
+                RawGrid::scanned(positions, &mut heights)
             }
-            3 => (Format::Columns, grid::from_points(&self.points.positions)?),
+            3 => grid::from_points(&positions)?,
             columns => {
-                let rows = self.points.heights.len() / columns;
-                let spacing = match header.sizes {
-                    [Some(width), Some(height)] => {
-                        lateral_unit = Some(Unit::METRE);
-                        Some([width / columns as f64, height / rows as f64])
-                    }
-                    _ => None,
-                };
-                (Format::Matrix, RawGrid::Map { columns, spacing })
+                format = Format::Matrix;
+                let rows = heights.len() / columns;
+                let [width, height] = header.sizes;
+                let spacing = width.zip(height).map(|(width, height)| {
+                    lateral_unit = Some(Unit::METRE);
+                    [width / columns as f64, height / rows as f64]
+                });
+                RawGrid::Map { columns, spacing }
             }
         };
-        let Rows { points: Points { heights, .. }, first_missing, .. } = self;
         Ok(Reading { format, heights, grid, lateral_unit, height_unit, first_missing })
     }
-}
-
-fn quoted(cell: &str) -> String {
-    format!("{:?}", shown(cell))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;
-
-    /// A line of a text, mostly of two ascending numbers.
-    fn line(index: usize) -> impl Strategy<Value = String> {
-        let x = index as f64 * 0.5;
-        prop_oneof![
-            20 => (-1e3..1e3_f64).prop_map(move |z| format!("{x} {z:.3}")),
-            4 => any::<f64>().prop_map(move |z| format!("{x} {z:e}")),
-            1 => Just("# 1 2".to_owned()),
-            1 => Just(String::new()),
-            1 => Just(format!("  {x}   7 \r")),
-            2 => any::<f64>().prop_map(move |z| format!("  {x:.18e} {:.18e}", z % 1e20)),
-            1 => Just(format!("{x} bad")),
-            1 => prop::sample::select(vec!["1 2 3", "0 1", "1", "1,5 2,5", "1e400 1", "1e30 1", "-3 1", "x 1"])
-                .prop_map(str::to_owned),
-        ]
-    }
-
-    proptest! {
-        #[test]
-        fn lines_read_in_blocks_are_those_read_one_by_one(
-            lines in (1..60_usize).prop_flat_map(|count| (0..count).map(line).collect::<Vec<_>>()),
-            capacity in 8..200_usize,
-        ) {
-            let text = lines.join("\n");
-            // A block of one byte holds no whole line.
-            let expected = format!("{:?}", read_in_blocks(text.as_bytes(), 1));
-            prop_assert_eq!(&format!("{:?}", read(text.as_bytes())), &expected, "{}", text);
-            let found = read_in_blocks(text.as_bytes(), capacity);
-            prop_assert_eq!(&format!("{found:?}"), &expected, "{}", text);
-        }
-    }
 
     fn text(text: &str) -> Result<Reading, String> {
         read(text.as_bytes()).map_err(|error| error.to_string())

@@ -1,29 +1,19 @@
 //! `asperity surface`, and scenes of measured surfaces.
 
+use crate::program::{Finished, asperity_in, rows};
 use asperity::scene::format_quantity;
 use std::path::Path;
-use std::process::{Command, Output};
-
-fn asperity(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_asperity")).args(arguments).current_dir(folder).output().unwrap()
-}
 
 fn done(folder: &Path, arguments: &[&str]) -> String {
-    let output = asperity(folder, arguments);
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success() && errors.is_empty(), "{arguments:?}: {errors}");
-    String::from_utf8(output.stdout).unwrap()
+    let Finished { code, stdout, stderr } = asperity_in(folder, arguments);
+    assert_eq!((code, stderr.as_str()), (Some(0), ""), "{arguments:?}");
+    stdout
 }
 
 fn refused(folder: &Path, arguments: &[&str]) -> String {
-    let output = asperity(folder, arguments);
-    assert_eq!((output.status.code(), &output.stdout[..]), (Some(1), &b""[..]), "{arguments:?}");
-    String::from_utf8(output.stderr).unwrap()
-}
-
-/// Lines of a table without its provenance.
-fn rows(table: &str) -> impl Iterator<Item = &str> {
-    table.lines().filter(|line| !line.starts_with('#'))
+    let Finished { code, stdout, stderr } = asperity_in(folder, arguments);
+    assert_eq!((code, stdout.as_str()), (Some(1), ""), "{arguments:?}");
+    stderr
 }
 
 fn json(folder: &Path, arguments: &[&str]) -> serde_json::Value {
@@ -305,8 +295,8 @@ fn a_scene_holds_all_that_decides_the_equivalent_line() {
         let document = asperity::scene::open(folder.join(&scene).to_str().unwrap()).unwrap();
         let options = asperity::simulation::measured_options(document.scene());
         let faces = document.scene().measured_paths(&document.resolve(""));
-        let moments =
-            asperity::surface::EquivalentLine::read(&faces, &options, &mut |_| ()).unwrap().moments();
+        let faces = asperity::surface::read_faces(&faces).unwrap();
+        let moments = asperity::surface::EquivalentLine::new(&faces, &options).unwrap().moments();
         for (name, found) in [
             ("rms_height", moments.rms_height),
             ("rms_gradient", moments.rms_gradient),
@@ -557,8 +547,7 @@ fn a_comparison_states_the_forces_of_both_uses_of_a_measured_profile() {
     let two = done(folder, &[&["compare", "line.ron", "profile.ron"], &change[..]].concat());
     let curves = |text: &str| text.lines().skip(2).map(str::to_owned).collect::<Vec<_>>();
     assert_eq!(curves(&one), curves(&two));
-    let both = asperity(folder, &["compare", "line.ron", "profile.ron", "--as-line"]);
-    assert_eq!(both.status.code(), Some(2));
+    assert_eq!(asperity_in(folder, &["compare", "line.ron", "profile.ron", "--as-line"]).code, Some(2));
 }
 
 /// Result of a scene with this roughness, in JSON.

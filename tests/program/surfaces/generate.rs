@@ -1,6 +1,6 @@
 //! Isotropic random surfaces with a known spectrum, on maps and along cuts.
 
-use asperity::topography::{Missing, ReadOptions, Topography, Unit, parse};
+use asperity::topography::{ReadOptions, Topography, Unit, parse};
 use realfft::{ComplexToReal, RealFftPlanner};
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
@@ -162,7 +162,7 @@ pub fn topography(heights: &[f64], columns: usize) -> Topography {
     let options = ReadOptions {
         unit: Some(Unit::METRE),
         spacing: Some(1.0 / points as f64),
-        missing: Missing::Interpolate,
+        interpolate: true,
         ..ReadOptions::default()
     };
     parse(&bytes, &options).unwrap()
