@@ -35,9 +35,9 @@ pub const EFFECTS: &[Effect] = &[
         name: "Hess",
         lines: Lines::Of(&[
             ("src/contact/foundation.rs", "fn largest_stretch("),
-            ("src/contact/adhesive/edge_model.rs", "fn attaches_at("),
-            ("src/contact/adhesive/grid_edges.rs", "fn holds_to("),
-            ("src/contact/adhesive/sub_cell_edges.rs", "fn holds_to("),
+            ("src/contact/adhesive/run.rs", "pub fn attachment("),
+            ("src/contact/adhesive/edge_model.rs", "impl EdgeModel for GridEdges {"),
+            ("src/contact/adhesive/edge_model.rs", "impl EdgeModel for SubCellEdges {"),
         ]),
         called_for: Case::is_adhesive,
         counted: |work| work.hess_evaluations,
@@ -45,7 +45,7 @@ pub const EFFECTS: &[Effect] = &[
     Effect {
         name: "unloading",
         lines: Lines::Of(&[
-            ("src/contact/body.rs", "fn unload("),
+            ("src/contact/body.rs", "fn unload_to("),
             ("src/contact/adhesive/unloading.rs", "pub fn list<"),
         ]),
         called_for: Case::goes_back,
