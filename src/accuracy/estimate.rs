@@ -1,10 +1,8 @@
 //! Estimated error of one outcome, from two more solutions.
 
-use super::solution::{
-    FEWEST, Solution, Solved, Target, closed_form_adhesion, loaded, refined, relative_error, solve,
-};
+use super::solution::{FEWEST, Runs, Solution, Target, loaded, refined, relative_error};
 use crate::scene::{Edges, Scene, Solver, check};
-use crate::simulation::{Outcome, Simulation};
+use crate::simulation::Outcome;
 use crate::text::per_cent;
 use serde::Serialize;
 use std::path::Path;
@@ -87,17 +85,14 @@ pub fn estimate(
     outcome: &Outcome,
     stop: &dyn Fn() -> bool,
 ) -> Option<Estimate> {
-    let own = Solution::of(outcome);
+    let own = Solution::of(scene, outcome);
     let target = Target::of(&own);
-    if let (Some(exact), Some(force)) = (closed_form_adhesion(scene, outcome), own.adhesion_force) {
+    if let (Some(exact), Some(force)) = (own.closed_form, own.adhesion_force) {
         let error = relative_error(force, exact);
         return Some(Estimate { target, error, near_step: false, evidence: Evidence::ClosedForm });
     }
-    let mut simulation = Simulation::new(folder.to_path_buf());
-    let mut solved = |scene: &Scene| match solve(&mut simulation, scene, stop) {
-        Ok(Solved::Outcome(outcome)) => Some(Solution::of(&outcome)),
-        _ => None,
-    };
+    let mut runs = Runs::new(folder, stop);
+    let mut solved = |scene: &Scene| runs.solve(scene).ok()?;
     // The stepwise solver has edges at the springs, and converges to the exact one with its step.
     let is_exact = scene.numerics.solver == Solver::Exact;
     let edges = if is_exact { scene.numerics.edges } else { Edges::Grid };

@@ -1,0 +1,303 @@
+//! The cost of accuracy of one scene: one ladder of springs with both edge models, then steps of the stepwise solver, from
+//! coarse to fine, within a budget of time.
+
+use super::convergence::observed_order;
+use super::estimate::others;
+use super::solution::{Runs, Solution, allowed_points, is_too_coarse, refined};
+use super::{CostTable, ErrorFigure, Knob, Measures, Reference, Row, Timing};
+use crate::scene::{Edges, Scene, Solver, check, format_quantity};
+use crate::simulation::RunError;
+use realfft::RealFftPlanner;
+use std::path::Path;
+use std::time::{Duration, Instant};
+use thiserror::Error;
+
+/// Time left for another rung over that of the last one: it takes about twice as long, the error of the finest solution
+/// as long again, and the rest is for steps.
+const LATER: f64 = 4.0;
+/// Points of a compared curve, all loading stages together: many, so that sampling hides no error of the springs.
+const COMPARED_POINTS: u64 = 1 << 16;
+/// Most samples of a compared loading stage.
+const MOST_COMPARED: u64 = 4096;
+/// Errors below this are indistinguishable from rounding.
+const ROUNDING: f64 = 1e-14;
+/// Springs of the stepwise solver, unless the scene needs more.
+const STEPWISE_SPRINGS: u64 = 256;
+/// Steps of the coarsest run over the range of its indentations, and most halvings of the step.
+const FEWEST_STEPS: f64 = 16.0;
+const MOST_HALVINGS: i32 = 20;
+/// Most runs of one setting for its time, and the time after which no other begins, s.
+const MOST_RUNS: usize = 9;
+const ENOUGH_RUNS: f64 = 0.05;
+/// Points of the transform that is the unit of time.
+const TRANSFORM_POINTS: usize = 1 << 20;
+
+/// Error of the measurement of a table of costs.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum CostError {
+    /// The scene could not be computed.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// Fewer than two solutions fit into the budget, so that their errors are unknown.
+    #[error(
+        "the budget of {budget} s is spent before two solutions could be compared, of which the coarsest has \
+         {springs} springs"
+    )]
+    BudgetTooShort {
+        /// The budget, s.
+        budget: f64,
+        /// Fewest springs that the scene allows.
+        springs: u64,
+    },
+    /// The measurement was stopped.
+    #[error("the measurement was stopped")]
+    Stopped,
+}
+
+/// Progress of a measurement.
+pub enum Progress<'a> {
+    /// A setting of a knob is tried next.
+    Trying(Knob, &'a str),
+    /// The table so far, with errors relative to the finest solution so far.
+    Rows(&'a CostTable),
+}
+
+/// Relative errors or differences of a solution, as far as known.
+type Errors = Measures<Option<f64>>;
+
+/// Solution of one setting.
+struct Rung {
+    knob: Knob,
+    setting: f64,
+    solution: Solution,
+    seconds: Option<Timing>,
+}
+
+/// Measurement of a scene within a budget of time.
+struct Ladder<'a> {
+    scene: &'a Scene,
+    folder: &'a Path,
+    /// Seconds left; none once the measurement is stopped.
+    left: &'a dyn Fn() -> f64,
+    watch: &'a mut dyn FnMut(Progress<'_>),
+    rungs: Vec<Rung>,
+    table: CostTable,
+}
+
+/// Measures the table of a checked scene with files in `folder`, within a budget of time. `stop` is polled now and
+/// then; `watch` receives each setting and its result.
+///
+/// # Errors
+/// [`CostError`].
+pub fn measure(
+    scene: &Scene,
+    folder: &Path,
+    budget: Duration,
+    stop: &dyn Fn() -> bool,
+    watch: &mut dyn FnMut(Progress<'_>),
+) -> Result<CostTable, CostError> {
+    let (begun, budget) = (Instant::now(), budget.as_secs_f64());
+    let left = || if stop() { 0.0 } else { budget - begun.elapsed().as_secs_f64() };
+    let table = CostTable {
+        budget,
+        spent: 0.0,
+        transform_seconds: time_of_transform().unwrap_or(f64::NAN),
+        reference: Reference {
+            springs: 0,
+            adhesion_force: None,
+            closed_form: false,
+            errors: Measures::default(),
+        },
+        rows: Vec::new(),
+        left_out: Vec::new(),
+    };
+    let mut ladder = Ladder { scene, folder, left: &left, watch, rungs: Vec::new(), table };
+    let refused = ladder.climb()?;
+    let own = ladder.finest().and_then(|finest| ladder.own_errors(finest));
+    if !ladder.count(own) {
+        let springs = allowed_points(scene).next().unwrap_or(scene.numerics.points);
+        return Err(match refused {
+            _ if stop() => CostError::Stopped,
+            Some(error) if ladder.rungs.is_empty() => error.into(),
+            _ => CostError::BudgetTooShort { budget, springs },
+        });
+    }
+    ladder.step()?;
+    let table = CostTable { spent: begun.elapsed().as_secs_f64(), ..ladder.table };
+    if stop() { Err(CostError::Stopped) } else { Ok(table) }
+}
+
+/// Returns the scene with the number of samples for a comparison of curves.
+fn compared(scene: &Scene) -> Scene {
+    let legs = scene.loading.len().max(1) as u64;
+    let mut scene = scene.clone();
+    scene.numerics.samples = (COMPARED_POINTS / legs).clamp(2, MOST_COMPARED);
+    scene
+}
+
+impl Ladder<'_> {
+    /// Measures the times of a few whole runs of a scene, at least one, without any reuse; `None` without time for one.
+    fn time(&self, scene: &Scene) -> Option<Timing> {
+        let (began, mut seconds) = (Instant::now(), Vec::new());
+        while seconds.is_empty() || (seconds.len() < MOST_RUNS && began.elapsed().as_secs_f64() < ENOUGH_RUNS)
+        {
+            let (clock, stop) = (Instant::now(), || (self.left)() <= 0.0);
+            let Ok(Some(_)) = Runs::new(self.folder, &stop).solve(scene) else { break };
+            seconds.push(clock.elapsed().as_secs_f64());
+        }
+        Timing::of(seconds)
+    }
+
+    /// Solves one setting and adds its rung; false without time, and for too few springs the error.
+    fn attempt(&mut self, knob: Knob, setting: f64, named: &str, scene: &Scene) -> Result<bool, RunError> {
+        (self.watch)(Progress::Trying(knob, named));
+        let (left, is_step) = (self.left, knob == Knob::Step);
+        let (stop, compared) = (|| left() <= 0.0, compared(scene));
+        let mut runs = Runs::new(self.folder, &stop);
+        let solution = if is_step { runs.solve(&compared)? } else { runs.solve_around(&compared)? };
+        let Some(solution) = solution else { return Ok(false) };
+        let seconds = self.time(scene);
+        self.rungs.push(Rung { knob, setting, solution, seconds });
+        Ok(true)
+    }
+
+    /// Adds rungs of more and more springs while there is time; returns the error that refused too few springs.
+    fn climb(&mut self) -> Result<Option<RunError>, RunError> {
+        let (left, mut refused, mut took) = (self.left, None, 0.0);
+        for points in allowed_points(self.scene) {
+            let began = left();
+            // The first two may take all of the time, so that a comparison is possible.
+            let mut goes_on = began > if self.finest().is_some() { LATER * took } else { 0.0 };
+            for (knob, edges) in [(Knob::SubCellSprings, Edges::SubCell), (Knob::GridSprings, Edges::Grid)] {
+                let (scene, named) = (refined(self.scene, points, edges), format!("{points} springs"));
+                match if goes_on { self.attempt(knob, points as f64, &named, &scene) } else { Ok(false) } {
+                    Ok(solved) => goes_on = solved,
+                    Err(error) if is_too_coarse(&error) => refused = Some(error),
+                    Err(error) => return Err(error),
+                }
+                if !goes_on {
+                    self.table.left_out.push(format!("{}: {named} and more", knob.name()));
+                }
+            }
+            if !goes_on {
+                break;
+            }
+            took = began - left();
+            if self.count(None) {
+                (self.watch)(Progress::Rows(&self.table));
+            }
+        }
+        Ok(refused)
+    }
+
+    /// Returns the finest solution with edges between springs, if there are two.
+    fn finest(&self) -> Option<&Solution> {
+        let mut finer = self.rungs.iter().rev().filter(|rung| rung.knob == Knob::SubCellSprings);
+        let finest = finer.next()?;
+        finer.next().map(|_| &finest.solution)
+    }
+
+    /// Estimates the errors of a solution with edges between springs; `None` without time for others.
+    fn own_errors(&self, finest: &Solution) -> Option<Errors> {
+        let stop = || (self.left)() <= 0.0;
+        let mut runs = Runs::new(self.folder, &stop);
+        let mut solved = |scene: &Scene| runs.solve_around(scene).ok()?;
+        let others = others(&compared(&refined(self.scene, finest.points, Edges::SubCell)), &mut solved)?;
+        let error = |index: usize| others.error(|other| other.errors(finest).each()[index]);
+        Some([0, 1, 2, 3].map(error).into())
+    }
+
+    /// Makes the rows of springs, with errors relative to the finest solution or the closed form. This reference has these
+    /// errors, or without them twice the last differences. Returns false with fewer than two solutions.
+    fn count(&mut self, own: Option<Errors>) -> bool {
+        let rungs = |knob: Knob| self.rungs.iter().filter(move |rung| rung.knob == knob);
+        let mut finer = rungs(Knob::SubCellSprings).rev().map(|rung| &rung.solution);
+        let (Some(finest), Some(last)) = (finer.next(), finer.next()) else { return false };
+        let twice = || last.errors(finest).each().map(|last| last.map(|last| 2.0 * last)).into();
+        let (mut errors, mut target): (Errors, _) = (own.unwrap_or_else(twice), finest.clone());
+        if target.closed_form.is_some() {
+            target.adhesion_force = target.closed_form;
+            target.around.clear();
+            errors.adhesion_force = Some(ROUNDING);
+        }
+        let (springs, adhesion_force) = (target.points, target.adhesion_force);
+        self.table.reference =
+            Reference { springs, adhesion_force, closed_form: target.closed_form.is_some(), errors };
+        self.table.rows.clear();
+        for rung in rungs(Knob::SubCellSprings).chain(rungs(Knob::GridSprings)) {
+            // The difference of the finest solution from itself is zero, which is not its error.
+            push(&mut self.table, rung, &target, &errors);
+        }
+        true
+    }
+
+    /// Adds rows of the step of the stepwise solver, against the exact solver on as many springs.
+    fn step(&mut self) -> Result<(), RunError> {
+        let exact = |rung: &&Rung| rung.knob == Knob::GridSprings && rung.solution.points >= STEPWISE_SPRINGS;
+        let Some(exact) = self.rungs.iter().find(exact).map(|rung| rung.solution.clone()) else {
+            return Ok(());
+        };
+        let Some((low, high)) = exact.curve.indentations().filter(|(low, high)| low < high) else {
+            return Ok(());
+        };
+        let (mut scene, mut took) = (refined(self.scene, exact.points, Edges::Grid), 0.0);
+        for halving in 0..MOST_HALVINGS {
+            let step = (high - low) / FEWEST_STEPS * 0.5_f64.powi(halving);
+            scene.numerics.solver = Solver::Stepwise { step };
+            if !check(&compared(&scene)).is_empty() {
+                break;
+            }
+            let (began, named) = ((self.left)(), format_quantity(step, "m"));
+            // Half of the step takes twice the time.
+            if began <= 2.0 * took || !self.attempt(Knob::Step, step, &named, &scene)? {
+                let less = format!("{}: {named} and less, on {} springs", Knob::Step.name(), exact.points);
+                self.table.left_out.push(less);
+                break;
+            }
+            took = began - (self.left)();
+            // With few springs each of them is a jump, which is late by up to one distance of samples.
+            let late = Some(1.0 / compared(&scene).numerics.samples as f64);
+            if let Some(rung) = self.rungs.last() {
+                push(&mut self.table, rung, &exact, &Measures { curve: late, ..Measures::default() });
+            }
+            (self.watch)(Progress::Rows(&self.table));
+        }
+        Ok(())
+    }
+}
+
+/// Adds the row of a setting; errors below the floors are not resolved, and orders are relative to the previous row of the
+/// same knob.
+fn push(table: &mut CostTable, rung: &Rung, target: &Solution, floors: &Errors) {
+    let Rung { knob, setting, seconds, .. } = *rung;
+    let before = table.rows.last().filter(|row| row.knob == knob);
+    let ratio = before.map_or(1.0, |row| (setting / row.setting).max(row.setting / setting));
+    let coarse = before.map(|row| row.errors).unwrap_or_default().each();
+    let (errors, floors) = (rung.solution.errors(target).each(), floors.each());
+    let errors = [0, 1, 2, 3].map(|index| {
+        let (error, floor) = (errors[index]?, floors[index].unwrap_or(0.0).max(ROUNDING));
+        let resolved = error > floor;
+        let coarse = coarse[index].filter(|coarse| coarse.resolved && resolved);
+        let order = coarse.and_then(|coarse| observed_order(coarse.error, error, ratio));
+        Some(ErrorFigure { error: error.max(floor), resolved, order })
+    });
+    let transforms = seconds.map(|seconds| seconds.minimum / table.transform_seconds);
+    let springs = rung.solution.points;
+    table.rows.push(Row { knob, setting, springs, seconds, transforms, errors: errors.into() });
+}
+
+/// Measures the shortest time of one real Fourier transform of 2^20 points, planned beforehand, s.
+fn time_of_transform() -> Option<f64> {
+    let transform = RealFftPlanner::<f64>::new().plan_fft_forward(TRANSFORM_POINTS);
+    let mut points = transform.make_input_vec();
+    let (mut modes, mut scratch) = (transform.make_output_vec(), transform.make_scratch_vec());
+    let run = |_| {
+        points.iter_mut().enumerate().for_each(|(index, point)| *point = (index % 17) as f64);
+        let clock = Instant::now();
+        transform.process_with_scratch(&mut points, &mut modes, &mut scratch).ok()?;
+        Some(clock.elapsed().as_secs_f64())
+    };
+    // The first run is not measured.
+    let times: Option<Vec<f64>> = (0..=MOST_RUNS).map(run).collect();
+    times?.into_iter().skip(1).reduce(f64::min)
+}
