@@ -14,13 +14,6 @@ pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, lengt
     (PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
 }
 
-/// Tabor number μ = (ργ²/(E*²z₀³))^(1/3) of a summit of curvature radius ρ, m, under a work of adhesion γ, J/m², an effective
-/// modulus E*, Pa, and an attraction of range z₀, m. Tabor (1977).
-#[must_use]
-pub fn tabor_number(curvature_radius: f64, work_of_adhesion: f64, effective_modulus: f64, range: f64) -> f64 {
-    ((work_of_adhesion / effective_modulus).powi(2) * curvature_radius / range.powi(3)).cbrt()
-}
-
 /// Stiffness E* l, N/m, of a contact of length l, m, whose edges stay in place, under an effective modulus E*, Pa. Moving
 /// edges add to the slope of the force curve.
 /// Popov and Filippov (2012), eq. (1).
@@ -33,13 +26,6 @@ pub fn contact_stiffness(effective_modulus: f64, contact_length: f64) -> f64 {
 #[must_use]
 pub fn mean_pressure(force: f64, contact_radius: f64) -> Option<f64> {
     (contact_radius > 0.0).then(|| force / (PI * contact_radius * contact_radius))
-}
-
-/// Unit of forces E* h L, N, of a body of an rms height h, m, and a length L, m, under an effective modulus E*, Pa. Pohrt,
-/// Popov and Filippov (2012).
-#[must_use]
-pub fn force_unit(effective_modulus: f64, rms_height: f64, length: f64) -> f64 {
-    effective_modulus * rms_height * length
 }
 
 /// Energy per area of a profile that a parameter compares with the work of adhesion, J/m²: h⟨∇z⟩E* or e_el.
@@ -80,10 +66,7 @@ mod tests {
         // π γ E* L³ = 750 π.
         let force = ideal_adhesion_force(2.0, 3.0, 5.0);
         assert!((force - (750.0 * PI).sqrt()).abs() < 1e-13, "{force}");
-        // ρ γ²/(E*² z₀³) = 27.
-        let number = tabor_number(6.0, 3.0, 0.5, 2.0);
-        assert!((number - 3.0).abs() < 1e-14, "{number}");
-        assert_eq!((contact_stiffness(3.0, 2.0), force_unit(2.0, 3.0, 4.0)), (6.0, 24.0));
+        assert_eq!(contact_stiffness(3.0, 2.0), 6.0);
         assert_eq!((mean_pressure(-PI, 0.5), mean_pressure(1.0, 0.0)), (Some(-4.0), None));
     }
 }

@@ -1,6 +1,6 @@
 //! Governing parameters of a scene: κ, eq. (11), and e_el/γ, which compare roughness with adhesion.
 
-use super::derived::{energy_of, force_unit, value_of};
+use super::derived::{energy_of, value_of};
 use crate::contact::{Foundation, HessRule};
 use crate::scene::{Adhesion, Roughness, RoughnessParameter, Scene};
 use crate::surface::{Amplitude, Line, WaveNumbers};
@@ -118,10 +118,10 @@ impl Governing {
         self.amplitude.map(|amplitude| energy_of(parameter, amplitude, self.effective_modulus))
     }
 
-    /// Unit of forces E* h L, N, of a body of this length, m; `None` without roughness.
+    /// Unit of forces E* h L, N, of a body of this length, m; `None` without roughness. Pohrt, Popov and Filippov (2012).
     #[must_use]
     pub fn force_unit(&self, length: f64) -> Option<f64> {
-        self.amplitude.map(|amplitude| force_unit(self.effective_modulus, amplitude.rms_height, length))
+        Some(self.effective_modulus * self.amplitude?.rms_height * length)
     }
 
     /// The rule of Hess on the foundation under a profile; `None` without adhesion.

@@ -1,10 +1,11 @@
-//! Tabor number: the range of attraction against the deformation at pull-off.
+//! Limits of the rule of Hess, which is that of short-ranged attraction and of profiles that rise everywhere.
 //!
-//! The rule of Hess is the limit of short-ranged attraction, as is the theory of Johnson, Kendall and Roberts.
 //! Attraction of a finite range dissipates less: in three dimensions the hysteresis vanishes at a Tabor number near 1.
 
-use super::{Governing, tabor_number};
+use super::Governing;
 use crate::scene::{Form, Scene};
+use serde::Serialize;
+use std::f64::consts::PI;
 
 /// Default range of attraction z₀, m, of a scene: an interatomic distance.
 pub const DEFAULT_RANGE: f64 = 0.3e-9;
@@ -12,7 +13,7 @@ pub const DEFAULT_RANGE: f64 = 0.3e-9;
 /// Tabor number below which dissipated energies are overestimated.
 pub const LEAST_TABOR_NUMBER: f64 = 5.0;
 
-/// Tabor number μ of a scene, see [`tabor_number`]; `None` without adhesion, and for bodies without a radius of
+/// Tabor number μ of a scene, (ργ²/(E*²z₀³))^(1/3); `None` without adhesion, and for bodies without a radius of
 /// curvature. Of two works of adhesion, that of opening is used.
 #[must_use]
 pub fn scene_tabor_number(scene: &Scene, governing: &Governing) -> Option<f64> {
@@ -26,12 +27,43 @@ pub fn scene_tabor_number(scene: &Scene, governing: &Governing) -> Option<f64> {
 /// ρ = 2/z″ with the rms curvature z″ of the profile, the rms Laplacian of the surface: twice its mean curvature.
 /// A paraboloid of radius R has the profile x²/R and thus ρ = R; crests of a sphere with waves have 1/R + 4π²A/λ². On a
 /// rough form the squares of both curvatures add.
-#[must_use]
-pub fn curvature_radius(form: Option<&Form>, governing: &Governing) -> Option<f64> {
+fn curvature_radius(form: Option<&Form>, governing: &Governing) -> Option<f64> {
     // A flat face has the curvature of the flat end of a punch.
     let of_form = form.map_or(Some(0.0), Form::summit_curvature)?;
     let of_roughness = governing.amplitude.map_or(0.0, |amplitude| 0.5 * amplitude.rms_curvature);
     Some(of_form.hypot(of_roughness).recip()).filter(|radius| radius.is_finite())
+}
+
+/// Tabor number μ = (ργ²/(E*²z₀³))^(1/3) of a summit of curvature radius ρ, m, under a work of adhesion γ, J/m², an effective
+/// modulus E*, Pa, and an attraction of range z₀, m. Tabor (1977).
+fn tabor_number(curvature_radius: f64, work_of_adhesion: f64, effective_modulus: f64, range: f64) -> f64 {
+    ((work_of_adhesion / effective_modulus).powi(2) * curvature_radius / range.powi(3)).cbrt()
+}
+
+/// Waves of a sphere whose equivalent profile does not rise everywhere: by the rule of Hess the most stretched spring,
+/// here an inner one, detaches first, while JKR lets the contact recede at its edge.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SteepWaves {
+    /// λ²/(AR), below [`SteepWaves::LEAST_RATIO`].
+    pub ratio: f64,
+    /// Pull-off force over that of the sphere without waves by JKR, (1 + A√(πE*/2λγ))², for waves short against the
+    /// contact radius (Kesari and Lew 2011).
+    pub jkr_factor: f64,
+}
+
+impl SteepWaves {
+    /// Quotient λ²/(AR) above which the equivalent profile rises everywhere.
+    pub const LEAST_RATIO: f64 = 12.391;
+
+    /// Finds the waves of an adhesive scene that are too steep; `None` for any other scene.
+    #[must_use]
+    pub fn of(scene: &Scene, governing: &Governing) -> Option<Self> {
+        let Some(Form::WavySphere { radius, amplitude, wavelength }) = scene.form else { return None };
+        let stretch = governing.adhesive_work()? / governing.effective_modulus;
+        let ratio = wavelength.powi(2) / (amplitude * radius);
+        let jkr_factor = (1.0 + amplitude * (PI / (2.0 * wavelength * stretch)).sqrt()).powi(2);
+        (ratio < Self::LEAST_RATIO).then_some(SteepWaves { ratio, jkr_factor })
+    }
 }
 
 #[cfg(test)]
@@ -52,6 +84,13 @@ mod tests {
         let fields: Vec<_> =
             fields.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
         document.set_all(&fields).unwrap()
+    }
+
+    #[test]
+    fn the_number_follows_from_plain_numbers() {
+        // ρ γ²/(E*² z₀³) = 27.
+        let number = tabor_number(6.0, 3.0, 0.5, 2.0);
+        assert!((number - 3.0).abs() < 1e-14, "{number}");
     }
 
     #[test]
