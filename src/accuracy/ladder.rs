@@ -3,8 +3,8 @@
 
 use super::convergence::observed_order;
 use super::estimate::others;
-use super::solution::{Runs, Solution, allowed_points, is_too_coarse, refined};
-use super::{CostTable, ErrorFigure, Knob, Measures, Reference, Row, Timing};
+use super::solution::{Runs, Solution, Target, allowed_points, is_too_coarse, refined};
+use super::{CostTable, ErrorFigure, Knob, Reference, Row, Timing};
 use crate::scene::{Edges, Scene, Solver, check, format_quantity};
 use crate::simulation::RunError;
 use realfft::RealFftPlanner;
@@ -62,8 +62,8 @@ pub enum Progress<'a> {
     Rows(&'a CostTable),
 }
 
-/// Relative errors or differences of a solution, as far as known.
-type Errors = Measures<Option<f64>>;
+/// Relative errors or differences of a solution, in the order of [`super::Measures`], as far as known.
+type Errors = [Option<f64>; 4];
 
 /// Solution of one setting.
 struct Rung {
@@ -100,16 +100,8 @@ pub fn measure(
     let left = || if stop() { 0.0 } else { budget - begun.elapsed().as_secs_f64() };
     let table = CostTable {
         budget,
-        spent: 0.0,
         transform_seconds: time_of_transform().unwrap_or(f64::NAN),
-        reference: Reference {
-            springs: 0,
-            adhesion_force: None,
-            closed_form: false,
-            errors: Measures::default(),
-        },
-        rows: Vec::new(),
-        left_out: Vec::new(),
+        ..CostTable::default()
     };
     let mut ladder = Ladder { scene, folder, left: &left, watch, rungs: Vec::new(), table };
     let refused = ladder.climb()?;
@@ -203,8 +195,7 @@ impl Ladder<'_> {
         let mut runs = Runs::new(self.folder, &stop);
         let mut solved = |scene: &Scene| runs.solve_around(scene).ok()?;
         let others = others(&compared(&refined(self.scene, finest.points, Edges::SubCell)), &mut solved)?;
-        let error = |index: usize| others.error(|other| other.errors(finest).each()[index]);
-        Some([0, 1, 2, 3].map(error).into())
+        Some([0, 1, 2, 3].map(|index| others.error(|other| other.errors(finest)[index])))
     }
 
     /// Makes the rows of springs, with errors relative to the finest solution or the closed form. This reference has these
@@ -213,20 +204,20 @@ impl Ladder<'_> {
         let rungs = |knob: Knob| self.rungs.iter().filter(move |rung| rung.knob == knob);
         let mut finer = rungs(Knob::SubCellSprings).rev().map(|rung| &rung.solution);
         let (Some(finest), Some(last)) = (finer.next(), finer.next()) else { return false };
-        let twice = || last.errors(finest).each().map(|last| last.map(|last| 2.0 * last)).into();
-        let (mut errors, mut target): (Errors, _) = (own.unwrap_or_else(twice), finest.clone());
-        if target.closed_form.is_some() {
+        let twice = || last.errors(finest).map(|last| last.map(|last| 2.0 * last));
+        let (mut errors, mut target) = (own.unwrap_or_else(twice), finest.clone());
+        let closed_form = target.closed_form.is_some();
+        if closed_form {
             target.adhesion_force = target.closed_form;
             target.around.clear();
-            errors.adhesion_force = Some(ROUNDING);
+            errors[Target::AdhesionForce as usize] = Some(ROUNDING);
         }
         let (springs, adhesion_force) = (target.points, target.adhesion_force);
-        self.table.reference =
-            Reference { springs, adhesion_force, closed_form: target.closed_form.is_some(), errors };
+        self.table.reference = Reference { springs, adhesion_force, closed_form, errors: errors.into() };
         self.table.rows.clear();
         for rung in rungs(Knob::SubCellSprings).chain(rungs(Knob::GridSprings)) {
             // The difference of the finest solution from itself is zero, which is not its error.
-            push(&mut self.table, rung, &target, &errors);
+            push(&mut self.table, rung, &target, errors);
         }
         true
     }
@@ -258,7 +249,7 @@ impl Ladder<'_> {
             // With few springs each of them is a jump, which is late by up to one distance of samples.
             let late = Some(1.0 / compared(&scene).numerics.samples as f64);
             if let Some(rung) = self.rungs.last() {
-                push(&mut self.table, rung, &exact, &Measures { curve: late, ..Measures::default() });
+                push(&mut self.table, rung, &exact, [None, late, None, None]);
             }
             (self.watch)(Progress::Rows(&self.table));
         }
@@ -268,12 +259,12 @@ impl Ladder<'_> {
 
 /// Adds the row of a setting; errors below the floors are not resolved, and orders are relative to the previous row of the
 /// same knob.
-fn push(table: &mut CostTable, rung: &Rung, target: &Solution, floors: &Errors) {
+fn push(table: &mut CostTable, rung: &Rung, target: &Solution, floors: Errors) {
     let Rung { knob, setting, seconds, .. } = *rung;
     let before = table.rows.last().filter(|row| row.knob == knob);
     let ratio = before.map_or(1.0, |row| (setting / row.setting).max(row.setting / setting));
     let coarse = before.map(|row| row.errors).unwrap_or_default().each();
-    let (errors, floors) = (rung.solution.errors(target).each(), floors.each());
+    let errors = rung.solution.errors(target);
     let errors = [0, 1, 2, 3].map(|index| {
         let (error, floor) = (errors[index]?, floors[index].unwrap_or(0.0).max(ROUNDING));
         let resolved = error > floor;

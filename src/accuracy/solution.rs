@@ -31,7 +31,7 @@ pub struct Measures<T> {
 }
 
 impl<T: Copy> Measures<T> {
-    /// All four measures, in their order.
+    /// All four measures, in their order, which begins as that of [`Target`].
     pub fn each(&self) -> [T; 4] {
         [self.adhesion_force, self.curve, self.dissipated_energy, self.contact_length]
     }
@@ -72,10 +72,10 @@ impl Solution {
         }
     }
 
-    /// Relative differences from a reference; `None` if the reference has no such figure. That of the adhesion force is
+    /// Relative differences from a reference, in the order of [`Measures`]; `None` without such a figure. That of the adhesion force is
     /// the largest under all loads which both have: an error that changes its sign from load to load is not small at all
     /// of them by chance.
-    pub(super) fn errors(&self, reference: &Solution) -> Measures<Option<f64>> {
+    pub(super) fn errors(&self, reference: &Solution) -> [Option<f64>; 4] {
         let relative = |value: Option<f64>, reference: Option<f64>| {
             reference.map(|reference| relative_error(value.unwrap_or(0.0), reference))
         };
@@ -84,12 +84,12 @@ impl Solution {
             _ => relative(one, other).unwrap_or(0.0),
         });
         let own = relative(self.adhesion_force, reference.adhesion_force);
-        Measures {
-            adhesion_force: own.map(|own| around.fold(own, f64::max)),
-            curve: self.curve.difference(&reference.curve),
-            dissipated_energy: relative(self.dissipated_energy, reference.dissipated_energy),
-            contact_length: relative(self.contact_length, reference.contact_length),
-        }
+        [
+            own.map(|own| around.fold(own, f64::max)),
+            self.curve.difference(&reference.curve),
+            relative(self.dissipated_energy, reference.dissipated_energy),
+            relative(self.contact_length, reference.contact_length),
+        ]
     }
 }
 
@@ -130,8 +130,7 @@ impl Target {
 
     /// Returns the relative difference of the quantity from a reference.
     pub(super) fn difference(self, solution: &Solution, reference: &Solution) -> Option<f64> {
-        let errors = solution.errors(reference);
-        if self == Target::Curve { errors.curve } else { errors.adhesion_force }
+        solution.errors(reference)[self as usize]
     }
 }
 

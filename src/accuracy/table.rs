@@ -88,7 +88,7 @@ pub struct Row {
 }
 
 /// Reference of the errors.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Reference {
     /// Springs of the finest solution with edges between springs.
     pub springs: u64,
@@ -101,7 +101,7 @@ pub struct Reference {
 }
 
 /// Cost of accuracy for one scene.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct CostTable {
     /// Time limit, s.
     pub budget: f64,
@@ -167,11 +167,8 @@ impl CostTable {
         let found = |knob: Knob, edges: &str, bound: f64| {
             if let Some(Row { springs, seconds, .. }) = self.first_row_within(knob, bound) {
                 let time = seconds.map(|time| format!(", {}", format_rounded(time.minimum, 3, "s")));
-                return format!(
-                    "{} springs{} with edges {edges}",
-                    grouped(*springs),
-                    time.unwrap_or_default()
-                );
+                let (springs, time) = (grouped(*springs), time.unwrap_or_default());
+                return format!("{springs} springs{time} with edges {edges}");
             }
             let finest = self.rows_of(knob).next_back().map(|row| grouped(row.springs));
             let missed = |finest| format!("not found up to {finest} springs with edges {edges}");

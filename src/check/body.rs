@@ -1,7 +1,7 @@
 //! Rough profiles under adhesion, loaded through the front of the library.
 
 use super::Fault;
-use crate::scene::{Edges, Leg, Material, Scene};
+use crate::scene::{Edges, Leg, Material};
 use crate::surface::{SelfAffine, phases};
 use crate::{Contact, Cycle, Profile};
 use std::f64::consts::{PI, TAU};
@@ -14,28 +14,18 @@ const MODULUS: f64 = 2.0e6;
 const LENGTH: f64 = 1.0e-4;
 const HEIGHT: f64 = 1.0e-7;
 
-/// A rigid profile on an adhesive foundation.
+/// A rigid profile on an adhesive foundation: heights and length, m, effective modulus E*, Pa, and work of adhesion γ,
+/// J/m².
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// Heights of the profile, m.
     pub heights: Vec<f64>,
-    /// Length of the profile, m.
     pub length: f64,
-    /// Effective modulus E*, Pa.
     pub modulus: f64,
-    /// Work of adhesion γ, J/m².
     pub work: f64,
     pub edges: Edges,
 }
 
 impl Body {
-    /// Creates a body of these heights with length, material and work of adhesion of a scene.
-    pub fn new(scene: &Scene, heights: Vec<f64>) -> Body {
-        let work = scene.adhesion.and_then(|adhesion| adhesion.work).unwrap_or(0.0);
-        let (modulus, edges) = (scene.material.effective_modulus(), scene.numerics.edges);
-        Body { heights, length: scene.length, modulus, work, edges }
-    }
-
     /// Creates one of several kinds of profiles. The adhesion ranges from almost none to far more than that of full
     /// contact; the seed determines the body everywhere.
     pub fn random(seed: u64, edges: Edges) -> Result<Body, Fault> {
@@ -58,8 +48,11 @@ impl Body {
 
     /// Returns the height of the profile, m: its largest gap.
     pub fn depth(&self) -> f64 {
-        let all = self.heights.iter().copied();
-        all.clone().fold(f64::NEG_INFINITY, f64::max) - all.fold(f64::INFINITY, f64::min)
+        let (least, most) =
+            self.heights.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), height| {
+                (height.min(least), height.max(most))
+            });
+        most - least
     }
 
     /// Returns the largest stretch under the whole profile, eq. (10), m.
@@ -79,17 +72,14 @@ impl Body {
         std::array::from_fn(|_| turns.next().unwrap_or(low))
     }
 
-    /// Loads the separated body from indentation to indentation, with this number of samples.
-    pub fn load(&self, turns: &[f64], samples: u64) -> Result<Cycle, Fault> {
-        let legs: Vec<Leg> = turns.iter().map(|&turn| Leg::ToIndentation(turn)).collect();
-        self.load_legs(&legs, samples)
-    }
-
-    /// Loads the separated body.
-    pub fn load_legs(&self, legs: &[Leg], samples: u64) -> Result<Cycle, Fault> {
+    /// Loads the separated body from indentation to indentation, and off it where it `separates`, with this number of
+    /// samples.
+    pub fn load(&self, turns: &[f64], separates: bool, samples: u64) -> Result<Cycle, Fault> {
+        let turns = turns.iter().map(|&turn| Leg::ToIndentation(turn));
+        let legs: Vec<Leg> = turns.chain(separates.then_some(Leg::ToSeparation)).collect();
         let profile = Profile::from_heights(&self.heights, self.length / self.heights.len() as f64)?;
         let contact = Contact::builder(&profile, Material::effective(self.modulus));
         let contact = contact.work_of_adhesion(self.work).edges(self.edges).samples(samples);
-        Ok(contact.build()?.load(legs)?)
+        Ok(contact.build()?.load(&legs)?)
     }
 }

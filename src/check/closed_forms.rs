@@ -75,13 +75,11 @@ fn energy(scene: &Scene) -> Result<f64, Fault> {
     // c aⁿ = √(2πaγ/E*) at d = 0.
     let stretch = (2.0 * PI * closed.work_of_adhesion / closed.effective_modulus).sqrt();
     let first = (stretch / closed.line_coefficient).powf((closed.exponent - 0.5).recip());
-    let radius = |piece: u32| last + (first - last) * f64::from(piece) / f64::from(PIECES);
-    let work = |piece: u32| {
-        let (one, next) = (radius(piece), radius(piece + 1));
-        let force = 0.5 * (closed.force(one) + closed.force(next));
-        force * (closed.indentation(next) - closed.indentation(one))
+    let radii = (0..=PIECES).map(|piece| last + (first - last) * f64::from(piece) / f64::from(PIECES));
+    let work = |(one, next)| {
+        (closed.force(one) + closed.force(next)) * (closed.indentation(next) - closed.indentation(one))
     };
-    let lost = -(0..PIECES).map(work).sum::<f64>();
+    let lost = -0.5 * radii.clone().zip(radii.skip(1)).map(work).sum::<f64>();
     Ok(relative_error(outcome(scene)?.figures.dissipated_energy.unwrap_or(0.0), lost))
 }
 

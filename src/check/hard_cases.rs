@@ -72,8 +72,9 @@ fn everything_sticks(scene: &Scene) -> Result<f64, Fault> {
 fn equal_teeth(scene: &Scene) -> Result<f64, Fault> {
     let (teeth, springs) = (16.0, 8);
     let heights = (0..33 * springs).map(|index| if index / springs % 2 == 1 { 0.0 } else { -1.0e-6 });
-    let body = Body::new(scene, heights.collect());
-    let cycle = body.load_legs(&[Leg::ToIndentation(1.0e-9), Leg::ToSeparation], 9)?;
+    let (length, edges) = (scene.length, scene.numerics.edges);
+    let body = Body { heights: heights.collect(), length, modulus: 2.0e6, work: 2.0e-5, edges };
+    let cycle = body.load(&[1.0e-9], true, 9)?;
     let last = &cycle.legs()[1];
     // Edges between springs have come down to the last springs of the teeth, half a cell inside of whole cells.
     let cells = if body.edges == Edges::Grid { springs } else { springs - 1 };
@@ -92,7 +93,7 @@ fn near_ties(body: &Body) -> Result<f64, Fault> {
         let [one, other] = [body, &near].map(|body| Body { work: share * body.work, ..body.clone() });
         let far = [1.037, 100.0].map(|share| share * (body.depth() + body.stretch()));
         let turns = [&far[..], &body.turns::<8>(16)].concat();
-        let (exact, near) = (one.load(&turns, 2)?, other.load(&turns, 2)?);
+        let (exact, near) = (one.load(&turns, false, 2)?, other.load(&turns, false, 2)?);
         largest(exact.legs().iter().zip(near.legs()).map(|(a, b)| {
             let [a, b] = [a, b].map(|leg| end(leg).force);
             Ok((a - b).abs() / (body.force_unit() + a.abs()))

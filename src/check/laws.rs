@@ -5,7 +5,7 @@ use super::Subject::{Bodies, Scene as OfScene};
 use super::{Body, Case, Evidence, Family, Fault, both, ensure, largest, outcome, with};
 use crate::Cycle;
 use crate::contact::{CurvePoint, LegRecord};
-use crate::scene::{Edges, Leg, Scene, Solver};
+use crate::scene::{Edges, Scene, Solver};
 
 const LAW: (Family, &[Evidence]) = (Family::Laws, &[Evidence::SelfConsistency]);
 const COMPUTED: (Family, &[Evidence]) = (Family::Laws, &[Evidence::IndependentComputation]);
@@ -38,8 +38,7 @@ pub fn end(leg: &LegRecord) -> CurvePoint {
 }
 
 fn no_adhesion(body: &Body) -> Result<f64, Fault> {
-    let cycle = Body { work: 0.0, ..body.clone() }
-        .load_legs(&[Leg::ToIndentation(0.8 * body.depth()), Leg::ToSeparation], 301)?;
+    let cycle = Body { work: 0.0, ..body.clone() }.load(&[0.8 * body.depth()], true, 301)?;
     let [loading, unloading] = cycle.legs() else { return Ok(f64::NAN) };
     ensure(cycle.dissipated_energy() == Some(0.0), || "energy is lost".into())?;
     ensure(loading.curve.len() == unloading.curve.len(), || "other points on the way back".into())?;
@@ -60,7 +59,7 @@ fn memory(body: &Body) -> Result<f64, Fault> {
         (&[high, low, middle], &[high, middle, high, low, middle, low, middle]),
     ];
     largest(pairs.map(|(short, long)| {
-        let (one, other) = (body.load(short, 2)?, body.load(long, 2)?);
+        let (one, other) = (body.load(short, false, 2)?, body.load(long, false, 2)?);
         ensure(one.patches() == other.patches(), || format!("{long:?} leaves another contact"))?;
         let force = |legs: &[LegRecord]| legs.last().map_or(f64::NAN, |leg| end(leg).force);
         Ok((force(one.legs()) - force(other.legs())).abs() / body.force_unit())
@@ -72,12 +71,11 @@ fn energy(body: &Body) -> Result<f64, Fault> {
     let [a, b] = body.turns(12);
     let (low, high) = (a.min(b), a.max(b).max(0.0));
     let lost = |legs: &[LegRecord]| legs.iter().map(|leg| leg.released_energy).sum::<f64>();
-    let of_loop = lost(&body.load(&[high, low, high], 2)?.legs()[1..]);
+    let of_loop = lost(&body.load(&[high, low, high], false, 2)?.legs()[1..]);
     ensure(of_loop >= -1e-14 * scale, || {
         format!("a loop from {high:e} to {low:e} m gains {:e} J", -of_loop)
     })?;
-    let turns = [high, low, high].map(Leg::ToIndentation);
-    let cycle = body.load_legs(&[&turns[..], &[Leg::ToSeparation]].concat(), 20_000)?;
+    let cycle = body.load(&[high, low, high], true, 20_000)?;
     // A jump may lie anywhere between two points of the curve: the error of the trapezia falls with their number.
     let trapezium = |pair: &[CurvePoint]| {
         0.5 * (pair[0].force + pair[1].force) * (pair[1].indentation - pair[0].indentation)
@@ -89,7 +87,7 @@ fn energy(body: &Body) -> Result<f64, Fault> {
 fn mirror(body: &Body) -> Result<f64, Fault> {
     let mirrored = Body { heights: body.heights.iter().rev().copied().collect(), ..body.clone() };
     let (last, turns) = (body.heights.len() - 1, body.turns::<6>(13));
-    let (one, other) = (body.load(&turns, 17)?, mirrored.load(&turns, 17)?);
+    let (one, other) = (body.load(&turns, false, 17)?, mirrored.load(&turns, false, 17)?);
     let turned: Vec<_> = other.patches().iter().rev().map(|(a, b)| (last - b, last - a)).collect();
     ensure(one.patches() == turned, || format!("after {turns:?} m another contact"))?;
     largest(one.curve().zip(other.curve()).map(|(a, b)| Ok((a.force - b.force).abs() / body.force_unit())))
@@ -98,7 +96,7 @@ fn mirror(body: &Body) -> Result<f64, Fault> {
 /// Scales lengths along the profile, heights and stresses by these powers of two: no bit of the mantissas may change.
 pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Result<f64, Fault> {
     let turns: [f64; 6] = body.turns(15);
-    let one = body.load(&turns, 33)?;
+    let one = body.load(&turns, false, 33)?;
     // The sum with 0 makes −0 the same as 0.
     let bits = |cycle: &Cycle, height: f64, force: f64| -> Vec<_> {
         let points =
@@ -119,7 +117,7 @@ pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Result<f64, Fault> {
             work: height * (height * body.work) * (stress / length),
             edges: body.edges,
         };
-        let cycle = other.load(&turns.map(|turn| height * turn), 33)?;
+        let cycle = other.load(&turns.map(|turn| height * turn), false, 33)?;
         let is_same = bits(&one, height, length * height * stress) == bits(&cycle, 1.0, 1.0);
         ensure(is_same, || format!("2 to the powers {factors:?}: other bits"))?;
     }

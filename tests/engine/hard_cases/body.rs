@@ -4,7 +4,7 @@ use asperity::contact::{
     AdhesiveMemory, ContactError, ContactRule, ContactTree, CurvePoint, Exact, Foundation, HessRule, History,
     LegRecord, Solver, run,
 };
-use asperity::scene::{Edges, Leg};
+use asperity::scene::{Edges, Form, Leg};
 use asperity::surface::{Line, SelfAffine, UnitRoughness, phases};
 use std::f64::consts::{PI, TAU};
 
@@ -158,6 +158,42 @@ fn vanishing_adhesion_pulls_no_more_than_its_longest_stretch() {
             let (with, stretch) = force(10.0_f64.powi(power));
             let most = MODULUS * LENGTH * stretch + 1e-14 * without;
             assert!((-1e-14 * most..=most).contains(&(without - with)), "γ = 1e{power}: {with:e} N");
+        }
+    }
+}
+
+#[test]
+fn under_far_loads_the_contact_only_grows() {
+    let spectrum = SelfAffine { hurst: 0.7, first: 1, last: 128 };
+    let sphere = Form::Paraboloid { radius: 1.0e-4 };
+    let sphere = Line::new(LENGTH, 257, Some(&sphere), None, 0.0).unwrap().gaps;
+    for (edges, work) in
+        [(Edges::Grid, 0.0), (Edges::Grid, 2e-5), (Edges::SubCell, 0.0), (Edges::SubCell, 2e-5)]
+    {
+        let rough = Body::rough(spectrum, 1, 257, work);
+        for body in [Body { gaps: sphere.clone(), ..rough.clone() }, rough] {
+            for power in 0..=30 {
+                let far = Leg::ToIndentation(10.0_f64.powi(power) * body.deepest());
+                let legs =
+                    body.history(edges, &[far, Leg::ToIndentation(0.5 * body.deepest())], 17).unwrap().legs;
+                let force = end(&legs[0]).force;
+                let again = body.history(edges, &[Leg::ToForce(force)], 17).unwrap().legs;
+                for leg in legs.iter().chain(&again) {
+                    let mut curve = leg.curve.clone();
+                    curve.sort_by(|a, b| a.indentation.total_cmp(&b.indentation));
+                    let grows = curve.windows(2).all(|pair| pair[0].contact_length <= pair[1].contact_length);
+                    let whole = LENGTH * (1.0 + 2.0 * f64::EPSILON);
+                    let inside = curve.iter().all(|point| (0.0..=whole).contains(&point.contact_length));
+                    assert!(grows && inside, "{edges:?}, 1e{power} times the depth: {curve:?}");
+                }
+                let sum: f64 = body.gaps.iter().map(|gap| end(&legs[0]).indentation - gap).sum();
+                let expected = body.foundation.spring_stiffness() * sum;
+                assert!(
+                    (force / expected - 1.0).abs() <= 1e-13,
+                    "{edges:?}, 1e{power}: {force:e} {expected:e}"
+                );
+                assert!((end(&again[0]).force / force - 1.0).abs() <= 1e-14, "{edges:?}, 1e{power}");
+            }
         }
     }
 }
