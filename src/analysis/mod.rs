@@ -4,17 +4,16 @@
 mod derived;
 mod figures;
 mod governing;
-mod limits;
-mod marks;
 mod regime;
 mod reversal_map;
 pub mod section;
 
-pub use derived::{contact_stiffness, ideal_adhesion_force, mean_pressure};
-pub use figures::{Figures, preload_point, pull_off_point};
+pub use derived::{
+    DEFAULT_RANGE, LEAST_TABOR_NUMBER, SteepWaves, contact_stiffness, ideal_adhesion_force, mean_pressure,
+    scene_tabor_number,
+};
+pub use figures::{Figures, Mark, marks, preload_point, pull_off_point};
 pub use governing::Governing;
-pub use limits::{DEFAULT_RANGE, LEAST_TABOR_NUMBER, SteepWaves, scene_tabor_number};
-pub use marks::{Mark, marks};
 pub use regime::{
     AGREEING_SHARE, CellRegime, INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, Regime, VANISHING_SHARE,
 };

@@ -191,16 +191,15 @@ pub fn strip(fragments: &[(usize, usize)], count: usize, cells: usize) -> Vec<Sh
 pub fn lengths(fragments: &[(usize, usize)]) -> Vec<LengthBin> {
     let mut lengths: Vec<u64> = fragments.iter().map(|&(first, last)| (last - first + 1) as u64).collect();
     lengths.sort_unstable();
-    let mut bins: Vec<LengthBin> = Vec::new();
-    let mut ends = (1_u32..).map(|half| 2_f64.powf(f64::from(half) / 2.0).ceil() as u64);
-    let mut from = 1;
-    let mut rest = lengths.as_slice();
-    while let (false, Some(to)) = (rest.is_empty(), ends.next()) {
+    let (mut bins, mut from, mut rest) = (Vec::new(), 1, lengths.as_slice());
+    for to in (1..).map(|half| 2_f64.powf(f64::from(half) / 2.0).ceil() as u64) {
+        if rest.is_empty() {
+            break;
+        }
         if to > from {
-            let count = rest.partition_point(|&length| length < to);
-            bins.push(LengthBin { from, to, fragments: count as u64 });
-            rest = &rest[count..];
-            from = to;
+            let fragments = rest.partition_point(|&length| length < to);
+            bins.push(LengthBin { from, to, fragments: fragments as u64 });
+            (rest, from) = (&rest[fragments..], to);
         }
     }
     bins
