@@ -1,5 +1,5 @@
-//! The cost of accuracy of one scene: one ladder of springs with both edge models, then steps of the stepwise solver, from
-//! coarse to fine, within a budget of time.
+//! The cost of accuracy of one scene: one ladder from coarse to fine within a budget of time. Each rung has twice the springs
+//! of the one before, with both edge models, and half of the step of the stepwise solver.
 
 use super::convergence::observed_order;
 use super::estimate::others;
@@ -12,9 +12,9 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
-/// Time left for another rung over that of the last one: it takes about twice as long, the error of the finest solution
-/// as long again, and the rest is for steps.
-const LATER: f64 = 4.0;
+/// Least time left for another rung over that of the last one: a rung takes about twice as long, and the error of the
+/// finest solution as long again.
+const LATER: f64 = 3.0;
 /// Points of a compared curve, all loading stages together: many, so that sampling hides no error of the springs.
 const COMPARED_POINTS: u64 = 1 << 16;
 /// Most samples of a compared loading stage.
@@ -23,9 +23,8 @@ const MOST_COMPARED: u64 = 4096;
 const ROUNDING: f64 = 1e-14;
 /// Springs of the stepwise solver, unless the scene needs more.
 const STEPWISE_SPRINGS: u64 = 256;
-/// Steps of the coarsest run over the range of its indentations, and most halvings of the step.
+/// Steps of the coarsest run over the range of its indentations.
 const FEWEST_STEPS: f64 = 16.0;
-const MOST_HALVINGS: i32 = 20;
 /// Most runs of one setting for its time, and the time after which no other begins, s.
 const MOST_RUNS: usize = 9;
 const ENOUGH_RUNS: f64 = 0.05;
@@ -114,9 +113,10 @@ pub fn measure(
             _ => CostError::BudgetTooShort { budget, springs },
         });
     }
-    ladder.step()?;
-    let table = CostTable { spent: begun.elapsed().as_secs_f64(), ..ladder.table };
-    if stop() { Err(CostError::Stopped) } else { Ok(table) }
+    if stop() {
+        return Err(CostError::Stopped);
+    }
+    Ok(CostTable { spent: begun.elapsed().as_secs_f64(), ..ladder.table })
 }
 
 /// Returns the scene with the number of samples for a comparison of curves.
@@ -141,11 +141,11 @@ impl Ladder<'_> {
     }
 
     /// Solves one setting and adds its rung; false without time, and for too few springs the error.
-    fn attempt(&mut self, knob: Knob, setting: f64, named: &str, scene: &Scene) -> Result<bool, RunError> {
-        (self.watch)(Progress::Trying(knob, named));
-        let (left, is_step) = (self.left, knob == Knob::Step);
-        let (stop, compared) = (|| left() <= 0.0, compared(scene));
+    fn attempt(&mut self, knob: Knob, setting: f64, scene: &Scene) -> Result<bool, RunError> {
+        let (left, compared) = (self.left, compared(scene));
+        let stop = || left() <= 0.0;
         let mut runs = Runs::new(self.folder, &stop);
+        let is_step = knob == Knob::Step;
         let solution = if is_step { runs.solve(&compared)? } else { runs.solve_around(&compared)? };
         let Some(solution) = solution else { return Ok(false) };
         let seconds = self.time(scene);
@@ -153,22 +153,43 @@ impl Ladder<'_> {
         Ok(true)
     }
 
-    /// Adds rungs of more and more springs while there is time; returns the error that refused too few springs.
+    /// Returns the settings of the rung of so many springs; the step halves from rung to rung once its reference is known.
+    fn settings(&self, points: u64) -> Vec<(Knob, f64, Scene)> {
+        let of = |(knob, edges)| (knob, points as f64, refined(self.scene, points, edges));
+        let springs = [(Knob::SubCellSprings, Edges::SubCell), (Knob::GridSprings, Edges::Grid)].map(of);
+        let step = || {
+            let exact = self.exact()?;
+            let (low, high) = exact.curve.indentations().filter(|(low, high)| low < high)?;
+            let halvings = self.rungs_of(Knob::Step).count() as i32;
+            let step = (high - low) / FEWEST_STEPS * 0.5_f64.powi(halvings);
+            let mut scene = refined(self.scene, exact.points, Edges::Grid);
+            scene.numerics.solver = Solver::Stepwise { step };
+            check(&compared(&scene)).is_empty().then_some((Knob::Step, step, scene))
+        };
+        springs.into_iter().chain(step()).collect()
+    }
+
+    /// Adds rungs while there is time; returns the error that refused too few springs.
     fn climb(&mut self) -> Result<Option<RunError>, RunError> {
         let (left, mut refused, mut took) = (self.left, None, 0.0);
         for points in allowed_points(self.scene) {
             let began = left();
             // The first two may take all of the time, so that a comparison is possible.
             let mut goes_on = began > if self.finest().is_some() { LATER * took } else { 0.0 };
-            for (knob, edges) in [(Knob::SubCellSprings, Edges::SubCell), (Knob::GridSprings, Edges::Grid)] {
-                let (scene, named) = (refined(self.scene, points, edges), format!("{points} springs"));
-                match if goes_on { self.attempt(knob, points as f64, &named, &scene) } else { Ok(false) } {
-                    Ok(solved) => goes_on = solved,
-                    Err(error) if is_too_coarse(&error) => refused = Some(error),
-                    Err(error) => return Err(error),
+            for (knob, setting, scene) in self.settings(points) {
+                let (named, rest) = match knob {
+                    Knob::Step => (format_quantity(setting, "m"), "less"),
+                    _ => (format!("{points} springs"), "more"),
+                };
+                if goes_on {
+                    (self.watch)(Progress::Trying(knob, &named));
+                    match self.attempt(knob, setting, &scene) {
+                        Err(error) if is_too_coarse(&error) => refused = Some(error),
+                        solved => goes_on = solved?,
+                    }
                 }
                 if !goes_on {
-                    self.table.left_out.push(format!("{}: {named} and more", knob.name()));
+                    self.table.left_out.push(format!("{}: {named} and {rest}", knob.name()));
                 }
             }
             if !goes_on {
@@ -182,9 +203,19 @@ impl Ladder<'_> {
         Ok(refused)
     }
 
+    fn rungs_of(&self, knob: Knob) -> impl DoubleEndedIterator<Item = &Rung> {
+        self.rungs.iter().filter(move |rung| rung.knob == knob)
+    }
+
+    /// Returns the reference of steps: the exact solution on as many springs as the stepwise solver has.
+    fn exact(&self) -> Option<&Solution> {
+        let rung = self.rungs_of(Knob::GridSprings).find(|rung| rung.solution.points >= STEPWISE_SPRINGS);
+        rung.map(|rung| &rung.solution)
+    }
+
     /// Returns the finest solution with edges between springs, if there are two.
     fn finest(&self) -> Option<&Solution> {
-        let mut finer = self.rungs.iter().rev().filter(|rung| rung.knob == Knob::SubCellSprings);
+        let mut finer = self.rungs_of(Knob::SubCellSprings).rev();
         let finest = finer.next()?;
         finer.next().map(|_| &finest.solution)
     }
@@ -198,12 +229,12 @@ impl Ladder<'_> {
         Some([0, 1, 2, 3].map(|index| others.error(|other| other.errors(finest)[index])))
     }
 
-    /// Makes the rows of springs, with errors relative to the finest solution or the closed form. This reference has these
-    /// errors, or without them twice the last differences. Returns false with fewer than two solutions.
+    /// Makes the rows, with errors relative to the finest solution or the closed form, and those of steps to the exact
+    /// solution. The reference has these errors, or without them twice the last differences. Returns false with fewer than
+    /// two solutions.
     fn count(&mut self, own: Option<Errors>) -> bool {
-        let rungs = |knob: Knob| self.rungs.iter().filter(move |rung| rung.knob == knob);
-        let mut finer = rungs(Knob::SubCellSprings).rev().map(|rung| &rung.solution);
-        let (Some(finest), Some(last)) = (finer.next(), finer.next()) else { return false };
+        let finer: Vec<&Rung> = self.rungs_of(Knob::SubCellSprings).rev().take(2).collect();
+        let &[Rung { solution: finest, .. }, Rung { solution: last, .. }] = &finer[..] else { return false };
         let twice = || last.errors(finest).map(|last| last.map(|last| 2.0 * last));
         let (mut errors, mut target) = (own.unwrap_or_else(twice), finest.clone());
         let closed_form = target.closed_form.is_some();
@@ -213,55 +244,29 @@ impl Ladder<'_> {
             errors[Target::AdhesionForce as usize] = Some(ROUNDING);
         }
         let (springs, adhesion_force) = (target.points, target.adhesion_force);
-        self.table.reference = Reference { springs, adhesion_force, closed_form, errors: errors.into() };
-        self.table.rows.clear();
-        for rung in rungs(Knob::SubCellSprings).chain(rungs(Knob::GridSprings)) {
+        // With few springs each of them is a jump, which is late by up to one distance of samples.
+        let late = [None, Some(1.0 / compared(self.scene).numerics.samples as f64), None, None];
+        let mut rows = Vec::new();
+        for knob in Knob::ALL {
+            let is_step = knob == Knob::Step;
             // The difference of the finest solution from itself is zero, which is not its error.
-            push(&mut self.table, rung, &target, errors);
+            let floors = if is_step { late } else { errors };
+            let target = self.exact().filter(|_| is_step).unwrap_or(&target);
+            for rung in self.rungs_of(knob) {
+                rows.push(row(rung, rows.last(), target, floors, self.table.transform_seconds));
+            }
         }
+        self.table.reference = Reference { springs, adhesion_force, closed_form, errors: errors.into() };
+        self.table.rows = rows;
         true
-    }
-
-    /// Adds rows of the step of the stepwise solver, against the exact solver on as many springs.
-    fn step(&mut self) -> Result<(), RunError> {
-        let exact = |rung: &&Rung| rung.knob == Knob::GridSprings && rung.solution.points >= STEPWISE_SPRINGS;
-        let Some(exact) = self.rungs.iter().find(exact).map(|rung| rung.solution.clone()) else {
-            return Ok(());
-        };
-        let Some((low, high)) = exact.curve.indentations().filter(|(low, high)| low < high) else {
-            return Ok(());
-        };
-        let (mut scene, mut took) = (refined(self.scene, exact.points, Edges::Grid), 0.0);
-        for halving in 0..MOST_HALVINGS {
-            let step = (high - low) / FEWEST_STEPS * 0.5_f64.powi(halving);
-            scene.numerics.solver = Solver::Stepwise { step };
-            if !check(&compared(&scene)).is_empty() {
-                break;
-            }
-            let (began, named) = ((self.left)(), format_quantity(step, "m"));
-            // Half of the step takes twice the time.
-            if began <= 2.0 * took || !self.attempt(Knob::Step, step, &named, &scene)? {
-                let less = format!("{}: {named} and less, on {} springs", Knob::Step.name(), exact.points);
-                self.table.left_out.push(less);
-                break;
-            }
-            took = began - (self.left)();
-            // With few springs each of them is a jump, which is late by up to one distance of samples.
-            let late = Some(1.0 / compared(&scene).numerics.samples as f64);
-            if let Some(rung) = self.rungs.last() {
-                push(&mut self.table, rung, &exact, [None, late, None, None]);
-            }
-            (self.watch)(Progress::Rows(&self.table));
-        }
-        Ok(())
     }
 }
 
-/// Adds the row of a setting; errors below the floors are not resolved, and orders are relative to the previous row of the
-/// same knob.
-fn push(table: &mut CostTable, rung: &Rung, target: &Solution, floors: Errors) {
+/// Returns the row of a setting; errors below the floors are not resolved, and orders are relative to the row before of
+/// the same knob.
+fn row(rung: &Rung, before: Option<&Row>, target: &Solution, floors: Errors, transform_seconds: f64) -> Row {
     let Rung { knob, setting, seconds, .. } = *rung;
-    let before = table.rows.last().filter(|row| row.knob == knob);
+    let before = before.filter(|row| row.knob == knob);
     let ratio = before.map_or(1.0, |row| (setting / row.setting).max(row.setting / setting));
     let coarse = before.map(|row| row.errors).unwrap_or_default().each();
     let errors = rung.solution.errors(target);
@@ -272,9 +277,8 @@ fn push(table: &mut CostTable, rung: &Rung, target: &Solution, floors: Errors) {
         let order = coarse.and_then(|coarse| observed_order(coarse.error, error, ratio));
         Some(ErrorFigure { error: error.max(floor), resolved, order })
     });
-    let transforms = seconds.map(|seconds| seconds.minimum / table.transform_seconds);
-    let springs = rung.solution.points;
-    table.rows.push(Row { knob, setting, springs, seconds, transforms, errors: errors.into() });
+    let transforms = seconds.map(|seconds| seconds.minimum / transform_seconds);
+    Row { knob, setting, springs: rung.solution.points, seconds, transforms, errors: errors.into() }
 }
 
 /// Measures the shortest time of one real Fourier transform of 2^20 points, planned beforehand, s.
