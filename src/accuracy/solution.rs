@@ -1,7 +1,8 @@
 //! Solutions of a scene and its variants, and their relative differences.
 
 use super::curve::ForceCurve;
-use crate::contact::{ContactError, Direction};
+use crate::analysis::pull_off_point;
+use crate::contact::ContactError;
 use crate::reference::{PowerLaw, smooth_adhesion_force};
 use crate::scene::{Edges, Form, Leg, Numerics, Scene, Solver, check};
 use crate::simulation::{Outcome, RunError, Simulation};
@@ -210,10 +211,11 @@ impl<'a> Runs<'a> {
 /// Returns true if no spring is under the body, or the contact of too few springs does not reach a target of the loading.
 pub(super) fn is_too_coarse(error: &RunError) -> bool {
     use ContactError::{DetachesBefore, NothingToPull, OutOfReach};
-    let springs = matches!(error, RunError::Surface(SurfaceError::NoSprings { .. }));
-    let of_contact =
-        |error| matches!(error, NothingToPull { .. } | DetachesBefore { .. } | OutOfReach { .. });
-    springs || matches!(error, RunError::Contact(error) if of_contact(error.clone()))
+    matches!(
+        error,
+        RunError::Surface(SurfaceError::NoSprings { .. })
+            | RunError::Contact(NothingToPull { .. } | DetachesBefore { .. } | OutOfReach { .. })
+    )
 }
 
 fn longest_contact(outcome: &Outcome) -> f64 {
@@ -225,7 +227,6 @@ fn longest_contact(outcome: &Outcome) -> f64 {
 /// indentation of its smallest force, on a profile longer than its contact. `outcome` is its solution.
 fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
     let work = outcome.governing.adhesive_work()?;
-    outcome.figures.adhesion_force?;
     if scene.roughness.is_some() {
         return None;
     }
@@ -243,9 +244,7 @@ fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
         }
     };
     let legs = &outcome.history.legs;
-    let pulled = legs.iter().rfind(|leg| {
-        leg.direction == Direction::Unloading && leg.curve.iter().any(|point| point.springs > 0)
-    })?;
+    let pulled = &legs[pull_off_point(legs)?.0];
     let passes = pulled.start() >= pull_off && pulled.curve.last()?.springs == 0;
     // Lengths are sums with rounding errors.
     (passes && longest_contact(outcome) <= widest * (1.0 + 1e-9))
