@@ -12,9 +12,9 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
-/// Least time left for another rung over that of the last one: a rung takes about twice as long, and the error of the
-/// finest solution as long again.
-const LATER: f64 = 3.0;
+/// Least time left for another rung over that of the last one: a rung takes about twice as long, the error of the finest
+/// solution as long as the last one, and a busy machine longer.
+const LATER: f64 = 4.0;
 /// Points of a compared curve, all loading stages together: many, so that sampling hides no error of the springs.
 const COMPARED_POINTS: u64 = 1 << 16;
 /// Most samples of a compared loading stage.
@@ -140,7 +140,7 @@ impl Ladder<'_> {
         Timing::of(seconds)
     }
 
-    /// Solves one setting and adds its rung; false without time, and for too few springs the error.
+    /// Solves and times one setting and adds its rung; false without time for that, and for too few springs the error.
     fn attempt(&mut self, knob: Knob, setting: f64, scene: &Scene) -> Result<bool, RunError> {
         let (left, compared) = (self.left, compared(scene));
         let stop = || left() <= 0.0;
@@ -149,8 +149,9 @@ impl Ladder<'_> {
         let solution = if is_step { runs.solve(&compared)? } else { runs.solve_around(&compared)? };
         let Some(solution) = solution else { return Ok(false) };
         let seconds = self.time(scene);
-        self.rungs.push(Rung { knob, setting, solution, seconds });
-        Ok(true)
+        let is_timed = seconds.is_some();
+        self.rungs.extend(is_timed.then_some(Rung { knob, setting, solution, seconds }));
+        Ok(is_timed)
     }
 
     /// Returns the settings of the rung of so many springs; the step halves from rung to rung once its reference is known.
