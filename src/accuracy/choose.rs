@@ -69,18 +69,13 @@ impl Choice {
     /// Choice and reason in one sentence.
     #[must_use]
     pub fn sentence(&self) -> String {
-        let edges = self.edges.name();
-        let from = if self.closed_form {
-            "by the closed form".to_owned()
-        } else {
-            format!("estimated from solutions with up to {} springs", grouped(self.finest))
-        };
+        let Choice { tolerance, target, points, edges, error, closed_form, finest } = *self;
+        let (points, target, edges) = (grouped(points), target.name(), edges.name());
+        let estimated = format!("estimated from solutions with up to {} springs", grouped(finest));
+        let from = if closed_form { "by the closed form" } else { &estimated };
         format!(
-            "{} springs with edges {edges}: the fewest found to keep the {} within {:e}; its error is {:.1e}, {from}.",
-            grouped(self.points),
-            self.target.name(),
-            self.tolerance,
-            self.error
+            "{points} springs with edges {edges}: the fewest found to keep the {target} within {tolerance:e}; its \
+             error is {error:.1e}, {from}."
         )
     }
 }
@@ -110,20 +105,16 @@ pub enum ChoiceError {
 }
 
 fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
-    match best {
-        None => {
-            format!("a tolerance of {tolerance:e} cannot be checked: too few numbers of springs are allowed")
-        }
-        Some(best) => format!(
-            "a tolerance of {tolerance:e} is not reached with at most {} springs; what is reached is {:.1e} of \
-             the {}, with {} springs and edges {}",
-            grouped(best.finest),
-            best.error,
-            best.target.name(),
-            grouped(best.points),
-            best.edges.name()
-        ),
-    }
+    let Some(Choice { finest, error, target, points, edges, .. }) = best.as_deref() else {
+        return format!(
+            "a tolerance of {tolerance:e} cannot be checked: too few numbers of springs are allowed"
+        );
+    };
+    let (finest, target, points, edges) = (grouped(*finest), target.name(), grouped(*points), edges.name());
+    format!(
+        "a tolerance of {tolerance:e} is not reached with at most {finest} springs; what is reached is {error:.1e} of \
+         the {target}, with {points} springs and edges {edges}"
+    )
 }
 
 /// Springs and edges with which a checked scene, with files in `folder`, reaches a relative error of at most

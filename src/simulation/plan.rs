@@ -4,6 +4,7 @@ use crate::analysis::Figures;
 use crate::contact::CurvePoint;
 use crate::scene::{Edges, Effect, Roughness, Scene, Solver};
 use serde::Serialize;
+use strum::VariantArray;
 
 /// Bytes per spring: a height of the roughness, or a gap of the profile.
 const HEIGHT: u64 = 8;
@@ -28,7 +29,7 @@ const STEPWISE: &str = "solver: Stepwise";
 const NEVER_BACK: &str = "loading never goes back";
 
 /// A stage of the computation of a curve from a scene, in the order of execution.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, VariantArray)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stage {
     /// Adding the macroscopic form.
@@ -57,10 +58,6 @@ pub enum Stage {
 
 #[rustfmt::skip]
 impl Stage {
-    const ALL: [Stage; 11] = [
-        Stage::Form, Stage::Synthesis, Stage::MeasuredProfile, Stage::Tree, Stage::RuleOfHess, Stage::LoadingPass,
-        Stage::UnloadingPass, Stage::Relaxation, Stage::ZeroLoadAdhesion, Stage::Fragments, Stage::HeightHistogram,
-    ];
     const NAMES: [&str; 11] = [
         "form", "random profile", "measured profile", "contact tree", "rule of Hess", "loading passes",
         "unloading passes", "stepwise relaxation", "zero-load adhesion and regime", "contact fragments",
@@ -138,7 +135,8 @@ impl Plan {
             let (runs, because) = (because.is_ok(), because.unwrap_or_else(|reason| reason));
             PlannedStage { stage, runs, because, cost: if runs { cost } else { StageCost::NOTHING } }
         };
-        let stages = Stage::ALL.into_iter().zip(stages(scene, points, springs)).map(planned).collect();
+        let stages =
+            Stage::VARIANTS.iter().copied().zip(stages(scene, points, springs)).map(planned).collect();
         let mut plan = Plan { springs, peak_bytes: 0, resident_bytes: 0, stages };
         // At most, if the whole contact under load also exists at first touch.
         let solved = [Stage::Tree, Stage::LoadingPass, Stage::Relaxation, Stage::ZeroLoadAdhesion];
@@ -244,11 +242,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_stage_is_once_in_the_table() {
-        let plan = Plan::of(crate::scene::open("jkr-sphere").unwrap().scene());
-        for (index, planned) in plan.stages.iter().enumerate() {
-            assert_eq!(planned.stage as usize, index, "{}", planned.stage.name());
-        }
+    fn each_stage_is_planned_and_has_its_name() {
+        let planned = Plan::of(crate::scene::open("jkr-sphere").unwrap().scene()).stages.len();
+        assert_eq!([planned, Stage::NAMES.len()], [Stage::VARIANTS.len(); 2]);
+        assert_eq!((Stage::Form.name(), Stage::HeightHistogram.name()), ("form", "height histogram"));
+        assert_eq!(Stage::Relaxation.name(), "stepwise relaxation");
     }
 
     #[test]
