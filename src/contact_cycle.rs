@@ -110,8 +110,8 @@ impl ContactBuilder<'_> {
 
     /// Samples of the force curve on each loading stage, at least 2; its extremes are exact for any number.
     #[must_use]
-    pub fn samples(self, samples: usize) -> Self {
-        ContactBuilder { samples, ..self }
+    pub fn samples(self, samples: u64) -> Self {
+        ContactBuilder { samples: samples as usize, ..self }
     }
 
     /// Builds the contact.

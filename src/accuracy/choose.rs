@@ -2,16 +2,16 @@
 
 use super::convergence::{REFINEMENTS, first_within};
 use super::estimate::{Estimate, Evidence, others};
-use super::solution::{
-    Solution, Solved, Target, allowed_points, closed_form_adhesion, refined, relative_error, solve,
-};
+use super::solution::{Runs, Solution, Target, allowed_points, is_too_coarse, refined, relative_error};
 use crate::scene::{Edges, Scene, Solver};
-use crate::simulation::{RunError, Simulation};
+use crate::simulation::RunError;
 use crate::text::grouped;
 use serde::Serialize;
 use std::path::Path;
 use thiserror::Error;
 
+/// In the order of preference at the same number of springs.
+const EDGES: [Edges; 2] = [Edges::SubCell, Edges::Grid];
 /// Most springs tried, unless the modes of the scene need more: then four times that number.
 const MOST_SPRINGS: u64 = 1 << 21;
 
@@ -69,18 +69,13 @@ impl Choice {
     /// Choice and reason in one sentence.
     #[must_use]
     pub fn sentence(&self) -> String {
-        let edges = self.edges.name();
-        let from = if self.closed_form {
-            "by the closed form".to_owned()
-        } else {
-            format!("estimated from solutions with up to {} springs", grouped(self.finest))
-        };
+        let Choice { tolerance, target, points, edges, error, closed_form, finest } = *self;
+        let (points, target, edges) = (grouped(points), target.name(), edges.name());
+        let estimated = format!("estimated from solutions with up to {} springs", grouped(finest));
+        let from = if closed_form { "by the closed form" } else { &estimated };
         format!(
-            "{} springs with edges {edges}: the fewest found to keep the {} within {:e}; its error is {:.1e}, {from}.",
-            grouped(self.points),
-            self.target.name(),
-            self.tolerance,
-            self.error
+            "{points} springs with edges {edges}: the fewest found to keep the {target} within {tolerance:e}; its \
+             error is {error:.1e}, {from}."
         )
     }
 }
@@ -110,20 +105,16 @@ pub enum ChoiceError {
 }
 
 fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
-    match best {
-        None => {
-            format!("a tolerance of {tolerance:e} cannot be checked: too few numbers of springs are allowed")
-        }
-        Some(best) => format!(
-            "a tolerance of {tolerance:e} is not reached with at most {} springs; what is reached is {:.1e} of \
-             the {}, with {} springs and edges {}",
-            grouped(best.finest),
-            best.error,
-            best.target.name(),
-            grouped(best.points),
-            best.edges.name()
-        ),
-    }
+    let Some(Choice { finest, error, target, points, edges, .. }) = best.as_deref() else {
+        return format!(
+            "a tolerance of {tolerance:e} cannot be checked: too few numbers of springs are allowed"
+        );
+    };
+    let (finest, target, points, edges) = (grouped(*finest), target.name(), grouped(*points), edges.name());
+    format!(
+        "a tolerance of {tolerance:e} is not reached with at most {finest} springs; what is reached is {error:.1e} of \
+         the {target}, with {points} springs and edges {edges}"
+    )
 }
 
 /// Springs and edges with which a checked scene, with files in `folder`, reaches a relative error of at most
@@ -150,20 +141,16 @@ pub fn choose(
     }
     let most = allowed_points(scene).next().map_or(0, |fewest| MOST_SPRINGS.max(4 * fewest));
     let mut tried: [Vec<Solution>; 2] = [Vec::new(), Vec::new()];
-    let mut simulation = Simulation::new(folder.to_path_buf());
-    let (mut closed_form, mut refused, mut of_finest) = (None, None, None);
+    let mut runs = Runs::new(folder, stop);
+    let (mut refused, mut of_finest) = (None, None);
     for points in allowed_points(scene).take_while(|&points| points <= most) {
         trying(points);
         let mut solved = Vec::new();
         for edges in EDGES {
-            let scene = refined(scene, points, edges);
-            match solve(&mut simulation, &scene, stop)? {
-                Solved::Outcome(outcome) => {
-                    closed_form = closed_form_adhesion(&scene, &outcome);
-                    solved.extend(Solution::around(&mut simulation, &scene, &outcome, stop)?);
-                }
-                Solved::TooCoarse(error) => refused = Some(error),
-                Solved::TooMuch => {}
+            match runs.solve_around(&refined(scene, points, edges)) {
+                Ok(solution) => solved.extend(solution),
+                Err(error) if is_too_coarse(&error) => refused = Some(error),
+                Err(error) => return Err(error.into()),
             }
         }
         if stop() {
@@ -174,11 +161,10 @@ pub fn choose(
         }
         tried.iter_mut().zip(solved).for_each(|(solutions, solution)| solutions.push(solution));
         of_finest = None;
-        let is_enough = |of_finest| {
-            judge(&tried, closed_form, of_finest, tolerance).filter(|choice| choice.error <= tolerance)
-        };
+        let is_enough =
+            |of_finest| judge(&tried, of_finest, tolerance).filter(|choice| choice.error <= tolerance);
         if is_enough(0.0).is_some() {
-            of_finest = error_of_finest(scene, folder, (&tried, closed_form), stop);
+            of_finest = error_of_finest(scene, &mut runs, &tried);
             if let Some(choice) = of_finest.and_then(is_enough) {
                 return Ok(choice);
             }
@@ -187,45 +173,27 @@ pub fn choose(
     if let (Some(error), []) = (refused, tried[0].as_slice()) {
         return Err(error.into());
     }
-    let of_finest = of_finest.or_else(|| error_of_finest(scene, folder, (&tried, closed_form), stop));
-    let best = of_finest.and_then(|of_finest| judge(&tried, closed_form, of_finest, tolerance));
+    let of_finest = of_finest.or_else(|| error_of_finest(scene, &mut runs, &tried));
+    let best = of_finest.and_then(|of_finest| judge(&tried, of_finest, tolerance));
     Err(ChoiceError::Unreached { tolerance, best: best.map(Box::new) })
 }
 
-/// In the order of preference at the same number of springs.
-const EDGES: [Edges; 2] = [Edges::SubCell, Edges::Grid];
-
-/// Estimated relative error of the finest solution with edges between springs, under the loads of the scene and around
-/// them; 0 beside a closed form, and `None` if unknown.
-fn error_of_finest(
-    scene: &Scene,
-    folder: &Path,
-    (tried, closed_form): (&[Vec<Solution>; 2], Option<f64>),
-    stop: &dyn Fn() -> bool,
-) -> Option<f64> {
-    if closed_form.is_some() {
+/// Estimates the relative error of the finest solution with edges between springs, under the loads of the scene and
+/// around them; 0 for a scene with a closed form, and `None` if unknown.
+fn error_of_finest(scene: &Scene, runs: &mut Runs<'_>, [sub_cell, grid]: &[Vec<Solution>; 2]) -> Option<f64> {
+    if grid.last()?.closed_form.is_some() {
         return Some(0.0);
     }
-    let finest = tried[0].last()?;
-    let target = Target::of(finest);
-    let mut simulation = Simulation::new(folder.to_path_buf());
-    let mut solved = |scene: &Scene| match solve(&mut simulation, scene, stop) {
-        Ok(Solved::Outcome(outcome)) => Solution::around(&mut simulation, scene, &outcome, stop).ok()?,
-        _ => None,
-    };
+    let finest = sub_cell.last()?;
+    let mut solved = |scene: &Scene| runs.solve_around(scene).ok()?;
     let others = others(&refined(scene, finest.points, Edges::SubCell), &mut solved)?;
-    others.error(|other| target.difference(other, finest))
+    others.error(|other| Target::of(finest).difference(other, finest))
 }
 
-/// The choice among solutions with edges at and between springs, with equal springs each, given the error of the finest;
-/// if none is good enough, the best that is confirmed. `None` for too few solutions.
-fn judge(
-    [sub_cell, grid]: &[Vec<Solution>; 2],
-    closed_form: Option<f64>,
-    of_finest: f64,
-    tolerance: f64,
-) -> Option<Choice> {
-    let finest = sub_cell.last()?;
+/// Returns the choice among solutions with edges between and at springs, with equal springs each, given the error of the
+/// finest; if none is good enough, the best that is confirmed. `None` for too few solutions.
+fn judge([sub_cell, grid]: &[Vec<Solution>; 2], of_finest: f64, tolerance: f64) -> Option<Choice> {
+    let (finest, closed_form) = (sub_cell.last()?, grid.last()?.closed_form);
     let target = Target::of(finest);
     let error = |solution: &Solution| match closed_form {
         Some(force) => Some(relative_error(solution.adhesion_force.unwrap_or(0.0), force)),
@@ -234,19 +202,11 @@ fn judge(
     let candidates = EDGES.into_iter().zip([sub_cell, grid]).filter_map(|(edges, solutions)| {
         let errors = solutions.iter().map(error).collect::<Option<Vec<_>>>()?;
         let confirmed = errors.len().checked_sub(1 + REFINEMENTS)?;
-        let of = |index: usize| errors[index..].iter().copied().fold(0.0, f64::max);
         let within = first_within(errors.iter().copied().map(Some), tolerance);
-        let (index, error) =
-            within.map_or_else(|| (confirmed, of(confirmed)), |index| (index, errors[index]));
-        Some(Choice {
-            tolerance,
-            target,
-            points: solutions[index].points,
-            edges,
-            error,
-            closed_form: closed_form.is_some(),
-            finest: finest.points,
-        })
+        let largest = || errors[confirmed..].iter().copied().fold(0.0, f64::max);
+        let (index, error) = within.map_or_else(|| (confirmed, largest()), |index| (index, errors[index]));
+        let (points, closed_form) = (solutions[index].points, closed_form.is_some());
+        Some(Choice { tolerance, target, points, edges, error, closed_form, finest: finest.points })
     });
     let (good, others): (Vec<_>, Vec<_>) = candidates.partition(|choice| choice.error <= tolerance);
     // The first of equal choices: edges between springs.
@@ -263,12 +223,15 @@ mod tests {
         let solution = |k: u32| Solution {
             points: 16 << k,
             adhesion_force: Some(1.0 + error * f64::from(1 << k).powi(-order)),
-            around: Vec::new(),
-            dissipated_energy: None,
-            contact_length: None,
-            curve: crate::accuracy::curve::ForceCurve::default(),
+            ..Solution::default()
         };
         (0..count).map(solution).collect()
+    }
+
+    /// The same with the closed form.
+    fn known(solutions: [Vec<Solution>; 2]) -> [Vec<Solution>; 2] {
+        let known = |solution| Solution { closed_form: Some(1.0), ..solution };
+        solutions.map(|solutions| solutions.into_iter().map(known).collect())
     }
 
     #[test]
@@ -285,21 +248,21 @@ mod tests {
     fn the_fewest_springs_that_two_refinements_confirm_are_chosen() {
         // Grid: 0.5, 0.25, …; SubCell: 0.1, 0.025, 0.00625, …
         let tried = |count| [solutions(count, 0.1, 2), solutions(count, 0.5, 1)];
-        let choice = judge(&tried(5), Some(1.0), 0.0, 0.01).unwrap();
+        let choice = judge(&known(tried(5)), 0.0, 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (64, Edges::SubCell));
         assert!((choice.error - 0.00625).abs() < 1e-12);
         // With the error of the finest solution.
-        let choice = judge(&tried(6), None, 0.005, 0.01).unwrap();
+        let choice = judge(&tried(6), 0.005, 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (128, Edges::SubCell));
         assert!((0.006..0.01).contains(&choice.error), "{choice:?}");
-        assert_eq!(judge(&tried(2), None, 0.0, 0.01), None);
+        assert_eq!(judge(&tried(2), 0.0, 0.01), None);
         // Edges at the springs only if fewer springs suffice.
-        let choice = judge(&[solutions(5, 0.1, 2), solutions(5, 0.1, 2)], Some(1.0), 0.0, 0.01).unwrap();
+        let choice = judge(&known([solutions(5, 0.1, 2), solutions(5, 0.1, 2)]), 0.0, 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (64, Edges::SubCell));
-        let choice = judge(&[solutions(5, 0.5, 1), solutions(5, 0.1, 2)], Some(1.0), 0.0, 0.01).unwrap();
+        let choice = judge(&known([solutions(5, 0.5, 1), solutions(5, 0.1, 2)]), 0.0, 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (64, Edges::Grid));
         // The best confirmed choice if none suffices.
-        let choice = judge(&tried(4), Some(1.0), 0.0, 1e-6).unwrap();
+        let choice = judge(&known(tried(4)), 0.0, 1e-6).unwrap();
         assert_eq!((choice.points, choice.edges), (32, Edges::SubCell));
         assert!((choice.error - 0.025).abs() < 1e-12);
     }
@@ -311,17 +274,17 @@ mod tests {
             solution.around = vec![Some(1.0)];
         }
         assert_eq!(
-            judge(&tried, None, 0.0, 0.01).map(|choice| (choice.points, choice.edges)),
+            judge(&tried, 0.0, 0.01).map(|choice| (choice.points, choice.edges)),
             Some((16, Edges::Grid))
         );
         tried[1][0].around = vec![Some(1.07)];
         assert_eq!(
-            judge(&tried, None, 0.0, 0.01).map(|choice| (choice.points, choice.edges)),
+            judge(&tried, 0.0, 0.01).map(|choice| (choice.points, choice.edges)),
             Some((32, Edges::Grid))
         );
         tried[1][2].around = vec![None];
         assert_eq!(
-            judge(&tried, None, 0.0, 0.01).map(|choice| (choice.points, choice.edges)),
+            judge(&tried, 0.0, 0.01).map(|choice| (choice.points, choice.edges)),
             Some((64, Edges::SubCell))
         );
     }
@@ -336,13 +299,9 @@ mod tests {
             (Target::AdhesionForce, Edges::SubCell, true)
         );
         let chosen = choice.apply(scene);
-        let Solved::Outcome(outcome) =
-            solve(&mut Simulation::new(folder.clone()), &chosen, &|| false).unwrap()
-        else {
-            panic!("no solution")
-        };
+        let solution = Runs::new(&folder, &|| false).solve(&chosen).unwrap().unwrap();
         let exact = 1.5 * std::f64::consts::PI * 0.05 * 1e-4;
-        assert!((outcome.figures.adhesion_force.unwrap() / exact - 1.0).abs() <= 1e-3);
+        assert!((solution.adhesion_force.unwrap() / exact - 1.0).abs() <= 1e-3);
         let mut stepwise = scene.clone();
         stepwise.numerics.solver = Solver::Stepwise { step: 1e-9 };
         let chosen = |scene: &Scene, stop: &dyn Fn() -> bool| choose(scene, &folder, 1e-3, stop, &mut |_| ());

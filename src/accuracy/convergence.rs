@@ -11,6 +11,15 @@ pub(super) fn observed_order(coarse: f64, fine: f64, ratio: f64) -> Option<f64> 
     (coarse > 0.0 && fine > 0.0 && order.is_finite()).then_some(order)
 }
 
+/// Slope of the straight line of least squares through some points; `None` with fewer than three.
+pub(super) fn slope(points: &[(f64, f64)]) -> Option<f64> {
+    let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
+    let (x, y) = (mean(|point| point.0), mean(|point| point.1));
+    let product: f64 = points.iter().map(|point| (point.0 - x) * (point.1 - y)).sum();
+    let square: f64 = points.iter().map(|point| (point.0 - x).powi(2)).sum();
+    Some(product / square).filter(|slope| points.len() >= 3 && slope.is_finite())
+}
+
 /// Index of the first of these errors, from coarse to fine, from which on none is above a bound. Two finer ones confirm
 /// an error: one that changes its sign may be small by chance.
 #[must_use]

@@ -13,15 +13,14 @@ pub(super) struct ForceCurve {
 
 impl ForceCurve {
     pub(super) fn of(history: &History) -> Self {
-        let leg = |record: &crate::contact::LegRecord| {
-            let mut points: Vec<_> =
-                record.curve.iter().map(|point| [point.indentation, point.force]).collect();
-            if record.direction == Direction::Unloading {
+        let mut legs: Vec<Vec<_>> = Vec::new();
+        for record in &history.legs {
+            legs.push(record.curve.iter().map(|point| [point.indentation, point.force]).collect());
+            if let (Direction::Unloading, Some(points)) = (record.direction, legs.last_mut()) {
                 points.reverse();
             }
-            points
-        };
-        ForceCurve { legs: history.legs.iter().map(leg).collect() }
+        }
+        ForceCurve { legs }
     }
 
     /// Lowest and highest indentation, m; `None` without points.
@@ -48,11 +47,8 @@ impl ForceCurve {
             let sum: Option<f64> = (0..COMPARED).map(|index| apart(at(index))).sum();
             Some(sum? / COMPARED as f64 / largest)
         };
-        self.legs
-            .iter()
-            .zip(&reference.legs)
-            .map(of_leg)
-            .try_fold(0.0, |most, mean| Some(f64::max(most, mean?)))
+        let mut means = self.legs.iter().zip(&reference.legs).map(of_leg);
+        means.try_fold(0.0, |most, mean| Some(f64::max(most, mean?)))
     }
 }
 

@@ -5,18 +5,16 @@
 //! relative to a [`Reference`]: the adhesion force in closed form if the scene has one, otherwise the finest solution with
 //! edges between springs, whose own error is estimated. Timed runs are separate from compared ones.
 
-mod answer;
 mod choose;
-mod clock;
 mod convergence;
 mod curve;
 mod estimate;
-mod measure;
+mod ladder;
 mod solution;
 mod table;
 
 pub use choose::{Choice, ChoiceError, choose, parse_tolerance};
 pub use estimate::{Estimate, Evidence, estimate};
-pub use measure::{CostError, Progress, measure};
+pub use ladder::{CostError, Progress, measure};
 pub use solution::{Measures, Target};
 pub use table::{CostTable, ErrorFigure, Knob, Reference, Row, Timing};

@@ -1,13 +1,15 @@
-//! Measures for the comparison of two solutions of one scene.
+//! Solutions of a scene and its variants, and their relative differences.
 
 use super::curve::ForceCurve;
-use crate::contact::{ContactError, Direction};
+use crate::analysis::pull_off_point;
+use crate::contact::ContactError;
 use crate::reference::{PowerLaw, smooth_adhesion_force};
 use crate::scene::{Edges, Form, Move, Numerics, Scene, Solver, check};
 use crate::simulation::{Outcome, RunError, Simulation};
 use crate::surface::SurfaceError;
 use serde::Serialize;
 use std::f64::consts::PI;
+use std::path::Path;
 
 /// Fewest springs of any solution.
 pub(super) const FEWEST: u64 = 16;
@@ -29,88 +31,52 @@ pub struct Measures<T> {
     pub contact_length: T,
 }
 
-impl<T> Measures<T> {
-    /// All four measures, in their order.
-    pub fn each(&self) -> [&T; 4] {
-        [&self.adhesion_force, &self.curve, &self.dissipated_energy, &self.contact_length]
+impl<T: Copy> Measures<T> {
+    /// All four measures, in their order, which begins as that of [`Target`].
+    pub fn each(&self) -> [T; 4] {
+        [self.adhesion_force, self.curve, self.dissipated_energy, self.contact_length]
     }
+}
 
-    /// Applies a function to each pair.
-    pub fn zip<U, V>(&self, other: &Measures<U>, make: impl Fn(&T, &U) -> V) -> Measures<V> {
-        Measures {
-            adhesion_force: make(&self.adhesion_force, &other.adhesion_force),
-            curve: make(&self.curve, &other.curve),
-            dissipated_energy: make(&self.dissipated_energy, &other.dissipated_energy),
-            contact_length: make(&self.contact_length, &other.contact_length),
-        }
-    }
-
-    /// Applies a function to each measure.
-    pub fn map<V>(&self, make: impl Fn(&T) -> V) -> Measures<V> {
-        self.zip(self, |value, _| make(value))
+impl<T> From<[T; 4]> for Measures<T> {
+    fn from([adhesion_force, curve, dissipated_energy, contact_length]: [T; 4]) -> Self {
+        Measures { adhesion_force, curve, dissipated_energy, contact_length }
     }
 }
 
 /// Figures and curve of one solution; a figure of zero has no relative error and is left out.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Solution {
-    /// Springs N.
     pub points: u64,
-    /// Adhesion force, N.
     pub adhesion_force: Option<f64>,
+    /// The adhesion force in closed form, N, if the scene has one.
+    pub closed_form: Option<f64>,
     /// Adhesion forces under half and under twice the loads, N, if solved.
     pub around: Vec<Option<f64>>,
-    /// Dissipated energy, J.
     pub dissipated_energy: Option<f64>,
-    /// Largest length in contact, m.
     pub contact_length: Option<f64>,
-    /// The force curve.
     pub curve: ForceCurve,
 }
 
 impl Solution {
-    pub(super) fn of(outcome: &Outcome) -> Self {
+    pub(super) fn of(scene: &Scene, outcome: &Outcome) -> Self {
         let some = |value: f64| (value != 0.0 && value.is_finite()).then_some(value);
-        let Outcome { figures, history, .. } = outcome;
-        let lengths = history.legs.iter().flat_map(|leg| &leg.curve).map(|point| point.contact_length);
+        let figures = &outcome.figures;
         Solution {
             points: outcome.line.points as u64,
             adhesion_force: figures.adhesion_force.and_then(some),
+            closed_form: closed_form_adhesion(scene, outcome),
             around: Vec::new(),
             dissipated_energy: figures.dissipated_energy.and_then(some),
-            contact_length: some(lengths.fold(0.0, f64::max)),
-            curve: ForceCurve::of(history),
+            contact_length: some(longest_contact(outcome)),
+            curve: ForceCurve::of(&outcome.history),
         }
     }
 
-    /// Measures of the outcome of a scene, with the adhesion forces under the loads around its own; `None` without time
-    /// or memory.
-    ///
-    /// # Errors
-    /// Those of [`solve`].
-    pub(super) fn around(
-        simulation: &mut Simulation,
-        scene: &Scene,
-        outcome: &Outcome,
-        stop: &dyn Fn() -> bool,
-    ) -> Result<Option<Self>, RunError> {
-        let mut solution = Solution::of(outcome);
-        let scene = Target::of(&solution).only(scene);
-        let others = AROUND.into_iter().filter_map(|factor| loaded(&scene, factor));
-        for scene in others.filter(|_| solution.adhesion_force.is_some()).collect::<Vec<_>>() {
-            solution.around.push(match solve(simulation, &scene, stop)? {
-                Solved::Outcome(outcome) => Solution::of(&outcome).adhesion_force,
-                Solved::TooCoarse(_) => None,
-                Solved::TooMuch => return Ok(None),
-            });
-        }
-        Ok(Some(solution))
-    }
-
-    /// Relative differences from a reference; `None` if the reference has no such figure. That of the adhesion force is
+    /// Relative differences from a reference, in the order of [`Measures`]; `None` without such a figure. That of the adhesion force is
     /// the largest under all loads which both have: an error that changes its sign from load to load is not small at all
     /// of them by chance.
-    pub(super) fn errors(&self, reference: &Solution) -> Measures<Option<f64>> {
+    pub(super) fn errors(&self, reference: &Solution) -> [Option<f64>; 4] {
         let relative = |value: Option<f64>, reference: Option<f64>| {
             reference.map(|reference| relative_error(value.unwrap_or(0.0), reference))
         };
@@ -118,14 +84,13 @@ impl Solution {
             (Some(_), None) => f64::INFINITY,
             _ => relative(one, other).unwrap_or(0.0),
         });
-        let largest = around.fold(0.0, f64::max);
         let own = relative(self.adhesion_force, reference.adhesion_force);
-        Measures {
-            adhesion_force: own.map(|own| own.max(largest)),
-            curve: self.curve.difference(&reference.curve),
-            dissipated_energy: relative(self.dissipated_energy, reference.dissipated_energy),
-            contact_length: relative(self.contact_length, reference.contact_length),
-        }
+        [
+            own.map(|own| around.fold(own, f64::max)),
+            self.curve.difference(&reference.curve),
+            relative(self.dissipated_energy, reference.dissipated_energy),
+            relative(self.contact_length, reference.contact_length),
+        ]
     }
 }
 
@@ -149,12 +114,12 @@ impl Target {
         }
     }
 
-    /// The quantity of a solution.
+    /// Returns the quantity of a solution.
     pub(super) fn of(solution: &Solution) -> Self {
         if solution.adhesion_force.is_some() { Target::AdhesionForce } else { Target::Curve }
     }
 
-    /// A scene that is solved for this quantity alone.
+    /// Returns a scene that is solved for this quantity alone.
     pub(super) fn only(self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         scene.observe.clear();
@@ -164,10 +129,9 @@ impl Target {
         scene
     }
 
-    /// Relative difference of the quantity from a reference.
+    /// Returns the relative difference of the quantity from a reference.
     pub(super) fn difference(self, solution: &Solution, reference: &Solution) -> Option<f64> {
-        let errors = solution.errors(reference);
-        if self == Target::Curve { errors.curve } else { errors.adhesion_force }
+        solution.errors(reference)[self as usize]
     }
 }
 
@@ -176,15 +140,15 @@ pub(super) fn relative_error(value: f64, reference: f64) -> f64 {
     ((value - reference) / reference).abs()
 }
 
-/// This scene, with so many springs, these edges and the exact solver.
+/// Returns the scene with so many springs, these edges and the exact solver.
 pub(super) fn refined(scene: &Scene, points: u64, edges: Edges) -> Scene {
     let mut scene = scene.clone();
     scene.numerics = Numerics { points, edges, solver: Solver::Exact, ..scene.numerics };
     scene
 }
 
-/// This scene with its target forces and indentations above zero multiplied by a factor; `None` without such targets, or
-/// beyond their range.
+/// Returns the scene with its target forces and indentations above zero multiplied by a factor; `None` without such
+/// targets, or beyond their range.
 pub(super) fn loaded(scene: &Scene, factor: f64) -> Option<Scene> {
     let mut other = scene.clone();
     for leg in &mut other.loading {
@@ -197,7 +161,7 @@ pub(super) fn loaded(scene: &Scene, factor: f64) -> Option<Scene> {
     (other.loading != scene.loading && check(&other).is_empty()).then_some(other)
 }
 
-/// Powers of two allowed as the scene's number of springs, ascending.
+/// Returns the powers of two allowed as the scene's number of springs, ascending.
 pub(super) fn allowed_points(scene: &Scene) -> impl Iterator<Item = u64> {
     let powers = std::iter::successors(Some(FEWEST), |points| points.checked_mul(2));
     let allowed = |points| check(&refined(scene, points, scene.numerics.edges)).is_empty();
@@ -205,50 +169,62 @@ pub(super) fn allowed_points(scene: &Scene) -> impl Iterator<Item = u64> {
     powers.take(40).skip_while(move |&points| !allowed(points)).take_while(move |&points| allowed(points))
 }
 
-/// Runs a scene; solutions by one simulation share an unchanged profile.
-///
-/// # Errors
-/// All errors but too few springs for form or loading, and too little time or memory.
-pub(super) fn solve(
-    simulation: &mut Simulation,
-    scene: &Scene,
-    stop: &dyn Fn() -> bool,
-) -> Result<Solved, RunError> {
-    match simulation.run(scene, stop, &mut |_, _, _| Ok(())) {
-        Ok(outcome) => Ok(Solved::Outcome(Box::new(outcome))),
-        Err(error) if error.is_interruption() || is_out_of_memory(&error) => Ok(Solved::TooMuch),
-        Err(error @ RunError::Surface(SurfaceError::NoSprings { .. })) => Ok(Solved::TooCoarse(error)),
-        Err(RunError::Contact(error)) if error.is_out_of_reach() => {
-            Ok(Solved::TooCoarse(RunError::Contact(error)))
+/// Runs of scenes that share an unchanged profile.
+pub(super) struct Runs<'a>(Simulation, &'a dyn Fn() -> bool);
+
+impl<'a> Runs<'a> {
+    pub(super) fn new(folder: &Path, stop: &'a dyn Fn() -> bool) -> Self {
+        Runs(Simulation::new(folder.to_path_buf()), stop)
+    }
+
+    /// Solves a scene; `None` for insufficient time or memory.
+    pub(super) fn solve(&mut self, scene: &Scene) -> Result<Option<Solution>, RunError> {
+        match self.0.run(scene, self.1, &mut |_, _, _| Ok(())) {
+            Ok(outcome) => Ok(Some(Solution::of(scene, &outcome))),
+            Err(
+                RunError::OutOfMemory { .. }
+                | RunError::Surface(SurfaceError::OutOfMemory { .. })
+                | RunError::Contact(ContactError::OutOfMemory { .. }),
+            ) => Ok(None),
+            Err(error) if error.is_interruption() => Ok(None),
+            Err(error) => Err(error),
         }
-        Err(error) => Err(error),
+    }
+
+    /// Solves a scene, with the adhesion forces under the loads around its own.
+    pub(super) fn solve_around(&mut self, scene: &Scene) -> Result<Option<Solution>, RunError> {
+        let Some(mut solution) = self.solve(scene)? else { return Ok(None) };
+        let scene = Target::of(&solution).only(scene);
+        let others = AROUND.into_iter().filter_map(|factor| loaded(&scene, factor));
+        for scene in others.filter(|_| solution.adhesion_force.is_some()).collect::<Vec<_>>() {
+            solution.around.push(match self.solve(&scene) {
+                Ok(Some(other)) => other.adhesion_force,
+                Ok(None) => return Ok(None),
+                Err(error) if is_too_coarse(&error) => None,
+                Err(error) => return Err(error),
+            });
+        }
+        Ok(Some(solution))
     }
 }
 
-/// Result of an attempt.
-pub(super) enum Solved {
-    /// A solution.
-    Outcome(Box<Outcome>),
-    /// No spring is under the body, or the contact of these springs does not reach a target of the loading.
-    TooCoarse(RunError),
-    /// Insufficient time or memory.
-    TooMuch,
+/// Returns true if no spring is under the body, or the contact of too few springs does not reach a target of the loading.
+pub(super) fn is_too_coarse(error: &RunError) -> bool {
+    match error {
+        RunError::Contact(error) => error.is_out_of_reach(),
+        error => matches!(error, RunError::Surface(SurfaceError::NoSprings { .. })),
+    }
 }
 
-fn is_out_of_memory(error: &RunError) -> bool {
-    matches!(
-        error,
-        RunError::OutOfMemory { .. }
-            | RunError::Surface(SurfaceError::OutOfMemory { .. })
-            | RunError::Contact(ContactError::OutOfMemory { .. })
-    )
+fn longest_contact(outcome: &Outcome) -> f64 {
+    let points = outcome.history.legs.iter().flat_map(|leg| &leg.curve);
+    points.map(|point| point.contact_length).fold(0.0, f64::max)
 }
 
-/// The adhesion force of a scene in closed form, N, if there is one: a smooth body that is pulled beyond the
+/// Returns the adhesion force of a scene in closed form, N, if there is one: a smooth body that is pulled beyond the
 /// indentation of its smallest force, on a profile longer than its contact. `outcome` is its solution.
-pub(super) fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
+fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
     let work = outcome.governing.adhesive_work()?;
-    outcome.figures.adhesion_force?;
     if scene.roughness.is_some() {
         return None;
     }
@@ -266,14 +242,11 @@ pub(super) fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f
         }
     };
     let legs = &outcome.history.legs;
-    let contact =
-        legs.iter().flat_map(|leg| &leg.curve).map(|point| point.contact_length).fold(0.0, f64::max);
-    let pulled = legs.iter().rfind(|leg| {
-        leg.direction == Direction::Unloading && leg.curve.iter().any(|point| point.springs > 0)
-    })?;
+    let pulled = &legs[pull_off_point(legs)?.0];
     let passes = pulled.start() >= pull_off && pulled.curve.last()?.springs == 0;
     // Lengths are sums with rounding errors.
-    (passes && contact <= widest * (1.0 + 1e-9)).then(|| smooth_adhesion_force(form, length, modulus, work))
+    (passes && longest_contact(outcome) <= widest * (1.0 + 1e-9))
+        .then(|| smooth_adhesion_force(form, length, modulus, work))
 }
 
 #[cfg(test)]
@@ -285,12 +258,8 @@ mod tests {
         let overrides: Vec<_> =
             overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
         let document = open(scene).unwrap().set_all(&overrides).unwrap();
-        let Solved::Outcome(outcome) =
-            solve(&mut Simulation::new(document.resolve("")), document.scene(), &|| false).unwrap()
-        else {
-            panic!("{scene} has no solution")
-        };
-        closed_form_adhesion(document.scene(), &outcome)
+        let solution = Runs::new(&document.resolve(""), &|| false).solve(document.scene()).unwrap();
+        solution.unwrap_or_else(|| panic!("{scene} has no solution")).closed_form
     }
 
     #[test]

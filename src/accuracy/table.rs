@@ -1,8 +1,13 @@
 //! The table of the cost of accuracy.
 
 use super::Measures;
-use super::convergence::first_within;
+use super::convergence::{first_within, slope};
+use crate::scene::format_rounded;
+use crate::text::grouped;
 use serde::Serialize;
+
+/// Relative errors of the answers.
+const TARGETS: [(f64, &str); 2] = [(0.01, "1 %"), (0.001, "0.1 %")];
 
 /// Setting that affects accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -83,7 +88,7 @@ pub struct Row {
 }
 
 /// Reference of the errors.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Reference {
     /// Springs of the finest solution with edges between springs.
     pub springs: u64,
@@ -96,7 +101,7 @@ pub struct Reference {
 }
 
 /// Cost of accuracy for one scene.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct CostTable {
     /// Time limit, s.
     pub budget: f64,
@@ -141,25 +146,39 @@ impl CostTable {
         first_within(errors, bound).map(|index| rows[index])
     }
 
-    /// Order of convergence of a knob over all its rows with resolved errors: the slope of the straight line of
-    /// least squares through the logarithms of error and setting. `None` with fewer than three such rows.
+    /// Order of convergence of a knob over all its rows with resolved errors, by least squares. `None` with fewer than
+    /// three such rows.
     #[must_use]
     pub fn order(&self, knob: Knob) -> Option<f64> {
         let point = |row: &Row| {
             let figure = self.main_error(row).filter(|figure| figure.resolved)?;
             Some((row.setting.ln(), figure.error.ln()))
         };
-        let points: Vec<(f64, f64)> = self.rows_of(knob).filter_map(point).collect();
-        if points.len() < 3 {
-            return None;
-        }
-        let count = points.len() as f64;
-        let (x, y) =
-            points.iter().fold((0.0, 0.0), |(x, y), point| (x + point.0 / count, y + point.1 / count));
-        let product: f64 = points.iter().map(|point| (point.0 - x) * (point.1 - y)).sum();
-        let square: f64 = points.iter().map(|point| (point.0 - x).powi(2)).sum();
         // A smaller step or more springs reduce the error.
-        Some((product / square).abs()).filter(|order| order.is_finite())
+        Some(slope(&self.rows_of(knob).filter_map(point).collect::<Vec<_>>())?.abs())
+    }
+
+    /// Returns the springs and times for one per cent and one per mille of the adhesion force, or of the force curve
+    /// without a tensile force: one sentence each.
+    #[must_use]
+    pub fn answer(&self) -> Vec<String> {
+        let of_force = self.reference.adhesion_force.is_some();
+        let what = if of_force { "the adhesion force" } else { "the force curve" };
+        let found = |knob: Knob, edges: &str, bound: f64| {
+            if let Some(Row { springs, seconds, .. }) = self.first_row_within(knob, bound) {
+                let time = seconds.map(|time| format!(", {}", format_rounded(time.minimum, 3, "s")));
+                let (springs, time) = (grouped(*springs), time.unwrap_or_default());
+                return format!("{springs} springs{time} with edges {edges}");
+            }
+            let finest = self.rows_of(knob).next_back().map(|row| grouped(row.springs));
+            let missed = |finest| format!("not found up to {finest} springs with edges {edges}");
+            finest.map_or_else(|| format!("edges {edges} were not affordable"), missed)
+        };
+        let sentence = |(bound, percent): (f64, &str)| {
+            let sub_cell = found(Knob::SubCellSprings, "SubCell", bound);
+            format!("{percent} of {what}: {sub_cell}; {}.", found(Knob::GridSprings, "Grid", bound))
+        };
+        TARGETS.map(sentence).into()
     }
 }
 
@@ -199,5 +218,49 @@ mod tests {
         assert_eq!(of(&[3.0]), Some(Timing { minimum: 3.0, median: 3.0, runs: 1 }));
         assert_eq!(of(&[4.0, 1.0]), Some(Timing { minimum: 1.0, median: 2.5, runs: 2 }));
         assert_eq!(of(&[4.0, 1.0, 2.0]), Some(Timing { minimum: 1.0, median: 2.0, runs: 3 }));
+    }
+
+    fn timed(knob: Knob, springs: u64, error: f64) -> Row {
+        let row = row(knob, springs as f64, error, true);
+        let errors = Measures { adhesion_force: row.errors.curve, ..row.errors };
+        Row { springs, seconds: Timing::of(vec![1.0e-6 * springs as f64]), errors, ..row }
+    }
+
+    #[test]
+    fn the_first_row_that_stays_good_answers() {
+        let sub_cell =
+            [(16, 0.3), (32, 1e-4), (64, 0.02), (128, 0.005), (256, 9e-4), (512, 1e-4), (1024, 1e-5)];
+        let grid = [(16, 0.3), (2048, 0.009), (4096, 0.0045), (8192, 0.0009)];
+        let rows = |knob, of: &[(u64, f64)]| -> Vec<Row> {
+            of.iter().map(|&(springs, error)| timed(knob, springs, error)).collect()
+        };
+        let mut table = CostTable {
+            budget: 1.0,
+            spent: 0.5,
+            transform_seconds: 1e-3,
+            reference: Reference {
+                springs: 256,
+                adhesion_force: Some(1.0),
+                closed_form: true,
+                errors: Measures::default(),
+            },
+            rows: [rows(Knob::SubCellSprings, &sub_cell), rows(Knob::GridSprings, &grid)].concat(),
+            left_out: Vec::new(),
+        };
+        assert_eq!(
+            table.answer(),
+            [
+                "1 % of the adhesion force: 128 springs, 128 µs with edges SubCell; 2 048 springs, 2.05 ms with \
+                 edges Grid.",
+                "0.1 % of the adhesion force: 256 springs, 256 µs with edges SubCell; not found up to 8 192 \
+                 springs with edges Grid.",
+            ]
+        );
+        table.reference.adhesion_force = None;
+        table.rows.retain(|row| row.knob == Knob::SubCellSprings);
+        assert_eq!(
+            table.answer()[0],
+            "1 % of the force curve: 128 springs, 128 µs with edges SubCell; edges Grid were not affordable."
+        );
     }
 }

@@ -1,6 +1,5 @@
 //! Governing parameters of a scene: κ, eq. (11), and e_el/γ, which compare roughness with adhesion.
 
-use super::derived::{energy_of, force_unit, value_of};
 use crate::contact::{Foundation, HessRule};
 use crate::scene::{Adhesion, Roughness, RoughnessParameter, Scene};
 use crate::surface::{Amplitude, Line, WaveNumbers};
@@ -118,10 +117,10 @@ impl Governing {
         self.amplitude.map(|amplitude| energy_of(parameter, amplitude, self.effective_modulus))
     }
 
-    /// Unit of forces E* h L, N, of a body of this length, m; `None` without roughness.
+    /// Unit of forces E* h L, N, of a body of this length, m; `None` without roughness. Pohrt, Popov and Filippov (2012).
     #[must_use]
     pub fn force_unit(&self, length: f64) -> Option<f64> {
-        self.amplitude.map(|amplitude| force_unit(self.effective_modulus, amplitude.rms_height, length))
+        Some(self.effective_modulus * self.amplitude?.rms_height * length)
     }
 
     /// The rule of Hess on the foundation under a profile; `None` without adhesion.
@@ -136,6 +135,20 @@ impl Governing {
     pub fn adhesive_work(&self) -> Option<f64> {
         self.work_of_adhesion.filter(|&work| work > 0.0)
     }
+}
+
+/// Energy per area of a profile that a parameter compares with the work of adhesion, J/m²: h⟨∇z⟩E* or e_el.
+fn energy_of(parameter: RoughnessParameter, amplitude: Amplitude, effective_modulus: f64) -> f64 {
+    match parameter {
+        RoughnessParameter::Kappa => amplitude.rms_height * amplitude.rms_gradient * effective_modulus,
+        RoughnessParameter::ElasticEnergyRatio => amplitude.elastic_energy(effective_modulus),
+    }
+}
+
+/// Value of a parameter at this energy and work of adhesion per area, J/m². `None` if adhesion is so small that the
+/// value overflows.
+fn value_of(parameter: RoughnessParameter, energy: f64, work: f64) -> Option<f64> {
+    Some(parameter.of_energy_over_work(energy / work)).filter(|value| work > 0.0 && value.is_finite())
 }
 
 #[cfg(test)]
@@ -215,5 +228,24 @@ mod tests {
         assert_eq!((by_ratio.work_of_adhesion, by_ratio.kappa), (Some(9.0), Some(8.0_f64.sqrt())));
         let none = base.with_adhesion(None);
         assert_eq!((none.work_of_adhesion, none.kappa), (None, None));
+    }
+
+    #[test]
+    fn a_parameter_beyond_all_numbers_is_none() {
+        assert_eq!(value_of(RoughnessParameter::Kappa, 1e300, 5e-324), None);
+        for (parameter, value) in RoughnessParameter::ALL.into_iter().zip([2.0, 4.0]) {
+            assert_eq!(value_of(parameter, 1.0, 0.0), None);
+            assert_eq!(value_of(parameter, 8.0, 2.0), Some(value));
+        }
+    }
+
+    #[test]
+    fn parameters_follow_from_plain_numbers() {
+        let amplitude =
+            Amplitude { rms_height: 3.0, rms_gradient: 6.0, rms_curvature: 15.0, mean_wave_number: 0.5 };
+        // h⟨∇z⟩E*/γ = 36 and E* h² q̄/4γ = 2.25.
+        let [kappa, ratio] =
+            RoughnessParameter::ALL.map(|one| value_of(one, energy_of(one, amplitude, 4.0), 2.0));
+        assert_eq!((kappa, ratio), (Some(6.0), Some(2.25)));
     }
 }

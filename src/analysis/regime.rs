@@ -36,22 +36,33 @@ impl Regime {
     pub const ALL: [Regime; 3] =
         [Regime::PressureInsensitive, Regime::PressureSensitive, Regime::NonAdhesive];
 
-    /// Regime of one loading of one profile; `None` for a loading without a tensile force.
+    /// Returns the regime of one loading of one profile from the adhesion force F_a(0) by the touch protocol and that of
+    /// the same body without its roughness, N, both `None` without adhesion; `None` for a loading without a tensile force.
     ///
-    /// `smooth_adhesion` and `zero_load_adhesion` are `None` without adhesion, N. See [`RegimeEvidence`].
+    /// Pressure-insensitive: F_a(0) is at least [`INSENSITIVE_SHARE`] of F_a(F_n) and at least
+    /// [`VANISHING_SHARE`] of the smooth body's. Otherwise non-adhesive if F_a(F_n)/F_n is below
+    /// [`NEGLIGIBLE_COEFFICIENT`], or, without a preload, because F_a(0) has vanished;
+    /// pressure-sensitive in all other cases.
     #[must_use]
-    pub fn of_loading(
-        figures: &Figures,
-        zero_load_adhesion: Option<f64>,
-        smooth_adhesion: Option<f64>,
-    ) -> Option<Self> {
-        match (figures.adhesion_force, zero_load_adhesion, smooth_adhesion) {
+    pub fn of_loading(figures: &Figures, zero_load: Option<f64>, smooth: Option<f64>) -> Option<Self> {
+        let preload = figures.preload.unwrap_or(0.0);
+        match (figures.adhesion_force, zero_load, smooth) {
             (Some(_), None, None) => Some(Regime::NonAdhesive),
-            (Some(adhesion), Some(zero_load_adhesion), Some(smooth_adhesion)) => {
-                let preload = figures.preload.unwrap_or(0.0);
-                Some(RegimeEvidence { zero_load_adhesion, adhesion, preload, smooth_adhesion }.regime())
+            (Some(adhesion), Some(zero_load), Some(smooth)) => {
+                Some(Regime::of_forces(zero_load, adhesion, preload, smooth))
             }
             _ => None,
+        }
+    }
+
+    fn of_forces(zero_load: f64, adhesion: f64, preload: f64, smooth: f64) -> Self {
+        let present = zero_load >= VANISHING_SHARE * smooth && zero_load > 0.0;
+        if present && zero_load >= INSENSITIVE_SHARE * adhesion {
+            Regime::PressureInsensitive
+        } else if adhesion <= NEGLIGIBLE_COEFFICIENT * preload || (preload <= 0.0 && !present) {
+            Regime::NonAdhesive
+        } else {
+            Regime::PressureSensitive
         }
     }
 
@@ -64,9 +75,7 @@ impl Regime {
             Regime::NonAdhesive => "non-adhesive",
         }
     }
-}
 
-impl Regime {
     /// The name with the protocol of F_a(0) that decides: a turn at first touch.
     #[must_use]
     pub fn by_protocol(self) -> &'static str {
@@ -103,59 +112,19 @@ impl CellRegime {
     }
 }
 
-/// Forces that determine the regime, N.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RegimeEvidence {
-    /// Adhesion force F_a(0) by the touch protocol: turning point at first touch.
-    pub zero_load_adhesion: f64,
-    /// Adhesion force F_a(F_n) of the scene's own loading.
-    pub adhesion: f64,
-    /// Preload F_n of the scene's own loading.
-    pub preload: f64,
-    /// Adhesion force of the same body without its roughness.
-    pub smooth_adhesion: f64,
-}
-
-impl RegimeEvidence {
-    /// The regime of these forces.
-    ///
-    /// Pressure-insensitive: F_a(0) is at least [`INSENSITIVE_SHARE`] of F_a(F_n) and at least
-    /// [`VANISHING_SHARE`] of the smooth body's. Otherwise non-adhesive if F_a(F_n)/F_n is below
-    /// [`NEGLIGIBLE_COEFFICIENT`], or, without a preload, because F_a(0) has vanished;
-    /// pressure-sensitive in all other cases.
-    #[must_use]
-    pub fn regime(&self) -> Regime {
-        let present = self.zero_load_adhesion >= VANISHING_SHARE * self.smooth_adhesion
-            && self.zero_load_adhesion > 0.0;
-        if present && self.zero_load_adhesion >= INSENSITIVE_SHARE * self.adhesion {
-            Regime::PressureInsensitive
-        } else if self.adhesion <= NEGLIGIBLE_COEFFICIENT * self.preload || (self.preload <= 0.0 && !present)
-        {
-            Regime::NonAdhesive
-        } else {
-            Regime::PressureSensitive
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn the_three_cases_of_the_paper() {
-        let evidence = |zero_load_adhesion, adhesion, preload| RegimeEvidence {
-            zero_load_adhesion,
-            adhesion,
-            preload,
-            smooth_adhesion: 1.0,
-        };
-        assert_eq!(evidence(0.8, 0.9, 5.0).regime(), Regime::PressureInsensitive);
-        assert_eq!(evidence(0.01, 0.5, 5.0).regime(), Regime::PressureSensitive);
-        assert_eq!(evidence(0.2, 0.9, 5.0).regime(), Regime::PressureSensitive);
-        assert_eq!(evidence(0.001, 0.001, 5.0).regime(), Regime::NonAdhesive);
-        assert_eq!(evidence(0.001, 0.001, 0.0).regime(), Regime::NonAdhesive);
-        assert_eq!(evidence(0.0, 0.0, 0.0).regime(), Regime::NonAdhesive);
+        let evidence = |zero_load, adhesion, preload| Regime::of_forces(zero_load, adhesion, preload, 1.0);
+        assert_eq!(evidence(0.8, 0.9, 5.0), Regime::PressureInsensitive);
+        assert_eq!(evidence(0.01, 0.5, 5.0), Regime::PressureSensitive);
+        assert_eq!(evidence(0.2, 0.9, 5.0), Regime::PressureSensitive);
+        assert_eq!(evidence(0.001, 0.001, 5.0), Regime::NonAdhesive);
+        assert_eq!(evidence(0.001, 0.001, 0.0), Regime::NonAdhesive);
+        assert_eq!(evidence(0.0, 0.0, 0.0), Regime::NonAdhesive);
     }
 
     #[test]
@@ -175,9 +144,7 @@ mod tests {
 
     #[test]
     fn thresholds_belong_to_the_stronger_regime() {
-        let evidence = |zero_load_adhesion, adhesion, preload, smooth_adhesion| {
-            RegimeEvidence { zero_load_adhesion, adhesion, preload, smooth_adhesion }.regime()
-        };
+        let evidence = Regime::of_forces;
         // Half of the adhesion needs no pressing; slightly less does not count.
         assert_eq!(evidence(0.5, 1.0, 5.0, 1.0), Regime::PressureInsensitive);
         assert_eq!(evidence(0.5_f64.next_down(), 1.0, 5.0, 1.0), Regime::PressureSensitive);

@@ -97,9 +97,13 @@ impl Part {
     }
 }
 
+/// Returns the range that covers both.
+fn wider(one: (f64, f64), other: (f64, f64)) -> (f64, f64) {
+    (one.0.min(other.0), one.1.max(other.1))
+}
+
 fn extremes(heights: impl Iterator<Item = f64>) -> (f64, f64) {
-    heights
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| (low.min(height), high.max(height)))
+    heights.fold((f64::INFINITY, f64::NEG_INFINITY), |range, height| wider(range, (height, height)))
 }
 
 impl Contact<'_> {
@@ -119,45 +123,26 @@ impl Contact<'_> {
     pub fn section(&self, part: Part, line: &mut LineColumns) -> Section {
         let part = part.within(self.gaps.len());
         let level = self.summit - self.indentation;
-        let mut section = Section {
-            first: part.first,
-            springs: part.springs,
-            heights: (level, level),
-            level,
-            columns: Vec::new(),
-        };
-        if part.springs == 0 {
-            return section;
+        let Part { first, springs, .. } = part;
+        if springs == 0 {
+            return Section { first, springs, heights: (level, level), level, columns: Vec::new() };
         }
         if line.part != part {
             line.part = part;
-            line.extremes.clear();
-            line.extremes.extend((0..part.columns).map(|column| {
-                let (from, to) = part.springs_of(column);
-                self.line(from, to)
-            }));
+            let of = |(from, to)| self.line(from, to);
+            line.extremes = (0..part.columns).map(|column| of(part.springs_of(column))).collect();
         }
         let mut fragments = self.fragments;
-        section.columns = line
-            .extremes
-            .iter()
-            .enumerate()
-            .map(|(column, &line)| {
-                let (from, to) = part.springs_of(column);
-                let gone = fragments.partition_point(|&(_, last)| last < from);
-                fragments = &fragments[gone..];
-                self.column(from, to, line, fragments)
-            })
-            .collect();
-        let whole = || self.line(part.first, part.first + part.springs);
-        section.heights = section
-            .columns
-            .iter()
-            .map(|column| column.line)
-            .reduce(|(low, high), (a, b)| (low.min(a), high.max(b)))
-            // A hidden pane has no columns, and may be shown before its next picture is ready.
-            .unwrap_or_else(whole);
-        section
+        let column = |(column, &line)| {
+            let (from, to) = part.springs_of(column);
+            fragments = &fragments[fragments.partition_point(|&(_, last)| last < from)..];
+            self.column(from, to, line, fragments)
+        };
+        let columns = line.extremes.iter().enumerate().map(column).collect();
+        // A hidden pane has no columns, and may be shown before its next picture is ready.
+        let heights = line.extremes.iter().copied().reduce(wider);
+        let heights = heights.unwrap_or_else(|| self.line(first, first + springs));
+        Section { first, springs, heights, level, columns }
     }
 
     /// A column from its springs, `line` their extremes, and the fragments that do not end before the column.
@@ -169,12 +154,12 @@ impl Contact<'_> {
             let (first, end) = (first.max(from), (last + 1).min(to));
             held += end - first;
             let part = if end - first == to - from { line } else { self.line(first, end) };
-            contact = Some(contact.map_or(part, |(low, high)| (low.min(part.0), high.max(part.1))));
+            contact = Some(contact.map_or(part, |contact| wider(contact, part)));
         }
         // The surface is at its level above free springs and follows the profile in contact.
         let surface = match contact {
             Some(contact) if held == to - from => contact,
-            Some((low, high)) => (low.min(level), high.max(level)),
+            Some(contact) => wider(contact, (level, level)),
             None => (level, level),
         };
         Column { line, surface, contact }
@@ -206,16 +191,15 @@ pub fn strip(fragments: &[(usize, usize)], count: usize, cells: usize) -> Vec<Sh
 pub fn lengths(fragments: &[(usize, usize)]) -> Vec<LengthBin> {
     let mut lengths: Vec<u64> = fragments.iter().map(|&(first, last)| (last - first + 1) as u64).collect();
     lengths.sort_unstable();
-    let mut bins: Vec<LengthBin> = Vec::new();
-    let mut ends = (1_u32..).map(|half| 2_f64.powf(f64::from(half) / 2.0).ceil() as u64);
-    let mut from = 1;
-    let mut rest = lengths.as_slice();
-    while let (false, Some(to)) = (rest.is_empty(), ends.next()) {
+    let (mut bins, mut from, mut rest) = (Vec::new(), 1, lengths.as_slice());
+    for to in (1..).map(|half| 2_f64.powf(f64::from(half) / 2.0).ceil() as u64) {
+        if rest.is_empty() {
+            break;
+        }
         if to > from {
-            let count = rest.partition_point(|&length| length < to);
-            bins.push(LengthBin { from, to, fragments: count as u64 });
-            rest = &rest[count..];
-            from = to;
+            let fragments = rest.partition_point(|&length| length < to);
+            bins.push(LengthBin { from, to, fragments: fragments as u64 });
+            (rest, from) = (&rest[fragments..], to);
         }
     }
     bins
@@ -224,17 +208,14 @@ pub fn lengths(fragments: &[(usize, usize)]) -> Vec<LengthBin> {
 /// Number of springs in exactly one of two contacts, each given by its fragments in ascending order.
 #[must_use]
 pub fn changed(before: &[(usize, usize)], after: &[(usize, usize)]) -> u64 {
-    let springs = |fragments: &[(usize, usize)]| -> u64 {
-        fragments.iter().map(|&(first, last)| (last - first + 1) as u64).sum()
-    };
-    let (mut a, mut b) = (before, after);
-    let mut common = 0_u64;
-    while let (Some(&(a_first, a_last)), Some(&(b_first, b_last))) = (a.first(), b.first()) {
-        let (first, last) = (a_first.max(b_first), a_last.min(b_last));
-        common += (last + 1).saturating_sub(first) as u64;
-        if a_last <= b_last { a = &a[1..] } else { b = &b[1..] }
+    let springs =
+        |fragments: &[(usize, usize)]| fragments.iter().map(|(first, last)| last - first + 1).sum::<usize>();
+    let (mut a, mut b, mut common) = (before, after, 0);
+    while let ([one, rest_of_a @ ..], [other, rest_of_b @ ..]) = (a, b) {
+        common += (one.1.min(other.1) + 1).saturating_sub(one.0.max(other.0));
+        if one.1 <= other.1 { a = rest_of_a } else { b = rest_of_b }
     }
-    springs(before) + springs(after) - 2 * common
+    (springs(before) + springs(after) - 2 * common) as u64
 }
 
 #[cfg(test)]

@@ -1,147 +1,85 @@
-//! Bodies on springs, and the solver for either kind of edges over them: the only interface between the checks and
-//! the engine.
+//! Rough profiles under adhesion, loaded through the front of the library.
 
 use super::Fault;
-use crate::contact::{self, Contact, CurvePoint, Foundation, HessRule, History, LegRecord, Solver, run};
-use crate::scene::{Edges, Move};
-use crate::surface::{Line, SelfAffine, UnitRoughness, phases};
+use crate::scene::{Edges, Material, Move};
+use crate::surface::{SelfAffine, phases};
+use crate::{Contact, Cycle, Profile};
 use std::f64::consts::{PI, TAU};
 
-/// Springs under adhesion.
+/// Number of random bodies.
+pub const RANDOM: u64 = 48;
+
+/// E* of random bodies, Pa; their length, m; and their rms height or largest height, m.
+const MODULUS: f64 = 2.0e6;
+const LENGTH: f64 = 1.0e-4;
+const HEIGHT: f64 = 1.0e-7;
+
+/// A rigid profile on an adhesive foundation: heights and length, m, effective modulus E*, Pa, and work of adhesion γ,
+/// J/m².
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// Gaps of the springs, m, the smallest 0.
-    pub gaps: Vec<f64>,
-    /// The springs.
-    pub foundation: Foundation,
-    /// Work of adhesion γ, J/m².
+    pub heights: Vec<f64>,
+    pub length: f64,
+    pub modulus: f64,
     pub work: f64,
+    pub edges: Edges,
 }
 
-/// E* of bodies whose modulus does not matter, Pa.
-pub const MODULUS: f64 = 2.0e6;
-
-/// Length of these bodies, m.
-pub const LENGTH: f64 = 1.0e-4;
-
-/// Rms height of these bodies, m.
-pub const RMS_HEIGHT: f64 = 1.0e-7;
-
 impl Body {
-    /// A body from gaps or heights of either sign: the highest point becomes gap 0.
-    #[must_use]
-    pub fn below(mut heights: Vec<f64>, length: f64, effective_modulus: f64, work: f64) -> Body {
-        let summit = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        heights.iter_mut().for_each(|height| *height = summit - *height);
-        let foundation = Foundation::endless(length / heights.len() as f64, effective_modulus);
-        Body { gaps: heights, foundation, work }
-    }
-
-    /// A self-affine body of [`LENGTH`], [`RMS_HEIGHT`] and [`MODULUS`].
-    ///
-    /// # Errors
-    /// Errors of the synthesis.
-    pub fn rough(spectrum: SelfAffine, seed: u64, points: usize, work: f64) -> Result<Body, Fault> {
-        let rough = UnitRoughness::synthesize(spectrum, seed, points)?;
-        let line = Line::new(LENGTH, points, None, Some(&rough.heights), RMS_HEIGHT)?;
-        let foundation = Foundation::endless(line.spacing, MODULUS);
-        Ok(Body { gaps: line.gaps.to_vec(), foundation, work })
-    }
-
-    /// A body of one of several kinds: self-affine, noise, a few levels, a random walk. The adhesion ranges from
-    /// almost none to far more than that of full contact; a seed determines the body everywhere.
-    ///
-    /// # Errors
-    /// Errors of the synthesis.
-    pub fn random(seed: u64) -> Result<Body, Fault> {
+    /// Creates one of several kinds of profiles. The adhesion ranges from almost none to far more than that of full
+    /// contact; the seed determines the body everywhere.
+    pub fn random(seed: u64, edges: Edges) -> Result<Body, Fault> {
         let mut numbers = phases(seed, 1).map(|phase| phase / TAU);
         let mut next = || numbers.next().unwrap_or(0.0);
         let points = 20 + (300.0 * next()) as usize;
         // γ for which the largest stretch of the whole profile is 1e−3 to 3 rms heights.
-        let reach = RMS_HEIGHT * 10.0_f64.powf(-3.0 + 3.5 * next());
+        let reach = HEIGHT * 10.0_f64.powf(-3.0 + 3.5 * next());
         let work = reach * reach * MODULUS / (PI * LENGTH);
-        let heights = match seed % 4 {
+        let heights = match seed % 3 {
             0 => {
                 let spectrum = SelfAffine { hurst: 0.1 + 0.8 * next(), first: 1, last: points as u64 / 2 };
-                return Body::rough(spectrum, seed, points, work);
+                Profile::self_affine(spectrum, HEIGHT, LENGTH, points, seed)?.heights().collect()
             }
-            1 => (0..points).map(|_| RMS_HEIGHT * next()).collect(),
-            2 => (0..points).map(|_| 0.25 * RMS_HEIGHT * (5.0 * next()).floor()).collect(),
-            _ => {
-                let mut height = 0.0;
-                let step = RMS_HEIGHT / (points as f64).sqrt();
-                (0..points)
-                    .map(|_| {
-                        height += step * (next() - 0.5);
-                        height
-                    })
-                    .collect()
-            }
+            1 => (0..points).map(|_| HEIGHT * next()).collect(),
+            _ => (0..points).map(|_| 0.25 * HEIGHT * (5.0 * next()).floor()).collect(),
         };
-        Ok(Body::below(heights, LENGTH, MODULUS, work))
+        Ok(Body { heights, length: LENGTH, modulus: MODULUS, work, edges })
     }
 
-    /// Largest gap, m.
-    #[must_use]
-    pub fn deepest(&self) -> f64 {
-        self.gaps.iter().copied().fold(0.0, f64::max)
+    /// Returns the height of the profile, m: its largest gap.
+    pub fn depth(&self) -> f64 {
+        let (least, most) =
+            self.heights.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), height| {
+                (height.min(least), height.max(most))
+            });
+        most - least
     }
 
-    /// Largest stretch, m, of a fragment `cells` cells long, eq. (10).
-    #[must_use]
-    pub fn stretch(&self, cells: f64) -> f64 {
-        (PI * cells * self.foundation.spacing * self.work / self.foundation.effective_modulus).sqrt()
+    /// Returns the largest stretch under the whole profile, eq. (10), m.
+    pub fn stretch(&self) -> f64 {
+        (PI * self.length * self.work / self.modulus).sqrt()
     }
 
-    /// Largest stretch of a fragment as long as the whole profile, m.
-    #[must_use]
-    pub fn largest_stretch(&self) -> f64 {
-        self.stretch(self.gaps.len() as f64)
+    /// Returns a force of the order of the acting ones, N.
+    pub fn force_unit(&self) -> f64 {
+        self.modulus * self.length * (self.depth() + self.stretch())
     }
 
-    /// A force of the order of the acting ones, N.
-    #[must_use]
-    pub fn force_scale(&self) -> f64 {
-        let stiffness = self.gaps.len() as f64 * self.foundation.spring_stiffness();
-        stiffness * (self.deepest() + self.largest_stretch())
+    /// Returns irregular indentations from just before separation to full contact, m.
+    pub fn turns<const COUNT: usize>(&self, seed: u64) -> [f64; COUNT] {
+        let (low, high) = (-0.9 * self.stretch(), 1.1 * self.depth() + 1e-3 * self.stretch());
+        let mut turns = phases(seed, 1).map(|phase| low + (high - low) * phase / TAU);
+        std::array::from_fn(|_| turns.next().unwrap_or(low))
     }
 
-    /// Result of `act` with a solver over this separated body and `samples` points on a loading stage.
-    ///
-    /// # Errors
-    /// Errors of `act`, and insufficient memory.
-    pub fn with<T>(
-        &self,
-        edges: Edges,
-        samples: usize,
-        act: impl FnOnce(&mut dyn Solver) -> Result<T, Fault>,
-    ) -> Result<T, Fault> {
-        let hess = (self.work > 0.0).then(|| HessRule::new(self.foundation, self.work));
-        let contact = Contact::new(self.gaps.clone(), edges, self.foundation, hess);
-        act(&mut contact::Body::new(&contact, samples))
+    /// Loads the separated body from indentation to indentation, and off it where it `separates`, with this number of
+    /// samples.
+    pub fn load(&self, turns: &[f64], separates: bool, samples: u64) -> Result<Cycle, Fault> {
+        let turns = turns.iter().map(|&turn| Move::ToIndentation(turn));
+        let legs: Vec<Move> = turns.chain(separates.then_some(Move::ToSeparation)).collect();
+        let profile = Profile::from_heights(&self.heights, self.length / self.heights.len() as f64)?;
+        let contact = Contact::builder(&profile, Material::effective(self.modulus));
+        let contact = contact.work_of_adhesion(self.work).edges(self.edges).samples(samples);
+        Ok(contact.build()?.load(&legs)?)
     }
-
-    /// A whole loading.
-    ///
-    /// # Errors
-    /// Errors of a loading stage that cannot be computed.
-    pub fn history(&self, edges: Edges, legs: &[Move], samples: usize) -> Result<History, Fault> {
-        self.with(edges, samples, |solver| Ok(run(solver, legs, |_, _| Ok(()))?))
-    }
-
-    /// Turning points, as shares of the depth, that cover all states of a body: a first contact, minor loops, below
-    /// first touch, full contact and back.
-    #[must_use]
-    pub fn tour(&self) -> Vec<Move> {
-        let depth = self.deepest() + self.largest_stretch();
-        let shares = [0.31, 0.123, 0.57, -0.017, 0.71, 0.69, 1.03, 0.43, 0.47, -0.07];
-        let turns = shares.iter().map(|share| Move::ToIndentation(share * depth));
-        turns.chain([Move::ToSeparation]).collect()
-    }
-}
-
-/// End of a loading stage; separated at d = 0 if the stage has no point.
-#[must_use]
-pub fn end(record: &LegRecord) -> CurvePoint {
-    record.curve.last().copied().unwrap_or_default()
 }

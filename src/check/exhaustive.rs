@@ -32,7 +32,7 @@ pub fn every_order(springs: usize, before: usize) -> Result<u64, String> {
     let (mut levels, mut lines) = (vec![0; springs], 0);
     loop {
         let highest = levels.iter().copied().max().unwrap_or(0);
-        // One line of each order: that which leaves no level out.
+        // A line that leaves no level out stands for all of the same order.
         if (0..highest).all(|level| levels.contains(&level)) {
             gaps[before..].iter_mut().zip(&levels).for_each(|(gap, &level)| *gap = LEVELS[level]);
             for range in RANGES {

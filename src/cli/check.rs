@@ -1,4 +1,4 @@
-//! `asperity check`: the catalogue of hard cases, on this machine.
+//! `asperity check`: closed forms, laws and hard cases, on this machine.
 
 use super::format::TEXT_OR_JSON;
 use super::progress::ProgressLine;
@@ -12,7 +12,7 @@ const EXAMPLES: &str = "\
 Examples:
   asperity check                            All cases
   asperity check --quick                    All but those that take seconds and much memory
-  asperity check adhesion memory            Those with one of these words in their names
+  asperity check sphere memory              Those with one of these words in their names
   asperity check --format json -o check.json
 
 Each case has one error, a bound stated beforehand, and the kinds of evidence that it gives.
@@ -101,9 +101,9 @@ mod tests {
             names.dedup();
             names
         };
-        assert_eq!(names(&["sawtooth", "memory"], false), ["sawtooth", "return-point-memory"]);
+        assert_eq!(names(&["cone", "memory"], false), ["cone", "return-point-memory"]);
         assert!(names(&[], false).contains(&"springs-2^24") && !names(&[], true).contains(&"springs-2^24"));
-        assert!(matches!(arguments(&["sawtooth", "trapezium"], false).chosen(), Err(CliError::Named { .. })));
+        assert!(matches!(arguments(&["cone", "trapezium"], false).chosen(), Err(CliError::Named { .. })));
         assert!(matches!(arguments(&["2^24"], true).chosen(), Err(CliError::OnlyLargeCases)));
     }
 

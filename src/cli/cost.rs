@@ -68,11 +68,12 @@ pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<
     let scene = document.scene();
     output.check()?;
     beside.as_ref().map_or(Ok(()), |(_, beside)| beside.check())?;
-    let (mut line, mut last) = (ProgressLine::default(), None);
+    let (mut line, mut seen) = (ProgressLine::default(), Vec::new());
     let measured =
         measure(scene, &document.resolve(""), arguments.budget, &|| false, &mut |progress| match progress {
             Progress::Trying(knob, setting) => {
-                let is_new = last.replace(knob) != Some(knob);
+                let is_new = !seen.contains(&knob);
+                seen.push(knob);
                 line.show(&format!("{}: {setting}", knob.name()), is_new.then_some(knob.name()));
             }
             Progress::Rows(_) => {}

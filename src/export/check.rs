@@ -3,7 +3,6 @@
 use super::sheet::{Sheet, markdown};
 use crate::check::{Case, Check, Verdict, catalogue};
 use crate::io::{object, write_json_value};
-use crate::scene::Edges;
 use std::io::{self, Write};
 
 /// The verdicts for a reader: one row for each check, then the claims of the cases, then the failures.
@@ -16,7 +15,7 @@ pub fn check_text(verdicts: &[Verdict]) -> String {
         let Check { case, edges, bound } = verdict.check;
         [
             case.name.to_owned(),
-            edges.map_or("", Edges::name).to_owned(),
+            edges.name().to_owned(),
             verdict.error.as_ref().map_or_else(|_| "–".to_owned(), |&error| figure(error)),
             figure(bound),
             if verdict.passes() { "pass" } else { "FAIL" }.to_owned(),
@@ -38,7 +37,7 @@ pub fn check_text(verdicts: &[Verdict]) -> String {
         sheet.heading("What fails");
         let why = |verdict: &&Verdict| {
             let Check { case, edges, bound } = verdict.check;
-            let name = format!("{} {}", case.name, edges.map_or("", Edges::name)).trim_end().to_owned();
+            let name = format!("{} {}", case.name, edges.name());
             let why = match &verdict.error {
                 Ok(error) => format!("error {} above the bound {}", figure(*error), figure(bound)),
                 Err(fault) => fault.to_string(),
@@ -64,10 +63,7 @@ pub fn check_markdown(checks: &[Check]) -> String {
         let bounds: Vec<String> = checks
             .iter()
             .filter(|check| check.case.name == case.name)
-            .map(|check| {
-                let edges = check.edges.map_or_else(String::new, |edges| format!("{}: ", edges.name()));
-                format!("{edges}{}", figure(check.bound))
-            })
+            .map(|check| format!("{}: {}", check.edges.name(), figure(check.bound)))
             .collect();
         rows.push([
             format!("`{}`", case.name),
@@ -108,7 +104,7 @@ pub fn write_check_json(out: &mut (impl Write + ?Sized), verdicts: &[Verdict]) -
 
 /// Kinds of evidence of a case in words.
 fn evidence(case: &Case) -> String {
-    case.evidence.iter().map(|kind| kind.name()).collect::<Vec<_>>().join(", ")
+    case.evidence.iter().map(<&str>::from).collect::<Vec<_>>().join(", ")
 }
 
 /// A bound or an error: two digits suffice for a comparison, zero is exact.
@@ -126,12 +122,12 @@ mod tests {
     fn what_fails_is_shown_with_its_reason() {
         let named = |name: &str| checks(|case| case.name == name);
         let [one, other] = named("flat-line")[..] else { panic!("not two kinds of edges") };
-        let third = named("refined-line")[0];
+        let third = named("stepwise-solver")[0];
         let verdict = |check, error| Verdict { check, error, seconds: 0.25 };
         let verdicts = [
             verdict(one, Ok(0.0)),
             verdict(other, Ok(3.0)),
-            verdict(third, Err(Fault::Wrong("another line".into()))),
+            verdict(third, Err(Fault::Wrong("another contact".into()))),
         ];
         let text = check_text(&verdicts);
         let row = |name: &str, edges: &str| {
@@ -141,16 +137,16 @@ mod tests {
         assert!(
             row("flat-line", "SubCell").contains("3.0e0") && row("flat-line", "SubCell").contains("FAIL")
         );
-        assert!(row("refined-line", "FAIL").contains("–"), "{text}");
-        assert!(text.contains("error 3.0e0 above the bound") && text.contains("another line"), "{text}");
+        assert!(row("stepwise-solver", "FAIL").contains("–"), "{text}");
+        assert!(text.contains("error 3.0e0 above the bound") && text.contains("another contact"), "{text}");
         assert!(text.contains("1 of 3 checks pass, in 0.8 s."), "{text}");
         let mut json = Vec::new();
         write_check_json(&mut json, &verdicts).unwrap();
         let report: Value = serde_json::from_slice(&json).unwrap();
         assert_eq!(report["passes"], false);
         assert_eq!(report["checks"][1]["error"], 3.0);
-        assert_eq!(report["checks"][2]["fault"], "another line");
-        assert_eq!(report["checks"][2]["edges"], Value::Null);
+        assert_eq!(report["checks"][2]["fault"], "another contact");
+        assert_eq!(report["checks"][2]["edges"], "Grid");
     }
 
     #[test]

@@ -3,7 +3,6 @@
 
 mod closed_forms;
 mod equilibrium;
-mod exhaustive;
 mod formed;
 mod hard_cases;
 mod large_lines;

@@ -1,8 +1,8 @@
 //! Whole springs from event to event: each rule evaluated anew for every spring it may apply to, in 192 digits. No
 //! tree, no pass, no curve, and no rounding that could decide a contact.
 
+use super::body::Body;
 use super::wide::{Wide, pi, wide};
-use asperity::check::Body;
 
 /// A body moved from event to event.
 pub struct Events<'a> {

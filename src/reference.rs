@@ -1,5 +1,5 @@
-//! Adhesive contact of a power-law body b rⁿ, including JKR (n = 2) and the cone (n = 1), and of the flat punch
-//! (Kendall).
+//! Closed forms that the profile must reproduce: adhesive contact of a power-law body b rⁿ, including JKR (n = 2) and the
+//! cone (n = 1), and of the flat punch (Kendall).
 
 use crate::analysis::ideal_adhesion_force;
 use crate::scene::Form;
@@ -30,7 +30,9 @@ impl PowerLaw {
     /// Indentation d(a) = c aⁿ − √(2π a γ/E*), m, at contact radius a.
     #[must_use]
     pub fn indentation(&self, radius: f64) -> f64 {
-        self.line_coefficient * radius.powf(self.exponent) - self.stretch(radius)
+        // Rule of Hess, eq. (3).
+        let stretch = (2.0 * PI * radius * self.work_of_adhesion / self.effective_modulus).sqrt();
+        self.line_coefficient * radius.powf(self.exponent) - stretch
     }
 
     /// Force F(a) = 2E* n c a^(n+1)/(n+1) − √(8π a³ E* γ), N, at contact radius a.
@@ -63,11 +65,6 @@ impl PowerLaw {
         let n = self.exponent;
         let scale = 2.0 * (n * self.line_coefficient).powi(2) * self.effective_modulus;
         (multiple * PI * self.work_of_adhesion / scale).powf((2.0 * n - 1.0).recip())
-    }
-
-    /// Rule of Hess, eq. (3), m.
-    fn stretch(&self, radius: f64) -> f64 {
-        (2.0 * PI * radius * self.work_of_adhesion / self.effective_modulus).sqrt()
     }
 
     fn detaching(&self, radius: f64) -> f64 {

@@ -1,0 +1,105 @@
+//! Bodies whose loop has a closed form.
+
+use super::Subject::Scene as OfScene;
+use super::{Case, Evidence, Family, Fault, both, largest, outcome, relative_error};
+use crate::reference::PowerLaw;
+use crate::scene::{Form, Scene};
+use std::f64::consts::PI;
+
+const KNOWN: (Family, &[Evidence]) = (Family::ClosedForms, &[Evidence::ClosedForm]);
+const PULL_OFF: &str = "force and place of pull-off";
+
+const HERTZ: &str =
+    "(version: 1, material: (effective_modulus: 1.0), length: 4.0, form: Paraboloid(radius: 1.0),
+    loading: [ToIndentation(1.0)], numerics: (points: 4001, samples: 257))";
+const SPHERE: &str =
+    "(version: 1, material: (effective_modulus: 1.0), length: 6.0, form: Paraboloid(radius: 0.5),
+    adhesion: (work: 0.5), loading: [ToIndentation(0.75), ToSeparation], numerics: (points: 4001))";
+const CONE: &str = "(version: 1, material: (effective_modulus: 1.0), length: 8.0, form: Cone(angle: 1.0),
+    adhesion: (work: 0.5), loading: [ToIndentation(2.0), ToSeparation], numerics: (points: 4001))";
+const POWER: &str = "(version: 1, material: (effective_modulus: 1.0), length: 8.0, form: Power(coefficient: 0.3, exponent: 7.0),
+    adhesion: (work: 1.0), loading: [ToIndentation(1.0), ToSeparation], numerics: (points: 4001))";
+const FLAT: &str =
+    "(version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4, adhesion: (work: 2.0e-5),
+    loading: [ToIndentation(1.0e-7), ToSeparation], numerics: (samples: 9))";
+const PUNCH: &str =
+    "(version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4, form: Punch(radius: 2.0e-5),
+    adhesion: (work: 0.05), loading: [ToIndentation(1.0e-7), ToSeparation], numerics: (samples: 9))";
+
+#[rustfmt::skip]
+pub const CASES: &[Case] = &[
+    Case::row(KNOWN, ["hertz-sphere", "Without adhesion 4001 springs press a sphere by Hertz.",
+        "force, over the largest"], &both(2e-6, 2e-6), OfScene(HERTZ, hertz)),
+    Case::row(KNOWN, ["jkr-sphere", "4001 springs pull a sphere off at (3/2)πγR and detach at the indentation of \
+        Johnson, Kendall and Roberts.", PULL_OFF], &both(1e-2, 1e-5), OfScene(SPHERE, pull_off)),
+    Case::row(KNOWN, ["jkr-energy", "4001 springs dissipate the energy of the jumps of Johnson, Kendall and Roberts.",
+        "dissipated energy"], &both(1e-2, 1e-5), OfScene(SPHERE, energy)),
+    Case::row(KNOWN, ["cone", "4001 springs pull a cone off at the force and the indentation of the closed form.",
+        PULL_OFF], &both(1e-2, 1e-5), OfScene(CONE, pull_off)),
+    Case::row(KNOWN, ["seventh-power", "4001 springs pull a body r⁷, nearly flat with steep flanks, off at the force \
+        and the indentation of the closed form.", PULL_OFF], &both(1e-2, 1e-5), OfScene(POWER, pull_off)),
+    Case::row(KNOWN, ["flat-line", "5 to 100 000 springs of a flat profile attach and detach at once, at the ideal \
+        adhesion force √(πγE*L³).", "force, indentation, energy"], &both(2e-15, 2e-15), OfScene(FLAT, flat)),
+    Case::row(KNOWN, ["flat-punch", "A flat punch of whole cells attaches and detaches at once, at Kendall's force \
+        √(8πa³E*γ).", "force, indentation, energy"], &both(2e-15, 2e-15), OfScene(PUNCH, flat)),
+];
+
+fn power_law(scene: &Scene) -> Result<PowerLaw, Fault> {
+    let work = scene.adhesion.and_then(|adhesion| adhesion.work).unwrap_or(0.0);
+    let modulus = scene.material.effective_modulus();
+    let closed = scene.form.as_ref().and_then(|form| PowerLaw::of(form, modulus, work));
+    closed.ok_or_else(|| Fault::Wrong("no closed form".into()))
+}
+
+fn hertz(scene: &Scene) -> Result<f64, Fault> {
+    let (closed, outcome) = (power_law(scene)?, outcome(scene)?);
+    let force = |d: f64| closed.force((d / closed.line_coefficient).powf(closed.exponent.recip()));
+    let leg = &outcome.history.legs[0];
+    let errors = leg.curve.iter().map(|point| (point.force - force(point.indentation)).abs());
+    Ok(errors.fold(0.0, f64::max) / force(leg.end()))
+}
+
+fn pull_off(scene: &Scene) -> Result<f64, Fault> {
+    let (closed, outcome) = (power_law(scene)?, outcome(scene)?);
+    let unloading = &outcome.history.legs[1];
+    let place = closed.indentation(closed.displacement_controlled_pull_off().0);
+    let force = relative_error(unloading.smallest.force, closed.force_controlled_pull_off().1);
+    Ok(force.max(relative_error(unloading.end(), place)))
+}
+
+/// Compares the loss with −∫F dd of the tensile branch below d = 0, which loading does not pass.
+fn energy(scene: &Scene) -> Result<f64, Fault> {
+    const PIECES: u32 = 20_000;
+    let closed = power_law(scene)?;
+    let last = closed.displacement_controlled_pull_off().0;
+    // c aⁿ = √(2πaγ/E*) at d = 0.
+    let stretch = (2.0 * PI * closed.work_of_adhesion / closed.effective_modulus).sqrt();
+    let first = (stretch / closed.line_coefficient).powf((closed.exponent - 0.5).recip());
+    let radii = (0..=PIECES).map(|piece| last + (first - last) * f64::from(piece) / f64::from(PIECES));
+    let work = |(one, next)| {
+        (closed.force(one) + closed.force(next)) * (closed.indentation(next) - closed.indentation(one))
+    };
+    let lost = -0.5 * radii.clone().zip(radii.skip(1)).map(work).sum::<f64>();
+    Ok(relative_error(outcome(scene)?.figures.dissipated_energy.unwrap_or(0.0), lost))
+}
+
+fn flat(scene: &Scene) -> Result<f64, Fault> {
+    let width = scene.form.as_ref().and_then(Form::flat_end).map_or(scene.length, |radius| 2.0 * radius);
+    largest([5, 1000, 100_000].map(|points| {
+        let mut scene = scene.clone();
+        scene.numerics.points = points;
+        let outcome = outcome(&scene)?;
+        let stiffness = outcome.governing.effective_modulus * width;
+        let work = outcome.governing.adhesive_work().unwrap_or(0.0);
+        let place = -(PI * width * work / outcome.governing.effective_modulus).sqrt();
+        let [loading, unloading] = &outcome.history.legs[..] else { return Ok(f64::NAN) };
+        let found = [
+            (loading.largest.force, stiffness * loading.end()),
+            (unloading.smallest.force, stiffness * place),
+            (unloading.smallest.indentation, place),
+            (unloading.end(), place),
+            (outcome.figures.dissipated_energy.unwrap_or(0.0), 0.5 * stiffness * place * place),
+        ];
+        largest(found.map(|(found, expected)| Ok(relative_error(found, expected))))
+    }))
+}

@@ -1,0 +1,259 @@
+//! Stages of a scene, the fields that require them, and their costs. The run follows this plan.
+
+use crate::analysis::Figures;
+use crate::contact::CurvePoint;
+use crate::scene::{Edges, Effect, Roughness, Scene, Solver};
+use serde::Serialize;
+use strum::VariantArray;
+
+/// Bytes per spring: a height of the roughness, or a gap of the profile.
+const HEIGHT: u64 = 8;
+/// Bytes per spring of a profile with modes up to Nyquist's: a quarter of the springs are local maxima of the gap, with a
+/// node and two turning points each, and each fourth spring has two sums.
+const NODE: u64 = 20;
+/// Bytes per spring of the passes: thresholds of a quarter of the springs, and runs of the present stage and of the one
+/// before. Runs are few except with almost no adhesion.
+const PASSED: u64 = 12;
+/// Bytes per spring of the stepwise solver: its threshold and its contact.
+const RELAXED: u64 = 9;
+/// Bytes per sample of the present loading stage in addition to its curve, as measured; and with edges between springs,
+/// which are also summed for each sample.
+const SAMPLED: u64 = 64;
+const SAMPLED_WITH_EDGES: u64 = 120;
+/// Largest prime factor of a number of springs that the Fourier transform handles directly.
+const LARGEST_FACTOR: u64 = 31;
+
+/// Reasons to skip several stages.
+const NO_ADHESION: &str = "no adhesion: each spring touches and leaves at its own gap";
+const STEPWISE: &str = "solver: Stepwise";
+const NEVER_BACK: &str = "loading never goes back";
+
+/// A stage of the computation of a curve from a scene, in the order of execution.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, VariantArray)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stage {
+    /// Adding the macroscopic form.
+    Form,
+    /// Drawing random phases and transforming them into a profile.
+    Synthesis,
+    /// Reading a measured profile.
+    MeasuredProfile,
+    /// Building the tree of the gaps.
+    Tree,
+    /// Evaluating the rule of Hess.
+    RuleOfHess,
+    /// Runs of stages that load.
+    LoadingPass,
+    /// Runs of stages that unload.
+    UnloadingPass,
+    /// Steps and relaxation sweeps.
+    Relaxation,
+    /// The loop with its turning point at first touch, for F_a(0) and the regime.
+    ZeroLoadAdhesion,
+    /// The list of contact patches.
+    Fragments,
+    /// The histogram of heights.
+    HeightHistogram,
+}
+
+#[rustfmt::skip]
+impl Stage {
+    const NAMES: [&str; 11] = [
+        "form", "random profile", "measured profile", "contact tree", "rule of Hess", "loading passes",
+        "unloading passes", "stepwise relaxation", "zero-load adhesion and regime", "contact fragments",
+        "height histogram",
+    ];
+
+    /// Name of the stage in words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        Stage::NAMES[self as usize]
+    }
+}
+
+/// Cost of one stage.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct StageCost {
+    /// Passes over the profile or its tree; `None` for one or more in each loading stage, by its direction.
+    pub passes: Option<u64>,
+    /// Most springs visited in all passes; `None` if their number is.
+    pub springs_touched: Option<u64>,
+    /// Bytes of the arrays added during the stage.
+    pub bytes: u64,
+}
+
+impl StageCost {
+    /// Cost of a skipped stage.
+    pub const NOTHING: StageCost = StageCost { passes: Some(0), springs_touched: Some(0), bytes: 0 };
+
+    /// Creates the cost of passes over so many springs, with arrays of so many bytes per spring.
+    fn of(springs: u64, passes: Option<u64>, bytes_per_spring: u64) -> StageCost {
+        let springs_touched = passes.map(|passes| passes.saturating_mul(springs));
+        StageCost { passes, springs_touched, bytes: bytes_per_spring.saturating_mul(springs) }
+    }
+}
+
+/// A stage, its selection by a scene, and its cost.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct PlannedStage {
+    /// The stage.
+    pub stage: Stage,
+    /// True if the stage runs.
+    pub runs: bool,
+    /// The field that requires the stage, or the reason why it is skipped.
+    pub because: &'static str,
+    /// Cost; zero for a skipped stage.
+    #[serde(flatten)]
+    pub cost: StageCost,
+}
+
+/// The stages of a scene, in the order of execution.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Plan {
+    /// Springs under the body.
+    pub springs: u64,
+    /// Approximate peak memory of a run beside the program itself, bytes: all its arrays, and the resulting curves.
+    /// Additional memory, unknown here: the content of a measured file, 16 bytes for each of its points, and lists
+    /// of fragments.
+    pub peak_bytes: u64,
+    /// Approximate largest resident memory of `asperity run`, bytes: with the program itself, and without the
+    /// heights of roughness, whose memory a single scene reuses for its gaps.
+    pub resident_bytes: u64,
+    /// All stages, including skipped ones.
+    pub stages: Vec<PlannedStage>,
+}
+
+impl Plan {
+    /// Resident bytes of the program after a small scene: code, tables and stacks.
+    pub const PROGRAM: u64 = 14 << 20;
+
+    /// Plans the stages of a checked scene.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Self {
+        let (points, springs) = (scene.numerics.points, scene.springs_under_body().count() as u64);
+        let planned = |(stage, (because, cost)): (Stage, (Result<_, _>, StageCost))| {
+            let (runs, because) = (because.is_ok(), because.unwrap_or_else(|reason| reason));
+            PlannedStage { stage, runs, because, cost: if runs { cost } else { StageCost::NOTHING } }
+        };
+        let stages =
+            Stage::VARIANTS.iter().copied().zip(stages(scene, points, springs)).map(planned).collect();
+        let mut plan = Plan { springs, peak_bytes: 0, resident_bytes: 0, stages };
+        // At most, if the whole contact under load also exists at first touch.
+        let solved = [Stage::Tree, Stage::LoadingPass, Stage::Relaxation, Stage::ZeroLoadAdhesion];
+        let between = scene.numerics.edges == Edges::SubCell && scene.numerics.solver == Solver::Exact;
+        let sampled = if between { SAMPLED_WITH_EDGES } else { SAMPLED };
+        let curves = scene.numerics.samples * scene.loading.len() as u64 * size_of::<CurvePoint>() as u64
+            + scene.numerics.samples.saturating_mul(sampled);
+        let contact = HEIGHT * springs + solved.map(|stage| plan.bytes(stage)).iter().sum::<u64>() + curves;
+        // The profile is made before the contact is solved: the larger of both amounts of memory.
+        let heights = if Effect::Roughness.is_on(scene) { HEIGHT * points } else { 0 };
+        plan.peak_bytes = (heights + contact).max(plan.bytes(Stage::Synthesis));
+        plan.resident_bytes = Plan::PROGRAM + contact.max(plan.bytes(Stage::Synthesis));
+        plan
+    }
+
+    /// Returns true if a stage runs.
+    #[must_use]
+    pub fn runs(&self, stage: Stage) -> bool {
+        self.stages.iter().any(|planned| planned.stage == stage && planned.runs)
+    }
+
+    fn bytes(&self, stage: Stage) -> u64 {
+        self.stages.iter().find(|planned| planned.stage == stage).map_or(0, |planned| planned.cost.bytes)
+    }
+
+    /// Returns the bytes of all stages that make the profile.
+    pub(super) fn line_bytes(&self) -> u64 {
+        HEIGHT * self.springs + self.bytes(Stage::Synthesis).max(self.bytes(Stage::MeasuredProfile))
+    }
+}
+
+/// Lists all stages with the field that requires each, or the reason why it is skipped, and its cost where it runs.
+fn stages(scene: &Scene, points: u64, springs: u64) -> [(Result<&'static str, &'static str>, StageCost); 11] {
+    let (adhesive, pulls) = (Effect::Adhesion.is_on(scene), Effect::Unloading.is_on(scene));
+    let exact = scene.numerics.solver == Solver::Exact;
+    let (measured, random) =
+        (matches!(scene.roughness, Some(Roughness::Measured { .. })), scene.seed().is_some());
+    let when = |does: bool, field, reason| if does { Ok(field) } else { Err(reason) };
+    let passes = |passes, bytes| StageCost::of(springs, passes, bytes);
+    let once = passes(Some(1), 0);
+    let solver = if adhesive { STEPWISE } else { NO_ADHESION };
+    let solved = when(exact && adhesive, "adhesion with the exact solver", solver);
+    let form = match scene.form {
+        None => Err("no form: nominally flat"),
+        Some(form) if form.flat_end().is_some() => Ok("form: the springs under the punch"),
+        Some(_) => Ok("form"),
+    };
+    let synthesis = match (random, measured) {
+        (true, true) => Ok("roughness: Measured, its equivalent line"),
+        (true, false) => Ok("roughness: SelfAffine"),
+        (false, true) => Err("roughness: Measured, as the line"),
+        (false, false) => Err("no roughness: smooth"),
+    };
+    // Coefficients, scratch space and twiddle factors, as measured. Odd numbers of springs transform at twice the length.
+    let transform = StageCost::of(points, Some(1), HEIGHT + if points.is_multiple_of(2) { 20 } else { 56 });
+    // The convolution that transforms a large prime factor, as measured.
+    let factor = largest_prime_factor(points);
+    let bytes = transform.bytes.saturating_add(if factor > LARGEST_FACTOR { 152 * factor } else { 0 });
+    let file = if random { "roughness: SelfAffine" } else { "no roughness: smooth" };
+    let unloading = match (pulls, adhesive, exact) {
+        (false, ..) => Err(NEVER_BACK),
+        (true, false, _) => Err(NO_ADHESION),
+        (true, true, false) => Err(STEPWISE),
+        (true, true, true) => Ok("loading goes back"),
+    };
+    let zero_load = match (adhesive, pulls, Figures::is_touch_protocol(scene)) {
+        (false, ..) => Err("no adhesion: non-adhesive"),
+        (true, false, _) => Err(NEVER_BACK),
+        (true, true, true) => Err("the loading itself turns at first touch"),
+        (true, true, false) => Ok("adhesion with a loading that goes back"),
+    };
+    let observed = |effect: Effect, field| when(effect.is_on(scene), field, "not in observe");
+    [
+        (form, once),
+        (synthesis, StageCost { bytes, ..transform }),
+        (when(measured, "roughness: Measured", file), StageCost::of(points, Some(1), HEIGHT)),
+        (solved, passes(Some(1), NODE)),
+        (when(adhesive, "adhesion", "no adhesion: nothing is stretched"), StageCost::NOTHING),
+        (solved, passes(None, PASSED)),
+        (unloading, passes(None, 0)),
+        (when(!exact, STEPWISE, "solver: Exact"), passes(None, RELAXED)),
+        (zero_load, if exact { once } else { passes(None, RELAXED) }),
+        (observed(Effect::Fragments, "observe: Fragments"), passes(Some(scene.loading.len() as u64), 0)),
+        (observed(Effect::HeightHistogram, "observe: HeightHistogram"), once),
+    ]
+}
+
+fn largest_prime_factor(mut number: u64) -> u64 {
+    let (mut factor, mut largest) = (2, 1);
+    while factor * factor <= number {
+        if number.is_multiple_of(factor) {
+            number /= factor;
+            largest = factor;
+        } else {
+            factor += 1;
+        }
+    }
+    largest.max(number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_stage_is_planned_and_has_its_name() {
+        let planned = Plan::of(crate::scene::open("jkr-sphere").unwrap().scene()).stages.len();
+        assert_eq!([planned, Stage::NAMES.len()], [Stage::VARIANTS.len(); 2]);
+        assert_eq!((Stage::Form.name(), Stage::HeightHistogram.name()), ("form", "height histogram"));
+        assert_eq!(Stage::Relaxation.name(), "stepwise relaxation");
+    }
+
+    #[test]
+    fn the_largest_prime_factor_is_found() {
+        let large = [(1 << 28, 2), (1_048_583, 1_048_583), (2 * 524_287, 524_287)];
+        for (number, factor) in large.into_iter().chain([(1, 1), (2, 2), (3, 3), (121, 11), (90, 5)]) {
+            assert_eq!(largest_prime_factor(number), factor, "{number}");
+        }
+    }
+}
