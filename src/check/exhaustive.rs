@@ -1,7 +1,7 @@
 //! Complete small worlds: every order of few gaps, ties included, against the definitions of the thresholds, and every
 //! history of a few springs against the bare rules.
 
-use crate::contact::{Body, Contact, ContactError, Edges, Foundation, HessRule, Move, Solver};
+use crate::contact::{Body, Contact, ContactError, Edges, Foundation, HessRule, Move};
 use std::f64::consts::PI;
 
 const SPACING: f64 = 0.01;
@@ -32,7 +32,7 @@ pub fn every_order(springs: usize, before: usize) -> Result<u64, String> {
     let (mut levels, mut lines) = (vec![0; springs], 0);
     loop {
         let highest = levels.iter().copied().max().unwrap_or(0);
-        // A line that leaves no level out stands for all of the same order.
+        // One line of each order: that which leaves no level out.
         if (0..highest).all(|level| levels.contains(&level)) {
             gaps[before..].iter_mut().zip(&levels).for_each(|(gap, &level)| *gap = LEVELS[level]);
             for range in RANGES {
@@ -57,8 +57,8 @@ fn compare(gaps: &[f64], range: f64, edges: Edges) -> Result<(), String> {
     let mut expected = vec![f64::INFINITY; gaps.len()];
     definition.close((0, gaps.len() - 1), &mut expected);
     let check = |body: &mut Body, to: f64, expected: &[f64]| {
-        body.advance(Move::ToIndentation(to)).map_err(|error: ContactError| error.to_string())?;
-        let found = body.leg().thresholds();
+        body.move_to(Move::ToIndentation(to)).map_err(|error: ContactError| error.to_string())?;
+        let found = body.present_leg().thresholds();
         let agree = found.iter().zip(expected).all(|(one, other)| (one - other).abs() < AGREE);
         let differ = || format!("{gaps:?}, γ/E* = {range} m, {edges:?}: {found:?}, not {expected:?}");
         if agree { Ok(()) } else { Err(differ()) }
@@ -146,10 +146,10 @@ pub fn every_history(step: usize) -> Result<u64, String> {
                 let mut body = Body::new(&contact, 2);
                 let mut bare = vec![false; gaps.len()];
                 for at in digits(history, TURNS.len(), MOVES).into_iter().map(|digit| TURNS[digit]) {
-                    body.advance(Move::ToIndentation(at)).map_err(|error| error.to_string())?;
+                    body.move_to(Move::ToIndentation(at)).map_err(|error| error.to_string())?;
                     relax(&gaps, &mut bare, at, works);
                     let mut found = vec![false; gaps.len()];
-                    for (first, last) in body.leg().patches(at) {
+                    for (first, last) in body.present_leg().patches(at) {
                         found[first..=last].fill(true);
                     }
                     if found != bare {

@@ -3,6 +3,7 @@
 use super::format::TEXT_OR_JSON;
 use super::progress::ProgressLine;
 use super::{CliError, Format, OutputArguments};
+use crate::check::exhaustive::{every_history, every_order};
 use crate::check::{Case, Check, Verdict, catalogue, checks, judge};
 use crate::export::{check_text, write_check_json};
 use clap::Args;
@@ -14,9 +15,13 @@ Examples:
   asperity check --quick                    All but those that take seconds and much memory
   asperity check sphere memory              Those with one of these words in their names
   asperity check --format json -o check.json
+  asperity check --exhaustive               The engine on every line of up to 8 springs
 
 Each case has one error, a bound stated beforehand, and the kinds of evidence that it gives.
 Exit code 1 when a case fails.";
+
+/// Most gaps of the lines that are judged exhaustively.
+const MOST_GAPS: usize = 8;
 
 /// Arguments of `check`.
 #[derive(Args, Debug)]
@@ -28,6 +33,9 @@ pub struct CheckArguments {
     /// Leave out cases that take seconds and hundreds of megabytes
     #[arg(long)]
     pub quick: bool,
+    /// Instead judge the engine on every line of up to 8 springs
+    #[arg(long, conflicts_with_all = ["words", "quick", "format"])]
+    pub exhaustive: bool,
     /// text or json; default: by the extension of FILE, else text
     #[arg(long, value_parser = Format::parser(TEXT_OR_JSON), hide_possible_values = true)]
     pub format: Option<Format>,
@@ -55,8 +63,33 @@ impl CheckArguments {
     }
 }
 
+/// Judges the engine on complete small worlds and writes the number of lines and of contacts that agree.
+fn check_all(arguments: &CheckArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    arguments.output.check()?;
+    let mut progress = ProgressLine::default();
+    let failed = |error| CliError::named("exhaustive", error);
+    let mut text =
+        "Lines with gaps in every order, ties included; all thresholds are as defined\n".to_owned();
+    text += &format!("{:>8} {:>9}\n", "springs", "lines");
+    for gaps in 1..=MOST_GAPS {
+        progress.show(&format!("{gaps} gaps"), None);
+        let lines = every_order(gaps, 0).map_err(failed)?;
+        text += &format!("{gaps:>8} {lines:>9}\n");
+    }
+    progress.show("histories", None);
+    let contacts = every_history(1).map_err(failed)?;
+    text += &format!(
+        "Contacts of five springs after every history of up to three moves; all are as by the bare rules\n{contacts:>18}\n"
+    );
+    progress.clear();
+    arguments.output.write(stdout, |out| out.write_all(text.as_bytes()))
+}
+
 /// Runs the cases and writes their verdicts.
 pub(super) fn check(arguments: &CheckArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    if arguments.exhaustive {
+        return check_all(arguments, stdout);
+    }
     let chosen = arguments.chosen()?;
     let format = arguments.output.format(arguments.format, TEXT_OR_JSON, Format::Text)?;
     arguments.output.check()?;
@@ -88,6 +121,7 @@ mod tests {
         CheckArguments {
             words: words.iter().map(ToString::to_string).collect(),
             quick,
+            exhaustive: false,
             format: None,
             output: OutputArguments { output: None, force: false },
         }
