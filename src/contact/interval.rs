@@ -1,10 +1,10 @@
 //! One interval of indentations of a leg, searched for extremes and crossings of the force.
 //!
-//! The interval is parted at its middle event until bounds exclude a part or nothing happens inside.
+//! The interval is divided at its middle event until bounds exclude a part or nothing happens inside.
 
-use super::adhesive::Slider;
+use super::adhesive::{EdgeSum, Slider};
 use super::contact_state::{ContactState, Extreme, lower_bound, upper_bound};
-use super::steady::{SteadyContact, state};
+use super::crossing::{bisect, crossing, last_before};
 use super::totals::{ContactTotals, GapScale};
 
 /// Whole springs or cells in contact from this indentation on, until the next step.
@@ -68,17 +68,68 @@ impl Interval {
         self.steps[above.saturating_sub(1)].totals
     }
 
-    /// Contact state at an indentation.
+    /// Contact state at an indentation, m.
     fn at(&self, pieces: &[Piece], indentation: f64) -> ContactState {
-        let there = pieces.iter().filter(|piece| piece.is_at(indentation)).map(|piece| piece.slider);
-        state(self.slides, &self.scale, self.totals(indentation), there, indentation)
+        self.steady(pieces, indentation, indentation)
     }
 
-    /// The contact from an indentation up to the next event.
-    fn steady(&self, pieces: &[Piece], indentation: f64) -> SteadyContact {
-        let there = pieces.iter().filter(|piece| piece.is_at(indentation));
-        let (slides, scale, totals) = (self.slides, self.scale, self.totals(indentation));
-        SteadyContact { slides, scale, totals, sliders: there.map(|piece| piece.slider).collect() }
+    /// The contact from an indentation on, m, at another one up to the next event: whole springs or cells and the edge
+    /// cells of some fragments, none of which jumps, merges or splits. The force is convex in the indentation.
+    fn steady(&self, pieces: &[Piece], from: f64, at: f64) -> ContactState {
+        let mut edges = EdgeSum::default();
+        for piece in pieces.iter().filter(|piece| piece.is_at(from)) {
+            edges.add(piece.slider.edge_cells(at));
+        }
+        ContactState::new(self.slides, at, self.totals(from), edges.total(), &self.scale)
+    }
+
+    /// Growth of the compression of a steady contact with the indentation, in cells.
+    fn stiffness(&self, pieces: &[Piece], from: f64, at: f64) -> f64 {
+        let sliders = pieces.iter().filter(|piece| piece.is_at(from)).map(|piece| piece.slider);
+        self.totals(from).whole(self.slides) as f64 + sliders.map(|slider| slider.stiffness(at)).sum::<f64>()
+    }
+
+    /// Indentation of the smallest force of a steady contact between two others, m.
+    fn flattest(&self, pieces: &[Piece], low: f64, high: f64) -> f64 {
+        if self.stiffness(pieces, low, low) >= 0.0 {
+            return low;
+        }
+        if self.stiffness(pieces, low, high) <= 0.0 {
+            return high;
+        }
+        bisect(low, high, |at| self.stiffness(pieces, low, at) >= 0.0)
+    }
+
+    /// Indentation of a compression where the force of a steady contact is a straight line, m.
+    fn straight(&self, from: f64, compression: f64) -> Option<f64> {
+        if self.slides { None } else { self.totals(from).indentation(compression, &self.scale) }
+    }
+
+    /// The smallest indentation of a steady contact between two, m, the higher one included, at which the compression is
+    /// at least `wanted`; at the lower one it is smaller.
+    fn rises_to(&self, pieces: &[Piece], (from, to): (f64, f64), wanted: f64) -> Option<f64> {
+        if let Some(straight) = self.straight(from, wanted) {
+            return Some(straight.max(from)).filter(|&found| found < to);
+        }
+        // Convex and below `wanted` at first: one crossing.
+        let compression = |at: f64| self.steady(pieces, from, at).compression;
+        (compression(to) >= wanted).then(|| crossing(from, to, |at| compression(at) - wanted))
+    }
+
+    /// The largest indentation of a steady contact between two, m, both included, at which the compression is at most
+    /// `wanted`.
+    fn falls_to(&self, pieces: &[Piece], (from, last): (f64, f64), wanted: f64) -> Option<f64> {
+        let compression = |at: f64| self.steady(pieces, from, at).compression;
+        let flattest = self.flattest(pieces, from, last);
+        if compression(flattest) > wanted {
+            return None;
+        }
+        if let Some(straight) = self.straight(from, wanted) {
+            return Some(straight.clamp(from, last));
+        }
+        // The compression rises from there on: the last number at which it has not passed `wanted`.
+        let passes = |at: f64| compression(at) - wanted;
+        Some(if passes(last) > 0.0 { last_before(flattest, last, passes) } else { last })
     }
 
     /// The middle one of all events inside a part.
@@ -110,7 +161,7 @@ impl Interval {
             let before = to.next_down();
             take(
                 match extreme {
-                    Extreme::Smallest => self.steady(pieces, from).flattest(from, to).min(before),
+                    Extreme::Smallest => self.flattest(pieces, from, to).min(before),
                     // Where the force falls at once, the largest number before counts.
                     Extreme::Largest => before,
                 },
@@ -131,7 +182,7 @@ impl Interval {
         }
         let (from, to) = (low.indentation, high.indentation);
         match self.middle_event(from, to) {
-            None => match self.steady(pieces, from).rises_to((from, to), wanted) {
+            None => match self.rises_to(pieces, (from, to), wanted) {
                 Some(found) if found < to || high.compression >= wanted => Some(found),
                 Some(_) => Some(to.next_down()),
                 None => (high.compression >= wanted).then_some(to),
@@ -155,8 +206,8 @@ impl Interval {
         match self.middle_event(from, to) {
             None => {
                 let before = to.next_down().max(from);
-                let found = self.steady(pieces, from).falls_to((from, before), wanted);
-                found.ok().or_else(|| (low.compression <= wanted).then_some(from))
+                let found = self.falls_to(pieces, (from, before), wanted);
+                found.or_else(|| (low.compression <= wanted).then_some(from))
             }
             Some(event) => {
                 let middle = self.at(pieces, event);

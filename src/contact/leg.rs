@@ -1,15 +1,13 @@
 //! One leg: the contact at all indentations of a motion in one direction.
 
 use super::adhesive::{
-    Closing, EdgeModel, GridEdges, Ground, Held, Opening, Run, Search, Slider, Span, SubCellEdges,
+    Closing, EdgeCells, EdgeModel, GridEdges, Ground, Held, Opening, Run, Search, Slider, Span, SubCellEdges,
 };
 use super::contact_state::{ContactState, Extreme, Sampled};
 use super::fragments::runs;
 use super::grid::Grid;
 use super::totals::ContactTotals;
-use super::{
-    Contact, ContactError, ContactTree, CurvePoint, Direction, Nonadhesive, TWO_THREADS, Work, steady,
-};
+use super::{Contact, ContactError, ContactTree, CurvePoint, Direction, Nonadhesive, TWO_THREADS, Work};
 use crate::contact::Edges;
 use crate::parallel::in_parallel;
 use std::marker::PhantomData;
@@ -278,8 +276,9 @@ impl Leg {
             _ => None,
         };
         let totals = ContactTotals::of_patch(gaps, (first, last), *edges, scale);
-        let slider = Slider::new(gaps, &span, stretch, pin);
-        let state = steady::state(slides, &scale, totals, [slider].into_iter(), indentation);
+        let cells = || Slider::new(gaps, &span, stretch, pin).edge_cells(indentation);
+        let cells = if slides { cells() } else { EdgeCells::default() };
+        let state = ContactState::new(slides, indentation, totals, cells, &scale);
         let free = || if slides { SubCellEdges::levels(gaps, &span).rise(stretch, indentation) } else { 0.0 };
         let point = state.point(*foundation);
         Some(PatchState {
@@ -318,7 +317,7 @@ impl Leg {
                 for ends in self.patches(indentation) {
                     totals += ContactTotals::of_patch(self.contact.gaps(), ends, Edges::Grid, scale);
                 }
-                Ok(steady::state(false, &scale, totals, std::iter::empty(), indentation))
+                Ok(ContactState::new(false, indentation, totals, EdgeCells::default(), &scale))
             }
             Patches::Gaps | Patches::Runs(..) => Ok(self.sample(Grid::at(vec![indentation]))?.first()),
         }

@@ -28,7 +28,6 @@ mod moves;
 mod nonadhesive;
 mod reversal;
 mod springs;
-mod steady;
 pub mod stepwise;
 mod totals;
 

@@ -6,9 +6,8 @@
 use super::adhesive::EdgeCells;
 use super::contact_state::ContactState;
 use super::moves::{Goal, plan};
-use super::totals::FewSprings;
 use super::{
-    Contact, ContactError, ContactTotals, CurvePoint, Direction, Leg, LegRecord, Solver, Work, resized,
+    Contact, ContactError, ContactTotals, CurvePoint, Direction, Edges, Leg, LegRecord, Solver, Work, resized,
 };
 use crate::contact::Move;
 
@@ -70,15 +69,11 @@ impl<'a> Stepwise<'a> {
         let gap = self.contact.gaps()[index];
         self.holds[index] = attaches;
         self.thresholds[index] = at;
-        let sign = if attaches { 1 } else { -1 };
-        self.state.totals.springs += i64::from(sign);
-        let mut spring = FewSprings::default();
-        spring.add_spring(gap, self.contact.springs.scale());
-        let [quanta, squares] = spring.sums();
-        self.state.totals.quanta += i128::from(sign) * quanta;
-        self.state.totals.squares += i128::from(sign) * squares;
-        let stretch = (gap - at).max(0.0);
-        self.state.squared_stretch -= f64::from(sign) * stretch * stretch;
+        let Contact { springs, .. } = self.contact;
+        let spring = ContactTotals::of_patch(springs.gaps(), (index, index), Edges::Grid, springs.scale());
+        let squared_stretch = (gap - at).max(0.0).powi(2);
+        self.state.totals += if attaches { spring } else { -spring };
+        self.state.squared_stretch += if attaches { -squared_stretch } else { squared_stretch };
     }
 
     /// Sweeps until no spring touches and no fragment grows.
@@ -165,8 +160,11 @@ impl<'a> Stepwise<'a> {
         let start = self.state.indentation;
         let end = match goal {
             Goal::Indentation(end) => end,
-            // Adhesion only lessens the force, and any patch holds the highest point to the stretch of one spring.
-            Goal::Force(force) if direction == Direction::Loading => self.pressed_to(force),
+            // No spring is compressed by more than the indentation, and any patch holds the highest point to the stretch
+            // of one spring.
+            Goal::Force(force) if direction == Direction::Loading => {
+                force / (self.contact.foundation.spring_stiffness() * self.holds.len() as f64)
+            }
             Goal::Force(_) => start,
             Goal::Separation => -self.largest_stretch(1, Direction::Unloading),
         };
@@ -181,23 +179,6 @@ impl<'a> Stepwise<'a> {
 
     fn too_many_steps(&self) -> ContactError {
         ContactError::TooManySteps { step: self.step, limit: STEP_LIMIT }
-    }
-
-    /// Indentation at which the springs carry a force without adhesion, m: the lowest k of them compressed by
-    /// Σ (d − c) = F/Δk.
-    fn pressed_to(&self, force: f64) -> f64 {
-        let mut gaps = self.contact.gaps().to_vec();
-        gaps.sort_unstable_by(f64::total_cmp);
-        let mut sum = force.max(0.0) / self.contact.foundation.spring_stiffness();
-        let mut end = f64::INFINITY;
-        for (count, gap) in gaps.iter().enumerate() {
-            if *gap >= end {
-                break;
-            }
-            sum += gap;
-            end = sum / (count + 1) as f64;
-        }
-        end
     }
 
     /// Steps to the goal.

@@ -21,12 +21,13 @@ pub struct Run {
     pub from: f64,
     /// Upper bound (exclusive), m; +∞ for a fragment in contact when an unloading leg begins.
     pub to: f64,
+    /// Height of the level of pinned edges above the largest gap, m; NaN for edges that are free to move.
+    pin: f64,
+    /// First and last spring of its smallest span.
     pub bottom: [u32; 2],
-    /// Its largest span, or the bits of the rise of pinned edges.
-    top: [u32; 2],
+    /// First and last spring of its largest span.
+    pub top: [u32; 2],
     pub branch: Branch,
-    /// True for a run over one span, between the edges of which nothing moves.
-    is_pinned: bool,
 }
 
 /// A fragment in contact between two legs.
@@ -53,27 +54,18 @@ pub struct Ground<'a, E> {
 impl Run {
     /// Returns a run over one span.
     pub fn new(branch: Branch, span: &Span, from: f64, to: f64) -> Self {
-        Run { from, to, bottom: span.ends(), top: span.ends(), branch, is_pinned: false }
+        Run { from, to, pin: f64::NAN, bottom: span.ends(), top: span.ends(), branch }
     }
 
     /// A run over one span with its edges pinned at a rise above its largest gap, m.
     pub fn pinned(branch: Branch, span: &Span, rise: f64, from: f64, to: f64) -> Self {
-        let bits = rise.to_bits();
-        let top = [(bits >> 32) as u32, bits as u32];
-        Run { top, is_pinned: true, ..Run::new(branch, span, from, to) }
+        Run { pin: rise, ..Run::new(branch, span, from, to) }
     }
 
     /// Rise of pinned edges, m.
     #[inline]
     pub fn pin(&self) -> Option<f64> {
-        let [high, low] = self.top.map(u64::from);
-        self.is_pinned.then(|| f64::from_bits(high << 32 | low))
-    }
-
-    /// First and last spring of its largest span.
-    #[inline]
-    pub fn top_ends(&self) -> [u32; 2] {
-        if self.is_pinned { self.bottom } else { self.top }
+        Some(self.pin).filter(|pin| !pin.is_nan())
     }
 
     /// Extends the run upwards, to the next larger span.
@@ -113,7 +105,7 @@ impl<E: EdgeModel> Ground<'_, E> {
     /// The largest span of a run.
     #[inline]
     pub fn top(&self, run: &Run) -> Span {
-        self.span(run.branch, run.top_ends())
+        self.span(run.branch, run.top)
     }
 
     /// The edge cells of a run on one of its spans.
@@ -186,7 +178,7 @@ impl<E: EdgeModel> Ground<'_, E> {
     /// Upper end of the indentations over which a run fills one of its spans, m.
     #[inline]
     pub fn filled_up_to(&self, run: &Run, span: &Span) -> f64 {
-        if span.ends() == run.top_ends() {
+        if span.ends() == run.top {
             return run.to;
         }
         self.upper_end(span, &span.grown(self.gaps))
@@ -216,7 +208,7 @@ impl<E: EdgeModel> Ground<'_, E> {
         let mut from = if span == bottom { run.from } else { low };
         loop {
             let to = self.filled_up_to(run, &span);
-            if see(&span, from, to) || span.ends() == run.top_ends() {
+            if see(&span, from, to) || span.ends() == run.top {
                 return;
             }
             (span, from) = (span.grown(self.gaps), to);
@@ -225,7 +217,7 @@ impl<E: EdgeModel> Ground<'_, E> {
 
     /// The span of a run at an indentation, from one that it fills at a smaller indentation on.
     pub fn filled(&self, run: &Run, from: Span, indentation: f64) -> Span {
-        let (mut span, top) = (from, run.top_ends());
+        let (mut span, top) = (from, run.top);
         while span.ends() != top {
             let sure = span.up_to(self.gaps, self.sure_level(&span, indentation), top);
             if sure != span {
