@@ -1,8 +1,9 @@
 //! A minor loop: pulled half way back and pressed again, a rough contact returns along another branch and dissipates
-//! energy on each turn.
+//! energy on each turn. On each leg the work of the force is the change of the stored energy and the released energy.
 //!
 //! `cargo run --release --example minor_loop`
 
+use asperity::contact::CurvePoint;
 use asperity::{Contact, Material, Move, Profile, SelfAffine};
 
 fn main() -> Result<(), asperity::Error> {
@@ -19,11 +20,28 @@ fn main() -> Result<(), asperity::Error> {
         Move::ToSeparation,
     ];
     let cycle = contact.load(&history)?;
-    println!("leg   force at its end, µN   indentation, nm   dissipated, fJ");
+    println!("leg   force at its end, µN   indentation, nm   work, fJ   stored, fJ   released, fJ");
     for (index, leg) in cycle.legs().iter().enumerate() {
-        let force = leg.curve.last().map_or(0.0, |end| end.force);
-        let [force, indentation, energy] = [1.0e6 * force, 1.0e9 * leg.end(), 1.0e15 * leg.released_energy];
-        println!("{index:>3} {force:>22.3} {indentation:>17.2} {energy:>16.3}");
+        let area = |ends: &[CurvePoint]| {
+            0.5 * (ends[0].force + ends[1].force) * (ends[1].indentation - ends[0].indentation)
+        };
+        let work: f64 = leg.curve.windows(2).map(area).sum();
+        let [start, end] =
+            [leg.curve.first(), leg.curve.last()].map(|point| point.copied().unwrap_or_default());
+        let stored = end.stored_energy - start.stored_energy;
+        let row = [1.0e6 * end.force, 1.0e9 * leg.end(), 1.0e15 * work, 1.0e15 * stored];
+        println!(
+            "{index:>3} {:>22.3} {:>17.2} {:>10.3} {:>12.3} {:>14.3}",
+            row[0],
+            row[1],
+            row[2],
+            row[3],
+            1.0e15 * leg.released_energy
+        );
+        // The trapezia of a curve with jumps are the work to the width of a sample.
+        assert!(
+            (work - stored - leg.released_energy).abs() <= 0.02 * work.abs().max(leg.released_energy.abs())
+        );
     }
     println!("all: {:.3} fJ", 1.0e15 * cycle.dissipated_energy().unwrap_or(0.0));
     // The second turn follows the first: the contact remembers its turning points.

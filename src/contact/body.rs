@@ -2,16 +2,12 @@
 
 use super::contact_state::{ContactState, Extreme};
 use super::grid::Grid;
-use super::leg::{Leg, Workspace};
+use super::leg::{Leg, SEARCH_INTERVALS, Workspace};
 use super::moves::{Goal, plan};
 use super::{Contact, ContactError, CurvePoint, Direction, History, LegRecord, Work};
-use crate::contact::{Edges, Move};
+use crate::contact::Move;
 use std::mem::replace;
 use std::time::{Duration, Instant};
-
-/// Intervals in which extremes are searched when the curve has fewer samples: each patch is evaluated at each of their
-/// ends.
-pub(super) const SEARCH_INTERVALS: usize = 256;
 
 /// A body on its foundation that moves from target to target. It begins separated, at d = 0 just before first touch.
 pub trait Solver {
@@ -182,58 +178,15 @@ impl Body {
             return Ok(Some(Motion { leg, low: at.min(to), high: at.max(to), goal }));
         }
         let leg = self.leg_in(direction)?;
-        let (low, high) = match (direction, goal) {
-            // Nothing touches below d = 0.
-            (Direction::Loading, _) => {
-                let low = if separated { at.max(0.0) } else { at };
-                (low, self.load_to(&leg, goal, low)?)
-            }
-            (Direction::Unloading, _) => (self.unload_to(&leg, goal)?, at),
+        // Nothing touches below d = 0.
+        let from = if separated { at.max(0.0) } else { at };
+        let to = match goal {
+            Goal::Indentation(indentation) => indentation,
+            Goal::Separation => leg.end().min(from),
+            Goal::Force(force) => leg.reach_force(force, from, &mut self.workspace.work)?,
         };
+        let (low, high) = if direction == Direction::Loading { (from, to) } else { (to, from) };
         Ok(Some(Motion { leg, low, high, goal }))
-    }
-
-    /// Indentation at which a loading first reaches its goal, m.
-    pub(super) fn load_to(&mut self, leg: &Leg, goal: Goal, low: f64) -> Result<f64, ContactError> {
-        let force = match goal {
-            Goal::Indentation(indentation) => return Ok(indentation),
-            Goal::Separation => return Ok(low),
-            Goal::Force(force) => force,
-        };
-        let wanted = force / self.stiffness();
-        let complete = leg.end().max(low);
-        let work = &mut self.workspace.work;
-        work.springs_tallied += work.springs;
-        if let Some(found) = leg.first_at_least(Grid::new(low, complete, SEARCH_INTERVALS), wanted, work)? {
-            return Ok(found);
-        }
-        // Beyond full contact the force rises with all springs.
-        let full = leg.sample(Grid::at(vec![complete]))?;
-        let found = match leg.contact().edges {
-            Edges::Grid => full.totals[0].indentation(wanted, &leg.contact().springs.scale()),
-            Edges::SubCell => Some(complete + (wanted - full.first().compression) / full.first().length),
-        };
-        let found = found.filter(|found| found.is_finite()).map(|found| found.max(complete));
-        found.ok_or(ContactError::OutOfReach)
-    }
-
-    /// Indentation at which an unloading reaches its goal, m.
-    fn unload_to(&mut self, leg: &Leg, goal: Goal) -> Result<f64, ContactError> {
-        let high = self.state.indentation;
-        let separates = leg.end().min(high);
-        let force = match goal {
-            Goal::Indentation(indentation) => return Ok(indentation),
-            Goal::Separation => return Ok(separates),
-            Goal::Force(force) => force,
-        };
-        let stiffness = self.stiffness();
-        let work = &mut self.workspace.work;
-        work.springs_tallied += work.springs;
-        let sampled = leg.sample(Grid::new(separates, high, SEARCH_INTERVALS))?;
-        leg.last_at_most(&sampled, force / stiffness, work)?.ok_or_else(|| {
-            let smallest = leg.extreme(Extreme::Smallest, &sampled, work).compression;
-            ContactError::DetachesBefore { smallest: stiffness * smallest }
-        })
     }
 
     /// Grid of a curve: every `stride`-th point is a sample, those between sharpen the search.

@@ -14,6 +14,9 @@ use std::marker::PhantomData;
 use std::mem::take;
 use std::sync::Arc;
 
+/// Intervals in which extremes are searched: each patch is evaluated at each of their ends.
+pub(super) const SEARCH_INTERVALS: usize = 256;
+
 /// Contact at all indentations of a motion in one direction.
 ///
 /// A leg is a value: it stays valid after the body has moved on, and its copies share their memory.
@@ -109,10 +112,16 @@ impl Leg {
         Leg { contact: contact.clone(), direction, patches: Patches::Apart, end: 0.0 }
     }
 
-    /// Creates a leg on which each spring touches at a threshold, m: −∞ always, +∞ never.
-    pub(super) fn of_thresholds(contact: &Contact, direction: Direction, thresholds: Vec<f64>) -> Self {
+    /// Creates a leg on which each spring touches at a threshold, m, −∞ always, +∞ never, known up to the indentation
+    /// `end`, m.
+    pub(super) fn of_thresholds(
+        contact: &Contact,
+        direction: Direction,
+        end: f64,
+        thresholds: Vec<f64>,
+    ) -> Self {
         let patches = Patches::Thresholds(Arc::new(thresholds));
-        Leg { patches, ..Leg::apart(contact, direction) }
+        Leg { patches, end, ..Leg::apart(contact, direction) }
     }
 
     /// Starts a loading from separation.
@@ -189,7 +198,8 @@ impl Leg {
         self.direction
     }
 
-    /// Smallest indentation of full contact of a loading, or the smallest one with contact of an unloading, m.
+    /// Smallest indentation of full contact of a loading, or the smallest one with contact of an unloading, m; of the
+    /// stepwise solver, the indentation that it has reached.
     #[must_use]
     pub fn end(&self) -> f64 {
         self.end
@@ -251,6 +261,25 @@ impl Leg {
         Ok(sampled.states.iter().map(|state| state.point(self.contact.foundation)).collect())
     }
 
+    /// Returns the first indentation of a loading from `from` on, or the last one of an unloading up to `from`, m, at which
+    /// the force is `force`, N.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfReach`], [`ContactError::DetachesBefore`], [`ContactError::OutOfMemory`].
+    pub fn find_force(&self, force: f64, from: f64) -> Result<f64, ContactError> {
+        self.reach_force(force, from, &mut Work::default())
+    }
+
+    /// Returns the points of the smallest and of the largest force between two indentations, m, exact to rounding.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    pub fn extremes(&self, low: f64, high: f64) -> Result<[CurvePoint; 2], ContactError> {
+        let sampled = self.sample(self.search_grid(low, high))?;
+        let of = |extreme| self.extreme(extreme, &sampled, &mut Work::default());
+        Ok([Extreme::Smallest, Extreme::Largest].map(|extreme| of(extreme).point(self.contact.foundation)))
+    }
+
     /// Returns the energy that springs release on the indentations from `low` to `high`, m, in J; see
     /// [`LegRecord::released_energy`](super::LegRecord::released_energy).
     #[must_use]
@@ -308,26 +337,76 @@ impl Leg {
 
     /// Contact state at an indentation, m.
     pub(super) fn state(&self, indentation: f64) -> Result<ContactState, ContactError> {
-        match &self.patches {
-            Patches::Apart => Ok(ContactState::free(indentation)),
-            // Whole springs only: the stepwise solver knows no others.
-            Patches::Thresholds(_) => {
-                let scale = self.contact.springs.scale();
-                let mut totals = ContactTotals::default();
-                for ends in self.patches(indentation) {
-                    totals += ContactTotals::of_patch(self.contact.gaps(), ends, Edges::Grid, scale);
-                }
-                Ok(ContactState::new(false, indentation, totals, EdgeCells::default(), &scale))
-            }
-            Patches::Gaps | Patches::Runs(..) => Ok(self.sample(Grid::at(vec![indentation]))?.first()),
+        Ok(self.sample(Grid::at(vec![indentation]))?.first())
+    }
+
+    /// Grid of a search between two indentations, m: for springs with thresholds, between which the force is straight,
+    /// each threshold and the number before it.
+    fn search_grid(&self, low: f64, high: f64) -> Grid {
+        let Patches::Thresholds(thresholds) = &self.patches else {
+            return Grid::new(low, high, SEARCH_INTERVALS);
+        };
+        let inside = thresholds.iter().copied().filter(|at| low < *at && *at <= high);
+        let mut points: Vec<f64> = inside.flat_map(|at| [at.next_down(), at]).chain([low, high]).collect();
+        points.sort_by(f64::total_cmp);
+        points.dedup();
+        Grid::at(points)
+    }
+
+    /// Contact of whole springs at an indentation, m, patch by patch.
+    fn totals(&self, indentation: f64) -> ContactTotals {
+        let mut totals = ContactTotals::default();
+        for ends in self.patches(indentation) {
+            totals +=
+                ContactTotals::of_patch(self.contact.gaps(), ends, Edges::Grid, self.contact.springs.scale());
         }
+        totals
+    }
+
+    /// Finds the indentation of [`Leg::find_force`], m.
+    pub(super) fn reach_force(&self, force: f64, from: f64, work: &mut Work) -> Result<f64, ContactError> {
+        let Contact { springs, foundation, edges, .. } = &self.contact;
+        let stiffness = foundation.spring_stiffness();
+        let wanted = force / stiffness;
+        work.springs_tallied += work.springs;
+        if self.direction == Direction::Unloading {
+            let sampled = self.sample(self.search_grid(self.end.min(from), from))?;
+            return self.last_at_most(&sampled, wanted, work)?.ok_or_else(|| {
+                let smallest = self.extreme(Extreme::Smallest, &sampled, work).compression;
+                ContactError::DetachesBefore { smallest: stiffness * smallest }
+            });
+        }
+        let complete = self.end.max(from);
+        if let Some(found) = self.first_at_least(self.search_grid(from, complete), wanted, work)? {
+            return Ok(found);
+        }
+        if matches!(self.patches, Patches::Thresholds(_)) {
+            return Err(ContactError::OutOfReach);
+        }
+        // Beyond full contact the force rises with all springs.
+        let full = self.sample(Grid::at(vec![complete]))?;
+        let found = match edges {
+            Edges::Grid => full.totals[0].indentation(wanted, &springs.scale()),
+            Edges::SubCell => Some(complete + (wanted - full.first().compression) / full.first().length),
+        };
+        let found = found.filter(|found| found.is_finite()).map(|found| found.max(complete));
+        found.ok_or(ContactError::OutOfReach)
     }
 
     /// Contact states along a grid.
     pub(super) fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {
         match &self.patches {
             Patches::Runs(tree, runs) => along_runs!(self, tree, runs, search => search.sample(grid)),
-            _ => self.nonadhesive().sample(grid),
+            Patches::Gaps => self.nonadhesive().sample(grid),
+            Patches::Apart | Patches::Thresholds(_) => {
+                let scale = self.contact.springs.scale();
+                let totals: Vec<_> = grid.points().iter().map(|&at| self.totals(at)).collect();
+                let whole = |(&at, totals): (&f64, &ContactTotals)| {
+                    ContactState::new(false, at, *totals, EdgeCells::default(), &scale)
+                };
+                let states = grid.points().iter().zip(&totals).map(whole).collect();
+                Ok(Sampled { grid, totals, states })
+            }
         }
     }
 
@@ -358,8 +437,14 @@ impl Leg {
             (Patches::Runs(tree, runs), _) => {
                 along_runs!(self, tree, runs, search => search.extreme(extreme, sampled, &mut work.events_sorted))
             }
-            (_, Extreme::Smallest) => sampled.first(),
-            (_, Extreme::Largest) => sampled.last(),
+            (Patches::Gaps, Extreme::Smallest) => sampled.first(),
+            (Patches::Gaps, Extreme::Largest) => sampled.last(),
+            _ => {
+                let beyond = |best: ContactState, next: &ContactState| {
+                    if extreme.is_beyond(next, &best) { *next } else { best }
+                };
+                sampled.states.iter().fold(sampled.first(), beyond)
+            }
         }
     }
 

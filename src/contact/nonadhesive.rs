@@ -120,29 +120,32 @@ impl<'a> Nonadhesive<'a> {
 
     /// Smallest indentation of a sampled leg at which the compression is at least `wanted`.
     pub fn first_at_least(&self, leg: &Sampled, wanted: f64) -> Result<Option<f64>, ContactError> {
-        let found = self.enclose(leg, wanted, |compression| compression >= wanted)?;
+        let at_least = |state: &ContactState| state.compression >= wanted;
+        let past = |states: &[ContactState]| states.iter().position(at_least).unwrap_or(states.len());
+        let found = self.enclose(leg, wanted, past)?;
         Ok(found.map(|[_, found]| found))
     }
 
     /// Largest indentation of a sampled leg at which the compression is at most `wanted`.
     pub fn last_at_most(&self, leg: &Sampled, wanted: f64) -> Result<Option<f64>, ContactError> {
-        Ok(match self.enclose(leg, wanted, |compression| compression > wanted)? {
+        let at_most = |state: &ContactState| state.compression <= wanted;
+        let past = |states: &[ContactState]| states.iter().rposition(at_most).map_or(0, |index| index + 1);
+        Ok(match self.enclose(leg, wanted, past)? {
             Some([found, _]) => Some(found).filter(|found| found.is_finite()),
             None => leg.states.last().map(|last| last.indentation),
         })
     }
 
-    /// Neighbouring indentations between which the compression passes a value: `is_past` is true at the higher one. The
-    /// lower one is −∞ before the leg; `None` beyond its end.
+    /// Neighbouring indentations between which the compression passes a value, at the state of the index `past` and the one
+    /// before. The lower one is −∞ before the leg; `None` beyond its end.
     fn enclose(
         &self,
         leg: &Sampled,
         wanted: f64,
-        is_past: impl Fn(f64) -> bool,
+        past: impl Fn(&[ContactState]) -> usize,
     ) -> Result<Option<[f64; 2]>, ContactError> {
-        let past = |leg: &Sampled| leg.states.partition_point(|state| !is_past(state.compression));
-        let Some(end) = leg.states.get(past(leg)) else { return Ok(None) };
-        let Some(before) = past(leg).checked_sub(1) else {
+        let Some(end) = leg.states.get(past(&leg.states)) else { return Ok(None) };
+        let Some(before) = past(&leg.states).checked_sub(1) else {
             return Ok(Some([f64::NEG_INFINITY, end.indentation]));
         };
         let (mut low, mut high) = (leg.states[before].indentation, end.indentation);
@@ -156,7 +159,7 @@ impl<'a> Nonadhesive<'a> {
             let even = Grid::new(low, high, DIVISIONS);
             let middle = low + 0.5 * (high - low);
             let leg = self.sample(if even.is_even() { even } else { Grid::at(vec![low, middle, high]) })?;
-            let past = past(&leg).clamp(1, leg.states.len() - 1);
+            let past = past(&leg.states).clamp(1, leg.states.len() - 1);
             (low, high) = (leg.states[past - 1].indentation, leg.states[past].indentation);
             totals = [leg.totals[past - 1], leg.totals[past]];
         }

@@ -1,9 +1,9 @@
 //! Reversals: the unloadings from many turning points of one loading.
 
-use super::body::{Body, SEARCH_INTERVALS};
+use super::body::Body;
 use super::contact_state::{ContactState, Extreme};
 use super::grid::Grid;
-use super::leg::Leg;
+use super::leg::{Leg, SEARCH_INTERVALS};
 use super::moves::{Goal, plan};
 use super::{ContactError, CurvePoint};
 use crate::contact::Move;
@@ -49,7 +49,9 @@ impl Body {
         let mut turns = Vec::with_capacity(targets.len());
         for (index, &target) in targets.iter().enumerate() {
             let at = match plan(target, CurvePoint::default()) {
-                Ok(Some((_, goal @ Goal::Force(_)))) => self.load_to(&loading, goal, 0.0),
+                Ok(Some((_, Goal::Force(force)))) => {
+                    loading.reach_force(force, 0.0, &mut self.workspace().work)
+                }
                 Ok(Some((_, Goal::Indentation(at)))) if at >= 0.0 => Ok(at),
                 Ok(_) => Err(ContactError::NoContact),
                 Err(reason) => Err(reason),

@@ -303,7 +303,8 @@ impl Solver for Stepwise<'_> {
     }
 
     fn leg(&self) -> Leg {
-        Leg::of_thresholds(self.contact, self.state.direction, self.thresholds.clone())
+        let State { direction, indentation, .. } = self.state;
+        Leg::of_thresholds(self.contact, direction, indentation, self.thresholds.clone())
     }
 
     fn work(&self) -> Work {

@@ -1,7 +1,7 @@
 //! Patches by themselves add up to the point of the curve, and a body moves between targets as along a recorded leg.
 
 use super::*;
-use asperity::contact::{Body as Moving, ContactError};
+use asperity::contact::{Body as Moving, ContactError, Direction, Stepwise};
 
 /// Moves a body along legs and compares points of each curve with the sums over the patches there.
 fn patches_add_up(body: &Body, edges: Edges, hess: HessRule, legs: &[Move]) -> Result<(), TestCaseError> {
@@ -143,6 +143,38 @@ proptest! {
     }
 }
 
+/// Moves a solver along legs to indentations and asks each leg for its extremes and for the forces that it passes.
+fn asked_alike(solver: &mut dyn Solver, targets: &[Move], scale: f64) -> Result<(), TestCaseError> {
+    let mut separated = true;
+    for &target in targets {
+        let record = solver.advance(target).unwrap();
+        let (leg, loads) = (solver.leg(), record.direction == Direction::Loading);
+        let (low, high) = (record.start().min(record.end()), record.start().max(record.end()));
+        let low = if separated { low.max(0.0) } else { low };
+        let touches = |point: &CurvePoint| point.springs > 0;
+        let expected = if loads { record.largest } else { record.smallest };
+        let holds = record.curve.last().is_some_and(touches) && touches(&expected);
+        if holds && record.curve.len() > 1 {
+            let found = leg.extremes(low, high).unwrap();
+            let curve = leg.curve(&[low, high]).unwrap();
+            prop_assert_eq!(bits(&curve[usize::from(loads)]), bits(record.curve.last().unwrap()));
+            let found = found[usize::from(loads)];
+            // Steps may miss an extreme just before a spring attaches or detaches.
+            let error = if loads { expected.force - found.force } else { found.force - expected.force };
+            let error = if solver.work().steps > 0 { error } else { error.abs() };
+            prop_assert!(error <= 1e-14 * scale, "{:?} {:?}", found, expected);
+            // Within reach in spite of the rounding of the division by the stiffness.
+            let wanted = expected.force + 1e-13 * scale * if loads { -1.0 } else { 1.0 };
+            let at = leg.find_force(wanted, if loads { low } else { high }).unwrap();
+            let there = leg.point(at).unwrap().force;
+            let reached = if loads { there - wanted } else { wanted - there };
+            prop_assert!(reached >= -1e-14 * scale, "{} for {}", there, wanted);
+        }
+        separated = record.curve.last().unwrap().springs == 0;
+    }
+    Ok(())
+}
+
 proptest! {
     #![proptest_config(cases(600))]
 
@@ -165,5 +197,18 @@ proptest! {
             moves_alike(|| adhesive(gaps, edges, body.hess(), foundation, 2), &targets, &parts, scale)?;
             moves_alike(|| nonadhesive(gaps, edges, foundation, 2), &targets, &parts, scale)?;
         }
+    }
+
+    #[test]
+    fn a_leg_has_the_extremes_and_forces_of_its_record(body in body_of_two_works(), turns in indentations(6)) {
+        let targets = to_indentations(&turns);
+        // Forces of all springs at the deepest of these indentations.
+        let springs = body.gaps.len() as f64 * body.foundation.spring_stiffness();
+        let scale = springs * (body.deepest() + body.largest_stretch() + 1.2);
+        for edges in [Edges::Grid, Edges::SubCell] {
+            asked_alike(&mut adhesive(&body.gaps, edges, body.hess(), body.foundation, 9), &targets, scale)?;
+            asked_alike(&mut nonadhesive(&body.gaps, edges, body.foundation, 9), &targets, scale)?;
+        }
+        asked_alike(&mut Stepwise::new(&body.contact(), 0.05, 5000, &|| false).unwrap(), &targets, scale)?;
     }
 }
