@@ -44,10 +44,7 @@ pub const EFFECTS: &[Effect] = &[
     },
     Effect {
         name: "unloading",
-        lines: Lines::Of(&[
-            ("src/contact/body.rs", "fn unload_to("),
-            ("src/contact/adhesive/unloading.rs", "pub fn list<"),
-        ]),
+        lines: Lines::Of(&[("src/contact/adhesive/unloading.rs", "pub fn list<")]),
         called_for: Case::goes_back,
         counted: |work| work.detached,
     },

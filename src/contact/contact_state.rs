@@ -121,12 +121,24 @@ pub enum Extreme {
 }
 
 impl Extreme {
-    /// Returns true for a contact with a smaller or a larger force than another one.
+    /// Returns true for a contact with a smaller or a larger force than another one. Of equal forces the smallest is taken
+    /// at its first place and the largest at its last, whichever is found first.
     pub fn is_beyond(self, state: &ContactState, best: &ContactState) -> bool {
+        let first = |one: &ContactState, other: &ContactState| {
+            one.compression < other.compression
+                || one.compression == other.compression && one.indentation < other.indentation
+        };
         match self {
-            Extreme::Smallest => state.compression < best.compression,
-            Extreme::Largest => state.compression > best.compression,
+            Extreme::Smallest => first(state, best),
+            Extreme::Largest => first(best, state),
         }
+    }
+
+    /// Returns the extreme force at the points of a grid.
+    pub fn of(self, leg: &Sampled) -> ContactState {
+        let beyond =
+            |best: ContactState, next: &ContactState| if self.is_beyond(next, &best) { *next } else { best };
+        leg.states.iter().fold(leg.first(), beyond)
     }
 
     /// Returns true where the bounds of the force between two indentations allow one beyond the best.

@@ -433,18 +433,12 @@ impl Leg {
 
     /// Extreme force on the range of a grid.
     pub(super) fn extreme(&self, extreme: Extreme, sampled: &Sampled, work: &mut Work) -> ContactState {
-        match (&self.patches, extreme) {
-            (Patches::Runs(tree, runs), _) => {
+        match &self.patches {
+            Patches::Runs(tree, runs) => {
                 along_runs!(self, tree, runs, search => search.extreme(extreme, sampled, &mut work.events_sorted))
             }
-            (Patches::Gaps, Extreme::Smallest) => sampled.first(),
-            (Patches::Gaps, Extreme::Largest) => sampled.last(),
-            _ => {
-                let beyond = |best: ContactState, next: &ContactState| {
-                    if extreme.is_beyond(next, &best) { *next } else { best }
-                };
-                sampled.states.iter().fold(sampled.first(), beyond)
-            }
+            // Without adhesion the force never falls; springs with thresholds are sampled at all of them.
+            _ => extreme.of(sampled),
         }
     }
 

@@ -113,7 +113,13 @@ impl Driver {
                 vec![Action::Written(write(&self.model, path, content, overwrite))]
             }
             Effect::Write { path, content, overwrite } => {
-                let path = if content == Content::Scene { scene_file(path).unwrap() } else { path };
+                let named = if content == Content::Scene { scene_file(path) } else { Ok(path) };
+                let path = match named {
+                    Ok(path) => path,
+                    Err(error) => {
+                        return vec![Action::Written(Err(WriteFailure::Refused(error.to_string())))];
+                    }
+                };
                 let result = if self.files.contains_key(&path) && !overwrite {
                     Err(WriteFailure::Exists(path, content))
                 } else {

@@ -24,25 +24,10 @@ pub struct Search<'a, E> {
 impl<E: EdgeModel> Search<'_, E> {
     /// The smallest or largest force on the range of a grid.
     pub fn extreme(&self, extreme: Extreme, leg: &Sampled, sorted: &mut u64) -> ContactState {
-        let best_of = |best: ContactState, next: &ContactState| {
-            if extreme.is_beyond(next, &best) { *next } else { best }
-        };
-        let is_largest = extreme == Extreme::Largest;
-        // Of equals, the smallest force is taken at its first place, the largest one at its last.
-        let mut best = if is_largest {
-            leg.states.iter().rev().fold(leg.last(), best_of)
-        } else {
-            leg.states.iter().fold(leg.first(), best_of)
-        };
+        let mut best = extreme.of(leg);
         let chosen = leg.choose(|low, high| extreme.may_lie(low, high, &best));
-        let intervals = self.intervals(leg, &chosen, sorted);
-        let mut places: Vec<usize> = (0..chosen.len()).collect();
-        if is_largest {
-            places.reverse();
-        }
-        for place in places {
-            let interval = &intervals[place];
-            interval.search(extreme, &interval.pieces, leg.ends(chosen[place]), &mut best);
+        for (interval, &place) in self.intervals(leg, &chosen, sorted).iter().zip(&chosen) {
+            interval.search(extreme, &interval.pieces, leg.ends(place), &mut best);
         }
         best
     }
