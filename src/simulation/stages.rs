@@ -1,20 +1,18 @@
 //! Execution of the stages of a scene whose input has changed since the last run.
 
+use super::cached::Cached;
 use super::contact_stage::ContactStage;
+use super::roughness::{Rough, RoughnessKey, RoughnessMaker, spectrum};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
 use crate::analysis::{Figures, Governing, Regime, SteepWaves, ideal_adhesion_force, scene_tabor_number};
 use crate::contact::{Contact, ContactError, ContactTree, Leg, LegRecord, Springs, Workspace};
 use crate::memory::check_room;
 use crate::parallel::in_parallel;
 use crate::reference::smooth_adhesion_force;
-use crate::scene::{Edges, Form, Roughness, Scene};
-use crate::surface::{
-    Amplitude, EquivalentLine, Histogram, Line, MeasuredOptions, MeasuredProfile, MeasuredRoughness,
-    SelfAffine, SurfaceError, Synthesizer, WaveNumbers, read_faces,
-};
-use crate::topography::{Cut, ReadOptions, Unit, content};
+use crate::scene::{Edges, Form, Scene};
+use crate::surface::{Histogram, Line, MeasuredRoughness, SurfaceError, Synthesizer};
 use std::mem::take;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -38,18 +36,11 @@ const SMALL: u64 = 32 << 20;
 /// to the allocator; that of glibc keeps blocks of less than 32 MiB, up to 64 MiB for each thread.
 #[derive(Default)]
 pub struct Simulation {
-    folder: PathBuf,
     /// True for a single scene: memory for another one is released at once.
     single: bool,
-    /// A measured surface in place of the scenes' files.
-    measured: Option<Arc<MeasuredRoughness>>,
-    /// The equivalent line of the last file: it is small, and serves all seeds.
-    equivalent: Option<(Vec<Vec<PathBuf>>, MeasuredOptions, EquivalentLine)>,
-    synthesizer: Synthesizer,
-    /// Number of random phases drawn so far.
-    phases_drawn: u64,
-    roughness: Option<(RoughnessKey, Rough)>,
-    line: Option<(LineKey, Line)>,
+    maker: RoughnessMaker,
+    roughness: Cached<RoughnessKey, Rough>,
+    line: Cached<LineKey, Line>,
     /// Histogram of the heights of the profile, once observed.
     histogram: Option<Histogram>,
     /// Springs of the profile.
@@ -65,39 +56,6 @@ pub struct Simulation {
 struct Kept {
     points: usize,
     bytes: u64,
-}
-
-/// Parameters of the heights of the roughness.
-#[derive(Clone, PartialEq)]
-enum RoughnessKey {
-    SelfAffine {
-        spectrum: SelfAffine,
-        seed: u64,
-        points: usize,
-        shift: f64,
-    },
-    /// The seed is that of an equivalent line.
-    Measured {
-        /// Files of each face.
-        faces: Vec<Vec<PathBuf>>,
-        options: MeasuredOptions,
-        seed: Option<u64>,
-        length: f64,
-        points: usize,
-        shift: f64,
-    },
-}
-
-/// Heights of the roughness before scaling.
-struct Rough {
-    /// Empty once they have become the gaps of the profile.
-    heights: Vec<f64>,
-    /// Wave numbers of the self-affine profile on a length of 1 m.
-    wave_numbers: Option<WaveNumbers>,
-    /// Amplitude of a measured surface.
-    measured: Option<Amplitude>,
-    /// First and last mode of a random profile.
-    modes: Option<(u64, u64)>,
 }
 
 /// Parameters of the profile.
@@ -129,7 +87,7 @@ impl Simulation {
     /// A simulation with measured profiles in `folder`.
     #[must_use]
     pub fn new(folder: PathBuf) -> Self {
-        Simulation { folder, ..Simulation::default() }
+        Simulation { maker: RoughnessMaker::new(folder, None), ..Simulation::default() }
     }
 
     /// Frees the memory of the Fourier transform before the contact is solved, and makes the gaps of the profile in
@@ -141,14 +99,15 @@ impl Simulation {
 
     /// Uses a measured surface in memory instead of the file of any scene.
     #[must_use]
-    pub fn with_measured(self, measured: Arc<MeasuredRoughness>) -> Self {
-        Simulation { measured: Some(measured), ..self }
+    pub fn with_measured(mut self, measured: Arc<MeasuredRoughness>) -> Self {
+        self.maker.measured = Some(measured);
+        self
     }
 
     /// The profile of the last scene.
     #[must_use]
     pub fn line(&self) -> Option<&Line> {
-        self.line.as_ref().map(|(_, line)| line)
+        self.line.value()
     }
 
     /// Makes the profile of a checked scene, unless unchanged since the last one, and returns its known values.
@@ -158,30 +117,29 @@ impl Simulation {
     pub fn make_line(&mut self, scene: &Scene) -> Result<(&Line, LineFacts, Governing), RunError> {
         let points = scene.numerics.points as usize;
         let spectrum = spectrum(scene);
-        let key = self.roughness_key(scene, spectrum, points);
-        if self.roughness.as_ref().map(|(key, _)| key) != key.as_ref() {
-            let before = self.roughness.take().map(|(_, rough)| rough.heights);
+        let key = self.maker.key(scene);
+        if key.as_ref().is_none_or(|key| self.roughness.get(key).is_none()) {
+            let before = self.roughness.take().map(|rough| rough.heights);
             if let Some(key) = &key {
                 self.roughen(scene, key, before.unwrap_or_default())?;
             }
         }
-        let rough = self.roughness.as_ref().map(|(_, rough)| rough);
+        let rough = self.roughness.value();
         let wave_numbers = rough.and_then(|rough| rough.wave_numbers);
         let wave_numbers = wave_numbers.map(|wave_numbers| wave_numbers.stretched(scene.length));
         let governing = Governing::of(scene, wave_numbers, rough.and_then(|rough| rough.measured));
-        let scale = match &key {
-            // Measured heights are already in metres.
-            Some(RoughnessKey::Measured { .. }) => 1.0,
-            _ => governing.amplitude.map_or(0.0, |amplitude| amplitude.rms_height),
-        };
+        // Measured heights are already in metres.
+        let in_metres = key.as_ref().is_some_and(RoughnessKey::is_measured);
+        let rms_height = governing.amplitude.map_or(0.0, |amplitude| amplitude.rms_height);
+        let scale = if in_metres { 1.0 } else { rms_height };
         let key = LineKey { roughness: key, scale, length: scene.length, points, form: scene.form };
         let modes = rough.and_then(|rough| rough.modes);
-        if self.line.as_ref().is_none_or(|(kept, _)| *kept != key) {
+        if self.line.get(&key).is_none() {
             let line = self.lay_line(scene, &key)?;
             self.springs = Arc::new(Springs::new(Arc::clone(&line.gaps)));
-            self.line = Some((key, line));
+            self.line.keep(key, line);
         }
-        let Some((_, line)) = &self.line else { return Err(NO_PROFILE.into()) };
+        let Some(line) = self.line.value() else { return Err(NO_PROFILE.into()) };
         let facts = LineFacts {
             points,
             length: scene.length,
@@ -206,20 +164,17 @@ impl Simulation {
         if let Some(springs) = Arc::into_inner(take(&mut self.springs)) {
             self.former_tree = springs.into_tree();
         }
-        let mut memory =
-            self.line.take().and_then(|(_, line)| Arc::into_inner(line.gaps)).unwrap_or_default();
-        if let (Some(of), Some((_, rough))) = (&key.roughness, &self.roughness)
+        let mut memory = self.line.take().and_then(|line| Arc::into_inner(line.gaps)).unwrap_or_default();
+        if let (Some(of), Some(rough)) = (&key.roughness, self.roughness.value())
             && rough.heights.is_empty()
         {
             self.roughen(scene, of, take(&mut memory))?;
         }
         let form = scene.form.as_ref();
-        let line = match &mut self.roughness {
-            Some((_, rough)) if self.single => {
-                Line::from_roughness(take(&mut rough.heights), length, form, scale)
-            }
+        let line = match self.roughness.value_mut() {
+            Some(rough) if self.single => Line::from_roughness(take(&mut rough.heights), length, form, scale),
             rough => {
-                let heights = rough.as_ref().map(|(_, rough)| rough.heights.as_slice());
+                let heights = rough.map(|rough| rough.heights.as_slice());
                 Line::new_in(memory, length, points, form, heights, scale)
             }
         };
@@ -231,40 +186,17 @@ impl Simulation {
         let points = scene.numerics.points as usize;
         // The transform allocates its own memory, and would end the process on failure.
         check_room(Plan::of(scene).line_bytes()).map_err(|_| SurfaceError::OutOfMemory(points))?;
-        self.roughness = Some((key.clone(), self.make_roughness(key, memory)?));
+        self.roughness.keep(key.clone(), self.maker.make(key, memory)?);
         if self.single {
-            self.synthesizer = Synthesizer::default();
+            self.maker.synthesizer = Synthesizer::default();
         }
         Ok(())
-    }
-
-    fn roughness_key(
-        &self,
-        scene: &Scene,
-        spectrum: Option<(SelfAffine, u64)>,
-        points: usize,
-    ) -> Option<RoughnessKey> {
-        let shift = scene.form.map_or(0.0, |form| form.shift(points as u64));
-        if let Some((spectrum, seed)) = spectrum {
-            return Some(RoughnessKey::SelfAffine { spectrum, seed, points, shift });
-        }
-        match &scene.roughness {
-            Some(Roughness::Measured { .. }) => Some(RoughnessKey::Measured {
-                faces: scene.measured_paths(&self.folder),
-                options: measured_options(scene),
-                seed: scene.seed(),
-                length: scene.length,
-                points,
-                shift,
-            }),
-            _ => None,
-        }
     }
 
     /// Makes the missing parts of the profile required by the plan: its histogram and its tree. Returns the number
     /// of heights sorted into bins.
     fn look_at_line(&mut self, plan: &Plan, edges: Edges) -> Result<u64, ContactError> {
-        let Some((_, line)) = &self.line else { return Err(NO_PROFILE) };
+        let Some(line) = self.line.value() else { return Err(NO_PROFILE) };
         let count = plan.runs(Stage::HeightHistogram) && self.histogram.is_none();
         let build = plan.runs(Stage::Tree) && !self.springs.has_tree(edges);
         let (springs, memory) = (&self.springs, take(&mut self.former_tree));
@@ -298,8 +230,8 @@ impl Simulation {
 
     /// Releases the memory of earlier runs.
     fn give_back(&mut self) {
-        let (single, measured) = (self.single, self.measured.take());
-        *self = Simulation { single, measured, ..Simulation::new(take(&mut self.folder)) };
+        let maker = take(&mut self.maker).emptied();
+        *self = Simulation { single: self.single, maker, ..Simulation::default() };
     }
 
     /// Makes profile and tree of a checked scene for a contact by this plan.
@@ -313,19 +245,19 @@ impl Simulation {
         let mut timings = Timings::default();
         self.make_room(plan, scene.numerics.points as usize)?;
 
-        let drawn_before = self.phases_drawn;
+        let drawn_before = self.maker.phases_drawn;
         let clock = Instant::now();
         let (_, facts, governing) = self.make_line(scene)?;
         timings.line = clock.elapsed().as_secs_f64();
         interrupted()?;
-        let random_phases = self.phases_drawn - drawn_before;
+        let random_phases = self.maker.phases_drawn - drawn_before;
 
         let clock = Instant::now();
         let heights_binned = self.look_at_line(plan, scene.numerics.edges)?;
         timings.tree = clock.elapsed().as_secs_f64();
         interrupted()?;
 
-        let Some((_, line)) = &self.line else { return Err(NO_PROFILE.into()) };
+        let Some(line) = self.line.value() else { return Err(NO_PROFILE.into()) };
         let foundation = governing.foundation(line);
         let hess = governing.hess_rule(foundation).filter(|_| plan.runs(Stage::RuleOfHess));
         let (springs, edges) = (Arc::clone(&self.springs), scene.numerics.edges);
@@ -395,130 +327,5 @@ impl Simulation {
             histogram: self.histogram.as_ref().filter(|_| plan.runs(Stage::HeightHistogram)).cloned(),
             timings,
         })
-    }
-}
-
-fn spectrum(scene: &Scene) -> Option<(SelfAffine, u64)> {
-    match scene.roughness {
-        Some(Roughness::SelfAffine { hurst, modes: (first, last), seed, .. }) => {
-            Some((SelfAffine { hurst, first, last }, seed))
-        }
-        _ => None,
-    }
-}
-
-/// File of the first face, the name in errors about all of them.
-fn first(faces: &[Vec<PathBuf>]) -> &Path {
-    faces.iter().flatten().next().map_or(Path::new(""), PathBuf::as_path)
-}
-
-/// Options of a checked scene for its measured surface.
-#[must_use]
-pub fn measured_options(scene: &Scene) -> MeasuredOptions {
-    let of_roughness = |roughness| measured_roughness_options(roughness, scene.measured_as_line());
-    scene.roughness.as_ref().map_or_else(MeasuredOptions::default, of_roughness)
-}
-
-/// Options of a checked roughness, whose measured profile is the line itself or not.
-#[must_use]
-pub fn measured_roughness_options(roughness: &Roughness, as_line: bool) -> MeasuredOptions {
-    let Roughness::Measured {
-        unit,
-        height_unit,
-        spacing,
-        interpolate,
-        resample,
-        channel,
-        row,
-        column,
-        detrend,
-        periodic,
-        continue_to,
-        ..
-    } = roughness
-    else {
-        return MeasuredOptions::default();
-    };
-    MeasuredOptions {
-        as_line,
-        reading: ReadOptions {
-            unit: unit.parse().ok(),
-            height_unit: height_unit.parse().ok(),
-            convention: as_line.then_some(Unit::METRE),
-            spacing: *spacing,
-            interpolate: *interpolate,
-            channel: channel.and_then(|channel| channel.try_into().ok()),
-        },
-        resample: *resample,
-        cut: row.map(Cut::Row).or(column.map(Cut::Column)),
-        detrend: *detrend,
-        periodic: *periodic,
-        continue_to: *continue_to,
-    }
-}
-
-impl Simulation {
-    /// Heights of a roughness and their known values.
-    fn make_roughness(&mut self, key: &RoughnessKey, memory: Vec<f64>) -> Result<Rough, RunError> {
-        match key {
-            RoughnessKey::SelfAffine { spectrum, seed, points, shift } => {
-                let unit = self.synthesizer.synthesize(*spectrum, *seed, *points, *shift, memory)?;
-                self.phases_drawn += spectrum.last + 1 - spectrum.first;
-                Ok(Rough {
-                    heights: unit.heights,
-                    wave_numbers: Some(spectrum.wave_numbers(1.0)),
-                    measured: None,
-                    modes: Some((spectrum.first, spectrum.last)),
-                })
-            }
-            RoughnessKey::Measured { faces, options, seed: Some(seed), length, points, shift } => {
-                let line = self.equivalent_line(faces, options)?;
-                let modes = line
-                    .modes(*length, *points)
-                    .map_err(|reason| SurfaceError::measured(first(faces), &reason))?;
-                let amplitude = |mode: u64| line.amplitude(mode, *length);
-                let heights =
-                    self.synthesizer.synthesize_waves(&amplitude, modes, *seed, *points, *shift, memory)?;
-                let measured = Some(line.amplitude_of_modes(*length, modes));
-                self.phases_drawn += modes.1 + 1 - modes.0;
-                Ok(Rough { heights, wave_numbers: None, measured, modes: Some(modes) })
-            }
-            RoughnessKey::Measured { faces, options, seed: None, length, points, shift } => {
-                let read;
-                let profile = match self.measured.as_deref() {
-                    Some(MeasuredRoughness::Profile(known)) => known,
-                    _ => {
-                        let path = first(faces);
-                        let profile = content(path).and_then(|bytes| MeasuredProfile::new(&bytes, options));
-                        read = profile.map_err(|error| SurfaceError::measured(path, &error))?;
-                        &read
-                    }
-                };
-                let heights = profile
-                    .sample(*length, *points, *shift)
-                    .map_err(|reason| SurfaceError::measured(first(faces), &reason))?;
-                let measured = Some(profile.amplitude()?);
-                Ok(Rough { heights, wave_numbers: None, measured, modes: None })
-            }
-        }
-    }
-
-    /// The equivalent line of the faces: the given one, the last one, or a new one.
-    fn equivalent_line(
-        &mut self,
-        faces: &[Vec<PathBuf>],
-        options: &MeasuredOptions,
-    ) -> Result<EquivalentLine, SurfaceError> {
-        if let Some(MeasuredRoughness::Equivalent(known)) = self.measured.as_deref() {
-            return Ok(known.clone());
-        }
-        if let Some((kept, of, line)) = &self.equivalent
-            && (kept.as_slice(), of) == (faces, options)
-        {
-            return Ok(line.clone());
-        }
-        let line = EquivalentLine::new(&read_faces(faces)?, options)?;
-        self.equivalent = Some((faces.to_vec(), *options, line.clone()));
-        Ok(line)
     }
 }
