@@ -72,8 +72,11 @@ impl Body {
     /// Creates a body at an indentation of a leg, m.
     ///
     /// # Errors
-    /// [`ContactError::OutOfMemory`].
+    /// [`ContactError::Stepwise`], [`ContactError::OutOfMemory`].
     pub fn at(leg: &Leg, indentation: f64) -> Result<Self, ContactError> {
+        if leg.is_stepwise() {
+            return Err(ContactError::Stepwise);
+        }
         Ok(Self::on(leg.clone(), leg.state(indentation)?, 2))
     }
 

@@ -8,7 +8,7 @@ use super::request::{Drive, LineView, ManualMove, Newest, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Probe, Report, SolvedScene};
 use crate::analysis::section::{self, Contact, LineColumns, Part};
 use crate::contact::{ContactError, Leg, LegRecord};
-use crate::scene::{Observer, Scene};
+use crate::scene::{Observer, Scene, Solver};
 use std::sync::Arc;
 
 /// Most bytes of kept legs: further legs are computed again when the animation reaches them.
@@ -87,10 +87,18 @@ impl Playback {
             ManualMove::Take { leg, indentation } => {
                 self.held = None;
                 self.last = None;
-                let Some(leg) = self.leg(engine, leg) else { return };
-                let Some(computed) = &self.computed else { return };
+                let Some(computed) = self.computed.clone() else { return };
+                let mut scene = computed.scene.as_ref().clone();
+                let leg = if scene.numerics.solver == Solver::Exact {
+                    self.leg(engine, leg)
+                } else {
+                    // The stepwise solver knows no leg but those of the loading.
+                    scene.numerics.solver = Solver::Exact;
+                    leg_of(engine, &scene, leg)
+                };
+                let Some(leg) = leg else { return };
                 let preload = computed.outcome.figures.preload.unwrap_or(0.0);
-                let scales = (range_of(computed) / STEPS_OF_A_PULL, preload);
+                let scales = (range_of(&computed) / STEPS_OF_A_PULL, preload);
                 self.held = ManualBody::take(&leg, indentation, scales);
             }
             ManualMove::Give => {
@@ -174,27 +182,30 @@ impl Playback {
 
     /// Computes a leg again that was not kept.
     fn recall(&mut self, engine: &mut dyn Engine, wanted: usize) {
-        let Some(scene) = &self.scene else { return };
-        let mut found = None;
-        let mut after = |stage: usize, _: &LegRecord, leg: &Leg| {
-            if stage < wanted {
-                return Ok(());
-            }
-            found = Some(leg.clone());
-            // Nothing after this leg is needed.
-            Err(ContactError::Interrupted)
-        };
-        // The run ends as soon as the leg is found.
-        let _ = engine.run(scene, &|| false, &mut after);
-        if let Some(found) = found {
-            // Only one recalled leg is kept at a time.
-            let firsts = BYTES_KEPT / found.bytes().max(1);
-            self.legs.iter_mut().skip(firsts + 1).for_each(|leg| *leg = None);
-            if let Some(leg) = self.legs.get_mut(wanted) {
-                *leg = Some(found);
-            }
+        let Some(found) = self.scene.as_ref().and_then(|scene| leg_of(engine, scene, wanted)) else { return };
+        // Only one recalled leg is kept at a time.
+        let firsts = BYTES_KEPT / found.bytes().max(1);
+        self.legs.iter_mut().skip(firsts + 1).for_each(|leg| *leg = None);
+        if let Some(leg) = self.legs.get_mut(wanted) {
+            *leg = Some(found);
         }
     }
+}
+
+/// Runs a scene up to a leg.
+fn leg_of(engine: &mut dyn Engine, scene: &Scene, wanted: usize) -> Option<Leg> {
+    let mut found = None;
+    let mut after = |stage: usize, _: &LegRecord, leg: &Leg| {
+        if stage < wanted {
+            return Ok(());
+        }
+        found = Some(leg.clone());
+        // Nothing after this leg is needed.
+        Err(ContactError::Interrupted)
+    };
+    // The run ends as soon as the leg is found.
+    let _ = engine.run(scene, &|| false, &mut after);
+    found
 }
 
 /// Profile and contact at a share of the profile; `None` for a profile without springs.

@@ -54,7 +54,7 @@ impl Leg {
     }
 
     /// Returns the energy that springs release on the indentations from `low` to `high`, m, in J; see
-    /// [`LegRecord::released_energy`](super::LegRecord::released_energy).
+    /// [`LegRecord::released_energy`](crate::contact::LegRecord::released_energy).
     #[must_use]
     pub fn released_energy(&self, low: f64, high: f64) -> f64 {
         let energy = 0.5 * self.contact.foundation.spring_stiffness() * self.squared_stretch(low, high);
@@ -112,7 +112,7 @@ impl Leg {
         if let Some(found) = self.first_at_least(self.search_grid(from, complete), wanted, work)? {
             return Ok(found);
         }
-        if matches!(self.patches, Patches::Thresholds(_)) {
+        if self.is_stepwise() {
             return Err(ContactError::OutOfReach);
         }
         // Beyond full contact the force rises with all springs.

@@ -140,13 +140,16 @@ impl Leg {
     /// Starts the motion in the opposite direction at an indentation of this leg, m.
     ///
     /// # Errors
-    /// [`ContactError::OutOfMemory`].
+    /// [`ContactError::Stepwise`], [`ContactError::OutOfMemory`].
     pub fn turn(&self, at: f64, workspace: &mut Workspace) -> Result<Self, ContactError> {
         let direction = match self.direction {
             Direction::Loading => Direction::Unloading,
             Direction::Unloading => Direction::Loading,
         };
         let turned = Leg { direction, ..self.clone() };
+        if self.is_stepwise() {
+            return Err(ContactError::Stepwise);
+        }
         let Patches::Runs(tree, runs) = &self.patches else {
             let end = if direction == Direction::Loading { self.contact.springs.deepest() } else { 0.0 };
             return Ok(Leg { end, ..turned });
@@ -183,6 +186,11 @@ impl Leg {
             }
         });
         Ok(Leg { patches: Patches::Runs(tree, Arc::new(runs)), end, ..self })
+    }
+
+    /// Returns true for a leg of the stepwise solver, which is known where the solver has been.
+    pub(super) fn is_stepwise(&self) -> bool {
+        matches!(self.patches, Patches::Thresholds(_))
     }
 
     /// Contact of which this is a leg.

@@ -46,6 +46,25 @@ fn the_body_is_taken_at_its_place() {
 }
 
 #[test]
+fn a_body_of_the_stepwise_solver_is_moved_by_the_exact_one() {
+    within(60, || {
+        let stepwise =
+            |step: &str| changed(&rough(), &[("numerics.edges", "Grid"), ("numerics.solver", step)]);
+        let mut ends = Vec::new();
+        for document in [stepwise("Exact"), stepwise("Stepwise(step: 1.0e-9)")] {
+            let mut driver = mid_retraction(document);
+            driver.press("d S");
+            let apart = point(&driver);
+            assert_eq!((apart.springs, apart.force), (0, 0.0));
+            go(&mut driver, "1 µN");
+            assert!((point(&driver).force - 1e-6).abs() < 1e-15);
+            ends.push((apart.indentation, point(&driver)));
+        }
+        assert_eq!(ends[0], ends[1]);
+    });
+}
+
+#[test]
 fn small_and_large_steps_press_and_pull() {
     within(30, || {
         let mut driver = pressed("d");
