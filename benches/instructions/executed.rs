@@ -44,7 +44,10 @@ pub const EFFECTS: &[Effect] = &[
     },
     Effect {
         name: "unloading",
-        lines: Lines::Of(&[("src/contact/adhesive/unloading.rs", "pub fn list<")]),
+        lines: Lines::Of(&[
+            ("src/contact/leg/mod.rs", "pub fn turn("),
+            ("src/contact/adhesive/unloading.rs", "pub fn list<"),
+        ]),
         called_for: Case::goes_back,
         counted: |work| work.detached,
     },
