@@ -2,8 +2,7 @@
 
 use crate::analysis::Figures;
 use crate::contact::{
-    Body, Contact as Springs, ContactError, CurvePoint, Foundation, HessRule, History, LegRecord, Reversal,
-    run,
+    self, Body, ContactError, CurvePoint, Foundation, HessRule, History, LegRecord, Reversal, run,
 };
 use crate::scene::{Edges, Material, Move};
 use crate::simulation::RunError;
@@ -26,7 +25,7 @@ use std::sync::Arc;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Contact {
-    springs: Springs,
+    contact: contact::Contact,
     samples: usize,
 }
 
@@ -84,7 +83,7 @@ impl Contact {
     }
 
     fn body(&self) -> Body {
-        Body::new(&self.springs, self.samples)
+        Body::new(&self.contact, self.samples)
     }
 }
 
@@ -135,11 +134,11 @@ impl ContactBuilder<'_> {
         let foundation =
             Foundation { spacing: profile.spacing(), effective_modulus, length: profile.length() };
         let hess = (work > 0.0).then(|| HessRule::from_works(foundation, closing, work));
-        let springs = Springs::new(Arc::clone(profile.shared_gaps()), edges, foundation, hess);
+        let contact = contact::Contact::new(Arc::clone(profile.shared_gaps()), edges, foundation, hess);
         if hess.is_some() {
-            springs.springs.tree(edges).map_err(|error: ContactError| RunError::Contact(error))?;
+            contact.springs.tree(edges).map_err(|error: ContactError| RunError::Contact(error))?;
         }
-        Ok(Contact { springs, samples })
+        Ok(Contact { contact, samples })
     }
 }
 

@@ -228,7 +228,7 @@ mod tests {
         (0..count).map(solution).collect()
     }
 
-    /// The same with the closed form.
+    /// Gives each solution a closed form of 1 N.
     fn known(solutions: [Vec<Solution>; 2]) -> [Vec<Solution>; 2] {
         let known = |solution| Solution { closed_form: Some(1.0), ..solution };
         solutions.map(|solutions| solutions.into_iter().map(known).collect())

@@ -154,7 +154,8 @@ impl Ladder<'_> {
         Ok(is_timed)
     }
 
-    /// Returns the settings of the rung of so many springs; the step halves from rung to rung once its reference is known.
+    /// Returns the settings of the rung with this number of springs. The step of the stepwise solver halves from rung to
+    /// rung once its reference is known.
     fn settings(&self, points: u64) -> Vec<(Knob, f64, Scene)> {
         let of = |(knob, edges)| (knob, points as f64, refined(self.scene, points, edges));
         let springs = [(Knob::SubCellSprings, Edges::SubCell), (Knob::GridSprings, Edges::Grid)].map(of);

@@ -140,7 +140,7 @@ pub(super) fn relative_error(value: f64, reference: f64) -> f64 {
     ((value - reference) / reference).abs()
 }
 
-/// Returns the scene with so many springs, these edges and the exact solver.
+/// Returns the scene with another number of springs and edge model, and with the exact solver.
 pub(super) fn refined(scene: &Scene, points: u64, edges: Edges) -> Scene {
     let mut scene = scene.clone();
     scene.numerics = Numerics { points, edges, solver: Solver::Exact, ..scene.numerics };

@@ -61,7 +61,7 @@ pub enum Evidence {
     /// A closed form of the literature or of this model.
     #[strum(serialize = "closed form")]
     ClosedForm,
-    /// The same quantity computed otherwise.
+    /// The same quantity from another computation.
     #[strum(serialize = "independent computation")]
     IndependentComputation,
     /// A law for the result: mirror, scaling, memory, energy.
@@ -141,7 +141,7 @@ impl Verdict {
     /// Returns true if the case holds.
     #[must_use]
     pub fn passes(&self) -> bool {
-        // NaN is no error within the bound.
+        // NaN is not within any bound.
         self.error.as_ref().is_ok_and(|&error| error <= self.check.bound)
     }
 }

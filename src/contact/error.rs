@@ -11,7 +11,7 @@ pub enum ContactError {
     Stage {
         /// Index of the stage.
         index: usize,
-        /// Move of the stage.
+        /// Target of the stage.
         target: Move,
         /// Reason of the refusal.
         reason: Box<ContactError>,

@@ -34,7 +34,7 @@ pub struct CurvePoint {
 /// Record of one leg.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LegRecord {
-    /// Move of the motion.
+    /// Target of the motion.
     pub target: Move,
     /// Direction of the motion.
     pub direction: Direction,

@@ -1,7 +1,7 @@
 //! Contact without adhesion: a spring carries exactly while its gap is closed, on any leg.
 //!
-//! The contact depends on the indentation alone, so there is no history and no threshold, and the force never falls
-//! with the indentation. One pass along the line yields a whole curve.
+//! The contact depends on the indentation alone and has no memory; the force does not decrease as the indentation grows.
+//! One pass along the line yields a whole curve.
 //!
 //! A *cell*, the line between two neighbouring springs, fills from its smaller gap to its larger one. Full cells are
 //! summed exactly, as whole numbers of quanta; a partly filled cell adds its part at each point of the curve inside it,

@@ -92,8 +92,9 @@ impl ManualBody {
         if way < 0.0 {
             path.reverse();
         }
-        let below = if to.springs == 0 { f64::NEG_INFINITY } else { low };
-        let below = if from.springs == 0 { f64::NEG_INFINITY } else { below };
+        // All springs attach or detach between contact and separation.
+        let passes_separation = from.springs == 0 || to.springs == 0;
+        let below = if passes_separation { f64::NEG_INFINITY } else { low };
         self.travel.path.extend(path);
         self.travel.path.push(to);
         self.travel.changed += to.springs.abs_diff(from.springs);

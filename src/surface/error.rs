@@ -6,7 +6,7 @@ use thiserror::Error;
 /// Reason why a profile could not be made.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SurfaceError {
-    /// The arrays of so many springs do not fit into memory.
+    /// The arrays of this number of springs do not fit into memory.
     #[error("numerics.points: not enough memory for {0} springs")]
     OutOfMemory(usize),
     /// The Fourier transform refused its input.

@@ -71,7 +71,7 @@ struct EdgeCell {
     growth: f64,
     /// Twice the compression of the cell at that level and indentation, m.
     carries: f64,
-    /// Its squared compression there, m².
+    /// ∫ (t − c)² dx over the part of the cell below the level t, in cells times m².
     squares: f64,
 }
 

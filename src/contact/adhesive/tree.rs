@@ -85,8 +85,8 @@ struct Pending {
 }
 
 impl ContactTree {
-    /// Builds the tree of `gaps` (m, finite, at least zero, at least one, at most 2^28), the largest of which is
-    /// `deepest`, with sums for this kind of edges, in the memory of a tree that is no longer needed.
+    /// Builds the tree of 1 to 2^28 `gaps` (m, finite, at least zero), the largest of which is `deepest`, with the sums of
+    /// an edge model. The memory of the former tree is used again.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
