@@ -29,19 +29,12 @@ fn main() -> Result<(), asperity::Error> {
         let [start, end] =
             [leg.curve.first(), leg.curve.last()].map(|point| point.copied().unwrap_or_default());
         let stored = end.stored_energy - start.stored_energy;
-        let row = [1.0e6 * end.force, 1.0e9 * leg.end(), 1.0e15 * work, 1.0e15 * stored];
-        println!(
-            "{index:>3} {:>22.3} {:>17.2} {:>10.3} {:>12.3} {:>14.3}",
-            row[0],
-            row[1],
-            row[2],
-            row[3],
-            1.0e15 * leg.released_energy
-        );
+        let released = leg.released_energy;
+        let [force, indentation] = [1.0e6 * end.force, 1.0e9 * leg.end()];
+        let [a, b, c] = [work, stored, released].map(|energy| 1.0e15 * energy);
+        println!("{index:>3} {force:>22.3} {indentation:>17.2} {a:>10.3} {b:>12.3} {c:>14.3}");
         // The trapezia of a curve with jumps are the work to the width of a sample.
-        assert!(
-            (work - stored - leg.released_energy).abs() <= 0.02 * work.abs().max(leg.released_energy.abs())
-        );
+        assert!((work - stored - released).abs() <= 0.02 * work.abs().max(released.abs()));
     }
     println!("all: {:.3} fJ", 1.0e15 * cycle.dissipated_energy().unwrap_or(0.0));
     // The second turn follows the first: the contact remembers its turning points.
