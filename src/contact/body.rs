@@ -4,9 +4,8 @@ use super::contact_state::{ContactState, Extreme};
 use super::grid::Grid;
 use super::leg::{Leg, SEARCH_INTERVALS, Workspace};
 use super::moves::{Goal, plan};
-use super::{Contact, ContactError, CurvePoint, Direction, History, LegRecord, Work};
-use crate::contact::Move;
-use std::mem::replace;
+use super::{Contact, ContactError, CurvePoint, Direction, History, LegRecord, Move, TWO_THREADS, Work};
+use crate::parallel::in_parallel;
 use std::time::{Duration, Instant};
 
 /// A body on its foundation that moves from target to target. It begins separated, at d = 0 just before first touch.
@@ -33,9 +32,7 @@ pub struct Body {
     state: ContactState,
     samples: usize,
     workspace: Workspace,
-    /// Time spent on whole motions, and in it on the thresholds.
-    motion_time: Duration,
-    pass_time: Duration,
+    curve_time: Duration,
 }
 
 /// A motion of a body.
@@ -86,15 +83,13 @@ impl Body {
             state,
             samples: samples.max(2),
             workspace: Workspace::default(),
-            motion_time: Duration::ZERO,
-            pass_time: Duration::ZERO,
+            curve_time: Duration::ZERO,
         }
     }
 
     /// Returns the memory for the next body.
     #[must_use]
-    pub fn into_workspace(mut self) -> Workspace {
-        self.workspace.recycle(self.leg);
+    pub fn into_workspace(self) -> Workspace {
         self.workspace
     }
 
@@ -121,25 +116,16 @@ impl Body {
             (Direction::Unloading, _) => motion.leg.state(motion.low)?,
             (Direction::Loading, _) => motion.leg.state(motion.high)?,
         };
-        let contact = motion.leg.contact();
-        let is_apart = state.springs == 0;
-        let leg = if is_apart { Leg::apart(contact, Direction::Unloading) } else { motion.leg.clone() };
-        self.go_to(leg, state);
-        Ok(Some(motion))
-    }
-
-    fn go_to(&mut self, leg: Leg, state: ContactState) {
-        let before = replace(&mut self.leg, leg);
-        self.workspace.recycle(before);
+        self.leg = motion.leg.clone();
+        if state.springs == 0 {
+            self.leg = Leg::apart(motion.leg.contact(), Direction::Unloading);
+        }
         self.state = state;
+        Ok(Some(motion))
     }
 
     fn is_separated(&self) -> bool {
         self.state.springs == 0
-    }
-
-    pub(super) fn stiffness(&self) -> f64 {
-        self.leg.contact().foundation.spring_stiffness()
     }
 
     pub(super) fn point_of(&self, state: ContactState) -> CurvePoint {
@@ -157,16 +143,13 @@ impl Body {
 
     /// The present leg in its direction, else the one that begins here.
     fn leg_in(&mut self, direction: Direction) -> Result<Leg, ContactError> {
-        let clock = Instant::now();
-        let leg = if self.is_separated() && direction == Direction::Loading {
+        if self.is_separated() && direction == Direction::Loading {
             self.approach()
         } else if self.leg.direction() == direction {
             Ok(self.leg.clone())
         } else {
             self.leg.turn(self.state.indentation, &mut self.workspace)
-        };
-        self.pass_time += clock.elapsed();
-        leg
+        }
     }
 
     /// Finds the motion to a target.
@@ -201,6 +184,7 @@ impl Body {
 
     /// Carries out a motion and records it.
     fn record(&mut self, target: Move, motion: Motion) -> Result<LegRecord, ContactError> {
+        let clock = Instant::now();
         let Motion { leg, low, high, goal } = motion;
         let (before, touches) = (self.state, self.is_separated());
         let loads = leg.direction() == Direction::Loading;
@@ -211,13 +195,15 @@ impl Body {
             if ends_at_largest { (Grid::new(low, high, self.samples - 1), 1) } else { self.grid(low, high) };
         // The springs that touch first attach at the first point itself; those held to it detach just below.
         let from = if touches || separates { f64::NEG_INFINITY } else { low };
-        let (sampled, squared_stretch) = leg.sample_changes(grid, from)?;
+        let is_long = leg.contact().gaps().len() >= TWO_THREADS;
+        let (sampled, squared_stretch) =
+            in_parallel(is_long, || leg.sample(grid), || leg.squared_stretch(from, high));
+        let sampled = sampled?;
         let last = sampled.states.len() - 1;
         let chosen = sampled.states.iter().enumerate();
         let chosen = chosen.filter(|(index, _)| index % stride == 0 || *index == last);
         let mut curve: Vec<CurvePoint> = chosen.map(|(_, &state)| self.point_of(state)).collect();
         let work = &mut self.workspace.work;
-        work.springs_tallied += work.springs;
         let (end, smallest, largest);
         if loads {
             let found =
@@ -246,30 +232,28 @@ impl Body {
         let changed = end.springs.abs_diff(before.springs);
         let record = LegRecord::moved((target, &leg), curve, [smallest, largest], changed, squared_stretch);
         self.workspace.work.count(&record);
-        self.go_to(leg, end);
+        (self.leg, self.state) = (leg, end);
+        self.curve_time += clock.elapsed();
         Ok(record)
     }
 }
 
 impl Solver for Body {
     fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError> {
-        let clock = Instant::now();
         let here = self.point();
-        let record = match self.plan(target)? {
+        match self.plan(target)? {
             None => {
                 if here.springs == 0 {
                     self.leg = Leg::apart(self.leg.contact(), self.leg.direction());
                 }
-                LegRecord::still(target, here)
+                Ok(LegRecord::still(target, here))
             }
             Some(Motion { leg, goal: Goal::Indentation(to), .. }) if here.springs == 0 && to < 0.0 => {
-                self.go_to(leg, ContactState::free(to));
-                LegRecord::free(target, here.indentation, to)
+                (self.leg, self.state) = (leg, ContactState::free(to));
+                Ok(LegRecord::free(target, here.indentation, to))
             }
-            Some(motion) => self.record(target, motion)?,
-        };
-        self.motion_time += clock.elapsed();
-        Ok(record)
+            Some(motion) => self.record(target, motion),
+        }
     }
 
     fn leg(&self) -> Leg {
@@ -281,7 +265,7 @@ impl Solver for Body {
     }
 
     fn curve_seconds(&self) -> f64 {
-        (self.motion_time - self.pass_time).as_secs_f64()
+        self.curve_time.as_secs_f64()
     }
 }
 

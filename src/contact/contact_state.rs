@@ -1,9 +1,10 @@
 //! Contact at one indentation and along a grid of indentations, and bounds of the force between two of them.
 
-use super::adhesive::EdgeCells;
+use super::adhesive::{EdgeCells, EdgeSum, Slider};
 use super::grid::Grid;
 use super::totals::{ContactTotals, GapScale};
-use super::{CurvePoint, Foundation};
+use super::{ContactError, CurvePoint, Foundation, resized};
+use std::ops::Range;
 
 /// Contact state at one indentation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -80,6 +81,65 @@ pub struct Sampled {
     pub states: Vec<ContactState>,
 }
 
+/// Sums along a grid over the parts of a contact, each of which carries at some of the points.
+pub struct Tally {
+    pub grid: Grid,
+    /// Change of the totals from one point to the next.
+    changes: Vec<ContactTotals>,
+    /// Edge cells at each point, where edges slide.
+    edges: Vec<EdgeSum>,
+}
+
+impl Tally {
+    /// Creates empty sums along a grid.
+    pub fn new(grid: Grid, slides: bool) -> Result<Self, ContactError> {
+        let count = grid.points().len();
+        let changes = resized(Vec::new(), count + 1, ContactTotals::default())?;
+        let edges = resized(Vec::new(), if slides { count } else { 0 }, EdgeSum::default())?;
+        Ok(Tally { grid, changes, edges })
+    }
+
+    /// Index of the first point of at least this indentation, m; the number of points if there is none.
+    #[inline]
+    pub fn place(&self, indentation: f64) -> usize {
+        if indentation > self.grid.high() {
+            self.grid.points().len()
+        } else {
+            self.grid.first_at_least(indentation)
+        }
+    }
+
+    /// Adds whole springs or cells that carry at these points.
+    #[inline]
+    pub fn add(&mut self, carries: Range<usize>, totals: ContactTotals) {
+        self.changes[carries.start] += totals;
+        self.changes[carries.end] += -totals;
+    }
+
+    /// Adds edge cells that carry at these points.
+    #[inline]
+    pub fn slide(&mut self, carries: Range<usize>, slider: &Slider) {
+        for (sums, &point) in self.edges[carries.clone()].iter_mut().zip(&self.grid.points()[carries]) {
+            sums.add(slider.edge_cells(point));
+        }
+    }
+
+    /// Returns the contact at each point.
+    pub fn finish(self, scale: &GapScale) -> Result<Sampled, ContactError> {
+        let Tally { grid, changes: mut totals, edges } = self;
+        totals.truncate(grid.points().len());
+        let mut states = resized(Vec::new(), totals.len(), ContactState::default())?;
+        let mut total = ContactTotals::default();
+        for (index, (state, &point)) in states.iter_mut().zip(grid.points()).enumerate() {
+            total += totals[index];
+            totals[index] = total;
+            let cells = edges.get(index).copied().unwrap_or_default().total();
+            *state = ContactState::new(!edges.is_empty(), point, total, cells, scale);
+        }
+        Ok(Sampled { grid, totals, states })
+    }
+}
+
 impl Sampled {
     /// The points of both grids, which have none in common.
     pub fn merged(self, other: Sampled) -> Sampled {
@@ -105,11 +165,6 @@ impl Sampled {
     pub fn choose(&self, may_lie: impl Fn(&ContactState, &ContactState) -> bool) -> Vec<usize> {
         let ends = self.states.windows(2).enumerate();
         ends.filter(|(_, ends)| may_lie(&ends[0], &ends[1])).map(|(index, _)| index).collect()
-    }
-
-    /// Contact at the ends of an interval of the grid.
-    pub fn ends(&self, interval: usize) -> (&ContactState, &ContactState) {
-        (&self.states[interval], &self.states[interval + 1])
     }
 }
 

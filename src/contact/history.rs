@@ -139,8 +139,6 @@ pub struct Work {
     pub zero_load_passes: u64,
     /// Evaluations of the rule of Hess.
     pub hess_evaluations: u64,
-    /// Springs sorted into the intervals of a curve.
-    pub springs_tallied: u64,
     /// Springs sorted by threshold in the intervals that may hold an extreme of the force.
     pub events_sorted: u64,
     /// Springs attached on the legs of the loading; `joins` in files.

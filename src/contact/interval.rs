@@ -1,11 +1,13 @@
-//! One interval of indentations of a leg, searched for extremes and crossings of the force.
+//! Intervals of indentations of a leg, searched for extremes and crossings of the force.
 //!
-//! The interval is divided at its middle event until bounds exclude a part or nothing happens inside.
+//! An interval is divided at its middle event until bounds exclude a part or nothing happens inside.
 
 use super::adhesive::{EdgeSum, Slider};
-use super::contact_state::{ContactState, Extreme, lower_bound, upper_bound};
+use super::contact_state::{ContactState, Extreme, Sampled, lower_bound, upper_bound};
 use super::crossing::{bisect, crossing, last_before};
 use super::totals::{ContactTotals, GapScale};
+use std::ops::Range;
+use std::rc::Rc;
 
 /// Whole springs or cells in contact from this indentation on, until the next step.
 #[derive(Clone, Copy, Debug)]
@@ -14,7 +16,7 @@ struct Step {
     totals: ContactTotals,
 }
 
-/// A fragment whose edges slide, while it fills one span.
+/// Edge cells of a fragment, while it fills one span.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece {
     pub slider: Slider,
@@ -22,33 +24,97 @@ pub struct Piece {
     pub to: f64,
 }
 
-/// An interval of indentations and its events.
+/// Part of a leg between two indentations, with its events.
 pub struct Interval {
     slides: bool,
     scale: GapScale,
     /// First its contact at the lowest indentation; then, once sorted, its events.
-    steps: Vec<Step>,
-    pub pieces: Vec<Piece>,
+    steps: Rc<Vec<Step>>,
+    pieces: Vec<Piece>,
+    /// Contact at the lowest and at the highest indentation.
+    low: ContactState,
+    high: ContactState,
 }
 
-/// Contact at the lowest and at the highest indentation of a part.
-pub type Ends<'s> = (&'s ContactState, &'s ContactState);
+/// Intervals of a sampled leg in which a force is sought.
+pub struct Intervals<'s> {
+    leg: &'s Sampled,
+    /// For each interval of the grid its index among the chosen ones.
+    places: Vec<Option<usize>>,
+    chosen: Vec<Interval>,
+    /// First of the chosen intervals, and the end of the last one.
+    range: [usize; 2],
+    /// Lowest and highest indentation, m.
+    pub low: f64,
+    /// See `low`.
+    pub high: f64,
+}
+
+impl<'s> Intervals<'s> {
+    /// Chooses these ascending intervals of a leg, at least one.
+    pub fn new(leg: &'s Sampled, chosen: &[usize], slides: bool, scale: GapScale) -> Self {
+        let (points, range) = (leg.grid.points(), [chosen[0], chosen[chosen.len() - 1] + 1]);
+        let mut places = vec![None; points.len() - 1];
+        let of = |(place, &index): (usize, &usize)| {
+            places[index] = Some(place);
+            let steps = Rc::new(vec![Step { threshold: points[index], totals: leg.totals[index] }]);
+            let [low, high] = [leg.states[index], leg.states[index + 1]];
+            Interval { slides, scale, steps, pieces: Vec::new(), low, high }
+        };
+        let chosen = chosen.iter().enumerate().map(of).collect();
+        Intervals { leg, places, chosen, range, low: points[range[0]], high: points[range[1]] }
+    }
+
+    /// Index of the first point of the grid of at least this indentation, m, or of the last one sought.
+    fn above(&self, indentation: f64) -> usize {
+        self.leg.grid.first_at_least(indentation.min(self.high))
+    }
+
+    /// Range of the intervals between two indentations, m.
+    fn between(&self, from: f64, to: f64) -> Range<usize> {
+        let [first, end] = self.range;
+        self.above(from).saturating_sub(1).max(first)..self.above(to).min(end)
+    }
+
+    /// Returns true if an interval overlaps with the indentations from one up to another, m.
+    pub fn overlap(&self, from: f64, to: f64) -> bool {
+        from <= self.high && to > self.low && self.places[self.between(from, to)].iter().any(Option::is_some)
+    }
+
+    /// Adds springs or cells that carry from one indentation up to another, m.
+    pub fn add_events(&mut self, from: f64, to: f64, totals: ContactTotals) {
+        for (threshold, totals) in [(from, totals), (to, -totals)] {
+            if threshold > self.low
+                && threshold <= self.high
+                && let Some(place) = self.places[self.above(threshold) - 1]
+            {
+                Rc::make_mut(&mut self.chosen[place].steps).push(Step { threshold, totals });
+            }
+        }
+    }
+
+    /// Adds edge cells.
+    pub fn add_piece(&mut self, piece: Piece) {
+        let range = self.between(piece.from, piece.to);
+        self.places[range].iter().flatten().for_each(|&place| self.chosen[place].pieces.push(piece));
+    }
+
+    /// Returns the intervals, and adds the number of their events to `sorted`.
+    pub fn finish(mut self, sorted: &mut u64) -> Vec<Interval> {
+        for interval in &mut self.chosen {
+            *sorted += interval.steps.len() as u64 - 1;
+            interval.sort();
+        }
+        self.chosen
+    }
+}
 
 impl Interval {
-    /// An interval with this contact at its lowest indentation, m.
-    pub fn new(slides: bool, scale: GapScale, low: f64, totals: ContactTotals) -> Self {
-        Interval { slides, scale, steps: vec![Step { threshold: low, totals }], pieces: Vec::new() }
-    }
-
-    /// Adds an event at an indentation, m; [`Interval::sort`] follows the last one.
-    pub fn add(&mut self, threshold: f64, totals: ContactTotals) {
-        self.steps.push(Step { threshold, totals });
-    }
-
     /// Sorts its steps, each with the totals of all before it.
-    pub fn sort(&mut self) {
-        self.steps[1..].sort_unstable_by(|a, b| a.threshold.total_cmp(&b.threshold));
-        self.steps.dedup_by(|next, step| {
+    fn sort(&mut self) {
+        let steps = Rc::make_mut(&mut self.steps);
+        steps[1..].sort_unstable_by(|a, b| a.threshold.total_cmp(&b.threshold));
+        steps.dedup_by(|next, step| {
             let together = next.threshold == step.threshold;
             if together {
                 step.totals += next.totals;
@@ -56,169 +122,132 @@ impl Interval {
             together
         });
         let mut total = ContactTotals::default();
-        for step in &mut self.steps {
+        for step in steps {
             total += step.totals;
             step.totals = total;
         }
     }
 
+    /// Lowest and highest indentation, m.
+    fn ends(&self) -> (f64, f64) {
+        (self.low.indentation, self.high.indentation)
+    }
+
     /// Whole springs or cells in contact at an indentation, m.
-    pub fn totals(&self, indentation: f64) -> ContactTotals {
+    fn totals(&self, indentation: f64) -> ContactTotals {
         let above = self.steps.partition_point(|step| step.threshold <= indentation);
         self.steps[above.saturating_sub(1)].totals
     }
 
-    /// Contact state at an indentation, m.
-    fn at(&self, pieces: &[Piece], indentation: f64) -> ContactState {
-        self.steady(pieces, indentation, indentation)
+    fn sliders(&self, indentation: f64) -> impl Iterator<Item = Slider> {
+        self.pieces.iter().filter(move |piece| piece.is_at(indentation)).map(|piece| piece.slider)
     }
 
     /// The contact from an indentation on, m, at another one up to the next event: whole springs or cells and the edge
     /// cells of some fragments, none of which jumps, merges or splits. The force is convex in the indentation.
-    fn steady(&self, pieces: &[Piece], from: f64, at: f64) -> ContactState {
+    fn steady(&self, from: f64, at: f64) -> ContactState {
         let mut edges = EdgeSum::default();
-        for piece in pieces.iter().filter(|piece| piece.is_at(from)) {
-            edges.add(piece.slider.edge_cells(at));
-        }
+        self.sliders(from).for_each(|slider| edges.add(slider.edge_cells(at)));
         ContactState::new(self.slides, at, self.totals(from), edges.total(), &self.scale)
     }
 
-    /// Growth of the compression of a steady contact with the indentation, in cells.
-    fn stiffness(&self, pieces: &[Piece], from: f64, at: f64) -> f64 {
-        let sliders = pieces.iter().filter(|piece| piece.is_at(from)).map(|piece| piece.slider);
-        self.totals(from).whole(self.slides) as f64 + sliders.map(|slider| slider.stiffness(at)).sum::<f64>()
+    /// Growth of the compression of the contact from the lower end on with the indentation, in cells.
+    fn stiffness(&self, at: f64) -> f64 {
+        let from = self.low.indentation;
+        let edges: f64 = self.sliders(from).map(|slider| slider.stiffness(at)).sum();
+        self.totals(from).whole(self.slides) as f64 + edges
     }
 
-    /// Indentation of the smallest force of a steady contact between two others, m.
-    fn flattest(&self, pieces: &[Piece], low: f64, high: f64) -> f64 {
-        if self.stiffness(pieces, low, low) >= 0.0 {
+    /// Indentation of the smallest force of the contact from the lower end on, up to `last`, m.
+    fn flattest(&self, last: f64) -> f64 {
+        let low = self.low.indentation;
+        if self.stiffness(low) >= 0.0 {
             return low;
         }
-        if self.stiffness(pieces, low, high) <= 0.0 {
-            return high;
-        }
-        bisect(low, high, |at| self.stiffness(pieces, low, at) >= 0.0)
+        if self.stiffness(last) <= 0.0 { last } else { bisect(low, last, |at| self.stiffness(at) >= 0.0) }
     }
 
-    /// Indentation of a compression where the force of a steady contact is a straight line, m.
-    fn straight(&self, from: f64, compression: f64) -> Option<f64> {
-        if self.slides { None } else { self.totals(from).indentation(compression, &self.scale) }
+    /// Contact at the middle one of all events inside.
+    fn middle(&self) -> Option<ContactState> {
+        let ((low, high), steps) = (self.ends(), &self.steps);
+        let first = steps.partition_point(|step| step.threshold <= low);
+        let end = steps.partition_point(|step| step.threshold < high);
+        (first < end)
+            .then(|| steps[first + (end - first) / 2].threshold)
+            .map(|event| self.steady(event, event))
     }
 
-    /// The smallest indentation of a steady contact between two, m, the higher one included, at which the compression is
-    /// at least `wanted`; at the lower one it is smaller.
-    fn rises_to(&self, pieces: &[Piece], (from, to): (f64, f64), wanted: f64) -> Option<f64> {
-        if let Some(straight) = self.straight(from, wanted) {
-            return Some(straight.max(from)).filter(|&found| found < to);
-        }
-        // Convex and below `wanted` at first: one crossing.
-        let compression = |at: f64| self.steady(pieces, from, at).compression;
-        (compression(to) >= wanted).then(|| crossing(from, to, |at| compression(at) - wanted))
+    /// The part between two contacts.
+    fn between(&self, low: ContactState, high: ContactState) -> Self {
+        let overlaps = |piece: &&Piece| piece.from <= high.indentation && piece.to > low.indentation;
+        let pieces = self.pieces.iter().filter(overlaps).copied().collect();
+        Interval { steps: Rc::clone(&self.steps), pieces, low, high, ..*self }
     }
 
-    /// The largest indentation of a steady contact between two, m, both included, at which the compression is at most
-    /// `wanted`.
-    fn falls_to(&self, pieces: &[Piece], (from, last): (f64, f64), wanted: f64) -> Option<f64> {
-        let compression = |at: f64| self.steady(pieces, from, at).compression;
-        let flattest = self.flattest(pieces, from, last);
-        if compression(flattest) > wanted {
-            return None;
-        }
-        if let Some(straight) = self.straight(from, wanted) {
-            return Some(straight.clamp(from, last));
-        }
-        // The compression rises from there on: the last number at which it has not passed `wanted`.
-        let passes = |at: f64| compression(at) - wanted;
-        Some(if passes(last) > 0.0 { last_before(flattest, last, passes) } else { last })
-    }
-
-    /// The middle one of all events inside a part.
-    fn middle_event(&self, low: f64, high: f64) -> Option<f64> {
-        let first = self.steps.partition_point(|step| step.threshold <= low);
-        let end = self.steps.partition_point(|step| step.threshold < high);
-        (first < end).then(|| self.steps[first + (end - first) / 2].threshold)
-    }
-
-    /// The pieces that overlap a part.
-    fn part(pieces: &[Piece], low: f64, high: f64) -> Vec<Piece> {
-        pieces.iter().copied().filter(|piece| piece.from <= high && piece.to > low).collect()
-    }
-
-    /// Makes `best` the extreme force between two ends, already covered by `best`.
-    pub fn search(&self, extreme: Extreme, pieces: &[Piece], (low, high): Ends<'_>, best: &mut ContactState) {
-        let (from, to) = (low.indentation, high.indentation);
-        if !extreme.may_lie(low, high, best) || from.next_up() >= to {
+    /// Makes `best` the extreme force inside, which the ends do not exceed.
+    pub fn extreme(&self, extreme: Extreme, best: &mut ContactState) {
+        let (from, to) = self.ends();
+        if !extreme.may_lie(&self.low, &self.high, best) || from.next_up() >= to {
             return;
         }
-        let take = |at: f64, best: &mut ContactState| {
-            let state = self.at(pieces, at);
+        let mut take = |state| {
             if extreme.is_beyond(&state, best) {
                 *best = state;
             }
-            state
         };
-        let Some(event) = self.middle_event(from, to) else {
+        let Some(middle) = self.middle() else {
             let before = to.next_down();
-            take(
-                match extreme {
-                    Extreme::Smallest => self.flattest(pieces, from, to).min(before),
-                    // Where the force falls at once, the largest number before counts.
-                    Extreme::Largest => before,
-                },
-                best,
-            );
-            return;
+            let at = match extreme {
+                Extreme::Smallest => self.flattest(to).min(before),
+                // Where the force falls at once, the largest number before counts.
+                Extreme::Largest => before,
+            };
+            return take(self.steady(from, at));
         };
-        let middle = take(event, best);
-        self.search(extreme, &Self::part(pieces, event, to), (&middle, high), best);
-        self.search(extreme, &Self::part(pieces, from, event), (low, &middle), best);
+        take(middle);
+        self.between(middle, self.high).extreme(extreme, best);
+        self.between(self.low, middle).extreme(extreme, best);
     }
 
-    /// The smallest indentation above the lower end, up to the higher one, with at least this compression; at the
+    /// Returns the smallest indentation above the lower end, up to the higher one, with at least this compression; at the
     /// lower end it is smaller.
-    pub fn first_of(&self, pieces: &[Piece], (low, high): Ends<'_>, wanted: f64) -> Option<f64> {
-        if upper_bound(low, high) < wanted {
+    pub fn first_at_least(&self, wanted: f64) -> Option<f64> {
+        if upper_bound(&self.low, &self.high) < wanted {
             return None;
         }
-        let (from, to) = (low.indentation, high.indentation);
-        match self.middle_event(from, to) {
-            None => match self.rises_to(pieces, (from, to), wanted) {
-                Some(found) if found < to || high.compression >= wanted => Some(found),
-                Some(_) => Some(to.next_down()),
-                None => (high.compression >= wanted).then_some(to),
-            },
-            Some(event) => {
-                let middle = self.at(pieces, event);
-                let lower = Self::part(pieces, from, event);
-                self.first_of(&lower, (low, &middle), wanted)
-                    .or_else(|| self.first_of(&Self::part(pieces, event, to), (&middle, high), wanted))
-            }
+        if let Some(middle) = self.middle() {
+            let lower = self.between(self.low, middle).first_at_least(wanted);
+            return lower.or_else(|| self.between(middle, self.high).first_at_least(wanted));
         }
+        // Convex and below `wanted` at first: one crossing.
+        let (from, to) = self.ends();
+        let passes = |at: f64| self.steady(from, at).compression - wanted;
+        let found = (passes(to) >= 0.0).then(|| crossing(from, to, passes)).filter(|&found| found < to);
+        found.or_else(|| (self.high.compression >= wanted).then_some(to))
     }
 
-    /// The largest indentation below the higher end, down to the lower one, with at most this compression; at the
+    /// Returns the largest indentation below the higher end, down to the lower one, with at most this compression; at the
     /// higher end it is larger.
-    pub fn last_of(&self, pieces: &[Piece], (low, high): Ends<'_>, wanted: f64) -> Option<f64> {
-        let (from, to) = (low.indentation, high.indentation);
-        if lower_bound(low, high) > wanted || from >= to {
+    pub fn last_at_most(&self, wanted: f64) -> Option<f64> {
+        let (from, to) = self.ends();
+        if lower_bound(&self.low, &self.high) > wanted || from >= to {
             return None;
         }
-        match self.middle_event(from, to) {
-            None => {
-                let before = to.next_down().max(from);
-                let found = self.falls_to(pieces, (from, before), wanted);
-                found.or_else(|| (low.compression <= wanted).then_some(from))
-            }
-            Some(event) => {
-                let middle = self.at(pieces, event);
-                self.last_of(&Self::part(pieces, event, to), (&middle, high), wanted).or_else(|| {
-                    if middle.compression <= wanted {
-                        return Some(event);
-                    }
-                    self.last_of(&Self::part(pieces, from, event), (low, &middle), wanted)
-                })
-            }
+        if let Some(middle) = self.middle() {
+            let upper = self.between(middle, self.high).last_at_most(wanted);
+            return upper.or_else(|| {
+                let at_middle = (middle.compression <= wanted).then_some(middle.indentation);
+                at_middle.or_else(|| self.between(self.low, middle).last_at_most(wanted))
+            });
         }
+        let last = to.next_down().max(from);
+        let passes = |at: f64| self.steady(from, at).compression - wanted;
+        let flattest = self.flattest(last);
+        if passes(flattest) > 0.0 {
+            return (self.low.compression <= wanted).then_some(from);
+        }
+        // The compression rises from there on: the last number at which it has not passed `wanted`.
+        Some(if passes(last) > 0.0 { last_before(flattest, last, passes) } else { last })
     }
 }
 

@@ -1,9 +1,8 @@
 //! Reversals: the unloadings from many turning points of one loading.
 
 use super::body::Body;
-use super::contact_state::{ContactState, Extreme};
-use super::grid::Grid;
-use super::leg::{Leg, SEARCH_INTERVALS};
+use super::contact_state::ContactState;
+use super::leg::Leg;
 use super::moves::{Goal, plan};
 use super::{ContactError, CurvePoint};
 use crate::contact::Move;
@@ -62,7 +61,6 @@ impl Body {
         for (index, at) in turns {
             see(index, self.reverse(&loading, loading.state(at)?, points)?)?;
         }
-        self.workspace().recycle(loading);
         Ok(())
     }
 
@@ -71,22 +69,14 @@ impl Body {
     /// # Errors
     /// [`ContactError::OutOfMemory`].
     pub fn pull_off_at_touch(&mut self) -> Result<f64, ContactError> {
-        let passes = self.workspace().work;
+        let before = self.workspace().work;
         let loading = self.approach()?;
-        let unloading = loading.turn(0.0, self.workspace())?;
-        let springs_in_contact = self.workspace().springs_held();
-        let grid = Grid::new(unloading.end().min(0.0), 0.0, SEARCH_INTERVALS);
-        let sampled = unloading.sample(grid)?;
+        let force = self.reverse(&loading, loading.state(0.0)?, &[])?.smallest.force;
+        // The passes for F_a(0) count separately.
         let work = &mut self.workspace().work;
-        work.springs_tallied += springs_in_contact;
-        // The passes of the loading count separately.
-        (work.loading_passes, work.unloading_passes) = (passes.loading_passes, passes.unloading_passes);
+        (work.loading_passes, work.unloading_passes) = (before.loading_passes, before.unloading_passes);
         work.zero_load_passes += 1;
-        let smallest = unloading.extreme(Extreme::Smallest, &sampled, work).compression;
-        for leg in [loading, unloading] {
-            self.workspace().recycle(leg);
-        }
-        Ok(self.stiffness() * smallest)
+        Ok(force)
     }
 
     /// Unloads from a turning point of a loading.
@@ -106,14 +96,12 @@ impl Body {
         let mut forces = vec![0.0; apart];
         forces.extend(unloading.curve(&below[apart..])?.iter().map(|point| point.force));
         let released = [loading, &unloading].map(|leg| leg.released_energy(f64::NEG_INFINITY, high));
-        let reversal = Reversal {
+        Ok(Reversal {
             turn: self.point_of(turn),
             smallest: self.point_of(smallest),
             separation,
             dissipated_energy: released[0] + released[1] + 0.0,
             forces,
-        };
-        self.workspace().recycle(unloading);
-        Ok(reversal)
+        })
     }
 }

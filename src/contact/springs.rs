@@ -63,6 +63,11 @@ impl Springs {
         &self.gaps
     }
 
+    /// Gaps to be shared with a leg, m.
+    pub(super) fn shared_gaps(&self) -> &Arc<Vec<f64>> {
+        &self.gaps
+    }
+
     /// Largest gap, m.
     #[must_use]
     pub fn deepest(&self) -> f64 {

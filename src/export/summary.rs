@@ -180,7 +180,7 @@ fn cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
 }
 
 /// All counts of work with their labels.
-fn counts(work: &Work) -> [(&'static str, u64); 16] {
+fn counts(work: &Work) -> [(&'static str, u64); 15] {
     [
         ("springs", work.springs),
         ("random phases", work.random_phases),
@@ -190,7 +190,6 @@ fn counts(work: &Work) -> [(&'static str, u64); 16] {
         ("unloading passes", work.unloading_passes),
         ("passes for F_a(0)", work.zero_load_passes),
         ("rule of Hess applied", work.hess_evaluations),
-        ("springs in totals", work.springs_tallied),
         ("events sorted", work.events_sorted),
         ("springs attached", work.attached),
         ("springs detached", work.detached),

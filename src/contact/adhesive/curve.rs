@@ -1,17 +1,19 @@
 //! The contact of a leg: along a grid of indentations, and spring by spring.
 
 use super::edge_model::EdgeModel;
-use super::levels::EdgeSum;
-use super::run::{Held, Run};
-use super::search::Search;
-use super::span::Span;
-use crate::contact::contact_state::{ContactState, Sampled};
+use super::run::{Ground, Held, Run};
+use crate::contact::ContactError;
+use crate::contact::contact_state::{Sampled, Tally};
 use crate::contact::grid::Grid;
-use crate::contact::totals::ContactTotals;
-use crate::contact::{ContactError, resized};
-use std::ops::Range;
+use crate::contact::interval::{Intervals, Piece};
 
-impl<E: EdgeModel> Search<'_, E> {
+/// The runs of a leg.
+pub struct Runs<'a, E> {
+    pub ground: Ground<'a, E>,
+    pub runs: &'a [Run],
+}
+
+impl<E: EdgeModel> Runs<'_, E> {
     /// Patches in contact at an indentation (m), from left to right, with their pinned edges where the next leg `pins`
     /// them.
     pub fn held_at(&self, indentation: f64, pins: bool) -> impl Iterator<Item = Held> {
@@ -47,52 +49,43 @@ impl<E: EdgeModel> Search<'_, E> {
     /// # Errors
     /// [`ContactError::OutOfMemory`].
     pub fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {
-        let (ground, points) = (&self.ground, grid.points());
-        let count = points.len();
-        let mut totals = resized(Vec::new(), count + 1, ContactTotals::default())?;
-        let mut sums = resized(Vec::new(), if E::SLIDES { count } else { 0 }, EdgeSum::default())?;
-        self.each_span_on(&grid, |run, span, filled| {
-            let whole = ground.totals(span);
-            totals[filled.start] += whole;
-            totals[filled.end] += -whole;
-            if E::SLIDES {
-                let slider = ground.slider(run, span);
-                for (sums, &point) in sums[filled.clone()].iter_mut().zip(&points[filled]) {
-                    sums.add(slider.edge_cells(point));
-                }
-            }
-        });
-        totals.truncate(count);
-        let mut total = ContactTotals::default();
-        let mut states = resized(Vec::new(), count, ContactState::default())?;
-        let scale = ground.tree.scale();
-        for (index, (state, &point)) in states.iter_mut().zip(points).enumerate() {
-            total += totals[index];
-            totals[index] = total;
-            let edges = sums.get(index).copied().unwrap_or_default();
-            *state = ContactState::new(E::SLIDES, point, total, edges.total(), &scale);
-        }
-        Ok(Sampled { grid, totals, states })
-    }
-
-    /// Calls `see` with each run, each span of it, and the indices of the points of a grid at which the run fills it.
-    #[inline]
-    fn each_span_on(&self, grid: &Grid, mut see: impl FnMut(&Run, &Span, Range<usize>)) {
-        let (ground, points) = (&self.ground, grid.points());
-        let (low, high) = (points[0], grid.high());
-        let place = |at: f64| if at > high { points.len() } else { grid.first_at_least(at) };
+        let (ground, low, high) = (&self.ground, grid.points()[0], grid.high());
+        let mut tally = Tally::new(grid, E::SLIDES)?;
         for run in self.runs.iter().filter(|run| run.from <= high && run.to > low) {
-            let (mut first, end) = (place(run.from), place(run.to));
+            let (mut first, end) = (tally.place(run.from), tally.place(run.to));
             if first >= end {
                 continue;
             }
             let mut span = ground.bottom(run);
             while first < end {
-                span = ground.filled(run, span, points[first]);
-                let next = place(ground.filled_up_to(run, &span)).min(end);
-                see(run, &span, first..next);
+                span = ground.filled(run, span, tally.grid.points()[first]);
+                let next = tally.place(ground.filled_up_to(run, &span)).min(end);
+                tally.add(first..next, ground.totals(&span));
+                if E::SLIDES {
+                    tally.slide(first..next, &ground.slider(run, &span));
+                }
                 first = next;
             }
+        }
+        tally.finish(&ground.tree.scale())
+    }
+
+    /// Adds the events and the sliding edges of a leg to the intervals of a search.
+    pub fn search(&self, intervals: &mut Intervals<'_>) {
+        let ground = &self.ground;
+        for run in self.runs {
+            if !intervals.overlap(run.from, run.to) {
+                continue;
+            }
+            ground.each_span(run, intervals.low, |span, from, to| {
+                if intervals.low < to && from <= intervals.high {
+                    intervals.add_events(from, to, ground.totals(span));
+                    if E::SLIDES {
+                        intervals.add_piece(Piece { slider: ground.slider(run, span), from, to });
+                    }
+                }
+                from > intervals.high
+            });
         }
     }
 }

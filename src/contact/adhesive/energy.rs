@@ -4,10 +4,10 @@
 //! which ends at θ; a patch that splits detaches them. So the energy of a leg telescopes over its runs: the squared
 //! stretches at the beginning of each run, less those at its end, and the squares along its sliding edges.
 
+use super::curve::Runs;
 use super::edge_model::EdgeModel;
 use super::levels::share_below;
 use super::run::{Ground, Run};
-use super::search::Search;
 use super::span::Span;
 use crate::contact::grid::CompensatedSum;
 use crate::contact::totals::SquareScale;
@@ -82,7 +82,7 @@ impl<E: EdgeModel> Ground<'_, E> {
     }
 }
 
-impl<E: EdgeModel> Search<'_, E> {
+impl<E: EdgeModel> Runs<'_, E> {
     /// ∫ (c − θ)² dx over the parts of the line that attach or detach at an indentation θ above `low` and up to `high`, m,
     /// in cells times m².
     pub fn squared_stretch(&self, low: f64, high: f64) -> f64 {

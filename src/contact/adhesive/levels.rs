@@ -223,6 +223,25 @@ impl Slider {
         slider
     }
 
+    /// A cell between two springs that fills from its smaller gap to its larger one without adhesion, m.
+    #[inline]
+    pub fn of_cell(one: f64, other: f64) -> Self {
+        let (gap, top) = if one < other { (one, other) } else { (other, one) };
+        let growth = Some((top - gap).recip()).filter(|growth| growth.is_finite()).unwrap_or(0.0);
+        Self::without_adhesion(Levels { gap, length: 0.0, growth, top })
+    }
+
+    /// Half a cell at the end of the foundation, as level as its spring of this gap, m, without adhesion.
+    pub fn half_cell(gap: f64) -> Self {
+        Self::without_adhesion(Levels { gap, length: 0.5, growth: 0.0, top: f64::INFINITY })
+    }
+
+    #[inline]
+    fn without_adhesion(levels: Levels) -> Self {
+        let slide = Slide::new(levels, 0.0);
+        Slider { slide, cells: 0.0, edges: levels.length, compression: 0.0, squares: 0.0 }
+    }
+
     /// Contribution of the edge cells at an indentation, m.
     #[inline]
     pub fn edge_cells(&self, indentation: f64) -> EdgeCells {
@@ -246,10 +265,11 @@ impl Slider {
     /// convex.
     pub fn stiffness(&self, indentation: f64) -> f64 {
         let Slide { levels, half, .. } = self.slide;
-        if levels.growth <= 0.0 {
-            return self.edges;
-        }
         let above = indentation - levels.gap;
+        if levels.growth * half <= 0.0 {
+            // Edges that do not move, or that bear no stretch.
+            return self.edges + levels.growth * self.slide.rise(above);
+        }
         let length = levels.length_at(self.slide.rise(above));
         // The edges also slide at the ends of their levels, to one side at least.
         let (root, fall) = (self.slide.root(above), 2.0 * half);

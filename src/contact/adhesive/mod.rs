@@ -10,16 +10,15 @@ mod energy;
 mod levels;
 mod loading;
 mod run;
-mod search;
 mod span;
 mod tree;
 mod unloading;
 
+pub(in crate::contact) use curve::Runs;
 pub(in crate::contact) use edge_model::{EdgeModel, GridEdges, SubCellEdges};
 pub(in crate::contact) use levels::{EdgeCells, EdgeSum, Slider};
 pub(in crate::contact) use loading::Closing;
 pub(in crate::contact) use run::{Ground, Held, Run};
-pub(in crate::contact) use search::Search;
 pub(in crate::contact) use span::Span;
 pub use tree::ContactTree;
 pub(in crate::contact) use tree::largest;

@@ -1,17 +1,23 @@
 //! Forces and energies of a leg: along a grid of indentations, at their extremes, and where a force is reached.
 
+//!
+//! Between two events the force is convex; at an event, read upwards in d, it falls or stays. From the contact at two
+//! indentations follow bounds of the force between them: springs that attach there are stretched, or just touch and are
+//! then compressed by no more than the width of the interval. Only intervals of a grid with suitable bounds are
+//! searched.
+
 use super::{Leg, Patches};
-use crate::contact::adhesive::{EdgeCells, GridEdges, Run, Search, SubCellEdges};
-use crate::contact::contact_state::{ContactState, Extreme, Sampled};
+use crate::contact::adhesive::{GridEdges, Run, Runs, SubCellEdges};
+use crate::contact::contact_state::{ContactState, Extreme, Sampled, lower_bound, upper_bound};
 use crate::contact::grid::Grid;
-use crate::contact::totals::ContactTotals;
-use crate::contact::{
-    Contact, ContactError, ContactTree, CurvePoint, Direction, Edges, Nonadhesive, TWO_THREADS, Work,
-};
-use crate::parallel::in_parallel;
+use crate::contact::interval::{Interval, Intervals};
+use crate::contact::thresholds::Thresholds;
+use crate::contact::{ContactError, ContactTree, CurvePoint, Direction, Edges, Work};
 
 /// Intervals in which extremes are searched: each patch is evaluated at each of their ends.
 pub(in crate::contact) const SEARCH_INTERVALS: usize = 256;
+/// Points of a grid from one to the next of those evaluated first.
+const STRIDE: usize = 16;
 
 impl Leg {
     /// Returns the point of the curve at an indentation, m.
@@ -48,7 +54,7 @@ impl Leg {
     /// # Errors
     /// [`ContactError::OutOfMemory`].
     pub fn extremes(&self, low: f64, high: f64) -> Result<[CurvePoint; 2], ContactError> {
-        let sampled = self.sample(self.search_grid(low, high))?;
+        let sampled = self.sample(Self::search_grid(low, high))?;
         let of = |extreme| self.extreme(extreme, &sampled, &mut Work::default());
         Ok([Extreme::Smallest, Extreme::Largest].map(|extreme| of(extreme).point(self.contact.foundation)))
     }
@@ -67,27 +73,9 @@ impl Leg {
         Ok(self.sample(Grid::at(vec![indentation]))?.first())
     }
 
-    /// Grid of a search between two indentations, m: for springs with thresholds, between which the force is straight,
-    /// each threshold and the number before it.
-    fn search_grid(&self, low: f64, high: f64) -> Grid {
-        let Patches::Thresholds(thresholds) = &self.patches else {
-            return Grid::new(low, high, SEARCH_INTERVALS);
-        };
-        let inside = thresholds.iter().copied().filter(|at| low < *at && *at <= high);
-        let mut points: Vec<f64> = inside.flat_map(|at| [at.next_down(), at]).chain([low, high]).collect();
-        points.sort_by(f64::total_cmp);
-        points.dedup();
-        Grid::at(points)
-    }
-
-    /// Contact of whole springs at an indentation, m, patch by patch.
-    fn totals(&self, indentation: f64) -> ContactTotals {
-        let mut totals = ContactTotals::default();
-        for ends in self.patches(indentation) {
-            totals +=
-                ContactTotals::of_patch(self.contact.gaps(), ends, Edges::Grid, self.contact.springs.scale());
-        }
-        totals
+    /// Grid of a search between two indentations, m.
+    fn search_grid(low: f64, high: f64) -> Grid {
+        Grid::new(low, high, SEARCH_INTERVALS)
     }
 
     /// Finds the indentation of [`Leg::find_force`], m.
@@ -97,137 +85,132 @@ impl Leg {
         from: f64,
         work: &mut Work,
     ) -> Result<f64, ContactError> {
-        let Contact { springs, foundation, edges, .. } = &self.contact;
-        let stiffness = foundation.spring_stiffness();
+        let stiffness = self.contact.foundation.spring_stiffness();
         let wanted = force / stiffness;
-        work.springs_tallied += work.springs;
         if self.direction == Direction::Unloading {
-            let sampled = self.sample(self.search_grid(self.end.min(from), from))?;
-            return self.last_at_most(&sampled, wanted, work)?.ok_or_else(|| {
+            let sampled = self.sample(Self::search_grid(self.end.min(from), from))?;
+            return self.last_at_most(&sampled, wanted, work).ok_or_else(|| {
                 let smallest = self.extreme(Extreme::Smallest, &sampled, work).compression;
                 ContactError::DetachesBefore { smallest: stiffness * smallest }
             });
         }
         let complete = self.end.max(from);
-        if let Some(found) = self.first_at_least(self.search_grid(from, complete), wanted, work)? {
+        if let Some(found) = self.first_at_least(&Self::search_grid(from, complete), wanted, work)? {
             return Ok(found);
         }
-        if self.is_stepwise() {
-            return Err(ContactError::OutOfReach);
-        }
         // Beyond full contact the force rises with all springs.
-        let full = self.sample(Grid::at(vec![complete]))?;
-        let found = match edges {
-            Edges::Grid => full.totals[0].indentation(wanted, &springs.scale()),
-            Edges::SubCell => Some(complete + (wanted - full.first().compression) / full.first().length),
-        };
-        let found = found.filter(|found| found.is_finite()).map(|found| found.max(complete));
-        found.ok_or(ContactError::OutOfReach)
+        let full = self.state(complete)?;
+        let found = (complete + (wanted - full.compression) / full.length).max(complete);
+        let is_full = full.springs as usize == self.contact.gaps().len();
+        Some(found).filter(|found| is_full && found.is_finite()).ok_or(ContactError::OutOfReach)
     }
 
     /// Contact states along a grid.
     pub(in crate::contact) fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {
         match &self.patches {
-            Patches::Runs(tree, runs) => along_runs!(self, tree, runs, search => search.sample(grid)),
-            Patches::Gaps => self.nonadhesive().sample(grid),
-            Patches::Apart | Patches::Thresholds(_) => {
-                let scale = self.contact.springs.scale();
-                let totals: Vec<_> = grid.points().iter().map(|&at| self.totals(at)).collect();
-                let whole = |(&at, totals): (&f64, &ContactTotals)| {
-                    ContactState::new(false, at, *totals, EdgeCells::default(), &scale)
-                };
-                let states = grid.points().iter().zip(&totals).map(whole).collect();
-                Ok(Sampled { grid, totals, states })
-            }
+            Patches::Springs(thresholds) => Thresholds::new(&self.contact, thresholds).sample(grid),
+            Patches::Runs(tree, runs) => along_runs!(self, tree, runs, along => along.sample(grid)),
         }
-    }
-
-    /// Contact states along a grid, and ∫ (c − θ)² dx over the parts of the line that attach or detach at an indentation
-    /// θ above `low` (m) and up to the end of the grid, in cells times m².
-    pub(in crate::contact) fn sample_changes(
-        &self,
-        grid: Grid,
-        low: f64,
-    ) -> Result<(Sampled, f64), ContactError> {
-        let (is_long, high) = (self.contact.gaps().len() >= TWO_THREADS, grid.high());
-        let (sampled, squared) =
-            in_parallel(is_long, || self.sample(grid), || self.squared_stretch(low, high));
-        Ok((sampled?, squared))
     }
 
     /// ∫ (c − θ)² dx over the parts of the line that attach or detach at an indentation θ in a range, m, without its lower
     /// end, in cells times m².
     pub(in crate::contact) fn squared_stretch(&self, low: f64, high: f64) -> f64 {
         match &self.patches {
-            Patches::Runs(tree, runs) => {
-                along_runs!(self, tree, runs, search => search.squared_stretch(low, high))
-            }
             // No spring is stretched.
-            _ => 0.0,
+            Patches::Springs(_) => 0.0,
+            Patches::Runs(tree, runs) => {
+                along_runs!(self, tree, runs, along => along.squared_stretch(low, high))
+            }
         }
     }
 
-    /// Extreme force on the range of a grid.
+    /// The events in these intervals of a sampled leg.
+    fn intervals(&self, leg: &Sampled, chosen: &[usize], work: &mut Work) -> Vec<Interval> {
+        if chosen.is_empty() {
+            return Vec::new();
+        }
+        let slides = self.contact.edges == Edges::SubCell;
+        let mut intervals = Intervals::new(leg, chosen, slides, self.contact.springs.scale());
+        match &self.patches {
+            Patches::Springs(thresholds) => Thresholds::new(&self.contact, thresholds).search(&mut intervals),
+            Patches::Runs(tree, runs) => along_runs!(self, tree, runs, along => along.search(&mut intervals)),
+        }
+        intervals.finish(&mut work.events_sorted)
+    }
+
+    /// Extreme force on the range of a sampled leg.
     pub(in crate::contact) fn extreme(
         &self,
         extreme: Extreme,
-        sampled: &Sampled,
+        leg: &Sampled,
         work: &mut Work,
     ) -> ContactState {
-        match &self.patches {
-            Patches::Runs(tree, runs) => {
-                along_runs!(self, tree, runs, search => search.extreme(extreme, sampled, &mut work.events_sorted))
-            }
-            // Without adhesion the force never falls; springs with thresholds are sampled at all of them.
-            _ => extreme.of(sampled),
+        let mut best = extreme.of(leg);
+        // Without adhesion the force never falls.
+        if self.contact.hess.is_some() {
+            let chosen = leg.choose(|low, high| extreme.may_lie(low, high, &best));
+            let intervals = self.intervals(leg, &chosen, work);
+            intervals.iter().for_each(|interval| interval.extreme(extreme, &mut best));
         }
+        best
     }
 
-    /// Smallest force of an unloading on the range of a grid.
+    /// Smallest force of an unloading on the range of a grid. Most points of the grid are left out: those between two
+    /// neighbours of a coarser grid whose bounds exclude a smaller force.
     pub(in crate::contact) fn smallest(
         &self,
         grid: &Grid,
         work: &mut Work,
     ) -> Result<ContactState, ContactError> {
-        match &self.patches {
-            Patches::Runs(tree, runs) => {
-                along_runs!(self, tree, runs, search => search.smallest(grid, &mut work.events_sorted))
+        let coarse = self.sample(grid.coarser(STRIDE))?;
+        let best = Extreme::Smallest.of(&coarse);
+        let leg = self.refined(grid, coarse, |low, high| Extreme::Smallest.may_lie(low, high, &best))?;
+        Ok(self.extreme(Extreme::Smallest, &leg, work))
+    }
+
+    /// Smallest indentation of a grid, m, at which the compression is at least `wanted`.
+    fn first_at_least(&self, grid: &Grid, wanted: f64, work: &mut Work) -> Result<Option<f64>, ContactError> {
+        let coarse = self.sample(grid.coarser(STRIDE))?;
+        let reached = |leg: &Sampled| {
+            let reached = leg.states.iter().find(|state| state.compression >= wanted);
+            reached.map(|state| state.indentation)
+        };
+        // Behind the first point that has it nothing is sought.
+        let may_lie = |end: Option<f64>| {
+            let last = end.unwrap_or(f64::INFINITY);
+            move |low: &ContactState, high: &ContactState| {
+                high.indentation <= last && upper_bound(low, high) >= wanted
             }
-            _ => self.state(grid.points()[0]),
-        }
+        };
+        let coarse_end = reached(&coarse);
+        let leg = self.refined(grid, coarse, may_lie(coarse_end))?;
+        let end = reached(&leg);
+        let intervals = self.intervals(&leg, &leg.choose(may_lie(end)), work);
+        Ok(intervals.iter().find_map(|interval| interval.first_at_least(wanted)).or(end))
     }
 
-    /// Smallest indentation of a grid at which the compression is at least `wanted`.
-    pub(in crate::contact) fn first_at_least(
+    /// Adds those points of a grid to a coarser one that lie in intervals whose contact at both ends passes `may_lie`.
+    fn refined(
         &self,
-        grid: Grid,
-        wanted: f64,
-        work: &mut Work,
-    ) -> Result<Option<f64>, ContactError> {
-        match &self.patches {
-            Patches::Runs(tree, runs) => along_runs!(self, tree, runs, search => {
-                search.first_at_least(&grid, wanted, &mut work.events_sorted)
-            }),
-            _ => self.nonadhesive().first_at_least(&self.sample(grid)?, wanted),
-        }
+        grid: &Grid,
+        coarse: Sampled,
+        may_lie: impl Fn(&ContactState, &ContactState) -> bool,
+    ) -> Result<Sampled, ContactError> {
+        let (points, last) = (grid.points(), grid.points().len() - 1);
+        let between = |interval: usize| STRIDE * interval + 1..(STRIDE * (interval + 1)).min(last);
+        let chosen = coarse.choose(may_lie).into_iter();
+        let fine: Vec<f64> = chosen.flat_map(between).map(|index| points[index]).collect();
+        if fine.is_empty() { Ok(coarse) } else { Ok(coarse.merged(self.sample(Grid::at(fine))?)) }
     }
 
-    /// Largest indentation of a grid at which the compression is at most `wanted`.
-    pub(in crate::contact) fn last_at_most(
-        &self,
-        sampled: &Sampled,
-        wanted: f64,
-        work: &mut Work,
-    ) -> Result<Option<f64>, ContactError> {
-        match &self.patches {
-            Patches::Runs(tree, runs) => along_runs!(self, tree, runs, search => {
-                Ok(search.last_at_most(sampled, wanted, &mut work.events_sorted))
-            }),
-            _ => self.nonadhesive().last_at_most(sampled, wanted),
-        }
-    }
-
-    fn nonadhesive(&self) -> Nonadhesive<'_> {
-        Nonadhesive::new(&self.contact.springs, self.contact.edges)
+    /// Largest indentation of a sampled leg, m, at which the compression is at most `wanted`.
+    fn last_at_most(&self, leg: &Sampled, wanted: f64, work: &mut Work) -> Option<f64> {
+        let reached = leg.states.iter().rfind(|state| state.compression <= wanted);
+        let start = reached.map(|state| state.indentation);
+        let first = start.unwrap_or(f64::NEG_INFINITY);
+        let chosen = leg.choose(|low, high| low.indentation >= first && lower_bound(low, high) <= wanted);
+        let intervals = self.intervals(leg, &chosen, work);
+        intervals.iter().rev().find_map(|interval| interval.last_at_most(wanted)).or(start)
     }
 }

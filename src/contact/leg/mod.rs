@@ -1,7 +1,7 @@
 //! One leg: the contact at all indentations of a motion in one direction.
 
 use super::adhesive::{
-    Closing, EdgeCells, EdgeModel, GridEdges, Ground, Held, Opening, Run, Search, Slider, Span, SubCellEdges,
+    Closing, EdgeCells, EdgeModel, GridEdges, Ground, Held, Opening, Run, Runs, Slider, Span, SubCellEdges,
 };
 use super::contact_state::ContactState;
 use super::fragments::runs;
@@ -9,7 +9,6 @@ use super::totals::ContactTotals;
 use super::{Contact, ContactError, ContactTree, Direction, Work};
 use crate::contact::Edges;
 use std::marker::PhantomData;
-use std::mem::take;
 use std::sync::Arc;
 
 /// Contact at all indentations of a motion in one direction.
@@ -26,12 +25,8 @@ pub struct Leg {
 /// Data from which the patches in contact follow.
 #[derive(Clone, Debug)]
 enum Patches {
-    /// Nothing touches on this leg.
-    Apart,
-    /// Each spring touches at its own gap.
-    Gaps,
-    /// Each spring touches at a threshold, m.
-    Thresholds(Arc<Vec<f64>>),
+    /// Each spring touches at a threshold, m: without adhesion at its gap. Empty where nothing touches.
+    Springs(Arc<Vec<f64>>),
     /// The patches of an adhesive contact, each as long as its edges move without a jump.
     Runs(Arc<ContactTree>, Arc<Vec<Run>>),
 }
@@ -54,23 +49,22 @@ pub struct PatchState {
 pub struct Workspace {
     closing: Closing,
     opening: Opening,
-    spare: Vec<Run>,
     held: Vec<Held>,
     /// Work counts.
     pub work: Work,
 }
 
-/// Evaluates an expression with the search along the runs of a leg, under the edge model of its contact.
+/// Evaluates an expression with the runs of a leg, under the edge model of its contact.
 macro_rules! along_runs {
-    ($leg:expr, $tree:expr, $runs:expr, $search:ident => $value:expr) => {{
+    ($leg:expr, $tree:expr, $runs:expr, $along:ident => $value:expr) => {{
         let (leg, tree, runs): (&Leg, &ContactTree, &[Run]) = ($leg, $tree, $runs);
         match leg.contact.edges {
             Edges::Grid => {
-                let $search = Search { ground: leg.ground::<GridEdges>(tree), runs };
+                let $along = Runs { ground: leg.ground::<GridEdges>(tree), runs };
                 $value
             }
             Edges::SubCell => {
-                let $search = Search { ground: leg.ground::<SubCellEdges>(tree), runs };
+                let $along = Runs { ground: leg.ground::<SubCellEdges>(tree), runs };
                 $value
             }
         }
@@ -87,28 +81,13 @@ impl Workspace {
         self.closing.forget();
         self.work = Work::default();
     }
-
-    /// Number of springs in contact where the last leg begins.
-    pub(super) fn springs_held(&self) -> u64 {
-        self.held.iter().map(|held| u64::from(held.last + 1 - held.first)).sum()
-    }
-
-    /// Takes the memory of a leg that nothing else uses.
-    pub(super) fn recycle(&mut self, leg: Leg) {
-        if let Patches::Runs(_, runs) = leg.patches
-            && let Some(runs) = Arc::into_inner(runs)
-            && runs.capacity() > self.spare.capacity()
-        {
-            self.spare = runs;
-        }
-    }
 }
 
 impl Leg {
     /// Creates the leg of a body that touches nothing.
     #[must_use]
     pub fn apart(contact: &Contact, direction: Direction) -> Self {
-        Leg { contact: contact.clone(), direction, patches: Patches::Apart, end: 0.0 }
+        Leg { contact: contact.clone(), direction, patches: Patches::Springs(Arc::default()), end: 0.0 }
     }
 
     /// Creates a leg on which each spring touches at a threshold, m, −∞ always, +∞ never, known up to the indentation
@@ -119,7 +98,16 @@ impl Leg {
         end: f64,
         thresholds: Vec<f64>,
     ) -> Self {
-        let patches = Patches::Thresholds(Arc::new(thresholds));
+        let patches = Patches::Springs(Arc::new(thresholds));
+        // The stepwise solver moves whole springs.
+        let contact = Contact { edges: Edges::Grid, ..contact.clone() };
+        Leg { contact, direction, patches, end }
+    }
+
+    /// Creates the leg of a contact without adhesion.
+    fn without_adhesion(contact: &Contact, direction: Direction) -> Self {
+        let patches = Patches::Springs(Arc::clone(contact.springs.shared_gaps()));
+        let end = if direction == Direction::Loading { contact.springs.deepest() } else { 0.0 };
         Leg { patches, end, ..Leg::apart(contact, direction) }
     }
 
@@ -128,13 +116,12 @@ impl Leg {
     /// # Errors
     /// [`ContactError::OutOfMemory`].
     pub fn approach(contact: &Contact, workspace: &mut Workspace) -> Result<Self, ContactError> {
-        workspace.held.clear();
-        let leg = Leg::apart(contact, Direction::Loading);
         if contact.hess.is_none() {
-            return Ok(Leg { patches: Patches::Gaps, end: contact.springs.deepest(), ..leg });
+            return Ok(Leg::without_adhesion(contact, Direction::Loading));
         }
+        workspace.held.clear();
         let tree = Arc::clone(contact.springs.tree(contact.edges)?);
-        leg.list(tree, workspace, f64::NEG_INFINITY)
+        Leg::apart(contact, Direction::Loading).list(tree, workspace, f64::NEG_INFINITY)
     }
 
     /// Starts the motion in the opposite direction at an indentation of this leg, m.
@@ -146,17 +133,15 @@ impl Leg {
             Direction::Loading => Direction::Unloading,
             Direction::Unloading => Direction::Loading,
         };
-        let turned = Leg { direction, ..self.clone() };
-        if self.is_stepwise() {
-            return Err(ContactError::Stepwise);
+        match &self.patches {
+            _ if self.is_stepwise() => Err(ContactError::Stepwise),
+            Patches::Springs(_) => Ok(Leg::without_adhesion(&self.contact, direction)),
+            Patches::Runs(tree, runs) => {
+                workspace.held.clear();
+                along_runs!(self, tree, runs, along => workspace.held.extend(along.held_at(at, self.pins())));
+                Leg::apart(&self.contact, direction).list(Arc::clone(tree), workspace, at)
+            }
         }
-        let Patches::Runs(tree, runs) = &self.patches else {
-            let end = if direction == Direction::Loading { self.contact.springs.deepest() } else { 0.0 };
-            return Ok(Leg { end, ..turned });
-        };
-        workspace.held.clear();
-        along_runs!(self, tree, runs, search => workspace.held.extend(search.held_at(at, self.pins())));
-        turned.list(Arc::clone(tree), workspace, at)
     }
 
     /// Lists the runs of this leg from the patches held by the workspace at an indentation, m.
@@ -166,20 +151,20 @@ impl Leg {
         workspace: &mut Workspace,
         from: f64,
     ) -> Result<Self, ContactError> {
-        let Workspace { closing, opening, spare, held, work } = workspace;
-        let mut runs = take(spare);
+        let Workspace { closing, opening, held, work } = workspace;
+        let mut runs = Vec::new();
         work.tree_nodes = tree.node_count() as u64;
         let direction = self.direction;
-        let end = along_runs!(&self, &tree, &[], search => match direction {
+        let end = along_runs!(&self, &tree, &[], along => match direction {
             Direction::Loading => {
-                let ground = &search.ground;
+                let ground = &along.ground;
                 // A contact that forms again closes as it did the first time.
                 work.loading_passes += u64::from(!held.is_empty() || !closing.is_ready());
                 work.hess_evaluations += closing.close_around(ground, held)?;
                 closing.list(ground, held, &mut runs, &mut work.hess_evaluations)?
             }
             Direction::Unloading => {
-                let opened = opening.list(&search.ground, held, from, &mut runs)?;
+                let opened = opening.list(&along.ground, held, from, &mut runs)?;
                 work.unloading_passes += 1;
                 work.hess_evaluations += opened.evaluations;
                 opened.separates
@@ -190,7 +175,7 @@ impl Leg {
 
     /// Returns true for a leg of the stepwise solver, which is known where the solver has been.
     pub(super) fn is_stepwise(&self) -> bool {
-        matches!(self.patches, Patches::Thresholds(_))
+        matches!(&self.patches, Patches::Springs(thresholds) if self.contact.hess.is_some() && !thresholds.is_empty())
     }
 
     /// Contact of which this is a leg.
@@ -216,8 +201,8 @@ impl Leg {
     #[must_use]
     pub fn bytes(&self) -> usize {
         match &self.patches {
-            Patches::Apart | Patches::Gaps => 0,
-            Patches::Thresholds(thresholds) => size_of::<f64>() * thresholds.capacity(),
+            Patches::Springs(thresholds) if self.is_stepwise() => size_of::<f64>() * thresholds.capacity(),
+            Patches::Springs(_) => 0,
             Patches::Runs(_, runs) => size_of::<Run>() * runs.capacity(),
         }
     }
@@ -225,14 +210,12 @@ impl Leg {
     /// Returns first and last spring of each patch in contact at an indentation, m, from left to right.
     #[must_use]
     pub fn patches(&self, indentation: f64) -> Vec<(usize, usize)> {
-        let touching =
-            |thresholds: &[f64]| runs(thresholds.iter().map(|&threshold| threshold <= indentation));
         match &self.patches {
-            Patches::Apart => Vec::new(),
-            Patches::Gaps => touching(self.contact.gaps()),
-            Patches::Thresholds(thresholds) => touching(thresholds),
-            Patches::Runs(tree, runs) => along_runs!(self, tree, runs, search => {
-                search.held_at(indentation, false).map(|held| (held.first as usize, held.last as usize)).collect()
+            Patches::Springs(thresholds) => {
+                runs(thresholds.iter().map(|&threshold| threshold <= indentation))
+            }
+            Patches::Runs(tree, runs) => along_runs!(self, tree, runs, along => {
+                along.held_at(indentation, false).map(|held| (held.first as usize, held.last as usize)).collect()
             }),
         }
     }
@@ -241,10 +224,11 @@ impl Leg {
     #[must_use]
     pub fn thresholds(&self) -> Vec<f64> {
         match &self.patches {
-            Patches::Apart => vec![f64::INFINITY; self.contact.gaps().len()],
-            Patches::Gaps => self.contact.gaps().to_vec(),
-            Patches::Thresholds(thresholds) => thresholds.to_vec(),
-            Patches::Runs(tree, runs) => along_runs!(self, tree, runs, search => search.thresholds()),
+            Patches::Springs(thresholds) if thresholds.is_empty() => {
+                vec![f64::INFINITY; self.contact.gaps().len()]
+            }
+            Patches::Springs(thresholds) => thresholds.to_vec(),
+            Patches::Runs(tree, runs) => along_runs!(self, tree, runs, along => along.thresholds()),
         }
     }
 
@@ -258,8 +242,8 @@ impl Leg {
         let stretch = rule.stretch(self.direction);
         let span = Span { gap: gaps[first..=last].iter().copied().fold(0.0, f64::max), first, last };
         let pin = match &self.patches {
-            Patches::Runs(tree, runs) => along_runs!(self, tree, runs, search => {
-                search.held_at(indentation, self.pins()).nth(number)?.pin
+            Patches::Runs(tree, runs) => along_runs!(self, tree, runs, along => {
+                along.held_at(indentation, self.pins()).nth(number)?.pin
             }),
             _ => None,
         };

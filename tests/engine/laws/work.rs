@@ -71,12 +71,11 @@ proptest! {
     /// F_a(0) takes one pass and visits the springs that touch first and those that these attach.
     #[test]
     fn the_way_back_from_first_touch_looks_at_the_springs_in_contact(body in body()) {
-        let touch = body.on(2).advance(Move::ToTouch).unwrap();
         let back = body.history(&[Move::ToTouch, Move::ToSeparation], 2);
         let mut solver = body.on(2);
         let force = solver.pull_off_at_touch().unwrap();
         let work = solver.work();
-        prop_assert_eq!((work.zero_load_passes, work.springs_tallied), (1, touch.curve.last().unwrap().springs));
+        prop_assert_eq!((work.zero_load_passes, work.unloading_passes), (1, 0));
         prop_assert!(work.hess_evaluations > 0);
         let tolerance = 1e-12 * body.force_scale();
         prop_assert!((force - back.legs[1].smallest.force).abs() <= tolerance, "{} {:?}", force, back.legs[1].smallest);
