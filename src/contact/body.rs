@@ -71,9 +71,7 @@ impl Body {
     /// # Errors
     /// [`ContactError::Stepwise`], [`ContactError::OutOfMemory`].
     pub fn at(leg: &Leg, indentation: f64) -> Result<Self, ContactError> {
-        if leg.is_stepwise() {
-            return Err(ContactError::Stepwise);
-        }
+        leg.refuse_stepwise()?;
         Ok(Self::on(leg.clone(), leg.state(indentation)?, 2))
     }
 

@@ -51,10 +51,8 @@ pub enum ContactError {
         /// Most steps allowed in one stage.
         limit: u64,
     },
-    /// A motion that begins on a leg of the stepwise solver.
-    #[error(
-        "a leg of the stepwise solver ends where its last step ended; allowed: a leg of the exact solver"
-    )]
+    /// A motion or a search on a leg of the stepwise solver.
+    #[error("a leg of the stepwise solver is known at its steps alone; allowed: a leg of the exact solver")]
     Stepwise,
     /// A state that the program excludes: a defect.
     #[error("internal error, please report it: {0}")]

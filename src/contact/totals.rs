@@ -195,17 +195,6 @@ impl ContactTotals {
         difference + (error + (product_error - low))
     }
 
-    /// Indentation at which these springs carry the compression Σ (d − c_i) = `compression`, m; `None` without contact.
-    #[must_use]
-    pub fn indentation(&self, compression: f64, scale: &GapScale) -> Option<f64> {
-        if self.springs == 0 {
-            return None;
-        }
-        let high = self.quanta as f64;
-        let low = (self.quanta - high as i128) as f64;
-        Some((high * scale.quantum + (low * scale.quantum + compression)) / self.springs as f64)
-    }
-
     /// Squared compressions Σ (d − c)² of this number of springs or cells, in m².
     ///
     /// Sums over nested spans at one indentation are integers that differ by the squares of the springs between, each

@@ -113,26 +113,6 @@ proptest! {
     }
 
     #[test]
-    fn the_indentation_of_a_compression_gives_that_compression(
-        gaps in gaps(300),
-        share in -3.0..3.0_f64,
-        places in -3_i64..4,
-    ) {
-        let scale = scale_of(&gaps);
-        let totals = totals(&gaps, &scale);
-        let largest = gaps.iter().copied().fold(0.0, f64::max);
-        for d in [share * largest, balance(gaps.len(), &sum(&gaps), places)] {
-            let wanted = totals.compression(d, &scale);
-            let found = totals.indentation(wanted, &scale).unwrap();
-            // Three roundings: of the sums, and of the quotient.
-            let size = d.abs() + found.abs() + wanted.abs() / gaps.len() as f64;
-            prop_assert!((found - d).abs() <= 3.0 * UNIT_ROUNDOFF * size + 2.0 * scale.quantum(),
-                "{} against {}", found, d);
-        }
-        prop_assert_eq!(ContactTotals::default().indentation(share, &scale), None);
-    }
-
-    #[test]
     fn no_order_shows(gaps in gaps(600), seed in any::<u64>(), share in 0.0..1.5_f64) {
         let scale = scale_of(&gaps);
         let other = shuffled(&gaps, seed);

@@ -1,6 +1,6 @@
 //! Edge models of a contact fragment: its length, its next attachment and detachment.
 
-use super::levels::{Levels, share_below};
+use super::levels::{EdgeCell, Levels};
 use super::span::Span;
 
 /// Length of a fragment, the only input of the rule of Hess.
@@ -101,11 +101,8 @@ impl EdgeModel for SubCellEdges {
     fn passed_squares(gaps: &[f64], [lower, upper]: [(Span, f64); 2], _: bool) -> f64 {
         // Twice the stretch s √ℓ of an edge times the change of the length ℓ.
         let length = |(span, level): (Span, f64)| {
-            let share = |inside: usize, outside: Option<usize>| {
-                share_below(gaps[inside], outside.and_then(|outside| gaps.get(outside)).copied(), level)
-            };
-            let edges = share(span.first, span.first.checked_sub(1)) + share(span.last, Some(span.last + 1));
-            [(span.last - span.first) as f64, edges]
+            let [left, right] = EdgeCell::of(gaps, &span, level);
+            [(span.last - span.first) as f64, left.share + right.share]
         };
         let ([cells0, share0], [cells1, share1]) = (length(lower), length(upper));
         // Whole cells and shares are subtracted separately: as lengths they would lose digits.

@@ -6,7 +6,7 @@
 
 use super::curve::Runs;
 use super::edge_model::EdgeModel;
-use super::levels::share_below;
+use super::levels::EdgeCell;
 use super::run::{Ground, Run};
 use super::span::Span;
 use crate::contact::grid::CompensatedSum;
@@ -33,12 +33,10 @@ impl SquaredStretch {
         self.edges.add(f64::from(sign) * remainder);
         // Sums of all runs cancel down to the energy: those in between may pass the range of integers.
         self.whole = self.whole.wrapping_add(if sign < 0 { squares.wrapping_neg() } else { squares });
-        ground.edge_cell_squares(span, level, at).for_each(|square| self.edges.add(f64::from(sign) * square));
-    }
-
-    /// Adds the squares along edges that slide between two spans and levels.
-    fn slide(&mut self, squares: f64) {
-        self.edges.add(squares);
+        if E::SLIDES {
+            let cells = EdgeCell::of(ground.gaps, span, level);
+            cells.iter().for_each(|cell| self.edges.add(f64::from(sign) * cell.squares_below(level - at)));
+        }
     }
 
     /// Returns the sum.
@@ -49,25 +47,7 @@ impl SquaredStretch {
     }
 }
 
-/// ∫ (c − θ)² dx over the part of an edge cell up to a level, from the gap inside to the gap outside, m; `None`: half a
-/// cell as level as its spring, at the end of the foundation.
-fn edge_cell(inside: f64, outside: Option<f64>, level: f64, at: f64) -> f64 {
-    let from = inside - at;
-    // Half a cell at the end of the foundation is as level as its spring.
-    let to = outside.map_or(inside, |outside| level.min(outside)) - at;
-    share_below(inside, outside, level) * (from * from + from * to + to * to) / 3.0
-}
-
 impl<E: EdgeModel> Ground<'_, E> {
-    /// ∫ (c − θ)² dx over the edge cells of a span up to a level, m, at the indentation θ, m, in cells times m².
-    pub fn edge_cell_squares(&self, span: &Span, level: f64, at: f64) -> impl Iterator<Item = f64> {
-        let edges = [(span.first, span.first.checked_sub(1)), (span.last, Some(span.last + 1))];
-        edges.into_iter().filter(|_| E::SLIDES).map(move |(spring, outside)| {
-            let outside = outside.and_then(|outside| self.gaps.get(outside)).copied();
-            edge_cell(self.gaps[spring], outside, level, at)
-        })
-    }
-
     /// Level of the edges of a span at the upper end of its run or below, m.
     fn level_up_to(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         if let Some(rise) = pin {
@@ -103,7 +83,7 @@ impl<E: EdgeModel> Runs<'_, E> {
             }
             let ends = [(bottom, lower), (top, upper)];
             let half_square = 0.5 * ground.stretch * ground.stretch;
-            sum.slide(half_square * E::passed_squares(ground.gaps, ends, ground.unloading));
+            sum.edges.add(half_square * E::passed_squares(ground.gaps, ends, ground.unloading));
         }
         sum.total()
     }

@@ -51,47 +51,35 @@ impl EdgeSum {
     }
 }
 
-/// Share of an edge cell at or below a level, m, from the gap inside to the gap outside, m: all of a level cell, which
-/// attaches with its spring, and half a cell at the end of the foundation (`None`).
-pub fn share_below(inside: f64, outside: Option<f64>, level: f64) -> f64 {
-    outside.map_or(0.5, |outside| {
-        let (above, height) = (level - inside, outside - inside);
-        if above < height { above / height } else { 1.0 }
-    })
-}
-
-/// The cell in which an edge moves: from the last spring that is held to the first that is not.
+/// Part of a cell below the level of an edge: from the last spring of a span to the first one outside.
 #[derive(Clone, Copy)]
-struct EdgeCell {
-    /// Gap of the first spring that is not held, m; infinite beyond the end of the foundation, half a cell away.
+pub struct EdgeCell {
+    /// Gap of the first spring outside, m; infinite beyond the end of the foundation, half a cell away.
     outside: f64,
-    /// Share of the cell at or below the level, which is not below the gap inside.
-    share: f64,
+    /// Share of the cell at or below the level.
+    pub share: f64,
     /// Growth of the share with the level, 1/m; zero where it does not grow, or all at once.
     growth: f64,
-    /// Twice the compression of the cell at that level and indentation, m.
+    /// Twice ∫ (t − c) dx over that part for the level t, in cells times metres.
     carries: f64,
-    /// ∫ (t − c)² dx over the part of the cell below the level t, in cells times m².
+    /// ∫ (t − c)² dx over that part, in cells times m².
     squares: f64,
 }
 
 impl EdgeCell {
+    /// Left and right edge cell of a span up to a level from its largest gap to that of its wall, m.
+    #[inline]
+    pub fn of(gaps: &[f64], &Span { first, last, .. }: &Span, level: f64) -> [Self; 2] {
+        let before = if first > 0 { gaps[first - 1] } else { f64::INFINITY };
+        let after = gaps.get(last + 1).copied().unwrap_or(f64::INFINITY);
+        [EdgeCell::new(gaps[first], before, level), EdgeCell::new(gaps[last], after, level)]
+    }
+
     #[inline]
     fn new(inside: f64, outside: f64, level: f64) -> Self {
         let (height, above) = (outside - inside, level - inside);
-        let growth = height.recip();
-        if !(growth > 0.0 && growth < f64::INFINITY) {
-            return EdgeCell::without_growth(outside, height, above);
-        }
-        let share = if above < height { above * growth } else { 1.0 };
-        let carries = above * share;
-        EdgeCell { outside, share, growth, carries, squares: carries * above * (1.0 / 3.0) }
-    }
-
-    /// Half a cell as level as its spring at the end of the foundation, or a cell too steep or too level to grow.
-    #[cold]
-    fn without_growth(outside: f64, height: f64, above: f64) -> Self {
         if height == f64::INFINITY {
+            // Half a cell as level as its spring at the end of the foundation.
             return EdgeCell {
                 outside,
                 share: 0.5,
@@ -100,26 +88,32 @@ impl EdgeCell {
                 squares: 0.5 * above * above,
             };
         }
-        // 0/0 for a level cell: all of it counts.
-        let share = if above < height { above / height } else { 1.0 };
+        // Level cells count at once, and cells too steep for a growth have none.
+        let growth = Some(height.recip()).filter(|&growth| growth < f64::INFINITY).unwrap_or(0.0);
+        let (share, above) = match above < height {
+            true if growth > 0.0 => (above * growth, above),
+            true => (above / height, above),
+            false => (1.0, height),
+        };
         let carries = above * share;
-        EdgeCell { outside, share, growth: 0.0, carries, squares: carries * above * (1.0 / 3.0) }
+        EdgeCell { outside, share, growth, carries, squares: carries * above * (1.0 / 3.0) }
+    }
+
+    /// ∫ (c − θ)² dx over that part for a level `above` θ, m, in cells times m².
+    pub fn squares_below(&self, above: f64) -> f64 {
+        (above * self.share - self.carries) * above + self.squares
     }
 }
 
 impl Levels {
-    /// Levels of a span on a line that is straight between springs, and for its edge cells at the level and the indentation
-    /// c of its largest gap ∫ (c − c(x)) dx, in cells times metres, and ∫ (c − c(x))² dx.
+    /// Levels of a span on a line that is straight between springs, and its edge cells at its largest gap.
     #[inline]
-    pub fn between_springs(gaps: &[f64], span: &Span) -> (Self, [f64; 2]) {
-        let Span { gap, first, last } = *span;
-        let before = if first > 0 { gaps[first - 1] } else { f64::INFINITY };
-        let after = gaps.get(last + 1).copied().unwrap_or(f64::INFINITY);
-        let [left, right] = [EdgeCell::new(gaps[first], before, gap), EdgeCell::new(gaps[last], after, gap)];
-        let length = (last - first) as f64 + (left.share + right.share);
+    pub fn between_springs(gaps: &[f64], span: &Span) -> (Self, [EdgeCell; 2]) {
+        let cells = EdgeCell::of(gaps, span, span.gap);
+        let [left, right] = cells;
+        let length = (span.last - span.first) as f64 + (left.share + right.share);
         let (growth, top) = (left.growth + right.growth, left.outside.min(right.outside));
-        let sums = [0.5 * (left.carries + right.carries), left.squares + right.squares];
-        (Levels { gap, length, growth, top }, sums)
+        (Levels { gap: span.gap, length, growth, top }, cells)
     }
 
     /// Length at a level of this rise above the gap, in cells.
@@ -131,7 +125,27 @@ impl Levels {
     /// Height of the level of edges of this stretch (m) at an indentation above the gap, m.
     #[inline]
     pub fn rise(&self, stretch: f64, indentation: f64) -> f64 {
-        if self.growth <= 0.0 { 0.0 } else { Slide::new(*self, stretch).rise(indentation - self.gap) }
+        if self.growth <= 0.0 { 0.0 } else { self.free_rise(stretch, indentation - self.gap) }
+    }
+
+    /// √ℓ for free edges of this stretch at an indentation `above` the gap, m.
+    ///
+    /// With y = √ℓ the level is d + stretch y, and ℓ = length + growth (level − gap) is quadratic in y.
+    #[inline]
+    fn root(&self, stretch: f64, above: f64) -> f64 {
+        let half = 0.5 * stretch * self.growth;
+        let square = (half * half + self.length) + self.growth * above;
+        // A square that is not a number results from growth without bound; then only `half` counts.
+        half + if square > 0.0 { square.sqrt() } else { 0.0 }
+    }
+
+    /// Height of the level of free edges above the gap, m.
+    #[inline]
+    fn free_rise(&self, stretch: f64, above: f64) -> f64 {
+        let rise = above + stretch * self.root(stretch, above);
+        let most = self.top - self.gap;
+        let rise = if rise > 0.0 { rise } else { 0.0 };
+        if rise < most { rise } else { most }
     }
 
     /// Indentation at which edges of this stretch (m), pinned at this rise (m), begin to move, and true if they then
@@ -154,48 +168,12 @@ impl Levels {
     }
 }
 
-/// Edges of a span that slide with the indentation.
-///
-/// With y = √ℓ the level is d + stretch y, and ℓ = length + growth (level − gap) is quadratic in y.
-#[derive(Clone, Copy, Debug)]
-struct Slide {
-    levels: Levels,
-    stretch: f64,
-    /// ½ stretch × growth.
-    half: f64,
-    /// half² + length.
-    square: f64,
-}
-
-impl Slide {
-    #[inline]
-    fn new(levels: Levels, stretch: f64) -> Self {
-        let half = 0.5 * stretch * levels.growth;
-        Slide { levels, stretch, half, square: half * half + levels.length }
-    }
-
-    /// √ℓ at an indentation `above` the gap.
-    #[inline]
-    fn root(&self, above: f64) -> f64 {
-        let square = self.square + self.levels.growth * above;
-        // A square that is not a number results from growth without bound; then only `half` counts.
-        self.half + if square > 0.0 { square.sqrt() } else { 0.0 }
-    }
-
-    /// Height of the level above the gap.
-    #[inline]
-    fn rise(&self, above: f64) -> f64 {
-        let rise = above + self.stretch * self.root(above);
-        let most = self.levels.top - self.levels.gap;
-        let rise = if rise > 0.0 { rise } else { 0.0 };
-        if rise < most { rise } else { most }
-    }
-}
-
 /// The edge cells of a span as they slide with the indentation, or pinned.
 #[derive(Clone, Copy, Debug)]
 pub struct Slider {
-    slide: Slide,
+    levels: Levels,
+    /// Largest stretch of a fragment of one cell, m.
+    stretch: f64,
     /// Whole cells between its springs.
     cells: f64,
     /// Part of its edge cells in contact at its lowest level, in cells.
@@ -209,13 +187,19 @@ impl Slider {
     /// The edge cells of a span under this stretch (m) of a fragment of one cell, pinned at a rise, m, if there is one.
     #[inline]
     pub fn new(gaps: &[f64], span: &Span, stretch: f64, pin: Option<f64>) -> Self {
-        let (levels, [compression, squares]) = Levels::between_springs(gaps, span);
+        let (levels, [left, right]) = Levels::between_springs(gaps, span);
         let cells = span.springs() as f64 - 1.0;
-        let (slide, edges) = (Slide::new(levels, stretch), levels.length - cells);
-        let mut slider = Slider { slide, cells, edges, compression, squares };
+        let mut slider = Slider {
+            levels,
+            stretch,
+            cells,
+            edges: levels.length - cells,
+            compression: 0.5 * (left.carries + right.carries),
+            squares: left.squares + right.squares,
+        };
         if let Some(rise) = pin {
             let grown = levels.growth * rise;
-            slider.slide.levels.growth = 0.0;
+            slider.levels.growth = 0.0;
             slider.edges += grown;
             slider.compression -= 0.5 * grown * rise;
             slider.squares += grown * rise * rise * (1.0 / 3.0);
@@ -238,17 +222,15 @@ impl Slider {
 
     #[inline]
     fn without_adhesion(levels: Levels) -> Self {
-        let slide = Slide::new(levels, 0.0);
-        Slider { slide, cells: 0.0, edges: levels.length, compression: 0.0, squares: 0.0 }
+        Slider { levels, stretch: 0.0, cells: 0.0, edges: levels.length, compression: 0.0, squares: 0.0 }
     }
 
     /// Contribution of the edge cells at an indentation, m.
     #[inline]
     pub fn edge_cells(&self, indentation: f64) -> EdgeCells {
-        let levels = self.slide.levels;
-        let above = indentation - levels.gap;
-        let rise = self.slide.rise(above);
-        let grown = levels.growth * rise;
+        let above = indentation - self.levels.gap;
+        let rise = self.levels.free_rise(self.stretch, above);
+        let grown = self.levels.growth * rise;
         EdgeCells {
             length: self.edges + grown,
             compression: (self.edges * above + self.compression) + grown * (above - 0.5 * rise),
@@ -264,17 +246,20 @@ impl Slider {
     /// indentation, less the whole cells. This stiffness only grows with the indentation: between events the force is
     /// convex.
     pub fn stiffness(&self, indentation: f64) -> f64 {
-        let Slide { levels, half, .. } = self.slide;
-        let above = indentation - levels.gap;
-        if levels.growth * half <= 0.0 {
+        let (levels, above) = (self.levels, indentation - self.levels.gap);
+        let (rise, fall) = (levels.free_rise(self.stretch, above), self.stretch * levels.growth);
+        if fall <= 0.0 {
             // Edges that do not move, or that bear no stretch.
-            return self.edges + levels.growth * self.slide.rise(above);
+            return self.edges + levels.growth * rise;
         }
-        let length = levels.length_at(self.slide.rise(above));
         // The edges also slide at the ends of their levels, to one side at least.
-        let (root, fall) = (self.slide.root(above), 2.0 * half);
+        let root = levels.root(self.stretch, above);
         let rises = 2.0 * root - fall;
-        // Edges of a fragment about to detach run away at once.
-        if rises > 0.0 { length * (2.0 * root - 3.0 * fall) / rises - self.cells } else { f64::NEG_INFINITY }
+        if rises > 0.0 {
+            levels.length_at(rise) * (2.0 * root - 3.0 * fall) / rises - self.cells
+        } else {
+            // Edges of a fragment about to detach run away at once.
+            f64::NEG_INFINITY
+        }
     }
 }

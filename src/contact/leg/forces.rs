@@ -44,17 +44,20 @@ impl Leg {
     /// the force is `force`, N.
     ///
     /// # Errors
-    /// [`ContactError::OutOfReach`], [`ContactError::DetachesBefore`], [`ContactError::OutOfMemory`].
+    /// [`ContactError::OutOfReach`], [`ContactError::DetachesBefore`], [`ContactError::Stepwise`],
+    /// [`ContactError::OutOfMemory`].
     pub fn find_force(&self, force: f64, from: f64) -> Result<f64, ContactError> {
+        self.refuse_stepwise()?;
         self.reach_force(force, from, &mut Work::default())
     }
 
     /// Returns the points of the smallest and of the largest force between two indentations, m, exact to rounding.
     ///
     /// # Errors
-    /// [`ContactError::OutOfMemory`].
+    /// [`ContactError::Stepwise`], [`ContactError::OutOfMemory`].
     pub fn extremes(&self, low: f64, high: f64) -> Result<[CurvePoint; 2], ContactError> {
-        let sampled = self.sample(Self::search_grid(low, high))?;
+        self.refuse_stepwise()?;
+        let sampled = self.sample(Grid::new(low, high, SEARCH_INTERVALS))?;
         let of = |extreme| self.extreme(extreme, &sampled, &mut Work::default());
         Ok([Extreme::Smallest, Extreme::Largest].map(|extreme| of(extreme).point(self.contact.foundation)))
     }
@@ -73,11 +76,6 @@ impl Leg {
         Ok(self.sample(Grid::at(vec![indentation]))?.first())
     }
 
-    /// Grid of a search between two indentations, m.
-    fn search_grid(low: f64, high: f64) -> Grid {
-        Grid::new(low, high, SEARCH_INTERVALS)
-    }
-
     /// Finds the indentation of [`Leg::find_force`], m.
     pub(in crate::contact) fn reach_force(
         &self,
@@ -88,21 +86,29 @@ impl Leg {
         let stiffness = self.contact.foundation.spring_stiffness();
         let wanted = force / stiffness;
         if self.direction == Direction::Unloading {
-            let sampled = self.sample(Self::search_grid(self.end.min(from), from))?;
+            let sampled = self.sample(Grid::new(self.end.min(from), from, SEARCH_INTERVALS))?;
             return self.last_at_most(&sampled, wanted, work).ok_or_else(|| {
                 let smallest = self.extreme(Extreme::Smallest, &sampled, work).compression;
                 ContactError::DetachesBefore { smallest: stiffness * smallest }
             });
         }
         let complete = self.end.max(from);
-        if let Some(found) = self.first_at_least(&Self::search_grid(from, complete), wanted, work)? {
+        if let Some(found) =
+            self.first_at_least(&Grid::new(from, complete, SEARCH_INTERVALS), wanted, work)?
+        {
             return Ok(found);
         }
-        // Beyond full contact the force rises with all springs.
-        let full = self.state(complete)?;
-        let found = (complete + (wanted - full.compression) / full.length).max(complete);
-        let is_full = full.springs as usize == self.contact.gaps().len();
-        Some(found).filter(|found| is_full && found.is_finite()).ok_or(ContactError::OutOfReach)
+        // Beyond full contact the force rises with all springs; a second step removes the rounding of the first.
+        let mut found = complete;
+        for _ in 0..2 {
+            let full = self.state(found)?;
+            let next = found + (wanted - full.compression) / full.length;
+            if full.springs < self.contact.gaps().len() as i64 || !next.is_finite() {
+                return Err(ContactError::OutOfReach);
+            }
+            found = next.max(complete);
+        }
+        Ok(found)
     }
 
     /// Contact states along a grid.

@@ -133,8 +133,8 @@ impl Leg {
             Direction::Loading => Direction::Unloading,
             Direction::Unloading => Direction::Loading,
         };
+        self.refuse_stepwise()?;
         match &self.patches {
-            _ if self.is_stepwise() => Err(ContactError::Stepwise),
             Patches::Springs(_) => Ok(Leg::without_adhesion(&self.contact, direction)),
             Patches::Runs(tree, runs) => {
                 workspace.held.clear();
@@ -173,9 +173,13 @@ impl Leg {
         Ok(Leg { patches: Patches::Runs(tree, Arc::new(runs)), end, ..self })
     }
 
-    /// Returns true for a leg of the stepwise solver, which is known where the solver has been.
-    pub(super) fn is_stepwise(&self) -> bool {
+    fn is_stepwise(&self) -> bool {
         matches!(&self.patches, Patches::Springs(thresholds) if self.contact.hess.is_some() && !thresholds.is_empty())
+    }
+
+    /// Refuses a leg of the stepwise solver, which is known at its steps alone.
+    pub(super) fn refuse_stepwise(&self) -> Result<(), ContactError> {
+        if self.is_stepwise() { Err(ContactError::Stepwise) } else { Ok(()) }
     }
 
     /// Contact of which this is a leg.
