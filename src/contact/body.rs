@@ -184,7 +184,7 @@ impl Body {
     fn record(&mut self, target: Move, motion: Motion) -> Result<LegRecord, ContactError> {
         let clock = Instant::now();
         let Motion { leg, low, high, goal } = motion;
-        let (before, touches) = (self.state, self.is_separated());
+        let (before, touches) = (self.point(), self.is_separated());
         let loads = leg.direction() == Direction::Loading;
         let separates = !loads && matches!(goal, Goal::Separation);
         // A loading to a force needs no search: the force is below its target until then.
@@ -197,40 +197,31 @@ impl Body {
         let (sampled, squared_stretch) =
             in_parallel(is_long, || leg.sample(grid), || leg.squared_stretch(from, high));
         let sampled = sampled?;
+        self.state = match (loads, separates) {
+            (true, _) => sampled.last(),
+            (false, true) => ContactState::free(low),
+            (false, false) => sampled.first(),
+        };
         let last = sampled.states.len() - 1;
         let chosen = sampled.states.iter().enumerate();
         let chosen = chosen.filter(|(index, _)| index % stride == 0 || *index == last);
-        let mut curve: Vec<CurvePoint> = chosen.map(|(_, &state)| self.point_of(state)).collect();
+        let curve: Vec<CurvePoint> = chosen.map(|(_, &state)| self.point_of(state)).collect();
         let work = &mut self.workspace.work;
-        let (end, smallest, largest);
-        if loads {
-            let found =
+        let extremes = if loads {
+            let largest =
                 if ends_at_largest { sampled.last() } else { leg.extreme(Extreme::Largest, &sampled, work) };
-            if touches {
-                curve.insert(0, self.point_of(ContactState::free(low)));
-            }
-            if touches && before.indentation < low {
-                curve.insert(0, self.point_of(before));
-            }
-            end = sampled.last();
-            largest = self.point_of(found);
-            smallest = curve.iter().copied().min_by(|a, b| a.force.total_cmp(&b.force)).unwrap_or(largest);
+            let free = CurvePoint { indentation: low, ..CurvePoint::default() };
+            let points = curve.iter().copied().chain(touches.then_some(free));
+            let largest = self.point_of(largest);
+            [points.min_by(|a, b| a.force.total_cmp(&b.force)).unwrap_or(largest), largest]
         } else {
-            let found = leg.extreme(Extreme::Smallest, &sampled, work);
-            smallest = self.point_of(found);
-            let place = curve.partition_point(|point| point.indentation < smallest.indentation);
-            if curve.get(place).is_none_or(|point| point.indentation > smallest.indentation) {
-                curve.insert(place, smallest);
-            }
-            curve.reverse();
-            largest = curve.first().copied().unwrap_or(smallest);
-            end = if separates { ContactState::free(low) } else { sampled.first() };
-            curve.extend(separates.then(|| self.point_of(end)));
-        }
-        let changed = end.springs.abs_diff(before.springs);
-        let record = LegRecord::moved((target, &leg), curve, [smallest, largest], changed, squared_stretch);
+            let smallest = leg.extreme(Extreme::Smallest, &sampled, work);
+            [self.point_of(smallest), self.point_of(sampled.last())]
+        };
+        let record =
+            LegRecord::moved((target, &leg), curve, extremes, [before, self.point()], squared_stretch);
         self.workspace.work.count(&record);
-        (self.leg, self.state) = (leg, end);
+        self.leg = leg;
         self.curve_time += clock.elapsed();
         Ok(record)
     }

@@ -57,7 +57,7 @@ pub struct LegRecord {
 
 impl LegRecord {
     /// A leg that ends where it begins.
-    pub(crate) fn still(target: Move, here: CurvePoint) -> Self {
+    pub(super) fn still(target: Move, here: CurvePoint) -> Self {
         LegRecord {
             target,
             direction: Direction::Loading,
@@ -71,28 +71,41 @@ impl LegRecord {
     }
 
     /// A leg of a separated body that does not touch.
-    pub(crate) fn free(target: Move, from: f64, to: f64) -> Self {
+    pub(super) fn free(target: Move, from: f64, to: f64) -> Self {
         let [start, end] = [from, to].map(|indentation| CurvePoint { indentation, ..CurvePoint::default() });
         let direction = if to > from { Direction::Loading } else { Direction::Unloading };
         LegRecord { direction, curve: vec![start, end], ..LegRecord::still(target, end) }
     }
 
-    /// A motion along a leg with this curve, this number of springs attached, or detached on unloading, and this sum of
-    /// their squared stretches, m².
-    pub(crate) fn moved(
+    /// Records a motion along a leg: ascending points of its curve, its smallest and largest force, the body before and
+    /// after it, and the sum of the squared stretches of the springs that changed, m².
+    pub(super) fn moved(
         (target, leg): (Move, &Leg),
-        curve: Vec<CurvePoint>,
+        mut curve: Vec<CurvePoint>,
         [smallest, largest]: [CurvePoint; 2],
-        changed: u64,
+        [before, after]: [CurvePoint; 2],
         squared_stretch: f64,
     ) -> Self {
         let direction = leg.direction();
-        let energy = 0.5 * leg.contact().foundation.spring_stiffness() * squared_stretch;
-        let (attached, detached, released_energy) = match direction {
-            // Not −0 where nothing attached with a stretch.
-            Direction::Loading => (changed, 0, 0.0 - energy),
-            Direction::Unloading => (0, changed, energy),
-        };
+        let changed = after.springs.abs_diff(before.springs);
+        let (attached, detached) = if direction == Direction::Loading { (changed, 0) } else { (0, changed) };
+        if direction == Direction::Unloading {
+            let place = curve.partition_point(|point| point.indentation < smallest.indentation);
+            if curve.get(place).is_none_or(|point| point.indentation > smallest.indentation) {
+                curve.insert(place, smallest);
+            }
+            curve.reverse();
+        }
+        let free = |indentation| CurvePoint { indentation, ..CurvePoint::default() };
+        let [start, end] = [curve[0], curve[curve.len() - 1]];
+        if before.springs == 0 && start.springs > 0 {
+            let points = [before, free(start.indentation)];
+            curve.splice(0..0, points.into_iter().skip(usize::from(before.indentation >= start.indentation)));
+        }
+        if after.springs == 0 && end.springs > 0 {
+            curve.push(free(end.indentation));
+        }
+        let released_energy = leg.energy(squared_stretch);
         LegRecord { target, direction, curve, largest, smallest, attached, detached, released_energy }
     }
 

@@ -5,6 +5,7 @@
 
 use super::adhesive::EdgeCells;
 use super::contact_state::ContactState;
+use super::grid::Grid;
 use super::moves::{Goal, plan};
 use super::{
     Contact, ContactError, ContactTotals, CurvePoint, Direction, Edges, Leg, LegRecord, Solver, Work, resized,
@@ -188,8 +189,6 @@ impl<'a> Stepwise<'a> {
         }
         (self.state.direction, self.state.squared_stretch) = (direction, 0.0);
         let here = self.point();
-        let mut curve = Thinned::new(self.samples);
-        curve.push(here);
         let [mut smallest, mut largest] = [here; 2];
         let loads = direction == Direction::Loading;
         // From separation the first step is the touch.
@@ -217,7 +216,6 @@ impl<'a> Stepwise<'a> {
                 self.relax_unloading(held_until)
             }
             let point = self.point();
-            curve.push(point);
             largest = if point.force > largest.force { point } else { largest };
             smallest = if point.force < smallest.force { point } else { smallest };
             let holds = point.springs > 0;
@@ -234,52 +232,14 @@ impl<'a> Stepwise<'a> {
                 break;
             }
         }
-        let changed = self.state.totals.springs.abs_diff(here.springs as i64);
         // The sum counts detachments.
         let squared = if loads { -self.state.squared_stretch } else { self.state.squared_stretch };
-        let curve = curve.finish(smallest, direction);
-        let record = LegRecord::moved((target, &self.leg()), curve, [smallest, largest], changed, squared);
+        let (leg, end) = (self.leg(), self.point());
+        let (low, high) = (origin.min(end.indentation), origin.max(end.indentation));
+        let curve = leg.curve(Grid::new(low, high, self.samples - 1).points())?;
+        let record = LegRecord::moved((target, &leg), curve, [smallest, largest], [here, end], squared);
         self.work.count(&record);
         Ok(record)
-    }
-}
-
-/// A curve whose density is halved at twice the wanted length.
-struct Thinned {
-    wanted: usize,
-    stride: u64,
-    seen: u64,
-    points: Vec<CurvePoint>,
-    last: Option<CurvePoint>,
-}
-
-impl Thinned {
-    fn new(wanted: usize) -> Self {
-        Thinned { wanted, stride: 1, seen: 0, points: Vec::new(), last: None }
-    }
-
-    fn push(&mut self, point: CurvePoint) {
-        if self.seen.is_multiple_of(self.stride) && self.points.len() >= 2 * self.wanted {
-            self.points = self.points.iter().copied().step_by(2).collect();
-            self.stride *= 2;
-        }
-        if self.seen.is_multiple_of(self.stride) {
-            self.points.push(point);
-        }
-        self.seen += 1;
-        self.last = Some(point);
-    }
-
-    /// The curve with its last point and the point of its smallest force.
-    fn finish(mut self, smallest: CurvePoint, direction: Direction) -> Vec<CurvePoint> {
-        if let Some(last) = self.last.filter(|last| self.points.last() != Some(last)) {
-            self.points.push(last);
-        }
-        if direction == Direction::Unloading && !self.points.contains(&smallest) {
-            let place = self.points.partition_point(|point| point.indentation > smallest.indentation);
-            self.points.insert(place, smallest);
-        }
-        self.points
     }
 }
 
@@ -314,41 +274,5 @@ impl Solver for Stepwise<'_> {
     fn curve_seconds(&self) -> f64 {
         // Each step adds its own point to the curve.
         0.0
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    proptest! {
-        /// For any number of points pushed, the curve has from `wanted` to twice as many, evenly spread in the order of
-        /// the steps, with both ends; on unloading the smallest force as well.
-        #[test]
-        fn a_thinned_curve_is_even(wanted in 2_usize..20, steps in 1_usize..500, lowest in 0.0..1.0_f64) {
-            let pushed: Vec<_> = (0..steps)
-                .map(|k| CurvePoint { indentation: -(k as f64), ..CurvePoint::default() })
-                .collect();
-            let smallest = pushed[(lowest * steps as f64) as usize];
-            for direction in [Direction::Loading, Direction::Unloading] {
-                let mut thinned = Thinned::new(wanted);
-                pushed.iter().for_each(|&point| thinned.push(point));
-                let curve = thinned.finish(smallest, direction);
-                let at: Vec<_> = curve.iter().map(|point| -point.indentation as usize).collect();
-                let mut stride = 1;
-                while (steps - 1) / stride + 1 > 2 * wanted {
-                    stride *= 2;
-                }
-                let mut expected: Vec<_> = (0..steps).step_by(stride).chain([steps - 1]).collect();
-                if direction == Direction::Unloading {
-                    expected.push(-smallest.indentation as usize);
-                }
-                expected.sort_unstable();
-                expected.dedup();
-                prop_assert!(at.len() >= wanted.min(steps));
-                prop_assert_eq!(at, expected);
-            }
-        }
     }
 }

@@ -66,7 +66,12 @@ impl Leg {
     /// [`LegRecord::released_energy`](crate::contact::LegRecord::released_energy).
     #[must_use]
     pub fn released_energy(&self, low: f64, high: f64) -> f64 {
-        let energy = 0.5 * self.contact.foundation.spring_stiffness() * self.squared_stretch(low, high);
+        self.energy(self.squared_stretch(low, high))
+    }
+
+    /// Energy that springs of these squared stretches, m², release on the leg, J.
+    pub(in crate::contact) fn energy(&self, squared_stretch: f64) -> f64 {
+        let energy = 0.5 * self.contact.foundation.spring_stiffness() * squared_stretch;
         // Not −0 where nothing attaches with a stretch.
         if self.direction == Direction::Loading { 0.0 - energy } else { energy }
     }
