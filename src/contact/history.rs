@@ -57,7 +57,7 @@ pub struct LegRecord {
 
 impl LegRecord {
     /// A leg that ends where it begins.
-    pub(super) fn still(target: Move, here: CurvePoint) -> Self {
+    pub(crate) fn still(target: Move, here: CurvePoint) -> Self {
         LegRecord {
             target,
             direction: Direction::Loading,
@@ -71,7 +71,7 @@ impl LegRecord {
     }
 
     /// A leg of a separated body that does not touch.
-    pub(super) fn free(target: Move, from: f64, to: f64) -> Self {
+    pub(crate) fn free(target: Move, from: f64, to: f64) -> Self {
         let [start, end] = [from, to].map(|indentation| CurvePoint { indentation, ..CurvePoint::default() });
         let direction = if to > from { Direction::Loading } else { Direction::Unloading };
         LegRecord { direction, curve: vec![start, end], ..LegRecord::still(target, end) }

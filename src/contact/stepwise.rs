@@ -8,7 +8,7 @@ use super::contact_state::ContactState;
 use super::grid::Grid;
 use super::moves::{Goal, plan};
 use super::{
-    Contact, ContactError, ContactTotals, CurvePoint, Direction, Edges, Leg, LegRecord, Solver, Work, resized,
+    Contact, ContactError, ContactTotals, CurvePoint, Direction, Leg, LegRecord, Solver, Work, resized,
 };
 use crate::contact::Move;
 
@@ -70,8 +70,7 @@ impl<'a> Stepwise<'a> {
         let gap = self.contact.gaps()[index];
         self.holds[index] = attaches;
         self.thresholds[index] = at;
-        let Contact { springs, .. } = self.contact;
-        let spring = ContactTotals::of_patch(springs.gaps(), (index, index), Edges::Grid, springs.scale());
+        let spring = ContactTotals::of_patch(&[gap], false, self.contact.springs.scale());
         let squared_stretch = (gap - at).max(0.0).powi(2);
         self.state.totals += if attaches { spring } else { -spring };
         self.state.squared_stretch += if attaches { -squared_stretch } else { squared_stretch };

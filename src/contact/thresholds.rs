@@ -10,7 +10,7 @@ use super::adhesive::Slider;
 use super::contact_state::{Sampled, Tally};
 use super::grid::Grid;
 use super::interval::{Intervals, Piece};
-use super::totals::{ContactTotals, FewSprings, GapScale};
+use super::totals::{ContactTotals, GapScale, sums_of_few};
 use super::{Contact, ContactError, Edges};
 
 /// Springs in contact each from an indentation of its own on.
@@ -78,20 +78,12 @@ impl<'a> Thresholds<'a> {
     #[inline]
     fn each_spring(&self, mut see: impl FnMut(ContactTotals, f64, f64)) {
         let mut before = f64::INFINITY;
-        for (index, (&gap, &threshold)) in self.gaps.iter().zip(self.thresholds).enumerate() {
+        for (index, &threshold) in self.thresholds.iter().enumerate() {
             let after = self.thresholds.get(index + 1).copied().unwrap_or(f64::INFINITY);
             let (left, right) = (before < threshold, after <= threshold);
-            let mut few = FewSprings::default();
-            if self.slides {
-                for (_, neighbour) in
-                    [(left, before), (right, after)].into_iter().filter(|(closes, _)| *closes)
-                {
-                    few.add_cell(gap, neighbour, self.scale);
-                }
-            } else {
-                few.add_spring(gap, self.scale);
-            }
-            let [quanta, squares] = few.sums();
+            let ends = if self.slides { [left, right].map(usize::from) } else { [0, 0] };
+            let springs = &self.gaps[index - ends[0]..=index + ends[1]];
+            let [quanta, squares] = sums_of_few(springs, self.slides, self.scale);
             let fragments = 1 - i64::from(left) - i64::from(right);
             see(ContactTotals { springs: 1, fragments, quanta, squares }, threshold, before);
             before = threshold;

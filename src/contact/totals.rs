@@ -1,7 +1,5 @@
 //! Totals of the springs in contact, as sums without cancellation: exact counts and fixed-point gaps.
 
-use crate::contact::Edges;
-
 /// Fixed-point scale of the gaps of one line: a quantum is 2⁻⁶² of the power of two above its largest
 /// gap.
 ///
@@ -45,13 +43,6 @@ impl GapScale {
         (gap * self.quanta_per_metre) as i64
     }
 
-    /// The mean of two gaps in quanta, for a cell between two springs.
-    #[inline]
-    #[must_use]
-    pub fn mean_quanta(&self, one: f64, other: f64) -> i64 {
-        self.quanta(0.5 * one + 0.5 * other)
-    }
-
     /// Size of a quantum, m: the error of one gap in a sum is below it.
     #[must_use]
     pub fn quantum(&self) -> f64 {
@@ -73,44 +64,29 @@ fn power_of_two(exponent: i32) -> f64 {
 /// Bits of squared quanta that a sum of squares leaves out: 2^28 squares then fit an `i128`.
 const SQUARE_BITS: u32 = 28;
 
-/// Sums over a few springs, or cells of a line that is straight between springs: four quanta below 2^62 fit into 64 bits,
-/// and four of their squares into 128.
-#[derive(Default)]
-pub struct FewSprings {
-    quanta: u64,
-    squares: u128,
-    /// Squared differences of the gaps at the ends of cells.
-    squared_differences: u128,
-}
-
-impl FewSprings {
-    /// Adds a whole spring.
-    #[inline]
-    pub fn add_spring(&mut self, gap: f64, scale: GapScale) {
-        self.add(scale.quanta(gap).cast_unsigned());
+/// Sums of the gaps and of their squares over at most four springs, or over the cells between at most five, in the units of
+/// [`ContactTotals`].
+///
+/// Four quanta below 2^62 fit into 64 bits, and four of their squares into 128. The line is straight between springs: the
+/// mean square along a cell is (mean gap)² + (difference)²/12.
+#[inline]
+pub fn sums_of_few(gaps: &[f64], of_cells: bool, scale: GapScale) -> [i128; 2] {
+    let (mut sum, mut squares, mut squared_differences) = (0_u64, 0_u128, 0_u128);
+    let mut add = |gap: f64| {
+        let quanta = scale.quanta(gap).cast_unsigned();
+        sum += quanta;
+        squares += u128::from(quanta) * u128::from(quanta);
+    };
+    if of_cells {
+        for cell in gaps.windows(2) {
+            add(0.5 * cell[0] + 0.5 * cell[1]);
+            let difference = u128::from(scale.quanta((cell[0] - cell[1]).abs()).cast_unsigned());
+            squared_differences += difference * difference;
+        }
+    } else {
+        gaps.iter().for_each(|&gap| add(gap));
     }
-
-    /// Adds the cell between two springs.
-    #[inline]
-    pub fn add_cell(&mut self, one: f64, other: f64, scale: GapScale) {
-        self.add(scale.mean_quanta(one, other).cast_unsigned());
-        let difference = u128::from(scale.quanta((one - other).abs()).cast_unsigned());
-        self.squared_differences += difference * difference;
-    }
-
-    #[inline]
-    fn add(&mut self, quanta: u64) {
-        self.quanta += quanta;
-        self.squares += u128::from(quanta) * u128::from(quanta);
-    }
-
-    /// Sums of the gaps and of their squares in the units of [`ContactTotals`]: the mean square along a cell is
-    /// (mean gap)² + (difference)²/12.
-    #[inline]
-    pub fn sums(&self) -> [i128; 2] {
-        let squares = self.squares + twelfth(self.squared_differences);
-        [i128::from(self.quanta), (squares >> SQUARE_BITS).cast_signed()]
-    }
+    [i128::from(sum), ((squares + twelfth(squared_differences)) >> SQUARE_BITS).cast_signed()]
 }
 
 /// A twelfth, at most 13 too small; a division of 128 bits would take longer than all other sums.
@@ -135,26 +111,11 @@ pub struct ContactTotals {
 
 impl ContactTotals {
     /// Sums the springs of one patch, or its cells where edges slide between springs.
-    #[must_use]
-    pub fn of_patch(gaps: &[f64], (first, last): (usize, usize), edges: Edges, scale: GapScale) -> Self {
-        let mut totals =
-            ContactTotals { springs: (last + 1 - first) as i64, fragments: 1, ..Self::default() };
-        let springs = &gaps[first..=last];
-        let mut add = |few: FewSprings| {
-            let [quanta, squares] = few.sums();
+    pub(super) fn of_patch(gaps: &[f64], slides: bool, scale: GapScale) -> Self {
+        let mut totals = ContactTotals { springs: gaps.len() as i64, fragments: 1, ..Self::default() };
+        for at in 0..gaps.len() - usize::from(slides) {
+            let [quanta, squares] = sums_of_few(&gaps[at..=at + usize::from(slides)], slides, scale);
             (totals.quanta, totals.squares) = (totals.quanta + quanta, totals.squares + squares);
-        };
-        match edges {
-            Edges::Grid => springs.iter().for_each(|&gap| {
-                let mut few = FewSprings::default();
-                few.add_spring(gap, scale);
-                add(few);
-            }),
-            Edges::SubCell => springs.windows(2).for_each(|cell| {
-                let mut few = FewSprings::default();
-                few.add_cell(cell[0], cell[1], scale);
-                add(few);
-            }),
         }
         totals
     }

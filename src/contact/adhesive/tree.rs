@@ -2,7 +2,7 @@
 
 use super::span::larger;
 use crate::contact::Edges;
-use crate::contact::totals::FewSprings;
+use crate::contact::totals::sums_of_few;
 use crate::contact::{ContactError, GapScale, TWO_THREADS, reserve};
 use crate::memory;
 use crate::parallel::in_parallel;
@@ -165,16 +165,11 @@ impl ContactTree {
     /// [`ContactTotals`](crate::contact::ContactTotals).
     #[inline]
     pub(super) fn sums_before(&self, gaps: &[f64], spring: usize) -> [i128; 2] {
-        let (block, scale) = (spring / BLOCK, self.scale());
-        let mut rest = FewSprings::default();
-        let springs = block * BLOCK..spring;
-        if self.of_cells {
-            springs.for_each(|at| rest.add_cell(gaps[at], gaps[at + 1], scale));
-        } else {
-            gaps[springs].iter().for_each(|&gap| rest.add_spring(gap, scale));
-        }
-        let ([first, second], [rest, rest_squares]) = (self.sums[block], rest.sums());
-        [first + rest, second + rest_squares]
+        let block = spring / BLOCK;
+        let end = if self.of_cells { gaps.len().min(spring + 1) } else { spring };
+        let rest = sums_of_few(&gaps[block * BLOCK..end], self.of_cells, self.scale);
+        let sums = self.sums[block];
+        [sums[0] + rest[0], sums[1] + rest[1]]
     }
 
     /// Finds the turning points: of neighbours with equal gaps the right one counts as lower.
@@ -265,22 +260,18 @@ fn sums_along(
     }
     let mut sum = [0_i128; 2];
     sums.push(sum);
-    let mut add = |block: FewSprings| {
-        let [gaps, squares] = block.sums();
-        sum = [sum[0] + gaps, sum[1] + squares];
+    let mut add = |few: [i128; 2]| {
+        sum = [sum[0] + few[0], sum[1] + few[1]];
         sums.push(sum);
     };
     match edges {
-        Edges::Grid => gaps.as_chunks::<BLOCK>().0.iter().for_each(|springs| {
-            let mut block = FewSprings::default();
-            springs.iter().for_each(|&gap| block.add_spring(gap, scale));
-            add(block);
-        }),
-        Edges::SubCell => gaps.windows(BLOCK + 1).step_by(BLOCK).for_each(|springs| {
-            let mut block = FewSprings::default();
-            springs.windows(2).for_each(|cell| block.add_cell(cell[0], cell[1], scale));
-            add(block);
-        }),
+        Edges::Grid => {
+            gaps.as_chunks::<BLOCK>().0.iter().for_each(|springs| add(sums_of_few(springs, false, scale)));
+        }
+        Edges::SubCell => {
+            let cells = gaps.windows(BLOCK + 1).step_by(BLOCK);
+            cells.for_each(|springs| add(sums_of_few(springs, true, scale)));
+        }
     }
     Ok(sums)
 }

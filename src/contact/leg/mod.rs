@@ -251,7 +251,7 @@ impl Leg {
             }),
             _ => None,
         };
-        let totals = ContactTotals::of_patch(gaps, (first, last), *edges, scale);
+        let totals = ContactTotals::of_patch(&gaps[first..=last], slides, scale);
         let cells = || Slider::new(gaps, &span, stretch, pin).edge_cells(indentation);
         let cells = if slides { cells() } else { EdgeCells::default() };
         let state = ContactState::new(slides, indentation, totals, cells, &scale);
