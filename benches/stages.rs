@@ -9,7 +9,7 @@
 
 use asperity::analysis::ideal_adhesion_force;
 use asperity::contact::{
-    Body, Contact, ContactTree, Foundation, HessRule, Leg, LegRecord, Solver, Springs, Work, Workspace,
+    Body, Contact, ContactTree, Foundation, HessRule, Leg, LegRecord, Solver, Springs, Work,
 };
 use asperity::scene::{Adhesion, Document, Edges, Move, Roughness, Scene};
 use asperity::simulation::Simulation;
@@ -170,7 +170,6 @@ struct Timed {
     reversals: f64,
     records: Vec<LegRecord>,
     work: Work,
-    memory: Workspace,
 }
 
 /// Measures all stages in turn, round after round: other load of the machine then affects all of them alike.
@@ -311,7 +310,7 @@ impl Timed {
         let whole = Instant::now();
         let contact = contact(tree, edges, hess, rough);
         self.tree = self.tree.min(seconds_since(whole));
-        let mut solver = Body::new_in(take(&mut self.memory), &contact, SAMPLES);
+        let mut solver = Body::new(&contact, SAMPLES);
         let legs = [Move::ToForce(LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT), Move::ToSeparation];
         let clock = Instant::now();
         self.records = legs.map(|leg| solver.advance(leg).expect("a reachable leg")).into();
@@ -320,7 +319,7 @@ impl Timed {
         self.curves = self.curves.min(solver.curve_seconds());
         self.passes = self.passes.min(legs_seconds - solver.curve_seconds());
         self.work = solver.work();
-        self.memory = solver.into_workspace();
+        drop(solver);
         self.measure_reversals(tree_of(contact), edges, hess, rough)
     }
 
@@ -336,14 +335,14 @@ impl Timed {
         let turns: Vec<Move> = (1..=REVERSALS).map(|turn| Move::ToForce(force * f64::from(turn))).collect();
         let clock = Instant::now();
         let contact = contact(tree, edges, hess, rough);
-        let mut solver = Body::new_in(take(&mut self.memory), &contact, SAMPLES);
+        let mut solver = Body::new(&contact, SAMPLES);
         let mut see = |_, reversal| {
             black_box(reversal);
             Ok(())
         };
         solver.reversals(&turns, &[], &mut see).expect("reachable turning points");
         self.reversals = self.reversals.min(seconds_since(clock));
-        self.memory = solver.into_workspace();
+        drop(solver);
         tree_of(contact)
     }
 }
@@ -351,13 +350,15 @@ impl Timed {
 /// The contact of a line, with its tree in the memory of another one.
 fn contact(tree: ContactTree, edges: Edges, hess: HessRule, rough: &Rough) -> Contact {
     let contact = Contact::new(Arc::clone(&rough.line.gaps), edges, rough.foundation, Some(hess));
-    contact.springs.tree_in(tree, edges).expect("memory for the tree");
+    contact.springs().tree_in(tree, edges).expect("memory for the tree");
     contact
 }
 
 /// The memory of the tree of a contact.
 fn tree_of(contact: Contact) -> ContactTree {
-    Arc::into_inner(contact.springs).map(Springs::into_tree).unwrap_or_default()
+    let springs = Arc::clone(contact.springs());
+    drop(contact);
+    Arc::into_inner(springs).map(Springs::into_tree).unwrap_or_default()
 }
 
 /// A real Fourier transform, planned, with its buffers.

@@ -136,7 +136,7 @@ impl ContactBuilder<'_> {
         let hess = (work > 0.0).then(|| HessRule::from_works(foundation, closing, work));
         let contact = contact::Contact::new(Arc::clone(profile.shared_gaps()), edges, foundation, hess);
         if hess.is_some() {
-            contact.springs.tree(edges).map_err(|error: ContactError| RunError::Contact(error))?;
+            contact.springs().tree(edges).map_err(|error: ContactError| RunError::Contact(error))?;
         }
         Ok(Contact { contact, samples })
     }

@@ -194,7 +194,7 @@ fn memory_of_512_reversals_is_that_of_a_few() {
         for closing in [work, 0.25 * work] {
             let hess = HessRule::from_works(foundation, closing, work);
             let contact = Contact::new(Arc::clone(&line.gaps), Edges::SubCell, foundation, Some(hess));
-            contact.springs.tree(Edges::SubCell).unwrap();
+            contact.springs().tree(Edges::SubCell).unwrap();
             let most = |count: u32| {
                 let deepest = 0.4 * 2e6 * 1e-3 * 5e-7;
                 let turn = |turn: u32| Move::ToForce(deepest * f64::from(turn) / f64::from(count));
@@ -232,7 +232,7 @@ fn preloads_of_a_line_of_events_take_what_a_study_counts() {
     let work = 5e-7 * 5e-7 * spectrum.gradient_per_height(1e-3) * 2e6 / 1e6;
     let hess = HessRule::new(foundation, work);
     let contact = Contact::new(Arc::clone(&line.gaps), Edges::SubCell, foundation, Some(hess));
-    contact.springs.tree(Edges::SubCell).unwrap();
+    contact.springs().tree(Edges::SubCell).unwrap();
     let turns = [0.01, 0.1, 1.0].map(|share| Move::ToForce(share * 2e6 * 1e-3 * 5e-7));
     let held = allocations::most_held(|| {
         Body::new(&contact, 2).reversals(&turns, &[], &mut |_, _| Ok(())).unwrap();

@@ -2,7 +2,7 @@
 
 use super::contact_state::{ContactState, Extreme};
 use super::grid::Grid;
-use super::leg::{Leg, SEARCH_INTERVALS, Workspace};
+use super::leg::{Leg, SEARCH_INTERVALS};
 use super::moves::{Goal, plan};
 use super::{Contact, ContactError, CurvePoint, Direction, History, LegRecord, Move, TWO_THREADS, Work};
 use crate::parallel::in_parallel;
@@ -31,7 +31,7 @@ pub struct Body {
     leg: Leg,
     state: ContactState,
     samples: usize,
-    workspace: Workspace,
+    pub(super) work: Work,
     curve_time: Duration,
 }
 
@@ -52,18 +52,7 @@ impl Body {
     /// motion.
     #[must_use]
     pub fn new(contact: &Contact, samples: usize) -> Self {
-        Self::new_in(Workspace::default(), contact, samples)
-    }
-
-    /// Creates the body of [`Body::new`] in the memory of another one.
-    #[must_use]
-    pub fn new_in(mut workspace: Workspace, contact: &Contact, samples: usize) -> Self {
-        workspace.forget();
-        workspace.work.springs = contact.gaps().len() as u64;
-        Body {
-            workspace,
-            ..Self::on(Leg::apart(contact, Direction::Unloading), ContactState::free(0.0), samples)
-        }
+        Self::on(Leg::apart(contact, Direction::Unloading), ContactState::free(0.0), samples)
     }
 
     /// Creates a body at an indentation of a leg, m.
@@ -76,19 +65,8 @@ impl Body {
     }
 
     fn on(leg: Leg, state: ContactState, samples: usize) -> Self {
-        Body {
-            leg,
-            state,
-            samples: samples.max(2),
-            workspace: Workspace::default(),
-            curve_time: Duration::ZERO,
-        }
-    }
-
-    /// Returns the memory for the next body.
-    #[must_use]
-    pub fn into_workspace(self) -> Workspace {
-        self.workspace
+        let work = Work { springs: leg.contact().gaps().len() as u64, ..Work::default() };
+        Body { leg, state, samples: samples.max(2), work, curve_time: Duration::ZERO }
     }
 
     /// Present point of the curve.
@@ -130,24 +108,17 @@ impl Body {
         state.point(self.leg.contact().foundation)
     }
 
-    pub(super) fn workspace(&mut self) -> &mut Workspace {
-        &mut self.workspace
-    }
-
-    /// Starts a loading from separation.
-    pub(super) fn approach(&mut self) -> Result<Leg, ContactError> {
-        Leg::approach(self.leg.contact(), &mut self.workspace)
-    }
-
     /// The present leg in its direction, else the one that begins here.
-    fn leg_in(&mut self, direction: Direction) -> Result<Leg, ContactError> {
-        if self.is_separated() && direction == Direction::Loading {
-            self.approach()
+    pub(super) fn leg_in(&mut self, direction: Direction) -> Result<Leg, ContactError> {
+        let leg = if self.is_separated() && direction == Direction::Loading {
+            Leg::approach(self.leg.contact())?
         } else if self.leg.direction() == direction {
-            Ok(self.leg.clone())
+            return Ok(self.leg.clone());
         } else {
-            self.leg.turn(self.state.indentation, &mut self.workspace)
-        }
+            self.leg.turn(self.state.indentation)?
+        };
+        self.work.count_leg(&leg);
+        Ok(leg)
     }
 
     /// Finds the motion to a target.
@@ -167,7 +138,7 @@ impl Body {
         let to = match goal {
             Goal::Indentation(indentation) => indentation,
             Goal::Separation => leg.end().min(from),
-            Goal::Force(force) => leg.reach_force(force, from, &mut self.workspace.work)?,
+            Goal::Force(force) => leg.reach_force(force, from, &mut self.work)?,
         };
         let (low, high) = if direction == Direction::Loading { (from, to) } else { (to, from) };
         Ok(Some(Motion { leg, low, high, goal }))
@@ -206,7 +177,7 @@ impl Body {
         let chosen = sampled.states.iter().enumerate();
         let chosen = chosen.filter(|(index, _)| index % stride == 0 || *index == last);
         let curve: Vec<CurvePoint> = chosen.map(|(_, &state)| self.point_of(state)).collect();
-        let work = &mut self.workspace.work;
+        let work = &mut self.work;
         let extremes = if loads {
             let largest =
                 if ends_at_largest { sampled.last() } else { leg.extreme(Extreme::Largest, &sampled, work) };
@@ -220,7 +191,7 @@ impl Body {
         };
         let record =
             LegRecord::moved((target, &leg), curve, extremes, [before, self.point()], squared_stretch);
-        self.workspace.work.count(&record);
+        self.work.count(&record);
         self.leg = leg;
         self.curve_time += clock.elapsed();
         Ok(record)
@@ -250,7 +221,7 @@ impl Solver for Body {
     }
 
     fn work(&self) -> Work {
-        self.workspace.work
+        self.work
     }
 
     fn curve_seconds(&self) -> f64 {

@@ -171,6 +171,19 @@ pub struct Work {
 }
 
 impl Work {
+    /// Counts the passes and evaluations of a leg with adhesion.
+    pub(super) fn count_leg(&mut self, leg: &Leg) {
+        let contact = leg.contact();
+        if let (true, Ok(tree)) = (contact.has_adhesion(), contact.springs.tree(contact.edges)) {
+            self.tree_nodes = tree.node_count() as u64;
+            match leg.direction() {
+                Direction::Loading => self.loading_passes += 1,
+                Direction::Unloading => self.unloading_passes += 1,
+            }
+            self.hess_evaluations += leg.evaluations;
+        }
+    }
+
     /// Counts the springs of a leg of the loading.
     pub(crate) fn count(&mut self, leg: &LegRecord) {
         self.attached += leg.attached;

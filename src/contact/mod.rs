@@ -36,7 +36,7 @@ pub use body::{Body, Motion, Solver, run};
 pub use error::ContactError;
 pub use foundation::{Foundation, HessRule};
 pub use history::{CurvePoint, Direction, History, LegRecord, Work};
-pub use leg::{Leg, PatchState, Workspace};
+pub use leg::{Leg, PatchState};
 pub use moves::Move;
 pub use reversal::Reversal;
 pub use springs::{Contact, Edges, Springs};

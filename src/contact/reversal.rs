@@ -4,7 +4,7 @@ use super::body::Body;
 use super::contact_state::ContactState;
 use super::leg::Leg;
 use super::moves::{Goal, plan};
-use super::{ContactError, CurvePoint};
+use super::{ContactError, CurvePoint, Direction};
 use crate::contact::Move;
 
 /// The unloading from one turning point to separation, exact to rounding.
@@ -44,13 +44,11 @@ impl Body {
         points: &[f64],
         see: &mut dyn FnMut(usize, Reversal) -> Result<(), ContactError>,
     ) -> Result<(), ContactError> {
-        let loading = self.approach()?;
+        let loading = self.leg_in(Direction::Loading)?;
         let mut turns = Vec::with_capacity(targets.len());
         for (index, &target) in targets.iter().enumerate() {
             let at = match plan(target, CurvePoint::default()) {
-                Ok(Some((_, Goal::Force(force)))) => {
-                    loading.reach_force(force, 0.0, &mut self.workspace().work)
-                }
+                Ok(Some((_, Goal::Force(force)))) => loading.reach_force(force, 0.0, &mut self.work),
                 Ok(Some((_, Goal::Indentation(at)))) if at >= 0.0 => Ok(at),
                 Ok(_) => Err(ContactError::NoContact),
                 Err(reason) => Err(reason),
@@ -69,11 +67,11 @@ impl Body {
     /// # Errors
     /// [`ContactError::OutOfMemory`].
     pub fn pull_off_at_touch(&mut self) -> Result<f64, ContactError> {
-        let before = self.workspace().work;
-        let loading = self.approach()?;
+        let before = self.work;
+        let loading = self.leg_in(Direction::Loading)?;
         let force = self.reverse(&loading, loading.state(0.0)?, &[])?.smallest.force;
         // The passes for F_a(0) count separately.
-        let work = &mut self.workspace().work;
+        let work = &mut self.work;
         (work.loading_passes, work.unloading_passes) = (before.loading_passes, before.unloading_passes);
         work.zero_load_passes += 1;
         Ok(force)
@@ -87,10 +85,11 @@ impl Body {
         points: &[f64],
     ) -> Result<Reversal, ContactError> {
         let high = turn.indentation;
-        let unloading = loading.turn(high, self.workspace())?;
+        let unloading = loading.turn(high)?;
+        self.work.count_leg(&unloading);
         let separation = unloading.end().min(high);
         let (grid, _) = self.grid(separation, high);
-        let smallest = unloading.smallest(&grid, &mut self.workspace().work)?;
+        let smallest = unloading.smallest(&grid, &mut self.work)?;
         let below = &points[..points.partition_point(|&point| point <= high)];
         let apart = below.partition_point(|&point| point < separation);
         let mut forces = vec![0.0; apart];

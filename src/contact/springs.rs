@@ -1,6 +1,6 @@
 //! The springs under a rigid line and the contact that they form: all that stays the same while the body moves.
 
-use super::adhesive::ContactTree;
+use super::adhesive::{Closing, ContactTree};
 use super::{ContactError, Foundation, GapScale, HessRule};
 use serde::{Deserialize, Serialize};
 use std::sync::{Arc, OnceLock};
@@ -38,14 +38,11 @@ pub struct Springs {
 /// Springs on their foundation under a rule of adhesion.
 #[derive(Clone, Debug)]
 pub struct Contact {
-    /// Springs along the line.
-    pub springs: Arc<Springs>,
-    /// Elastic foundation.
-    pub foundation: Foundation,
-    /// Edge model of the patches.
-    pub edges: Edges,
-    /// Rule of Hess; `None` without adhesion.
-    pub hess: Option<HessRule>,
+    pub(super) springs: Arc<Springs>,
+    pub(super) foundation: Foundation,
+    pub(super) edges: Edges,
+    pub(super) hess: Option<HessRule>,
+    closing: Arc<OnceLock<Closing>>,
 }
 
 impl Springs {
@@ -116,7 +113,7 @@ impl Springs {
 }
 
 impl Contact {
-    /// Creates a contact of springs with these gaps (m, the smallest 0).
+    /// Creates a contact of springs with these gaps (m, the smallest 0); without a rule of Hess it has no adhesion.
     #[must_use]
     pub fn new(
         gaps: impl Into<Arc<Vec<f64>>>,
@@ -124,7 +121,19 @@ impl Contact {
         foundation: Foundation,
         hess: Option<HessRule>,
     ) -> Self {
-        Contact { springs: Arc::new(Springs::new(gaps)), foundation, edges, hess }
+        Self::of(Arc::new(Springs::new(gaps)), edges, foundation, hess)
+    }
+
+    /// Creates a contact of springs that other contacts may share.
+    #[must_use]
+    pub fn of(springs: Arc<Springs>, edges: Edges, foundation: Foundation, hess: Option<HessRule>) -> Self {
+        Contact { springs, foundation, edges, hess, closing: Arc::default() }
+    }
+
+    /// Springs along the line.
+    #[must_use]
+    pub fn springs(&self) -> &Arc<Springs> {
+        &self.springs
     }
 
     /// Gaps along the line, m.
@@ -133,9 +142,31 @@ impl Contact {
         self.springs.gaps()
     }
 
-    /// Rule of Hess, without adhesion the one of no stretch.
+    /// Elastic foundation.
     #[must_use]
-    pub fn rule(&self) -> HessRule {
+    pub fn foundation(&self) -> Foundation {
+        self.foundation
+    }
+
+    /// Returns true with a rule of Hess.
+    #[must_use]
+    pub fn has_adhesion(&self) -> bool {
+        self.hess.is_some()
+    }
+
+    /// Rule of Hess, without adhesion the one of no stretch.
+    pub(super) fn rule(&self) -> HessRule {
         self.hess.unwrap_or(HessRule::NO_ADHESION)
+    }
+
+    /// Returns the closing thresholds of a loading from separation, computed by `close` at first.
+    pub(super) fn closing(
+        &self,
+        close: impl FnOnce() -> Result<Closing, ContactError>,
+    ) -> Result<&Closing, ContactError> {
+        match self.closing.get() {
+            Some(closing) => Ok(closing),
+            None => close().map(|closing| self.closing.get_or_init(|| closing)),
+        }
     }
 }

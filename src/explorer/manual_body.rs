@@ -30,9 +30,9 @@ impl ManualBody {
     pub fn take(leg: &Leg, indentation: f64, (step, preload): (f64, f64)) -> Option<Self> {
         let body = Body::at(leg, indentation).ok()?;
         let contact = leg.contact();
-        let deepest = contact.springs.deepest();
+        let deepest = contact.springs().deepest();
         let compression: f64 = contact.gaps().iter().map(|gap| deepest - gap).sum();
-        let full_contact = contact.foundation.spring_stiffness() * compression;
+        let full_contact = contact.foundation().spring_stiffness() * compression;
         let largest = MOST_OVER_FULL_CONTACT * full_contact.max(preload);
         Some(ManualBody { body, travel: ManualPath::default(), step, full_contact, largest })
     }

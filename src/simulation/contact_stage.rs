@@ -2,11 +2,8 @@
 
 use super::AfterLeg;
 use crate::analysis::Figures;
-use crate::contact::{
-    Body, Contact, ContactError, History, Leg, LegRecord, Solver, Stepwise, Workspace, run,
-};
+use crate::contact::{Body, Contact, ContactError, History, Leg, LegRecord, Solver, Stepwise, run};
 use crate::scene::{Move, Scene, Solver as SolverChoice};
-use std::mem::take;
 use std::time::Instant;
 
 /// Parameters of the contact of one run.
@@ -31,12 +28,7 @@ pub(super) struct Contacted {
 
 impl ContactStage<'_> {
     /// Runs the loading of the scene with its solver, and the touch protocol if F_a(0) is requested.
-    pub fn run(
-        &self,
-        zero_load: bool,
-        memory: &mut Workspace,
-        after: &mut AfterLeg<'_>,
-    ) -> Result<Contacted, ContactError> {
+    pub fn run(&self, zero_load: bool, after: &mut AfterLeg<'_>) -> Result<Contacted, ContactError> {
         let samples = self.scene.numerics.samples as usize;
         match self.scene.numerics.solver {
             SolverChoice::Stepwise { step } => {
@@ -56,28 +48,25 @@ impl ContactStage<'_> {
                 Ok(contacted)
             }
             SolverChoice::Exact => {
-                let mut body = self.body(memory);
-                let contacted = self.load(&mut body, after).and_then(|mut contacted| {
-                    if zero_load && self.contact.hess.is_some() {
-                        let clock = Instant::now();
-                        let force = body.pull_off_at_touch()?;
-                        contacted.history.work = body.work();
-                        // Not −F, which would make a force of zero negative.
-                        contacted.zero_load_adhesion_force =
-                            Some(force).filter(|&force| force <= 0.0).map(|force| 0.0 - force);
-                        contacted.zero_load_seconds = clock.elapsed().as_secs_f64();
-                    }
-                    Ok(contacted)
-                });
-                *memory = body.into_workspace();
-                contacted
+                let mut body = self.body();
+                let mut contacted = self.load(&mut body, after)?;
+                if zero_load && self.contact.has_adhesion() {
+                    let clock = Instant::now();
+                    let force = body.pull_off_at_touch()?;
+                    contacted.history.work = body.work();
+                    // Not −F, which would make a force of zero negative.
+                    contacted.zero_load_adhesion_force =
+                        Some(force).filter(|&force| force <= 0.0).map(|force| 0.0 - force);
+                    contacted.zero_load_seconds = clock.elapsed().as_secs_f64();
+                }
+                Ok(contacted)
             }
         }
     }
 
-    /// The separated body of the exact solver, which works in this memory.
-    pub fn body(&self, memory: &mut Workspace) -> Body {
-        Body::new_in(take(memory), &self.contact, self.scene.numerics.samples as usize)
+    /// The separated body of the exact solver.
+    pub fn body(&self) -> Body {
+        Body::new(&self.contact, self.scene.numerics.samples as usize)
     }
 
     /// Runs the loading of the scene.

@@ -44,15 +44,12 @@ impl Simulation {
         let deepest = ends.last().copied().unwrap_or(Move::ToTouch);
         let plan = Plan::of(&Scene { loading: vec![deepest, Move::ToSeparation], ..scene.clone() });
         let interrupted = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
-        let Prepared { contact, memory, .. } = self.prepare(&plan, scene, stop)?;
+        let Prepared { contact, .. } = self.prepare(&plan, scene, stop)?;
         let mut see = |index, reversal| {
             see(index, reversal)?;
             interrupted()
         };
-        let mut body = contact.body(memory);
-        let done = body.reversals(ends, points, &mut see);
-        *memory = body.into_workspace();
-        Ok(done?)
+        Ok(contact.body().reversals(ends, points, &mut see)?)
     }
 
     /// First-order reversal curves of a checked scene from so many equally spaced turning points, at indentations

@@ -5,7 +5,7 @@ use super::contact_stage::ContactStage;
 use super::roughness::{Rough, RoughnessKey, RoughnessMaker, spectrum};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
 use crate::analysis::{Figures, Governing, Regime, SteepWaves, ideal_adhesion_force, scene_tabor_number};
-use crate::contact::{Contact, ContactError, ContactTree, Leg, LegRecord, Springs, Workspace};
+use crate::contact::{Contact, ContactError, ContactTree, Leg, LegRecord, Springs};
 use crate::memory::check_room;
 use crate::parallel::in_parallel;
 use crate::reference::smooth_adhesion_force;
@@ -47,7 +47,6 @@ pub struct Simulation {
     springs: Arc<Springs>,
     /// Memory of the tree of a former profile.
     former_tree: ContactTree,
-    memory: Workspace,
     kept: Kept,
 }
 
@@ -71,7 +70,6 @@ struct LineKey {
 /// Contact of a scene before its stage, with the results of making its profile and tree.
 pub(super) struct Prepared<'a> {
     pub contact: ContactStage<'a>,
-    pub memory: &'a mut Workspace,
     facts: LineFacts,
     governing: Governing,
     random_phases: u64,
@@ -261,10 +259,9 @@ impl Simulation {
         let foundation = governing.foundation(line);
         let hess = governing.hess_rule(foundation).filter(|_| plan.runs(Stage::RuleOfHess));
         let (springs, edges) = (Arc::clone(&self.springs), scene.numerics.edges);
-        let contact = Contact { springs, foundation, edges, hess };
+        let contact = Contact::of(springs, edges, foundation, hess);
         let contact = ContactStage { contact, first: line.first, scene, stop };
-        let memory = &mut self.memory;
-        Ok(Prepared { contact, memory, facts, governing, random_phases, heights_binned, timings })
+        Ok(Prepared { contact, facts, governing, random_phases, heights_binned, timings })
     }
 
     /// Runs a checked scene by its plan. `stop` is polled now and then; `after` sees each stage of the scene's own
@@ -280,8 +277,8 @@ impl Simulation {
     ) -> Result<Outcome, RunError> {
         let plan = Plan::of(scene);
         let made = self.prepare(&plan, scene, stop)?;
-        let Prepared { contact, memory, facts, governing, random_phases, heights_binned, mut timings } = made;
-        let adheres = contact.contact.hess.is_some();
+        let Prepared { contact, facts, governing, random_phases, heights_binned, mut timings } = made;
+        let adheres = contact.contact.has_adhesion();
 
         let clock = Instant::now();
         let mut fragments = Vec::new();
@@ -291,7 +288,7 @@ impl Simulation {
             }
             after(stage, record, leg)
         };
-        let contacted = contact.run(plan.runs(Stage::ZeroLoadAdhesion), memory, &mut observe)?;
+        let contacted = contact.run(plan.runs(Stage::ZeroLoadAdhesion), &mut observe)?;
         timings.curve = contacted.curve_seconds;
         timings.zero_load = contacted.zero_load_seconds;
         timings.passes = (clock.elapsed().as_secs_f64() - timings.curve - timings.zero_load).max(0.0);

@@ -2,27 +2,34 @@
 
 use super::edge_model::EdgeModel;
 use super::levels::Levels;
-use super::run::{Ground, Held, Run};
+use super::run::{Ground, Held, Listed, Run};
 use super::span::{Span, larger, smaller};
 use super::tree::{Branch, Node};
-use crate::contact::{ContactError, push, resized};
+use crate::contact::{ContactError, push, reserve, resized};
+use std::borrow::Cow;
 
-/// Closing thresholds of the nodes of a tree.
+/// Closing thresholds of the nodes of a tree on a loading from separation.
 ///
 /// A node closes, and all its subtree is one fragment, when one of its two branches attaches its spring:
 /// s_v = min over branches u of max(s_u, φ on each span from u up to v).
-#[derive(Clone, Debug, Default)]
+#[derive(Debug)]
 pub struct Closing {
-    /// Indentation at which each node closes on a loading from separation, m.
+    /// Indentation at which each node closes, m.
     closes: Vec<f64>,
     /// Springs that surely attach with each node; bounds that grow as the chains above the node are walked.
     known: Vec<[u32; 2]>,
-    /// True if `closes` holds for the present line and rule.
-    ready: bool,
-    /// Thresholds that a loading from present fragments has replaced, in the order of the changes.
-    replaced: Vec<(u32, f64)>,
-    frames: Vec<Frame>,
-    branches: Vec<Climb>,
+    /// Evaluations of the rule.
+    pub evaluations: u64,
+}
+
+/// A loading from fragments in contact.
+struct Loading<'a, E> {
+    ground: &'a Ground<'a, E>,
+    held: &'a [Held],
+    /// Indentation at which each node closes, m.
+    closes: Cow<'a, [f64]>,
+    known: &'a [[u32; 2]],
+    listed: Listed,
 }
 
 /// A branch followed from its beginning upwards.
@@ -33,16 +40,6 @@ struct Start {
     gap: f64,
 }
 
-/// A node some of whose parts are in contact when a loading begins.
-#[derive(Clone, Copy, Debug)]
-struct Frame {
-    node: u32,
-    /// Range of the present fragments inside, and their number on the left of the node.
-    held: [u32; 2],
-    left: u32,
-    is_open: bool,
-}
-
 /// A branch visited on the walk down from the root.
 #[derive(Clone, Copy, Debug)]
 struct Climb {
@@ -51,33 +48,19 @@ struct Climb {
     merges: f64,
     /// Spring of the node above it.
     parent: usize,
-    held: [u32; 2],
+    held: [usize; 2],
 }
 
 impl Closing {
-    /// Forgets the line and the rule.
-    pub fn forget(&mut self) {
-        self.ready = false;
-    }
-
-    /// True once the nodes have been closed under the present rule.
-    pub fn is_ready(&self) -> bool {
-        self.ready
-    }
-
-    /// Closes all nodes on a loading from separation. Returns the evaluations of the rule.
-    pub fn close<E: EdgeModel>(&mut self, ground: &Ground<'_, E>) -> Result<u64, ContactError> {
-        while let Some((node, closes)) = self.replaced.pop() {
-            self.closes[node as usize] = closes;
-        }
-        if self.ready {
-            return Ok(0);
-        }
+    /// Closes all nodes on a loading from separation.
+    pub fn new<E: EdgeModel>(ground: &Ground<'_, E>) -> Result<Self, ContactError> {
         let count = ground.tree.node_count();
-        self.closes = resized(std::mem::take(&mut self.closes), count, 0.0)?;
-        self.known = resized(std::mem::take(&mut self.known), count, [0; 2])?;
+        let mut closing = Closing {
+            closes: resized(Vec::new(), count, 0.0)?,
+            known: resized(Vec::new(), count, [0; 2])?,
+            evaluations: 0,
+        };
         let square = ground.square();
-        let mut evaluations = 0;
         for index in 0..count {
             let node = ground.tree.nodes()[index];
             let (rank, right) = (node.rank as usize, node.right as usize);
@@ -89,7 +72,7 @@ impl Closing {
                 // Both kinds of branches are read: a choice would often be mispredicted.
                 let place = ground.tree.turns()[2 * (rank + side)];
                 let lowest = ground.gaps[place as usize];
-                let (of_node, known_of_node) = (self.closes[child], self.known[child]);
+                let (of_node, known_of_node) = (closing.closes[child], closing.known[child]);
                 let is_leaf = size == 0;
                 let closed = if is_leaf { lowest } else { of_node };
                 let mut reach = if is_leaf { [place; 2] } else { known_of_node };
@@ -99,148 +82,132 @@ impl Closing {
                 } else {
                     let gap = if is_leaf { closed } else { ground.tree.nodes()[child].gap };
                     let start = Start { closes: closed, known: reach, gap };
-                    let (taken, walked) = ground.climb(start, ground.tree.maximum(&node), &mut evaluations);
+                    let place = ground.tree.maximum(&node);
+                    let (taken, walked) = ground.climb(start, place, &mut closing.evaluations);
                     reach = walked;
                     if !is_leaf {
-                        self.known[child] = walked;
+                        closing.known[child] = walked;
                     }
                     taken
                 };
                 known[side] = reach[side];
                 closes = smaller(closes, taken);
             }
-            self.closes[index] = closes;
-            self.known[index] = known;
+            closing.closes[index] = closes;
+            closing.known[index] = known;
         }
-        self.ready = true;
-        Ok(evaluations)
+        Ok(closing)
     }
 
-    /// Closes the nodes around fragments in contact (from left to right) when a loading begins, and no others.
-    pub fn close_around<E: EdgeModel>(
-        &mut self,
-        ground: &Ground<'_, E>,
-        held: &[Held],
-    ) -> Result<u64, ContactError> {
-        let mut evaluations = self.close(ground)?;
-        let (mut frames, count) = (std::mem::take(&mut self.frames), held.len() as u32);
-        frames.clear();
-        let enter = |branch: Branch, range: [u32; 2], frames: &mut Vec<Frame>| {
-            let is_present = range[1] - range[0] == 1 && held[range[0] as usize].branch == branch;
-            if let (Ok(node), false) = (branch.origin(), is_present || range[0] == range[1]) {
-                frames.push(Frame { node: node as u32, held: range, left: 0, is_open: false });
+    /// Lists the runs of a loading from these fragments in contact, from left to right.
+    pub fn list<E: EdgeModel>(&self, ground: &Ground<'_, E>, held: &[Held]) -> Result<Listed, ContactError> {
+        let mut closes = Cow::Borrowed(self.closes.as_slice());
+        if !held.is_empty() {
+            let mut own = reserve(self.closes.len())?;
+            own.extend_from_slice(&self.closes);
+            closes = Cow::Owned(own);
+        }
+        let listed = Listed { runs: Vec::new(), end: f64::NEG_INFINITY, evaluations: 0 };
+        let mut loading = Loading { ground, held, closes, known: &self.known, listed };
+        loading.close_around()?;
+        loading.list()?;
+        Ok(loading.listed)
+    }
+}
+
+impl<E: EdgeModel> Loading<'_, E> {
+    /// Parts of these fragments on the left and on the right of a spring.
+    fn split(&self, [begin, end]: [usize; 2], spring: usize) -> [[usize; 2]; 2] {
+        let inside = &self.held[begin..end];
+        let middle = begin + inside.partition_point(|held| (held.first as usize) < spring);
+        [[begin, middle], [middle, end]]
+    }
+
+    /// The fragment in contact on a branch itself, not in a part of it, among these.
+    fn held_on(&self, [begin, end]: [usize; 2], branch: Branch) -> Option<&Held> {
+        self.held.get(begin).filter(|held| end - begin == 1 && held.branch == branch)
+    }
+
+    /// Closes the nodes around the fragments in contact, and no others.
+    fn close_around(&mut self) -> Result<(), ContactError> {
+        let tree = self.ground.tree;
+        let mut waiting = vec![(tree.root(), [0, self.held.len()])];
+        let mut around = Vec::new();
+        // A node comes before those in its parts.
+        while let Some((branch, held)) = waiting.pop() {
+            if let (Ok(node), None, true) = (branch.origin(), self.held_on(held, branch), held[0] < held[1]) {
+                let parts =
+                    tree.parts(node).into_iter().zip(self.split(held, tree.maximum(&tree.nodes()[node])));
+                for part in parts.clone() {
+                    push(&mut waiting, part, self.ground.gaps.len())?;
+                }
+                push(&mut around, (node, held), self.ground.gaps.len())?;
             }
-        };
-        enter(ground.tree.root(), [0, count], &mut frames);
-        while let Some(frame) = frames.last_mut() {
-            let index = frame.node as usize;
-            let node = ground.tree.nodes()[index];
-            let place = ground.tree.maximum(&node);
-            let parts = ground.tree.parts(index);
-            if !frame.is_open {
-                let [begin, end] = frame.held;
-                let inside = &held[begin as usize..end as usize];
-                let middle = begin + inside.partition_point(|held| (held.first as usize) < place) as u32;
-                (frame.is_open, frame.left) = (true, middle);
-                enter(parts[0], [begin, middle], &mut frames);
-                enter(parts[1], [middle, end], &mut frames);
-                continue;
-            }
-            let ranges = [[frame.held[0], frame.left], [frame.left, frame.held[1]]];
+        }
+        for (node, held) in around.into_iter().rev() {
+            let place = tree.maximum(&tree.nodes()[node]);
             let mut closes = f64::INFINITY;
-            for (part, range) in parts.into_iter().zip(ranges) {
-                let start = self.start(ground, part, held_on(held, range, part));
-                let (taken, _) = ground.climb(start, place, &mut evaluations);
+            for (part, held) in tree.parts(node).into_iter().zip(self.split(held, place)) {
+                let start = self.start(part, self.held_on(held, part));
+                let (taken, _) = self.ground.climb(start, place, &mut self.listed.evaluations);
                 closes = smaller(closes, taken);
             }
-            self.replaced.push((index as u32, self.closes[index]));
-            self.closes[index] = closes;
-            frames.pop();
+            self.closes.to_mut()[node] = closes;
         }
-        self.frames = frames;
-        Ok(evaluations)
+        Ok(())
     }
 
     /// Beginning of a branch: a fragment in contact, else the span at which the branch closes.
-    fn start<E: EdgeModel>(&self, ground: &Ground<'_, E>, branch: Branch, held: Option<&Held>) -> Start {
+    fn start(&self, branch: Branch, held: Option<&Held>) -> Start {
+        let Ground { tree, gaps, .. } = *self.ground;
         if let Some(held) = held {
             let known = [held.first, held.last];
-            return Start { closes: f64::NEG_INFINITY, known, gap: ground.span(branch, known).gap };
+            return Start { closes: f64::NEG_INFINITY, known, gap: self.ground.span(branch, known).gap };
         }
         match branch.origin() {
             Ok(node) => {
-                let gap = ground.tree.nodes()[node].gap;
-                Start { closes: self.closes[node], known: self.known[node], gap }
+                Start { closes: self.closes[node], known: self.known[node], gap: tree.nodes()[node].gap }
             }
             Err(rank) => {
-                let place = ground.tree.minimum(rank);
-                let gap = ground.gaps[place];
-                Start { closes: gap, known: [place as u32; 2], gap }
+                let place = tree.minimum(rank);
+                Start { closes: gaps[place], known: [place as u32; 2], gap: gaps[place] }
             }
         }
     }
 
-    /// Lists the runs of a loading from these fragments in contact (from left to right) in place of `runs`. Returns the
-    /// smallest indentation of full contact, m.
-    pub fn list<E: EdgeModel>(
-        &mut self,
-        ground: &Ground<'_, E>,
-        held: &[Held],
-        runs: &mut Vec<Run>,
-        evaluations: &mut u64,
-    ) -> Result<f64, ContactError> {
-        runs.clear();
-        let mut branches = std::mem::take(&mut self.branches);
-        branches.clear();
-        let nowhere = usize::MAX;
-        let all = [0, held.len() as u32];
-        branches.push(Climb {
-            branch: ground.tree.root(),
-            merges: f64::INFINITY,
-            parent: nowhere,
-            held: all,
-        });
-        let mut complete = f64::NEG_INFINITY;
+    /// Lists the runs, and finds the smallest indentation of full contact.
+    fn list(&mut self) -> Result<(), ContactError> {
+        let tree = self.ground.tree;
+        let held = [0, self.held.len()];
+        let mut branches =
+            vec![Climb { branch: tree.root(), merges: f64::INFINITY, parent: usize::MAX, held }];
         while let Some(climb) = branches.pop() {
-            let Climb { branch, merges, .. } = climb;
-            let state = held_on(held, climb.held, branch);
-            let start = self.start(ground, branch, state);
-            let node = branch.origin().ok().map(|index| (index, ground.tree.nodes()[index]));
+            let Climb { branch, merges, held, .. } = climb;
+            let state = self.held_on(held, branch).copied();
+            let start = self.start(branch, state.as_ref());
+            let node = branch.origin().ok().map(|index| (index, tree.nodes()[index]));
             let lowest = node.map_or(start.gap, |(_, node)| node.lowest);
             // What is in contact already stays so, however far it is stretched.
-            if lowest >= merges && climb.held[0] == climb.held[1] {
+            if lowest >= merges && held[0] == held[1] {
                 continue;
             }
             if start.closes < merges {
-                let pin = state.and_then(|held| held.pin);
-                self.climb_and_list(ground, &climb, (start, pin), runs, &mut complete, evaluations)?;
+                self.climb(&climb, start, state.and_then(|held| held.pin))?;
             }
             if let (Some((index, node)), None) = (node, state) {
                 let merges = smaller(start.closes, merges);
-                let parent = ground.tree.maximum(&node);
-                let [begin, end] = climb.held;
-                let inside = &held[begin as usize..end as usize];
-                let middle = begin + inside.partition_point(|held| (held.first as usize) < parent) as u32;
-                let parts = ground.tree.parts(index).into_iter().zip([[begin, middle], [middle, end]]);
-                for (branch, held) in parts {
-                    push(&mut branches, Climb { branch, merges, parent, held }, ground.gaps.len())?;
+                let parent = tree.maximum(&node);
+                for (branch, held) in tree.parts(index).into_iter().zip(self.split(held, parent)) {
+                    push(&mut branches, Climb { branch, merges, parent, held }, self.ground.gaps.len())?;
                 }
             }
         }
-        self.branches = branches;
-        Ok(complete)
+        Ok(())
     }
 
     /// Lists the runs of one branch, the largest first; the edges of a fragment in contact may be pinned at a rise, m.
-    fn climb_and_list<E: EdgeModel>(
-        &self,
-        ground: &Ground<'_, E>,
-        climb: &Climb,
-        (start, mut pin): (Start, Option<f64>),
-        runs: &mut Vec<Run>,
-        complete: &mut f64,
-        evaluations: &mut u64,
-    ) -> Result<(), ContactError> {
+    fn climb(&mut self, climb: &Climb, start: Start, mut pin: Option<f64>) -> Result<(), ContactError> {
+        let (ground, Listed { runs, end: complete, evaluations }) = (self.ground, &mut self.listed);
         let gaps = ground.gaps;
         let square = ground.square();
         let known = (start.known[0] as usize, start.known[1] as usize);
@@ -292,11 +259,6 @@ impl Closing {
         runs[listed..].reverse();
         Ok(())
     }
-}
-
-/// The fragment in contact on a branch itself, not in a part of it, among these.
-fn held_on(held: &[Held], [begin, end]: [u32; 2], branch: Branch) -> Option<&Held> {
-    held.get(begin as usize).filter(|held| end - begin == 1 && held.branch == branch)
 }
 
 impl<E: EdgeModel> Ground<'_, E> {

@@ -22,4 +22,3 @@ pub(in crate::contact) use run::{Ground, Held, Run};
 pub(in crate::contact) use span::Span;
 pub use tree::ContactTree;
 pub(in crate::contact) use tree::largest;
-pub(in crate::contact) use unloading::Opening;

@@ -40,6 +40,16 @@ pub struct Held {
     pub pin: Option<f64>,
 }
 
+/// The runs of a leg.
+#[derive(Debug)]
+pub struct Listed {
+    pub runs: Vec<Run>,
+    /// Smallest indentation of full contact of a loading, or of contact of an unloading, m.
+    pub end: f64,
+    /// Evaluations of the rule of Hess.
+    pub evaluations: u64,
+}
+
 /// Gaps, contact tree and edge model under the rule of one direction: the input of all passes of a leg.
 #[derive(Clone, Copy, Debug)]
 pub struct Ground<'a, E> {

@@ -2,7 +2,7 @@
 
 use super::edge_model::EdgeModel;
 use super::levels::Levels;
-use super::run::{Ground, Held, Run};
+use super::run::{Ground, Held, Listed, Run};
 use super::span::{Span, smaller};
 use super::tree::Branch;
 use crate::contact::{ContactError, push};
@@ -22,54 +22,26 @@ struct Part {
     is_whole: bool,
 }
 
-/// Memory of the walk.
-#[derive(Clone, Debug, Default)]
-pub struct Opening {
-    parts: Vec<Part>,
-}
-
-/// The end of an unloading leg and the effort.
-#[derive(Clone, Copy, Debug)]
-pub struct Opened {
-    /// Smallest indentation with contact, m; +∞ without any.
-    pub separates: f64,
-    /// Evaluations of the rule of Hess.
-    pub evaluations: u64,
-}
-
-impl Opening {
-    /// Lists the runs of an unloading leg from indentation `from` (m) in place of `runs`; `held` are the fragments in
-    /// contact there, from left to right.
+impl<E: EdgeModel> Ground<'_, E> {
+    /// Lists the runs of an unloading leg from indentation `from` (m) on; `held` are the fragments in contact there, from
+    /// left to right.
     ///
     /// A fragment parts, and its most stretched spring detaches, as soon as the fragment around it has parted and the
     /// rule no longer holds that spring: t_v = min(t of the fragment around it, smallest φ of v).
-    pub fn list<E: EdgeModel>(
-        &mut self,
-        ground: &Ground<'_, E>,
-        held: &[Held],
-        from: f64,
-        runs: &mut Vec<Run>,
-    ) -> Result<Opened, ContactError> {
-        runs.clear();
-        let out_of_memory = |_| ContactError::OutOfMemory { springs: ground.gaps.len() };
-        let mut opened = Opened { separates: f64::INFINITY, evaluations: 0 };
-        let mut parts = std::mem::take(&mut self.parts);
-        for held in held.iter().rev() {
-            let pin = held.pin;
-            let &Held { branch, first, last, .. } = held;
+    pub fn open(&self, held: &[Held], from: f64) -> Result<Listed, ContactError> {
+        let mut listed = Listed { runs: Vec::new(), end: f64::INFINITY, evaluations: 0 };
+        let mut parts = Vec::new();
+        for &Held { branch, first, last, pin } in held.iter().rev() {
             parts.push(Part { branch, first, last, opens: from, is_whole: true });
             while let Some(part) = parts.pop() {
-                let inside = ground.descend(part, pin, runs, &mut opened)?;
-                parts.try_reserve(2).map_err(out_of_memory)?;
-                parts.extend(inside.into_iter().flatten());
+                for part in self.descend(part, pin, &mut listed)?.into_iter().flatten() {
+                    push(&mut parts, part, self.gaps.len())?;
+                }
             }
         }
-        self.parts = parts;
-        Ok(opened)
+        Ok(listed)
     }
-}
 
-impl<E: EdgeModel> Ground<'_, E> {
     /// Returns true if a fragment within `springs` springs, the smallest or largest gap of which is `gap`, may hold that
     /// spring below the indentation `opens`: its length is at most that of these springs and their edge cells.
     #[inline]
@@ -93,10 +65,10 @@ impl<E: EdgeModel> Ground<'_, E> {
         &self,
         part: Part,
         pin: Option<f64>,
-        runs: &mut Vec<Run>,
-        opened: &mut Opened,
+        listed: &mut Listed,
     ) -> Result<[Option<Part>; 2], ContactError> {
         let Ground { gaps, tree, .. } = *self;
+        let Listed { runs, end, evaluations } = listed;
         let (mut first, mut last) = (part.first as usize, part.last as usize);
         let (mut opens, mut is_whole) = (part.opens, part.is_whole);
         let (bottom, lowest, place) = match part.branch.origin() {
@@ -128,7 +100,7 @@ impl<E: EdgeModel> Ground<'_, E> {
             let span = Span { gap, first, last };
             let mut goes_on = None;
             if is_whole || self.may_hold(gap, opens, last + 1 - first) {
-                opened.evaluations += 1;
+                *evaluations += 1;
                 let levels = self.levels(&span);
                 let holds = E::holds_to(&levels, self.stretch);
                 if is_whole || holds < opens {
@@ -151,7 +123,7 @@ impl<E: EdgeModel> Ground<'_, E> {
                     }
                     // A run continues only from a level equal to the gap of the span.
                     goes_on = (leaves == holds && leaves < to).then_some(levels);
-                    opened.separates = smaller(opened.separates, leaves);
+                    *end = smaller(*end, leaves);
                     (opens, is_whole) = (leaves, false);
                 }
             }

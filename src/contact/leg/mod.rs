@@ -1,12 +1,12 @@
 //! One leg: the contact at all indentations of a motion in one direction.
 
 use super::adhesive::{
-    Closing, EdgeCells, EdgeModel, GridEdges, Ground, Held, Opening, Run, Runs, Slider, Span, SubCellEdges,
+    Closing, EdgeCells, EdgeModel, GridEdges, Ground, Held, Run, Runs, Slider, Span, SubCellEdges,
 };
 use super::contact_state::ContactState;
 use super::fragments::runs;
 use super::totals::ContactTotals;
-use super::{Contact, ContactError, ContactTree, Direction, Work};
+use super::{Contact, ContactError, ContactTree, Direction};
 use crate::contact::Edges;
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -20,6 +20,8 @@ pub struct Leg {
     direction: Direction,
     patches: Patches,
     end: f64,
+    /// Evaluations of the rule of Hess that its patches took.
+    pub(super) evaluations: u64,
 }
 
 /// Data from which the patches in contact follow.
@@ -44,16 +46,6 @@ pub struct PatchState {
     pub most_stretched: f64,
 }
 
-/// Memory reused from leg to leg, and the work done: fresh memory costs about as much as a pass.
-#[derive(Debug, Default)]
-pub struct Workspace {
-    closing: Closing,
-    opening: Opening,
-    held: Vec<Held>,
-    /// Work counts.
-    pub work: Work,
-}
-
 /// Evaluates an expression with the runs of a leg, under the edge model of its contact.
 macro_rules! along_runs {
     ($leg:expr, $tree:expr, $runs:expr, $along:ident => $value:expr) => {{
@@ -75,19 +67,17 @@ mod forces;
 
 pub(super) use forces::SEARCH_INTERVALS;
 
-impl Workspace {
-    /// Forgets the springs and the rule, and the work done.
-    pub(super) fn forget(&mut self) {
-        self.closing.forget();
-        self.work = Work::default();
-    }
-}
-
 impl Leg {
     /// Creates the leg of a body that touches nothing.
     #[must_use]
     pub fn apart(contact: &Contact, direction: Direction) -> Self {
-        Leg { contact: contact.clone(), direction, patches: Patches::Springs(Arc::default()), end: 0.0 }
+        Leg {
+            contact: contact.clone(),
+            direction,
+            patches: Patches::Springs(Arc::default()),
+            end: 0.0,
+            evaluations: 0,
+        }
     }
 
     /// Creates a leg on which each spring touches at a threshold, m, −∞ always, +∞ never, known up to the indentation
@@ -100,8 +90,9 @@ impl Leg {
     ) -> Self {
         let patches = Patches::Springs(Arc::new(thresholds));
         // The stepwise solver moves whole springs.
-        let contact = Contact { edges: Edges::Grid, ..contact.clone() };
-        Leg { contact, direction, patches, end }
+        let Contact { springs, foundation, hess, .. } = contact.clone();
+        let contact = Contact::of(springs, Edges::Grid, foundation, hess);
+        Leg { contact, direction, patches, end, evaluations: 0 }
     }
 
     /// Creates the leg of a contact without adhesion.
@@ -115,20 +106,19 @@ impl Leg {
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    pub fn approach(contact: &Contact, workspace: &mut Workspace) -> Result<Self, ContactError> {
+    pub fn approach(contact: &Contact) -> Result<Self, ContactError> {
         if contact.hess.is_none() {
             return Ok(Leg::without_adhesion(contact, Direction::Loading));
         }
-        workspace.held.clear();
-        let tree = Arc::clone(contact.springs.tree(contact.edges)?);
-        Leg::apart(contact, Direction::Loading).list(tree, workspace, f64::NEG_INFINITY)
+        let tree = contact.springs.tree(contact.edges)?;
+        Leg::apart(contact, Direction::Loading).list(tree, &[], f64::NEG_INFINITY)
     }
 
     /// Starts the motion in the opposite direction at an indentation of this leg, m.
     ///
     /// # Errors
     /// [`ContactError::Stepwise`], [`ContactError::OutOfMemory`].
-    pub fn turn(&self, at: f64, workspace: &mut Workspace) -> Result<Self, ContactError> {
+    pub fn turn(&self, at: f64) -> Result<Self, ContactError> {
         let direction = match self.direction {
             Direction::Loading => Direction::Unloading,
             Direction::Unloading => Direction::Loading,
@@ -137,40 +127,30 @@ impl Leg {
         match &self.patches {
             Patches::Springs(_) => Ok(Leg::without_adhesion(&self.contact, direction)),
             Patches::Runs(tree, runs) => {
-                workspace.held.clear();
-                along_runs!(self, tree, runs, along => workspace.held.extend(along.held_at(at, self.pins())));
-                Leg::apart(&self.contact, direction).list(Arc::clone(tree), workspace, at)
+                let held: Vec<Held> =
+                    along_runs!(self, tree, runs, along => along.held_at(at, self.pins()).collect());
+                Leg::apart(&self.contact, direction).list(tree, &held, at)
             }
         }
     }
 
-    /// Lists the runs of this leg from the patches held by the workspace at an indentation, m.
-    fn list(
-        self,
-        tree: Arc<ContactTree>,
-        workspace: &mut Workspace,
-        from: f64,
-    ) -> Result<Self, ContactError> {
-        let Workspace { closing, opening, held, work } = workspace;
-        let mut runs = Vec::new();
-        work.tree_nodes = tree.node_count() as u64;
-        let direction = self.direction;
-        let end = along_runs!(&self, &tree, &[], along => match direction {
+    /// Lists the runs of this leg from the patches in contact at an indentation, m.
+    fn list(self, tree: &Arc<ContactTree>, held: &[Held], from: f64) -> Result<Self, ContactError> {
+        let mut evaluations = 0;
+        let listed = along_runs!(&self, tree, &[], along => match self.direction {
             Direction::Loading => {
-                let ground = &along.ground;
-                // A contact that forms again closes as it did the first time.
-                work.loading_passes += u64::from(!held.is_empty() || !closing.is_ready());
-                work.hess_evaluations += closing.close_around(ground, held)?;
-                closing.list(ground, held, &mut runs, &mut work.hess_evaluations)?
+                let closing = self.contact.closing(|| {
+                    let closing = Closing::new(&along.ground)?;
+                    evaluations = closing.evaluations;
+                    Ok(closing)
+                });
+                closing?.list(&along.ground, held)?
             }
-            Direction::Unloading => {
-                let opened = opening.list(&along.ground, held, from, &mut runs)?;
-                work.unloading_passes += 1;
-                work.hess_evaluations += opened.evaluations;
-                opened.separates
-            }
+            Direction::Unloading => along.ground.open(held, from)?,
         });
-        Ok(Leg { patches: Patches::Runs(tree, Arc::new(runs)), end, ..self })
+        evaluations += listed.evaluations;
+        let patches = Patches::Runs(Arc::clone(tree), Arc::new(listed.runs));
+        Ok(Leg { patches, end: listed.end, evaluations, ..self })
     }
 
     fn is_stepwise(&self) -> bool {

@@ -45,21 +45,6 @@ proptest! {
     ) {
         formed::as_if_new(|| body.on(samples), &legs, body.force_scale())?;
     }
-
-    #[test]
-    fn the_memory_of_another_body_changes_no_bit(
-        bodies in prop::collection::vec(body(), 2), legs in formed::loadings(), samples in 2_usize..40,
-    ) {
-        let [one, other] = [&bodies[0], &bodies[1]];
-        let (mut before, mut fresh) = (one.on(samples), other.on(samples));
-        legs.iter().for_each(|leg| drop(before.advance(*leg)));
-        let contact = other.contact();
-        let mut again = asperity::contact::Body::new_in(before.into_workspace(), &contact, samples);
-        for leg in legs {
-            prop_assert_eq!(again.advance(leg), fresh.advance(leg));
-        }
-        prop_assert_eq!(again.work(), fresh.work());
-    }
 }
 
 const SCENE: &str = r#"(

@@ -2,7 +2,7 @@
 
 use super::brute_force::Steps;
 use super::*;
-use asperity::contact::{ContactError, Direction, Workspace};
+use asperity::contact::{ContactError, Direction};
 
 /// Legs as drawn: forces as shares of a scale.
 #[derive(Clone, Copy, Debug)]
@@ -68,7 +68,7 @@ proptest! {
             // A refused unloading is that from the present contact.
             let leg = solver.leg();
             let turns = outcome.is_err() && leg.direction() == Direction::Loading && !separated;
-            let leg = if turns { leg.turn(start, &mut Workspace::default()).unwrap() } else { leg };
+            let leg = if turns { leg.turn(start).unwrap() } else { leg };
             let thresholds = leg.thresholds();
             let steps = Steps::new(&thresholds, &body);
             let record = match outcome {
