@@ -16,20 +16,6 @@ pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, lengt
     (PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
 }
 
-/// Stiffness E* l, N/m, of a contact of length l, m, whose edges stay in place, under an effective modulus E*, Pa. Moving
-/// edges add to the slope of the force curve.
-/// Popov and Filippov (2012), eq. (1).
-#[must_use]
-pub fn contact_stiffness(effective_modulus: f64, contact_length: f64) -> f64 {
-    effective_modulus * contact_length
-}
-
-/// Mean pressure F/(πa²), Pa, of a force F, N, on a circle of radius a, m; `None` without contact.
-#[must_use]
-pub fn mean_pressure(force: f64, contact_radius: f64) -> Option<f64> {
-    (contact_radius > 0.0).then(|| force / (PI * contact_radius * contact_radius))
-}
-
 /// Default range of attraction z₀, m, of a scene: an interatomic distance.
 pub const DEFAULT_RANGE: f64 = 0.3e-9;
 
@@ -114,12 +100,6 @@ mod tests {
         // π γ E* L³ = 750 π.
         let force = ideal_adhesion_force(2.0, 3.0, 5.0);
         assert!((force - (750.0 * PI).sqrt()).abs() < 1e-13, "{force}");
-        assert_eq!(contact_stiffness(3.0, 2.0), 6.0);
-        assert_eq!((mean_pressure(-PI, 0.5), mean_pressure(1.0, 0.0)), (Some(-4.0), None));
-    }
-
-    #[test]
-    fn the_number_follows_from_plain_numbers() {
         // ρ γ²/(E*² z₀³) = 27.
         let number = tabor_number(6.0, 3.0, 0.5, 2.0);
         assert!((number - 3.0).abs() < 1e-14, "{number}");
