@@ -1,10 +1,11 @@
 //! Estimated error of one outcome, from two more solutions.
 
-use super::solution::{FEWEST, Runs, Solution, Target, loaded, refined, relative_error};
+use super::solution::{Errors, FEWEST, Runs, Solution, Target, loaded, refined, relative_error};
 use crate::scene::{Edges, Scene, Solver, check};
 use crate::simulation::Outcome;
 use crate::text::per_cent;
 use serde::Serialize;
+use std::array;
 use std::path::Path;
 
 /// Most springs of a solution for an estimate only.
@@ -99,38 +100,34 @@ pub fn estimate(
     let exact_scene = refined(&target.only(scene), scene.numerics.points, edges);
     let exact = if is_exact { own.clone() } else { solved(&exact_scene)? };
     let of_step = target.difference(&own, &exact)?;
-    let others = others(&exact_scene, &mut solved)?;
+    let (others, factor) = others(&exact_scene, &mut solved)?;
     let difference = |solution: &Solution| target.difference(solution, &exact);
+    let differences = others.each_ref().map(|(scene, solution)| (scene, difference(solution)));
     let near_step = target == Target::AdhesionForce
-        && others.solutions.iter().any(|(scene, solution)| {
-            let step = difference(solution).filter(|&step| step > STEP);
-            step.is_some_and(|step| {
-                let near = NEAR.iter().filter_map(|&factor| solved(&loaded(scene, factor)?));
-                near.filter_map(|near| difference(&near)).any(|rest| rest < step / 3.0)
-            })
+        && differences.iter().any(|&(scene, step)| {
+            let step = step.filter(|&step| step > STEP);
+            let mut near = NEAR.iter().filter_map(|&factor| difference(&solved(&loaded(scene, factor)?)?));
+            step.is_some_and(|step| near.any(|rest| rest < step / 3.0))
         });
-    let error = of_step + others.error(difference)?;
-    let springs = others.solutions.iter().map(|(_, solution)| solution.points).collect();
+    let error = of_step + factor * differences[0].1?.max(differences[1].1?);
+    let springs = others.iter().map(|(_, solution)| solution.points).collect();
     Some(Estimate { target, error, near_step, evidence: Evidence::Solutions(springs) })
 }
 
-/// Solutions of a scene on two other numbers of springs.
-pub(super) struct Others {
-    solutions: [(Scene, Solution); 2],
-    /// Error over the larger difference from these solutions.
-    factor: f64,
+/// Estimates the errors of a solution of a scene with edges between springs, under all loads.
+pub(super) fn own_errors(scene: &Scene, finest: &Solution, runs: &mut Runs<'_>) -> Option<Errors> {
+    let scene = refined(scene, finest.points, Edges::SubCell);
+    let (others, factor) = others(&scene, &mut |scene| runs.solve_around(scene).ok()?)?;
+    let [one, other] = others.map(|(_, solution)| solution.errors(finest));
+    Some(array::from_fn(|index| Some(factor * one[index]?.max(other[index]?))))
 }
 
-impl Others {
-    /// Estimated error from the differences of these solutions.
-    pub(super) fn error(&self, difference: impl Fn(&Solution) -> Option<f64>) -> Option<f64> {
-        let [(_, one), (_, other)] = &self.solutions;
-        Some(self.factor * difference(one)?.max(difference(other)?))
-    }
-}
-
-/// Solves a scene on two other numbers of springs; `None` where they are not allowed or have no solution.
-pub(super) fn others(scene: &Scene, solved: &mut dyn FnMut(&Scene) -> Option<Solution>) -> Option<Others> {
+/// Solves a scene on two other numbers of springs; `None` where they are not allowed or have no solution. The factor is
+/// that of the error over the larger difference from these solutions.
+fn others(
+    scene: &Scene,
+    solved: &mut dyn FnMut(&Scene) -> Option<Solution>,
+) -> Option<([(Scene, Solution); 2], f64)> {
     let numerics = scene.numerics;
     let on = |(times, over): (u64, u64)| {
         let points = apart_from(numerics.points.saturating_mul(times) / over);
@@ -142,7 +139,7 @@ pub(super) fn others(scene: &Scene, solved: &mut dyn FnMut(&Scene) -> Option<Sol
     let allowed = |([one, other], factor): ([(u64, u64); 2], f64)| Some((on(one)?, on(other)?, factor));
     let (one, other, factor) = OTHERS.into_iter().find_map(allowed)?;
     let (of_one, of_other) = (solved(&one)?, solved(&other)?);
-    Some(Others { solutions: [(one, of_one), (other, of_other)], factor })
+    Some(([(one, of_one), (other, of_other)], factor))
 }
 
 /// The least number of springs from this one on that suits a Fourier transform, without a prime factor above 13: an odd

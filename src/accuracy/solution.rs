@@ -1,6 +1,6 @@
 //! Solutions of a scene and its variants, and their relative differences.
 
-use super::curve::ForceCurve;
+use super::curve::{ForceCurve, difference, force_curve};
 use crate::analysis::pull_off_point;
 use crate::contact::ContactError;
 use crate::reference::{PowerLaw, smooth_adhesion_force};
@@ -44,6 +44,9 @@ impl<T> From<[T; 4]> for Measures<T> {
     }
 }
 
+/// Relative errors or differences, in the order of [`Measures`]; `None` without such a figure.
+pub(super) type Errors = [Option<f64>; 4];
+
 /// Figures and curve of one solution; a figure of zero has no relative error and is left out.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Solution {
@@ -69,14 +72,21 @@ impl Solution {
             around: Vec::new(),
             dissipated_energy: figures.dissipated_energy.and_then(some),
             contact_length: some(longest_contact(outcome)),
-            curve: ForceCurve::of(&outcome.history),
+            curve: force_curve(&outcome.history),
         }
     }
 
-    /// Relative differences from a reference, in the order of [`Measures`]; `None` without such a figure. That of the adhesion force is
-    /// the largest under all loads which both have: an error that changes its sign from load to load is not small at all
-    /// of them by chance.
-    pub(super) fn errors(&self, reference: &Solution) -> [Option<f64>; 4] {
+    /// Returns this solution as a reference, with the adhesion force in closed form if there is one.
+    pub(super) fn reference(&self) -> Solution {
+        match self.closed_form {
+            Some(_) => Solution { adhesion_force: self.closed_form, around: Vec::new(), ..self.clone() },
+            None => self.clone(),
+        }
+    }
+
+    /// Returns the relative differences from a reference. That of the adhesion force is the largest under all loads which
+    /// both have: an error that changes its sign from load to load is not small at all of them by chance.
+    pub(super) fn errors(&self, reference: &Solution) -> Errors {
         let relative = |value: Option<f64>, reference: Option<f64>| {
             reference.map(|reference| relative_error(value.unwrap_or(0.0), reference))
         };
@@ -87,7 +97,7 @@ impl Solution {
         let own = relative(self.adhesion_force, reference.adhesion_force);
         [
             own.map(|own| around.fold(own, f64::max)),
-            self.curve.difference(&reference.curve),
+            difference(&self.curve, &reference.curve),
             relative(self.dissipated_energy, reference.dissipated_energy),
             relative(self.contact_length, reference.contact_length),
         ]
