@@ -2,7 +2,7 @@
 
 use crate::contact::{Foundation, HessRule};
 use crate::scene::{Adhesion, Roughness, RoughnessParameter, Scene};
-use crate::surface::{Amplitude, Line, WaveNumbers};
+use crate::surface::{Amplitude, WaveNumbers};
 
 /// The governing parameters of a scene, each given or derived from the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,12 +22,6 @@ pub struct Governing {
 }
 
 impl Governing {
-    /// The foundation under a profile.
-    #[must_use]
-    pub fn foundation(&self, line: &Line) -> Foundation {
-        Foundation { spacing: line.spacing, effective_modulus: self.effective_modulus, length: line.length }
-    }
-
     /// Derives the parameters of a checked scene from the wave numbers of its self-affine profile or the amplitude
     /// of its measured one.
     ///
@@ -106,14 +100,8 @@ impl Governing {
         self.energy(RoughnessParameter::ElasticEnergyRatio)
     }
 
-    /// Energy per area of one parameter over that of another; `None` without roughness.
-    #[must_use]
-    pub fn energy_ratio(&self, of: RoughnessParameter, over: RoughnessParameter) -> Option<f64> {
-        Some(self.energy(of)? / self.energy(over)?)
-    }
-
-    /// Energy per area that a parameter compares with the work of adhesion, J/m².
-    fn energy(&self, parameter: RoughnessParameter) -> Option<f64> {
+    /// Energy per area that a parameter compares with the work of adhesion, J/m²: h⟨∇z⟩E* or e_el; `None` without roughness.
+    pub(crate) fn energy(&self, parameter: RoughnessParameter) -> Option<f64> {
         self.amplitude.map(|amplitude| energy_of(parameter, amplitude, self.effective_modulus))
     }
 
@@ -137,7 +125,6 @@ impl Governing {
     }
 }
 
-/// Energy per area of a profile that a parameter compares with the work of adhesion, J/m²: h⟨∇z⟩E* or e_el.
 fn energy_of(parameter: RoughnessParameter, amplitude: Amplitude, effective_modulus: f64) -> f64 {
     match parameter {
         RoughnessParameter::Kappa => amplitude.rms_height * amplitude.rms_gradient * effective_modulus,

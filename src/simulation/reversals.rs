@@ -3,8 +3,9 @@
 use super::stages::Prepared;
 use super::{Plan, RunError, Simulation};
 use crate::analysis::{MinorLoops, ReversalMap};
-use crate::contact::{ContactError, LegRecord, Reversal};
+use crate::contact::{Body, ContactError, LegRecord, Reversal};
 use crate::scene::{Move, Scene, Solver as SolverChoice};
+use std::mem::take;
 use std::ops::RangeInclusive;
 
 /// Turning points of a map.
@@ -43,13 +44,12 @@ impl Simulation {
         needs_exact_solver(scene)?;
         let deepest = ends.last().copied().unwrap_or(Move::ToTouch);
         let plan = Plan::of(&Scene { loading: vec![deepest, Move::ToSeparation], ..scene.clone() });
-        let interrupted = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
         let Prepared { contact, memory, .. } = self.prepare(&plan, scene, stop)?;
         let mut see = |index, reversal| {
             see(index, reversal)?;
-            interrupted()
+            if stop() { Err(ContactError::Interrupted) } else { Ok(()) }
         };
-        let mut body = contact.body(memory);
+        let mut body = Body::new_in(take(memory), &contact, scene.numerics.samples as usize);
         let done = body.reversals(ends, points, &mut see);
         *memory = body.into_workspace();
         Ok(done?)
@@ -122,31 +122,18 @@ impl Simulation {
     ) -> Result<MinorLoops, RunError> {
         let Some(deepest) = map.reversals.last() else { return Ok(MinorLoops::default()) };
         let top = deepest.turn.indentation;
-        let mut limits = Vec::new();
-        for upper in 0..levels {
-            let high = top * upper as f64 / levels as f64;
-            for lower in 0..levels {
-                let share = (lower as f64 + 0.5) / levels as f64;
-                limits.push((deepest.separation + share * (high - deepest.separation), high));
-            }
-        }
-        let to = Move::ToIndentation;
-        let legs = |&(low, high): &(f64, f64)| {
-            [
-                to(high),
-                to(low),
-                to(high),
-                Move::ToSeparation,
-                to(top),
-                to(low),
-                to(high),
-                to(low),
-                Move::ToSeparation,
-            ]
-        };
         let mut scene = scene.clone();
         scene.numerics.samples = FEW_SAMPLES;
-        scene.loading = limits.iter().flat_map(legs).collect();
+        scene.loading.clear();
+        for (upper, lower) in (0..levels).flat_map(|upper| (0..levels).map(move |lower| (upper, lower))) {
+            let high = top * upper as f64 / levels as f64;
+            let share = (lower as f64 + 0.5) / levels as f64;
+            let low = deepest.separation + share * (high - deepest.separation);
+            for loading in [&[high, low, high][..], &[top, low, high, low]] {
+                scene.loading.extend(loading.iter().map(|&to| Move::ToIndentation(to)));
+                scene.loading.push(Move::ToSeparation);
+            }
+        }
         if scene.loading.is_empty() {
             return Ok(MinorLoops::default());
         }
@@ -155,8 +142,8 @@ impl Simulation {
         let loops = outcome.history.legs.chunks_exact(9);
         // A loop with separation is no minor loop.
         let holds = |leg: &LegRecord| leg.curve.last().is_some_and(|point| point.springs > 0);
-        let held = loops.filter(|legs| holds(&legs[1]));
-        let pairs = held.map(|legs| [loss(&legs[1..3]), loss(&legs[6..8])]).collect::<Vec<_>>();
+        let minor = loops.filter(|legs| holds(&legs[1]));
+        let pairs: Vec<_> = minor.map(|legs| [loss(&legs[1..3]), loss(&legs[6..8])]).collect();
         Ok(MinorLoops::new(&pairs, deepest.dissipated_energy))
     }
 }

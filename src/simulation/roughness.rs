@@ -60,13 +60,6 @@ pub(super) struct RoughnessMaker {
     pub phases_drawn: u64,
 }
 
-impl RoughnessKey {
-    /// Returns true for heights in metres.
-    pub fn is_measured(&self) -> bool {
-        matches!(self.source, Source::Measured { .. })
-    }
-}
-
 impl RoughnessMaker {
     /// Creates a maker for files in a folder, or for a measured surface in memory.
     pub fn new(folder: PathBuf, measured: Option<Arc<MeasuredRoughness>>) -> Self {
