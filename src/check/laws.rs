@@ -2,13 +2,12 @@
 //! both solvers.
 
 use super::Subject::{Bodies, Scene as OfScene};
-use super::{Body, Case, Evidence, Family, Fault, both, ensure, largest, outcome, with};
+use super::{Body, COMPUTED, Case, LAW, Measured, both, ensure, largest, outcome, with};
 use crate::Cycle;
 use crate::contact::{CurvePoint, LegRecord};
 use crate::scene::{Edges, Scene, Solver};
 
-const LAW: (Family, &[Evidence]) = (Family::Laws, &[Evidence::SelfConsistency]);
-const COMPUTED: (Family, &[Evidence]) = (Family::Laws, &[Evidence::IndependentComputation]);
+const FAMILY: &str = "laws";
 const FORCE: &str = "force, over the scale";
 
 const ROUGH: &str = "(version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4,
@@ -18,17 +17,17 @@ const ROUGH: &str = "(version: 1, material: (effective_modulus: 2.0e6), length: 
 
 #[rustfmt::skip]
 pub const CASES: &[Case] = &[
-    Case::row(LAW, ["no-adhesion", "At γ = 0 unloading retraces loading bit for bit, and no energy is dissipated.",
+    Case::row([FAMILY, LAW], ["no-adhesion", "At γ = 0 unloading retraces loading bit for bit, and no energy is dissipated.",
         "force, over the largest"], &both(0.0, 0.0), Bodies(no_adhesion)),
-    Case::row(LAW, ["return-point-memory", "A minor loop closes to the last bit, and a deeper load erases the memory of \
+    Case::row([FAMILY, LAW], ["return-point-memory", "A minor loop closes to the last bit, and a deeper load erases the memory of \
         earlier turning points.", FORCE], &both(0.0, 0.0), Bodies(memory)),
-    Case::row(LAW, ["no-energy-for-nothing", "No closed loop gains energy, and the energy dissipated from separation to \
+    Case::row([FAMILY, LAW], ["no-energy-for-nothing", "No closed loop gains energy, and the energy dissipated from separation to \
         separation is ∮F dd.", "energy, over the scale"], &both(1e-4, 1e-4), Bodies(energy)),
-    Case::row(LAW, ["mirror", "A mirrored profile has the mirrored contact and the same forces.", FORCE],
+    Case::row([FAMILY, LAW], ["mirror", "A mirrored profile has the mirrored contact and the same forces.", FORCE],
         &both(0.0, 1e-15), Bodies(mirror)),
-    Case::row(LAW, ["lengths-and-moduli", "Lengths from 2 nm to 6.6 m and E* from 2 Pa to 8.4 TPa, all else scaled \
+    Case::row([FAMILY, LAW], ["lengths-and-moduli", "Lengths from 2 nm to 6.6 m and E* from 2 Pa to 8.4 TPa, all else scaled \
         alike, change no bit of contact and forces.", FORCE], &both(0.0, 0.0), Bodies(units)),
-    Case::row(COMPUTED, ["stepwise-solver", "On profiles from bare to sticky the stepwise solver, which applies the \
+    Case::row([FAMILY, COMPUTED], ["stepwise-solver", "On profiles from bare to sticky the stepwise solver, which applies the \
         rules spring by spring, comes to the same contact and forces.", FORCE],
         &[(Edges::Grid, 1e-15)], OfScene(ROUGH, stepwise)),
 ];
@@ -37,7 +36,7 @@ pub fn end(leg: &LegRecord) -> CurvePoint {
     leg.curve.last().copied().unwrap_or_default()
 }
 
-fn no_adhesion(body: &Body) -> Result<f64, Fault> {
+fn no_adhesion(body: &Body) -> Measured {
     let cycle = Body { work: 0.0, ..body.clone() }.load(&[0.8 * body.depth()], true, 301)?;
     let [loading, unloading] = cycle.legs() else { return Ok(f64::NAN) };
     let is_lossless = cycle.legs().iter().all(|leg| leg.released_energy == 0.0);
@@ -50,7 +49,7 @@ fn no_adhesion(body: &Body) -> Result<f64, Fault> {
     }))
 }
 
-fn memory(body: &Body) -> Result<f64, Fault> {
+fn memory(body: &Body) -> Measured {
     let mut turns: [f64; 3] = body.turns(10);
     turns.sort_by(f64::total_cmp);
     let [low, middle, high] = turns;
@@ -67,7 +66,7 @@ fn memory(body: &Body) -> Result<f64, Fault> {
     }))
 }
 
-fn energy(body: &Body) -> Result<f64, Fault> {
+fn energy(body: &Body) -> Measured {
     let scale = body.force_unit() * (body.depth() + body.stretch());
     let [a, b] = body.turns(12);
     let (low, high) = (a.min(b), a.max(b).max(0.0));
@@ -85,7 +84,7 @@ fn energy(body: &Body) -> Result<f64, Fault> {
     Ok((lost(cycle.legs()) - done).abs() / scale)
 }
 
-fn mirror(body: &Body) -> Result<f64, Fault> {
+fn mirror(body: &Body) -> Measured {
     let mirrored = Body { heights: body.heights.iter().rev().copied().collect(), ..body.clone() };
     let (last, turns) = (body.heights.len() - 1, body.turns::<6>(13));
     let (one, other) = (body.load(&turns, false, 17)?, mirrored.load(&turns, false, 17)?);
@@ -95,7 +94,7 @@ fn mirror(body: &Body) -> Result<f64, Fault> {
 }
 
 /// Scales lengths along the profile, heights and stresses by these powers of two: no bit of the mantissas may change.
-pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Result<f64, Fault> {
+pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
     let turns: [f64; 6] = body.turns(15);
     let one = body.load(&turns, false, 33)?;
     // The sum with 0 makes −0 the same as 0.
@@ -125,14 +124,14 @@ pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Result<f64, Fault> {
     Ok(0.0)
 }
 
-fn units(body: &Body) -> Result<f64, Fault> {
+fn units(body: &Body) -> Measured {
     only_scales(
         body,
         &[[-15, 0, 0], [16, 0, 0], [-15, -15, 0], [16, 16, 0], [0, 0, -20], [0, 0, 22], [7, -9, 5]],
     )
 }
 
-fn stepwise(scene: &Scene) -> Result<f64, Fault> {
+fn stepwise(scene: &Scene) -> Measured {
     largest([0.0, 1e-8, 1e-7, 1e-6, 5e-6, 2e-5, 1e-4, 1e-3].into_iter().zip(1..).map(|(work, tenths)| {
         let mut scene =
             with(&with(scene, "adhesion.work", work)?, "roughness.hurst", 0.1 * f64::from(tenths))?;
