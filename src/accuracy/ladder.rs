@@ -3,7 +3,7 @@
 
 use super::estimate::own_errors;
 use super::solution::{Errors, Runs, Solution, Target, allowed_points, is_too_coarse, refined};
-use super::{CostTable, ErrorFigure, Knob, Measures, Reference, Row, Timing};
+use super::{CostTable, ErrorFigure, Knob, Reference, Row, Timing};
 use crate::scene::{Edges, Scene, Solver, check, format_quantity};
 use crate::simulation::RunError;
 use realfft::RealFftPlanner;
@@ -178,8 +178,7 @@ impl Ladder<'_> {
         let Some(solution) = solved else { return Ok(None) };
         let seconds = self.time(scene);
         let transforms = seconds.map(|seconds| seconds.minimum / self.table.transform_seconds);
-        let errors = Measures::default();
-        let row = Row { knob, setting, springs: solution.points, seconds, transforms, errors };
+        let row = Row { knob, setting, springs: solution.points, seconds, transforms, errors: [None; 4] };
         Ok(seconds.is_some().then_some((row, solution)))
     }
 
@@ -234,11 +233,11 @@ impl Ladder<'_> {
             for (row, solution) in self.rungs_of(knob) {
                 let before = rows.last().filter(|row| row.knob == knob);
                 let errors = resolved(solution.errors(target), floors, row.setting, before);
-                rows.push(Row { errors: errors.into(), ..row.clone() });
+                rows.push(Row { errors, ..row.clone() });
             }
         }
         let (springs, adhesion_force) = (target.points, target.adhesion_force);
-        self.table.reference = Reference { springs, adhesion_force, closed_form, errors: errors.into() };
+        self.table.reference = Reference { springs, adhesion_force, closed_form, errors };
         self.table.rows = rows;
         true
     }
@@ -247,7 +246,7 @@ impl Ladder<'_> {
 /// Returns the errors of a setting as far as they are above the floors, with orders relative to the row before.
 fn resolved(errors: Errors, floors: Errors, setting: f64, before: Option<&Row>) -> [Option<ErrorFigure>; 4] {
     let ratio = before.map_or(1.0, |row| (setting / row.setting).max(row.setting / setting));
-    let coarse = before.map(|row| row.errors).unwrap_or_default().each();
+    let coarse = before.map_or([None; 4], |row| row.errors);
     std::array::from_fn(|index| {
         let (error, floor) = (errors[index]?, floors[index].unwrap_or(0.0).max(ROUNDING));
         let resolved = error > floor;

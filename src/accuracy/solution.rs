@@ -18,33 +18,7 @@ const AROUND: [f64; 2] = [0.5, 2.0];
 /// Samples of a loading stage whose curve is not used: the adhesion force is an exact extreme.
 const FEW_SAMPLES: u64 = 2;
 
-/// One value for each quantity with an error.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Measures<T> {
-    /// The adhesion force F_a, see `Solution::errors`.
-    pub adhesion_force: T,
-    /// The whole force curve, the mean difference of forces at equal indentations over the largest force.
-    pub curve: T,
-    /// The dissipated energy.
-    pub dissipated_energy: T,
-    /// The largest length in contact.
-    pub contact_length: T,
-}
-
-impl<T: Copy> Measures<T> {
-    /// All four measures, in their order, which begins as that of [`Target`].
-    pub fn each(&self) -> [T; 4] {
-        [self.adhesion_force, self.curve, self.dissipated_energy, self.contact_length]
-    }
-}
-
-impl<T> From<[T; 4]> for Measures<T> {
-    fn from([adhesion_force, curve, dissipated_energy, contact_length]: [T; 4]) -> Self {
-        Measures { adhesion_force, curve, dissipated_energy, contact_length }
-    }
-}
-
-/// Relative errors or differences, in the order of [`Measures`]; `None` without such a figure.
+/// Relative errors or differences in the order of [`super::QUANTITIES`]; `None` without such a figure.
 pub(super) type Errors = [Option<f64>; 4];
 
 /// Figures and curve of one solution; a figure of zero has no relative error and is left out.
@@ -104,7 +78,7 @@ impl Solution {
     }
 }
 
-/// Quantity of a tolerance.
+/// Quantity of a tolerance: one of the first two of [`super::QUANTITIES`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Target {

@@ -12,6 +12,6 @@ mod stages;
 pub use error::RunError;
 pub use outcome::{LineFacts, Outcome, Timings};
 pub use plan::{Plan, PlannedStage, Stage};
-pub use reversals::{SeeReversal, TURNING_POINTS, TurningPoints};
+pub use reversals::{SeeReversal, TURNING_POINTS};
 pub use roughness::{measured_options, measured_roughness_options};
 pub use stages::{AfterLeg, Simulation};

@@ -18,15 +18,6 @@ const FEW_SAMPLES: u64 = 2;
 /// Receiver of reversals and the numbers of their turning points.
 pub type SeeReversal<'a> = dyn FnMut(usize, Reversal) -> Result<(), ContactError> + 'a;
 
-/// Turning points of a map, from the shallowest to the deepest.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum TurningPoints {
-    /// From first touch to the preload of the scene's own loading.
-    OfScene,
-    /// Between the indentations of two preloads, N.
-    Preloads(f64, f64),
-}
-
 impl Simulation {
     /// Unloads a checked scene to separation from the ends of these stages, each of which begins at separation.
     /// `see` receives each reversal with the number of its stage, from the shallowest on, with the forces at
@@ -56,14 +47,15 @@ impl Simulation {
     }
 
     /// First-order reversal curves of a checked scene from so many equally spaced turning points, at indentations
-    /// with the same spacing down to separation.
+    /// with the same spacing down to separation. The turning points lie between the indentations of two preloads, N, or
+    /// between first touch and the preload of the scene's own loading.
     ///
     /// # Errors
     /// Errors of [`Simulation::reverse`], and a loading that never presses.
     pub fn reversal_map(
         &mut self,
         scene: &Scene,
-        turning: TurningPoints,
+        preloads: Option<(f64, f64)>,
         count: usize,
         stop: &dyn Fn() -> bool,
     ) -> Result<ReversalMap, RunError> {
@@ -71,27 +63,19 @@ impl Simulation {
         let count = count.clamp(*TURNING_POINTS.start(), *TURNING_POINTS.end());
         let mut scene = scene.clone();
         scene.numerics.samples = FEW_SAMPLES;
-        let [low, high] = match turning {
-            TurningPoints::OfScene => {
-                let outcome = self.run(&scene, stop, &mut |_, _, _| Ok(()))?;
-                let pressed = outcome.figures.preload_indentation.filter(|&indentation| indentation > 0.0);
-                [0.0, pressed.ok_or(RunError::NeverPressed)?]
-            }
-            TurningPoints::Preloads(from, to) => {
-                let mut found = [0.0; 2];
-                let see: &mut SeeReversal<'_> = &mut |index, reversal| {
-                    found[index] = reversal.turn.indentation;
-                    Ok(())
-                };
-                self.reverse(&scene, (&[Move::ToForce(from), Move::ToForce(to)], &[]), stop, see)?;
-                found
-            }
+        let ends = if let Some((from, to)) = preloads {
+            [Move::ToForce(from), Move::ToForce(to)]
+        } else {
+            let outcome = self.run(&scene, stop, &mut |_, _, _| Ok(()))?;
+            let pressed = outcome.figures.preload_indentation.filter(|&indentation| indentation > 0.0);
+            [Move::ToIndentation(0.0), Move::ToIndentation(pressed.ok_or(RunError::NeverPressed)?)]
         };
-        let mut separation = low;
-        self.reverse(&scene, (&[Move::ToIndentation(high)], &[]), stop, &mut |_, reversal| {
-            separation = reversal.separation;
+        let mut found = [(0.0, 0.0); 2];
+        self.reverse(&scene, (&ends, &[]), stop, &mut |index, reversal| {
+            found[index] = (reversal.turn.indentation, reversal.separation);
             Ok(())
         })?;
+        let [(low, _), (high, separation)] = found;
         let step = (high - low) / (count - 1) as f64;
         if !(step > 0.0 && low + step > low) {
             return Err(RunError::NeverPressed);

@@ -144,7 +144,7 @@ impl Simulation {
             modes,
             seed: scene.seed(),
             continuum_rms_gradient: spectrum(scene)
-                .map(|(spectrum, _)| rms_height * spectrum.continuum_gradient_per_height(length)),
+                .map(|spectrum| rms_height * spectrum.continuum_gradient_per_height(length)),
         };
         Ok((line, facts, governing))
     }
