@@ -274,24 +274,4 @@ mod tests {
         tried[2][1].around = vec![None];
         assert_eq!(chosen(&tried), (64, Edges::SubCell));
     }
-
-    #[test]
-    fn a_tolerance_is_kept_or_refused() {
-        let document = crate::scene::open("jkr-sphere").unwrap();
-        let (scene, folder) = (document.scene(), document.resolve(""));
-        let choice = choose(scene, &folder, 1e-3, &|| false, &mut |_| ()).unwrap();
-        assert_eq!(
-            (choice.target, choice.edges, choice.closed_form),
-            (Target::AdhesionForce, Edges::SubCell, true)
-        );
-        let chosen = choice.apply(scene);
-        let solution = Runs::new(&folder, &|| false).solve(&chosen).unwrap().unwrap();
-        let exact = 1.5 * std::f64::consts::PI * 0.05 * 1e-4;
-        assert!((solution.adhesion_force.unwrap() / exact - 1.0).abs() <= 1e-3);
-        let mut stepwise = scene.clone();
-        stepwise.numerics.solver = Solver::Stepwise { step: 1e-9 };
-        let chosen = |scene: &Scene, stop: &dyn Fn() -> bool| choose(scene, &folder, 1e-3, stop, &mut |_| ());
-        assert_eq!(chosen(&stepwise, &|| false), Err(ChoiceError::Stepwise));
-        assert_eq!(chosen(scene, &|| true), Err(ChoiceError::Stopped));
-    }
 }

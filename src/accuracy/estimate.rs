@@ -181,24 +181,15 @@ mod tests {
 
     #[test]
     fn errors_have_one_digit_and_two_after_a_one() {
-        for (error, text) in [
-            (0.0042, "0.4 %"),
-            (0.0104, "1 %"),
-            (0.0148, "1.5 %"),
-            (0.0096, "1 %"),
-            (0.123, "12 %"),
-            (0.9, "90 %"),
-            (1.5, "> 100 %"),
-            (2.3e-5, "0.002 %"),
-            (9e-6, "< 0.001 %"),
-            (0.0, "< 0.001 %"),
-        ] {
-            let mut estimate =
-                Estimate { target: Target::Curve, error, near_step: false, evidence: Evidence::ClosedForm };
-            assert_eq!(estimate.words(), format!("curve, grid ± {text}"), "{error}");
-            estimate.target = Target::AdhesionForce;
-            assert_eq!(estimate.words(), format!("grid ± {text}"), "{error}");
+        let words = |target, error| {
+            Estimate { target, error, near_step: false, evidence: Evidence::ClosedForm }.words()
+        };
+        let errors = [0.0042, 0.0104, 0.0148, 0.0096, 0.123, 1.5, 2.3e-5, 9e-6];
+        let texts = ["0.4 %", "1 %", "1.5 %", "1 %", "12 %", "> 100 %", "0.002 %", "< 0.001 %"];
+        for (error, text) in errors.into_iter().zip(texts) {
+            assert_eq!(words(Target::AdhesionForce, error), format!("grid ± {text}"), "{error}");
         }
+        assert_eq!(words(Target::Curve, 0.9), "curve, grid ± 90 %");
     }
 
     #[test]
@@ -222,11 +213,10 @@ mod tests {
     #[test]
     fn a_closed_form_gives_the_error_itself() {
         let document = with("jkr-sphere", &[("numerics.points", "1024"), ("numerics.edges", "Grid")]);
-        let estimate = estimated(&document).unwrap();
-        let exact = 1.5 * std::f64::consts::PI * 0.05 * 1e-4;
-        let error = (run(&document).figures.adhesion_force.unwrap() / exact - 1.0).abs();
-        assert_eq!((estimate.target, &estimate.evidence), (Target::AdhesionForce, &Evidence::ClosedForm));
-        assert!((estimate.error / error - 1.0).abs() < 1e-9);
+        let Estimate { error, evidence, .. } = estimated(&document).unwrap();
+        let force = run(&document).figures.adhesion_force.unwrap();
+        let expected = (force / (1.5 * std::f64::consts::PI * 0.05 * 1e-4) - 1.0).abs();
+        assert!(evidence == Evidence::ClosedForm && (error / expected - 1.0).abs() < 1e-9, "{error}");
     }
 
     #[test]
@@ -248,15 +238,10 @@ mod tests {
             &[&few[..], &[("numerics.solver", "Stepwise(step: 2e-9)")]].concat(),
         ));
         assert!(stepwise.unwrap().error > exact.error);
-        // No tensile force: the curve.
+        // No tensile force: the curve; and nothing without a contact.
         let bare = with("pressure-sensitive", &[("adhesion", "None"), ("numerics.points", "4096")]);
         assert_eq!(estimated(&bare).unwrap().target, Target::Curve);
-        // No contact at all.
-        let still = with(
-            "pressure-sensitive",
-            &[("loading", "[ToTouch]"), ("adhesion", "None"), ("numerics.points", "4096")],
-        );
-        assert_eq!(estimated(&still), None);
+        assert_eq!(estimated(&bare.set("loading", "[ToTouch]").unwrap()), None);
         assert_eq!(estimate(bare.scene(), Path::new(""), &run(&bare), &|| true), None);
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::contact::{CurvePoint, Direction, History, LegRecord, Reversal};
 use crate::scene::{Move, Scene};
+use strum::IntoStaticStr;
 
 /// Figures of one history; `None` for a figure that the history does not have.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -100,7 +101,8 @@ pub fn pull_off_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
 }
 
 /// A remarkable point of a force curve.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Mark {
     /// First contact at a tensile force: the contact forms in a jump.
     JumpIn,
@@ -116,38 +118,32 @@ impl Mark {
     /// Technical name.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Mark::JumpIn => "jump-in",
-            Mark::Preload => "preload",
-            Mark::PullOff => "pull-off",
-            Mark::JumpOut => "jump-out",
-        }
+        self.into()
     }
 }
 
 /// Existing marks of a loading history, in their order.
 #[must_use]
 pub fn marks(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
-    let mut marks = Vec::new();
-    let mut loading = legs.iter().filter(|leg| leg.direction == Direction::Loading);
-    let touch = loading.find(|leg| leg.curve.iter().any(|point| point.springs > 0));
-    let jump = touch.and_then(|leg| {
+    let jump_in = touching(legs, Direction::Loading).next().and_then(|(_, leg)| {
         let pair = leg.curve.windows(2).find(|pair| pair[0].springs == 0 && pair[1].springs > 0)?;
-        Some(pair[1]).filter(|point| point.force < 0.0)
+        Some(pair[1])
     });
-    marks.extend(jump.map(|point| (Mark::JumpIn, point)));
-    marks.extend(preload_point(legs).map(|(_, point)| (Mark::Preload, point)));
-    let pull_off = pull_off_point(legs).filter(|(_, point)| point.force < 0.0);
-    marks.extend(pull_off.map(|(_, point)| (Mark::PullOff, point)));
-    let lost = pull_off.and_then(|(stage, least)| {
-        let curve = &legs[stage].curve;
-        let pair = curve.windows(2).rfind(|pair| pair[0].springs > 0 && pair[1].springs == 0)?;
+    let pull_off = pull_off_point(legs);
+    let jump_out = pull_off.and_then(|(stage, least)| {
+        let mut pairs = legs[stage].curve.windows(2);
+        let pair = pairs.rfind(|pair| pair[0].springs > 0 && pair[1].springs == 0)?;
         // The forces are different sums, so equal forces differ by rounding.
-        let is_pull_off = pair[0].force <= least.force * (1.0 - 1e-9);
-        Some(pair[0]).filter(|point| point.force < 0.0 && !is_pull_off)
+        Some(pair[0]).filter(|last| last.force > least.force * (1.0 - 1e-9))
     });
-    marks.extend(lost.map(|point| (Mark::JumpOut, point)));
-    marks
+    let found = [
+        (Mark::JumpIn, jump_in),
+        (Mark::Preload, preload_point(legs).map(|(_, point)| point)),
+        (Mark::PullOff, pull_off.map(|(_, point)| point)),
+        (Mark::JumpOut, jump_out),
+    ];
+    let found = found.into_iter().filter_map(|(mark, point)| Some((mark, point?)));
+    found.filter(|(mark, point)| *mark == Mark::Preload || point.force < 0.0).collect()
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::Figures;
 use serde::Serialize;
+use strum::IntoStaticStr;
 
 /// Share of the adhesion after the preload from which on adhesion without a preload is pressure-insensitive: half
 /// of the adhesion needs no pressing.
@@ -20,8 +21,9 @@ pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
 pub const AGREEING_SHARE: f64 = 0.75;
 
 /// Dependence of adhesion on the load, Fig. 4.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum Regime {
     /// (a) Adhesion exists at first contact and hardly depends on the preload.
     PressureInsensitive,
@@ -69,11 +71,7 @@ impl Regime {
     /// The name in words.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Regime::PressureInsensitive => "pressure-insensitive",
-            Regime::PressureSensitive => "pressure-sensitive",
-            Regime::NonAdhesive => "non-adhesive",
-        }
+        self.into()
     }
 
     /// The name with the protocol of F_a(0) that decides: a turn at first touch.
@@ -82,7 +80,7 @@ impl Regime {
         match self {
             Regime::PressureInsensitive => "pressure-insensitive from first touch",
             Regime::PressureSensitive => "pressure-sensitive from first touch",
-            Regime::NonAdhesive => "non-adhesive",
+            Regime::NonAdhesive => self.name(),
         }
     }
 }

@@ -11,7 +11,7 @@ pub mod exhaustive;
 mod hard_cases;
 mod laws;
 
-use crate::scene::{Document, Edges, Scene, open};
+use crate::scene::{Document, Edges, Scene};
 use crate::simulation::Outcome;
 use body::Body;
 use std::error::Error;
@@ -30,7 +30,7 @@ const LAW: &str = "self-consistency";
 /// Input of a case and measurement of its error.
 #[derive(Clone, Copy, Debug)]
 enum Subject {
-    /// A scene, as text or by the name of a built-in one.
+    /// The text of a scene.
     Scene(&'static str, fn(&Scene) -> Measured),
     /// Random bodies: self-affine profiles, noise, few levels. The largest error counts.
     Bodies(fn(&Body) -> Measured),
@@ -131,8 +131,7 @@ pub fn judge(check: Check) -> Verdict {
 }
 
 fn scene(text: &str, edges: Edges) -> Measured<Scene> {
-    let document = if text.starts_with('(') { Document::parse(text, "check")? } else { open(text)? };
-    let mut scene = document.scene().clone();
+    let mut scene = Document::parse(text, "check")?.scene().clone();
     scene.numerics.edges = edges;
     Ok(scene)
 }
