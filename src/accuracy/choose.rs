@@ -1,7 +1,7 @@
 //! The fewest springs that reach a tolerance.
 
 use super::estimate::{Estimate, Evidence, own_errors};
-use super::solution::{Runs, Solution, Target, allowed_points, is_too_coarse, refined};
+use super::solution::{Runs, Solution, Target, allowed_points, is_spent, is_too_coarse, refined};
 use super::table::{REFINEMENTS, first_within};
 use crate::scene::{Edges, Scene, Solver};
 use crate::simulation::RunError;
@@ -149,7 +149,8 @@ pub fn choose(
         for edges in EDGES {
             match runs.solve_around(&refined(scene, points, edges)) {
                 Err(error) if is_too_coarse(&error) => refused = Some(error),
-                solution => solved.extend(solution?),
+                Err(error) if is_spent(&error) => {}
+                solution => solved.push(solution?),
             }
         }
         if stop() {

@@ -93,7 +93,7 @@ pub fn estimate(
         return Some(Estimate { target, error, near_step: false, evidence: Evidence::ClosedForm });
     }
     let mut runs = Runs::new(folder, stop);
-    let mut solved = |scene: &Scene| runs.solve(scene).ok()?;
+    let mut solved = |scene: &Scene| runs.solve(scene).ok();
     // The stepwise solver has edges at the springs, and converges to the exact one with its step.
     let is_exact = scene.numerics.solver == Solver::Exact;
     let edges = if is_exact { scene.numerics.edges } else { Edges::Grid };
@@ -117,7 +117,7 @@ pub fn estimate(
 /// Estimates the errors of a solution of a scene with edges between springs, under all loads.
 pub(super) fn own_errors(scene: &Scene, finest: &Solution, runs: &mut Runs<'_>) -> Option<Errors> {
     let scene = refined(scene, finest.points, Edges::SubCell);
-    let (others, factor) = others(&scene, &mut |scene| runs.solve_around(scene).ok()?)?;
+    let (others, factor) = others(&scene, &mut |scene| runs.solve_around(scene).ok())?;
     let [one, other] = others.map(|(_, solution)| solution.errors(finest));
     Some(array::from_fn(|index| Some(factor * one[index]?.max(other[index]?))))
 }

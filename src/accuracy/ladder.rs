@@ -2,8 +2,9 @@
 //! of the one before, with both edge models, and half of the step of the stepwise solver.
 
 use super::estimate::own_errors;
-use super::solution::{Errors, Runs, Solution, Target, allowed_points, is_too_coarse, refined};
+use super::solution::{Errors, Runs, Solution, Target, allowed_points, is_spent, is_too_coarse, refined};
 use super::{CostTable, ErrorFigure, Knob, Reference, Row, Timing};
+use crate::contact::ContactError;
 use crate::scene::{Edges, Scene, Solver, check, format_quantity};
 use crate::simulation::RunError;
 use realfft::RealFftPlanner;
@@ -93,12 +94,12 @@ pub fn measure(
         let mut runs = Runs::new(folder, &is_over);
         own_errors(&compared(scene), finest, &mut runs)
     });
-    let springs = || allowed_points(scene).next().unwrap_or(scene.numerics.points);
+    let springs = allowed_points(scene).next().unwrap_or(scene.numerics.points);
     match refused {
         _ if stop() => Err(CostError::Stopped),
         _ if ladder.count(own) => Ok(CostTable { spent: begun.elapsed().as_secs_f64(), ..ladder.table }),
         Some(error) if ladder.rungs.is_empty() => Err(error.into()),
-        _ => Err(CostError::BudgetTooShort { budget, springs: springs() }),
+        _ => Err(CostError::BudgetTooShort { budget, springs }),
     }
 }
 
@@ -131,10 +132,8 @@ impl Ladder<'_> {
                     watch(Progress::Trying(knob, &named));
                     match self.rung(knob, setting, &scene) {
                         Err(error) if is_too_coarse(&error) => refused = Some(error),
-                        rung => match rung? {
-                            Some(rung) => self.rungs.push(rung),
-                            None => goes_on = false,
-                        },
+                        Err(error) if is_spent(&error) => goes_on = false,
+                        rung => self.rungs.push(rung?),
                     }
                 }
                 if !goes_on {
@@ -171,15 +170,15 @@ impl Ladder<'_> {
         springs.into_iter().chain(step()).collect()
     }
 
-    /// Solves and times one setting; `None` without time for that.
-    fn rung(&self, knob: Knob, setting: f64, scene: &Scene) -> Result<Option<(Row, Solution)>, RunError> {
+    /// Solves and times one setting.
+    fn rung(&self, knob: Knob, setting: f64, scene: &Scene) -> Result<(Row, Solution), RunError> {
         let (mut runs, compared) = (Runs::new(self.folder, self.is_over), compared(scene));
-        let solved = if knob == Knob::Step { runs.solve(&compared)? } else { runs.solve_around(&compared)? };
-        let Some(solution) = solved else { return Ok(None) };
-        let seconds = self.time(scene);
-        let transforms = seconds.map(|seconds| seconds.minimum / self.table.transform_seconds);
-        let row = Row { knob, setting, springs: solution.points, seconds, transforms, errors: [None; 4] };
-        Ok(seconds.is_some().then_some((row, solution)))
+        let is_step = knob == Knob::Step;
+        let solution = if is_step { runs.solve(&compared)? } else { runs.solve_around(&compared)? };
+        let seconds = self.time(scene).ok_or(ContactError::Interrupted)?;
+        let transforms = Some(seconds.minimum / self.table.transform_seconds);
+        let (springs, seconds, errors) = (solution.points, Some(seconds), [None; 4]);
+        Ok((Row { knob, setting, springs, seconds, transforms, errors }, solution))
     }
 
     /// Measures the times of a few whole runs of a scene, at least one, without any reuse; `None` without time for one.
@@ -188,7 +187,7 @@ impl Ladder<'_> {
         while seconds.is_empty() || (seconds.len() < MOST_RUNS && began.elapsed().as_secs_f64() < ENOUGH_RUNS)
         {
             let clock = Instant::now();
-            let Ok(Some(_)) = Runs::new(self.folder, self.is_over).solve(scene) else { break };
+            let Ok(_) = Runs::new(self.folder, self.is_over).solve(scene) else { break };
             seconds.push(clock.elapsed().as_secs_f64());
         }
         Timing::of(seconds)

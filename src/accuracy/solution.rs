@@ -161,34 +161,36 @@ impl<'a> Runs<'a> {
         Runs(Simulation::new(folder.to_path_buf()), stop)
     }
 
-    /// Solves a scene; `None` for insufficient time or memory.
-    pub(super) fn solve(&mut self, scene: &Scene) -> Result<Option<Solution>, RunError> {
-        match self.0.run(scene, self.1, &mut |_, _, _| Ok(())) {
-            Ok(outcome) => Ok(Some(Solution::of(scene, &outcome))),
-            Err(
-                RunError::OutOfMemory { .. }
-                | RunError::Surface(SurfaceError::OutOfMemory { .. })
-                | RunError::Contact(ContactError::OutOfMemory { .. }),
-            ) => Ok(None),
-            Err(error) if error.is_interruption() => Ok(None),
-            Err(error) => Err(error),
-        }
+    /// Solves a scene.
+    pub(super) fn solve(&mut self, scene: &Scene) -> Result<Solution, RunError> {
+        let outcome = self.0.run(scene, self.1, &mut |_, _, _| Ok(()))?;
+        Ok(Solution::of(scene, &outcome))
     }
 
     /// Solves a scene, with the adhesion forces under the loads around its own.
-    pub(super) fn solve_around(&mut self, scene: &Scene) -> Result<Option<Solution>, RunError> {
-        let Some(mut solution) = self.solve(scene)? else { return Ok(None) };
+    pub(super) fn solve_around(&mut self, scene: &Scene) -> Result<Solution, RunError> {
+        let mut solution = self.solve(scene)?;
         let scene = Target::of(&solution).only(scene);
         let others = AROUND.into_iter().filter_map(|factor| loaded(&scene, factor));
-        for scene in others.filter(|_| solution.adhesion_force.is_some()).collect::<Vec<_>>() {
+        for scene in others.take_while(|_| solution.adhesion_force.is_some()).collect::<Vec<_>>() {
             solution.around.push(match self.solve(&scene) {
-                Ok(Some(other)) => other.adhesion_force,
-                Ok(None) => return Ok(None),
                 Err(error) if is_too_coarse(&error) => None,
-                Err(error) => return Err(error),
+                other => other?.adhesion_force,
             });
         }
-        Ok(Some(solution))
+        Ok(solution)
+    }
+}
+
+/// Returns true if the memory or the time did not suffice.
+pub(super) fn is_spent(error: &RunError) -> bool {
+    match error {
+        RunError::OutOfMemory { .. } => true,
+        RunError::Surface(error) => matches!(error, SurfaceError::OutOfMemory { .. }),
+        RunError::Contact(error) => {
+            matches!(error, ContactError::OutOfMemory { .. } | ContactError::Interrupted)
+        }
+        _ => false,
     }
 }
 
@@ -242,8 +244,7 @@ mod tests {
         let overrides: Vec<_> =
             overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
         let document = open(scene).unwrap().set_all(&overrides).unwrap();
-        let solution = Runs::new(&document.resolve(""), &|| false).solve(document.scene()).unwrap();
-        solution.unwrap_or_else(|| panic!("{scene} has no solution")).closed_form
+        Runs::new(&document.resolve(""), &|| false).solve(document.scene()).unwrap().closed_form
     }
 
     #[test]

@@ -284,8 +284,8 @@ impl Simulation {
             stage += 1;
             after(stage - 1, record, leg)
         };
-        let asks_zero_load = plan.runs(Stage::ZeroLoadAdhesion);
-        let loaded = load(scene, &contact, asks_zero_load, memory, stop, &mut see)?;
+        let zero_load = plan.runs(Stage::ZeroLoadAdhesion);
+        let loaded = load(scene, &contact, zero_load, memory, stop, &mut see)?;
         timings.curve = loaded.curve_seconds;
         timings.zero_load = loaded.zero_load_seconds;
         timings.passes = (clock.elapsed().as_secs_f64() - timings.curve - timings.zero_load).max(0.0);
@@ -295,12 +295,9 @@ impl Simulation {
         history.work = Work { random_phases, transforms, heights_binned, ..history.work };
 
         let figures = Figures::of(&history);
-        let zero_load_adhesion_force = if asks_zero_load {
-            loaded.zero_load_adhesion_force
-        } else {
-            let is_touch = contact.hess.is_some() && Figures::is_touch_protocol(scene);
-            figures.adhesion_force.filter(|_| is_touch)
-        };
+        let is_touch = contact.hess.is_some() && Figures::is_touch_protocol(scene);
+        let zero_load_adhesion_force =
+            loaded.zero_load_adhesion_force.or(figures.adhesion_force.filter(|_| is_touch));
         let (work, modulus, length) = (governing.adhesive_work(), governing.effective_modulus, scene.length);
         let smooth = work.map(|work| smooth_adhesion_force(scene.form.as_ref(), length, modulus, work));
         Ok(Outcome {
