@@ -4,7 +4,7 @@
 use super::Subject::{Bodies, Scene as OfScene};
 use super::laws::{end, only_scales};
 use super::{
-    Body, CLOSED_FORM, Case, LAW, Measured, both, ensure, largest, outcome, relative_error, relative_errors,
+    Body, CLOSED_FORM, Case, Measured, SELF_CONSISTENCY, both, ensure, largest, outcome, relative_error, relative_errors,
     with,
 };
 use crate::scene::{Edges, Move, Scene};
@@ -12,7 +12,8 @@ use crate::simulation::Outcome;
 use crate::surface::phases;
 use std::f64::consts::PI;
 
-const FAMILY: &str = "hard-cases";
+const KNOWN: [&str; 2] = ["hard-cases", CLOSED_FORM];
+const LAW: [&str; 2] = ["hard-cases", SELF_CONSISTENCY];
 const PULL_OFF: &str = "force and place of pull-off";
 const ROUNDINGS: &str = "force, over the effect of a rounding of the indentation";
 
@@ -30,19 +31,19 @@ const MANY: &str = "(version: 1, material: (effective_modulus: 2.0e6), length: 1
 
 #[rustfmt::skip]
 pub const CASES: &[Case] = &[
-    Case::row([FAMILY, CLOSED_FORM], ["everything-sticks", "Adhesion far beyond the roughness closes the whole profile at first touch \
+    Case::row(KNOWN, ["everything-sticks", "Adhesion far beyond the roughness closes the whole profile at first touch \
         and opens it at once, at the threshold of the deepest spring.", PULL_OFF],
         &both(2e-15, 2e-15), OfScene(STICKY, everything_sticks)),
-    Case::row([FAMILY, CLOSED_FORM], ["equal-teeth", "Ties: 16 equal flat teeth of 8 springs between deep valleys detach at once, at 16 \
+    Case::row(KNOWN, ["equal-teeth", "Ties: 16 equal flat teeth of 8 springs between deep valleys detach at once, at 16 \
         times Kendall's force.", PULL_OFF], &both(2e-15, 2e-15), OfScene(PLAIN, equal_teeth)),
-    Case::row([FAMILY, LAW], ["near-ties", "Profiles, plateaus among them, whose heights are changed by roundings carry the same \
+    Case::row(LAW, ["near-ties", "Profiles, plateaus among them, whose heights are changed by roundings carry the same \
         forces, up to loads a hundred times their depth.", "force, over the scale"], &both(1e-15, 1e-15), Bodies(near_ties)),
-    Case::row([FAMILY, LAW], ["heights-1e-263-to-1e5-m", "Heights from 1e−127 to 1 m with adhesion, and from 1e−263 to 1e5 m \
+    Case::row(LAW, ["heights-1e-263-to-1e5-m", "Heights from 1e−127 to 1 m with adhesion, and from 1e−263 to 1e5 m \
         without, only scale, to the last bit.", "force, over the scale"], &both(0.0, 0.0), Bodies(heights_of_any_size)),
-    Case::row([FAMILY, CLOSED_FORM], ["far-loads", "Pressed by 1 to 1e30 times its depth, to an indentation or to a force, \
+    Case::row(KNOWN, ["far-loads", "Pressed by 1 to 1e30 times its depth, to an indentation or to a force, \
         a rough profile is wholly in contact and carries E*L(d − c̄) over its mean gap c̄.", ROUNDINGS],
         &both(4.0, 4.0), OfScene(ROUGH, far_loads)),
-    Case { large: true, ..Case::row([FAMILY, CLOSED_FORM], ["springs-2^24", "2^24 springs with half as many modes carry E*L(d − c̄) in \
+    Case { large: true, ..Case::row(KNOWN, ["springs-2^24", "2^24 springs with half as many modes carry E*L(d − c̄) in \
         full contact, and all springs that attach detach again.", "force"],
         &both(1e-14, 1e-14), OfScene(MANY, very_many_springs)) },
 ];

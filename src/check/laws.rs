@@ -2,12 +2,13 @@
 //! both solvers.
 
 use super::Subject::{Bodies, Scene as OfScene};
-use super::{Body, COMPUTED, Case, LAW, Measured, both, ensure, largest, outcome, with};
+use super::{Body, Case, INDEPENDENT, Measured, SELF_CONSISTENCY, both, ensure, largest, outcome, with};
 use crate::Cycle;
 use crate::contact::{CurvePoint, LegRecord};
 use crate::scene::{Edges, Scene, Solver};
 
-const FAMILY: &str = "laws";
+const LAW: [&str; 2] = ["laws", SELF_CONSISTENCY];
+const COMPUTED: [&str; 2] = ["laws", INDEPENDENT];
 const FORCE: &str = "force, over the scale";
 
 const ROUGH: &str = "(version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4,
@@ -17,17 +18,17 @@ const ROUGH: &str = "(version: 1, material: (effective_modulus: 2.0e6), length: 
 
 #[rustfmt::skip]
 pub const CASES: &[Case] = &[
-    Case::row([FAMILY, LAW], ["no-adhesion", "At γ = 0 unloading retraces loading bit for bit, and no energy is dissipated.",
+    Case::row(LAW, ["no-adhesion", "At γ = 0 unloading retraces loading bit for bit, and no energy is dissipated.",
         "force, over the largest"], &both(0.0, 0.0), Bodies(no_adhesion)),
-    Case::row([FAMILY, LAW], ["return-point-memory", "A minor loop closes to the last bit, and a deeper load erases the memory of \
+    Case::row(LAW, ["return-point-memory", "A minor loop closes to the last bit, and a deeper load erases the memory of \
         earlier turning points.", FORCE], &both(0.0, 0.0), Bodies(memory)),
-    Case::row([FAMILY, LAW], ["no-energy-for-nothing", "No closed loop gains energy, and the energy dissipated from separation to \
+    Case::row(LAW, ["no-energy-for-nothing", "No closed loop gains energy, and the energy dissipated from separation to \
         separation is ∮F dd.", "energy, over the scale"], &both(1e-4, 1e-4), Bodies(energy)),
-    Case::row([FAMILY, LAW], ["mirror", "A mirrored profile has the mirrored contact and the same forces.", FORCE],
+    Case::row(LAW, ["mirror", "A mirrored profile has the mirrored contact and the same forces.", FORCE],
         &both(0.0, 1e-15), Bodies(mirror)),
-    Case::row([FAMILY, LAW], ["lengths-and-moduli", "Lengths from 2 nm to 6.6 m and E* from 2 Pa to 8.4 TPa, all else scaled \
+    Case::row(LAW, ["lengths-and-moduli", "Lengths from 2 nm to 6.6 m and E* from 2 Pa to 8.4 TPa, all else scaled \
         alike, change no bit of contact and forces.", FORCE], &both(0.0, 0.0), Bodies(units)),
-    Case::row([FAMILY, COMPUTED], ["stepwise-solver", "On profiles from bare to sticky the stepwise solver, which applies the \
+    Case::row(COMPUTED, ["stepwise-solver", "On profiles from bare to sticky the stepwise solver, which applies the \
         rules spring by spring, comes to the same contact and forces.", FORCE],
         &[(Edges::Grid, 1e-15)], OfScene(ROUGH, stepwise)),
 ];

@@ -23,9 +23,9 @@ type Measured<T = f64> = Result<T, Box<dyn Error>>;
 /// Evidence: a closed form of the literature or of this model.
 const CLOSED_FORM: &str = "closed form";
 /// Evidence: the same quantity from another computation.
-const COMPUTED: &str = "independent computation";
+const INDEPENDENT: &str = "independent computation";
 /// Evidence: a law for the result, such as mirror, scaling, memory or energy.
-const LAW: &str = "self-consistency";
+const SELF_CONSISTENCY: &str = "self-consistency";
 
 /// Input of a case and measurement of its error.
 #[derive(Clone, Copy, Debug)]
