@@ -101,10 +101,8 @@ mod tests {
         let (radius, modulus, work) = (2.0e-3, 1.5e6, 0.07);
         let body = PowerLaw::of(&Form::Paraboloid { radius }, modulus, work).unwrap();
         let scale = PI * work * radius;
-        let (force_controlled, displacement_controlled) =
-            (body.force_controlled_pull_off().1, body.displacement_controlled_pull_off().1);
-        assert!((force_controlled / (-1.5 * scale) - 1.0).abs() < 1e-14);
-        assert!((displacement_controlled / (-5.0 / 6.0 * scale) - 1.0).abs() < 1e-14);
+        assert!((body.force_controlled_pull_off().1 / (-1.5 * scale) - 1.0).abs() < 1e-14);
+        assert!((body.displacement_controlled_pull_off().1 / (-5.0 / 6.0 * scale) - 1.0).abs() < 1e-14);
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! The fewest springs that reach a tolerance.
 
-use super::convergence::{REFINEMENTS, first_within};
-use super::estimate::{Estimate, Evidence, others};
-use super::solution::{Runs, Solution, Target, allowed_points, is_too_coarse, refined, relative_error};
+use super::estimate::{Estimate, Evidence, own_errors};
+use super::solution::{Runs, Solution, Target, allowed_points, is_spent, is_too_coarse, refined};
+use super::table::{REFINEMENTS, first_within};
 use crate::scene::{Edges, Scene, Solver};
 use crate::simulation::RunError;
 use crate::text::grouped;
@@ -140,7 +140,7 @@ pub fn choose(
         return Err(ChoiceError::Stepwise);
     }
     let most = allowed_points(scene).next().map_or(0, |fewest| MOST_SPRINGS.max(4 * fewest));
-    let mut tried: [Vec<Solution>; 2] = [Vec::new(), Vec::new()];
+    let mut tried: Vec<[Solution; 2]> = Vec::new();
     let mut runs = Runs::new(folder, stop);
     let (mut refused, mut of_finest) = (None, None);
     for points in allowed_points(scene).take_while(|&points| points <= most) {
@@ -148,21 +148,18 @@ pub fn choose(
         let mut solved = Vec::new();
         for edges in EDGES {
             match runs.solve_around(&refined(scene, points, edges)) {
-                Ok(solution) => solved.extend(solution),
                 Err(error) if is_too_coarse(&error) => refused = Some(error),
-                Err(error) => return Err(error.into()),
+                Err(error) if is_spent(&error) => {}
+                solution => solved.push(solution?),
             }
         }
         if stop() {
             return Err(ChoiceError::Stopped);
         }
-        if solved.len() < EDGES.len() {
-            continue;
-        }
-        tried.iter_mut().zip(solved).for_each(|(solutions, solution)| solutions.push(solution));
+        let Ok(solved) = solved.try_into() else { continue };
+        tried.push(solved);
         of_finest = None;
-        let is_enough =
-            |of_finest| judge(&tried, of_finest, tolerance).filter(|choice| choice.error <= tolerance);
+        let is_enough = |error| judge(&tried, error, tolerance).filter(|choice| choice.error <= tolerance);
         if is_enough(0.0).is_some() {
             of_finest = error_of_finest(scene, &mut runs, &tried);
             if let Some(choice) = of_finest.and_then(is_enough) {
@@ -170,43 +167,39 @@ pub fn choose(
             }
         }
     }
-    if let (Some(error), []) = (refused, tried[0].as_slice()) {
-        return Err(error.into());
+    match refused {
+        Some(error) if tried.is_empty() => return Err(error.into()),
+        _ => of_finest = of_finest.or_else(|| error_of_finest(scene, &mut runs, &tried)),
     }
-    let of_finest = of_finest.or_else(|| error_of_finest(scene, &mut runs, &tried));
-    let best = of_finest.and_then(|of_finest| judge(&tried, of_finest, tolerance));
-    Err(ChoiceError::Unreached { tolerance, best: best.map(Box::new) })
+    let best = of_finest.and_then(|error| judge(&tried, error, tolerance)).map(Box::new);
+    Err(ChoiceError::Unreached { tolerance, best })
 }
 
 /// Estimates the relative error of the finest solution with edges between springs, under the loads of the scene and
 /// around them; 0 for a scene with a closed form, and `None` if unknown.
-fn error_of_finest(scene: &Scene, runs: &mut Runs<'_>, [sub_cell, grid]: &[Vec<Solution>; 2]) -> Option<f64> {
-    if grid.last()?.closed_form.is_some() {
+fn error_of_finest(scene: &Scene, runs: &mut Runs<'_>, tried: &[[Solution; 2]]) -> Option<f64> {
+    let [finest, _] = tried.last()?;
+    if finest.closed_form.is_some() {
         return Some(0.0);
     }
-    let finest = sub_cell.last()?;
-    let mut solved = |scene: &Scene| runs.solve_around(scene).ok()?;
-    let others = others(&refined(scene, finest.points, Edges::SubCell), &mut solved)?;
-    others.error(|other| Target::of(finest).difference(other, finest))
+    own_errors(scene, finest, runs)?[Target::of(finest) as usize]
 }
 
-/// Returns the choice among solutions with edges between and at springs, with equal springs each, given the error of the
-/// finest; if none is good enough, the best that is confirmed. `None` for too few solutions.
-fn judge([sub_cell, grid]: &[Vec<Solution>; 2], of_finest: f64, tolerance: f64) -> Option<Choice> {
-    let (finest, closed_form) = (sub_cell.last()?, grid.last()?.closed_form);
-    let target = Target::of(finest);
-    let error = |solution: &Solution| match closed_form {
-        Some(force) => Some(relative_error(solution.adhesion_force.unwrap_or(0.0), force)),
-        None => Some(target.difference(solution, finest)? + of_finest),
-    };
-    let candidates = EDGES.into_iter().zip([sub_cell, grid]).filter_map(|(edges, solutions)| {
-        let errors = solutions.iter().map(error).collect::<Option<Vec<_>>>()?;
+/// Returns the choice among solutions with edges between and at springs, given the error of the finest; if none is good
+/// enough, the best that is confirmed. `None` for too few solutions.
+fn judge(tried: &[[Solution; 2]], of_finest: f64, tolerance: f64) -> Option<Choice> {
+    let [finest, _] = tried.last()?;
+    let (target, reference, closed_form) =
+        (Target::of(finest), finest.reference(), finest.closed_form.is_some());
+    let candidates = [0, 1].into_iter().filter_map(|index| {
+        let error = |pair: &[Solution; 2]| Some(target.difference(&pair[index], &reference)? + of_finest);
+        let errors = tried.iter().map(error).collect::<Option<Vec<_>>>()?;
         let confirmed = errors.len().checked_sub(1 + REFINEMENTS)?;
         let within = first_within(errors.iter().copied().map(Some), tolerance);
         let largest = || errors[confirmed..].iter().copied().fold(0.0, f64::max);
-        let (index, error) = within.map_or_else(|| (confirmed, largest()), |index| (index, errors[index]));
-        let (points, closed_form) = (solutions[index].points, closed_form.is_some());
-        Some(Choice { tolerance, target, points, edges, error, closed_form, finest: finest.points })
+        let (place, error) = within.map_or_else(|| (confirmed, largest()), |place| (place, errors[place]));
+        let (points, edges, finest) = (tried[place][index].points, EDGES[index], finest.points);
+        Some(Choice { tolerance, target, points, edges, error, closed_form, finest })
     });
     let (good, others): (Vec<_>, Vec<_>) = candidates.partition(|choice| choice.error <= tolerance);
     // The first of equal choices: edges between springs.
@@ -218,20 +211,20 @@ fn judge([sub_cell, grid]: &[Vec<Solution>; 2], of_finest: f64, tolerance: f64) 
 mod tests {
     use super::*;
 
-    /// Solutions whose adhesion force converges to 1 with a given order.
-    fn solutions(count: u32, error: f64, order: i32) -> Vec<Solution> {
-        let solution = |k: u32| Solution {
+    /// Solutions whose adhesion force converges to 1 N from these errors with these orders.
+    fn solutions(count: u32, edges: [(f64, i32); 2]) -> Vec<[Solution; 2]> {
+        let solution = |k: u32, (error, order): (f64, i32)| Solution {
             points: 16 << k,
             adhesion_force: Some(1.0 + error * f64::from(1 << k).powi(-order)),
             ..Solution::default()
         };
-        (0..count).map(solution).collect()
+        (0..count).map(|k| edges.map(|edges| solution(k, edges))).collect()
     }
 
     /// Gives each solution a closed form of 1 N.
-    fn known(solutions: [Vec<Solution>; 2]) -> [Vec<Solution>; 2] {
+    fn known(solutions: Vec<[Solution; 2]>) -> Vec<[Solution; 2]> {
         let known = |solution| Solution { closed_form: Some(1.0), ..solution };
-        solutions.map(|solutions| solutions.into_iter().map(known).collect())
+        solutions.into_iter().map(|pair| pair.map(known)).collect()
     }
 
     #[test]
@@ -247,7 +240,7 @@ mod tests {
     #[test]
     fn the_fewest_springs_that_two_refinements_confirm_are_chosen() {
         // Grid: 0.5, 0.25, …; SubCell: 0.1, 0.025, 0.00625, …
-        let tried = |count| [solutions(count, 0.1, 2), solutions(count, 0.5, 1)];
+        let tried = |count| solutions(count, [(0.1, 2), (0.5, 1)]);
         let choice = judge(&known(tried(5)), 0.0, 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (64, Edges::SubCell));
         assert!((choice.error - 0.00625).abs() < 1e-12);
@@ -257,9 +250,9 @@ mod tests {
         assert!((0.006..0.01).contains(&choice.error), "{choice:?}");
         assert_eq!(judge(&tried(2), 0.0, 0.01), None);
         // Edges at the springs only if fewer springs suffice.
-        let choice = judge(&known([solutions(5, 0.1, 2), solutions(5, 0.1, 2)]), 0.0, 0.01).unwrap();
+        let choice = judge(&known(solutions(5, [(0.1, 2), (0.1, 2)])), 0.0, 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (64, Edges::SubCell));
-        let choice = judge(&known([solutions(5, 0.5, 1), solutions(5, 0.1, 2)]), 0.0, 0.01).unwrap();
+        let choice = judge(&known(solutions(5, [(0.5, 1), (0.1, 2)])), 0.0, 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (64, Edges::Grid));
         // The best confirmed choice if none suffices.
         let choice = judge(&known(tried(4)), 0.0, 1e-6).unwrap();
@@ -269,43 +262,17 @@ mod tests {
 
     #[test]
     fn an_error_that_is_small_under_one_load_is_not_small() {
-        let mut tried = [solutions(5, 0.1, 2), solutions(5, 1e-4, 1)];
+        let mut tried = solutions(5, [(0.1, 2), (1e-4, 1)]);
         for solution in tried.iter_mut().flatten() {
             solution.around = vec![Some(1.0)];
         }
-        assert_eq!(
-            judge(&tried, 0.0, 0.01).map(|choice| (choice.points, choice.edges)),
-            Some((16, Edges::Grid))
-        );
-        tried[1][0].around = vec![Some(1.07)];
-        assert_eq!(
-            judge(&tried, 0.0, 0.01).map(|choice| (choice.points, choice.edges)),
-            Some((32, Edges::Grid))
-        );
-        tried[1][2].around = vec![None];
-        assert_eq!(
-            judge(&tried, 0.0, 0.01).map(|choice| (choice.points, choice.edges)),
-            Some((64, Edges::SubCell))
-        );
-    }
-
-    #[test]
-    fn a_tolerance_is_kept_or_refused() {
-        let document = crate::scene::open("jkr-sphere").unwrap();
-        let (scene, folder) = (document.scene(), document.resolve(""));
-        let choice = choose(scene, &folder, 1e-3, &|| false, &mut |_| ()).unwrap();
-        assert_eq!(
-            (choice.target, choice.edges, choice.closed_form),
-            (Target::AdhesionForce, Edges::SubCell, true)
-        );
-        let chosen = choice.apply(scene);
-        let solution = Runs::new(&folder, &|| false).solve(&chosen).unwrap().unwrap();
-        let exact = 1.5 * std::f64::consts::PI * 0.05 * 1e-4;
-        assert!((solution.adhesion_force.unwrap() / exact - 1.0).abs() <= 1e-3);
-        let mut stepwise = scene.clone();
-        stepwise.numerics.solver = Solver::Stepwise { step: 1e-9 };
-        let chosen = |scene: &Scene, stop: &dyn Fn() -> bool| choose(scene, &folder, 1e-3, stop, &mut |_| ());
-        assert_eq!(chosen(&stepwise, &|| false), Err(ChoiceError::Stepwise));
-        assert_eq!(chosen(scene, &|| true), Err(ChoiceError::Stopped));
+        let chosen = |tried: &[[Solution; 2]]| {
+            judge(tried, 0.0, 0.01).map(|choice| (choice.points, choice.edges)).unwrap()
+        };
+        assert_eq!(chosen(&tried), (16, Edges::Grid));
+        tried[0][1].around = vec![Some(1.07)];
+        assert_eq!(chosen(&tried), (32, Edges::Grid));
+        tried[2][1].around = vec![None];
+        assert_eq!(chosen(&tried), (64, Edges::SubCell));
     }
 }

@@ -1,10 +1,11 @@
 //! Estimated error of one outcome, from two more solutions.
 
-use super::solution::{FEWEST, Runs, Solution, Target, loaded, refined, relative_error};
+use super::solution::{Errors, FEWEST, Runs, Solution, Target, loaded, refined, relative_error};
 use crate::scene::{Edges, Scene, Solver, check};
 use crate::simulation::Outcome;
 use crate::text::per_cent;
 use serde::Serialize;
+use std::array;
 use std::path::Path;
 
 /// Most springs of a solution for an estimate only.
@@ -92,45 +93,41 @@ pub fn estimate(
         return Some(Estimate { target, error, near_step: false, evidence: Evidence::ClosedForm });
     }
     let mut runs = Runs::new(folder, stop);
-    let mut solved = |scene: &Scene| runs.solve(scene).ok()?;
+    let mut solved = |scene: &Scene| runs.solve(scene).ok();
     // The stepwise solver has edges at the springs, and converges to the exact one with its step.
     let is_exact = scene.numerics.solver == Solver::Exact;
     let edges = if is_exact { scene.numerics.edges } else { Edges::Grid };
     let exact_scene = refined(&target.only(scene), scene.numerics.points, edges);
     let exact = if is_exact { own.clone() } else { solved(&exact_scene)? };
     let of_step = target.difference(&own, &exact)?;
-    let others = others(&exact_scene, &mut solved)?;
+    let (others, factor) = others(&exact_scene, &mut solved)?;
     let difference = |solution: &Solution| target.difference(solution, &exact);
+    let differences = others.each_ref().map(|(scene, solution)| (scene, difference(solution)));
     let near_step = target == Target::AdhesionForce
-        && others.solutions.iter().any(|(scene, solution)| {
-            let step = difference(solution).filter(|&step| step > STEP);
-            step.is_some_and(|step| {
-                let near = NEAR.iter().filter_map(|&factor| solved(&loaded(scene, factor)?));
-                near.filter_map(|near| difference(&near)).any(|rest| rest < step / 3.0)
-            })
+        && differences.iter().any(|&(scene, step)| {
+            let step = step.filter(|&step| step > STEP);
+            let mut near = NEAR.iter().filter_map(|&factor| difference(&solved(&loaded(scene, factor)?)?));
+            step.is_some_and(|step| near.any(|rest| rest < step / 3.0))
         });
-    let error = of_step + others.error(difference)?;
-    let springs = others.solutions.iter().map(|(_, solution)| solution.points).collect();
+    let error = of_step + factor * differences[0].1?.max(differences[1].1?);
+    let springs = others.iter().map(|(_, solution)| solution.points).collect();
     Some(Estimate { target, error, near_step, evidence: Evidence::Solutions(springs) })
 }
 
-/// Solutions of a scene on two other numbers of springs.
-pub(super) struct Others {
-    solutions: [(Scene, Solution); 2],
-    /// Error over the larger difference from these solutions.
-    factor: f64,
+/// Estimates the errors of a solution of a scene with edges between springs, under all loads.
+pub(super) fn own_errors(scene: &Scene, finest: &Solution, runs: &mut Runs<'_>) -> Option<Errors> {
+    let scene = refined(scene, finest.points, Edges::SubCell);
+    let (others, factor) = others(&scene, &mut |scene| runs.solve_around(scene).ok())?;
+    let [one, other] = others.map(|(_, solution)| solution.errors(finest));
+    Some(array::from_fn(|index| Some(factor * one[index]?.max(other[index]?))))
 }
 
-impl Others {
-    /// Estimated error from the differences of these solutions.
-    pub(super) fn error(&self, difference: impl Fn(&Solution) -> Option<f64>) -> Option<f64> {
-        let [(_, one), (_, other)] = &self.solutions;
-        Some(self.factor * difference(one)?.max(difference(other)?))
-    }
-}
-
-/// Solves a scene on two other numbers of springs; `None` where they are not allowed or have no solution.
-pub(super) fn others(scene: &Scene, solved: &mut dyn FnMut(&Scene) -> Option<Solution>) -> Option<Others> {
+/// Solves a scene on two other numbers of springs; `None` where they are not allowed or have no solution. The factor is
+/// that of the error over the larger difference from these solutions.
+fn others(
+    scene: &Scene,
+    solved: &mut dyn FnMut(&Scene) -> Option<Solution>,
+) -> Option<([(Scene, Solution); 2], f64)> {
     let numerics = scene.numerics;
     let on = |(times, over): (u64, u64)| {
         let points = apart_from(numerics.points.saturating_mul(times) / over);
@@ -142,7 +139,7 @@ pub(super) fn others(scene: &Scene, solved: &mut dyn FnMut(&Scene) -> Option<Sol
     let allowed = |([one, other], factor): ([(u64, u64); 2], f64)| Some((on(one)?, on(other)?, factor));
     let (one, other, factor) = OTHERS.into_iter().find_map(allowed)?;
     let (of_one, of_other) = (solved(&one)?, solved(&other)?);
-    Some(Others { solutions: [(one, of_one), (other, of_other)], factor })
+    Some(([(one, of_one), (other, of_other)], factor))
 }
 
 /// The least number of springs from this one on that suits a Fourier transform, without a prime factor above 13: an odd
@@ -184,24 +181,15 @@ mod tests {
 
     #[test]
     fn errors_have_one_digit_and_two_after_a_one() {
-        for (error, text) in [
-            (0.0042, "0.4 %"),
-            (0.0104, "1 %"),
-            (0.0148, "1.5 %"),
-            (0.0096, "1 %"),
-            (0.123, "12 %"),
-            (0.9, "90 %"),
-            (1.5, "> 100 %"),
-            (2.3e-5, "0.002 %"),
-            (9e-6, "< 0.001 %"),
-            (0.0, "< 0.001 %"),
-        ] {
-            let mut estimate =
-                Estimate { target: Target::Curve, error, near_step: false, evidence: Evidence::ClosedForm };
-            assert_eq!(estimate.words(), format!("curve, grid ± {text}"), "{error}");
-            estimate.target = Target::AdhesionForce;
-            assert_eq!(estimate.words(), format!("grid ± {text}"), "{error}");
+        let words = |target, error| {
+            Estimate { target, error, near_step: false, evidence: Evidence::ClosedForm }.words()
+        };
+        let errors = [0.0042, 0.0104, 0.0148, 0.0096, 0.123, 1.5, 2.3e-5, 9e-6];
+        let texts = ["0.4 %", "1 %", "1.5 %", "1 %", "12 %", "> 100 %", "0.002 %", "< 0.001 %"];
+        for (error, text) in errors.into_iter().zip(texts) {
+            assert_eq!(words(Target::AdhesionForce, error), format!("grid ± {text}"), "{error}");
         }
+        assert_eq!(words(Target::Curve, 0.9), "curve, grid ± 90 %");
     }
 
     #[test]
@@ -225,11 +213,10 @@ mod tests {
     #[test]
     fn a_closed_form_gives_the_error_itself() {
         let document = with("jkr-sphere", &[("numerics.points", "1024"), ("numerics.edges", "Grid")]);
-        let estimate = estimated(&document).unwrap();
-        let exact = 1.5 * std::f64::consts::PI * 0.05 * 1e-4;
-        let error = (run(&document).figures.adhesion_force.unwrap() / exact - 1.0).abs();
-        assert_eq!((estimate.target, &estimate.evidence), (Target::AdhesionForce, &Evidence::ClosedForm));
-        assert!((estimate.error / error - 1.0).abs() < 1e-9);
+        let Estimate { error, evidence, .. } = estimated(&document).unwrap();
+        let force = run(&document).figures.adhesion_force.unwrap();
+        let expected = (force / (1.5 * std::f64::consts::PI * 0.05 * 1e-4) - 1.0).abs();
+        assert!(evidence == Evidence::ClosedForm && (error / expected - 1.0).abs() < 1e-9, "{error}");
     }
 
     #[test]
@@ -251,15 +238,10 @@ mod tests {
             &[&few[..], &[("numerics.solver", "Stepwise(step: 2e-9)")]].concat(),
         ));
         assert!(stepwise.unwrap().error > exact.error);
-        // No tensile force: the curve.
+        // No tensile force: the curve; and nothing without a contact.
         let bare = with("pressure-sensitive", &[("adhesion", "None"), ("numerics.points", "4096")]);
         assert_eq!(estimated(&bare).unwrap().target, Target::Curve);
-        // No contact at all.
-        let still = with(
-            "pressure-sensitive",
-            &[("loading", "[ToTouch]"), ("adhesion", "None"), ("numerics.points", "4096")],
-        );
-        assert_eq!(estimated(&still), None);
+        assert_eq!(estimated(&bare.set("loading", "[ToTouch]").unwrap()), None);
         assert_eq!(estimate(bare.scene(), Path::new(""), &run(&bare), &|| true), None);
     }
 }

@@ -1,10 +1,10 @@
 //! The cost of accuracy of one scene: one ladder from coarse to fine within a budget of time. Each rung has twice the springs
 //! of the one before, with both edge models, and half of the step of the stepwise solver.
 
-use super::convergence::observed_order;
-use super::estimate::others;
-use super::solution::{Runs, Solution, Target, allowed_points, is_too_coarse, refined};
+use super::estimate::own_errors;
+use super::solution::{Errors, Runs, Solution, Target, allowed_points, is_spent, is_too_coarse, refined};
 use super::{CostTable, ErrorFigure, Knob, Reference, Row, Timing};
+use crate::contact::ContactError;
 use crate::scene::{Edges, Scene, Solver, check, format_quantity};
 use crate::simulation::RunError;
 use realfft::RealFftPlanner;
@@ -61,25 +61,13 @@ pub enum Progress<'a> {
     Rows(&'a CostTable),
 }
 
-/// Relative errors or differences of a solution, in the order of [`super::Measures`], as far as known.
-type Errors = [Option<f64>; 4];
-
-/// Solution of one setting.
-struct Rung {
-    knob: Knob,
-    setting: f64,
-    solution: Solution,
-    seconds: Option<Timing>,
-}
-
-/// Measurement of a scene within a budget of time.
+/// A scene from coarse to fine, within a budget of time.
 struct Ladder<'a> {
     scene: &'a Scene,
     folder: &'a Path,
-    /// Seconds left; none once the measurement is stopped.
-    left: &'a dyn Fn() -> f64,
-    watch: &'a mut dyn FnMut(Progress<'_>),
-    rungs: Vec<Rung>,
+    is_over: &'a dyn Fn() -> bool,
+    /// Solutions, and their settings and times: rows without errors.
+    rungs: Vec<(Row, Solution)>,
     table: CostTable,
 }
 
@@ -97,26 +85,22 @@ pub fn measure(
 ) -> Result<CostTable, CostError> {
     let (begun, budget) = (Instant::now(), budget.as_secs_f64());
     let left = || if stop() { 0.0 } else { budget - begun.elapsed().as_secs_f64() };
-    let table = CostTable {
-        budget,
-        transform_seconds: time_of_transform().unwrap_or(f64::NAN),
-        ..CostTable::default()
-    };
-    let mut ladder = Ladder { scene, folder, left: &left, watch, rungs: Vec::new(), table };
-    let refused = ladder.climb()?;
-    let own = ladder.finest().and_then(|finest| ladder.own_errors(finest));
-    if !ladder.count(own) {
-        let springs = allowed_points(scene).next().unwrap_or(scene.numerics.points);
-        return Err(match refused {
-            _ if stop() => CostError::Stopped,
-            Some(error) if ladder.rungs.is_empty() => error.into(),
-            _ => CostError::BudgetTooShort { budget, springs },
-        });
+    let is_over = || left() <= 0.0;
+    let transform_seconds = time_of_transform().unwrap_or(f64::NAN);
+    let table = CostTable { budget, transform_seconds, ..CostTable::default() };
+    let mut ladder = Ladder { scene, folder, is_over: &is_over, rungs: Vec::new(), table };
+    let refused = ladder.climb(&left, watch)?;
+    let own = ladder.finest().and_then(|[finest, _]| {
+        let mut runs = Runs::new(folder, &is_over);
+        own_errors(&compared(scene), finest, &mut runs)
+    });
+    let springs = allowed_points(scene).next().unwrap_or(scene.numerics.points);
+    match refused {
+        _ if stop() => Err(CostError::Stopped),
+        _ if ladder.count(own) => Ok(CostTable { spent: begun.elapsed().as_secs_f64(), ..ladder.table }),
+        Some(error) if ladder.rungs.is_empty() => Err(error.into()),
+        _ => Err(CostError::BudgetTooShort { budget, springs }),
     }
-    if stop() {
-        return Err(CostError::Stopped);
-    }
-    Ok(CostTable { spent: begun.elapsed().as_secs_f64(), ..ladder.table })
 }
 
 /// Returns the scene with the number of samples for a comparison of curves.
@@ -128,52 +112,13 @@ fn compared(scene: &Scene) -> Scene {
 }
 
 impl Ladder<'_> {
-    /// Measures the times of a few whole runs of a scene, at least one, without any reuse; `None` without time for one.
-    fn time(&self, scene: &Scene) -> Option<Timing> {
-        let (began, mut seconds) = (Instant::now(), Vec::new());
-        while seconds.is_empty() || (seconds.len() < MOST_RUNS && began.elapsed().as_secs_f64() < ENOUGH_RUNS)
-        {
-            let (clock, stop) = (Instant::now(), || (self.left)() <= 0.0);
-            let Ok(Some(_)) = Runs::new(self.folder, &stop).solve(scene) else { break };
-            seconds.push(clock.elapsed().as_secs_f64());
-        }
-        Timing::of(seconds)
-    }
-
-    /// Solves and times one setting and adds its rung; false without time for that, and for too few springs the error.
-    fn attempt(&mut self, knob: Knob, setting: f64, scene: &Scene) -> Result<bool, RunError> {
-        let (left, compared) = (self.left, compared(scene));
-        let stop = || left() <= 0.0;
-        let mut runs = Runs::new(self.folder, &stop);
-        let is_step = knob == Knob::Step;
-        let solution = if is_step { runs.solve(&compared)? } else { runs.solve_around(&compared)? };
-        let Some(solution) = solution else { return Ok(false) };
-        let seconds = self.time(scene);
-        let is_timed = seconds.is_some();
-        self.rungs.extend(is_timed.then_some(Rung { knob, setting, solution, seconds }));
-        Ok(is_timed)
-    }
-
-    /// Returns the settings of the rung with this number of springs. The step of the stepwise solver halves from rung to
-    /// rung once its reference is known.
-    fn settings(&self, points: u64) -> Vec<(Knob, f64, Scene)> {
-        let of = |(knob, edges)| (knob, points as f64, refined(self.scene, points, edges));
-        let springs = [(Knob::SubCellSprings, Edges::SubCell), (Knob::GridSprings, Edges::Grid)].map(of);
-        let step = || {
-            let exact = self.exact()?;
-            let (low, high) = exact.curve.indentations().filter(|(low, high)| low < high)?;
-            let halvings = self.rungs_of(Knob::Step).count() as i32;
-            let step = (high - low) / FEWEST_STEPS * 0.5_f64.powi(halvings);
-            let mut scene = refined(self.scene, exact.points, Edges::Grid);
-            scene.numerics.solver = Solver::Stepwise { step };
-            check(&compared(&scene)).is_empty().then_some((Knob::Step, step, scene))
-        };
-        springs.into_iter().chain(step()).collect()
-    }
-
     /// Adds rungs while there is time; returns the error that refused too few springs.
-    fn climb(&mut self) -> Result<Option<RunError>, RunError> {
-        let (left, mut refused, mut took) = (self.left, None, 0.0);
+    fn climb(
+        &mut self,
+        left: &dyn Fn() -> f64,
+        watch: &mut dyn FnMut(Progress<'_>),
+    ) -> Result<Option<RunError>, RunError> {
+        let (mut refused, mut took) = (None, 0.0);
         for points in allowed_points(self.scene) {
             let began = left();
             // The first two may take all of the time, so that a comparison is possible.
@@ -184,10 +129,11 @@ impl Ladder<'_> {
                     _ => (format!("{points} springs"), "more"),
                 };
                 if goes_on {
-                    (self.watch)(Progress::Trying(knob, &named));
-                    match self.attempt(knob, setting, &scene) {
+                    watch(Progress::Trying(knob, &named));
+                    match self.rung(knob, setting, &scene) {
                         Err(error) if is_too_coarse(&error) => refused = Some(error),
-                        solved => goes_on = solved?,
+                        Err(error) if is_spent(&error) => goes_on = false,
+                        rung => self.rungs.push(rung?),
                     }
                 }
                 if !goes_on {
@@ -199,88 +145,121 @@ impl Ladder<'_> {
             }
             took = began - left();
             if self.count(None) {
-                (self.watch)(Progress::Rows(&self.table));
+                watch(Progress::Rows(&self.table));
             }
         }
         Ok(refused)
     }
 
-    fn rungs_of(&self, knob: Knob) -> impl DoubleEndedIterator<Item = &Rung> {
-        self.rungs.iter().filter(move |rung| rung.knob == knob)
+    /// Returns the settings with this number of springs. The step of the stepwise solver halves from rung to rung once its
+    /// reference is known.
+    fn settings(&self, points: u64) -> Vec<(Knob, f64, Scene)> {
+        let of = |(knob, edges)| (knob, points as f64, refined(self.scene, points, edges));
+        let springs = [(Knob::SubCellSprings, Edges::SubCell), (Knob::GridSprings, Edges::Grid)].map(of);
+        let step = || {
+            let exact = self.exact()?;
+            let at = exact.curve.iter().flatten().map(|point| point[0]);
+            let (low, high) =
+                at.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (at.min(low), at.max(high)));
+            let halvings = self.rungs_of(Knob::Step).count() as i32;
+            let step = (high - low) / FEWEST_STEPS * 0.5_f64.powi(halvings);
+            let mut scene = refined(self.scene, exact.points, Edges::Grid);
+            scene.numerics.solver = Solver::Stepwise { step };
+            (low < high && check(&compared(&scene)).is_empty()).then_some((Knob::Step, step, scene))
+        };
+        springs.into_iter().chain(step()).collect()
+    }
+
+    /// Solves and times one setting.
+    fn rung(&self, knob: Knob, setting: f64, scene: &Scene) -> Result<(Row, Solution), RunError> {
+        let (mut runs, compared) = (Runs::new(self.folder, self.is_over), compared(scene));
+        let is_step = knob == Knob::Step;
+        let solution = if is_step { runs.solve(&compared)? } else { runs.solve_around(&compared)? };
+        let seconds = self.time(scene).ok_or(ContactError::Interrupted)?;
+        let transforms = Some(seconds.minimum / self.table.transform_seconds);
+        let (springs, seconds, errors) = (solution.points, Some(seconds), [None; 4]);
+        Ok((Row { knob, setting, springs, seconds, transforms, errors }, solution))
+    }
+
+    /// Measures the times of a few whole runs of a scene, at least one, without any reuse; `None` without time for one.
+    fn time(&self, scene: &Scene) -> Option<Timing> {
+        let (began, mut seconds) = (Instant::now(), Vec::new());
+        while seconds.is_empty() || (seconds.len() < MOST_RUNS && began.elapsed().as_secs_f64() < ENOUGH_RUNS)
+        {
+            let clock = Instant::now();
+            let Ok(_) = Runs::new(self.folder, self.is_over).solve(scene) else { break };
+            seconds.push(clock.elapsed().as_secs_f64());
+        }
+        Timing::of(seconds)
+    }
+
+    fn rungs_of(&self, knob: Knob) -> impl DoubleEndedIterator<Item = &(Row, Solution)> {
+        self.rungs.iter().filter(move |(row, _)| row.knob == knob)
     }
 
     /// Returns the reference of steps: the exact solution on as many springs as the stepwise solver has.
     fn exact(&self) -> Option<&Solution> {
-        let rung = self.rungs_of(Knob::GridSprings).find(|rung| rung.solution.points >= STEPWISE_SPRINGS);
-        rung.map(|rung| &rung.solution)
+        let mut exact = self.rungs_of(Knob::GridSprings).map(|(_, solution)| solution);
+        exact.find(|solution| solution.points >= STEPWISE_SPRINGS)
     }
 
-    /// Returns the finest solution with edges between springs, if there are two.
-    fn finest(&self) -> Option<&Solution> {
-        let mut finer = self.rungs_of(Knob::SubCellSprings).rev();
-        let finest = finer.next()?;
-        finer.next().map(|_| &finest.solution)
-    }
-
-    /// Estimates the errors of a solution with edges between springs; `None` without time for others.
-    fn own_errors(&self, finest: &Solution) -> Option<Errors> {
-        let stop = || (self.left)() <= 0.0;
-        let mut runs = Runs::new(self.folder, &stop);
-        let mut solved = |scene: &Scene| runs.solve_around(scene).ok()?;
-        let others = others(&compared(&refined(self.scene, finest.points, Edges::SubCell)), &mut solved)?;
-        Some([0, 1, 2, 3].map(|index| others.error(|other| other.errors(finest)[index])))
+    /// Returns the two finest solutions with edges between springs, the finest first.
+    fn finest(&self) -> Option<[&Solution; 2]> {
+        let mut finer = self.rungs_of(Knob::SubCellSprings).rev().map(|(_, solution)| solution);
+        Some([finer.next()?, finer.next()?])
     }
 
     /// Makes the rows, with errors relative to the finest solution or the closed form, and those of steps to the exact
-    /// solution. The reference has these errors, or without them twice the last differences. Returns false with fewer than
-    /// two solutions.
+    /// solution. The reference has its own errors, or without them twice the last differences. Returns false with fewer
+    /// than two solutions.
     fn count(&mut self, own: Option<Errors>) -> bool {
-        let finer: Vec<&Rung> = self.rungs_of(Knob::SubCellSprings).rev().take(2).collect();
-        let &[Rung { solution: finest, .. }, Rung { solution: last, .. }] = &finer[..] else { return false };
+        let Some([finest, last]) = self.finest() else { return false };
         let twice = || last.errors(finest).map(|last| last.map(|last| 2.0 * last));
-        let (mut errors, mut target) = (own.unwrap_or_else(twice), finest.clone());
+        let (mut errors, target) = (own.unwrap_or_else(twice), finest.reference());
         let closed_form = target.closed_form.is_some();
         if closed_form {
-            target.adhesion_force = target.closed_form;
-            target.around.clear();
             errors[Target::AdhesionForce as usize] = Some(ROUNDING);
         }
-        let (springs, adhesion_force) = (target.points, target.adhesion_force);
         // With few springs each of them is a jump, which is late by up to one distance of samples.
         let late = [None, Some(1.0 / compared(self.scene).numerics.samples as f64), None, None];
-        let mut rows = Vec::new();
+        let mut rows: Vec<Row> = Vec::new();
         for knob in Knob::ALL {
-            let is_step = knob == Knob::Step;
             // The difference of the finest solution from itself is zero, which is not its error.
-            let floors = if is_step { late } else { errors };
-            let target = self.exact().filter(|_| is_step).unwrap_or(&target);
-            for rung in self.rungs_of(knob) {
-                rows.push(row(rung, rows.last(), target, floors, self.table.transform_seconds));
+            let (target, floors) = match (knob, self.exact()) {
+                (Knob::Step, Some(exact)) => (exact, late),
+                _ => (&target, errors),
+            };
+            for (row, solution) in self.rungs_of(knob) {
+                let before = rows.last().filter(|row| row.knob == knob);
+                let errors = resolved(solution.errors(target), floors, row.setting, before);
+                rows.push(Row { errors, ..row.clone() });
             }
         }
-        self.table.reference = Reference { springs, adhesion_force, closed_form, errors: errors.into() };
+        let (springs, adhesion_force) = (target.points, target.adhesion_force);
+        self.table.reference = Reference { springs, adhesion_force, closed_form, errors };
         self.table.rows = rows;
         true
     }
 }
 
-/// Returns the row of a setting; errors below the floors are not resolved, and orders are relative to the row before of
-/// the same knob.
-fn row(rung: &Rung, before: Option<&Row>, target: &Solution, floors: Errors, transform_seconds: f64) -> Row {
-    let Rung { knob, setting, seconds, .. } = *rung;
-    let before = before.filter(|row| row.knob == knob);
+/// Returns the errors of a setting as far as they are above the floors, with orders relative to the row before.
+fn resolved(errors: Errors, floors: Errors, setting: f64, before: Option<&Row>) -> [Option<ErrorFigure>; 4] {
     let ratio = before.map_or(1.0, |row| (setting / row.setting).max(row.setting / setting));
-    let coarse = before.map(|row| row.errors).unwrap_or_default().each();
-    let errors = rung.solution.errors(target);
-    let errors = [0, 1, 2, 3].map(|index| {
+    let coarse = before.map_or([None; 4], |row| row.errors);
+    std::array::from_fn(|index| {
         let (error, floor) = (errors[index]?, floors[index].unwrap_or(0.0).max(ROUNDING));
         let resolved = error > floor;
         let coarse = coarse[index].filter(|coarse| coarse.resolved && resolved);
         let order = coarse.and_then(|coarse| observed_order(coarse.error, error, ratio));
         Some(ErrorFigure { error: error.max(floor), resolved, order })
-    });
-    let transforms = seconds.map(|seconds| seconds.minimum / transform_seconds);
-    Row { knob, setting, springs: rung.solution.points, seconds, transforms, errors: errors.into() }
+    })
+}
+
+/// Observed order of convergence between two errors, the second of a solution that is `ratio` times as fine:
+/// ln(coarse/fine)/ln(ratio). `None` if the order is meaningless.
+fn observed_order(coarse: f64, fine: f64, ratio: f64) -> Option<f64> {
+    let order = (coarse / fine).ln() / ratio.ln();
+    (coarse > 0.0 && fine > 0.0 && order.is_finite()).then_some(order)
 }
 
 /// Measures the shortest time of one real Fourier transform of 2^20 points, planned beforehand, s.
@@ -297,4 +276,15 @@ fn time_of_transform() -> Option<f64> {
     // The first run is not measured.
     let times: Option<Vec<f64>> = (0..=MOST_RUNS).map(run).collect();
     times?.into_iter().skip(1).reduce(f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_order_is_that_of_a_power() {
+        assert!((observed_order(1.0, 0.125, 2.0).unwrap() - 3.0).abs() < 1e-15);
+        assert_eq!(observed_order(1.0, 0.0, 2.0), None);
+    }
 }

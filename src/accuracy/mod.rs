@@ -6,7 +6,6 @@
 //! edges between springs, whose own error is estimated. Timed runs are separate from compared ones.
 
 mod choose;
-mod convergence;
 mod curve;
 mod estimate;
 mod ladder;
@@ -16,5 +15,5 @@ mod table;
 pub use choose::{Choice, ChoiceError, choose, parse_tolerance};
 pub use estimate::{Estimate, Evidence, estimate};
 pub use ladder::{CostError, Progress, measure};
-pub use solution::{Measures, Target};
-pub use table::{CostTable, ErrorFigure, Knob, Reference, Row, Timing};
+pub use solution::Target;
+pub use table::{CostTable, ErrorFigure, Knob, QUANTITIES, Reference, Row, Timing};

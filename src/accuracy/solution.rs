@@ -1,6 +1,6 @@
 //! Solutions of a scene and its variants, and their relative differences.
 
-use super::curve::ForceCurve;
+use super::curve::{ForceCurve, difference, force_curve};
 use crate::analysis::pull_off_point;
 use crate::contact::ContactError;
 use crate::reference::{PowerLaw, smooth_adhesion_force};
@@ -18,31 +18,8 @@ const AROUND: [f64; 2] = [0.5, 2.0];
 /// Samples of a loading stage whose curve is not used: the adhesion force is an exact extreme.
 const FEW_SAMPLES: u64 = 2;
 
-/// One value for each quantity with an error.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Measures<T> {
-    /// The adhesion force F_a, see `Solution::errors`.
-    pub adhesion_force: T,
-    /// The whole force curve, the mean difference of forces at equal indentations over the largest force.
-    pub curve: T,
-    /// The dissipated energy.
-    pub dissipated_energy: T,
-    /// The largest length in contact.
-    pub contact_length: T,
-}
-
-impl<T: Copy> Measures<T> {
-    /// All four measures, in their order, which begins as that of [`Target`].
-    pub fn each(&self) -> [T; 4] {
-        [self.adhesion_force, self.curve, self.dissipated_energy, self.contact_length]
-    }
-}
-
-impl<T> From<[T; 4]> for Measures<T> {
-    fn from([adhesion_force, curve, dissipated_energy, contact_length]: [T; 4]) -> Self {
-        Measures { adhesion_force, curve, dissipated_energy, contact_length }
-    }
-}
+/// Relative errors or differences in the order of [`super::QUANTITIES`]; `None` without such a figure.
+pub(super) type Errors = [Option<f64>; 4];
 
 /// Figures and curve of one solution; a figure of zero has no relative error and is left out.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -69,14 +46,21 @@ impl Solution {
             around: Vec::new(),
             dissipated_energy: figures.dissipated_energy.and_then(some),
             contact_length: some(longest_contact(outcome)),
-            curve: ForceCurve::of(&outcome.history),
+            curve: force_curve(&outcome.history),
         }
     }
 
-    /// Relative differences from a reference, in the order of [`Measures`]; `None` without such a figure. That of the adhesion force is
-    /// the largest under all loads which both have: an error that changes its sign from load to load is not small at all
-    /// of them by chance.
-    pub(super) fn errors(&self, reference: &Solution) -> [Option<f64>; 4] {
+    /// Returns this solution as a reference, with the adhesion force in closed form if there is one.
+    pub(super) fn reference(&self) -> Solution {
+        match self.closed_form {
+            Some(_) => Solution { adhesion_force: self.closed_form, around: Vec::new(), ..self.clone() },
+            None => self.clone(),
+        }
+    }
+
+    /// Returns the relative differences from a reference. That of the adhesion force is the largest under all loads which
+    /// both have: an error that changes its sign from load to load is not small at all of them by chance.
+    pub(super) fn errors(&self, reference: &Solution) -> Errors {
         let relative = |value: Option<f64>, reference: Option<f64>| {
             reference.map(|reference| relative_error(value.unwrap_or(0.0), reference))
         };
@@ -87,14 +71,14 @@ impl Solution {
         let own = relative(self.adhesion_force, reference.adhesion_force);
         [
             own.map(|own| around.fold(own, f64::max)),
-            self.curve.difference(&reference.curve),
+            difference(&self.curve, &reference.curve),
             relative(self.dissipated_energy, reference.dissipated_energy),
             relative(self.contact_length, reference.contact_length),
         ]
     }
 }
 
-/// Quantity of a tolerance.
+/// Quantity of a tolerance: one of the first two of [`super::QUANTITIES`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Target {
@@ -177,34 +161,36 @@ impl<'a> Runs<'a> {
         Runs(Simulation::new(folder.to_path_buf()), stop)
     }
 
-    /// Solves a scene; `None` for insufficient time or memory.
-    pub(super) fn solve(&mut self, scene: &Scene) -> Result<Option<Solution>, RunError> {
-        match self.0.run(scene, self.1, &mut |_, _, _| Ok(())) {
-            Ok(outcome) => Ok(Some(Solution::of(scene, &outcome))),
-            Err(
-                RunError::OutOfMemory { .. }
-                | RunError::Surface(SurfaceError::OutOfMemory { .. })
-                | RunError::Contact(ContactError::OutOfMemory { .. }),
-            ) => Ok(None),
-            Err(error) if error.is_interruption() => Ok(None),
-            Err(error) => Err(error),
-        }
+    /// Solves a scene.
+    pub(super) fn solve(&mut self, scene: &Scene) -> Result<Solution, RunError> {
+        let outcome = self.0.run(scene, self.1, &mut |_, _, _| Ok(()))?;
+        Ok(Solution::of(scene, &outcome))
     }
 
     /// Solves a scene, with the adhesion forces under the loads around its own.
-    pub(super) fn solve_around(&mut self, scene: &Scene) -> Result<Option<Solution>, RunError> {
-        let Some(mut solution) = self.solve(scene)? else { return Ok(None) };
+    pub(super) fn solve_around(&mut self, scene: &Scene) -> Result<Solution, RunError> {
+        let mut solution = self.solve(scene)?;
         let scene = Target::of(&solution).only(scene);
         let others = AROUND.into_iter().filter_map(|factor| loaded(&scene, factor));
-        for scene in others.filter(|_| solution.adhesion_force.is_some()).collect::<Vec<_>>() {
+        for scene in others.take_while(|_| solution.adhesion_force.is_some()).collect::<Vec<_>>() {
             solution.around.push(match self.solve(&scene) {
-                Ok(Some(other)) => other.adhesion_force,
-                Ok(None) => return Ok(None),
                 Err(error) if is_too_coarse(&error) => None,
-                Err(error) => return Err(error),
+                other => other?.adhesion_force,
             });
         }
-        Ok(Some(solution))
+        Ok(solution)
+    }
+}
+
+/// Returns true if the memory or the time did not suffice.
+pub(super) fn is_spent(error: &RunError) -> bool {
+    match error {
+        RunError::OutOfMemory { .. } => true,
+        RunError::Surface(error) => matches!(error, SurfaceError::OutOfMemory { .. }),
+        RunError::Contact(error) => {
+            matches!(error, ContactError::OutOfMemory { .. } | ContactError::Interrupted)
+        }
+        _ => false,
     }
 }
 
@@ -258,8 +244,7 @@ mod tests {
         let overrides: Vec<_> =
             overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
         let document = open(scene).unwrap().set_all(&overrides).unwrap();
-        let solution = Runs::new(&document.resolve(""), &|| false).solve(document.scene()).unwrap();
-        solution.unwrap_or_else(|| panic!("{scene} has no solution")).closed_form
+        Runs::new(&document.resolve(""), &|| false).solve(document.scene()).unwrap().closed_form
     }
 
     #[test]

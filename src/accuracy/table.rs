@@ -1,10 +1,14 @@
 //! The table of the cost of accuracy.
 
-use super::Measures;
-use super::convergence::{first_within, slope};
 use crate::scene::format_rounded;
 use crate::text::grouped;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
+
+/// Finer solutions that confirm an error.
+pub(super) const REFINEMENTS: usize = 2;
+/// Quantities with errors: the adhesion force F_a, the whole force curve (the mean difference of forces at equal
+/// indentations over the largest force), the dissipated energy, and the largest length in contact.
+pub const QUANTITIES: [&str; 4] = ["adhesion_force", "curve", "dissipated_energy", "contact_length"];
 
 /// Relative errors of the answers.
 const TARGETS: [(f64, &str); 2] = [(0.01, "1 %"), (0.001, "0.1 %")];
@@ -83,8 +87,9 @@ pub struct Row {
     pub seconds: Option<Timing>,
     /// The shortest time in Fourier transforms, see [`CostTable::transform_seconds`].
     pub transforms: Option<f64>,
-    /// Relative errors of the affected quantities.
-    pub errors: Measures<Option<ErrorFigure>>,
+    /// Relative errors of the [`QUANTITIES`].
+    #[serde(serialize_with = "by_name")]
+    pub errors: [Option<ErrorFigure>; 4],
 }
 
 /// Reference of the errors.
@@ -96,8 +101,13 @@ pub struct Reference {
     pub adhesion_force: Option<f64>,
     /// True if `adhesion_force` is a closed form; all other references are from the finest solution.
     pub closed_form: bool,
-    /// Estimated relative errors of the reference itself.
-    pub errors: Measures<Option<f64>>,
+    /// Estimated relative errors of the reference itself in the [`QUANTITIES`].
+    #[serde(serialize_with = "by_name")]
+    pub errors: [Option<f64>; 4],
+}
+
+fn by_name<T: Serialize, S: Serializer>(values: &[T; 4], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(QUANTITIES.iter().zip(values))
 }
 
 /// Cost of accuracy for one scene.
@@ -127,7 +137,7 @@ impl CostTable {
     /// The main error: that of the adhesion force, or of the curve without a tensile force.
     #[must_use]
     pub fn main_error(&self, row: &Row) -> Option<ErrorFigure> {
-        let Measures { adhesion_force, curve, .. } = row.errors;
+        let [adhesion_force, curve, ..] = row.errors;
         if self.reference.adhesion_force.is_some() { adhesion_force } else { curve }
     }
 
@@ -182,71 +192,91 @@ impl CostTable {
     }
 }
 
+/// Slope of the straight line of least squares through some points; `None` with fewer than three.
+pub(super) fn slope(points: &[(f64, f64)]) -> Option<f64> {
+    let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
+    let (x, y) = (mean(|point| point.0), mean(|point| point.1));
+    let product: f64 = points.iter().map(|point| (point.0 - x) * (point.1 - y)).sum();
+    let square: f64 = points.iter().map(|point| (point.0 - x).powi(2)).sum();
+    Some(product / square).filter(|slope| points.len() >= 3 && slope.is_finite())
+}
+
+/// Index of the first of these errors, from coarse to fine, from which on none is above a bound. Two finer ones confirm
+/// an error: one that changes its sign may be small by chance.
+#[must_use]
+pub(super) fn first_within(
+    errors: impl DoubleEndedIterator<Item = Option<f64>>,
+    bound: f64,
+) -> Option<usize> {
+    let errors: Vec<_> = errors.collect();
+    let above = errors.iter().rposition(|error| error.is_none_or(|error| error.is_nan() || error > bound));
+    let first = above.map_or(0, |above| above + 1);
+    (first + REFINEMENTS < errors.len()).then_some(first)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn row(knob: Knob, setting: f64, error: f64, resolved: bool) -> Row {
-        let curve = Some(ErrorFigure { error, resolved, order: None });
-        let errors = Measures { curve, ..Measures::default() };
-        Row { knob, setting, springs: 16, seconds: None, transforms: None, errors }
-    }
-
     #[test]
-    fn the_order_is_the_slope_of_what_is_resolved() {
-        let reference =
-            Reference { springs: 16, adhesion_force: None, closed_form: false, errors: Measures::default() };
-        let mut rows: Vec<Row> =
-            (0..5).map(|k| row(Knob::Step, 0.5_f64.powi(k), 0.25_f64.powi(k), true)).collect();
-        rows.push(row(Knob::Step, 1e-6, 0.5, false));
-        rows.extend((4..6).map(|k| row(Knob::GridSprings, 2.0_f64.powi(k), 0.5_f64.powi(k), true)));
-        rows.extend((4..8).map(|k| row(Knob::SubCellSprings, 2.0_f64.powi(k), 0.5_f64.powi(k), true)));
-        let (transform_seconds, left_out) = (1.0, Vec::new());
-        let table = CostTable { budget: 1.0, spent: 1.0, transform_seconds, reference, rows, left_out };
-        assert!((table.order(Knob::Step).unwrap() - 2.0).abs() < 1e-12);
-        assert_eq!(table.order(Knob::GridSprings), None, "two rows are no order");
-        let first = |knob, bound| table.first_row_within(knob, bound).map(|row| row.setting);
-        assert_eq!(first(Knob::SubCellSprings, 0.04), Some(32.0));
-        assert_eq!(first(Knob::SubCellSprings, 0.02), None, "one row finer than that of 64 springs");
-        assert_eq!(first(Knob::GridSprings, 0.04), None);
+    fn a_bound_is_met_from_the_first_error_on_that_two_finer_ones_confirm() {
+        let first = |errors: &[f64], bound| first_within(errors.iter().copied().map(Some), bound);
+        assert_eq!(first(&[0.5, 0.01, 0.2, 0.1, 0.05, 0.02], 0.1), Some(3));
+        assert_eq!(first(&[0.5, 0.01, 0.2], 0.1), None, "small by chance");
+        assert_eq!(first(&[0.5, 0.01, 0.02], 0.1), None, "one refinement");
+        assert_eq!(first(&[0.05, 0.0, 0.0], 0.1), Some(0));
+        assert_eq!(first(&[], 0.1), None);
+        assert_eq!(first(&[f64::NAN, 0.0, 0.0, 0.0], 0.1), Some(1));
+        assert_eq!(first_within([Some(0.0), Some(0.0), None].into_iter(), 0.1), None);
     }
 
     #[test]
     fn times_have_a_minimum_and_a_median() {
-        let of = |times: &[f64]| Timing::of(times.to_vec());
+        let of =
+            |times: &[f64]| Timing::of(times.to_vec()).map(|time| (time.minimum, time.median, time.runs));
         assert_eq!(of(&[]), None);
-        assert_eq!(of(&[3.0]), Some(Timing { minimum: 3.0, median: 3.0, runs: 1 }));
-        assert_eq!(of(&[4.0, 1.0]), Some(Timing { minimum: 1.0, median: 2.5, runs: 2 }));
-        assert_eq!(of(&[4.0, 1.0, 2.0]), Some(Timing { minimum: 1.0, median: 2.0, runs: 3 }));
+        assert_eq!(of(&[4.0, 1.0]), Some((1.0, 2.5, 2)));
+        assert_eq!(of(&[4.0, 1.0, 2.0]), Some((1.0, 2.0, 3)));
     }
 
-    fn timed(knob: Knob, springs: u64, error: f64) -> Row {
-        let row = row(knob, springs as f64, error, true);
-        let errors = Measures { adhesion_force: row.errors.curve, ..row.errors };
-        Row { springs, seconds: Timing::of(vec![1.0e-6 * springs as f64]), errors, ..row }
+    fn rows(knob: Knob, of: &[(f64, f64)]) -> Vec<Row> {
+        let row = |&(setting, error): &(f64, f64)| Row {
+            knob,
+            setting,
+            springs: setting as u64,
+            seconds: Timing::of(vec![1e-6 * setting]),
+            transforms: None,
+            errors: [Some(ErrorFigure { error, resolved: error > 1e-6, order: None }), None, None, None],
+        };
+        of.iter().map(row).collect()
+    }
+
+    fn table(rows: &[Vec<Row>]) -> CostTable {
+        let reference = Reference { adhesion_force: Some(1.0), ..Reference::default() };
+        CostTable { reference, rows: rows.concat(), ..CostTable::default() }
     }
 
     #[test]
-    fn the_first_row_that_stays_good_answers() {
-        let sub_cell =
-            [(16, 0.3), (32, 1e-4), (64, 0.02), (128, 0.005), (256, 9e-4), (512, 1e-4), (1024, 1e-5)];
-        let grid = [(16, 0.3), (2048, 0.009), (4096, 0.0045), (8192, 0.0009)];
-        let rows = |knob, of: &[(u64, f64)]| -> Vec<Row> {
-            of.iter().map(|&(springs, error)| timed(knob, springs, error)).collect()
-        };
-        let mut table = CostTable {
-            budget: 1.0,
-            spent: 0.5,
-            transform_seconds: 1e-3,
-            reference: Reference {
-                springs: 256,
-                adhesion_force: Some(1.0),
-                closed_form: true,
-                errors: Measures::default(),
-            },
-            rows: [rows(Knob::SubCellSprings, &sub_cell), rows(Knob::GridSprings, &grid)].concat(),
-            left_out: Vec::new(),
-        };
+    fn the_order_is_the_slope_of_resolved_errors() {
+        let steps = [(1.0, 1.0), (0.5, 0.25), (0.25, 0.0625), (1e-6, 1e-7)];
+        let table = table(&[rows(Knob::Step, &steps), rows(Knob::GridSprings, &steps[..2])]);
+        assert!((table.order(Knob::Step).unwrap() - 2.0).abs() < 1e-12);
+        assert_eq!(table.order(Knob::GridSprings), None, "two rows are no order");
+    }
+
+    #[test]
+    fn the_first_row_within_a_bound_answers() {
+        let sub_cell = [
+            (16.0, 0.3),
+            (32.0, 1e-4),
+            (64.0, 0.02),
+            (128.0, 0.005),
+            (256.0, 9e-4),
+            (512.0, 1e-4),
+            (1024.0, 1e-5),
+        ];
+        let grid = [(16.0, 0.3), (2048.0, 0.009), (4096.0, 0.0045), (8192.0, 0.0009)];
+        let mut table = table(&[rows(Knob::SubCellSprings, &sub_cell), rows(Knob::GridSprings, &grid)]);
         assert_eq!(
             table.answer(),
             [
@@ -258,6 +288,7 @@ mod tests {
         );
         table.reference.adhesion_force = None;
         table.rows.retain(|row| row.knob == Knob::SubCellSprings);
+        table.rows.iter_mut().for_each(|row| row.errors.swap(0, 1));
         assert_eq!(
             table.answer()[0],
             "1 % of the force curve: 128 springs, 128 µs with edges SubCell; edges Grid were not affordable."

@@ -16,20 +16,6 @@ pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, lengt
     (PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
 }
 
-/// Stiffness E* l, N/m, of a contact of length l, m, whose edges stay in place, under an effective modulus E*, Pa. Moving
-/// edges add to the slope of the force curve.
-/// Popov and Filippov (2012), eq. (1).
-#[must_use]
-pub fn contact_stiffness(effective_modulus: f64, contact_length: f64) -> f64 {
-    effective_modulus * contact_length
-}
-
-/// Mean pressure F/(πa²), Pa, of a force F, N, on a circle of radius a, m; `None` without contact.
-#[must_use]
-pub fn mean_pressure(force: f64, contact_radius: f64) -> Option<f64> {
-    (contact_radius > 0.0).then(|| force / (PI * contact_radius * contact_radius))
-}
-
 /// Default range of attraction z₀, m, of a scene: an interatomic distance.
 pub const DEFAULT_RANGE: f64 = 0.3e-9;
 
@@ -92,7 +78,7 @@ impl SteepWaves {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Document, open};
+    use crate::scene::{Document, Roughness, open};
     use crate::simulation::Simulation;
     use crate::surface::SelfAffine;
     use std::f64::consts::TAU;
@@ -111,32 +97,22 @@ mod tests {
 
     #[test]
     fn quantities_follow_from_plain_numbers() {
-        // π γ E* L³ = 750 π.
+        // π γ E* L³ = 750 π, and ρ γ²/(E*² z₀³) = 27.
         let force = ideal_adhesion_force(2.0, 3.0, 5.0);
         assert!((force - (750.0 * PI).sqrt()).abs() < 1e-13, "{force}");
-        assert_eq!(contact_stiffness(3.0, 2.0), 6.0);
-        assert_eq!((mean_pressure(-PI, 0.5), mean_pressure(1.0, 0.0)), (Some(-4.0), None));
-    }
-
-    #[test]
-    fn the_number_follows_from_plain_numbers() {
-        // ρ γ²/(E*² z₀³) = 27.
         let number = tabor_number(6.0, 3.0, 0.5, 2.0);
         assert!((number - 3.0).abs() < 1e-14, "{number}");
     }
 
     #[test]
     fn a_sphere_has_the_number_of_its_radius() {
-        let sphere = set(
-            &open("jkr-sphere").unwrap(),
-            &[
-                ("form", "Paraboloid(radius: 2.0e-4)"),
-                ("material", "(effective_modulus: 4.0e6)"),
-                ("adhesion", "(work: 0.05, range: 1.0e-9)"),
-            ],
-        );
-        // (ργ²/(E*²z₀³))^(1/3)
-        let expected = (2e-4 * 0.05_f64.powi(2) / (4e6_f64.powi(2) * 1e-27)).cbrt();
+        let fields = [
+            ("form", "Paraboloid(radius: 2.0e-4)"),
+            ("material", "(effective_modulus: 4.0e6)"),
+            ("adhesion", "(work: 0.05, range: 1.0e-9)"),
+        ];
+        let sphere = set(&open("jkr-sphere").unwrap(), &fields);
+        let expected = tabor_number(2e-4, 0.05, 4e6, 1e-9);
         assert!((of(&sphere).unwrap() / expected - 1.0).abs() < 1e-12);
         // The default range is 0.3 nm: μ ∝ 1/z₀.
         let usual = of(&sphere.set("adhesion.range", "None").unwrap()).unwrap();
@@ -149,25 +125,20 @@ mod tests {
 
     #[test]
     fn a_rough_line_has_the_number_of_its_rms_curvature() {
-        let rough = open("pressure-sensitive").unwrap();
-        let rough = set(&rough, &[("adhesion", "(work: 0.05)"), ("numerics.points", "4096")]);
+        let fields = [("adhesion", "(work: 0.05)"), ("numerics.points", "4096")];
+        let rough = set(&open("pressure-sensitive").unwrap(), &fields);
         let scene = rough.scene();
-        let Some(crate::scene::Roughness::SelfAffine { hurst, modes: (first, last), .. }) = scene.roughness
+        let Some(Roughness::SelfAffine { hurst, rms_height: Some(height), modes: (first, last), .. }) =
+            scene.roughness
         else {
-            panic!("no self-affine roughness");
+            panic!("no self-affine roughness with an rms height");
         };
         let spectrum = SelfAffine { hurst, first, last };
         let squares = |power: f64| -> f64 {
             (first..=last).map(|k| (k as f64).powf(power) * spectrum.relative_amplitude(k).powi(2)).sum()
         };
-        let Some(crate::scene::Roughness::SelfAffine { rms_height: Some(height), .. }) = scene.roughness
-        else {
-            panic!("no rms height");
-        };
         let curvature = height * (TAU / scene.length).powi(2) * (squares(4.0) / squares(0.0)).sqrt();
-        let modulus = scene.material.effective_modulus();
-        let expected =
-            (2.0 / curvature * 0.05_f64.powi(2) / (modulus.powi(2) * DEFAULT_RANGE.powi(3))).cbrt();
+        let expected = tabor_number(2.0 / curvature, 0.05, scene.material.effective_modulus(), DEFAULT_RANGE);
         assert!((of(&rough).unwrap() / expected - 1.0).abs() < 1e-12);
         // A sphere with a radius far larger than that of the summits has almost no effect.
         let sphere = rough.set("form", "Paraboloid(radius: 10.0)").unwrap();

@@ -2,6 +2,7 @@
 
 use crate::contact::{CurvePoint, Direction, History, LegRecord, Reversal};
 use crate::scene::{Move, Scene};
+use strum::IntoStaticStr;
 
 /// Figures of one history; `None` for a figure that the history does not have.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -49,17 +50,20 @@ impl Figures {
     /// Figures from the point of the largest force with its stage, the pull-off, and the energy
     /// of all stages, J.
     fn at(pressed: Option<(Move, CurvePoint)>, pull_off: Option<CurvePoint>, energy: Option<f64>) -> Self {
-        let preload = pressed.map(|(_, point)| point.force);
+        // The force that remains at a target force of zero is rounding.
+        let force = |(target, point): (Move, CurvePoint)| match target {
+            Move::ToForce(0.0) | Move::ToZeroForce => 0.0,
+            _ => point.force,
+        };
+        let preload = pressed.map(force);
         // Not −F, which would make a force of zero negative.
         let adhesion_force = pull_off.map(|point| 0.0 - point.force);
-        // For a target force of zero the remaining force is rounding.
-        let under_load = pressed.is_some_and(|(leg, _)| leg != Move::ToForce(0.0));
         Figures {
             preload,
             preload_indentation: pressed.map(|(_, point)| point.indentation),
             adhesion_force,
             adhesion_coefficient: adhesion_force
-                .zip(preload.filter(|&force| force > 0.0 && under_load))
+                .zip(preload.filter(|&force| force > 0.0))
                 .map(|(adhesion, preload)| adhesion / preload)
                 .filter(|coefficient| coefficient.is_finite()),
             pull_off_indentation: pull_off.map(|point| point.indentation),
@@ -100,7 +104,8 @@ pub fn pull_off_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
 }
 
 /// A remarkable point of a force curve.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Mark {
     /// First contact at a tensile force: the contact forms in a jump.
     JumpIn,
@@ -116,96 +121,70 @@ impl Mark {
     /// Technical name.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Mark::JumpIn => "jump-in",
-            Mark::Preload => "preload",
-            Mark::PullOff => "pull-off",
-            Mark::JumpOut => "jump-out",
-        }
+        self.into()
     }
 }
 
 /// Existing marks of a loading history, in their order.
 #[must_use]
 pub fn marks(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
-    let mut marks = Vec::new();
-    let mut loading = legs.iter().filter(|leg| leg.direction == Direction::Loading);
-    let touch = loading.find(|leg| leg.curve.iter().any(|point| point.springs > 0));
-    let jump = touch.and_then(|leg| {
+    let jump_in = touching(legs, Direction::Loading).next().and_then(|(_, leg)| {
         let pair = leg.curve.windows(2).find(|pair| pair[0].springs == 0 && pair[1].springs > 0)?;
-        Some(pair[1]).filter(|point| point.force < 0.0)
+        Some(pair[1])
     });
-    marks.extend(jump.map(|point| (Mark::JumpIn, point)));
-    marks.extend(preload_point(legs).map(|(_, point)| (Mark::Preload, point)));
-    let pull_off = pull_off_point(legs).filter(|(_, point)| point.force < 0.0);
-    marks.extend(pull_off.map(|(_, point)| (Mark::PullOff, point)));
-    let lost = pull_off.and_then(|(stage, least)| {
-        let curve = &legs[stage].curve;
-        let pair = curve.windows(2).rfind(|pair| pair[0].springs > 0 && pair[1].springs == 0)?;
+    let pull_off = pull_off_point(legs);
+    let jump_out = pull_off.and_then(|(stage, least)| {
+        let mut pairs = legs[stage].curve.windows(2);
+        let pair = pairs.rfind(|pair| pair[0].springs > 0 && pair[1].springs == 0)?;
         // The forces are different sums, so equal forces differ by rounding.
-        let is_pull_off = pair[0].force <= least.force * (1.0 - 1e-9);
-        Some(pair[0]).filter(|point| point.force < 0.0 && !is_pull_off)
+        Some(pair[0]).filter(|last| last.force > least.force * (1.0 - 1e-9))
     });
-    marks.extend(lost.map(|point| (Mark::JumpOut, point)));
-    marks
+    let found = [
+        (Mark::JumpIn, jump_in),
+        (Mark::Preload, preload_point(legs).map(|(_, point)| point)),
+        (Mark::PullOff, pull_off.map(|(_, point)| point)),
+        (Mark::JumpOut, jump_out),
+    ];
+    let found = found.into_iter().filter_map(|(mark, point)| Some((mark, point?)));
+    found.filter(|(mark, point)| *mark == Mark::Preload || point.force < 0.0).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::{Body, Contact, Foundation, HessRule, run};
-    use crate::scene::Edges;
-
-    #[test]
-    fn only_a_preload_gives_a_coefficient() {
-        let gaps: Vec<f64> = (0..101).map(|index| (f64::from(index - 50) * 0.02).powi(2)).collect();
-        let foundation = Foundation::endless(0.02, 1.0);
-        let contact = Contact::new(gaps, Edges::Grid, foundation, Some(HessRule::new(foundation, 0.001)));
-        let figures = |first| {
-            let mut body = Body::new(&contact, 16);
-            Figures::of(&run(&mut body, &[first, Move::ToSeparation], |_, _| Ok(())).unwrap())
-        };
-        let (pressed, returned) = (figures(Move::ToForce(0.01)), figures(Move::ToForce(0.0)));
-        let adhesion = pressed.adhesion_force.unwrap();
-        assert_eq!(pressed.adhesion_coefficient, Some(adhesion / pressed.preload.unwrap()));
-        assert!(returned.adhesion_force.unwrap() > 0.0 && returned.preload.is_some());
-        assert_eq!(returned.adhesion_coefficient, None);
-    }
 
     fn point(indentation: f64, force: f64, springs: u64) -> CurvePoint {
-        CurvePoint { indentation, force, springs, fragments: springs.min(1), ..CurvePoint::default() }
+        CurvePoint { indentation, force, springs, ..CurvePoint::default() }
     }
 
-    /// A stage with this point as its extremes and these springs at its end.
-    fn leg(target: Move, direction: Direction, extreme: CurvePoint, springs: u64) -> LegRecord {
-        let curve = vec![point(0.0, 0.5, 1), extreme, point(extreme.indentation, 0.0, springs)];
-        LegRecord {
-            target,
-            direction,
-            curve,
-            largest: extreme,
-            smallest: extreme,
-            attached: 0,
-            detached: 0,
-            released_energy: 0.25,
-        }
-    }
-
-    fn figures(legs: Vec<LegRecord>) -> Figures {
-        Figures::of(&History { legs, ..History::default() })
+    /// A stage with this curve, of which one point is the extreme, and a released energy of 0.25 J.
+    fn leg(target: Move, direction: Direction, curve: &[CurvePoint], extreme: CurvePoint) -> LegRecord {
+        let (curve, largest, smallest) = (curve.to_vec(), extreme, extreme);
+        let still = LegRecord::still(target, extreme);
+        LegRecord { direction, curve, largest, smallest, released_energy: 0.25, ..still }
     }
 
     fn pressed(force: f64) -> LegRecord {
-        leg(Move::ToForce(force), Direction::Loading, point(force / 10.0, force, 3), 3)
+        let extreme = point(force / 10.0, force, 3);
+        leg(Move::ToForce(force), Direction::Loading, &[point(0.0, 0.5, 1), extreme], extreme)
     }
 
     fn pulled(force: f64, springs: u64) -> LegRecord {
-        leg(Move::ToSeparation, Direction::Unloading, point(-0.3, force, 2), springs)
+        let extreme = point(-0.3, force, 2);
+        leg(Move::ToSeparation, Direction::Unloading, &[extreme, point(-0.3, 0.0, springs)], extreme)
+    }
+
+    fn free() -> [LegRecord; 2] {
+        [(-1.5, -2.0), (-2.0, -1.0)].map(|(from, to)| LegRecord::free(Move::ToIndentation(to), from, to))
+    }
+
+    fn figures(legs: &[LegRecord]) -> Figures {
+        Figures::of(&History { legs: legs.to_vec(), ..History::default() })
     }
 
     #[test]
     fn figures_are_of_the_largest_press_and_the_last_pull() {
-        let found = figures(vec![pressed(7.0), pulled(-3.0, 1), pressed(5.0), pulled(-2.0, 0)]);
+        let found = figures(&[pressed(7.0), pulled(-3.0, 1), pressed(5.0), pulled(-2.0, 0)]);
         let expected = Figures {
             preload: Some(7.0),
             preload_indentation: Some(0.7),
@@ -217,112 +196,67 @@ mod tests {
         assert_eq!(found, expected);
         // No dissipation is 0, not −0.
         let nothing = |leg: LegRecord| LegRecord { released_energy: -0.0, ..leg };
-        let lost = figures(vec![nothing(pressed(7.0)), nothing(pulled(-3.0, 0))]).dissipated_energy;
+        let lost = figures(&[nothing(pressed(7.0)), nothing(pulled(-3.0, 0))]).dissipated_energy;
         assert!(lost.is_some_and(|lost| lost == 0.0 && lost.is_sign_positive()), "{lost:?}");
-        // A contact that still holds has not completed a loop.
-        assert_eq!(figures(vec![pressed(7.0), pulled(-3.0, 1)]).dissipated_energy, None);
-        assert_eq!(figures(vec![]), Figures::default());
+        // A body in contact has not completed a loop.
+        assert_eq!(figures(&[pressed(7.0), pulled(-3.0, 1)]).dissipated_energy, None);
+        assert_eq!(figures(&[]), Figures::default());
     }
 
     #[test]
     fn a_separated_body_has_no_extremes() {
-        let free = |direction| {
-            let mut leg = leg(Move::ToIndentation(-1.0), direction, point(-1.0, 0.0, 0), 0);
-            leg.curve = vec![point(-2.0, 0.0, 0), point(-1.0, 0.0, 0)];
-            leg
-        };
-        let legs = vec![pressed(-7.0), pulled(-3.0, 0), free(Direction::Loading), free(Direction::Unloading)];
-        let found = figures(legs);
+        let legs = [&[pressed(-7.0), pulled(-3.0, 0)][..], &free()].concat();
+        let found = figures(&legs);
         assert_eq!((found.preload, found.adhesion_force), (Some(-7.0), Some(3.0)));
+        assert_eq!(marks(&legs), [(Mark::Preload, legs[0].largest), (Mark::PullOff, legs[1].smallest)]);
         // A body that is pulled throughout has no preload for a coefficient.
         assert_eq!(found.adhesion_coefficient, None);
-        assert_eq!(figures(vec![free(Direction::Loading), free(Direction::Unloading)]).preload, None);
+        assert_eq!(figures(&free()).preload, None);
     }
 
     #[test]
-    fn only_a_leg_that_pulls_has_an_adhesion_force() {
-        let adhesion = |force| figures(vec![pressed(1.0), pulled(force, 0)]).adhesion_force;
+    fn only_a_leg_that_pulls_has_an_adhesion_force_and_only_a_preload_a_coefficient() {
+        let adhesion = |force| figures(&[pressed(1.0), pulled(force, 0)]).adhesion_force;
         assert_eq!(adhesion(1e-300), None);
         let none = adhesion(0.0);
         assert!(none == Some(0.0) && none.is_some_and(f64::is_sign_positive));
         assert_eq!(adhesion(-1e-300), Some(1e-300));
-        assert_eq!(figures(vec![pressed(1.0), pulled(1.0, 1)]).pull_off_indentation, None);
-        assert_eq!(figures(vec![pressed(0.0), pulled(-1.0, 0)]).adhesion_coefficient, None);
-        // A coefficient that overflows is `None`.
-        assert_eq!(figures(vec![pressed(1e-320), pulled(-1.0, 0)]).adhesion_coefficient, None);
+        // A coefficient that overflows is `None`, and so is that of a target force of zero, where a rounding remains.
+        for pressed in [pressed(0.0), pressed(1e-320)] {
+            assert_eq!(figures(&[pressed, pulled(-1.0, 0)]).adhesion_coefficient, None);
+        }
+        for target in [Move::ToForce(0.0), Move::ToZeroForce] {
+            let found = figures(&[LegRecord { target, ..pressed(1e-18) }, pulled(-1.0, 0)]);
+            assert_eq!((found.preload, found.adhesion_coefficient), (Some(0.0), None));
+        }
     }
 
     #[test]
     fn the_touch_protocol_is_touch_and_separation() {
         let mut scene = crate::scene::open("jkr-sphere").unwrap().scene().clone();
-        for (loading, is_touch) in [
-            (vec![Move::ToTouch, Move::ToSeparation], true),
-            (vec![Move::ToZeroForce, Move::ToSeparation], false),
-            (vec![Move::ToTouch], false),
-        ] {
-            scene.loading = loading;
-            assert_eq!(Figures::is_touch_protocol(&scene), is_touch, "{:?}", scene.loading);
+        for (first, is_touch) in [(Move::ToTouch, true), (Move::ToZeroForce, false)] {
+            scene.loading = vec![first, Move::ToSeparation];
+            assert_eq!(Figures::is_touch_protocol(&scene), is_touch);
         }
-    }
-
-    fn place(indentation: f64, force: f64, springs: u64) -> CurvePoint {
-        CurvePoint { indentation, force, springs, ..CurvePoint::default() }
     }
 
     #[test]
     fn a_loop_has_its_marks_and_a_curve_without_adhesion_only_the_preload() {
-        let loading = vec![place(0.0, 0.0, 0), place(0.0, -1.0, 2), place(2.0, 3.0, 9)];
-        let unloading =
-            vec![place(2.0, 3.0, 9), place(-1.0, -2.0, 5), place(-1.5, -0.5, 1), place(-1.5, 0.0, 0)];
-        let leg = |leg, direction, curve: &[CurvePoint], largest, smallest| LegRecord {
-            direction,
-            curve: curve.to_vec(),
-            largest,
-            smallest,
-            ..LegRecord::still(leg, place(0.0, 0.0, 0))
-        };
-        let legs = [
-            leg(Move::ToForce(3.0), Direction::Loading, &loading, loading[2], loading[1]),
-            leg(Move::ToSeparation, Direction::Unloading, &unloading, unloading[0], unloading[1]),
+        let up = [point(0.0, 0.0, 0), point(0.0, -1.0, 2), point(2.0, 3.0, 9)];
+        let down = [up[2], point(-1.0, -2.0, 5), point(-1.5, -0.5, 1), point(-1.5, 0.0, 0)];
+        let mut legs = [
+            leg(Move::ToForce(3.0), Direction::Loading, &up, up[2]),
+            leg(Move::ToSeparation, Direction::Unloading, &down, down[1]),
         ];
         let expected = [
-            (Mark::JumpIn, loading[1]),
-            (Mark::Preload, loading[2]),
-            (Mark::PullOff, unloading[1]),
-            (Mark::JumpOut, unloading[2]),
+            (Mark::JumpIn, up[1]),
+            (Mark::Preload, up[2]),
+            (Mark::PullOff, down[1]),
+            (Mark::JumpOut, down[2]),
         ];
         assert_eq!(marks(&legs), expected);
-        let mut torn = legs.clone();
-        torn[1].curve.remove(2);
-        assert_eq!(marks(&torn), expected[..3], "the contact is lost at pull-off");
-        let pressed = [place(0.0, 0.0, 0), place(0.0, 0.0, 1), place(1.0, 1.0, 4)];
-        let legs = [leg(Move::ToForce(1.0), Direction::Loading, &pressed, pressed[2], pressed[0])];
-        assert_eq!(marks(&legs), [(Mark::Preload, pressed[2])]);
-        assert_eq!(marks(&[]), []);
-    }
-
-    #[test]
-    fn a_later_stage_of_the_separated_body_keeps_the_marks_of_the_summary() {
-        let loading = [place(0.0, 0.0, 0), place(0.0, -1.0, 2), place(2.0, 3.0, 9)];
-        let unloading = [place(2.0, 3.0, 9), place(-1.0, -2.0, 5), place(-1.5, 0.0, 0)];
-        let leg = |leg, direction, curve: &[CurvePoint], extreme| LegRecord {
-            direction,
-            curve: curve.to_vec(),
-            largest: extreme,
-            smallest: extreme,
-            ..LegRecord::still(leg, place(0.0, 0.0, 0))
-        };
-        let legs = vec![
-            leg(Move::ToForce(3.0), Direction::Loading, &loading, loading[2]),
-            leg(Move::ToSeparation, Direction::Unloading, &unloading, unloading[1]),
-            LegRecord::free(Move::ToIndentation(-2.0), -1.5, -2.0),
-            LegRecord::free(Move::ToIndentation(-1.0), -2.0, -1.0),
-        ];
-        let marked =
-            |wanted| marks(&legs).into_iter().find(|(mark, _)| *mark == wanted).map(|(_, at)| at.force);
-        let figures = Figures::of(&History { legs: legs.clone(), ..History::default() });
-        assert_eq!(marked(Mark::PullOff), figures.adhesion_force.map(|force| -force));
-        assert_eq!(marked(Mark::Preload), figures.preload);
-        assert_eq!(figures.adhesion_force, Some(2.0));
+        legs[1].curve.remove(2);
+        assert_eq!(marks(&legs), expected[..3], "the contact is lost at pull-off");
+        assert_eq!(marks(&[pressed(1.0)]).len(), 1);
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::contact::{Foundation, HessRule};
 use crate::scene::{Adhesion, Roughness, RoughnessParameter, Scene};
-use crate::surface::{Amplitude, Line, WaveNumbers};
+use crate::surface::{Amplitude, WaveNumbers};
 
 /// The governing parameters of a scene, each given or derived from the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,12 +22,6 @@ pub struct Governing {
 }
 
 impl Governing {
-    /// The foundation under a profile.
-    #[must_use]
-    pub fn foundation(&self, line: &Line) -> Foundation {
-        Foundation { spacing: line.spacing, effective_modulus: self.effective_modulus, length: line.length }
-    }
-
     /// Derives the parameters of a checked scene from the wave numbers of its self-affine profile or the amplitude
     /// of its measured one.
     ///
@@ -106,14 +100,8 @@ impl Governing {
         self.energy(RoughnessParameter::ElasticEnergyRatio)
     }
 
-    /// Energy per area of one parameter over that of another; `None` without roughness.
-    #[must_use]
-    pub fn energy_ratio(&self, of: RoughnessParameter, over: RoughnessParameter) -> Option<f64> {
-        Some(self.energy(of)? / self.energy(over)?)
-    }
-
-    /// Energy per area that a parameter compares with the work of adhesion, J/m².
-    fn energy(&self, parameter: RoughnessParameter) -> Option<f64> {
+    /// Energy per area that a parameter compares with the work of adhesion, J/m²: h⟨∇z⟩E* or e_el; `None` without roughness.
+    pub(crate) fn energy(&self, parameter: RoughnessParameter) -> Option<f64> {
         self.amplitude.map(|amplitude| energy_of(parameter, amplitude, self.effective_modulus))
     }
 
@@ -137,7 +125,6 @@ impl Governing {
     }
 }
 
-/// Energy per area of a profile that a parameter compares with the work of adhesion, J/m²: h⟨∇z⟩E* or e_el.
 fn energy_of(parameter: RoughnessParameter, amplitude: Amplitude, effective_modulus: f64) -> f64 {
     match parameter {
         RoughnessParameter::Kappa => amplitude.rms_height * amplitude.rms_gradient * effective_modulus,
@@ -156,20 +143,21 @@ mod tests {
     use super::*;
     use crate::scene::Document;
 
-    /// A scene with E* = 4 Pa and the given roughness and adhesion; `None` for no roughness.
-    fn scene(amplitude: Option<&str>, adhesion: &str) -> Scene {
+    const ROUGH: Option<Amplitude> =
+        Some(Amplitude { rms_height: 3.0, rms_gradient: 6.0, rms_curvature: 15.0, mean_wave_number: 0.5 });
+
+    /// The parameters of a scene with E* = 4 Pa and the given roughness and adhesion; `None` for no roughness.
+    fn governing(amplitude: Option<&str>, adhesion: &str) -> Governing {
         let roughness = amplitude.map_or_else(String::new, |amplitude| {
             format!("roughness: SelfAffine(hurst: 0.5, {amplitude} modes: (1, 8), seed: 1), ")
         });
         let text = format!(
             "(version: 1, material: (effective_modulus: 4.0), length: 1.0, {roughness}adhesion: {adhesion})"
         );
-        Document::parse(&text, "scene").unwrap_or_else(|errors| panic!("{errors}")).scene().clone()
+        let document = Document::parse(&text, "scene").unwrap_or_else(|errors| panic!("{errors}"));
+        let wave_numbers = amplitude.map(|_| WaveNumbers { rms: 2.0, mean: 0.5, rms_square: 5.0 });
+        Governing::of(document.scene(), wave_numbers, None)
     }
-
-    const ROUGH: Option<Amplitude> =
-        Some(Amplitude { rms_height: 3.0, rms_gradient: 6.0, rms_curvature: 15.0, mean_wave_number: 0.5 });
-    const WAVE_NUMBERS: Option<WaveNumbers> = Some(WaveNumbers { rms: 2.0, mean: 0.5, rms_square: 5.0 });
 
     #[test]
     fn two_of_amplitude_work_and_a_parameter_give_the_third() {
@@ -192,60 +180,33 @@ mod tests {
             ("rms_gradient: 6.0,", "(elastic_energy_ratio: 2.25)"),
             ("", "(work: 2.0, elastic_energy_ratio: 2.25)"),
         ] {
-            let governing = Governing::of(&scene(Some(amplitude), adhesion), WAVE_NUMBERS, None);
-            assert_eq!(governing, expected, "{amplitude} {adhesion}");
+            assert_eq!(governing(Some(amplitude), adhesion), expected, "{amplitude} {adhesion}");
         }
-        let measured = Governing::of(&scene(None, "(work: 2.0)"), None, ROUGH);
-        assert_eq!(measured, expected);
     }
 
     #[test]
     fn a_smooth_line_has_no_kappa_and_no_work_is_no_adhesion() {
-        let smooth = Governing::of(&scene(None, "(work: 2.0)"), None, None);
-        assert_eq!((smooth.work_of_adhesion, smooth.kappa, smooth.amplitude), (Some(2.0), None, None));
-        assert_eq!((smooth.elastic_energy(), smooth.adhesive_work()), (None, Some(2.0)));
-        let none = Governing::of(&scene(Some("rms_height: 3.0,"), "(work: 0.0)"), WAVE_NUMBERS, None);
+        let smooth = governing(None, "(work: 2.0)");
+        assert_eq!((smooth.adhesive_work(), smooth.kappa, smooth.amplitude), (Some(2.0), None, None));
+        let none = governing(Some("rms_height: 3.0,"), "(work: 0.0)");
         assert_eq!((none.work_of_adhesion, none.kappa, none.adhesive_work()), (Some(0.0), None, None));
-        let without = Governing::of(&scene(Some("rms_height: 3.0,"), "None"), WAVE_NUMBERS, None);
+        let without = governing(Some("rms_height: 3.0,"), "None");
         assert_eq!((without.work_of_adhesion, without.kappa, without.amplitude), (None, None, ROUGH));
+        // A parameter that overflows.
+        assert_eq!(value_of(RoughnessParameter::Kappa, 1e300, 5e-324), None);
     }
 
     #[test]
     fn another_adhesion_on_the_same_line() {
-        let base = Governing::of(&scene(Some("rms_height: 3.0,"), "(work: 2.0)"), WAVE_NUMBERS, None);
-        let with = |adhesion: Adhesion| {
-            let changed = base.with_adhesion(Some(adhesion));
-            assert_eq!(changed.amplitude, base.amplitude);
+        let base = governing(Some("rms_height: 3.0,"), "(work: 2.0)");
+        let by = |parameter, value| {
+            let changed = base.with_adhesion(Some(Adhesion::default().with_parameter(parameter, value)));
+            assert_eq!(changed.work_of_adhesion, base.work_for(parameter, value));
             (changed.work_of_adhesion, changed.kappa)
         };
-        assert_eq!(with(Adhesion::default().with_work(8.0)), (Some(8.0), Some(3.0)));
-        assert_eq!(with(Adhesion::default().with_kappa(3.0)), (Some(8.0), Some(3.0)));
-        assert_eq!(base.work_for(RoughnessParameter::Kappa, 3.0), Some(8.0));
-        assert_eq!(base.work_for(RoughnessParameter::ElasticEnergyRatio, 0.5), Some(9.0));
-        let by_ratio = base.with_adhesion(Some(
-            Adhesion::default().with_parameter(RoughnessParameter::ElasticEnergyRatio, 0.5),
-        ));
-        assert_eq!((by_ratio.work_of_adhesion, by_ratio.kappa), (Some(9.0), Some(8.0_f64.sqrt())));
-        let none = base.with_adhesion(None);
-        assert_eq!((none.work_of_adhesion, none.kappa), (None, None));
-    }
-
-    #[test]
-    fn a_parameter_beyond_all_numbers_is_none() {
-        assert_eq!(value_of(RoughnessParameter::Kappa, 1e300, 5e-324), None);
-        for (parameter, value) in RoughnessParameter::ALL.into_iter().zip([2.0, 4.0]) {
-            assert_eq!(value_of(parameter, 1.0, 0.0), None);
-            assert_eq!(value_of(parameter, 8.0, 2.0), Some(value));
-        }
-    }
-
-    #[test]
-    fn parameters_follow_from_plain_numbers() {
-        let amplitude =
-            Amplitude { rms_height: 3.0, rms_gradient: 6.0, rms_curvature: 15.0, mean_wave_number: 0.5 };
-        // h⟨∇z⟩E*/γ = 36 and E* h² q̄/4γ = 2.25.
-        let [kappa, ratio] =
-            RoughnessParameter::ALL.map(|one| value_of(one, energy_of(one, amplitude, 4.0), 2.0));
-        assert_eq!((kappa, ratio), (Some(6.0), Some(2.25)));
+        assert_eq!(by(RoughnessParameter::Kappa, 3.0), (Some(8.0), Some(3.0)));
+        assert_eq!(by(RoughnessParameter::ElasticEnergyRatio, 0.5), (Some(9.0), Some(8.0_f64.sqrt())));
+        assert_eq!(base.with_adhesion(Some(Adhesion::default().with_work(8.0))).kappa, Some(3.0));
+        assert_eq!(base.with_adhesion(None).kappa, None);
     }
 }

@@ -2,6 +2,7 @@
 
 use super::Figures;
 use serde::Serialize;
+use strum::IntoStaticStr;
 
 /// Share of the adhesion after the preload from which on adhesion without a preload is pressure-insensitive: half
 /// of the adhesion needs no pressing.
@@ -20,8 +21,9 @@ pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
 pub const AGREEING_SHARE: f64 = 0.75;
 
 /// Dependence of adhesion on the load, Fig. 4.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum Regime {
     /// (a) Adhesion exists at first contact and hardly depends on the preload.
     PressureInsensitive,
@@ -69,11 +71,7 @@ impl Regime {
     /// The name in words.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Regime::PressureInsensitive => "pressure-insensitive",
-            Regime::PressureSensitive => "pressure-sensitive",
-            Regime::NonAdhesive => "non-adhesive",
-        }
+        self.into()
     }
 
     /// The name with the protocol of F_a(0) that decides: a turn at first touch.
@@ -82,7 +80,7 @@ impl Regime {
         match self {
             Regime::PressureInsensitive => "pressure-insensitive from first touch",
             Regime::PressureSensitive => "pressure-sensitive from first touch",
-            Regime::NonAdhesive => "non-adhesive",
+            Regime::NonAdhesive => self.name(),
         }
     }
 }
@@ -117,14 +115,30 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_three_cases_of_the_paper() {
-        let evidence = |zero_load, adhesion, preload| Regime::of_forces(zero_load, adhesion, preload, 1.0);
-        assert_eq!(evidence(0.8, 0.9, 5.0), Regime::PressureInsensitive);
-        assert_eq!(evidence(0.01, 0.5, 5.0), Regime::PressureSensitive);
-        assert_eq!(evidence(0.2, 0.9, 5.0), Regime::PressureSensitive);
-        assert_eq!(evidence(0.001, 0.001, 5.0), Regime::NonAdhesive);
-        assert_eq!(evidence(0.001, 0.001, 0.0), Regime::NonAdhesive);
-        assert_eq!(evidence(0.0, 0.0, 0.0), Regime::NonAdhesive);
+    fn thresholds_belong_to_the_stronger_regime() {
+        let [insensitive, sensitive, non_adhesive] = Regime::ALL;
+        for (zero_load, adhesion, preload, smooth, expected) in [
+            // Half of the adhesion needs no pressing; slightly less does not count.
+            (0.5, 1.0, 5.0, 1.0, insensitive),
+            (0.5_f64.next_down(), 1.0, 5.0, 1.0, sensitive),
+            // A twentieth of the smooth body's adhesion exists; slightly less has vanished.
+            (VANISHING_SHARE, 0.1, 1.0, 1.0, insensitive),
+            (VANISHING_SHARE.next_down(), 0.09, 1.0, 1.0, sensitive),
+            (0.2, 0.1, 1.0, 4.0, insensitive),
+            (0.19, 0.1, 1.0, 4.0, sensitive),
+            (0.0, 0.0, 0.0, 0.0, non_adhesive),
+            // A hundredth of the preload is negligible; slightly more is not.
+            (0.0, NEGLIGIBLE_COEFFICIENT, 1.0, 1.0, non_adhesive),
+            (0.0, NEGLIGIBLE_COEFFICIENT.next_up(), 1.0, 1.0, sensitive),
+            // Without a preload adhesion below a twentieth has vanished, at any ratio to the preload.
+            (0.01, 0.1, 0.0, 1.0, non_adhesive),
+            (0.01, 0.1, -1.0, 1.0, non_adhesive),
+            (0.3, 1.0, 0.0, 1.0, sensitive),
+            (0.3, 1.0, -1.0, 1.0, sensitive),
+        ] {
+            let found = Regime::of_forces(zero_load, adhesion, preload, smooth);
+            assert_eq!(found, expected, "{zero_load} {adhesion} {preload} {smooth}");
+        }
     }
 
     #[test]
@@ -137,39 +151,6 @@ mod tests {
         assert_eq!(found([0.3, 0.0, 0.7]), Some((non_adhesive, Some(insensitive))));
         assert_eq!(found([0.0, 0.5, 0.5]), Some((sensitive, Some(non_adhesive))));
         assert_eq!(found([0.5, 0.0, 0.5]), Some((insensitive, Some(non_adhesive))));
-        for (place, regime) in Regime::ALL.into_iter().enumerate() {
-            assert_eq!(regime as usize, place);
-        }
-    }
-
-    #[test]
-    fn thresholds_belong_to_the_stronger_regime() {
-        let evidence = Regime::of_forces;
-        // Half of the adhesion needs no pressing; slightly less does not count.
-        assert_eq!(evidence(0.5, 1.0, 5.0, 1.0), Regime::PressureInsensitive);
-        assert_eq!(evidence(0.5_f64.next_down(), 1.0, 5.0, 1.0), Regime::PressureSensitive);
-        // A twentieth of the smooth body's adhesion exists; slightly less has vanished.
-        assert_eq!(evidence(VANISHING_SHARE, 0.1, 1.0, 1.0), Regime::PressureInsensitive);
-        assert_eq!(evidence(VANISHING_SHARE.next_down(), 0.09, 1.0, 1.0), Regime::PressureSensitive);
-        assert_eq!(evidence(0.0, 0.0, 0.0, 0.0), Regime::NonAdhesive);
-        // A hundredth of the preload is negligible; slightly more is not.
-        assert_eq!(evidence(0.0, NEGLIGIBLE_COEFFICIENT, 1.0, 1.0), Regime::NonAdhesive);
-        assert_eq!(evidence(0.0, NEGLIGIBLE_COEFFICIENT.next_up(), 1.0, 1.0), Regime::PressureSensitive);
-        // The same shares of other forces.
-        assert_eq!(evidence(0.2, 0.1, 1.0, 4.0), Regime::PressureInsensitive);
-        assert_eq!(evidence(0.19, 0.1, 1.0, 4.0), Regime::PressureSensitive);
-        assert_eq!(evidence(0.0, 0.04, 4.0, 1.0), Regime::NonAdhesive);
-        assert_eq!(evidence(0.0, 0.05, 4.0, 1.0), Regime::PressureSensitive);
-        // Without a preload adhesion below a twentieth has vanished, at any ratio to the preload.
-        assert_eq!(evidence(0.01, 0.1, 0.0, 1.0), Regime::NonAdhesive);
-        assert_eq!(evidence(0.01, 0.1, -1.0, 1.0), Regime::NonAdhesive);
-        assert_eq!(evidence(0.3, 1.0, 0.0, 1.0), Regime::PressureSensitive);
-        assert_eq!(evidence(0.3, 1.0, -1.0, 1.0), Regime::PressureSensitive);
-    }
-
-    #[test]
-    fn regimes_have_their_names() {
-        let names = [Regime::PressureInsensitive, Regime::PressureSensitive, Regime::NonAdhesive];
-        assert_eq!(names.map(Regime::name), ["pressure-insensitive", "pressure-sensitive", "non-adhesive"]);
+        assert_eq!(Regime::ALL.map(|regime| regime as usize), [0, 1, 2]);
     }
 }

@@ -1,6 +1,6 @@
 //! Rough profiles under adhesion, loaded through the front of the library.
 
-use super::Fault;
+use super::Measured;
 use crate::scene::{Edges, Material, Move};
 use crate::surface::{SelfAffine, phases};
 use crate::{Contact, Cycle, Profile};
@@ -28,7 +28,7 @@ pub struct Body {
 impl Body {
     /// Creates one of several kinds of profiles. The adhesion ranges from almost none to far more than that of full
     /// contact; the seed determines the body everywhere.
-    pub fn random(seed: u64, edges: Edges) -> Result<Body, Fault> {
+    pub fn random(seed: u64, edges: Edges) -> Measured<Body> {
         let mut numbers = phases(seed, 1).map(|phase| phase / TAU);
         let mut next = || numbers.next().unwrap_or(0.0);
         let points = 20 + (300.0 * next()) as usize;
@@ -74,7 +74,7 @@ impl Body {
 
     /// Loads the separated body from indentation to indentation, and off it where it `separates`, with this number of
     /// samples.
-    pub fn load(&self, turns: &[f64], separates: bool, samples: u64) -> Result<Cycle, Fault> {
+    pub fn load(&self, turns: &[f64], separates: bool, samples: u64) -> Measured<Cycle> {
         let turns = turns.iter().map(|&turn| Move::ToIndentation(turn));
         let legs: Vec<Move> = turns.chain(separates.then_some(Move::ToSeparation)).collect();
         let profile = Profile::from_heights(&self.heights, self.length / self.heights.len() as f64)?;

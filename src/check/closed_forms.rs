@@ -1,12 +1,12 @@
 //! Bodies whose loop has a closed form.
 
 use super::Subject::Scene as OfScene;
-use super::{Case, Evidence, Family, Fault, both, largest, outcome, relative_error};
+use super::{CLOSED_FORM, Case, Measured, both, largest, outcome, relative_error, relative_errors};
 use crate::reference::PowerLaw;
 use crate::scene::{Form, Scene};
 use std::f64::consts::PI;
 
-const KNOWN: (Family, &[Evidence]) = (Family::ClosedForms, &[Evidence::ClosedForm]);
+const KNOWN: [&str; 2] = ["closed-forms", CLOSED_FORM];
 const PULL_OFF: &str = "force and place of pull-off";
 
 const HERTZ: &str =
@@ -44,14 +44,14 @@ pub const CASES: &[Case] = &[
         √(8πa³E*γ).", "force, indentation, energy"], &both(2e-15, 2e-15), OfScene(PUNCH, flat)),
 ];
 
-fn power_law(scene: &Scene) -> Result<PowerLaw, Fault> {
+fn power_law(scene: &Scene) -> Measured<PowerLaw> {
     let work = scene.adhesion.and_then(|adhesion| adhesion.work).unwrap_or(0.0);
     let modulus = scene.material.effective_modulus();
     let closed = scene.form.as_ref().and_then(|form| PowerLaw::of(form, modulus, work));
-    closed.ok_or_else(|| Fault::Wrong("no closed form".into()))
+    Ok(closed.ok_or("no closed form")?)
 }
 
-fn hertz(scene: &Scene) -> Result<f64, Fault> {
+fn hertz(scene: &Scene) -> Measured {
     let (closed, outcome) = (power_law(scene)?, outcome(scene)?);
     let force = |d: f64| closed.force((d / closed.line_coefficient).powf(closed.exponent.recip()));
     let leg = &outcome.history.legs[0];
@@ -59,16 +59,16 @@ fn hertz(scene: &Scene) -> Result<f64, Fault> {
     Ok(errors.fold(0.0, f64::max) / force(leg.end()))
 }
 
-fn pull_off(scene: &Scene) -> Result<f64, Fault> {
+fn pull_off(scene: &Scene) -> Measured {
     let (closed, outcome) = (power_law(scene)?, outcome(scene)?);
     let unloading = &outcome.history.legs[1];
     let place = closed.indentation(closed.displacement_controlled_pull_off().0);
-    let force = relative_error(unloading.smallest.force, closed.force_controlled_pull_off().1);
-    Ok(force.max(relative_error(unloading.end(), place)))
+    let force = closed.force_controlled_pull_off().1;
+    relative_errors([(unloading.smallest.force, force), (unloading.end(), place)])
 }
 
 /// Compares the loss with −∫F dd of the tensile branch below d = 0, which loading does not pass.
-fn energy(scene: &Scene) -> Result<f64, Fault> {
+fn energy(scene: &Scene) -> Measured {
     const PIECES: u32 = 20_000;
     let closed = power_law(scene)?;
     let last = closed.displacement_controlled_pull_off().0;
@@ -83,7 +83,7 @@ fn energy(scene: &Scene) -> Result<f64, Fault> {
     Ok(relative_error(outcome(scene)?.figures.dissipated_energy.unwrap_or(0.0), lost))
 }
 
-fn flat(scene: &Scene) -> Result<f64, Fault> {
+fn flat(scene: &Scene) -> Measured {
     let width = scene.form.as_ref().and_then(Form::flat_end).map_or(scene.length, |radius| 2.0 * radius);
     largest([5, 1000, 100_000].map(|points| {
         let mut scene = scene.clone();
@@ -93,13 +93,12 @@ fn flat(scene: &Scene) -> Result<f64, Fault> {
         let work = outcome.governing.adhesive_work().unwrap_or(0.0);
         let place = -(PI * width * work / outcome.governing.effective_modulus).sqrt();
         let [loading, unloading] = &outcome.history.legs[..] else { return Ok(f64::NAN) };
-        let found = [
+        relative_errors([
             (loading.largest.force, stiffness * loading.end()),
             (unloading.smallest.force, stiffness * place),
             (unloading.smallest.indentation, place),
             (unloading.end(), place),
             (outcome.figures.dissipated_energy.unwrap_or(0.0), 0.5 * stiffness * place * place),
-        ];
-        largest(found.map(|(found, expected)| Ok(relative_error(found, expected))))
+        ])
     }))
 }

@@ -29,24 +29,26 @@ const AGREE: f64 = 1e-12;
 pub fn every_order(springs: usize, before: usize) -> Result<u64, String> {
     let mut gaps: Vec<f64> = (0..before).map(|place| 3.0 + (before - place) as f64).collect();
     gaps.resize(before + springs, 0.0);
-    let (mut levels, mut lines) = (vec![0; springs], 0);
-    loop {
+    let mut lines = 0;
+    for levels in sequences(springs.min(LEVELS.len()), springs) {
         let highest = levels.iter().copied().max().unwrap_or(0);
         // One line of each order: that which leaves no level out.
         if (0..highest).all(|level| levels.contains(&level)) {
-            gaps[before..].iter_mut().zip(&levels).for_each(|(gap, &level)| *gap = LEVELS[level]);
+            gaps[before..].iter_mut().zip(levels).for_each(|(gap, level)| *gap = LEVELS[level]);
             for range in RANGES {
                 compare(&gaps, range, Edges::Grid)?;
                 compare(&gaps, range, Edges::SubCell)?;
             }
             lines += 1;
         }
-        let Some(place) = levels.iter().rposition(|&level| level + 1 < springs.min(LEVELS.len())) else {
-            return Ok(lines);
-        };
-        levels[place] += 1;
-        levels[place + 1..].fill(0);
     }
+    Ok(lines)
+}
+
+/// All sequences of `count` digits below `base`.
+fn sequences(base: usize, count: usize) -> impl Iterator<Item = Vec<usize>> {
+    let digits = move |number| (0..count as u32).map(move |digit| number / base.pow(digit) % base).collect();
+    (0..base.pow(count as u32)).map(digits)
 }
 
 fn compare(gaps: &[f64], range: f64, edges: Edges) -> Result<(), String> {
@@ -131,21 +133,18 @@ impl Definition<'_> {
 /// # Errors
 /// The first history with other patches, as a sentence; insufficient memory.
 pub fn every_history(step: usize) -> Result<u64, String> {
-    let digits = |number: usize, base: usize, count: usize| -> Vec<usize> {
-        (0..count as u32).map(|digit| number / base.pow(digit) % base).collect()
-    };
     let mut compared = 0;
-    for line in (0..HEIGHTS.len().pow(5)).step_by(step) {
-        let heights: Vec<f64> = digits(line, HEIGHTS.len(), 5).iter().map(|&digit| HEIGHTS[digit]).collect();
+    for heights in sequences(HEIGHTS.len(), 5).step_by(step) {
+        let heights: Vec<f64> = heights.into_iter().map(|height| HEIGHTS[height]).collect();
         let summit = heights.iter().copied().fold(f64::INFINITY, f64::min);
         let gaps: Vec<f64> = heights.iter().map(|height| height - summit).collect();
         for works in WORKS {
             let hess = HessRule::from_works(FOUNDATION, works[0], works[1]);
             let contact = Contact::new(gaps.clone(), Edges::Grid, FOUNDATION, Some(hess));
-            for history in 0..TURNS.len().pow(MOVES as u32) {
+            for turns in sequences(TURNS.len(), MOVES) {
                 let mut body = Body::new(&contact, 2);
                 let mut bare = vec![false; gaps.len()];
-                for at in digits(history, TURNS.len(), MOVES).into_iter().map(|digit| TURNS[digit]) {
+                for at in turns.iter().map(|&turn| TURNS[turn]) {
                     body.move_to(Move::ToIndentation(at)).map_err(|error| error.to_string())?;
                     relax(&gaps, &mut bare, at, works);
                     let mut found = vec![false; gaps.len()];
@@ -153,9 +152,8 @@ pub fn every_history(step: usize) -> Result<u64, String> {
                         found[first..=last].fill(true);
                     }
                     if found != bare {
-                        return Err(format!(
-                            "{gaps:?}, γ/E* = {works:?} m, at {at} m of history {history}: {found:?}"
-                        ));
+                        let history = format!("at {at} m of turns {turns:?} of {TURNS:?} m");
+                        return Err(format!("{gaps:?}, γ/E* = {works:?} m, {history}: {found:?}"));
                     }
                     compared += 1;
                 }

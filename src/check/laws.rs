@@ -2,13 +2,13 @@
 //! both solvers.
 
 use super::Subject::{Bodies, Scene as OfScene};
-use super::{Body, Case, Evidence, Family, Fault, both, ensure, largest, outcome, with};
+use super::{Body, Case, INDEPENDENT, Measured, SELF_CONSISTENCY, both, ensure, largest, outcome, with};
 use crate::Cycle;
 use crate::contact::{CurvePoint, LegRecord};
 use crate::scene::{Edges, Scene, Solver};
 
-const LAW: (Family, &[Evidence]) = (Family::Laws, &[Evidence::SelfConsistency]);
-const COMPUTED: (Family, &[Evidence]) = (Family::Laws, &[Evidence::IndependentComputation]);
+const LAW: [&str; 2] = ["laws", SELF_CONSISTENCY];
+const COMPUTED: [&str; 2] = ["laws", INDEPENDENT];
 const FORCE: &str = "force, over the scale";
 
 const ROUGH: &str = "(version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4,
@@ -37,7 +37,7 @@ pub fn end(leg: &LegRecord) -> CurvePoint {
     leg.curve.last().copied().unwrap_or_default()
 }
 
-fn no_adhesion(body: &Body) -> Result<f64, Fault> {
+fn no_adhesion(body: &Body) -> Measured {
     let cycle = Body { work: 0.0, ..body.clone() }.load(&[0.8 * body.depth()], true, 301)?;
     let [loading, unloading] = cycle.legs() else { return Ok(f64::NAN) };
     let is_lossless = cycle.legs().iter().all(|leg| leg.released_energy == 0.0);
@@ -50,7 +50,7 @@ fn no_adhesion(body: &Body) -> Result<f64, Fault> {
     }))
 }
 
-fn memory(body: &Body) -> Result<f64, Fault> {
+fn memory(body: &Body) -> Measured {
     let mut turns: [f64; 3] = body.turns(10);
     turns.sort_by(f64::total_cmp);
     let [low, middle, high] = turns;
@@ -67,7 +67,7 @@ fn memory(body: &Body) -> Result<f64, Fault> {
     }))
 }
 
-fn energy(body: &Body) -> Result<f64, Fault> {
+fn energy(body: &Body) -> Measured {
     let scale = body.force_unit() * (body.depth() + body.stretch());
     let [a, b] = body.turns(12);
     let (low, high) = (a.min(b), a.max(b).max(0.0));
@@ -85,7 +85,7 @@ fn energy(body: &Body) -> Result<f64, Fault> {
     Ok((lost(cycle.legs()) - done).abs() / scale)
 }
 
-fn mirror(body: &Body) -> Result<f64, Fault> {
+fn mirror(body: &Body) -> Measured {
     let mirrored = Body { heights: body.heights.iter().rev().copied().collect(), ..body.clone() };
     let (last, turns) = (body.heights.len() - 1, body.turns::<6>(13));
     let (one, other) = (body.load(&turns, false, 17)?, mirrored.load(&turns, false, 17)?);
@@ -95,7 +95,7 @@ fn mirror(body: &Body) -> Result<f64, Fault> {
 }
 
 /// Scales lengths along the profile, heights and stresses by these powers of two: no bit of the mantissas may change.
-pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Result<f64, Fault> {
+pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
     let turns: [f64; 6] = body.turns(15);
     let one = body.load(&turns, false, 33)?;
     // The sum with 0 makes −0 the same as 0.
@@ -125,14 +125,14 @@ pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Result<f64, Fault> {
     Ok(0.0)
 }
 
-fn units(body: &Body) -> Result<f64, Fault> {
+fn units(body: &Body) -> Measured {
     only_scales(
         body,
         &[[-15, 0, 0], [16, 0, 0], [-15, -15, 0], [16, 16, 0], [0, 0, -20], [0, 0, 22], [7, -9, 5]],
     )
 }
 
-fn stepwise(scene: &Scene) -> Result<f64, Fault> {
+fn stepwise(scene: &Scene) -> Measured {
     largest([0.0, 1e-8, 1e-7, 1e-6, 5e-6, 2e-5, 1e-4, 1e-3].into_iter().zip(1..).map(|(work, tenths)| {
         let mut scene =
             with(&with(scene, "adhesion.work", work)?, "roughness.hurst", 0.1 * f64::from(tenths))?;

@@ -37,15 +37,15 @@ pub(super) fn plan(arguments: &PlanArguments, stdout: &mut dyn Write) -> Result<
 fn text(plan: &Plan) -> String {
     let mut rows = vec![["stage", "passes", "springs", "memory", "because"].map(String::from)];
     let count = |count: u64| if count > 0 { grouped(count) } else { String::new() };
-    for PlannedStage { stage, runs, because, cost } in &plan.stages {
-        let memory = if cost.bytes > 0 { memory_size(cost.bytes) } else { String::new() };
-        let passes = match cost.passes {
+    for PlannedStage { stage, runs, because, passes, springs_touched, bytes } in &plan.stages {
+        let memory = if *bytes > 0 { memory_size(*bytes) } else { String::new() };
+        let passes = match *passes {
             _ if !runs => "skipped".to_owned(),
             None => "per stage".to_owned(),
             Some(0) => "runs".to_owned(),
             Some(passes) => grouped(passes),
         };
-        let touched = cost.springs_touched.map_or_else(String::new, count);
+        let touched = springs_touched.map_or_else(String::new, count);
         rows.push([stage.name().into(), passes, touched, memory, (*because).into()]);
     }
     let mut sheet = Sheet::default();

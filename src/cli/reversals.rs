@@ -8,7 +8,7 @@ use crate::export::{
     write_reversals_table,
 };
 use crate::scene::{Document, Preloads, ReversalContent, TableContent};
-use crate::simulation::{RunError, TURNING_POINTS, TurningPoints};
+use crate::simulation::{RunError, TURNING_POINTS};
 use crate::study::solve_preloads;
 use clap::Args;
 use std::io::Write;
@@ -118,10 +118,8 @@ pub(super) fn write_reversals(
     let scene = document.scene();
     let failed = |error: RunError| CliError::named(document.name(), error);
     let mut simulation = simulation_of(document);
-    let turning =
-        options.preloads.map_or(TurningPoints::OfScene, |(from, to)| TurningPoints::Preloads(from, to));
-    let never = || false;
-    let map = simulation.reversal_map(scene, turning, usize::from(options.count), &never).map_err(failed)?;
+    let (count, never) = (usize::from(options.count), || false);
+    let map = simulation.reversal_map(scene, options.preloads, count, &never).map_err(failed)?;
     let smoothing = usize::from(options.smoothing);
     if let Some(format) = format.table() {
         let content = TableContent::Reversals(options.table_content());

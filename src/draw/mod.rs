@@ -12,6 +12,7 @@ mod contour;
 mod label;
 mod picture;
 mod scale;
+pub mod section;
 mod ticks;
 
 pub use axis::Axis;

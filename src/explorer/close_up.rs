@@ -2,8 +2,8 @@
 
 use super::request::{Focus, SnapshotRequest};
 use super::snapshot::{CloseUp, FragmentFacts};
-use crate::analysis::section::{Contact, LineColumns, Part};
 use crate::contact::{Leg, PatchState};
+use crate::draw::section::{Contact, LineColumns, Part};
 
 /// The requested part of the line, and the fragment nearest to its middle.
 pub fn close_up(

@@ -6,9 +6,10 @@ use super::manual_body::ManualBody;
 use super::panes::{Pane, SceneSpectra};
 use super::request::{Drive, LineView, ManualMove, Newest, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Probe, Report, SolvedScene};
-use crate::analysis::section::{self, Contact, LineColumns, Part};
 use crate::contact::{ContactError, Leg, LegRecord};
+use crate::draw::section::{Contact, LineColumns, Part};
 use crate::scene::{Observer, Scene, Solver};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Most bytes of kept legs: further legs are computed again when the animation reaches them.
@@ -16,9 +17,6 @@ const BYTES_KEPT: usize = 1 << 29;
 
 /// Points of the curve over the range of indentations, when the body is pulled off manually.
 const STEPS_OF_A_PULL: f64 = 200.0;
-
-/// First and last spring of each fragment, in ascending order.
-type Fragments = Vec<(usize, usize)>;
 
 /// Playback of the newest computed scene.
 #[derive(Default)]
@@ -29,8 +27,6 @@ pub struct Playback {
     /// Legs of the loading, as far as kept.
     legs: Vec<Option<Leg>>,
     held: Option<ManualBody>,
-    /// The contact of the last snapshot, to count the springs that changed.
-    last: Option<(Drive, Fragments)>,
     /// Spectra of the scene, once requested.
     spectra: Option<Arc<SceneSpectra>>,
     /// Columns of the line, independent of the contact.
@@ -86,7 +82,6 @@ impl Playback {
         match order {
             ManualMove::Take { leg, indentation } => {
                 self.held = None;
-                self.last = None;
                 let Some(computed) = self.computed.clone() else { return };
                 let mut scene = computed.scene.as_ref().clone();
                 let leg = if scene.numerics.solver == Solver::Exact {
@@ -103,7 +98,6 @@ impl Playback {
             }
             ManualMove::Give => {
                 self.held = None;
-                self.last = None;
             }
             order => {
                 if let Some(held) = &mut self.held {
@@ -126,10 +120,6 @@ impl Playback {
         let fragments = leg.patches(point.indentation);
         let line = engine.line()?;
         let SolvedScene { scene, outcome, .. } = self.computed.as_deref()?;
-        let changed = match &self.last {
-            Some((drive, before)) if *drive == request.drive => section::changed(before, &fragments),
-            _ => 0,
-        };
         let contact = Contact {
             gaps: &line.gaps,
             summit: line.summit,
@@ -148,28 +138,25 @@ impl Playback {
         if shows_spectra && self.spectra.is_none() {
             self.spectra = Some(Arc::new(SceneSpectra::new(scene, outcome, line)));
         }
-        let snapshot = ContactSnapshot {
+        Some(ContactSnapshot {
             generation: request.generation,
             drive: request.drive,
             line: outcome.line,
             focus: request.focus,
             point,
-            changed,
             contact_radius: radius,
             profile: contact.section(profile, &mut self.profile),
             close_up,
-            strip: section::strip(&fragments, line.gaps.len(), request.strip_cells),
+            strip: strip(&contact, request.strip_cells),
             probe: request.crosshair.and_then(|position| probe(&contact, position)),
-            lengths: (request.lower == Pane::Lengths).then(|| section::lengths(&fragments)),
+            lengths: (request.lower == Pane::Lengths).then(|| lengths(&fragments)),
             spectra: self.spectra.clone().filter(|_| shows_spectra),
             manual: match request.drive {
                 Drive::Leg(_) => None,
                 Drive::Manual => self.held.as_mut().map(ManualBody::travel),
             },
             beside: None,
-        };
-        self.last = Some((request.drive, fragments));
-        Some(snapshot)
+        })
     }
 
     /// A leg of the loading, computed again if it has not been kept.
@@ -208,6 +195,29 @@ fn leg_of(engine: &mut dyn Engine, scene: &Scene, wanted: usize) -> Option<Leg> 
     found
 }
 
+/// Contact of the whole profile in a row of cells.
+fn strip(contact: &Contact<'_>, cells: usize) -> String {
+    let whole = Part { first: 0, springs: contact.gaps.len(), columns: cells };
+    let glyph = |cell| {
+        let springs = whole.springs_of(cell);
+        match contact.within(springs.clone()).map(|part| part.len()).sum::<usize>() {
+            0 => '·',
+            touching if touching == springs.len() => '■',
+            _ => '▪',
+        }
+    };
+    (0..cells).map(glyph).collect()
+}
+
+/// Counts patches of n springs over ⌊log₂ n²⌋: lengths that grow by a factor √2.
+fn lengths(fragments: &[(usize, usize)]) -> BTreeMap<u32, u64> {
+    let mut counts = BTreeMap::new();
+    for (first, last) in fragments {
+        *counts.entry(((last + 1 - first) as u64).pow(2).ilog2()).or_default() += 1;
+    }
+    counts
+}
+
 /// Profile and contact at a share of the profile; `None` for a profile without springs.
 fn probe(contact: &Contact<'_>, position: f64) -> Option<Probe> {
     let last = contact.gaps.len().checked_sub(1)?;
@@ -217,7 +227,7 @@ fn probe(contact: &Contact<'_>, position: f64) -> Option<Probe> {
     Some(Probe {
         spring,
         height: contact.height(spring),
-        level: contact.summit - contact.indentation,
+        level: contact.level(),
         patch: contact.fragments.get(next).filter(|patch| holds(patch)).map(|_| next),
     })
 }

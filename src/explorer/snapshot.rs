@@ -4,10 +4,11 @@
 use super::panes::SceneSpectra;
 pub use super::request::Drive;
 use super::request::Focus;
-pub use crate::analysis::{Column, LengthBin, Section, Share};
 use crate::contact::{ContactError, CurvePoint};
+pub use crate::draw::section::{Column, Section};
 use crate::scene::Scene;
 use crate::simulation::{LineFacts, Outcome};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// A computed scene.
@@ -34,20 +35,18 @@ pub struct ContactSnapshot {
     pub focus: Focus,
     /// Indentation, force, springs in contact and fragments.
     pub point: CurvePoint,
-    /// Springs that changed state since the last snapshot.
-    pub changed: u64,
     /// Half the distance between the outermost edges of the contact, m; zero in separation.
     pub contact_radius: f64,
     /// The line, or a part of it.
     pub profile: Section,
     /// The neighbourhood of one fragment.
     pub close_up: CloseUp,
-    /// Share of the whole line in contact, in as many parts as the close-up has cells.
-    pub strip: Vec<Share>,
+    /// Contact of the whole profile in a row of cells: `■` where all springs touch, `▪` some, `·` none.
+    pub strip: String,
     /// Readings of the crosshair on the profile.
     pub probe: Option<Probe>,
-    /// Distribution of fragment lengths, where requested.
-    pub lengths: Option<Vec<LengthBin>>,
+    /// Numbers of patches of n springs over ⌊log₂ n²⌋, where requested.
+    pub lengths: Option<BTreeMap<u32, u64>>,
     /// Spectra of the scene, where requested.
     pub spectra: Option<Arc<SceneSpectra>>,
     /// Path of manual loading to this state.

@@ -1,14 +1,14 @@
 //! Cost of accuracy as text, JSON and CSV.
 
 use super::sheet::Sheet;
-use crate::accuracy::{CostTable, ErrorFigure, Knob, Row};
+use crate::accuracy::{CostTable, ErrorFigure, Knob, QUANTITIES, Row};
 use crate::io::write_json_value;
 use crate::scene::{Scene, format_quantity, format_rounded};
 use crate::text::grouped;
 use serde::Serialize;
 use std::io::{self, Write};
 
-/// Headings of the errors, in the order of `Measures::each`.
+/// Headings of the errors, in the order of [`QUANTITIES`].
 const ERRORS: [&str; 4] = ["F_a", "curve", "energy", "contact"];
 
 /// The table in plain text of at most a hundred columns: the answer first, omitted settings last.
@@ -64,7 +64,7 @@ fn counted_from(table: &CostTable) -> String {
         }
         _ => finest,
     };
-    let own = reference.errors.each().into_iter().zip(ERRORS).filter_map(|(error, name)| {
+    let own = reference.errors.into_iter().zip(ERRORS).filter_map(|(error, name)| {
         let error = error.filter(|_| !(reference.closed_form && name == ERRORS[0]))?;
         Some(format!("{name} {error:.0e}"))
     });
@@ -81,8 +81,7 @@ fn cells(row: &Row) -> [String; 8] {
         Knob::Step => format_quantity(row.setting, "m"),
         _ => grouped(row.setting as u64),
     };
-    let [force, curve, energy, contact] =
-        row.errors.each().map(|error| error.map_or_else(String::new, error_cell));
+    let [force, curve, energy, contact] = row.errors.map(|error| error.map_or_else(String::new, error_cell));
     let time = |of: fn(crate::accuracy::Timing) -> f64| {
         row.seconds.map(of).map_or_else(String::new, |time| format_rounded(time, 3, "s"))
     };
@@ -126,7 +125,7 @@ pub fn write_cost_json(out: &mut (impl Write + ?Sized), scene: &Scene, table: &C
 /// Errors of `out`.
 pub fn write_cost_csv(out: &mut (impl Write + ?Sized), table: &CostTable) -> io::Result<()> {
     write!(out, "knob,setting,springs,minimum_seconds,median_seconds,transforms")?;
-    for name in ["adhesion_force", "curve", "dissipated_energy", "contact_length"] {
+    for name in QUANTITIES {
         write!(out, ",{name}_error,{name}_resolved,{name}_order")?;
     }
     writeln!(out)?;
@@ -138,7 +137,7 @@ pub fn write_cost_csv(out: &mut (impl Write + ?Sized), table: &CostTable) -> io:
         let (least, median) = (row.seconds.map(|time| time.minimum), row.seconds.map(|time| time.median));
         write!(out, "{},{:?},{}", knob.as_str().unwrap_or_default(), row.setting, row.springs)?;
         write!(out, ",{},{},{}", number(least), number(median), number(row.transforms))?;
-        for figure in row.errors.each() {
+        for figure in row.errors {
             let resolved = figure.map_or("", |figure| if figure.resolved { "true" } else { "false" });
             let (error, order) = (figure.map(|figure| figure.error), figure.and_then(|figure| figure.order));
             write!(out, ",{},{resolved},{}", number(error), number(order))?;

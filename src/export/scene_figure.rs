@@ -1,8 +1,8 @@
 //! Figures of computed scenes: force curves, the profile with its contact, contact patches over the indentation.
 
-use crate::analysis::section::{Column, Contact, LineColumns, Part};
 use crate::analysis::{Mark, marks, preload_point};
 use crate::contact::{ContactError, CurvePoint, Direction, Leg, LegRecord};
+use crate::draw::section::{Column, Contact, LineColumns, Part};
 use crate::draw::{
     Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label,
 };

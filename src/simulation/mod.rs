@@ -1,8 +1,8 @@
 //! From a scene to its force curve: the stages, their selection by the scene, and their results.
 
 mod cached;
-mod contact_stage;
 mod error;
+mod loading;
 mod outcome;
 mod plan;
 mod reversals;
@@ -11,7 +11,7 @@ mod stages;
 
 pub use error::RunError;
 pub use outcome::{LineFacts, Outcome, Timings};
-pub use plan::{Plan, PlannedStage, Stage, StageCost};
-pub use reversals::{SeeReversal, TURNING_POINTS, TurningPoints};
+pub use plan::{Plan, PlannedStage, Stage};
+pub use reversals::{SeeReversal, TURNING_POINTS};
 pub use roughness::{measured_options, measured_roughness_options};
 pub use stages::{AfterLeg, Simulation};

@@ -4,7 +4,6 @@ use crate::analysis::Figures;
 use crate::contact::CurvePoint;
 use crate::scene::{Edges, Effect, Roughness, Scene, Solver};
 use serde::Serialize;
-use strum::VariantArray;
 
 /// Bytes per spring: a height of the roughness, or a gap of the profile.
 const HEIGHT: u64 = 8;
@@ -29,7 +28,7 @@ const STEPWISE: &str = "solver: Stepwise";
 const NEVER_BACK: &str = "loading never goes back";
 
 /// A stage of the computation of a curve from a scene, in the order of execution.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, VariantArray)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stage {
     /// Adding the macroscopic form.
@@ -71,29 +70,7 @@ impl Stage {
     }
 }
 
-/// Cost of one stage.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct StageCost {
-    /// Passes over the profile or its tree; `None` for one or more in each loading stage, by its direction.
-    pub passes: Option<u64>,
-    /// Most springs visited in all passes; `None` if their number is.
-    pub springs_touched: Option<u64>,
-    /// Bytes of the arrays added during the stage.
-    pub bytes: u64,
-}
-
-impl StageCost {
-    /// Cost of a skipped stage.
-    pub const NOTHING: StageCost = StageCost { passes: Some(0), springs_touched: Some(0), bytes: 0 };
-
-    /// Creates the cost of passes over so many springs, with arrays of so many bytes per spring.
-    fn of(springs: u64, passes: Option<u64>, bytes_per_spring: u64) -> StageCost {
-        let springs_touched = passes.map(|passes| passes.saturating_mul(springs));
-        StageCost { passes, springs_touched, bytes: bytes_per_spring.saturating_mul(springs) }
-    }
-}
-
-/// A stage, its selection by a scene, and its cost.
+/// A stage, its selection by a scene, and its cost, which is zero for a skipped stage.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PlannedStage {
     /// The stage.
@@ -102,9 +79,12 @@ pub struct PlannedStage {
     pub runs: bool,
     /// The field that requires the stage, or the reason why it is skipped.
     pub because: &'static str,
-    /// Cost; zero for a skipped stage.
-    #[serde(flatten)]
-    pub cost: StageCost,
+    /// Passes over the profile or its tree; `None` for one or more in each loading stage, by its direction.
+    pub passes: Option<u64>,
+    /// Most springs visited in all passes; `None` if their number is.
+    pub springs_touched: Option<u64>,
+    /// Bytes of the arrays added during the stage.
+    pub bytes: u64,
 }
 
 /// The stages of a scene, in the order of execution.
@@ -131,12 +111,7 @@ impl Plan {
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
         let (points, springs) = (scene.numerics.points, scene.springs_under_body().count() as u64);
-        let planned = |(stage, (because, cost)): (Stage, (Result<_, _>, StageCost))| {
-            let (runs, because) = (because.is_ok(), because.unwrap_or_else(|reason| reason));
-            PlannedStage { stage, runs, because, cost: if runs { cost } else { StageCost::NOTHING } }
-        };
-        let stages =
-            Stage::VARIANTS.iter().copied().zip(stages(scene, points, springs)).map(planned).collect();
+        let stages = stages(scene, points, springs);
         let mut plan = Plan { springs, peak_bytes: 0, resident_bytes: 0, stages };
         // At most, if the whole contact under load also exists at first touch.
         let solved = [Stage::Tree, Stage::LoadingPass, Stage::Relaxation, Stage::ZeroLoadAdhesion];
@@ -159,7 +134,7 @@ impl Plan {
     }
 
     fn bytes(&self, stage: Stage) -> u64 {
-        self.stages.iter().find(|planned| planned.stage == stage).map_or(0, |planned| planned.cost.bytes)
+        self.stages.iter().find(|planned| planned.stage == stage).map_or(0, |planned| planned.bytes)
     }
 
     /// Returns the bytes of all stages that make the profile.
@@ -168,15 +143,22 @@ impl Plan {
     }
 }
 
-/// Lists all stages with the field that requires each, or the reason why it is skipped, and its cost where it runs.
-fn stages(scene: &Scene, points: u64, springs: u64) -> [(Result<&'static str, &'static str>, StageCost); 11] {
+/// Plans all stages.
+fn stages(scene: &Scene, points: u64, springs: u64) -> Vec<PlannedStage> {
     let (adhesive, pulls) = (Effect::Adhesion.is_on(scene), Effect::Unloading.is_on(scene));
     let exact = scene.numerics.solver == Solver::Exact;
     let (measured, random) =
         (matches!(scene.roughness, Some(Roughness::Measured { .. })), scene.seed().is_some());
+    // The field that requires a stage, or the reason why it is skipped; passes over so many springs; bytes.
+    let row = |stage, because: Result<_, _>, (passes, springs): (Option<u64>, u64), bytes| {
+        let runs = because.is_ok();
+        let (passes, bytes) = if runs { (passes, bytes) } else { (Some(0), 0) };
+        let springs_touched = passes.map(|passes| passes.saturating_mul(springs));
+        let because = because.unwrap_or_else(|reason| reason);
+        PlannedStage { stage, runs, because, passes, springs_touched, bytes }
+    };
     let when = |does: bool, field, reason| if does { Ok(field) } else { Err(reason) };
-    let passes = |passes, bytes| StageCost::of(springs, passes, bytes);
-    let once = passes(Some(1), 0);
+    let (once, each_stage, line) = ((Some(1), springs), (None, springs), (Some(1), points));
     let solver = if adhesive { STEPWISE } else { NO_ADHESION };
     let solved = when(exact && adhesive, "adhesion with the exact solver", solver);
     let form = match scene.form {
@@ -191,10 +173,10 @@ fn stages(scene: &Scene, points: u64, springs: u64) -> [(Result<&'static str, &'
         (false, false) => Err("no roughness: smooth"),
     };
     // Coefficients, scratch space and twiddle factors, as measured. Odd numbers of springs transform at twice the length.
-    let transform = StageCost::of(points, Some(1), HEIGHT + if points.is_multiple_of(2) { 20 } else { 56 });
+    let transform = points * (HEIGHT + if points.is_multiple_of(2) { 20 } else { 56 });
     // The convolution that transforms a large prime factor, as measured.
     let factor = largest_prime_factor(points);
-    let bytes = transform.bytes.saturating_add(if factor > LARGEST_FACTOR { 152 * factor } else { 0 });
+    let convolution = if factor > LARGEST_FACTOR { 152 * factor } else { 0 };
     let file = if random { "roughness: SelfAffine" } else { "no roughness: smooth" };
     let unloading = match (pulls, adhesive, exact) {
         (false, ..) => Err(NEVER_BACK),
@@ -208,19 +190,25 @@ fn stages(scene: &Scene, points: u64, springs: u64) -> [(Result<&'static str, &'
         (true, true, true) => Err("the loading itself turns at first touch"),
         (true, true, false) => Ok("adhesion with a loading that goes back"),
     };
+    let hess = when(adhesive, "adhesion", "no adhesion: nothing is stretched");
     let observed = |effect: Effect, field| when(effect.is_on(scene), field, "not in observe");
-    [
-        (form, once),
-        (synthesis, StageCost { bytes, ..transform }),
-        (when(measured, "roughness: Measured", file), StageCost::of(points, Some(1), HEIGHT)),
-        (solved, passes(Some(1), NODE)),
-        (when(adhesive, "adhesion", "no adhesion: nothing is stretched"), StageCost::NOTHING),
-        (solved, passes(None, PASSED)),
-        (unloading, passes(None, 0)),
-        (when(!exact, STEPWISE, "solver: Exact"), passes(None, RELAXED)),
-        (zero_load, if exact { once } else { passes(None, RELAXED) }),
-        (observed(Effect::Fragments, "observe: Fragments"), passes(Some(scene.loading.len() as u64), 0)),
-        (observed(Effect::HeightHistogram, "observe: HeightHistogram"), once),
+    let (fragments, histogram) = (
+        observed(Effect::Fragments, "observe: Fragments"),
+        observed(Effect::HeightHistogram, "observe: HeightHistogram"),
+    );
+    let (touch, touch_bytes) = if exact { (once, 0) } else { (each_stage, RELAXED * springs) };
+    vec![
+        row(Stage::Form, form, once, 0),
+        row(Stage::Synthesis, synthesis, line, transform + convolution),
+        row(Stage::MeasuredProfile, when(measured, "roughness: Measured", file), line, HEIGHT * points),
+        row(Stage::Tree, solved, once, NODE * springs),
+        row(Stage::RuleOfHess, hess, (Some(0), springs), 0),
+        row(Stage::LoadingPass, solved, each_stage, PASSED * springs),
+        row(Stage::UnloadingPass, unloading, each_stage, 0),
+        row(Stage::Relaxation, when(!exact, STEPWISE, "solver: Exact"), each_stage, RELAXED * springs),
+        row(Stage::ZeroLoadAdhesion, zero_load, touch, touch_bytes),
+        row(Stage::Fragments, fragments, (Some(scene.loading.len() as u64), springs), 0),
+        row(Stage::HeightHistogram, histogram, once, 0),
     ]
 }
 
@@ -243,10 +231,9 @@ mod tests {
 
     #[test]
     fn each_stage_is_planned_and_has_its_name() {
-        let planned = Plan::of(crate::scene::open("jkr-sphere").unwrap().scene()).stages.len();
-        assert_eq!([planned, Stage::NAMES.len()], [Stage::VARIANTS.len(); 2]);
-        assert_eq!((Stage::Form.name(), Stage::HeightHistogram.name()), ("form", "height histogram"));
-        assert_eq!(Stage::Relaxation.name(), "stepwise relaxation");
+        let planned = Plan::of(crate::scene::open("jkr-sphere").unwrap().scene()).stages;
+        let names: Vec<_> = planned.iter().map(|planned| planned.stage.name()).collect();
+        assert_eq!(names, Stage::NAMES);
     }
 
     #[test]

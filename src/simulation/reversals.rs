@@ -3,7 +3,7 @@
 use super::stages::Prepared;
 use super::{Plan, RunError, Simulation};
 use crate::analysis::{MinorLoops, ReversalMap};
-use crate::contact::{ContactError, LegRecord, Reversal};
+use crate::contact::{Body, ContactError, LegRecord, Reversal};
 use crate::scene::{Move, Scene, Solver as SolverChoice};
 use std::ops::RangeInclusive;
 
@@ -16,15 +16,6 @@ const FEW_SAMPLES: u64 = 2;
 
 /// Receiver of reversals and the numbers of their turning points.
 pub type SeeReversal<'a> = dyn FnMut(usize, Reversal) -> Result<(), ContactError> + 'a;
-
-/// Turning points of a map, from the shallowest to the deepest.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum TurningPoints {
-    /// From first touch to the preload of the scene's own loading.
-    OfScene,
-    /// Between the indentations of two preloads, N.
-    Preloads(f64, f64),
-}
 
 impl Simulation {
     /// Unloads a checked scene to separation from the ends of these stages, each of which begins at separation.
@@ -43,24 +34,24 @@ impl Simulation {
         needs_exact_solver(scene)?;
         let deepest = ends.last().copied().unwrap_or(Move::ToTouch);
         let plan = Plan::of(&Scene { loading: vec![deepest, Move::ToSeparation], ..scene.clone() });
-        let interrupted = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
         let Prepared { contact, .. } = self.prepare(&plan, scene, stop)?;
         let mut see = |index, reversal| {
             see(index, reversal)?;
-            interrupted()
+            if stop() { Err(ContactError::Interrupted) } else { Ok(()) }
         };
-        Ok(contact.body().reversals(ends, points, &mut see)?)
+        Ok(Body::new(&contact, scene.numerics.samples as usize).reversals(ends, points, &mut see)?)
     }
 
     /// First-order reversal curves of a checked scene from so many equally spaced turning points, at indentations
-    /// with the same spacing down to separation.
+    /// with the same spacing down to separation. The turning points lie between the indentations of two preloads, N, or
+    /// between first touch and the preload of the scene's own loading.
     ///
     /// # Errors
     /// Errors of [`Simulation::reverse`], and a loading that never presses.
     pub fn reversal_map(
         &mut self,
         scene: &Scene,
-        turning: TurningPoints,
+        preloads: Option<(f64, f64)>,
         count: usize,
         stop: &dyn Fn() -> bool,
     ) -> Result<ReversalMap, RunError> {
@@ -68,27 +59,19 @@ impl Simulation {
         let count = count.clamp(*TURNING_POINTS.start(), *TURNING_POINTS.end());
         let mut scene = scene.clone();
         scene.numerics.samples = FEW_SAMPLES;
-        let [low, high] = match turning {
-            TurningPoints::OfScene => {
-                let outcome = self.run(&scene, stop, &mut |_, _, _| Ok(()))?;
-                let pressed = outcome.figures.preload_indentation.filter(|&indentation| indentation > 0.0);
-                [0.0, pressed.ok_or(RunError::NeverPressed)?]
-            }
-            TurningPoints::Preloads(from, to) => {
-                let mut found = [0.0; 2];
-                let see: &mut SeeReversal<'_> = &mut |index, reversal| {
-                    found[index] = reversal.turn.indentation;
-                    Ok(())
-                };
-                self.reverse(&scene, (&[Move::ToForce(from), Move::ToForce(to)], &[]), stop, see)?;
-                found
-            }
+        let ends = if let Some((from, to)) = preloads {
+            [Move::ToForce(from), Move::ToForce(to)]
+        } else {
+            let outcome = self.run(&scene, stop, &mut |_, _, _| Ok(()))?;
+            let pressed = outcome.figures.preload_indentation.filter(|&indentation| indentation > 0.0);
+            [Move::ToIndentation(0.0), Move::ToIndentation(pressed.ok_or(RunError::NeverPressed)?)]
         };
-        let mut separation = low;
-        self.reverse(&scene, (&[Move::ToIndentation(high)], &[]), stop, &mut |_, reversal| {
-            separation = reversal.separation;
+        let mut found = [(0.0, 0.0); 2];
+        self.reverse(&scene, (&ends, &[]), stop, &mut |index, reversal| {
+            found[index] = (reversal.turn.indentation, reversal.separation);
             Ok(())
         })?;
+        let [(low, _), (high, separation)] = found;
         let step = (high - low) / (count - 1) as f64;
         if !(step > 0.0 && low + step > low) {
             return Err(RunError::NeverPressed);
@@ -119,31 +102,18 @@ impl Simulation {
     ) -> Result<MinorLoops, RunError> {
         let Some(deepest) = map.reversals.last() else { return Ok(MinorLoops::default()) };
         let top = deepest.turn.indentation;
-        let mut limits = Vec::new();
-        for upper in 0..levels {
-            let high = top * upper as f64 / levels as f64;
-            for lower in 0..levels {
-                let share = (lower as f64 + 0.5) / levels as f64;
-                limits.push((deepest.separation + share * (high - deepest.separation), high));
-            }
-        }
-        let to = Move::ToIndentation;
-        let legs = |&(low, high): &(f64, f64)| {
-            [
-                to(high),
-                to(low),
-                to(high),
-                Move::ToSeparation,
-                to(top),
-                to(low),
-                to(high),
-                to(low),
-                Move::ToSeparation,
-            ]
-        };
         let mut scene = scene.clone();
         scene.numerics.samples = FEW_SAMPLES;
-        scene.loading = limits.iter().flat_map(legs).collect();
+        scene.loading.clear();
+        for (upper, lower) in (0..levels).flat_map(|upper| (0..levels).map(move |lower| (upper, lower))) {
+            let high = top * upper as f64 / levels as f64;
+            let share = (lower as f64 + 0.5) / levels as f64;
+            let low = deepest.separation + share * (high - deepest.separation);
+            for loading in [&[high, low, high][..], &[top, low, high, low]] {
+                scene.loading.extend(loading.iter().map(|&to| Move::ToIndentation(to)));
+                scene.loading.push(Move::ToSeparation);
+            }
+        }
         if scene.loading.is_empty() {
             return Ok(MinorLoops::default());
         }
@@ -152,8 +122,8 @@ impl Simulation {
         let loops = outcome.history.legs.chunks_exact(9);
         // A loop with separation is no minor loop.
         let holds = |leg: &LegRecord| leg.curve.last().is_some_and(|point| point.springs > 0);
-        let held = loops.filter(|legs| holds(&legs[1]));
-        let pairs = held.map(|legs| [loss(&legs[1..3]), loss(&legs[6..8])]).collect::<Vec<_>>();
+        let minor = loops.filter(|legs| holds(&legs[1]));
+        let pairs: Vec<_> = minor.map(|legs| [loss(&legs[1..3]), loss(&legs[6..8])]).collect();
         Ok(MinorLoops::new(&pairs, deepest.dissipated_energy))
     }
 }

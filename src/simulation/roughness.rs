@@ -4,10 +4,10 @@ use super::RunError;
 use super::cached::Cached;
 use crate::scene::{Roughness, Scene};
 use crate::surface::{
-    Amplitude, EquivalentLine, MeasuredOptions, MeasuredProfile, MeasuredRoughness, SelfAffine, SurfaceError,
-    Synthesizer, WaveNumbers, read_faces,
+    Amplitude, MeasuredOptions, MeasuredRoughness, SelfAffine, SurfaceError, Synthesizer, WaveNumbers,
+    read_faces,
 };
-use crate::topography::{Cut, ReadOptions, Unit, content};
+use crate::topography::{Cut, ReadOptions, Unit};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -15,6 +15,8 @@ use std::sync::Arc;
 #[derive(Clone, PartialEq)]
 pub(super) struct RoughnessKey {
     source: Source,
+    /// Seed of the random phases, if there are any.
+    seed: u64,
     points: usize,
     shift: f64,
 }
@@ -22,15 +24,11 @@ pub(super) struct RoughnessKey {
 /// Origin of a roughness.
 #[derive(Clone, PartialEq)]
 enum Source {
-    SelfAffine {
-        spectrum: SelfAffine,
-        seed: u64,
-    },
-    /// Files of each face; the seed is that of an equivalent line.
+    SelfAffine(SelfAffine),
+    /// Files of each face, and the length of the line, m.
     Measured {
         faces: Vec<Vec<PathBuf>>,
         options: MeasuredOptions,
-        seed: Option<u64>,
         length: f64,
     },
 }
@@ -54,17 +52,10 @@ pub(super) struct RoughnessMaker {
     /// A measured surface in place of the scenes' files.
     pub measured: Option<Arc<MeasuredRoughness>>,
     /// The equivalent line of the last files: it is small, and serves all seeds.
-    equivalent: Cached<(Vec<Vec<PathBuf>>, MeasuredOptions), EquivalentLine>,
+    equivalent: Cached<(Vec<Vec<PathBuf>>, MeasuredOptions), Arc<MeasuredRoughness>>,
     pub synthesizer: Synthesizer,
     /// Number of random phases drawn so far.
     pub phases_drawn: u64,
-}
-
-impl RoughnessKey {
-    /// Returns true for heights in metres.
-    pub fn is_measured(&self) -> bool {
-        matches!(self.source, Source::Measured { .. })
-    }
 }
 
 impl RoughnessMaker {
@@ -83,16 +74,14 @@ impl RoughnessMaker {
         let points = scene.numerics.points as usize;
         let shift = scene.form.map_or(0.0, |form| form.shift(points as u64));
         let source = match (spectrum(scene), &scene.roughness) {
-            (Some((spectrum, seed)), _) => Source::SelfAffine { spectrum, seed },
-            (None, Some(Roughness::Measured { .. })) => Source::Measured {
-                faces: scene.measured_paths(&self.folder),
-                options: measured_options(scene),
-                seed: scene.seed(),
-                length: scene.length,
-            },
-            _ => return None,
+            (Some(spectrum), _) => Source::SelfAffine(spectrum),
+            (None, roughness) => {
+                roughness.as_ref()?;
+                let faces = scene.measured_paths(&self.folder);
+                Source::Measured { faces, options: measured_options(scene), length: scene.length }
+            }
         };
-        Some(RoughnessKey { source, points, shift })
+        Some(RoughnessKey { source, seed: scene.seed().unwrap_or(0), points, shift })
     }
 
     /// Makes heights and their known values; synthesised ones in this memory.
@@ -100,10 +89,10 @@ impl RoughnessMaker {
     /// # Errors
     /// An unreadable measured surface, waves that do not fit the points, insufficient memory.
     pub fn make(&mut self, key: &RoughnessKey, memory: Vec<f64>) -> Result<Rough, RunError> {
-        let RoughnessKey { source, points, shift } = key;
-        let (faces, options, seed, length) = match source {
-            Source::SelfAffine { spectrum, seed } => {
-                let unit = self.synthesizer.synthesize(*spectrum, *seed, *points, *shift, memory)?;
+        let RoughnessKey { ref source, seed, points, shift } = *key;
+        let (faces, options, length) = match source {
+            Source::SelfAffine(spectrum) => {
+                let unit = self.synthesizer.synthesize(*spectrum, seed, points, shift, memory)?;
                 self.phases_drawn += spectrum.last + 1 - spectrum.first;
                 return Ok(Rough {
                     heights: unit.heights,
@@ -112,65 +101,53 @@ impl RoughnessMaker {
                     modes: Some((spectrum.first, spectrum.last)),
                 });
             }
-            Source::Measured { faces, options, seed, length } => (faces, options, seed, *length),
+            Source::Measured { faces, options, length } => (faces, options, *length),
         };
-        let refused = |reason: &dyn std::fmt::Display| SurfaceError::measured(first(faces), reason);
-        let Some(seed) = seed else {
-            let read;
-            let profile = match self.measured.as_deref() {
-                Some(MeasuredRoughness::Profile(known)) => known,
-                _ => {
-                    let profile =
-                        content(first(faces)).and_then(|bytes| MeasuredProfile::new(&bytes, options));
-                    read = profile.map_err(|error| refused(&error))?;
-                    &read
-                }
-            };
-            let heights = profile.sample(length, *points, *shift).map_err(|reason| refused(&reason))?;
-            let measured = Some(profile.amplitude()?);
-            return Ok(Rough { heights, wave_numbers: None, measured, modes: None });
+        let file = faces.iter().flatten().next().map_or(Path::new(""), PathBuf::as_path);
+        let refused = |reason: String| SurfaceError::measured(file, &reason);
+        let surface = self.surface(faces, options)?;
+        let (heights, amplitude, modes) = match &*surface {
+            MeasuredRoughness::Profile(profile) => {
+                (profile.sample(length, points, shift).map_err(refused)?, profile.amplitude()?, None)
+            }
+            MeasuredRoughness::Equivalent(line) => {
+                let modes = line.modes(length, points).map_err(refused)?;
+                let of_mode = |mode: u64| line.amplitude(mode, length);
+                let heights =
+                    self.synthesizer.synthesize_waves(&of_mode, modes, seed, points, shift, memory)?;
+                self.phases_drawn += modes.1 + 1 - modes.0;
+                (heights, line.amplitude_of_modes(length, modes), Some(modes))
+            }
         };
-        let line = self.equivalent_line(faces, options)?;
-        let modes = line.modes(length, *points).map_err(|reason| refused(&reason))?;
-        let amplitude = |mode: u64| line.amplitude(mode, length);
-        let heights = self.synthesizer.synthesize_waves(&amplitude, modes, *seed, *points, *shift, memory)?;
-        self.phases_drawn += modes.1 + 1 - modes.0;
-        let measured = Some(line.amplitude_of_modes(length, modes));
-        Ok(Rough { heights, wave_numbers: None, measured, modes: Some(modes) })
+        Ok(Rough { heights, wave_numbers: None, measured: Some(amplitude), modes })
     }
 
-    /// The equivalent line of the faces: the given one, the last one, or a new one.
-    fn equivalent_line(
+    /// Returns the surface of the faces: the given one, the last equivalent line, or a new one.
+    fn surface(
         &mut self,
         faces: &[Vec<PathBuf>],
         options: &MeasuredOptions,
-    ) -> Result<EquivalentLine, SurfaceError> {
-        if let Some(MeasuredRoughness::Equivalent(known)) = self.measured.as_deref() {
-            return Ok(known.clone());
-        }
+    ) -> Result<Arc<MeasuredRoughness>, SurfaceError> {
         let key = (faces.to_vec(), *options);
-        if let Some(line) = self.equivalent.get(&key) {
-            return Ok(line.clone());
+        if let Some(known) = self.measured.as_ref().or(self.equivalent.get(&key)) {
+            return Ok(Arc::clone(known));
         }
-        let line = EquivalentLine::new(&read_faces(faces)?, options)?;
-        self.equivalent.keep(key, line.clone());
-        Ok(line)
+        let surface = Arc::new(MeasuredRoughness::new(&read_faces(faces)?, options)?);
+        if let MeasuredRoughness::Equivalent(_) = *surface {
+            self.equivalent.keep(key, Arc::clone(&surface));
+        }
+        Ok(surface)
     }
 }
 
-/// Spectrum and seed of a self-affine roughness.
-pub(super) fn spectrum(scene: &Scene) -> Option<(SelfAffine, u64)> {
+/// Spectrum of a self-affine roughness.
+pub(super) fn spectrum(scene: &Scene) -> Option<SelfAffine> {
     match scene.roughness {
-        Some(Roughness::SelfAffine { hurst, modes: (first, last), seed, .. }) => {
-            Some((SelfAffine { hurst, first, last }, seed))
+        Some(Roughness::SelfAffine { hurst, modes: (first, last), .. }) => {
+            Some(SelfAffine { hurst, first, last })
         }
         _ => None,
     }
-}
-
-/// File of the first face, the name in errors about all of them.
-fn first(faces: &[Vec<PathBuf>]) -> &Path {
-    faces.iter().flatten().next().map_or(Path::new(""), PathBuf::as_path)
 }
 
 /// Options of a checked scene for its measured surface.

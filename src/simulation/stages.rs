@@ -1,11 +1,11 @@
 //! Execution of the stages of a scene whose input has changed since the last run.
 
 use super::cached::Cached;
-use super::contact_stage::ContactStage;
+use super::loading::load;
 use super::roughness::{Rough, RoughnessKey, RoughnessMaker, spectrum};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
 use crate::analysis::{Figures, Governing, Regime, SteepWaves, ideal_adhesion_force, scene_tabor_number};
-use crate::contact::{Contact, ContactError, ContactTree, Leg, LegRecord, Springs};
+use crate::contact::{Contact, ContactError, ContactTree, Foundation, Leg, LegRecord, Springs, Work};
 use crate::memory::check_room;
 use crate::parallel::in_parallel;
 use crate::reference::smooth_adhesion_force;
@@ -19,21 +19,20 @@ use std::time::Instant;
 /// Bins of the height histogram.
 const HISTOGRAM_BINS: usize = 64;
 /// Number of springs below which another thread takes longer to start than it saves.
-pub(super) const MANY_SPRINGS: usize = 1 << 15;
-
-/// Factor of the springs of the next run above which the memory of the last one is released.
-const MOST_SPARE: usize = 4;
+const MANY_SPRINGS: usize = 1 << 15;
 /// Error of a stage before its profile.
 const NO_PROFILE: ContactError = ContactError::Internal("the profile of the scene has not been made");
+/// Factor of the memory of the next run above which that of former ones is released.
+const MOST_SPARE: u64 = 4;
 /// Bytes that are always kept.
 const SMALL: u64 = 32 << 20;
 
 /// The profile, the tree and their inputs: kept from run to run, so that a changed parameter repeats only the
 /// stages that depend on it. Repeated stages reuse their memory.
 ///
-/// Between runs at most the memory is kept that a scene with four times the springs of the last one takes
-/// ([`Plan::peak_bytes`], and 20 bytes for each spring of a Fourier transform), or 32 MiB. Released memory returns
-/// to the allocator; that of glibc keeps blocks of less than 32 MiB, up to 64 MiB for each thread.
+/// Between runs at most four times the memory of the last scene is kept ([`Plan::peak_bytes`], and 20 bytes for each
+/// spring of a Fourier transform), or 32 MiB. Released memory returns to the allocator; that of glibc keeps blocks of less
+/// than 32 MiB, up to 64 MiB for each thread.
 #[derive(Default)]
 pub struct Simulation {
     /// True for a single scene: memory for another one is released at once.
@@ -47,14 +46,8 @@ pub struct Simulation {
     springs: Arc<Springs>,
     /// Memory of the tree of a former profile.
     former_tree: ContactTree,
-    kept: Kept,
-}
-
-/// Largest run whose memory is still kept.
-#[derive(Clone, Copy, Default)]
-struct Kept {
-    points: usize,
-    bytes: u64,
+    /// Memory of the largest run that is still kept, bytes.
+    kept: u64,
 }
 
 /// Parameters of the profile.
@@ -67,9 +60,9 @@ struct LineKey {
     form: Option<Form>,
 }
 
-/// Contact of a scene before its stage, with the results of making its profile and tree.
-pub(super) struct Prepared<'a> {
-    pub contact: ContactStage<'a>,
+/// Contact of a scene before its loading, with the results of making its profile and tree.
+pub(super) struct Prepared {
+    pub contact: Contact,
     facts: LineFacts,
     governing: Governing,
     random_phases: u64,
@@ -113,25 +106,24 @@ impl Simulation {
     /// # Errors
     /// Insufficient memory or an unreadable measured profile.
     pub fn make_line(&mut self, scene: &Scene) -> Result<(&Line, LineFacts, Governing), RunError> {
-        let points = scene.numerics.points as usize;
-        let spectrum = spectrum(scene);
-        let key = self.maker.key(scene);
-        if key.as_ref().is_none_or(|key| self.roughness.get(key).is_none()) {
+        let (points, length) = (scene.numerics.points as usize, scene.length);
+        let roughness = self.maker.key(scene);
+        if roughness.as_ref().is_none_or(|key| self.roughness.get(key).is_none()) {
             let before = self.roughness.take().map(|rough| rough.heights);
-            if let Some(key) = &key {
+            if let Some(key) = &roughness {
                 self.roughen(scene, key, before.unwrap_or_default())?;
             }
         }
         let rough = self.roughness.value();
         let wave_numbers = rough.and_then(|rough| rough.wave_numbers);
-        let wave_numbers = wave_numbers.map(|wave_numbers| wave_numbers.stretched(scene.length));
-        let governing = Governing::of(scene, wave_numbers, rough.and_then(|rough| rough.measured));
-        // Measured heights are already in metres.
-        let in_metres = key.as_ref().is_some_and(RoughnessKey::is_measured);
+        let wave_numbers = wave_numbers.map(|wave_numbers| wave_numbers.stretched(length));
+        let measured = rough.and_then(|rough| rough.measured);
+        let governing = Governing::of(scene, wave_numbers, measured);
         let rms_height = governing.amplitude.map_or(0.0, |amplitude| amplitude.rms_height);
-        let scale = if in_metres { 1.0 } else { rms_height };
-        let key = LineKey { roughness: key, scale, length: scene.length, points, form: scene.form };
+        // Measured heights are already in metres.
+        let scale = if measured.is_some() { 1.0 } else { rms_height };
         let modes = rough.and_then(|rough| rough.modes);
+        let key = LineKey { roughness, scale, length, points, form: scene.form };
         if self.line.get(&key).is_none() {
             let line = self.lay_line(scene, &key)?;
             self.springs = Arc::new(Springs::new(Arc::clone(&line.gaps)));
@@ -140,16 +132,15 @@ impl Simulation {
         let Some(line) = self.line.value() else { return Err(NO_PROFILE.into()) };
         let facts = LineFacts {
             points,
-            length: scene.length,
+            length,
             spacing: line.spacing,
             first: line.first,
             summit: line.summit,
             deepest: self.springs.deepest(),
             modes,
             seed: scene.seed(),
-            continuum_rms_gradient: spectrum.zip(governing.amplitude).map(|((spectrum, _), amplitude)| {
-                amplitude.rms_height * spectrum.continuum_gradient_per_height(scene.length)
-            }),
+            continuum_rms_gradient: spectrum(scene)
+                .map(|spectrum| rms_height * spectrum.continuum_gradient_per_height(length)),
         };
         Ok((line, facts, governing))
     }
@@ -198,14 +189,12 @@ impl Simulation {
         let count = plan.runs(Stage::HeightHistogram) && self.histogram.is_none();
         let build = plan.runs(Stage::Tree) && !self.springs.has_tree(edges);
         let (springs, memory) = (&self.springs, take(&mut self.former_tree));
-        let aside = || {
-            let histogram = || Histogram::new(line.heights(), line.lowest(), line.summit, HISTOGRAM_BINS);
-            count.then(histogram)
-        };
-        let (histogram, built) =
-            in_parallel(count && build && line.gaps.len() >= MANY_SPRINGS, aside, || {
-                build.then(|| springs.tree_in(memory, edges))
-            });
+        let histogram = || Histogram::new(line.heights(), line.lowest(), line.summit, HISTOGRAM_BINS);
+        let (histogram, built) = in_parallel(
+            count && build && line.gaps.len() >= MANY_SPRINGS,
+            || count.then(histogram),
+            || build.then(|| springs.tree_in(memory, edges)),
+        );
         built.transpose()?;
         self.histogram = histogram.or(self.histogram.take());
         Ok(if count { line.gaps.len() as u64 } else { 0 })
@@ -213,16 +202,15 @@ impl Simulation {
 
     /// Checks the memory of a run before any allocation: kept memory counts, and is released if it is far too large
     /// or in the way.
-    fn make_room(&mut self, plan: &Plan, points: usize) -> Result<(), RunError> {
-        let needed = plan.peak_bytes;
-        if self.kept.points / MOST_SPARE > points && self.kept.bytes > SMALL {
+    fn make_room(&mut self, bytes: u64) -> Result<(), RunError> {
+        if self.kept / MOST_SPARE > bytes && self.kept > SMALL {
             self.give_back();
         }
-        if check_room(needed.saturating_sub(self.kept.bytes)).is_err() {
+        if check_room(bytes.saturating_sub(self.kept)).is_err() {
             self.give_back();
-            check_room(needed).map_err(|_| RunError::OutOfMemory { bytes: needed })?;
+            check_room(bytes).map_err(|_| RunError::OutOfMemory { bytes })?;
         }
-        self.kept = Kept { points: self.kept.points.max(points), bytes: self.kept.bytes.max(needed) };
+        self.kept = self.kept.max(bytes);
         Ok(())
     }
 
@@ -233,34 +221,32 @@ impl Simulation {
     }
 
     /// Makes profile and tree of a checked scene for a contact by this plan.
-    pub(super) fn prepare<'a>(
-        &'a mut self,
+    pub(super) fn prepare(
+        &mut self,
         plan: &Plan,
-        scene: &'a Scene,
-        stop: &'a dyn Fn() -> bool,
-    ) -> Result<Prepared<'a>, RunError> {
+        scene: &Scene,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Prepared, RunError> {
         let interrupted = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
         let mut timings = Timings::default();
-        self.make_room(plan, scene.numerics.points as usize)?;
+        self.make_room(plan.peak_bytes)?;
 
         let drawn_before = self.maker.phases_drawn;
         let clock = Instant::now();
-        let (_, facts, governing) = self.make_line(scene)?;
+        let (line, facts, governing) = self.make_line(scene)?;
+        let Governing { effective_modulus, .. } = governing;
+        let foundation = Foundation { spacing: line.spacing, effective_modulus, length: line.length };
         timings.line = clock.elapsed().as_secs_f64();
         interrupted()?;
         let random_phases = self.maker.phases_drawn - drawn_before;
 
-        let clock = Instant::now();
-        let heights_binned = self.look_at_line(plan, scene.numerics.edges)?;
+        let (clock, edges) = (Instant::now(), scene.numerics.edges);
+        let heights_binned = self.look_at_line(plan, edges)?;
         timings.tree = clock.elapsed().as_secs_f64();
         interrupted()?;
 
-        let Some(line) = self.line.value() else { return Err(NO_PROFILE.into()) };
-        let foundation = governing.foundation(line);
         let hess = governing.hess_rule(foundation).filter(|_| plan.runs(Stage::RuleOfHess));
-        let (springs, edges) = (Arc::clone(&self.springs), scene.numerics.edges);
-        let contact = Contact::of(springs, edges, foundation, hess);
-        let contact = ContactStage { contact, first: line.first, scene, stop };
+        let contact = Contact::of(Arc::clone(&self.springs), edges, foundation, hess);
         Ok(Prepared { contact, facts, governing, random_phases, heights_binned, timings })
     }
 
@@ -278,46 +264,46 @@ impl Simulation {
         let plan = Plan::of(scene);
         let made = self.prepare(&plan, scene, stop)?;
         let Prepared { contact, facts, governing, random_phases, heights_binned, mut timings } = made;
-        let adheres = contact.contact.has_adhesion();
+        let on_foundation = |(first, last): (usize, usize)| (first + facts.first, last + facts.first);
 
-        let clock = Instant::now();
-        let mut fragments = Vec::new();
-        let mut observe = |stage: usize, record: &LegRecord, leg: &Leg| {
-            if plan.runs(Stage::Fragments) {
-                fragments.push(contact.fragments_after(record, leg));
+        let (clock, mut stage, mut fragments) = (Instant::now(), 0, Vec::new());
+        let mut see = |record: &LegRecord, leg: &Leg| {
+            if stop() {
+                return Err(ContactError::Interrupted);
             }
-            after(stage, record, leg)
+            if plan.runs(Stage::Fragments) {
+                let end = record.curve.last().filter(|point| point.springs > 0);
+                let patches = end.map_or_else(Vec::new, |end| leg.patches(end.indentation));
+                fragments.push(patches.into_iter().map(on_foundation).collect());
+            }
+            stage += 1;
+            after(stage - 1, record, leg)
         };
-        let contacted = contact.run(plan.runs(Stage::ZeroLoadAdhesion), &mut observe)?;
-        timings.curve = contacted.curve_seconds;
-        timings.zero_load = contacted.zero_load_seconds;
+        let zero_load = plan.runs(Stage::ZeroLoadAdhesion);
+        let loaded = load(scene, &contact, zero_load, stop, &mut see)?;
+        timings.curve = loaded.curve_seconds;
+        timings.zero_load = loaded.zero_load_seconds;
         timings.passes = (clock.elapsed().as_secs_f64() - timings.curve - timings.zero_load).max(0.0);
-        let mut history = contacted.history;
-        history.work.random_phases = random_phases;
-        history.work.transforms = u64::from(random_phases > 0);
-        history.work.heights_binned = heights_binned;
+        let mut history = loaded.history;
+        history.contacts.iter_mut().for_each(|contact| *contact = on_foundation(*contact));
+        let transforms = u64::from(random_phases > 0);
+        history.work = Work { random_phases, transforms, heights_binned, ..history.work };
 
         let figures = Figures::of(&history);
-        let zero_load_adhesion_force = if plan.runs(Stage::ZeroLoadAdhesion) {
-            contacted.zero_load_adhesion_force
-        } else {
-            figures.adhesion_force.filter(|_| adheres && Figures::is_touch_protocol(scene))
-        };
-
-        let form = scene.form.as_ref();
-        let modulus = governing.effective_modulus;
-        let work = governing.adhesive_work();
-        let smooth = work.map(|work| smooth_adhesion_force(form, scene.length, modulus, work));
-        let regime = Regime::of_loading(&figures, zero_load_adhesion_force, smooth);
+        let is_touch = contact.has_adhesion() && Figures::is_touch_protocol(scene);
+        let zero_load_adhesion_force =
+            loaded.zero_load_adhesion_force.or(figures.adhesion_force.filter(|_| is_touch));
+        let (work, modulus, length) = (governing.adhesive_work(), governing.effective_modulus, scene.length);
+        let smooth = work.map(|work| smooth_adhesion_force(scene.form.as_ref(), length, modulus, work));
         Ok(Outcome {
             line: facts,
             governing,
-            ideal_adhesion_force: work.map(|work| ideal_adhesion_force(work, modulus, scene.length)),
+            ideal_adhesion_force: work.map(|work| ideal_adhesion_force(work, modulus, length)),
             smooth_adhesion_force: smooth,
             zero_load_adhesion_force,
             tabor_number: scene_tabor_number(scene, &governing),
             steep_waves: SteepWaves::of(scene, &governing),
-            regime,
+            regime: Regime::of_loading(&figures, zero_load_adhesion_force, smooth),
             figures,
             history,
             fragments,

@@ -12,6 +12,7 @@ use super::plan::{Plan, targets};
 use super::quantity::Quantity;
 use super::target::{Target, governing};
 use super::{StudyError, symbol_and_unit};
+use crate::analysis::Governing;
 use crate::scene::RoughnessParameter;
 use rand::RngExt;
 use rand::SeedableRng;
@@ -150,7 +151,8 @@ fn conversion(
     let mut scene = plan.prototype();
     // The plan has been checked with these values.
     Target::set_all(targets(plan).into_iter().zip(plan.values(cell)), &mut scene).ok()?;
-    let energies = if from == to { Some(1.0) } else { governing(&scene)?.energy_ratio(to, from) }?;
+    let ratio = |known: Governing| Some(known.energy(to)? / known.energy(from)?);
+    let energies = if from == to { Some(1.0) } else { ratio(governing(&scene)?) }?;
     let convert = move |value| to.of_energy_over_work(energies * from.energy_over_work(value));
     Some(move |value| if from == to { value } else { convert(value) })
 }

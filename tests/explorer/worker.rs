@@ -568,22 +568,6 @@ fn at_the_end_of_a_leg_the_fragments_are_those_observed() {
 }
 
 #[test]
-fn springs_that_changed_since_the_moment_before_are_counted() {
-    within(30, || {
-        let served = Served::by(Simulation::default());
-        let computed = served.computed(1, &rough());
-        let curve = &computed.outcome.history.legs[0].curve;
-        let springs = |index: usize| curve[index].springs;
-        assert_eq!(served.shown(snapshot(0, curve[20].indentation)).changed, 0);
-        for (from, to) in [(20, 40), (40, 30)] {
-            let shown = served.shown(snapshot(0, curve[to].indentation));
-            assert!(springs(from) != springs(to), "nothing happens there");
-            assert_eq!(shown.changed, springs(to).abs_diff(springs(from)));
-        }
-    });
-}
-
-#[test]
 fn next_and_previous_fragment_go_round() {
     within(60, || {
         let served = Served::by(Simulation::default());

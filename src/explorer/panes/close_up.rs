@@ -7,7 +7,7 @@ use crate::draw::{CellPlot, Chart, Span};
 use crate::explorer::layout::inside;
 use crate::explorer::mode::ModeKind;
 use crate::explorer::model::Model;
-use crate::explorer::snapshot::{ContactSnapshot, FragmentFacts, Section, Share};
+use crate::explorer::snapshot::{ContactSnapshot, FragmentFacts, Section};
 use crate::explorer::theme::{Meaning, Theme};
 use crate::explorer::view::lines::draw_lines;
 use crate::explorer::view::plot;
@@ -111,13 +111,8 @@ fn heights(section: &Section) -> Span {
 }
 
 /// The whole contact in one row; the brackets enclose the close-up.
-fn strip(strip: &[Share], section: &Section, springs: usize, theme: Theme) -> Line<'static> {
-    let glyph = |share: &Share| match share {
-        Share::Nothing => '·',
-        Share::Something => '▪',
-        Share::Everything => '■',
-    };
-    let (count, springs) = (strip.len(), springs.max(1));
+fn strip(strip: &str, section: &Section, springs: usize, theme: Theme) -> Line<'static> {
+    let (count, springs) = (strip.chars().count(), springs.max(1));
     if count < 4 {
         return Line::default();
     }
@@ -125,7 +120,7 @@ fn strip(strip: &[Share], section: &Section, springs: usize, theme: Theme) -> Li
     let open = cell(section.first).min(count - 2);
     let close = cell((section.first + section.springs).saturating_sub(1)).max(open + 1);
     let part = |from: usize, to: usize| -> Text<'static> {
-        let glyphs: String = strip.get(from..to).unwrap_or_default().iter().map(glyph).collect();
+        let glyphs: String = strip.chars().take(to).skip(from).collect();
         Text::styled(glyphs, theme.style(Meaning::Contact))
     };
     let bracket = |text: &'static str| Text::styled(text, theme.style(Meaning::Title));

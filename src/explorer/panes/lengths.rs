@@ -4,7 +4,6 @@ use super::{PaneRow, Place};
 use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Sign, Span, Stroke};
 use crate::explorer::layout::inside;
 use crate::explorer::model::Model;
-use crate::explorer::snapshot::LengthBin;
 use crate::explorer::theme::Meaning;
 use crate::explorer::view::lines::{draw_lines, draw_reason};
 use crate::explorer::view::plot;
@@ -33,15 +32,16 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         model.snapshot.as_ref().and_then(|snapshot| snapshot.lengths.as_ref()).zip(model.computed.as_ref());
     let Some((bins, computed)) = shown else { return };
     let spacing = computed.outcome.line.spacing;
-    let filled: Vec<&LengthBin> = bins.iter().filter(|bin| bin.fragments > 0).collect();
-    if filled.is_empty() {
+    if bins.is_empty() {
         return draw_reason(frame, area, "nothing is in contact", theme);
     }
-    let points: Vec<(f64, f64)> = filled
-        .iter()
-        // Lengths from `from` to `to` − 1: their geometric mean.
-        .map(|bin| ((bin.from as f64 * (bin.to - 1) as f64).sqrt() * spacing, bin.fragments as f64))
-        .collect();
+    // The fewest springs whose square has this binary logarithm.
+    let least = |square: u32| 2_f64.powf(f64::from(square) / 2.0).ceil();
+    let points = bins.iter().map(|(&square, &count)| {
+        let mean = (least(square) * (least(square + 1) - 1.0)).sqrt();
+        (mean * spacing, count as f64)
+    });
+    let points: Vec<(f64, f64)> = points.collect();
     let axis = |numbers: &mut dyn Iterator<Item = f64>, symbol: &str, unit: &str| {
         let span = Span::decades(numbers.map(f64::log10));
         Axis::new(AxisScale::Logarithmic, span, "", symbol, unit)
@@ -54,7 +54,7 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let plot = Rect { height: area.height - text_rows, ..area };
     plot::draw_chart(frame, plot, &chart, model.appearance);
     if text_rows > 0 {
-        let count: u64 = bins.iter().map(|bin| bin.fragments).sum();
+        let count: u64 = bins.values().sum();
         let text = format!("○ n, {count} in all, in steps of δx by √2");
         let row = Rect { y: area.bottom() - 1, height: 1, ..area };
         draw_lines(frame, row, [Line::styled(text, theme.style(Meaning::Quiet))]);

@@ -4,7 +4,7 @@ use super::found::marked;
 use super::stages;
 use super::typed::typed;
 use super::wrap::{fitted, fitting, wrapped_within};
-use crate::analysis::{SteepWaves, contact_stiffness, mean_pressure};
+use crate::analysis::SteepWaves;
 use crate::contact::CurvePoint;
 use crate::explorer::action::{Content, Traffic};
 use crate::explorer::completion::Completion;
@@ -22,6 +22,7 @@ use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Paragraph;
+use std::f64::consts::PI;
 
 /// Name of the scene, a sign of unsaved changes, and the notice.
 pub fn title(frame: &mut Frame<'_>, area: Rect, model: &Model) {
@@ -194,13 +195,15 @@ fn mechanics(model: &Model, snapshot: Option<&ContactSnapshot>) -> Vec<Part> {
     parts
 }
 
-/// Stiffness and mean pressure of the present contact.
+/// Stiffness E* l of the present contact with its edges in place (Popov and Filippov 2012, eq. (1)), and the mean pressure
+/// on a circle of its radius.
 fn response(model: &Model, snapshot: &ContactSnapshot) -> Vec<Part> {
     let Some(computed) = &model.computed else { return Vec::new() };
-    let stiffness =
-        contact_stiffness(computed.outcome.governing.effective_modulus, snapshot.point.contact_length);
+    let stiffness = computed.outcome.governing.effective_modulus * snapshot.point.contact_length;
     let mut parts = vec![(" · ", format!("E*l {}", format_rounded(stiffness, 2, "N/m")), Meaning::Text)];
-    if let Some(pressure) = mean_pressure(snapshot.point.force, snapshot.contact_radius) {
+    let radius = snapshot.contact_radius;
+    if radius > 0.0 {
+        let pressure = snapshot.point.force / (PI * radius * radius);
         parts.push((" · ", format!("p_m {}", format_rounded(pressure, 2, "Pa")), Meaning::Text));
     }
     parts

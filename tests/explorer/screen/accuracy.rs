@@ -6,8 +6,8 @@ use super::common::scenes::{changed, rough, without_adhesion};
 use super::stand_in::StandIn;
 use super::{is_up_to_date, keep};
 use asperity::accuracy::{
-    Choice, ChoiceError, CostError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Measures, Reference,
-    Row, Target, Timing,
+    Choice, ChoiceError, CostError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Reference, Row, Target,
+    Timing,
 };
 use asperity::explorer::action::Action;
 use asperity::explorer::model::{Estimated, Notice, Pane};
@@ -64,7 +64,7 @@ fn row(knob: Knob, setting: f64, error: f64) -> Row {
         springs: if knob == Knob::Step { 1024 } else { setting as u64 },
         seconds: Timing::of(vec![seconds]),
         transforms: None,
-        errors: Measures { adhesion_force: Some(figure), ..Measures::default() },
+        errors: [Some(figure), None, None, None],
     }
 }
 
@@ -77,7 +77,7 @@ fn table() -> CostTable {
         springs: 16384,
         adhesion_force: Some(1e-5),
         closed_form: false,
-        errors: Measures { adhesion_force: Some(1e-5), ..Measures::default() },
+        errors: [Some(1e-5), None, None, None],
     };
     CostTable { budget: 10.0, spent: 1.0, transform_seconds: 1e-2, reference, rows, left_out: Vec::new() }
 }

@@ -1,0 +1,195 @@
+//! A profile and its contact, reduced to the columns of a chart.
+
+use std::ops::Range;
+
+/// The rigid profile and its contact at one indentation.
+#[derive(Clone, Copy)]
+pub struct Contact<'a> {
+    /// Gaps below the summit, m.
+    pub gaps: &'a [f64],
+    /// Height of the summit, m.
+    pub summit: f64,
+    /// Indentation, m.
+    pub indentation: f64,
+    /// First and last spring of each contact patch, in ascending order.
+    pub fragments: &'a [(usize, usize)],
+}
+
+/// Springs of a chart, at least one, and its number of columns.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Part {
+    /// First spring.
+    pub first: usize,
+    /// Number of springs.
+    pub springs: usize,
+    /// Number of columns; with more columns than springs, a spring fills several.
+    pub columns: usize,
+}
+
+/// Lowest and highest point of the profile in each column of a part. Another profile needs another cache.
+#[derive(Default)]
+pub struct LineColumns {
+    part: Part,
+    heights: Vec<(f64, f64)>,
+}
+
+/// A part of the profile and its contact in columns.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Section {
+    /// First spring shown.
+    pub first: usize,
+    /// Number of springs shown.
+    pub springs: usize,
+    /// Lowest and highest point of the profile, m.
+    pub heights: (f64, f64),
+    /// Height of the undeformed elastic surface, m.
+    pub level: f64,
+    /// Ranges of heights in each column.
+    pub columns: Vec<Column>,
+}
+
+/// Lowest and highest points of the springs in one column.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Column {
+    /// Rigid profile, m.
+    pub line: (f64, f64),
+    /// Elastic surface, m: the profile in contact, else its own level.
+    pub surface: (f64, f64),
+    /// Profile in contact, m.
+    pub contact: Option<(f64, f64)>,
+}
+
+impl Part {
+    /// Returns the springs of a column.
+    #[must_use]
+    pub fn springs_of(self, column: usize) -> Range<usize> {
+        let start = |column: usize| {
+            self.first + (column as u128 * self.springs as u128 / self.columns.max(1) as u128) as usize
+        };
+        let from = start(column);
+        from..start(column + 1).max(from + 1)
+    }
+}
+
+impl Contact<'_> {
+    /// Returns the height of the profile at a spring, m.
+    #[must_use]
+    pub fn height(&self, spring: usize) -> f64 {
+        self.summit - self.gaps[spring]
+    }
+
+    /// Returns the height of the undeformed elastic surface, m.
+    #[must_use]
+    pub fn level(&self) -> f64 {
+        self.summit - self.indentation
+    }
+
+    /// Returns the parts of the contact patches within some springs.
+    pub fn within(&self, springs: Range<usize>) -> impl Iterator<Item = Range<usize>> {
+        let begun = self.fragments.partition_point(|&(_, last)| last < springs.start);
+        let touching = self.fragments[begun..].iter().take_while(move |(first, _)| *first < springs.end);
+        touching.map(move |&(first, last)| first.max(springs.start)..(last + 1).min(springs.end))
+    }
+
+    /// Reduces a part of the profile to its columns.
+    #[must_use]
+    pub fn section(&self, part: Part, line: &mut LineColumns) -> Section {
+        let Part { first, springs, columns } = part;
+        if line.part != part {
+            let heights = (0..columns).map(|column| self.heights(part.springs_of(column)));
+            *line = LineColumns { part, heights: heights.collect() };
+        }
+        let of = |(column, &heights)| self.column(part.springs_of(column), heights);
+        let columns = line.heights.iter().enumerate().map(of).collect();
+        // A hidden chart has no columns.
+        let heights = line.heights.iter().copied().reduce(wider);
+        let heights = heights.unwrap_or_else(|| self.heights(first..first + springs));
+        Section { first, springs, heights, level: self.level(), columns }
+    }
+
+    /// Returns the lowest and the highest point of some springs, m.
+    fn heights(&self, springs: Range<usize>) -> (f64, f64) {
+        let height = |gap: &f64| (self.summit - gap, self.summit - gap);
+        self.gaps[springs].iter().map(height).fold((f64::INFINITY, f64::NEG_INFINITY), wider)
+    }
+
+    fn column(&self, springs: Range<usize>, line: (f64, f64)) -> Column {
+        let (mut free, mut contact) = (springs.len(), None);
+        for touching in self.within(springs.clone()) {
+            free -= touching.len();
+            let heights = if touching == springs { line } else { self.heights(touching) };
+            contact = Some(contact.map_or(heights, |contact| wider(contact, heights)));
+        }
+        let level = (self.level(), self.level());
+        let surface = match contact {
+            Some(contact) if free == 0 => contact,
+            Some(contact) => wider(contact, level),
+            None => level,
+        };
+        Column { line, surface, contact }
+    }
+}
+
+/// Returns the range that covers both.
+fn wider(one: (f64, f64), other: (f64, f64)) -> (f64, f64) {
+    (one.0.min(other.0), one.1.max(other.1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn columns_hold_the_extremes_of_their_springs() {
+        let contact = Contact {
+            gaps: &[0.0, 1.0, 2.0, 3.0, 2.5, 0.5],
+            summit: 10.0,
+            indentation: 0.5,
+            fragments: &[(0, 1), (5, 5)],
+        };
+        let section = |part| contact.section(part, &mut LineColumns::default());
+        let whole = section(Part { first: 0, springs: 6, columns: 3 });
+        assert_eq!((whole.heights, whole.level), ((7.0, 10.0), 9.5));
+        let free = Column { line: (7.0, 8.0), surface: (9.5, 9.5), contact: None };
+        let mixed = Column { line: (7.5, 9.5), surface: (9.5, 9.5), contact: Some((9.5, 9.5)) };
+        let held = Column { line: (9.0, 10.0), surface: (9.0, 10.0), contact: Some((9.0, 10.0)) };
+        assert_eq!(whole.columns, [held, free, mixed]);
+        // A spring fills several columns.
+        let few = section(Part { first: 4, springs: 2, columns: 5 });
+        let heights: Vec<f64> = few.columns.iter().map(|column| column.line.0).collect();
+        assert_eq!(heights, [7.5, 7.5, 7.5, 9.5, 9.5]);
+        assert_eq!(section(Part { first: 4, springs: 2, columns: 0 }).heights, (7.5, 9.5));
+    }
+
+    proptest! {
+        #[test]
+        fn a_section_is_what_its_springs_are(
+            touching in prop::collection::vec(any::<bool>(), 1..40),
+            first in 0_usize..40,
+            springs in 1_usize..40,
+            columns in 1_usize..20,
+        ) {
+            let gaps: Vec<f64> = (0..touching.len()).map(|i| ((i * 37) % 11) as f64).collect();
+            let first = first % gaps.len();
+            let part = Part { first, springs: springs.min(gaps.len() - first), columns };
+            let mut fragments: Vec<(usize, usize)> = Vec::new();
+            for spring in (0..touching.len()).filter(|&spring| touching[spring]) {
+                match fragments.last_mut() {
+                    Some((_, last)) if *last + 1 == spring => *last = spring,
+                    _ => fragments.push((spring, spring)),
+                }
+            }
+            let contact = Contact { gaps: &gaps, summit: 20.0, indentation: 3.0, fragments: &fragments };
+            let section = contact.section(part, &mut LineColumns::default());
+            for (column, found) in section.columns.iter().enumerate() {
+                let heights = |springs: Vec<usize>| {
+                    springs.into_iter().map(|spring| (20.0 - gaps[spring], 20.0 - gaps[spring])).reduce(wider)
+                };
+                let held = part.springs_of(column).filter(|&spring| touching[spring]).collect();
+                prop_assert_eq!(Some(found.line), heights(part.springs_of(column).collect()));
+                prop_assert_eq!(found.contact, heights(held));
+            }
+        }
+    }
+}
