@@ -9,7 +9,7 @@ use super::periodogram::{Bin, Direction, MapPower, ProfilePower, bins, square};
 use super::power_law::{self, PowerLaw};
 use super::reliability::reliability_cutoff;
 use super::statistics::{Statistics, Sums};
-use crate::topography::{Topography, TopographyError};
+use crate::topography::Topography;
 use std::f64::consts::{PI, TAU};
 
 /// Share of the squared gradient that may be beyond the end of the spectrum.
@@ -96,7 +96,7 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     let mut sums = Sums::default();
     let mut reliability: Option<f64> = None;
     let mut length = 0.0_f64;
-    let powers = Powers::of(surfaces, options, Topography::copied_heights, |surface, heights, distances| {
+    let powers = Powers::of(surfaces, options, 0, |surface, heights, distances| {
         let columns = surface.columns();
         check_rough(surface.heights(), heights)?;
         sums.add(heights, columns, distances);
@@ -127,8 +127,7 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     let mut largest = [0.0_f64; 4];
     let places = if surfaces.iter().any(|surface| surface.interpolated() > 0) { 1..4 } else { 0..0 };
     for quarters in places {
-        let heights = |surface: &Topography| surface.interpolated_again(quarters);
-        let powers = Powers::of(surfaces, options, heights, |_, _, _| Ok(()))?;
+        let powers = Powers::of(surfaces, options, quarters, |_, _, _| Ok(()))?;
         let observations = powers.observations(range[1]);
         let again = fitted(&observations, range, options.end)?;
         let hurst = self_affine(&observations, &again).zip(power_law);
@@ -193,11 +192,12 @@ fn check_rough(before: &[f64], after: &[f64]) -> Result<(), SpectrumError> {
 }
 
 impl Powers {
-    /// Powers of the detrended heights of surfaces, which `check` receives with the distances between the points.
+    /// Powers of the detrended heights of surfaces, copied as by [`Topography::copied_heights`], which `check` receives with
+    /// the distances between the points.
     fn of(
         surfaces: &[Topography],
         options: &Options,
-        heights: impl Fn(&Topography) -> Result<Vec<f64>, TopographyError>,
+        quarters: usize,
         mut check: impl FnMut(&Topography, &[f64], [f64; 2]) -> Result<(), SpectrumError>,
     ) -> Result<Powers, SpectrumError> {
         let mut powers = Powers::default();
@@ -209,7 +209,7 @@ impl Powers {
             if points < LEAST_POINTS {
                 return Err(SpectrumError::TooFew { index, points });
             }
-            let mut heights = heights(surface).map_err(refused)?;
+            let mut heights = surface.copied_heights(quarters).map_err(refused)?;
             options.detrend.remove(&mut heights, columns);
             check(surface, &heights, distances)?;
             powers.add(&heights, columns, distances, !options.periodic)?;

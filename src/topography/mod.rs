@@ -24,7 +24,7 @@ mod x3p;
 
 pub use error::{Place, TopographyError};
 pub use open::{content, parse, read};
-pub use reading::{Format, ReadOptions};
-pub use surface::{Cut, Grid, Topography};
+pub use reading::ReadOptions;
+pub use surface::{Cut, Topography};
 pub(crate) use surface::{UNEVEN, first_uneven, interpolated};
 pub use unit::{Unit, UnitError};
