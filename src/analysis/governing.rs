@@ -2,7 +2,7 @@
 
 use crate::contact::{Foundation, HessRule};
 use crate::scene::{Adhesion, Roughness, RoughnessParameter, Scene};
-use crate::surface::{Amplitude, Line, WaveNumbers};
+use crate::surface::{Amplitude, Line};
 
 /// The governing parameters of a scene, each given or derived from the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,30 +28,29 @@ impl Governing {
         Foundation { spacing: line.spacing, effective_modulus: self.effective_modulus, length: line.length }
     }
 
-    /// Derives the parameters of a checked scene from the wave numbers of its self-affine profile or the amplitude
+    /// Derives the parameters of a checked scene from the amplitude of its self-affine profile of rms height 1, or that
     /// of its measured one.
     ///
     /// Given κ alone, γ = h⟨∇z⟩E*/κ²; given γ and κ, h = κ √(γ/(E* ⟨∇z⟩/h)). Similarly for e_el/γ, with e_el = E*
     /// h² q̄/4 and the mean wave number q̄.
     #[must_use]
-    pub fn of(scene: &Scene, wave_numbers: Option<WaveNumbers>, measured: Option<Amplitude>) -> Self {
+    pub fn of(scene: &Scene, unit: Option<Amplitude>, measured: Option<Amplitude>) -> Self {
         let effective_modulus = scene.material.effective_modulus();
         let adhesion = scene.adhesion.unwrap_or_default();
         let amplitude = measured.or_else(|| {
-            let wave_numbers = wave_numbers?;
+            let unit = unit?;
             let Some(Roughness::SelfAffine { rms_height, rms_gradient, .. }) = scene.roughness else {
                 return None;
             };
             let by_adhesion = || {
                 let (parameter, value) = adhesion.parameter()?;
-                let unit = Amplitude::from_height(1.0, wave_numbers);
                 let per_square = energy_of(parameter, unit, effective_modulus);
                 Some(parameter.energy_over_work(value).sqrt() * (adhesion.work? / per_square).sqrt())
             };
             let rms_height = rms_height
-                .or_else(|| rms_gradient.map(|gradient| gradient / wave_numbers.rms))
+                .or_else(|| rms_gradient.map(|gradient| gradient / unit.rms_gradient))
                 .or_else(by_adhesion)?;
-            let amplitude = Amplitude::from_height(rms_height, wave_numbers);
+            let amplitude = unit.scaled(rms_height);
             Some(Amplitude { rms_gradient: rms_gradient.unwrap_or(amplitude.rms_gradient), ..amplitude })
         });
         let without = Governing {
@@ -169,7 +168,8 @@ mod tests {
 
     const ROUGH: Option<Amplitude> =
         Some(Amplitude { rms_height: 3.0, rms_gradient: 6.0, rms_curvature: 15.0, mean_wave_number: 0.5 });
-    const WAVE_NUMBERS: Option<WaveNumbers> = Some(WaveNumbers { rms: 2.0, mean: 0.5, rms_square: 5.0 });
+    const UNIT: Option<Amplitude> =
+        Some(Amplitude { rms_height: 1.0, rms_gradient: 2.0, rms_curvature: 5.0, mean_wave_number: 0.5 });
 
     #[test]
     fn two_of_amplitude_work_and_a_parameter_give_the_third() {
@@ -192,7 +192,7 @@ mod tests {
             ("rms_gradient: 6.0,", "(elastic_energy_ratio: 2.25)"),
             ("", "(work: 2.0, elastic_energy_ratio: 2.25)"),
         ] {
-            let governing = Governing::of(&scene(Some(amplitude), adhesion), WAVE_NUMBERS, None);
+            let governing = Governing::of(&scene(Some(amplitude), adhesion), UNIT, None);
             assert_eq!(governing, expected, "{amplitude} {adhesion}");
         }
         let measured = Governing::of(&scene(None, "(work: 2.0)"), None, ROUGH);
@@ -204,15 +204,15 @@ mod tests {
         let smooth = Governing::of(&scene(None, "(work: 2.0)"), None, None);
         assert_eq!((smooth.work_of_adhesion, smooth.kappa, smooth.amplitude), (Some(2.0), None, None));
         assert_eq!((smooth.elastic_energy(), smooth.adhesive_work()), (None, Some(2.0)));
-        let none = Governing::of(&scene(Some("rms_height: 3.0,"), "(work: 0.0)"), WAVE_NUMBERS, None);
+        let none = Governing::of(&scene(Some("rms_height: 3.0,"), "(work: 0.0)"), UNIT, None);
         assert_eq!((none.work_of_adhesion, none.kappa, none.adhesive_work()), (Some(0.0), None, None));
-        let without = Governing::of(&scene(Some("rms_height: 3.0,"), "None"), WAVE_NUMBERS, None);
+        let without = Governing::of(&scene(Some("rms_height: 3.0,"), "None"), UNIT, None);
         assert_eq!((without.work_of_adhesion, without.kappa, without.amplitude), (None, None, ROUGH));
     }
 
     #[test]
     fn another_adhesion_on_the_same_line() {
-        let base = Governing::of(&scene(Some("rms_height: 3.0,"), "(work: 2.0)"), WAVE_NUMBERS, None);
+        let base = Governing::of(&scene(Some("rms_height: 3.0,"), "(work: 2.0)"), UNIT, None);
         let with = |adhesion: Adhesion| {
             let changed = base.with_adhesion(Some(adhesion));
             assert_eq!(changed.amplitude, base.amplitude);

@@ -353,8 +353,7 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     if let Some(opposite) = &arguments.opposite {
         faces.push(arguments.face(std::slice::from_ref(opposite), &mut hashes)?);
     }
-    let spectra = faces.iter().map(|face| face.analysis.isotropic.clone()).collect();
-    let line = EquivalentLine::from_spectra(spectra).map_err(|error| arguments.failed(error))?;
+    let line = EquivalentLine { faces: faces.iter().map(|face| face.analysis.isotropic.clone()).collect() };
     let modulus = arguments.analysis.modulus;
     let contact = modulus.map(|modulus| SurfaceContact { modulus, work: arguments.work });
     if let (Some(path), Some(modulus)) = (&arguments.scene, modulus) {

@@ -5,7 +5,7 @@ use super::cached::Cached;
 use crate::scene::{Roughness, Scene};
 use crate::surface::{
     Amplitude, EquivalentLine, MeasuredOptions, MeasuredProfile, MeasuredRoughness, SelfAffine, SurfaceError,
-    Synthesizer, WaveNumbers, read_faces,
+    Synthesizer, read_faces,
 };
 use crate::topography::{Cut, ReadOptions, Unit, content};
 use std::path::{Path, PathBuf};
@@ -39,8 +39,8 @@ enum Source {
 pub(super) struct Rough {
     /// Empty once they have become the gaps of the profile.
     pub heights: Vec<f64>,
-    /// Wave numbers of the self-affine profile on a length of 1 m.
-    pub wave_numbers: Option<WaveNumbers>,
+    /// Amplitude of the self-affine profile of rms height 1 on a length of 1 m.
+    pub unit: Option<Amplitude>,
     /// Amplitude of a measured surface.
     pub measured: Option<Amplitude>,
     /// First and last mode of a random profile.
@@ -103,11 +103,11 @@ impl RoughnessMaker {
         let RoughnessKey { source, points, shift } = key;
         let (faces, options, seed, length) = match source {
             Source::SelfAffine { spectrum, seed } => {
-                let unit = self.synthesizer.synthesize(*spectrum, *seed, *points, *shift, memory)?;
+                let heights = self.synthesizer.synthesize(*spectrum, *seed, *points, *shift, memory)?;
                 self.phases_drawn += spectrum.last + 1 - spectrum.first;
                 return Ok(Rough {
-                    heights: unit.heights,
-                    wave_numbers: Some(spectrum.wave_numbers(1.0)),
+                    heights,
+                    unit: Some(spectrum.unit_amplitude(1.0)),
                     measured: None,
                     modes: Some((spectrum.first, spectrum.last)),
                 });
@@ -128,7 +128,7 @@ impl RoughnessMaker {
             };
             let heights = profile.sample(length, *points, *shift).map_err(|reason| refused(&reason))?;
             let measured = Some(profile.amplitude()?);
-            return Ok(Rough { heights, wave_numbers: None, measured, modes: None });
+            return Ok(Rough { heights, unit: None, measured, modes: None });
         };
         let line = self.equivalent_line(faces, options)?;
         let modes = line.modes(length, *points).map_err(|reason| refused(&reason))?;
@@ -136,7 +136,7 @@ impl RoughnessMaker {
         let heights = self.synthesizer.synthesize_waves(&amplitude, modes, *seed, *points, *shift, memory)?;
         self.phases_drawn += modes.1 + 1 - modes.0;
         let measured = Some(line.amplitude_of_modes(length, modes));
-        Ok(Rough { heights, wave_numbers: None, measured, modes: Some(modes) })
+        Ok(Rough { heights, unit: None, measured, modes: Some(modes) })
     }
 
     /// The equivalent line of the faces: the given one, the last one, or a new one.

@@ -125,9 +125,8 @@ impl Simulation {
             }
         }
         let rough = self.roughness.value();
-        let wave_numbers = rough.and_then(|rough| rough.wave_numbers);
-        let wave_numbers = wave_numbers.map(|wave_numbers| wave_numbers.stretched(scene.length));
-        let governing = Governing::of(scene, wave_numbers, rough.and_then(|rough| rough.measured));
+        let unit = rough.and_then(|rough| rough.unit).map(|unit| unit.stretched(scene.length));
+        let governing = Governing::of(scene, unit, rough.and_then(|rough| rough.measured));
         // Measured heights are already in metres.
         let in_metres = key.as_ref().is_some_and(RoughnessKey::is_measured);
         let rms_height = governing.amplitude.map_or(0.0, |amplitude| amplitude.rms_height);

@@ -1,4 +1,4 @@
-//! Equivalent line of a measured surface: its own spectrum, random phases.
+//! Measured surfaces as roughness: the profile itself, or its equivalent line with its own spectrum and random phases.
 
 use super::{Amplitude, MeasuredProfile, SurfaceError};
 use crate::spectrum::{
@@ -47,10 +47,7 @@ pub fn read_faces(faces: &[Vec<PathBuf>]) -> Result<Vec<Face>, SurfaceError> {
 
 impl MeasuredOptions {
     /// Analyses the files of a face.
-    ///
-    /// # Errors
-    /// [`SurfaceError::Measured`] without a file, or if a file is no surface, or has no spectrum.
-    pub fn analyse(&self, face: &Face) -> Result<Analysis, SurfaceError> {
+    pub(crate) fn analyse(&self, face: &Face) -> Result<Analysis, SurfaceError> {
         let parse = |(path, content): &(PathBuf, Vec<u8>)| {
             self.parse(content).map_err(|error| SurfaceError::measured(path, &error))
         };
@@ -61,9 +58,7 @@ impl MeasuredOptions {
         })
     }
 
-    /// Returns the options of the analysis.
-    #[must_use]
-    pub fn analysis(&self) -> Options {
+    pub(crate) fn analysis(&self) -> Options {
         let end = self.continue_to.map_or(End::Ends, |wavelength| End::Continues(TAU / wavelength));
         // A plane fitted to a periodic surface would leave a step at its borders.
         let default = if self.periodic { Detrend::Mean } else { Detrend::Tilt };
@@ -71,11 +66,7 @@ impl MeasuredOptions {
         Options { detrend, periodic: self.periodic, end, tip_radius: None }
     }
 
-    /// Reads a surface from the content of a file.
-    ///
-    /// # Errors
-    /// [`TopographyError`] if the content is no surface or has no such row or column.
-    pub fn parse(&self, content: &[u8]) -> Result<Topography, TopographyError> {
+    pub(crate) fn parse(&self, content: &[u8]) -> Result<Topography, TopographyError> {
         let mut surface = parse(content, &self.reading)?;
         if let Some(cut) = self.cut {
             surface = surface.cut(cut)?;
@@ -95,10 +86,7 @@ pub enum MeasuredRoughness {
 
 impl MeasuredRoughness {
     /// Reads the measured surfaces of one or both faces.
-    ///
-    /// # Errors
-    /// [`SurfaceError::Measured`] if a file is no surface, or has no spectrum.
-    pub fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
+    pub(crate) fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         match faces {
             [face] if options.as_line && face.len() == 1 => {
                 let (path, content) = &face[0];
@@ -110,11 +98,9 @@ impl MeasuredRoughness {
         }
     }
 
-    /// Checks that a line of a length (m) can be made on so many springs.
-    ///
-    /// # Errors
-    /// The reason, in one line.
-    pub fn check(&self, length: f64, points: usize) -> Result<(), String> {
+    /// Checks that a line of a length (m) can be made on so many springs; the error is the reason, in one line.
+    #[cfg(feature = "tui")]
+    pub(crate) fn check(&self, length: f64, points: usize) -> Result<(), String> {
         match self {
             MeasuredRoughness::Profile(profile) => profile.sample(length, 1, 0.0).map(drop),
             MeasuredRoughness::Equivalent(line) => line.modes(length, points).map(drop),
@@ -125,34 +111,22 @@ impl MeasuredRoughness {
 /// Equivalent line of the measured surfaces of one or both faces: the spectra of the faces add.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EquivalentLine {
-    faces: Vec<IsotropicSpectrum>,
+    pub(crate) faces: Vec<IsotropicSpectrum>,
 }
 
 impl EquivalentLine {
-    /// Equivalent line of the surfaces in the files of all faces.
+    /// Analyses the surfaces in the files of all faces.
     ///
     /// # Errors
-    /// [`SurfaceError::Measured`] without a file, or if a file is no surface, or has no spectrum.
+    /// [`SurfaceError::Measured`] for a face without a file, or if a file is no surface, or has no spectrum.
     pub fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         let spectra = faces.iter().map(|face| Ok(options.analyse(face)?.isotropic));
-        EquivalentLine::from_spectra(spectra.collect::<Result<_, SurfaceError>>()?)
-    }
-
-    /// Equivalent line of the faces with these spectra; at least one.
-    ///
-    /// # Errors
-    /// [`SurfaceError::Measured`] without a spectrum.
-    pub fn from_spectra(faces: Vec<IsotropicSpectrum>) -> Result<Self, SurfaceError> {
-        if faces.is_empty() {
-            return Err(SurfaceError::measured(Path::new(""), "no file; allowed: one for each face"));
-        }
-        Ok(EquivalentLine { faces })
+        Ok(EquivalentLine { faces: spectra.collect::<Result<_, SurfaceError>>()? })
     }
 
     /// Equivalent line of spectra moved by a share of steps drawn from the uncertainty of their fits; equal numbers
     /// have equal steps.
-    #[must_use]
-    pub fn drawn(&self, number: u64, share: f64) -> EquivalentLine {
+    pub(crate) fn drawn(&self, number: u64, share: f64) -> EquivalentLine {
         let of_face = |(face, spectrum): (u64, &IsotropicSpectrum)| {
             // Faces are independent of each other.
             spectrum.drawn(number ^ face.rotate_right(1), share)
@@ -167,24 +141,19 @@ impl EquivalentLine {
     }
 
     /// PSD of the line, m³, at a wave number, rad/m: the sum of those of the faces.
-    #[must_use]
-    pub fn power(&self, wave_number: f64) -> f64 {
+    pub(crate) fn power(&self, wave_number: f64) -> f64 {
         self.faces.iter().map(|face| face.line(wave_number)).sum()
     }
 
     /// First and last wave number, rad/m, known of all faces. Each spectrum ends at its own limit.
-    #[must_use]
-    pub fn range(&self) -> [f64; 2] {
+    pub(crate) fn range(&self) -> [f64; 2] {
         let ranges = self.faces.iter().map(IsotropicSpectrum::range);
         ranges.fold([0.0, 0.0], |[first, last], [low, high]| [first.max(low), last.max(high)])
     }
 
     /// First and last mode k, q = 2πk/L, of a line of a length (m) on so many springs: the waves of the spectrum
     /// that fit the line and are resolved by the springs. Waves longer than the scan are unknown and omitted.
-    ///
-    /// # Errors
-    /// No such mode.
-    pub fn modes(&self, length: f64, points: usize) -> Result<(u64, u64), String> {
+    pub(crate) fn modes(&self, length: f64, points: usize) -> Result<(u64, u64), String> {
         let [low, high] = self.range();
         let waves = length / TAU;
         let first = (low * waves * (1.0 - ROUNDING)).ceil().max(1.0);
@@ -201,8 +170,7 @@ impl EquivalentLine {
     }
 
     /// Amplitude A_k, m, of a mode of a line of a length (m): A_k² = 4 C_line(q_k)/L.
-    #[must_use]
-    pub fn amplitude(&self, mode: u64, length: f64) -> f64 {
+    pub(crate) fn amplitude(&self, mode: u64, length: f64) -> f64 {
         let wave_number = TAU * mode as f64 / length;
         let power = |face: &IsotropicSpectrum| {
             // A wave may exceed the end by rounding.
@@ -213,8 +181,7 @@ impl EquivalentLine {
     }
 
     /// Amplitude of the modes from a first to a last one on a length (m).
-    #[must_use]
-    pub fn amplitude_of_modes(&self, length: f64, (first, last): (u64, u64)) -> Amplitude {
+    pub(crate) fn amplitude_of_modes(&self, length: f64, (first, last): (u64, u64)) -> Amplitude {
         let squares = |mode: u64| (mode, 0.5 * self.amplitude(mode, length).powi(2));
         // Starts with the smallest amplitudes.
         Amplitude::from_modes((first..=last).rev().map(squares), length)
@@ -286,7 +253,6 @@ mod tests {
         let energies = [one, other, both].map(|moments| moments.energy_per_modulus);
         assert!((energies[2].value / (energies[0].value + energies[1].value) - 1.0).abs() < 1e-12);
         assert!((energies[2].error / energies[0].error.hypot(energies[1].error) - 1.0).abs() < 1e-9);
-        assert!(EquivalentLine::new(&[], &further).is_err());
         assert!(EquivalentLine::new(&[Vec::new()], &further).is_err());
     }
 

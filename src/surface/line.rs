@@ -1,8 +1,7 @@
 //! The rigid profile as the input of the contact: gaps below its highest point.
 
-use super::{SurfaceError, mdr_profile};
+use super::{Form, SurfaceError};
 use crate::memory;
-use crate::scene::Form;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -102,7 +101,7 @@ impl Line {
             Some(form) => {
                 // Whole cells from the axis: exact, so that the profile is as symmetric as its form.
                 let axis = Form::spring_on_axis(points as u64) as f64;
-                let depth = |index: usize| mdr_profile(form, (index as f64 - axis) * spacing);
+                let depth = |index: usize| form.mdr_profile((index as f64 - axis) * spacing);
                 (first..).zip(&mut gaps).for_each(|(index, z)| *z = scale * *z - depth(index));
             }
         }

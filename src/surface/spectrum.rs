@@ -1,6 +1,6 @@
 //! The self-affine spectrum of the equivalent profile, eqs. (4)–(9), and its mean squares.
 
-use super::WaveNumbers;
+use super::Amplitude;
 
 /// Terms of a sum of powers that are added directly; the Euler-Maclaurin formula yields the others.
 const DIRECT_TERMS: u64 = 64;
@@ -50,14 +50,15 @@ impl SelfAffine {
         std::f64::consts::TAU / length * (self.moment(2) / self.moment(0)).sqrt()
     }
 
-    /// Rms and mean wave number of the modes on a length L in m: sums as in [`Self::gradient_per_height`].
+    /// Amplitude of a profile of rms height 1 on a length L in m: sums as in [`Self::gradient_per_height`].
     #[must_use]
-    pub fn wave_numbers(&self, length: f64) -> WaveNumbers {
+    pub fn unit_amplitude(&self, length: f64) -> Amplitude {
         let (unit, height) = (std::f64::consts::TAU / length, self.moment(0));
-        WaveNumbers {
-            rms: self.gradient_per_height(length),
-            mean: unit * (self.moment(1) / height),
-            rms_square: unit.powi(2) * (self.moment(4) / height).sqrt(),
+        Amplitude {
+            rms_height: 1.0,
+            rms_gradient: self.gradient_per_height(length),
+            rms_curvature: unit.powi(2) * (self.moment(4) / height).sqrt(),
+            mean_wave_number: unit * (self.moment(1) / height),
         }
     }
 
@@ -152,7 +153,6 @@ fn integral_of_power(power: f64, low: f64, high: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::surface::Amplitude;
 
     #[test]
     fn integrals_stay_accurate_as_hurst_goes_to_one() {
@@ -183,7 +183,7 @@ mod tests {
         let (modulus, height, length) = (2.0e6, 3.0e-7, 1.0e-3);
         for hurst in [0.1, 0.5, 0.9] {
             let spectrum = SelfAffine { hurst, first: 10_000, last: 400_000 };
-            let modes = Amplitude::from_height(height, spectrum.wave_numbers(length)).elastic_energy(modulus);
+            let modes = spectrum.unit_amplitude(length).scaled(height).elastic_energy(modulus);
             // (E*/4) ∫ q C2D d²q over the surface with ⟨h²⟩ = ∫ C2D d²q: C2D ∝ q^(−2−2H).
             let q = |mode: u64| std::f64::consts::TAU * mode as f64 / length;
             let (low, high) = (q(spectrum.first), q(spectrum.last));

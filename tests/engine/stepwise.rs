@@ -6,7 +6,7 @@ use asperity::contact::{
 };
 use asperity::scene::{Document, Edges, Move};
 use asperity::simulation::{Outcome, Simulation};
-use asperity::surface::{SelfAffine, UnitRoughness};
+use asperity::surface::SelfAffine;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
@@ -15,7 +15,7 @@ const FOUNDATION: Foundation = Foundation::endless(0.01, 1.0);
 /// Gaps of a self-affine line about 1 m deep.
 fn rough(points: usize, seed: u64) -> Vec<f64> {
     let spectrum = SelfAffine { hurst: 0.7, first: 1, last: points as u64 / 4 };
-    let heights = UnitRoughness::synthesize(spectrum, seed, points).unwrap().heights;
+    let heights = spectrum.heights(seed, points).unwrap();
     let summit = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     heights.iter().map(|height| 0.2 * (summit - height)).collect()
 }
