@@ -3,11 +3,13 @@
 use super::RunError;
 use super::cached::Cached;
 use crate::scene::{Roughness, Scene};
+use crate::spectrum::{Detrend, End, Options};
 use crate::surface::{
     Amplitude, EquivalentLine, MeasuredOptions, MeasuredProfile, MeasuredRoughness, SelfAffine, SurfaceError,
     Synthesizer, read_faces,
 };
 use crate::topography::{Cut, ReadOptions, Unit, content};
+use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -200,8 +202,11 @@ pub fn measured_roughness_options(roughness: &Roughness, as_line: bool) -> Measu
     else {
         return MeasuredOptions::default();
     };
+    let end = continue_to.map_or(End::Ends, |wavelength| End::Continues(TAU / wavelength));
+    // A plane fitted to a periodic surface would leave a step at its borders.
+    let default = if *periodic { Detrend::Mean } else { Detrend::Tilt };
     MeasuredOptions {
-        as_line,
+        as_line: as_line.then(|| detrend.unwrap_or(Detrend::None)),
         reading: ReadOptions {
             unit: unit.parse().ok(),
             height_unit: height_unit.parse().ok(),
@@ -209,11 +214,9 @@ pub fn measured_roughness_options(roughness: &Roughness, as_line: bool) -> Measu
             spacing: *spacing,
             interpolate: *interpolate,
             channel: channel.and_then(|channel| channel.try_into().ok()),
+            cut: row.map(Cut::Row).or(column.map(Cut::Column)),
+            resample: *resample,
         },
-        resample: *resample,
-        cut: row.map(Cut::Row).or(column.map(Cut::Column)),
-        detrend: *detrend,
-        periodic: *periodic,
-        continue_to: *continue_to,
+        spectrum: Options { detrend: detrend.unwrap_or(default), periodic: *periodic, end, tip_radius: None },
     }
 }

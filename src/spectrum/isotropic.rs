@@ -86,8 +86,7 @@ impl Moment {
     }
 
     /// The value times a factor.
-    #[must_use]
-    pub fn scaled(self, factor: f64) -> Self {
+    pub(crate) fn scaled(self, factor: f64) -> Self {
         let relative = |error: f64| error / self.value;
         let [statistical, method, missing] =
             [self.statistical, self.method, self.missing_short_waves].map(relative);
@@ -95,8 +94,7 @@ impl Moment {
     }
 
     /// The square root of the value.
-    #[must_use]
-    pub fn root(self) -> Self {
+    pub(crate) fn root(self) -> Self {
         let relative = |error: f64| 0.5 * error / self.value;
         let missing = (1.0 + self.missing_short_waves / self.value).sqrt() - 1.0;
         Moment::new(self.value.sqrt(), relative(self.statistical), relative(self.method), missing)
@@ -208,32 +206,27 @@ pub struct IsotropicSpectrum {
 
 impl IsotropicSpectrum {
     /// C2D, m⁴, at a wave number, rad/m. Zero beyond the end; constant below the first node.
-    #[must_use]
-    pub fn c2d(&self, wave_number: f64) -> f64 {
+    pub(crate) fn c2d(&self, wave_number: f64) -> f64 {
         if wave_number > self.nodes.end { 0.0 } else { self.value(wave_number.ln()) }
     }
 
     /// PSD of the equivalent line, m³, at a wave number, rad/m: q C2D/2.
-    #[must_use]
-    pub fn line(&self, wave_number: f64) -> f64 {
+    pub(crate) fn line(&self, wave_number: f64) -> f64 {
         0.5 * wave_number * self.c2d(wave_number)
     }
 
     /// PSD of a cut through the surface, m³, at a wave number, rad/m.
-    #[must_use]
-    pub fn cut(&self, wave_number: f64) -> f64 {
+    pub(crate) fn cut(&self, wave_number: f64) -> f64 {
         cut(|q| self.c2d(q), wave_number, self.nodes.end)
     }
 
     /// Last node, rad/m: the last resolved wave number.
-    #[must_use]
-    pub fn last_node(&self) -> f64 {
+    pub(crate) fn last_node(&self) -> f64 {
         self.nodes.wave_number(self.nodes.count - 1)
     }
 
     /// First and last wave number, rad/m.
-    #[must_use]
-    pub fn range(&self) -> [f64; 2] {
+    pub(crate) fn range(&self) -> [f64; 2] {
         [self.nodes.wave_number(0), self.nodes.end]
     }
 
@@ -246,8 +239,7 @@ impl IsotropicSpectrum {
 
     /// The spectrum with its values of ln C2D moved by a share of steps drawn from the normal distribution of the
     /// fit. Equal numbers have equal steps.
-    #[must_use]
-    pub fn drawn(&self, number: u64, share: f64) -> IsotropicSpectrum {
+    pub(crate) fn drawn(&self, number: u64, share: f64) -> IsotropicSpectrum {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&number.to_le_bytes());
         key[8..].copy_from_slice(PURPOSE);
@@ -318,15 +310,13 @@ impl IsotropicSpectrum {
     }
 
     /// Moments of the equivalent line, with waves from half the first wave number on.
-    #[must_use]
-    pub fn line_moments(&self) -> LineMoments {
+    pub(crate) fn line_moments(&self) -> LineMoments {
         line_moments(std::slice::from_ref(self))
     }
 }
 
 /// Moments of the equivalent line of faces with independent spectra, which add. The waves begin at half the first
 /// wave number known of all faces: wave 1 of a length covers the range from ½ to 1½.
-#[must_use]
 pub(crate) fn line_moments(faces: &[IsotropicSpectrum]) -> LineMoments {
     let from = faces.iter().map(|face| 0.5 * face.nodes.wave_number(0)).fold(0.0, f64::max);
     let moments = |power: i32| faces.iter().map(|face| face.moment(power, from)).collect::<Vec<_>>();

@@ -17,8 +17,7 @@ pub struct Amplitude {
 
 impl Amplitude {
     /// Amplitude of heights times a factor.
-    #[must_use]
-    pub fn scaled(self, factor: f64) -> Self {
+    pub(crate) fn scaled(self, factor: f64) -> Self {
         Amplitude {
             rms_height: factor * self.rms_height,
             rms_gradient: factor * self.rms_gradient,
@@ -38,8 +37,7 @@ impl Amplitude {
     }
 
     /// Amplitude of the modes k with these mean squares A_k²/2, m², on a length (m); smallest first for accuracy.
-    #[must_use]
-    pub fn from_modes(squares: impl Iterator<Item = (u64, f64)>, length: f64) -> Self {
+    pub(crate) fn from_modes(squares: impl Iterator<Item = (u64, f64)>, length: f64) -> Self {
         let (mut height, mut slope, mut gradient, mut curvature) = (0.0, 0.0, 0.0, 0.0);
         for (mode, square) in squares {
             let wave_number = TAU * mode as f64 / length;
@@ -60,8 +58,7 @@ impl Amplitude {
     /// Elastic energy of conformity per area, J/m²: e_el = (E*/8) Σ q_k A_k², the energy of a half-space of
     /// effective modulus E* (Pa) in full contact with an isotropic surface with the rms height, rms gradient and
     /// mean wave number of the profile (Persson and Tosatti, 2001).
-    #[must_use]
-    pub fn elastic_energy(&self, effective_modulus: f64) -> f64 {
+    pub(crate) fn elastic_energy(&self, effective_modulus: f64) -> f64 {
         effective_modulus * self.rms_height.powi(2) * self.mean_wave_number / 4.0
     }
 }

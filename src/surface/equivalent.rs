@@ -1,10 +1,8 @@
 //! Measured surfaces as roughness: the profile itself, or its equivalent line with its own spectrum and random phases.
 
 use super::{Amplitude, MeasuredProfile, SurfaceError};
-use crate::spectrum::{
-    Analysis, Detrend, End, IsotropicSpectrum, LineMoments, Options, analyse, line_moments,
-};
-use crate::topography::{Cut, ReadOptions, Topography, TopographyError, content, parse};
+use crate::spectrum::{Analysis, Detrend, IsotropicSpectrum, LineMoments, Options, analyse, line_moments};
+use crate::topography::{ReadOptions, content, parse};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
@@ -14,20 +12,12 @@ const ROUNDING: f64 = 1.0e-9;
 /// Options of a scene for its measured surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MeasuredOptions {
-    /// True if the profile itself is the line.
-    pub as_line: bool,
-    /// Values that a file may omit.
+    /// Part removed from the profile if it is the line itself; `None` for an equivalent line.
+    pub as_line: Option<Detrend>,
+    /// Options of the readers.
     pub reading: ReadOptions,
-    /// True if uneven profiles are resampled at their mean distance.
-    pub resample: bool,
-    /// Row or column of a map used as the profile.
-    pub cut: Option<Cut>,
-    /// Removed part; `None`: the tilt for an equivalent line, the mean if `periodic`, nothing for a profile as the line.
-    pub detrend: Option<Detrend>,
-    /// True if the surface repeats itself at its borders: then its spectrum is estimated without a window.
-    pub periodic: bool,
-    /// Shortest wavelength, m, down to which the spectrum continues as a power law.
-    pub continue_to: Option<f64>,
+    /// Options of the spectrum.
+    pub spectrum: Options,
 }
 
 /// Files of a face with their content: samples of one roughness.
@@ -49,29 +39,13 @@ impl MeasuredOptions {
     /// Analyses the files of a face.
     pub(crate) fn analyse(&self, face: &Face) -> Result<Analysis, SurfaceError> {
         let parse = |(path, content): &(PathBuf, Vec<u8>)| {
-            self.parse(content).map_err(|error| SurfaceError::measured(path, &error))
+            parse(content, &self.reading).map_err(|error| SurfaceError::measured(path, &error))
         };
         let surfaces = face.iter().map(parse).collect::<Result<Vec<_>, SurfaceError>>()?;
-        analyse(&surfaces, &self.analysis()).map_err(|error| {
+        analyse(&surfaces, &self.spectrum).map_err(|error| {
             let file = face.get(error.surface().unwrap_or(0));
             SurfaceError::measured(file.map_or(Path::new(""), |(path, _)| path), &error)
         })
-    }
-
-    pub(crate) fn analysis(&self) -> Options {
-        let end = self.continue_to.map_or(End::Ends, |wavelength| End::Continues(TAU / wavelength));
-        // A plane fitted to a periodic surface would leave a step at its borders.
-        let default = if self.periodic { Detrend::Mean } else { Detrend::Tilt };
-        let detrend = self.detrend.unwrap_or(default);
-        Options { detrend, periodic: self.periodic, end, tip_radius: None }
-    }
-
-    pub(crate) fn parse(&self, content: &[u8]) -> Result<Topography, TopographyError> {
-        let mut surface = parse(content, &self.reading)?;
-        if let Some(cut) = self.cut {
-            surface = surface.cut(cut)?;
-        }
-        if self.resample { surface.resampled() } else { Ok(surface) }
     }
 }
 
@@ -88,7 +62,7 @@ impl MeasuredRoughness {
     /// Reads the measured surfaces of one or both faces.
     pub(crate) fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         match faces {
-            [face] if options.as_line && face.len() == 1 => {
+            [face] if options.as_line.is_some() && face.len() == 1 => {
                 let (path, content) = &face[0];
                 let profile = MeasuredProfile::new(content, options);
                 let profile = profile.map_err(|error| SurfaceError::measured(path, &error))?;
@@ -191,7 +165,7 @@ impl EquivalentLine {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spectrum::Moment;
+    use crate::spectrum::{End, Moment};
     use crate::surface::Synthesizer;
 
     fn face() -> Face {
@@ -199,6 +173,11 @@ mod tests {
             |i: u32| (0..120).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(1 + k)).sum::<f64>();
         let text: String = (0..256).map(|i| format!("{i} {}\n", height(i))).collect();
         vec![(PathBuf::new(), format!("x [um] z [nm]\n{text}").into_bytes())]
+    }
+
+    fn continued() -> MeasuredOptions {
+        let spectrum = Options { end: End::Continues(TAU / 0.5e-6), ..Options::default() };
+        MeasuredOptions { spectrum, ..MeasuredOptions::default() }
     }
 
     fn line_with(options: &MeasuredOptions) -> EquivalentLine {
@@ -214,14 +193,14 @@ mod tests {
         assert_eq!(line.modes(4.0 * scan, 4096).unwrap().0, 4);
         assert!(line.modes(scan, 1).unwrap_err().contains("allowed: at least 2 springs"));
         assert!(line.modes(1e-6, 64).unwrap_err().contains("no wave of the spectrum"));
-        let further = MeasuredOptions { continue_to: Some(0.5e-6), ..MeasuredOptions::default() };
+        let further = continued();
         let longer = line_with(&further);
         assert_eq!(longer.modes(scan, 1024).unwrap(), (1, 512));
     }
 
     #[test]
     fn spectra_of_two_faces_add() {
-        let further = MeasuredOptions { continue_to: Some(0.5e-6), ..MeasuredOptions::default() };
+        let further = continued();
         let one = line_with(&MeasuredOptions::default());
         let other = line_with(&further);
         let faces = |one: &EquivalentLine, other: &EquivalentLine| EquivalentLine {

@@ -53,13 +53,13 @@ impl Form {
     /// Displacement of the body along the foundation, in cells, that puts its axis from L/2 onto a spring: ½ for an even
     /// number of springs, 0 for an odd one. Form and roughness are displaced together, so that their relative position
     /// does not depend on the number of springs. A punch has no tip and is not displaced.
-    pub fn shift(&self, points: u64) -> f64 {
+    pub(crate) fn shift(&self, points: u64) -> f64 {
         if points.is_multiple_of(2) && self.flat_end().is_none() { 0.5 } else { 0.0 }
     }
 
     /// Indices of the springs under the form, of `points` springs on `length` m: all of them, except under a punch.
     /// A punch covers its diameter rounded to whole cells, centred on the axis to half a cell; below half a cell none.
-    pub fn springs_under(&self, length: f64, points: u64) -> Range<u64> {
+    pub(crate) fn springs_under(&self, length: f64, points: u64) -> Range<u64> {
         let Some(radius) = self.flat_end() else { return 0..points };
         let cells = (2.0 * radius / (length / points as f64)).round() as u64;
         let cells = cells.min(points);
@@ -68,7 +68,7 @@ impl Form {
     }
 
     /// Radius of the flat end, m, outside of which there are no springs; `None` for all forms but a punch.
-    pub fn flat_end(&self) -> Option<f64> {
+    pub(crate) fn flat_end(&self) -> Option<f64> {
         match *self {
             Form::Punch { radius } => Some(radius),
             _ => None,
@@ -85,7 +85,7 @@ impl Form {
     }
 
     /// Curvature at the summit, 1/m; `None` for cones and power laws, which have none or none at their tip.
-    pub fn summit_curvature(&self) -> Option<f64> {
+    pub(crate) fn summit_curvature(&self) -> Option<f64> {
         match *self {
             Form::Paraboloid { radius } => Some(1.0 / radius),
             Form::WavySphere { radius, amplitude, wavelength } => {

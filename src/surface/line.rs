@@ -53,49 +53,40 @@ impl Line {
         roughness: Option<&[f64]>,
         scale: f64,
     ) -> Result<Self, SurfaceError> {
-        Line::over(length, points, form, scale, |under| {
-            let mut heights =
-                memory::emptied(memory, under.len()).map_err(|_| SurfaceError::OutOfMemory(points))?;
-            match roughness {
-                Some(rough) => heights.extend_from_slice(&rough[under]),
-                None => heights.resize(under.len(), 0.0),
-            }
-            Ok(heights)
-        })
+        let under = springs_under(form, length, points)?;
+        let mut heights =
+            memory::emptied(memory, under.len()).map_err(|_| SurfaceError::OutOfMemory(points))?;
+        match roughness {
+            Some(rough) => heights.extend_from_slice(&rough[under.clone()]),
+            None => heights.resize(under.len(), 0.0),
+        }
+        Line::over(heights, under.start, length, points, form, scale)
     }
 
     /// The same for a form and roughness, whose memory becomes that of the gaps.
-    ///
-    /// # Errors
-    /// [`SurfaceError::NotFinite`], [`SurfaceError::NoSprings`].
-    pub fn from_roughness(
+    pub(crate) fn from_roughness(
         mut heights: Vec<f64>,
         length: f64,
         form: Option<&Form>,
         scale: f64,
     ) -> Result<Self, SurfaceError> {
-        Line::over(length, heights.len(), form, scale, |under| {
-            heights.truncate(under.end);
-            heights.drain(..under.start);
-            Ok(heights)
-        })
+        let points = heights.len();
+        let under = springs_under(form, length, points)?;
+        heights.truncate(under.end);
+        heights.drain(..under.start);
+        Line::over(heights, under.start, length, points, form, scale)
     }
 
-    /// The profile of a form and `heights` of roughness of the springs under it, times `scale` m, in their memory.
+    /// The profile of a form and of roughness, `gaps` before, of the springs from a first one on.
     fn over(
+        mut gaps: Vec<f64>,
+        first: usize,
         length: f64,
         points: usize,
         form: Option<&Form>,
         scale: f64,
-        heights: impl FnOnce(Range<usize>) -> Result<Vec<f64>, SurfaceError>,
     ) -> Result<Self, SurfaceError> {
         let spacing = length / points as f64;
-        let under = form.map_or(0..points as u64, |form| form.springs_under(length, points as u64));
-        if under.is_empty() {
-            return Err(SurfaceError::NoSprings(spacing / 4.0));
-        }
-        let first = under.start as usize;
-        let mut gaps = heights(first..under.end as usize)?;
         match form {
             None => gaps.iter_mut().for_each(|z| *z *= scale),
             Some(form) => {
@@ -126,8 +117,7 @@ impl Line {
     }
 
     /// Position x, m, of the `index`-th spring under the body.
-    #[must_use]
-    pub fn position(&self, index: usize) -> f64 {
+    pub(crate) fn position(&self, index: usize) -> f64 {
         ((self.first + index) as f64 + 0.5) * self.spacing
     }
 
@@ -142,6 +132,15 @@ impl Line {
     pub fn deepest(&self) -> f64 {
         self.deepest
     }
+}
+
+/// Springs under a form, at least one.
+fn springs_under(form: Option<&Form>, length: f64, points: usize) -> Result<Range<usize>, SurfaceError> {
+    let under = form.map_or(0..points as u64, |form| form.springs_under(length, points as u64));
+    if under.is_empty() {
+        return Err(SurfaceError::NoSprings(length / points as f64 / 4.0));
+    }
+    Ok(under.start as usize..under.end as usize)
 }
 
 /// Largest value; `Err(index)` of the first non-finite value.

@@ -3,7 +3,7 @@
 use super::{Amplitude, MeasuredOptions, SurfaceError};
 use crate::memory::{check_room, emptied};
 use crate::spectrum::Detrend;
-use crate::topography::{TopographyError, UNEVEN, first_uneven, interpolated};
+use crate::topography::{TopographyError, UNEVEN, first_uneven, interpolated, parse};
 use realfft::RealFftPlanner;
 
 /// Most bytes per point of the transform and its arrays: an odd number of points transforms at twice the length.
@@ -27,8 +27,8 @@ impl MeasuredProfile {
     /// # Errors
     /// [`TopographyError`] if the content is no profile.
     pub fn new(content: &[u8], options: &MeasuredOptions) -> Result<Self, TopographyError> {
-        let mut surface = options.parse(content)?;
-        if let Some(detrend) = options.detrend.filter(|detrend| *detrend != Detrend::None) {
+        let mut surface = parse(content, &options.reading)?;
+        if let Some(detrend) = options.as_line.filter(|detrend| *detrend != Detrend::None) {
             surface.spacing()?;
             surface = surface.with_heights(|heights, columns| detrend.remove(heights, columns));
         }
@@ -180,7 +180,7 @@ fn join_ends(heights: &mut [f64]) {
 mod tests {
     use super::*;
 
-    fn parse(text: &str) -> Result<MeasuredProfile, TopographyError> {
+    fn parsed(text: &str) -> Result<MeasuredProfile, TopographyError> {
         let reading = ReadOptions { convention: Some(Unit::METRE), ..ReadOptions::default() };
         MeasuredProfile::new(text.as_bytes(), &MeasuredOptions { reading, ..MeasuredOptions::default() })
     }
@@ -190,7 +190,7 @@ mod tests {
 
     #[test]
     fn reads_what_instruments_write() {
-        let profile = parse("# stylus\nx,z\n0.0, 1e-7\n1e-6,3e-7\n\n2e-6 ,-1e-7\n").unwrap();
+        let profile = parsed("# stylus\nx,z\n0.0, 1e-7\n1e-6,3e-7\n\n2e-6 ,-1e-7\n").unwrap();
         assert_eq!(profile.positions, [0.0, 1e-6, 2e-6]);
         let heights = profile.sample(2e-6, 2, 0.0).unwrap();
         // Halfway between 1 and 3, and between 3 and −1.
@@ -201,7 +201,7 @@ mod tests {
 
     #[test]
     fn points_that_begin_at_half_their_distance_are_middles_of_cells() {
-        let profile = parse("0.5 3\n1.5 4\n2.5 -1").unwrap();
+        let profile = parsed("0.5 3\n1.5 4\n2.5 -1").unwrap();
         assert_eq!(profile.length(), 3.0);
         assert_eq!(profile.sample(3.0, 3, 0.0).unwrap(), [3.0, 4.0, -1.0]);
         // Before the first and behind the last point at its height, halfway between points at their mean.
@@ -210,13 +210,13 @@ mod tests {
         assert_eq!(profile.sample(1.0, 1, 0.0).unwrap(), [3.0]);
         assert!(profile.sample(3.01, 3, 0.0).unwrap_err().contains("covers 3e0 m"));
         // With the digits of a file.
-        let rounded = parse("0.1667 3\n0.5 4\n0.8333 -1").unwrap();
+        let rounded = parsed("0.1667 3\n0.5 4\n0.8333 -1").unwrap();
         assert!((rounded.length() - 1.0).abs() < 1e-3 && rounded.sample(1.0, 3, 0.0).is_ok());
         // Any other profile covers the distance between its points.
         for (text, length) in
             [("0 3\n1 4\n2 -1", 2.0), ("0.5 3\n1.5 4\n2.4 -1", 1.9), ("1 3\n2 4\n3 -1", 2.0)]
         {
-            let profile = parse(text).unwrap();
+            let profile = parsed(text).unwrap();
             assert!((profile.length() - length).abs() < 1e-15);
             assert!(profile.sample(length, 3, 0.0).is_ok());
             // If equally spaced, half a distance beyond each end.
@@ -225,14 +225,14 @@ mod tests {
                 profile.sample(longest, 3, 0.0).is_ok() && profile.sample(1.01 * longest, 3, 0.0).is_err()
             );
         }
-        let even = parse("1 3\n2 4\n3 -1").unwrap();
+        let even = parsed("1 3\n2 4\n3 -1").unwrap();
         assert_eq!(even.sample(3.0, 3, 0.0).unwrap(), [3.0, 4.0, -1.0]);
         assert_eq!(even.sample(2.0, 2, 0.0).unwrap(), [3.5, 1.5]);
     }
 
     #[test]
     fn an_offset_is_taken_out_where_that_is_exact() {
-        let heights = |text: &str| parse(text).unwrap().sample(2.0, 2, 0.0).unwrap();
+        let heights = |text: &str| parsed(text).unwrap().sample(2.0, 2, 0.0).unwrap();
         assert_eq!(heights("0.5 1e8\n1.5 100000001"), [0.0, 1.0]);
         assert_eq!(heights("0.5 -3\n1.5 -5"), [0.0, -2.0]);
         assert_eq!(heights("0.5 3\n1.5 7"), [3.0, 7.0]);
@@ -244,12 +244,12 @@ mod tests {
     fn lengths_are_in_metres_unless_the_file_or_the_scene_states_a_unit() {
         let read = |text: &str, unit: Option<Unit>| {
             let reading = ReadOptions { unit, convention: Some(Unit::METRE), ..ReadOptions::default() };
-            let options = MeasuredOptions { as_line: true, reading, ..MeasuredOptions::default() };
+            let options = MeasuredOptions { reading, ..MeasuredOptions::default() };
             MeasuredProfile::new(text.as_bytes(), &options)
         };
         let millimetre: Unit = "mm".parse().unwrap();
         let metres = read("0,1\n1,2", None).unwrap();
-        assert_eq!(metres, parse("0,1\n1,2").unwrap());
+        assert_eq!(metres, parsed("0,1\n1,2").unwrap());
         assert_eq!(read("0,1000\n1000,2000", Some(millimetre)).unwrap(), metres);
         assert_eq!(read("x [mm] z [mm]\n0 1000\n1000 2000", None).unwrap(), metres);
         let error = read("x [mm] z [mm]\n0 1000\n1000 2000", Some(Unit::METRE)).unwrap_err().to_string();
@@ -268,7 +268,7 @@ mod tests {
 
     #[test]
     fn what_a_length_or_a_mean_square_cannot_hold_is_refused() {
-        let wrong = |text: &str| parse(text).unwrap_err().to_string();
+        let wrong = |text: &str| parsed(text).unwrap_err().to_string();
         assert!(wrong("0 1").contains("1 points; allowed: from 2 to"));
         let long = wrong(&format!("0 1\n1 {}", "κ".repeat(1000)));
         assert!(long.chars().count() < 120, "{long}");
@@ -281,14 +281,14 @@ mod tests {
             wrong("0 0\n0.5 1e9\n1 0"),
             "point 2: a slope of 2e9 from the point before; allowed: at most 1e9"
         );
-        let steepest = parse("-1e9 1e9\n-999999998 -1e9\n1e9 1e9").unwrap();
+        let steepest = parsed("-1e9 1e9\n-999999998 -1e9\n1e9 1e9").unwrap();
         let (height, gradient) = steepest.rms_height_and_gradient();
         assert!(height.is_finite() && gradient.is_finite() && steepest.length() == 2e9);
     }
 
     #[test]
     fn samples_lie_on_the_straight_pieces() {
-        let profile = parse("-2 7\n0 3\n1 6\n4 0").unwrap();
+        let profile = parsed("-2 7\n0 3\n1 6\n4 0").unwrap();
         // At −1.5, −0.5 … 3.5.
         assert_eq!(profile.sample(6.0, 6, 0.0).unwrap(), [6.0, 4.0, 4.5, 5.0, 3.0, 1.0]);
         // From the first point on.
@@ -307,17 +307,17 @@ mod tests {
             (0..points).map(|i| format!("{:e} {:e}\n", place(i), height(place(i)))).collect()
         };
         for (points, middles) in [(1000, 0.5), (1001, 0.5), (1000, 0.0)] {
-            let level = parse(&text(points, middles, 0.0)).unwrap().amplitude().unwrap();
+            let level = parsed(&text(points, middles, 0.0)).unwrap().amplitude().unwrap();
             assert!((level.mean_wave_number / (15.0 * TAU) - 1.0).abs() < 0.01, "{level:?}");
             let curvature = 2e-3 * 0.5_f64.sqrt() * (15.0 * TAU).powi(2);
             assert!((level.rms_curvature / curvature - 1.0).abs() < 0.01, "{level:?}");
             // A tilt has no energy.
-            let tilted = parse(&text(points, middles, 0.1)).unwrap().amplitude().unwrap();
+            let tilted = parsed(&text(points, middles, 0.1)).unwrap().amplitude().unwrap();
             assert!(tilted.rms_height > 10.0 * level.rms_height);
             let change = tilted.elastic_energy(1.0) / level.elastic_energy(1.0) - 1.0;
             assert!(change.abs() < 0.01, "{change}");
         }
-        let flat = parse("0 1\n1 1\n2 1").unwrap().amplitude().unwrap();
+        let flat = parsed("0 1\n1 1\n2 1").unwrap().amplitude().unwrap();
         assert_eq!((flat.mean_wave_number, flat.elastic_energy(1e6)), (0.0, 0.0));
     }
 
@@ -330,7 +330,7 @@ mod tests {
                 .zip(&line)
                 .map(|(i, z)| format!("{:e} {:e}\n", (f64::from(i) + 0.5) / 4096.0, 1e-3 * z))
                 .collect();
-            let measured = parse(&text).unwrap().amplitude().unwrap();
+            let measured = parsed(&text).unwrap().amplitude().unwrap();
             let expected = spectrum.unit_amplitude(1.0).scaled(1e-3);
             let error = measured.elastic_energy(1.0) / expected.elastic_energy(1.0) - 1.0;
             println!("H = {hurst}, to mode {last}: {error:e}");
@@ -347,11 +347,11 @@ mod tests {
             ("5 1\n6 3\n9 -3", (31.0 / 12.0 + 39.0 / 4.0) / 4.0, 2.0),
             ("6e-5 5\n1 5\n3 5", 0.0, 0.0),
         ] {
-            let (height, gradient) = parse(text).unwrap().rms_height_and_gradient();
+            let (height, gradient) = parsed(text).unwrap().rms_height_and_gradient();
             assert!((height - f64::sqrt(square)).abs() < 1e-15 && (gradient - slope).abs() < 1e-15, "{text}");
             assert!(square > 0.0 || (height, gradient) == (0.0, 0.0), "{text}");
         }
-        let level = parse("0 1e9\n1 1e9").unwrap();
+        let level = parsed("0 1e9\n1 1e9").unwrap();
         assert_eq!((level.heights(), level.length()), (&[1e9, 1e9][..], 1.0));
     }
 }

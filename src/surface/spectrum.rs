@@ -24,8 +24,7 @@ pub struct SelfAffine {
 impl SelfAffine {
     /// Amplitude of mode k in units of that of mode 1.
     #[inline]
-    #[must_use]
-    pub fn relative_amplitude(&self, mode: u64) -> f64 {
+    pub(crate) fn relative_amplitude(&self, mode: u64) -> f64 {
         (mode as f64).powf(self.amplitude_exponent())
     }
 
@@ -36,8 +35,7 @@ impl SelfAffine {
     }
 
     /// Root mean square of the sum of cosines with these relative amplitudes: √(Σ A_k²/2).
-    #[must_use]
-    pub fn relative_rms(&self) -> f64 {
+    pub(crate) fn relative_rms(&self) -> f64 {
         (self.moment(0) / 2.0).sqrt()
     }
 
@@ -51,8 +49,7 @@ impl SelfAffine {
     }
 
     /// Amplitude of a profile of rms height 1 on a length L in m: sums as in [`Self::gradient_per_height`].
-    #[must_use]
-    pub fn unit_amplitude(&self, length: f64) -> Amplitude {
+    pub(crate) fn unit_amplitude(&self, length: f64) -> Amplitude {
         let (unit, height) = (std::f64::consts::TAU / length, self.moment(0));
         Amplitude {
             rms_height: 1.0,
@@ -67,8 +64,7 @@ impl SelfAffine {
     ///
     /// Differs from [`Self::gradient_per_height`] of the discrete modes because the first modes carry most of the
     /// height. Zero for a single mode.
-    #[must_use]
-    pub fn continuum_gradient_per_height(&self, length: f64) -> f64 {
+    pub(crate) fn continuum_gradient_per_height(&self, length: f64) -> f64 {
         let (low, high) = (self.first as f64, self.last as f64);
         let height = integral_of_power(-1.0 - 2.0 * self.hurst, low, high);
         if height == 0.0 {

@@ -22,7 +22,8 @@ mod text;
 mod unit;
 mod x3p;
 
-pub use error::{Place, TopographyError};
+pub use error::TopographyError;
+pub(crate) use error::{Place, refused};
 pub use open::{content, parse, read};
 pub use reading::ReadOptions;
 pub use surface::{Cut, Topography};

@@ -1,7 +1,7 @@
 //! From the numbers of a file to heights in m: units, distances between points, missing points.
 
 use super::error::{Place, TopographyError, refused};
-use super::surface::{Grid, Topography};
+use super::surface::{Cut, Grid, Topography};
 use super::{Unit, missing};
 
 /// Largest position and height, m, and largest slope between neighbours: beyond these, lengths and mean squares
@@ -26,6 +26,10 @@ pub struct ReadOptions {
     pub interpolate: bool,
     /// Number of the channel of a file with several.
     pub channel: Option<u32>,
+    /// Row or column of a map read as a profile.
+    pub cut: Option<Cut>,
+    /// True if uneven profiles are resampled at their mean distance.
+    pub resample: bool,
 }
 
 /// Numbers of a file before conversion, in its units.

@@ -63,8 +63,7 @@ impl Topography {
     }
 
     /// Name of the format of the file.
-    #[must_use]
-    pub fn format(&self) -> &'static str {
+    pub(crate) fn format(&self) -> &'static str {
         self.format
     }
 
@@ -127,10 +126,7 @@ impl Topography {
     }
 
     /// One row or column of a map, as a profile.
-    ///
-    /// # Errors
-    /// A profile, a number beyond the last one.
-    pub fn cut(self, cut: Cut) -> Result<Self, TopographyError> {
+    pub(super) fn cut(self, cut: Cut) -> Result<Self, TopographyError> {
         let (columns, rows) = (self.columns, self.rows());
         let (Grid::Even([along, between]), 2..) = (&self.grid, rows) else {
             return Err(refused(Place::File, "a profile, which has no rows and columns", "a map"));
@@ -190,10 +186,7 @@ impl Topography {
 
     /// The same profile equally spaced at the mean distance: heights by linear interpolation. An equally spaced
     /// profile, or a map, is unchanged.
-    ///
-    /// # Errors
-    /// Insufficient memory.
-    pub fn resampled(mut self) -> Result<Self, TopographyError> {
+    pub(super) fn resampled(mut self) -> Result<Self, TopographyError> {
         let Grid::Positions(positions) = &self.grid else { return Ok(self) };
         let (first, spacing, points) = (positions[0], mean_distance(positions), positions.len());
         let places = (0..points).map(|index| first + index as f64 * spacing);

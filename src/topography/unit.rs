@@ -39,8 +39,7 @@ impl Unit {
     pub const METRE: Unit = Unit { name: "m", per_metre: 1.0 };
 
     /// Usual name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         self.name
     }
 
@@ -52,8 +51,7 @@ impl Unit {
     }
 
     /// Value in m of a value in this unit.
-    #[must_use]
-    pub fn to_metres(self, value: f64) -> f64 {
+    pub(crate) fn to_metres(self, value: f64) -> f64 {
         value / self.per_metre
     }
 }

@@ -77,7 +77,7 @@ fn check_index(index: &str) -> Result<(), TopographyError> {
 }
 
 /// Error of the index.
-fn wrong(fault: impl Into<String>, allowed: &str) -> TopographyError {
+fn wrong(fault: impl std::fmt::Display, allowed: &str) -> TopographyError {
     refused(Place::Part(INDEX.to_owned()), fault, allowed)
 }
 

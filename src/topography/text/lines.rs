@@ -16,7 +16,7 @@ pub(super) fn decoded(bytes: &[u8]) -> Result<Cow<'_, [u8]>, TopographyError> {
         return Ok(Cow::Borrowed(text));
     }
     check_room(2 * text.len() as u64).map_err(|_| {
-        TopographyError::Read(format!("not enough memory for {} bytes of UTF-16", text.len()))
+        TopographyError::Refused(format!("not enough memory for {} bytes of UTF-16", text.len()))
     })?;
     Ok(Cow::Owned(encoding.decode_without_bom_handling(text).0.into_owned().into_bytes()))
 }
