@@ -367,19 +367,6 @@ mod tests {
     }
 
     #[test]
-    fn pieces_cover_the_spectrum_once() {
-        for end in [End::Ends, End::Continues(5e4)] {
-            let nodes = Nodes::new(1.0, 1000.0, 6.0, end);
-            assert_eq!(nodes.count, 19);
-            for low in [0.0, 0.5, 1.0, 3.3, 999.0] {
-                let pieces: Vec<_> = nodes.pieces_from(low).collect();
-                assert_eq!((pieces[0].0, pieces[pieces.len() - 1].1), (low, nodes.end));
-                assert!(pieces.windows(2).all(|two| two[0].1 == two[1].0), "{pieces:?}");
-            }
-        }
-    }
-
-    #[test]
     fn cuts_of_a_power_law_are_known() {
         // (1/π) ∫ (k cosh u)⁻³ k cosh u du = tanh(u)/(πk²).
         for wave_number in [1.0_f64, 30.0, 90.0, 100.0] {

@@ -319,12 +319,4 @@ mod tests {
             assert!((largest.1 / expected - 1.0).abs() < 1e-12);
         }
     }
-
-    #[test]
-    fn bins_are_means() {
-        let found = bins([(1.0, 2.0, 1), (1.1, 4.0, 3), (10.0, 5.0, 1)].into_iter());
-        assert_eq!(found.len(), 2);
-        assert!((found[0].wave_number - 4.3 / 4.0).abs() < 1e-15 && (found[0].power - 3.5).abs() < 1e-15);
-        assert_eq!((found[0].waves, found[1].wave_number), (4, 10.0));
-    }
 }

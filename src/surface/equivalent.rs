@@ -166,7 +166,6 @@ impl EquivalentLine {
 mod tests {
     use super::*;
     use crate::spectrum::{End, Moment};
-    use crate::surface::Synthesizer;
 
     fn face() -> Face {
         let height =
@@ -209,17 +208,11 @@ mod tests {
         let both = faces(&one, &other);
         let length = 256e-6;
         assert_eq!(both.modes(length, 4096).unwrap(), (1, 512));
-        for mode in [1, 50, 127, 128, 400, 512] {
+        for mode in [1, 127, 128, 512] {
             let [a, b, sum] = [&one, &other, &both].map(|line| line.amplitude(mode, length).powi(2));
             assert!((sum - a - b).abs() <= 1e-12 * sum && sum > 0.0, "{mode}: {a} {b} {sum}");
             assert_eq!(a == 0.0, mode > 127, "{mode}");
         }
-        // Two equal faces have √2 times the height and gradient of one.
-        let twice = faces(&one, &one);
-        let modes = one.modes(length, 4096).unwrap();
-        let [before, after] = [&one, &twice].map(|line| line.amplitude_of_modes(length, modes));
-        assert!((after.rms_height / before.rms_height - std::f64::consts::SQRT_2).abs() < 1e-12);
-        assert!((after.rms_gradient / before.rms_gradient - std::f64::consts::SQRT_2).abs() < 1e-12);
         // Also moments, over the waves common to both scans.
         let [one, other, both] = [&one, &other, &both].map(|line| line.moments());
         let squares = |a: Moment, b: Moment, sum: Moment| {
@@ -233,23 +226,5 @@ mod tests {
         assert!((energies[2].value / (energies[0].value + energies[1].value) - 1.0).abs() < 1e-12);
         assert!((energies[2].error / energies[0].error.hypot(energies[1].error) - 1.0).abs() < 1e-9);
         assert!(EquivalentLine::new(&[Vec::new()], &further).is_err());
-    }
-
-    #[test]
-    fn the_line_has_the_moments_of_its_spectrum() {
-        let line = line_with(&MeasuredOptions::default());
-        let analysis = MeasuredOptions::default().analyse(&face()).unwrap();
-        let length = 256e-6;
-        let modes = line.modes(length, 4096).unwrap();
-        let Amplitude { rms_height: height, rms_gradient: gradient, .. } =
-            line.amplitude_of_modes(length, modes);
-        // Sums of modes approximate integrals.
-        assert!((height / analysis.line.rms_height.value - 1.0).abs() < 0.02, "{height}");
-        assert!((gradient / analysis.line.rms_gradient.value - 1.0).abs() < 0.02, "{gradient}");
-        let amplitude = |mode: u64| line.amplitude(mode, length);
-        let waves =
-            Synthesizer::default().synthesize_waves(&amplitude, modes, 5, 4096, 0.0, Vec::new()).unwrap();
-        let rms = (waves.iter().map(|z| z * z).sum::<f64>() / 4096.0).sqrt();
-        assert!((rms / height - 1.0).abs() < 1e-12, "{rms} {height}");
     }
 }

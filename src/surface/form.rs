@@ -53,7 +53,7 @@ impl Form {
     /// Displacement of the body along the foundation, in cells, that puts its axis from L/2 onto a spring: ½ for an even
     /// number of springs, 0 for an odd one. Form and roughness are displaced together, so that their relative position
     /// does not depend on the number of springs. A punch has no tip and is not displaced.
-    pub(crate) fn shift(&self, points: u64) -> f64 {
+    pub fn shift(&self, points: u64) -> f64 {
         if points.is_multiple_of(2) && self.flat_end().is_none() { 0.5 } else { 0.0 }
     }
 

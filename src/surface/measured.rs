@@ -179,24 +179,12 @@ fn join_ends(heights: &mut [f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::topography::{ReadOptions, Unit};
+    use std::f64::consts::TAU;
 
     fn parsed(text: &str) -> Result<MeasuredProfile, TopographyError> {
         let reading = ReadOptions { convention: Some(Unit::METRE), ..ReadOptions::default() };
         MeasuredProfile::new(text.as_bytes(), &MeasuredOptions { reading, ..MeasuredOptions::default() })
-    }
-    use crate::surface::SelfAffine;
-    use crate::topography::{ReadOptions, Unit};
-    use std::f64::consts::TAU;
-
-    #[test]
-    fn reads_what_instruments_write() {
-        let profile = parsed("# stylus\nx,z\n0.0, 1e-7\n1e-6,3e-7\n\n2e-6 ,-1e-7\n").unwrap();
-        assert_eq!(profile.positions, [0.0, 1e-6, 2e-6]);
-        let heights = profile.sample(2e-6, 2, 0.0).unwrap();
-        // Halfway between 1 and 3, and between 3 and −1.
-        assert!((heights[0] - 2e-7).abs() < 1e-20 && (heights[1] - 1e-7).abs() < 1e-20, "{heights:?}");
-        assert_eq!(profile.sample(2e-6, 2, 0.5).unwrap(), [1e-7, 3e-7]);
-        assert!(profile.sample(3.1e-6, 2, 0.0).unwrap_err().contains("covers 3e-6 m"));
     }
 
     #[test]
@@ -238,32 +226,6 @@ mod tests {
         assert_eq!(heights("0.5 3\n1.5 7"), [3.0, 7.0]);
         assert_eq!(heights("0.5 -3\n1.5 3"), [-3.0, 3.0]);
         assert_eq!(heights("0.5 0\n1.5 0"), [0.0, 0.0]);
-    }
-
-    #[test]
-    fn lengths_are_in_metres_unless_the_file_or_the_scene_states_a_unit() {
-        let read = |text: &str, unit: Option<Unit>| {
-            let reading = ReadOptions { unit, convention: Some(Unit::METRE), ..ReadOptions::default() };
-            let options = MeasuredOptions { reading, ..MeasuredOptions::default() };
-            MeasuredProfile::new(text.as_bytes(), &options)
-        };
-        let millimetre: Unit = "mm".parse().unwrap();
-        let metres = read("0,1\n1,2", None).unwrap();
-        assert_eq!(metres, parsed("0,1\n1,2").unwrap());
-        assert_eq!(read("0,1000\n1000,2000", Some(millimetre)).unwrap(), metres);
-        assert_eq!(read("x [mm] z [mm]\n0 1000\n1000 2000", None).unwrap(), metres);
-        let error = read("x [mm] z [mm]\n0 1000\n1000 2000", Some(Unit::METRE)).unwrap_err().to_string();
-        assert!(error.contains("the file states mm as the unit of heights, the options state m"), "{error}");
-        assert!(read("1 2 3 4\n1 2 3 4\n", None).is_err());
-    }
-
-    #[cfg(unix)]
-    #[test]
-    fn devices_are_not_read() {
-        for device in ["/dev/zero", "/dev/null", "/dev/tty"] {
-            let message = crate::topography::content(device.as_ref()).unwrap_err().to_string();
-            assert!(message.contains("not a regular file"), "{device}: {message}");
-        }
     }
 
     #[test]
@@ -319,23 +281,6 @@ mod tests {
         }
         let flat = parsed("0 1\n1 1\n2 1").unwrap().amplitude().unwrap();
         assert_eq!((flat.mean_wave_number, flat.elastic_energy(1e6)), (0.0, 0.0));
-    }
-
-    #[test]
-    fn a_line_from_a_file_has_the_elastic_energy_of_its_modes() {
-        for (hurst, last) in [(0.3, 64), (0.7, 64), (0.9, 200)] {
-            let spectrum = SelfAffine { hurst, first: 1, last };
-            let line = spectrum.heights(5, 4096).unwrap();
-            let text: String = (0_u32..)
-                .zip(&line)
-                .map(|(i, z)| format!("{:e} {:e}\n", (f64::from(i) + 0.5) / 4096.0, 1e-3 * z))
-                .collect();
-            let measured = parsed(&text).unwrap().amplitude().unwrap();
-            let expected = spectrum.unit_amplitude(1.0).scaled(1e-3);
-            let error = measured.elastic_energy(1.0) / expected.elastic_energy(1.0) - 1.0;
-            println!("H = {hurst}, to mode {last}: {error:e}");
-            assert!(error.abs() < 1e-3, "H = {hurst}, to mode {last}: {error:e}");
-        }
     }
 
     #[test]

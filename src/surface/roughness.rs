@@ -169,6 +169,10 @@ mod tests {
                 assert!((height - expected).abs() < 1e-12, "N = {points}, i = {i}: {height} {expected}");
             }
         }
+        // The rms height is 1.
+        let heights = SelfAffine { hurst: 0.8, first: 1, last: 100 }.heights(3, 1000).unwrap();
+        let rms = (heights.iter().map(|z| z * z).sum::<f64>() / 1000.0).sqrt();
+        assert!((rms - 1.0).abs() < 1e-12, "{rms}");
     }
 
     /// Heights by direct sums, powers and sines, mode by mode.
@@ -196,18 +200,13 @@ mod tests {
 
     #[test]
     fn heights_are_those_of_direct_sums_and_powers_to_rounding() {
-        let mut worst = [0.0_f64; 2];
         for hurst in [0.1, 0.3, 0.5, 0.7, 0.9] {
             for (points, first, last) in [
                 (64, 1, 32),
                 (101, 3, 50),
-                (1000, 60, 500),
-                (5000, 1, 700),
                 (5000, 500, 2500),
-                (1 << 15, 1, 1 << 13),
                 (1 << 16, 30_000, 1 << 15),
                 (200_001, 1, 100_000),
-                (1 << 18, 2, 1 << 17),
             ] {
                 for (seed, shift) in [(1, 0.0), (u64::MAX, 0.5)] {
                     let spectrum = SelfAffine { hurst, first, last };
@@ -220,11 +219,9 @@ mod tests {
                     let largest = differences.map(f64::abs).fold(0.0, f64::max);
                     let of = format!("H = {hurst}, modes {first} to {last} of {points} springs");
                     assert!(rms <= 2e-15 && largest <= 1e-14, "{of}: {rms:e}, {largest:e}");
-                    worst = [worst[0].max(rms), worst[1].max(largest)];
                 }
             }
         }
-        println!("differences in rms heights: rms {:e}, largest {:e}", worst[0], worst[1]);
     }
 
     #[test]
@@ -250,38 +247,5 @@ mod tests {
             assert_eq!(kept, alone);
             memory = kept;
         }
-    }
-
-    #[test]
-    fn a_shifted_line_is_the_same_line_at_other_places() {
-        for (points, last) in [(64, 32), (64, 20), (97, 40)] {
-            let spectrum = SelfAffine { hurst: 0.6, first: 1, last };
-            for shift in [0.5, 0.25] {
-                let line =
-                    Synthesizer::default().synthesize(spectrum, 42, points, shift, Vec::new()).unwrap();
-                for (i, &height) in line.iter().enumerate() {
-                    let expected = direct(spectrum, 42, (i as f64 + 0.5 - shift) / points as f64);
-                    assert!((height - expected).abs() < 1e-13, "N = {points}, i = {i}: {height} {expected}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn has_rms_one_and_refines_to_the_same_line() {
-        let spectrum = SelfAffine { hurst: 0.8, first: 1, last: 100 };
-        let coarse = spectrum.heights(3, 1000).unwrap();
-        // Three times the points: every third, from the second on, coincides with a coarse one.
-        let fine = spectrum.heights(3, 3000).unwrap();
-        for (i, &height) in coarse.iter().enumerate() {
-            assert!((height - fine[3 * i + 1]).abs() < 1e-12);
-        }
-        let rms = (coarse.iter().map(|z| z * z).sum::<f64>() / 1000.0).sqrt();
-        assert!((rms - 1.0).abs() < 1e-12, "{rms}");
-        let gradient =
-            (0..1000).map(|i| (fine[3 * i + 2] - fine[3 * i]) * 1500.0).map(|g| g * g).sum::<f64>();
-        let rms_gradient = (gradient / 1000.0).sqrt();
-        let expected = spectrum.gradient_per_height(1.0);
-        assert!((rms_gradient / expected - 1.0).abs() < 3e-3, "{rms_gradient} {expected}");
     }
 }

@@ -165,16 +165,6 @@ mod tests {
     }
 
     #[test]
-    fn sums_agree_with_the_integrals_where_modes_are_dense() {
-        for hurst in [0.1, 0.5, 0.9, 0.999_999] {
-            let spectrum = SelfAffine { hurst, first: 10_000, last: 400_000 };
-            let (sum, integral) =
-                (spectrum.gradient_per_height(1.0), spectrum.continuum_gradient_per_height(1.0));
-            assert!((sum / integral - 1.0).abs() < 2e-4, "H = {hurst}: {sum} against {integral}");
-        }
-    }
-
-    #[test]
     fn the_elastic_energy_of_the_modes_is_that_of_the_spectrum() {
         let (modulus, height, length) = (2.0e6, 3.0e-7, 1.0e-3);
         for hurst in [0.1, 0.5, 0.9] {
@@ -192,14 +182,6 @@ mod tests {
             let kappa_squared = modulus * height.powi(2) * spectrum.gradient_per_height(length);
             let by_kappa = 0.25 * kappa_squared * sum(1) / (sum(0) * sum(2)).sqrt();
             assert!((modes / by_kappa - 1.0).abs() < 1e-14);
-        }
-    }
-
-    #[test]
-    fn a_longer_line_is_flatter() {
-        let spectrum = SelfAffine { hurst: 0.7, first: 2, last: 99 };
-        for gradient in [SelfAffine::gradient_per_height, SelfAffine::continuum_gradient_per_height] {
-            assert_eq!(gradient(&spectrum, 0.25), 4.0 * gradient(&spectrum, 1.0));
         }
     }
 
@@ -229,18 +211,6 @@ mod tests {
                 assert!(error <= 9e-16, "Σ k^{exponent} from {first} to {last}: error {error:e}");
             }
         }
-    }
-
-    #[test]
-    fn sums_keep_what_single_additions_lose() {
-        // Each k⁻² is an integer multiple of 2⁻⁹⁰, and so is their sum.
-        let unit = 2.0_f64.powi(90);
-        for last in [1000, 100_000, 300_000] {
-            let exact: u128 = (1..=last).map(|k| ((k as f64).powf(-2.0) * unit) as u128).sum();
-            let found = SelfAffine { hurst: 0.5, first: 1, last }.moment(0);
-            assert!((found / (exact as f64 / unit) - 1.0).abs() <= f64::EPSILON, "{last}");
-        }
-        assert_eq!(SelfAffine { hurst: 0.5, first: 3, last: 12 }.moment(2), 10.0);
     }
 
     #[test]

@@ -63,7 +63,8 @@ impl Topography {
     }
 
     /// Name of the format of the file.
-    pub(crate) fn format(&self) -> &'static str {
+    #[must_use]
+    pub fn format(&self) -> &'static str {
         self.format
     }
 

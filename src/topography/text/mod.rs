@@ -217,30 +217,6 @@ mod tests {
         }
     }
 
-    #[test]
-    fn missing_heights_are_marked_with_their_line() {
-        let reading = text("x z\n1;2\n2;NaN\n3;\n4;5").unwrap();
-        assert_eq!(reading.first_missing, Some(Place::Line(3)));
-        assert_eq!(
-            reading.heights.iter().map(|z| z.is_nan()).collect::<Vec<_>>(),
-            [false, true, true, false]
-        );
-    }
-
-    #[test]
-    fn matrices_and_lists_of_points_are_maps() {
-        let matrix = text("# Width: 4 µm\n# Height: 1 µm\n# Value units: m\n1 2 3 4\n5 6 7 8").unwrap();
-        assert_eq!(
-            (matrix.columns, matrix.spacing, matrix.units),
-            (4, Some([1e-6, 5e-7]), [Some(Unit::METRE); 2])
-        );
-        let points = text("0 0 1\n2 0 2\n4 0 3\n0 1 4\n2 1 5\n4 1 6").unwrap();
-        assert_eq!((points.columns, points.spacing), (3, Some([2.0, 1.0])));
-        assert_eq!(points.heights, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
-        let profile = text("1\n2\n3").unwrap();
-        assert_eq!((profile.columns, profile.positions, profile.spacing), (3, None, None));
-    }
-
     proptest! {
         #[test]
         fn numbers_come_back_whatever_separates_them(
