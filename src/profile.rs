@@ -2,7 +2,8 @@
 
 use crate::Error;
 use crate::scene::MOST_POINTS;
-use crate::surface::{Form, Line, SelfAffine, SurfaceError};
+use crate::simulation::RunError;
+use crate::surface::{Form, Line, SelfAffine};
 use std::sync::Arc;
 
 /// One-dimensional equivalent profile of a rigid body: heights of equally spaced points, positive towards the
@@ -25,7 +26,8 @@ impl Profile {
         check_length("spacing", spacing)?;
         let length = spacing * heights.len() as f64;
         check_length("spacing times points", length)?;
-        Profile::of(length, heights.len(), None, Some(heights), 1.0)
+        let line = Line::new(length, heights.len(), None, Some(heights), 1.0).map_err(RunError::from)?;
+        Ok(Profile { line })
     }
 
     /// Equivalent profile of a smooth sphere of a radius (m) on so many points along a length (m).
@@ -39,7 +41,9 @@ impl Profile {
         check_points(points)?;
         check_length("radius", radius)?;
         check_length("length", length)?;
-        Profile::of(length, points, Some(&Form::Paraboloid { radius }), None, 0.0)
+        let form = Form::Paraboloid { radius };
+        let line = Line::new(length, points, Some(&form), None, 0.0).map_err(RunError::from)?;
+        Ok(Profile { line })
     }
 
     /// Random self-affine profile: cosines with amplitudes ∝ k^(−H−1/2) and random phases, scaled to an rms height (m).
@@ -65,18 +69,9 @@ impl Profile {
         check("first mode", first as f64, first >= 1, "at least 1")?;
         let most = "from the first mode to half the number of points";
         check("last mode", last as f64, (first..=points as u64 / 2).contains(&last), most)?;
-        let heights = spectrum.heights(seed, points).map_err(refused)?;
-        Profile::of(length, points, None, Some(&heights), rms_height)
-    }
-
-    fn of(
-        length: f64,
-        points: usize,
-        form: Option<&Form>,
-        heights: Option<&[f64]>,
-        scale: f64,
-    ) -> Result<Self, Error> {
-        Ok(Profile { line: Line::new(length, points, form, heights, scale).map_err(refused)? })
+        let heights = spectrum.heights(seed, points).map_err(RunError::from)?;
+        let line = Line::new(length, points, None, Some(&heights), rms_height).map_err(RunError::from)?;
+        Ok(Profile { line })
     }
 
     /// Number of points.
@@ -112,10 +107,6 @@ impl Profile {
     pub(crate) fn shared_gaps(&self) -> &Arc<Vec<f64>> {
         &self.line.gaps
     }
-}
-
-fn refused(error: SurfaceError) -> Error {
-    Error::Run(error.into())
 }
 
 fn check(name: &'static str, value: f64, is_allowed: bool, allowed: &'static str) -> Result<(), Error> {

@@ -226,7 +226,8 @@ impl IsotropicSpectrum {
     }
 
     /// First and last wave number, rad/m.
-    pub(crate) fn range(&self) -> [f64; 2] {
+    #[must_use]
+    pub fn range(&self) -> [f64; 2] {
         [self.nodes.wave_number(0), self.nodes.end]
     }
 

@@ -30,7 +30,7 @@ impl MeasuredProfile {
         let mut surface = parse(content, &options.reading)?;
         if let Some(detrend) = options.as_line.filter(|detrend| *detrend != Detrend::None) {
             surface.spacing()?;
-            surface = surface.with_heights(|heights, columns| detrend.remove(heights, columns));
+            detrend.remove(&mut surface.heights, surface.columns);
         }
         let (positions, heights) = surface.into_profile()?;
         Ok(MeasuredProfile { positions, heights })

@@ -37,9 +37,9 @@ pub(super) enum Grid {
 pub struct Topography {
     pub(super) format: &'static str,
     /// Heights, m, row by row.
-    pub(super) heights: Vec<f64>,
+    pub(crate) heights: Vec<f64>,
     /// Points of a row; all points of a profile.
-    pub(super) columns: usize,
+    pub(crate) columns: usize,
     pub(super) grid: Grid,
     /// Indices of the points with interpolated heights.
     pub(super) interpolated: Vec<usize>,
@@ -155,12 +155,6 @@ impl Topography {
             interpolated: self.interpolated.iter().filter_map(place).collect(),
             ..self
         })
-    }
-
-    /// The same surface with the same number of other heights, m.
-    pub(crate) fn with_heights(mut self, change: impl FnOnce(&mut [f64], usize)) -> Self {
-        change(&mut self.heights, self.columns);
-        self
     }
 
     /// Distances between points along and between rows, m; those of a profile are equal.

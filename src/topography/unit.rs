@@ -1,6 +1,6 @@
 //! Units of length in files.
 
-use super::error::{Place, TopographyError, refused, shown};
+use super::error::{Place, TopographyError, shown};
 use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
@@ -45,9 +45,8 @@ impl Unit {
 
     /// Returns the unit stated by a file at a place; `None` for an empty text.
     pub(super) fn stated(text: &str, place: Place) -> Result<Option<Unit>, TopographyError> {
-        let fault = || format!("{:?} is no unit of length", shown(text));
         let unit = Some(text).filter(|text| !text.is_empty()).map(str::parse).transpose();
-        unit.map_err(|_: UnitError| refused(place, fault(), UnitError::ALLOWED))
+        unit.map_err(|error: UnitError| TopographyError::Refused(format!("{place}{error}")))
     }
 
     /// Value in m of a value in this unit.
