@@ -206,12 +206,14 @@ pub struct IsotropicSpectrum {
 
 impl IsotropicSpectrum {
     /// C2D, m⁴, at a wave number, rad/m. Zero beyond the end; constant below the first node.
-    pub(crate) fn c2d(&self, wave_number: f64) -> f64 {
+    #[must_use]
+    pub fn c2d(&self, wave_number: f64) -> f64 {
         if wave_number > self.nodes.end { 0.0 } else { self.value(wave_number.ln()) }
     }
 
     /// PSD of the equivalent line, m³, at a wave number, rad/m: q C2D/2.
-    pub(crate) fn line(&self, wave_number: f64) -> f64 {
+    #[must_use]
+    pub fn line(&self, wave_number: f64) -> f64 {
         0.5 * wave_number * self.c2d(wave_number)
     }
 

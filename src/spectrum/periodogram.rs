@@ -70,11 +70,7 @@ impl ProfilePower {
 }
 
 /// Spectrum of the heights (m) of a line in bins: C1D, m³. A line that is not periodic is windowed.
-pub(crate) fn line_spectrum(
-    heights: &[f64],
-    spacing: f64,
-    windowed: bool,
-) -> Result<Vec<Bin>, SpectrumError> {
+pub fn line_spectrum(heights: &[f64], spacing: f64, windowed: bool) -> Result<Vec<Bin>, SpectrumError> {
     let mut power = ProfilePower::new(heights.len(), spacing, windowed);
     // The mean of windowed heights would leak into the first waves.
     let mean = heights.iter().sum::<f64>() / heights.len() as f64;

@@ -73,8 +73,7 @@ impl MeasuredRoughness {
     }
 
     /// Checks that a line of a length (m) can be made on so many springs; the error is the reason, in one line.
-    #[cfg(feature = "tui")]
-    pub(crate) fn check(&self, length: f64, points: usize) -> Result<(), String> {
+    pub fn check(&self, length: f64, points: usize) -> Result<(), String> {
         match self {
             MeasuredRoughness::Profile(profile) => profile.sample(length, 1, 0.0).map(drop),
             MeasuredRoughness::Equivalent(line) => line.modes(length, points).map(drop),

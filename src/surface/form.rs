@@ -59,7 +59,7 @@ impl Form {
 
     /// Indices of the springs under the form, of `points` springs on `length` m: all of them, except under a punch.
     /// A punch covers its diameter rounded to whole cells, centred on the axis to half a cell; below half a cell none.
-    pub(crate) fn springs_under(&self, length: f64, points: u64) -> Range<u64> {
+    pub fn springs_under(&self, length: f64, points: u64) -> Range<u64> {
         let Some(radius) = self.flat_end() else { return 0..points };
         let cells = (2.0 * radius / (length / points as f64)).round() as u64;
         let cells = cells.min(points);

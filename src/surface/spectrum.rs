@@ -24,7 +24,8 @@ pub struct SelfAffine {
 impl SelfAffine {
     /// Amplitude of mode k in units of that of mode 1.
     #[inline]
-    pub(crate) fn relative_amplitude(&self, mode: u64) -> f64 {
+    #[must_use]
+    pub fn relative_amplitude(&self, mode: u64) -> f64 {
         (mode as f64).powf(self.amplitude_exponent())
     }
 

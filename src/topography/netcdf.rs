@@ -181,8 +181,10 @@ fn number(header: &mut Bytes) -> Result<Option<Number>, TopographyError> {
     }))
 }
 
-/// Returns name, type (`None`: characters) and content of an attribute.
-fn attribute<'a>(header: &mut Bytes<'a>) -> Result<(&'a [u8], Option<Number>, &'a [u8]), TopographyError> {
+/// Name, type (`None`: characters) and content of an attribute.
+type Attribute<'a> = (&'a [u8], Option<Number>, &'a [u8]);
+
+fn attribute<'a>(header: &mut Bytes<'a>) -> Result<Attribute<'a>, TopographyError> {
     let name = name(header)?;
     let of = number(header)?;
     let count = header.size(Number::U32)?;

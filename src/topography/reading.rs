@@ -1,12 +1,8 @@
 //! From the numbers of a file to heights in m: units, distances between points, missing points.
 
 use super::error::{Place, TopographyError, refused};
-use super::surface::{Cut, Grid, Topography};
+use super::surface::{Cut, Grid, LARGEST, Topography};
 use super::{Unit, missing};
-
-/// Largest position and height, m, and largest slope between neighbours: beyond these, lengths and mean squares
-/// could overflow.
-pub(super) const LARGEST: f64 = 1.0e9;
 
 /// Most points of a surface: 2 GiB of heights.
 const MOST_POINTS: usize = 1 << 28;

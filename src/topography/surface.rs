@@ -2,7 +2,10 @@
 
 use super::error::{Place, TopographyError, gathered, refused};
 use super::missing;
-use super::reading::LARGEST;
+
+/// Largest position and height, m, and largest slope between neighbours: beyond these, lengths and mean squares
+/// could overflow.
+pub(super) const LARGEST: f64 = 1.0e9;
 
 /// Share of the distance between points by which points of an even grid may be displaced due to rounding.
 pub(crate) const UNEVEN: f64 = 1.0e-3;

@@ -39,7 +39,8 @@ impl Unit {
     pub const METRE: Unit = Unit { name: "m", per_metre: 1.0 };
 
     /// Usual name.
-    pub(crate) fn name(self) -> &'static str {
+    #[must_use]
+    pub fn name(self) -> &'static str {
         self.name
     }
 

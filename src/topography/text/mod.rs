@@ -11,7 +11,8 @@ mod lines;
 
 use super::Unit;
 use super::error::{Place, TopographyError, refused, shown};
-use super::reading::{LARGEST, Reading};
+use super::reading::Reading;
+use super::surface::LARGEST;
 use crate::io::PROVENANCE;
 use header::Header;
 use layout::{Cell, Decimal, Separator};
