@@ -4,7 +4,6 @@ use crate::Error;
 use crate::scene::MOST_POINTS;
 use crate::simulation::RunError;
 use crate::surface::{Form, Line, SelfAffine};
-use std::sync::Arc;
 
 /// One-dimensional equivalent profile of a rigid body: heights of equally spaced points, positive towards the
 /// half-space.
@@ -12,7 +11,7 @@ use std::sync::Arc;
 /// N points at a distance Δx cover the length N Δx; each lies in the middle of its cell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
-    line: Line,
+    pub(crate) line: Line,
 }
 
 impl Profile {
@@ -100,11 +99,6 @@ impl Profile {
     /// Gaps below the highest point, m, at least 0.
     #[must_use]
     pub fn gaps(&self) -> &[f64] {
-        &self.line.gaps
-    }
-
-    /// Gaps to be shared with a contact.
-    pub(crate) fn shared_gaps(&self) -> &Arc<Vec<f64>> {
         &self.line.gaps
     }
 }

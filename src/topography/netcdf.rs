@@ -125,10 +125,9 @@ impl<'a> Dataset<'a> {
 
     /// Returns the values of a variable; NaN for missing points.
     fn values(&self, variable: &Variable) -> Result<Vec<f64>, TopographyError> {
-        let mut count = 1_usize;
-        for dimension in &variable.dimensions {
-            count = count.saturating_mul(self.length(*dimension)?);
-        }
+        let mut lengths = variable.dimensions.iter().map(|dimension| self.length(*dimension));
+        let count = lengths
+            .try_fold(1_usize, |count, length| Ok::<_, TopographyError>(count.saturating_mul(length?)))?;
         let mut data = Bytes::new(self.bytes, Order::Big);
         data.take(variable.begin)?;
         let mut values = data.numbers(count, variable.of)?;
