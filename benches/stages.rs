@@ -13,7 +13,7 @@ use asperity::contact::{
 };
 use asperity::scene::{Adhesion, Document, Edges, Move, Roughness, Scene};
 use asperity::simulation::Simulation;
-use asperity::surface::{Line, SelfAffine, Synthesizer, UnitRoughness};
+use asperity::surface::{Line, SelfAffine, Synthesizer};
 use realfft::{RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex64;
 use std::hint::black_box;
@@ -139,8 +139,8 @@ impl Rough {
 }
 
 fn synthesize(spectrum: SelfAffine, points: usize) -> Line {
-    let rough = UnitRoughness::synthesize(spectrum, 1, points).expect("memory for the line");
-    Line::new(LENGTH, points, None, Some(&rough.heights), RMS_HEIGHT).expect("a finite line")
+    let rough = spectrum.heights(1, points).expect("memory for the line");
+    Line::new(LENGTH, points, None, Some(&rough), RMS_HEIGHT).expect("a finite line")
 }
 
 /// Shortest seconds of each stage.
@@ -227,7 +227,7 @@ impl Lines {
         let clock = Instant::now();
         let heights = take(&mut self.heights);
         let unit = self.synthesizer.synthesize(rough.spectrum, black_box(seed), rough.points, 0.0, heights);
-        self.heights = unit.expect("memory for the line").heights;
+        self.heights = unit.expect("memory for the line");
         let gaps = take(&mut self.gaps);
         let line = Line::new_in(gaps, LENGTH, rough.points, None, Some(&self.heights), RMS_HEIGHT);
         self.gaps = Arc::into_inner(black_box(line.expect("a finite line")).gaps).unwrap_or_default();

@@ -134,7 +134,7 @@ impl ContactBuilder<'_> {
         let foundation =
             Foundation { spacing: profile.spacing(), effective_modulus, length: profile.length() };
         let hess = (work > 0.0).then(|| HessRule::from_works(foundation, closing, work));
-        let contact = contact::Contact::new(Arc::clone(profile.shared_gaps()), edges, foundation, hess);
+        let contact = contact::Contact::new(Arc::clone(&profile.line.gaps), edges, foundation, hess);
         if hess.is_some() {
             contact.springs().tree(edges).map_err(|error: ContactError| RunError::Contact(error))?;
         }

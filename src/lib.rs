@@ -87,7 +87,7 @@ mod text;
 pub mod topography;
 
 pub use contact_cycle::{Contact, ContactBuilder, Cycle};
-pub use profile::{Profile, ProfileError};
+pub use profile::Profile;
 pub use scene::{Edges, Material, Move, Scene};
 pub use surface::SelfAffine;
 
@@ -100,7 +100,7 @@ pub enum Error {
     /// Values out of their ranges: field, value and allowed range of each.
     #[error(transparent)]
     Values(#[from] scene::SceneErrors),
-    /// A value of a contact out of its range.
+    /// A value of a profile or a contact out of its range.
     #[error("{name} = {value:e}; allowed: {allowed}")]
     Value {
         /// Name of the value.
@@ -110,9 +110,6 @@ pub enum Error {
         /// Allowed range.
         allowed: &'static str,
     },
-    /// A profile that is refused.
-    #[error(transparent)]
-    Profile(#[from] ProfileError),
     /// A force out of reach, a file that cannot be read, or not enough memory.
     #[error(transparent)]
     Run(#[from] RunError),

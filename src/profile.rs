@@ -1,9 +1,9 @@
 //! Profiles for programs: heights from measurements, a form or a random spectrum.
 
-use crate::scene::{Form, MOST_POINTS};
-use crate::surface::{Line, SelfAffine, SurfaceError, UnitRoughness};
-use std::sync::Arc;
-use thiserror::Error;
+use crate::Error;
+use crate::scene::MOST_POINTS;
+use crate::simulation::RunError;
+use crate::surface::{Form, Line, SelfAffine};
 
 /// One-dimensional equivalent profile of a rigid body: heights of equally spaced points, positive towards the
 /// half-space.
@@ -11,52 +11,22 @@ use thiserror::Error;
 /// N points at a distance Δx cover the length N Δx; each lies in the middle of its cell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
-    line: Line,
-}
-
-/// Reason why a profile is refused.
-#[derive(Clone, Debug, PartialEq, Error)]
-pub enum ProfileError {
-    /// The number of points is out of range.
-    #[error("{0} points; allowed: from 1 to {MOST_POINTS}")]
-    Points(usize),
-    /// A length is out of range.
-    #[error("{name} = {value:e} m; allowed: finite and above 0 m")]
-    Length {
-        /// Name of the length.
-        name: &'static str,
-        /// Length, m.
-        value: f64,
-    },
-    /// The modes do not fit the profile.
-    #[error("modes {first} to {last}; allowed: from 1 to {most}, half the number of points")]
-    Modes {
-        /// First mode.
-        first: u64,
-        /// Last mode.
-        last: u64,
-        /// Largest mode of the profile.
-        most: u64,
-    },
-    /// The Hurst exponent is out of range.
-    #[error("Hurst exponent {0}; allowed: above 0 and below 1")]
-    Hurst(f64),
-    /// A height is not finite, or the memory does not suffice.
-    #[error(transparent)]
-    Surface(#[from] SurfaceError),
+    pub(crate) line: Line,
 }
 
 impl Profile {
     /// Profile of measured or computed heights (m) at a spacing (m).
     ///
     /// # Errors
-    /// [`ProfileError`] without points, with a spacing that is not above 0, or with a height that is not finite.
-    pub fn from_heights(heights: &[f64], spacing: f64) -> Result<Self, ProfileError> {
+    /// [`Error::Value`] without points or with a spacing that is not above 0, [`Error::Run`] with a height that is not
+    /// finite.
+    pub fn from_heights(heights: &[f64], spacing: f64) -> Result<Self, Error> {
         check_points(heights.len())?;
         check_length("spacing", spacing)?;
         let length = spacing * heights.len() as f64;
         check_length("spacing times points", length)?;
-        Ok(Profile { line: Line::new(length, heights.len(), None, Some(heights), 1.0)? })
+        let line = Line::new(length, heights.len(), None, Some(heights), 1.0).map_err(RunError::from)?;
+        Ok(Profile { line })
     }
 
     /// Equivalent profile of a smooth sphere of a radius (m) on so many points along a length (m).
@@ -65,12 +35,14 @@ impl Profile {
     /// reduction).
     ///
     /// # Errors
-    /// [`ProfileError`] for a radius or a length that is not above 0, or without points.
-    pub fn sphere(radius: f64, length: f64, points: usize) -> Result<Self, ProfileError> {
+    /// [`Error::Value`] for a radius or a length that is not above 0, or without points.
+    pub fn sphere(radius: f64, length: f64, points: usize) -> Result<Self, Error> {
         check_points(points)?;
         check_length("radius", radius)?;
         check_length("length", length)?;
-        Ok(Profile { line: Line::new(length, points, Some(&Form::Paraboloid { radius }), None, 0.0)? })
+        let form = Form::Paraboloid { radius };
+        let line = Line::new(length, points, Some(&form), None, 0.0).map_err(RunError::from)?;
+        Ok(Profile { line })
     }
 
     /// Random self-affine profile: cosines with amplitudes ∝ k^(−H−1/2) and random phases, scaled to an rms height (m).
@@ -79,7 +51,7 @@ impl Profile {
     /// any machine and for any number of points.
     ///
     /// # Errors
-    /// [`ProfileError`] for modes beyond half the number of points, a Hurst exponent outside (0, 1), or lengths that are
+    /// [`Error::Value`] for modes beyond half the number of points, a Hurst exponent outside (0, 1), or lengths that are
     /// not above 0.
     pub fn self_affine(
         spectrum: SelfAffine,
@@ -87,20 +59,18 @@ impl Profile {
         length: f64,
         points: usize,
         seed: u64,
-    ) -> Result<Self, ProfileError> {
+    ) -> Result<Self, Error> {
         check_points(points)?;
         check_length("rms height", rms_height)?;
         check_length("length", length)?;
         let SelfAffine { hurst, first, last } = spectrum;
-        if !(hurst > 0.0 && hurst < 1.0) {
-            return Err(ProfileError::Hurst(hurst));
-        }
-        let most = points as u64 / 2;
-        if first < 1 || last < first || last > most {
-            return Err(ProfileError::Modes { first, last, most });
-        }
-        let unit = UnitRoughness::synthesize(spectrum, seed, points)?;
-        Ok(Profile { line: Line::new(length, points, None, Some(&unit.heights), rms_height)? })
+        check("Hurst exponent", hurst, hurst > 0.0 && hurst < 1.0, "above 0 and below 1")?;
+        check("first mode", first as f64, first >= 1, "at least 1")?;
+        let most = "from the first mode to half the number of points";
+        check("last mode", last as f64, (first..=points as u64 / 2).contains(&last), most)?;
+        let heights = spectrum.heights(seed, points).map_err(RunError::from)?;
+        let line = Line::new(length, points, None, Some(&heights), rms_height).map_err(RunError::from)?;
+        Ok(Profile { line })
     }
 
     /// Number of points.
@@ -131,17 +101,19 @@ impl Profile {
     pub fn gaps(&self) -> &[f64] {
         &self.line.gaps
     }
-
-    /// Gaps to be shared with a contact.
-    pub(crate) fn shared_gaps(&self) -> &Arc<Vec<f64>> {
-        &self.line.gaps
-    }
 }
 
-fn check_points(points: usize) -> Result<(), ProfileError> {
-    if (1..=MOST_POINTS as usize).contains(&points) { Ok(()) } else { Err(ProfileError::Points(points)) }
+fn check(name: &'static str, value: f64, is_allowed: bool, allowed: &'static str) -> Result<(), Error> {
+    if is_allowed { Ok(()) } else { Err(Error::Value { name, value, allowed }) }
 }
 
-fn check_length(name: &'static str, value: f64) -> Result<(), ProfileError> {
-    if value > 0.0 && value.is_finite() { Ok(()) } else { Err(ProfileError::Length { name, value }) }
+const _: () = assert!(MOST_POINTS == 268_435_456);
+
+fn check_points(points: usize) -> Result<(), Error> {
+    let is_allowed = (1..=MOST_POINTS as usize).contains(&points);
+    check("number of points", points as f64, is_allowed, "from 1 to 268435456")
+}
+
+fn check_length(name: &'static str, value: f64) -> Result<(), Error> {
+    check(name, value, value > 0.0 && value.is_finite(), "finite and above 0 m")
 }

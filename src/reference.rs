@@ -3,7 +3,6 @@
 
 use crate::analysis::ideal_adhesion_force;
 use crate::scene::Form;
-use crate::surface::line_power_law;
 use std::f64::consts::PI;
 
 /// A body with the equivalent profile g(x) = c |x|ⁿ, on a half-space with adhesion.
@@ -23,7 +22,7 @@ impl PowerLaw {
     /// The closed form of a body, if it is a power law: neither the punch nor a sphere with waves.
     #[must_use]
     pub fn of(form: &Form, effective_modulus: f64, work_of_adhesion: f64) -> Option<Self> {
-        let (line_coefficient, exponent) = line_power_law(form)?;
+        let (line_coefficient, exponent) = form.power_law()?;
         Some(PowerLaw { line_coefficient, exponent, effective_modulus, work_of_adhesion })
     }
 

@@ -9,7 +9,7 @@ mod peak;
 use asperity::contact::{Body, Contact, Foundation, HessRule};
 use asperity::scene::{Document, Edges, Move, open};
 use asperity::simulation::{Plan, Simulation};
-use asperity::surface::{Line, SelfAffine, Synthesizer, UnitRoughness};
+use asperity::surface::{Line, SelfAffine, Synthesizer};
 use peak::{Changed, arguments, peak};
 use std::mem::take;
 use std::process::{Command, Stdio};
@@ -123,8 +123,7 @@ fn a_line_of_a_new_seed_takes_the_memory_and_the_transform_of_the_one_before() {
         let (mut synthesizer, mut heights, mut gaps) = (Synthesizer::default(), Vec::new(), Vec::new());
         for seed in 1..4 {
             let (line, largest) = allocations::largest(|| {
-                heights =
-                    synthesizer.synthesize(spectrum, seed, points, 0.0, take(&mut heights)).unwrap().heights;
+                heights = synthesizer.synthesize(spectrum, seed, points, 0.0, take(&mut heights)).unwrap();
                 Line::new_in(take(&mut gaps), 1.0, points, None, Some(&heights), 1.0).unwrap()
             });
             gaps = Arc::into_inner(line.gaps).unwrap();
@@ -185,8 +184,8 @@ fn memory_of_512_reversals_is_that_of_a_few() {
     let _alone = ALONE.lock();
     let springs = 1 << 15;
     let spectrum = SelfAffine { hurst: 0.7, first: 1, last: springs as u64 / 4 };
-    let rough = UnitRoughness::synthesize(spectrum, 1, springs).unwrap();
-    let line = Line::new(1e-3, springs, None, Some(&rough.heights), 5e-7).unwrap();
+    let rough = spectrum.heights(1, springs).unwrap();
+    let line = Line::new(1e-3, springs, None, Some(&rough), 5e-7).unwrap();
     let foundation = Foundation::endless(line.spacing, 2e6);
     let rms_gradient = 5e-7 * spectrum.gradient_per_height(1e-3);
     for kappa in [2.0_f64, 20.0] {
@@ -226,8 +225,8 @@ fn preloads_of_a_line_of_events_take_what_a_study_counts() {
     let _alone = ALONE.lock();
     let springs = 1 << 16;
     let spectrum = SelfAffine { hurst: 0.1, first: 1, last: springs as u64 / 2 };
-    let rough = UnitRoughness::synthesize(spectrum, 1, springs).unwrap();
-    let line = Line::new(1e-3, springs, None, Some(&rough.heights), 5e-7).unwrap();
+    let rough = spectrum.heights(1, springs).unwrap();
+    let line = Line::new(1e-3, springs, None, Some(&rough), 5e-7).unwrap();
     let foundation = Foundation::endless(line.spacing, 2e6);
     let work = 5e-7 * 5e-7 * spectrum.gradient_per_height(1e-3) * 2e6 / 1e6;
     let hess = HessRule::new(foundation, work);

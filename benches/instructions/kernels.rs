@@ -57,7 +57,7 @@ fn smooth() -> Line {
 fn rough() -> Line {
     let spectrum = SelfAffine { hurst: HURST, first: 1, last: LAST_MODE };
     let unit = Synthesizer::default().synthesize(spectrum, SEED, POINTS, 0.0, Vec::new()).expect("a line");
-    Line::new(LENGTH, POINTS, None, Some(&unit.heights), RMS_HEIGHT).expect("a line")
+    Line::new(LENGTH, POINTS, None, Some(&unit), RMS_HEIGHT).expect("a line")
 }
 
 /// A loading under adhesion, with the other results of its case beside the curve.

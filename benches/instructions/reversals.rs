@@ -3,7 +3,7 @@
 use crate::instructions::callgrind;
 use asperity::contact::{Body, Contact, Foundation, HessRule, Solver};
 use asperity::scene::{Edges, Move};
-use asperity::surface::{Line, SelfAffine, UnitRoughness};
+use asperity::surface::{Line, SelfAffine};
 use std::hint::black_box;
 use std::sync::Arc;
 
@@ -48,8 +48,8 @@ pub fn run_as_child() -> bool {
     let task: usize = asked.parse().expect("a number");
     let ((kappa, edges), part) = (BODIES[task / PARTS.len()], PARTS[task % PARTS.len()]);
     let spectrum = SelfAffine { hurst: 0.7, first: 1, last: SPRINGS as u64 / 4 };
-    let rough = UnitRoughness::synthesize(spectrum, 1, SPRINGS).expect("memory for the line");
-    let line = Line::new(LENGTH, SPRINGS, None, Some(&rough.heights), RMS_HEIGHT).expect("a finite line");
+    let rough = spectrum.heights(1, SPRINGS).expect("memory for the line");
+    let line = Line::new(LENGTH, SPRINGS, None, Some(&rough), RMS_HEIGHT).expect("a finite line");
     let foundation = Foundation::new(LENGTH, SPRINGS, EFFECTIVE_MODULUS);
     let rms_gradient = RMS_HEIGHT * spectrum.gradient_per_height(LENGTH);
     let work = RMS_HEIGHT * rms_gradient * EFFECTIVE_MODULUS / (kappa * kappa);

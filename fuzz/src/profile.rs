@@ -1,15 +1,16 @@
 //! Measured profiles.
 
 use super::{assert_message, text};
-use asperity::surface::MeasuredProfile;
+use asperity::surface::{Amplitude, MeasuredOptions, MeasuredProfile};
+use asperity::topography::{ReadOptions, TopographyError, Unit};
 
 /// An accepted profile has finite points in ascending order and can be sampled; a refusal is one line that states the
 /// allowed values.
 pub fn profile(bytes: &[u8]) {
     let text = text(bytes);
-    let read = MeasuredProfile::parse(&text);
+    let read = parse(&text);
     // Line breaks do not matter.
-    assert_eq!(MeasuredProfile::parse(&text.replace('\n', "\r\n")), read);
+    assert_eq!(parse(&text.replace('\n', "\r\n")), read);
     match read {
         Ok(profile) => {
             assert_points(&profile);
@@ -30,13 +31,18 @@ pub fn profile(bytes: &[u8]) {
     }
 }
 
+fn parse(text: &str) -> Result<MeasuredProfile, TopographyError> {
+    let reading = ReadOptions { convention: Some(Unit::METRE), ..ReadOptions::default() };
+    MeasuredProfile::new(text.as_bytes(), &MeasuredOptions { reading, ..MeasuredOptions::default() })
+}
+
 fn assert_points(profile: &MeasuredProfile) {
     let (positions, heights) = (profile.positions(), profile.heights());
     assert!(positions.len() >= 2 && positions.len() == heights.len());
     assert!(positions.iter().chain(heights).all(|value| value.is_finite()));
     assert!(positions.windows(2).all(|pair| pair[0] < pair[1]));
     assert!(profile.length().is_finite() && profile.length() > 0.0, "{}", profile.length());
-    let (rms_height, rms_gradient) = profile.rms_height_and_gradient();
+    let Amplitude { rms_height, rms_gradient, .. } = profile.amplitude().unwrap();
     assert!(rms_height.is_finite() && rms_height >= 0.0, "{rms_height}");
     assert!(rms_gradient.is_finite() && rms_gradient >= 0.0, "{rms_gradient}");
     let (low, high) = ends(heights);

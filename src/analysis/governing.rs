@@ -2,7 +2,7 @@
 
 use crate::contact::{Foundation, HessRule};
 use crate::scene::{Adhesion, Roughness, RoughnessParameter, Scene};
-use crate::surface::{Amplitude, WaveNumbers};
+use crate::surface::Amplitude;
 
 /// The governing parameters of a scene, each given or derived from the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,30 +22,29 @@ pub struct Governing {
 }
 
 impl Governing {
-    /// Derives the parameters of a checked scene from the wave numbers of its self-affine profile or the amplitude
+    /// Derives the parameters of a checked scene from the amplitude of its self-affine profile of rms height 1, or that
     /// of its measured one.
     ///
     /// Given κ alone, γ = h⟨∇z⟩E*/κ²; given γ and κ, h = κ √(γ/(E* ⟨∇z⟩/h)). Similarly for e_el/γ, with e_el = E*
     /// h² q̄/4 and the mean wave number q̄.
     #[must_use]
-    pub fn of(scene: &Scene, wave_numbers: Option<WaveNumbers>, measured: Option<Amplitude>) -> Self {
+    pub fn of(scene: &Scene, unit: Option<Amplitude>, measured: Option<Amplitude>) -> Self {
         let effective_modulus = scene.material.effective_modulus();
         let adhesion = scene.adhesion.unwrap_or_default();
         let amplitude = measured.or_else(|| {
-            let wave_numbers = wave_numbers?;
+            let unit = unit?;
             let Some(Roughness::SelfAffine { rms_height, rms_gradient, .. }) = scene.roughness else {
                 return None;
             };
             let by_adhesion = || {
                 let (parameter, value) = adhesion.parameter()?;
-                let unit = Amplitude::from_height(1.0, wave_numbers);
                 let per_square = energy_of(parameter, unit, effective_modulus);
                 Some(parameter.energy_over_work(value).sqrt() * (adhesion.work? / per_square).sqrt())
             };
             let rms_height = rms_height
-                .or_else(|| rms_gradient.map(|gradient| gradient / wave_numbers.rms))
+                .or_else(|| rms_gradient.map(|gradient| gradient / unit.rms_gradient))
                 .or_else(by_adhesion)?;
-            let amplitude = Amplitude::from_height(rms_height, wave_numbers);
+            let amplitude = unit.scaled(rms_height);
             Some(Amplitude { rms_gradient: rms_gradient.unwrap_or(amplitude.rms_gradient), ..amplitude })
         });
         let without = Governing {
@@ -155,8 +154,13 @@ mod tests {
             "(version: 1, material: (effective_modulus: 4.0), length: 1.0, {roughness}adhesion: {adhesion})"
         );
         let document = Document::parse(&text, "scene").unwrap_or_else(|errors| panic!("{errors}"));
-        let wave_numbers = amplitude.map(|_| WaveNumbers { rms: 2.0, mean: 0.5, rms_square: 5.0 });
-        Governing::of(document.scene(), wave_numbers, None)
+        let unit = amplitude.map(|_| Amplitude {
+            rms_height: 1.0,
+            rms_gradient: 2.0,
+            rms_curvature: 5.0,
+            mean_wave_number: 0.5,
+        });
+        Governing::of(document.scene(), unit, None)
     }
 
     #[test]

@@ -15,7 +15,7 @@ use crate::spectrum::{Analysis, Detrend, Options, analyse};
 use crate::study::MeasuredAdhesion;
 use crate::surface::EquivalentLine;
 use crate::text::path_name;
-use crate::topography::{Unit, content};
+use crate::topography::{Unit, content, parse};
 use clap::{Args, ValueEnum};
 use sha2::{Digest, Sha256};
 use std::error::Error;
@@ -322,7 +322,7 @@ impl SurfaceArguments {
             let path = self.folder.join(file);
             let failed = |error| CliError::named(path_name(&path), error);
             let bytes = content(&path).map_err(failed)?;
-            let surface = options.parse(&bytes).map_err(failed)?;
+            let surface = parse(&bytes, &options.reading).map_err(failed)?;
             if let Some(hashes) = hashes {
                 let sha256 = hexadecimal(Sha256::new_with_prefix(bytes));
                 hashes.push(MeasuredHash { file: self.in_table(file), sha256 });
@@ -330,7 +330,7 @@ impl SurfaceArguments {
             facts.push(SurfaceFile::new(path, &surface));
             surfaces.push(surface);
         }
-        let options = Options { tip_radius: self.in_metres(self.analysis.tip_radius), ..options.analysis() };
+        let options = Options { tip_radius: self.in_metres(self.analysis.tip_radius), ..options.spectrum };
         let analysis = analyse(&surfaces, &options).map_err(|error| {
             let file = facts.get(error.surface().unwrap_or(0)).map(|file| path_name(&file.path));
             CliError::named(file.unwrap_or_default(), error)
@@ -353,8 +353,7 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     if let Some(opposite) = &arguments.opposite {
         faces.push(arguments.face(std::slice::from_ref(opposite), &mut hashes)?);
     }
-    let spectra = faces.iter().map(|face| face.analysis.isotropic.clone()).collect();
-    let line = EquivalentLine::from_spectra(spectra).map_err(|error| arguments.failed(error))?;
+    let line = EquivalentLine { faces: faces.iter().map(|face| face.analysis.isotropic.clone()).collect() };
     let modulus = arguments.analysis.modulus;
     let contact = modulus.map(|modulus| SurfaceContact { modulus, work: arguments.work });
     if let (Some(path), Some(modulus)) = (&arguments.scene, modulus) {

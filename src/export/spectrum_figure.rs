@@ -88,15 +88,15 @@ impl Spectra {
     /// Spectra of the surfaces of one or both faces: one face with its fit, both with the line of their sum.
     #[must_use]
     pub fn of_faces(faces: &[&Analysis]) -> Self {
-        if let [face] = faces {
-            return Spectra::of_analysis(face);
+        match faces {
+            [] => return Spectra::default(),
+            [face] => return Spectra::of_analysis(face),
+            _ => {}
         }
         let measured =
             faces.iter().enumerate().flat_map(|(face, analysis)| Spectra::of_face(face, analysis).measured);
-        let line = EquivalentLine::from_spectra(faces.iter().map(|face| face.isotropic.clone()).collect());
-        let line = line.map_or(Vec::new(), |line| {
-            wave_numbers(line.range(), PER_DECADE).map(|q| (q, line.power(q))).collect()
-        });
+        let line = EquivalentLine { faces: faces.iter().map(|face| face.isotropic.clone()).collect() };
+        let line = wave_numbers(line.range(), PER_DECADE).map(|q| (q, line.power(q))).collect();
         Spectra { measured: measured.collect(), line, ..Spectra::default() }
     }
 

@@ -67,7 +67,7 @@ impl SurfaceFile {
         let spacing = surface.spacing().unwrap_or_default();
         SurfaceFile {
             path,
-            format: surface.format().into(),
+            format: surface.format(),
             points,
             lengths: [0, 1].map(|axis| points[axis] as f64 * spacing[axis]),
             interpolated: surface.interpolated(),

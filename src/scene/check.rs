@@ -6,11 +6,11 @@
 
 use super::errors::SceneError;
 use super::fields::{FIELDS, LEG_INDENTATION, field};
-use super::form::Form;
 use super::found::Found;
 use super::model::{Adhesion, Edges, Move, Roughness, Scene, Solver};
 use super::text::ron_float;
 use super::write::leg;
+use crate::surface::Form;
 use crate::topography::{Unit, UnitError};
 
 /// Most samples of all loading stages together; a curve of this size still fits the memory of a small machine.

@@ -111,9 +111,9 @@ impl Document {
 #[cfg(test)]
 mod tests {
     use super::super::fields::field;
-    use super::super::form::Form;
     use super::super::model::{Adhesion, Roughness};
     use super::*;
+    use crate::surface::Form;
 
     const SCENE: &str = "(
     version: 1,

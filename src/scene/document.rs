@@ -382,10 +382,10 @@ fn check_length(text: &str) -> Result<(), String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::form::Form;
     use super::super::model::{Adhesion, Move, Roughness, Solver};
     use super::super::strategies::sound;
     use super::*;
+    use crate::surface::Form;
 
     const SCENE: &str = r#"(
     version: 1,

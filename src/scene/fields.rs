@@ -6,10 +6,10 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::field::{Field, Step};
-use super::form::Form;
 use super::model::{Edges, Move, Roughness, SCENE_VERSIONS, Scene, Solver};
 use super::range::Range;
 use super::value::{Access, Part, at};
+use crate::surface::Form;
 
 /// Largest number of springs.
 pub const MOST_POINTS: u64 = 1 << 28;

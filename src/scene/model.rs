@@ -2,9 +2,9 @@
 //!
 //! These types hold values as written; [`super::check()`] finds the invalid ones.
 
-use super::form::Form;
 pub use crate::contact::{Edges, Move};
 use crate::spectrum::Detrend;
+use crate::surface::Form;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::path::{Path, PathBuf};

@@ -154,12 +154,12 @@ fn others(scene: &Scene, observer: Observer) -> Vec<usize> {
 mod tests {
     use proptest::prelude::*;
 
-    use super::super::form::Form;
     use super::super::model::Move;
     use super::super::strategies::{Drawn, sound_scenes};
     use super::super::text::is_within;
     use super::super::write::legs;
     use super::*;
+    use crate::surface::Form;
 
     const SCENE: &str = "(
     version: 1, // the first

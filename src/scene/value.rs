@@ -1,8 +1,8 @@
 //! Values of the fields of a scene: reading and writing one by one.
 
-use super::form::Form;
 use super::model::{Adhesion, Edges, Material, Move, Numerics, Observer, Roughness, Scene, Solver};
 use crate::spectrum::Detrend;
+use crate::surface::Form;
 
 /// Value of a field.
 #[derive(Clone, Copy, Debug, PartialEq)]

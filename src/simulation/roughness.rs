@@ -3,11 +3,12 @@
 use super::RunError;
 use super::cached::Cached;
 use crate::scene::{Roughness, Scene};
+use crate::spectrum::{Detrend, End, Options};
 use crate::surface::{
-    Amplitude, MeasuredOptions, MeasuredRoughness, SelfAffine, SurfaceError, Synthesizer, WaveNumbers,
-    read_faces,
+    Amplitude, MeasuredOptions, MeasuredRoughness, SelfAffine, SurfaceError, Synthesizer, read_faces,
 };
 use crate::topography::{Cut, ReadOptions, Unit};
+use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -37,8 +38,8 @@ enum Source {
 pub(super) struct Rough {
     /// Empty once they have become the gaps of the profile.
     pub heights: Vec<f64>,
-    /// Wave numbers of the self-affine profile on a length of 1 m.
-    pub wave_numbers: Option<WaveNumbers>,
+    /// Amplitude of the self-affine profile of rms height 1 on a length of 1 m.
+    pub unit: Option<Amplitude>,
     /// Amplitude of a measured surface.
     pub measured: Option<Amplitude>,
     /// First and last mode of a random profile.
@@ -92,11 +93,11 @@ impl RoughnessMaker {
         let RoughnessKey { ref source, seed, points, shift } = *key;
         let (faces, options, length) = match source {
             Source::SelfAffine(spectrum) => {
-                let unit = self.synthesizer.synthesize(*spectrum, seed, points, shift, memory)?;
+                let heights = self.synthesizer.synthesize(*spectrum, seed, points, shift, memory)?;
                 self.phases_drawn += spectrum.last + 1 - spectrum.first;
                 return Ok(Rough {
-                    heights: unit.heights,
-                    wave_numbers: Some(spectrum.wave_numbers(1.0)),
+                    heights,
+                    unit: Some(spectrum.unit_amplitude(1.0)),
                     measured: None,
                     modes: Some((spectrum.first, spectrum.last)),
                 });
@@ -119,7 +120,7 @@ impl RoughnessMaker {
                 (heights, line.amplitude_of_modes(length, modes), Some(modes))
             }
         };
-        Ok(Rough { heights, wave_numbers: None, measured: Some(amplitude), modes })
+        Ok(Rough { heights, unit: None, measured: Some(amplitude), modes })
     }
 
     /// Returns the surface of the faces: the given one, the last equivalent line, or a new one.
@@ -177,8 +178,11 @@ pub fn measured_roughness_options(roughness: &Roughness, as_line: bool) -> Measu
     else {
         return MeasuredOptions::default();
     };
+    let end = continue_to.map_or(End::Ends, |wavelength| End::Continues(TAU / wavelength));
+    // A plane fitted to a periodic surface would leave a step at its borders.
+    let default = if *periodic { Detrend::Mean } else { Detrend::Tilt };
     MeasuredOptions {
-        as_line,
+        as_line: as_line.then(|| detrend.unwrap_or(Detrend::None)),
         reading: ReadOptions {
             unit: unit.parse().ok(),
             height_unit: height_unit.parse().ok(),
@@ -186,11 +190,9 @@ pub fn measured_roughness_options(roughness: &Roughness, as_line: bool) -> Measu
             spacing: *spacing,
             interpolate: *interpolate,
             channel: channel.and_then(|channel| channel.try_into().ok()),
+            cut: row.map(Cut::Row).or(column.map(Cut::Column)),
+            resample: *resample,
         },
-        resample: *resample,
-        cut: row.map(Cut::Row).or(column.map(Cut::Column)),
-        detrend: *detrend,
-        periodic: *periodic,
-        continue_to: *continue_to,
+        spectrum: Options { detrend: detrend.unwrap_or(default), periodic: *periodic, end, tip_radius: None },
     }
 }

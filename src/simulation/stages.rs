@@ -115,10 +115,9 @@ impl Simulation {
             }
         }
         let rough = self.roughness.value();
-        let wave_numbers = rough.and_then(|rough| rough.wave_numbers);
-        let wave_numbers = wave_numbers.map(|wave_numbers| wave_numbers.stretched(length));
+        let unit = rough.and_then(|rough| rough.unit).map(|unit| unit.stretched(length));
         let measured = rough.and_then(|rough| rough.measured);
-        let governing = Governing::of(scene, wave_numbers, measured);
+        let governing = Governing::of(scene, unit, measured);
         let rms_height = governing.amplitude.map_or(0.0, |amplitude| amplitude.rms_height);
         // Measured heights are already in metres.
         let scale = if measured.is_some() { 1.0 } else { rms_height };

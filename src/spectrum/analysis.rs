@@ -1,7 +1,7 @@
 //! Analysis of measured surfaces: statistics, spectra, equivalent line, and their limits.
 
 use super::Detrend;
-use super::error::{LEAST_POINTS, SpectrumError};
+use super::error::SpectrumError;
 use super::fit::Model;
 use super::isotropic::{End, IsotropicSpectrum, LineMoments};
 use super::observation::{self, Observation};
@@ -9,8 +9,11 @@ use super::periodogram::{Bin, Direction, MapPower, ProfilePower, bins, square};
 use super::power_law::{self, PowerLaw};
 use super::reliability::reliability_cutoff;
 use super::statistics::{Statistics, Sums};
-use crate::topography::{Topography, TopographyError};
+use crate::topography::{self, Place, Topography};
 use std::f64::consts::{PI, TAU};
+
+/// Fewest points along a row, and rows of a map.
+const LEAST_POINTS: usize = 32;
 
 /// Share of the squared gradient that may be beyond the end of the spectrum.
 const NEGLIGIBLE: f64 = 1e-4;
@@ -81,8 +84,7 @@ struct Powers {
     /// Powers along long and narrow maps, with the wave number, rad/m, below which the powers of the map are not used.
     strips: Vec<(ProfilePower, f64)>,
     /// Powers along the rows and the columns of maps, for display.
-    rows: Vec<ProfilePower>,
-    columns: Vec<ProfilePower>,
+    axes: [Vec<ProfilePower>; 2],
 }
 
 /// Analyses surfaces as samples of the same isotropic roughness.
@@ -96,7 +98,7 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     let mut sums = Sums::default();
     let mut reliability: Option<f64> = None;
     let mut length = 0.0_f64;
-    let powers = Powers::of(surfaces, options, Topography::copied_heights, |surface, heights, distances| {
+    let powers = Powers::of(surfaces, options, 0, |surface, heights, distances| {
         let columns = surface.columns();
         check_rough(surface.heights(), heights)?;
         sums.add(heights, columns, distances);
@@ -115,22 +117,24 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     {
         return Err(SpectrumError::End { to, last: range[1] });
     }
-    let mut isotropic = fitted(&observations, range, options.end)?;
+    let fitted = |observations: &[Observation], end: End| {
+        Model::new(observations, range, end).fit().ok_or(SpectrumError::NoMaximum)
+    };
     let self_affine = |observations: &[Observation], spectrum: &IsotropicSpectrum| {
         // The powers of the last waves depend on how the spectrum ends.
         let last = if ends_inside { range[1] - BEFORE_END * range[0] } else { f64::INFINITY };
         let before: Vec<_> = observations.iter().filter(|one| one.wave_number < last).cloned().collect();
         power_law::fit(&Model::new(&before, range, options.end), spectrum)
     };
+    let mut isotropic = fitted(&observations, options.end)?;
     let apart = powers.maps.iter().map(|map| map.apart).fold(0.0, f64::max);
     let mut power_law = self_affine(&observations, &isotropic).filter(|_| apart == 0.0);
     let mut largest = [0.0_f64; 4];
     let places = if surfaces.iter().any(|surface| surface.interpolated() > 0) { 1..4 } else { 0..0 };
     for quarters in places {
-        let heights = |surface: &Topography| surface.interpolated_again(quarters);
-        let powers = Powers::of(surfaces, options, heights, |_, _, _| Ok(()))?;
+        let powers = Powers::of(surfaces, options, quarters, |_, _, _| Ok(()))?;
         let observations = powers.observations(range[1]);
-        let again = fitted(&observations, range, options.end)?;
+        let again = fitted(&observations, options.end)?;
         let hurst = self_affine(&observations, &again).zip(power_law);
         let change = hurst.map_or(0.0, |(again, before)| again.hurst.value - before.hurst.value);
         let changes = isotropic.changes(&again).into_iter().chain([change]);
@@ -148,7 +152,7 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
             let (within, all) = (isotropic.changes(&longer.until(range[1])), isotropic.changes(&longer));
             [0, 1, 2].map(|index| within[index].abs().max(all[index].abs()))
         };
-        let longer = fitted(&observations, range, End::Continues(CONTINUED * range[1]));
+        let longer = fitted(&observations, End::Continues(CONTINUED * range[1]));
         isotropic.missing = longer.map_or([f64::INFINITY; 3], change);
     }
     let statistics = sums.statistics();
@@ -177,14 +181,6 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     })
 }
 
-fn fitted(
-    observations: &[Observation],
-    range: [f64; 2],
-    end: End,
-) -> Result<IsotropicSpectrum, SpectrumError> {
-    Model::new(observations, range, end).fit().ok_or(SpectrumError::NoMaximum)
-}
-
 /// Checks that the heights after detrending exceed the rounding errors of the original ones.
 fn check_rough(before: &[f64], after: &[f64]) -> Result<(), SpectrumError> {
     let largest = |heights: &[f64]| heights.iter().fold(0.0_f64, |largest, z| largest.max(z.abs()));
@@ -193,11 +189,12 @@ fn check_rough(before: &[f64], after: &[f64]) -> Result<(), SpectrumError> {
 }
 
 impl Powers {
-    /// Powers of the detrended heights of surfaces, which `check` receives with the distances between the points.
+    /// Powers of the detrended heights of surfaces, copied as by [`Topography::copied_heights`], which `check` receives with
+    /// the distances between the points.
     fn of(
         surfaces: &[Topography],
         options: &Options,
-        heights: impl Fn(&Topography) -> Result<Vec<f64>, TopographyError>,
+        quarters: usize,
         mut check: impl FnMut(&Topography, &[f64], [f64; 2]) -> Result<(), SpectrumError>,
     ) -> Result<Powers, SpectrumError> {
         let mut powers = Powers::default();
@@ -207,12 +204,17 @@ impl Powers {
             let distances = surface.spacing().map_err(refused)?;
             let points = if rows > 1 { columns.min(rows) } else { columns };
             if points < LEAST_POINTS {
-                return Err(SpectrumError::TooFew { index, points });
+                let fault = format!("{points} points along an axis");
+                return Err(refused(topography::refused(
+                    Place::File,
+                    fault,
+                    format!("at least {LEAST_POINTS}"),
+                )));
             }
-            let mut heights = heights(surface).map_err(refused)?;
+            let mut heights = surface.copied_heights(quarters).map_err(refused)?;
             options.detrend.remove(&mut heights, columns);
             check(surface, &heights, distances)?;
-            powers.add(&heights, columns, distances, !options.periodic)?;
+            powers.add(&heights, [columns, rows], distances, !options.periodic)?;
         }
         Ok(powers)
     }
@@ -220,28 +222,30 @@ impl Powers {
     fn add(
         &mut self,
         heights: &[f64],
-        columns: usize,
-        [along, between]: [f64; 2],
+        points: [usize; 2],
+        distances: [f64; 2],
         windowed: bool,
     ) -> Result<(), SpectrumError> {
-        let rows = heights.len() / columns;
+        let [columns, rows] = points;
+        // Rows, or columns.
+        let lines = |axis: usize| {
+            let (first, step) = [(columns, 1), (1, columns)][axis];
+            let line = move |line: usize| heights.iter().skip(line * first).step_by(step).take(points[axis]);
+            (0..points[1 - axis]).map(move |number| line(number).copied())
+        };
         if rows == 1 {
-            return group(&mut self.profiles, columns, along, windowed)
-                .add(std::iter::once(heights.iter().copied()));
+            return group(&mut self.profiles, columns, distances[0], windowed).add(lines(0));
         }
-        let in_rows = || heights.chunks_exact(columns).map(|row| row.iter().copied());
-        let in_columns = || (0..columns).map(|column| heights.iter().skip(column).step_by(columns).copied());
-        group(&mut self.rows, columns, along, windowed).add(in_rows())?;
-        group(&mut self.columns, rows, between, windowed).add(in_columns())?;
-        let map = MapPower::new(heights, columns, [along, between], windowed)?;
-        let [first, second] = map.steps;
-        let mut strip = None;
-        if windowed && second >= NARROW * first {
-            strip.insert(ProfilePower::new(columns, along, windowed)).add(in_rows())?;
-        } else if windowed && first >= NARROW * second {
-            strip.insert(ProfilePower::new(rows, between, windowed)).add(in_columns())?;
+        for (axis, powers) in self.axes.iter_mut().enumerate() {
+            group(powers, points[axis], distances[axis], windowed).add(lines(axis))?;
         }
-        self.strips.extend(strip.map(|power| (power, observation::least_of_map(&map))));
+        let map = MapPower::new(heights, columns, distances, windowed)?;
+        let long = (0..2).find(|axis| windowed && map.steps[1 - axis] >= NARROW * map.steps[*axis]);
+        if let Some(axis) = long {
+            let mut power = ProfilePower::new(points[axis], distances[axis], windowed);
+            power.add(lines(axis))?;
+            self.strips.push((power, observation::least_of_map(&map)));
+        }
         self.maps.push(map);
         Ok(())
     }
@@ -282,8 +286,8 @@ impl Powers {
         let radial =
             self.maps.iter().flat_map(|map| map.waves.iter().map(|(q, power)| (*q, q * power / PI, 1)));
         [
-            (Direction::X, mean(&mut self.profiles.iter().chain(&self.rows))),
-            (Direction::Y, mean(&mut self.columns.iter())),
+            (Direction::X, mean(&mut self.profiles.iter().chain(&self.axes[0]))),
+            (Direction::Y, mean(&mut self.axes[1].iter())),
             (Direction::Radial, bins(radial)),
         ]
         .into_iter()
@@ -320,8 +324,7 @@ fn group(powers: &mut Vec<ProfilePower>, points: usize, spacing: f64, windowed: 
 
 impl Analysis {
     /// Share of the squared height in waves longer than a quarter of the scan, which are few.
-    #[must_use]
-    pub fn long_wave_share(&self) -> f64 {
+    pub(crate) fn long_wave_share(&self) -> f64 {
         let all = self.isotropic.integrals()[0];
         1.0 - self.isotropic.moment(1, 4.0 * TAU / self.length).0 / all
     }

@@ -34,7 +34,7 @@ impl Detrend {
     }
 
     /// Removes the polynomial of least squares from the heights of rows of so many columns.
-    pub fn remove(self, heights: &mut [f64], columns: usize) {
+    pub(crate) fn remove(self, heights: &mut [f64], columns: usize) {
         let rows = heights.len() / columns.max(1);
         let monomials = self.monomials(rows > 1);
         // From −1 to 1, and relative to the first height: powers and sums keep their digits.

@@ -3,9 +3,6 @@
 use crate::topography::TopographyError;
 use thiserror::Error;
 
-/// Fewest points along a row, and rows of a map.
-pub const LEAST_POINTS: usize = 32;
-
 /// Reason why surfaces are not analysed.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SpectrumError {
@@ -19,14 +16,6 @@ pub enum SpectrumError {
         index: usize,
         /// Reason.
         error: TopographyError,
-    },
-    /// A surface has too few points; numbered from 0.
-    #[error("{points} points along an axis; allowed: at least {LEAST_POINTS}")]
-    TooFew {
-        /// Index of the surface.
-        index: usize,
-        /// Points along the axis.
-        points: usize,
     },
     /// All heights are equal.
     #[error("no roughness is left after detrending; allowed: heights that differ")]
@@ -56,10 +45,9 @@ pub enum SpectrumError {
 
 impl SpectrumError {
     /// Index of the refused surface, if the error is that of one; numbered from 0.
-    #[must_use]
-    pub fn surface(&self) -> Option<usize> {
+    pub(crate) fn surface(&self) -> Option<usize> {
         match self {
-            SpectrumError::Surface { index, .. } | SpectrumError::TooFew { index, .. } => Some(*index),
+            SpectrumError::Surface { index, .. } => Some(*index),
             _ => None,
         }
     }

@@ -86,8 +86,7 @@ impl Moment {
     }
 
     /// The value times a factor.
-    #[must_use]
-    pub fn scaled(self, factor: f64) -> Self {
+    pub(crate) fn scaled(self, factor: f64) -> Self {
         let relative = |error: f64| error / self.value;
         let [statistical, method, missing] =
             [self.statistical, self.method, self.missing_short_waves].map(relative);
@@ -95,8 +94,7 @@ impl Moment {
     }
 
     /// The square root of the value.
-    #[must_use]
-    pub fn root(self) -> Self {
+    pub(crate) fn root(self) -> Self {
         let relative = |error: f64| 0.5 * error / self.value;
         let missing = (1.0 + self.missing_short_waves / self.value).sqrt() - 1.0;
         Moment::new(self.value.sqrt(), relative(self.statistical), relative(self.method), missing)
@@ -220,14 +218,12 @@ impl IsotropicSpectrum {
     }
 
     /// PSD of a cut through the surface, m³, at a wave number, rad/m.
-    #[must_use]
-    pub fn cut(&self, wave_number: f64) -> f64 {
+    pub(crate) fn cut(&self, wave_number: f64) -> f64 {
         cut(|q| self.c2d(q), wave_number, self.nodes.end)
     }
 
     /// Last node, rad/m: the last resolved wave number.
-    #[must_use]
-    pub fn last_node(&self) -> f64 {
+    pub(crate) fn last_node(&self) -> f64 {
         self.nodes.wave_number(self.nodes.count - 1)
     }
 
@@ -246,8 +242,7 @@ impl IsotropicSpectrum {
 
     /// The spectrum with its values of ln C2D moved by a share of steps drawn from the normal distribution of the
     /// fit. Equal numbers have equal steps.
-    #[must_use]
-    pub fn drawn(&self, number: u64, share: f64) -> IsotropicSpectrum {
+    pub(crate) fn drawn(&self, number: u64, share: f64) -> IsotropicSpectrum {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&number.to_le_bytes());
         key[8..].copy_from_slice(PURPOSE);
@@ -318,15 +313,13 @@ impl IsotropicSpectrum {
     }
 
     /// Moments of the equivalent line, with waves from half the first wave number on.
-    #[must_use]
-    pub fn line_moments(&self) -> LineMoments {
+    pub(crate) fn line_moments(&self) -> LineMoments {
         line_moments(std::slice::from_ref(self))
     }
 }
 
 /// Moments of the equivalent line of faces with independent spectra, which add. The waves begin at half the first
 /// wave number known of all faces: wave 1 of a length covers the range from ½ to 1½.
-#[must_use]
 pub(crate) fn line_moments(faces: &[IsotropicSpectrum]) -> LineMoments {
     let from = faces.iter().map(|face| 0.5 * face.nodes.wave_number(0)).fold(0.0, f64::max);
     let moments = |power: i32| faces.iter().map(|face| face.moment(power, from)).collect::<Vec<_>>();
@@ -374,19 +367,6 @@ mod tests {
         (0..nodes.count).for_each(|index| identity[index * (nodes.count + 1)] = 1.0);
         let information = Cholesky::new(identity, nodes.count).unwrap();
         IsotropicSpectrum { nodes, values, information, method: [0.0; 3], missing: [0.0; 3] }
-    }
-
-    #[test]
-    fn pieces_cover_the_spectrum_once() {
-        for end in [End::Ends, End::Continues(5e4)] {
-            let nodes = Nodes::new(1.0, 1000.0, 6.0, end);
-            assert_eq!(nodes.count, 19);
-            for low in [0.0, 0.5, 1.0, 3.3, 999.0] {
-                let pieces: Vec<_> = nodes.pieces_from(low).collect();
-                assert_eq!((pieces[0].0, pieces[pieces.len() - 1].1), (low, nodes.end));
-                assert!(pieces.windows(2).all(|two| two[0].1 == two[1].0), "{pieces:?}");
-            }
-        }
     }
 
     #[test]

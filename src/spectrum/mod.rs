@@ -27,10 +27,9 @@ mod statistics;
 
 pub use analysis::{Analysis, Options, analyse};
 pub use detrend::Detrend;
-pub use error::{LEAST_POINTS, SpectrumError};
+pub use error::SpectrumError;
 pub(crate) use isotropic::line_moments;
 pub use isotropic::{End, Estimate, IsotropicSpectrum, LineMoments, Moment};
 pub use periodogram::{Bin, Direction, line_spectrum};
 pub use power_law::PowerLaw;
-pub use reliability::reliability_cutoff;
 pub use statistics::Statistics;

@@ -31,8 +31,7 @@ pub struct PowerLaw {
 
 impl PowerLaw {
     /// PSD of a cut, m³, at a wave number, for a spectrum over a range of wave numbers, rad/m.
-    #[must_use]
-    pub fn cut(&self, wave_number: f64, [first, last]: [f64; 2]) -> f64 {
+    pub(crate) fn cut(&self, wave_number: f64, [first, last]: [f64; 2]) -> f64 {
         let corner = self.roll_off.map_or(first, |roll_off| roll_off.value);
         let (level, exponent) = (self.level.value, -2.0 - 2.0 * self.hurst.value);
         cut(|q| level * (q / corner).max(1.0).powf(exponent), wave_number, last)

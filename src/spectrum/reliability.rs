@@ -9,8 +9,12 @@ const SAFETY: f64 = 0.5;
 ///
 /// `None` if the condition already holds at the distance between points. Half the length of a row if it holds
 /// nowhere: no wave is reliable.
-#[must_use]
-pub fn reliability_cutoff(heights: &[f64], columns: usize, spacing: f64, tip_radius: f64) -> Option<f64> {
+pub(crate) fn reliability_cutoff(
+    heights: &[f64],
+    columns: usize,
+    spacing: f64,
+    tip_radius: f64,
+) -> Option<f64> {
     let limit = -SAFETY / tip_radius;
     let is_reliable = |scale: usize| smallest_curvature(heights, columns, scale, spacing) >= limit;
     if is_reliable(1) {

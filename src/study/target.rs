@@ -204,8 +204,8 @@ pub(super) fn governing(scene: &Scene) -> Option<Governing> {
     let Some(Roughness::SelfAffine { hurst, modes: (first, last), .. }) = scene.roughness else {
         return None;
     };
-    let wave_numbers = SelfAffine { hurst, first, last }.wave_numbers(scene.length);
-    Some(Governing::of(scene, Some(wave_numbers), None))
+    let unit = SelfAffine { hurst, first, last }.unit_amplitude(scene.length);
+    Some(Governing::of(scene, Some(unit), None))
 }
 
 /// Symbol and SI unit of the quantity at a path; `1` for numbers without a unit, empty without a symbol.

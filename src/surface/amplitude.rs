@@ -1,29 +1,6 @@
-//! Amplitude of a profile: root mean square height, gradient and curvature, and its mean wave number.
+//! Amplitude of a profile with modes A_k cos(q_k x + φ_k), q_k = 2πk/L.
 
 use std::f64::consts::TAU;
-
-/// Wave numbers of a profile with modes A_k cos(q_k x + φ_k), q_k = 2πk/L.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WaveNumbers {
-    /// Root mean square √(Σ q_k²A_k²/Σ A_k²), rad/m: rms gradient over rms height.
-    pub rms: f64,
-    /// Mean Σ q_k A_k²/Σ A_k², rad/m.
-    pub mean: f64,
-    /// Root mean square √(Σ q_k⁴A_k²/Σ A_k²) of the squares, rad²/m²: rms curvature over rms height.
-    pub rms_square: f64,
-}
-
-impl WaveNumbers {
-    /// Wave numbers of the same modes on a length `times` as large.
-    #[must_use]
-    pub fn stretched(self, times: f64) -> Self {
-        WaveNumbers {
-            rms: self.rms / times,
-            mean: self.mean / times,
-            rms_square: self.rms_square / times.powi(2),
-        }
-    }
-}
 
 /// Roughness amplitude of a profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,21 +16,28 @@ pub struct Amplitude {
 }
 
 impl Amplitude {
-    /// Amplitude of a profile with this rms height, m.
-    #[must_use]
-    pub fn from_height(rms_height: f64, wave_numbers: WaveNumbers) -> Self {
-        let WaveNumbers { rms, mean, rms_square } = wave_numbers;
+    /// Amplitude of heights times a factor.
+    pub(crate) fn scaled(self, factor: f64) -> Self {
         Amplitude {
-            rms_height,
-            rms_gradient: rms_height * rms,
-            rms_curvature: rms_height * rms_square,
-            mean_wave_number: mean,
+            rms_height: factor * self.rms_height,
+            rms_gradient: factor * self.rms_gradient,
+            rms_curvature: factor * self.rms_curvature,
+            ..self
+        }
+    }
+
+    /// Amplitude of the same modes on a length `times` as large.
+    pub(crate) fn stretched(self, times: f64) -> Self {
+        Amplitude {
+            rms_height: self.rms_height,
+            rms_gradient: self.rms_gradient / times,
+            rms_curvature: self.rms_curvature / times.powi(2),
+            mean_wave_number: self.mean_wave_number / times,
         }
     }
 
     /// Amplitude of the modes k with these mean squares A_k²/2, m², on a length (m); smallest first for accuracy.
-    #[must_use]
-    pub fn from_modes(squares: impl Iterator<Item = (u64, f64)>, length: f64) -> Self {
+    pub(crate) fn from_modes(squares: impl Iterator<Item = (u64, f64)>, length: f64) -> Self {
         let (mut height, mut slope, mut gradient, mut curvature) = (0.0, 0.0, 0.0, 0.0);
         for (mode, square) in squares {
             let wave_number = TAU * mode as f64 / length;
@@ -74,8 +58,7 @@ impl Amplitude {
     /// Elastic energy of conformity per area, J/m²: e_el = (E*/8) Σ q_k A_k², the energy of a half-space of
     /// effective modulus E* (Pa) in full contact with an isotropic surface with the rms height, rms gradient and
     /// mean wave number of the profile (Persson and Tosatti, 2001).
-    #[must_use]
-    pub fn elastic_energy(&self, effective_modulus: f64) -> f64 {
+    pub(crate) fn elastic_energy(&self, effective_modulus: f64) -> f64 {
         effective_modulus * self.rms_height.powi(2) * self.mean_wave_number / 4.0
     }
 }

@@ -1,8 +1,7 @@
 //! The rigid profile as the input of the contact: gaps below its highest point.
 
-use super::{SurfaceError, mdr_profile};
+use super::{Form, SurfaceError};
 use crate::memory;
-use crate::scene::Form;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -54,55 +53,46 @@ impl Line {
         roughness: Option<&[f64]>,
         scale: f64,
     ) -> Result<Self, SurfaceError> {
-        Line::over(length, points, form, scale, |under| {
-            let mut heights =
-                memory::emptied(memory, under.len()).map_err(|_| SurfaceError::OutOfMemory(points))?;
-            match roughness {
-                Some(rough) => heights.extend_from_slice(&rough[under]),
-                None => heights.resize(under.len(), 0.0),
-            }
-            Ok(heights)
-        })
+        let under = springs_under(form, length, points)?;
+        let mut heights =
+            memory::emptied(memory, under.len()).map_err(|_| SurfaceError::OutOfMemory(points))?;
+        match roughness {
+            Some(rough) => heights.extend_from_slice(&rough[under.clone()]),
+            None => heights.resize(under.len(), 0.0),
+        }
+        Line::over(heights, under.start, length, points, form, scale)
     }
 
     /// The same for a form and roughness, whose memory becomes that of the gaps.
-    ///
-    /// # Errors
-    /// [`SurfaceError::NotFinite`], [`SurfaceError::NoSprings`].
-    pub fn from_roughness(
+    pub(crate) fn from_roughness(
         mut heights: Vec<f64>,
         length: f64,
         form: Option<&Form>,
         scale: f64,
     ) -> Result<Self, SurfaceError> {
-        Line::over(length, heights.len(), form, scale, |under| {
-            heights.truncate(under.end);
-            heights.drain(..under.start);
-            Ok(heights)
-        })
+        let points = heights.len();
+        let under = springs_under(form, length, points)?;
+        heights.truncate(under.end);
+        heights.drain(..under.start);
+        Line::over(heights, under.start, length, points, form, scale)
     }
 
-    /// The profile of a form and `heights` of roughness of the springs under it, times `scale` m, in their memory.
+    /// The profile of a form and of roughness, `gaps` before, of the springs from a first one on.
     fn over(
+        mut gaps: Vec<f64>,
+        first: usize,
         length: f64,
         points: usize,
         form: Option<&Form>,
         scale: f64,
-        heights: impl FnOnce(Range<usize>) -> Result<Vec<f64>, SurfaceError>,
     ) -> Result<Self, SurfaceError> {
         let spacing = length / points as f64;
-        let under = form.map_or(0..points as u64, |form| form.springs_under(length, points as u64));
-        if under.is_empty() {
-            return Err(SurfaceError::NoSprings(spacing / 4.0));
-        }
-        let first = under.start as usize;
-        let mut gaps = heights(first..under.end as usize)?;
         match form {
             None => gaps.iter_mut().for_each(|z| *z *= scale),
             Some(form) => {
                 // Whole cells from the axis: exact, so that the profile is as symmetric as its form.
                 let axis = Form::spring_on_axis(points as u64) as f64;
-                let depth = |index: usize| mdr_profile(form, (index as f64 - axis) * spacing);
+                let depth = |index: usize| form.mdr_profile((index as f64 - axis) * spacing);
                 (first..).zip(&mut gaps).for_each(|(index, z)| *z = scale * *z - depth(index));
             }
         }
@@ -143,6 +133,15 @@ impl Line {
     pub fn deepest(&self) -> f64 {
         self.deepest
     }
+}
+
+/// Springs under a form, at least one.
+fn springs_under(form: Option<&Form>, length: f64, points: usize) -> Result<Range<usize>, SurfaceError> {
+    let under = form.map_or(0..points as u64, |form| form.springs_under(length, points as u64));
+    if under.is_empty() {
+        return Err(SurfaceError::NoSprings(length / points as f64 / 4.0));
+    }
+    Ok(under.start as usize..under.end as usize)
 }
 
 /// Largest value; `Err(index)` of the first non-finite value.
@@ -198,26 +197,6 @@ mod tests {
     }
 
     #[test]
-    fn springs_stand_in_the_middle_of_their_part_of_the_length() {
-        let line = Line::new(2.0, 4, None, None, 0.0).unwrap();
-        assert_eq!([0, 1, 3].map(|index| line.position(index)), [0.25, 0.75, 1.75]);
-        let punch = Line::new(2.0, 8, Some(&Form::Punch { radius: 0.5 }), None, 0.0).unwrap();
-        assert_eq!([0, 3].map(|index| punch.position(index)), [0.625, 1.375]);
-        assert_eq!((line.lowest(), line.deepest()), (0.0, 0.0));
-        let steps = Line::new(2.0, 2, None, Some(&[3.0, 5.0]), 1.0).unwrap();
-        assert_eq!((steps.lowest(), steps.deepest()), (3.0, 2.0));
-    }
-
-    #[test]
-    fn a_gap_beyond_all_numbers_is_refused_at_its_spring() {
-        let rough = [0.0, 0.0, 1e308, 0.0, -1e308, 0.0];
-        let line = |form: Option<&Form>| Line::new(1.0, 6, form, Some(&rough), 1.0);
-        assert_eq!(line(None), Err(SurfaceError::NotFinite(4)));
-        // The first spring under the punch is the second of the foundation.
-        assert_eq!(line(Some(&Form::Punch { radius: 0.3 })), Err(SurfaceError::NotFinite(4)));
-    }
-
-    #[test]
     fn form_and_roughness_add() {
         let rough = [0.0, 3.0, -1.0, 2.0];
         let form = Form::Paraboloid { radius: 1.0 };
@@ -268,6 +247,10 @@ mod tests {
     fn heights_that_are_not_finite_are_refused() {
         let result = Line::new(1.0, 3, None, Some(&[0.0, 1e300, 0.0]), 1e300);
         assert_eq!(result, Err(SurfaceError::NotFinite(1)));
+        // The first spring under the punch is the second of the foundation.
+        let rough = [0.0, 0.0, 1e308, 0.0, -1e308, 0.0];
+        let result = Line::new(1.0, 6, Some(&Form::Punch { radius: 0.3 }), Some(&rough), 1.0);
+        assert_eq!(result, Err(SurfaceError::NotFinite(4)));
         for points in 1..40 {
             for bad in 0..points {
                 let mut rough: Vec<f64> = (0..points).map(|i| (i * i % 7) as f64).collect();

@@ -3,7 +3,7 @@
 use super::{Amplitude, MeasuredOptions, SurfaceError};
 use crate::memory::{check_room, emptied};
 use crate::spectrum::Detrend;
-use crate::topography::{ReadOptions, TopographyError, UNEVEN, Unit, first_uneven, interpolated};
+use crate::topography::{TopographyError, UNEVEN, first_uneven, interpolated, parse};
 use realfft::RealFftPlanner;
 
 /// Most bytes per point of the transform and its arrays: an odd number of points transforms at twice the length.
@@ -21,25 +21,16 @@ pub struct MeasuredProfile {
 }
 
 impl MeasuredProfile {
-    /// Reads a profile from text. By convention lengths without a stated unit are in m, as written by `asperity line`.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn parse(text: &str) -> Result<Self, TopographyError> {
-        let reading = ReadOptions { convention: Some(Unit::METRE), ..ReadOptions::default() };
-        Self::new(text.as_bytes(), &MeasuredOptions { reading, ..MeasuredOptions::default() })
-    }
-
     /// Reads a profile, or a row or column of a map, from the content of a file. Detrending requires equally spaced
     /// points.
     ///
     /// # Errors
     /// [`TopographyError`] if the content is no profile.
     pub fn new(content: &[u8], options: &MeasuredOptions) -> Result<Self, TopographyError> {
-        let mut surface = options.parse(content)?;
-        if let Some(detrend) = options.detrend.filter(|detrend| *detrend != Detrend::None) {
+        let mut surface = parse(content, &options.reading)?;
+        if let Some(detrend) = options.as_line.filter(|detrend| *detrend != Detrend::None) {
             surface.spacing()?;
-            surface = surface.with_heights(|heights, columns| detrend.remove(heights, columns));
+            detrend.remove(&mut surface.heights, surface.columns);
         }
         let (positions, heights) = surface.into_profile()?;
         Ok(MeasuredProfile { positions, heights })
@@ -76,8 +67,7 @@ impl MeasuredProfile {
 
     /// Root mean square height about the mean and root mean square gradient of the straight pieces
     /// between the measured points.
-    #[must_use]
-    pub fn rms_height_and_gradient(&self) -> (f64, f64) {
+    fn rms_height_and_gradient(&self) -> (f64, f64) {
         let length = self.span();
         // Differences of heights, not heights: an offset may be far larger than the roughness.
         let level = self.heights[0];
@@ -142,10 +132,7 @@ impl MeasuredProfile {
         Ok(heights)
     }
 
-    /// Position, m, of the beginning of a line of a length, m.
-    ///
-    /// # Errors
-    /// The covered length, m.
+    /// Position, m, of the beginning of a line of a length, m; the error is the covered length, m.
     fn begins(&self, length: f64) -> Result<f64, f64> {
         let points = self.positions.len() as f64;
         let (first, distance) = (self.positions[0], self.span() / (points - 1.0));
@@ -192,23 +179,17 @@ fn join_ends(heights: &mut [f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::surface::{SelfAffine, UnitRoughness};
+    use crate::topography::{ReadOptions, Unit};
     use std::f64::consts::TAU;
 
-    #[test]
-    fn reads_what_instruments_write() {
-        let profile = MeasuredProfile::parse("# stylus\nx,z\n0.0, 1e-7\n1e-6,3e-7\n\n2e-6 ,-1e-7\n").unwrap();
-        assert_eq!(profile.positions, [0.0, 1e-6, 2e-6]);
-        let heights = profile.sample(2e-6, 2, 0.0).unwrap();
-        // Halfway between 1 and 3, and between 3 and −1.
-        assert!((heights[0] - 2e-7).abs() < 1e-20 && (heights[1] - 1e-7).abs() < 1e-20, "{heights:?}");
-        assert_eq!(profile.sample(2e-6, 2, 0.5).unwrap(), [1e-7, 3e-7]);
-        assert!(profile.sample(3.1e-6, 2, 0.0).unwrap_err().contains("covers 3e-6 m"));
+    fn parsed(text: &str) -> Result<MeasuredProfile, TopographyError> {
+        let reading = ReadOptions { convention: Some(Unit::METRE), ..ReadOptions::default() };
+        MeasuredProfile::new(text.as_bytes(), &MeasuredOptions { reading, ..MeasuredOptions::default() })
     }
 
     #[test]
     fn points_that_begin_at_half_their_distance_are_middles_of_cells() {
-        let profile = MeasuredProfile::parse("0.5 3\n1.5 4\n2.5 -1").unwrap();
+        let profile = parsed("0.5 3\n1.5 4\n2.5 -1").unwrap();
         assert_eq!(profile.length(), 3.0);
         assert_eq!(profile.sample(3.0, 3, 0.0).unwrap(), [3.0, 4.0, -1.0]);
         // Before the first and behind the last point at its height, halfway between points at their mean.
@@ -217,13 +198,13 @@ mod tests {
         assert_eq!(profile.sample(1.0, 1, 0.0).unwrap(), [3.0]);
         assert!(profile.sample(3.01, 3, 0.0).unwrap_err().contains("covers 3e0 m"));
         // With the digits of a file.
-        let rounded = MeasuredProfile::parse("0.1667 3\n0.5 4\n0.8333 -1").unwrap();
+        let rounded = parsed("0.1667 3\n0.5 4\n0.8333 -1").unwrap();
         assert!((rounded.length() - 1.0).abs() < 1e-3 && rounded.sample(1.0, 3, 0.0).is_ok());
         // Any other profile covers the distance between its points.
         for (text, length) in
             [("0 3\n1 4\n2 -1", 2.0), ("0.5 3\n1.5 4\n2.4 -1", 1.9), ("1 3\n2 4\n3 -1", 2.0)]
         {
-            let profile = MeasuredProfile::parse(text).unwrap();
+            let profile = parsed(text).unwrap();
             assert!((profile.length() - length).abs() < 1e-15);
             assert!(profile.sample(length, 3, 0.0).is_ok());
             // If equally spaced, half a distance beyond each end.
@@ -232,14 +213,14 @@ mod tests {
                 profile.sample(longest, 3, 0.0).is_ok() && profile.sample(1.01 * longest, 3, 0.0).is_err()
             );
         }
-        let even = MeasuredProfile::parse("1 3\n2 4\n3 -1").unwrap();
+        let even = parsed("1 3\n2 4\n3 -1").unwrap();
         assert_eq!(even.sample(3.0, 3, 0.0).unwrap(), [3.0, 4.0, -1.0]);
         assert_eq!(even.sample(2.0, 2, 0.0).unwrap(), [3.5, 1.5]);
     }
 
     #[test]
     fn an_offset_is_taken_out_where_that_is_exact() {
-        let heights = |text: &str| MeasuredProfile::parse(text).unwrap().sample(2.0, 2, 0.0).unwrap();
+        let heights = |text: &str| parsed(text).unwrap().sample(2.0, 2, 0.0).unwrap();
         assert_eq!(heights("0.5 1e8\n1.5 100000001"), [0.0, 1.0]);
         assert_eq!(heights("0.5 -3\n1.5 -5"), [0.0, -2.0]);
         assert_eq!(heights("0.5 3\n1.5 7"), [3.0, 7.0]);
@@ -248,34 +229,8 @@ mod tests {
     }
 
     #[test]
-    fn lengths_are_in_metres_unless_the_file_or_the_scene_states_a_unit() {
-        let read = |text: &str, unit: Option<Unit>| {
-            let reading = ReadOptions { unit, convention: Some(Unit::METRE), ..ReadOptions::default() };
-            let options = MeasuredOptions { as_line: true, reading, ..MeasuredOptions::default() };
-            MeasuredProfile::new(text.as_bytes(), &options)
-        };
-        let millimetre: Unit = "mm".parse().unwrap();
-        let metres = read("0,1\n1,2", None).unwrap();
-        assert_eq!(metres, MeasuredProfile::parse("0,1\n1,2").unwrap());
-        assert_eq!(read("0,1000\n1000,2000", Some(millimetre)).unwrap(), metres);
-        assert_eq!(read("x [mm] z [mm]\n0 1000\n1000 2000", None).unwrap(), metres);
-        let error = read("x [mm] z [mm]\n0 1000\n1000 2000", Some(Unit::METRE)).unwrap_err().to_string();
-        assert!(error.contains("the file states mm as the unit of heights, the options state m"), "{error}");
-        assert!(read("1 2 3 4\n1 2 3 4\n", None).is_err());
-    }
-
-    #[cfg(unix)]
-    #[test]
-    fn devices_are_not_read() {
-        for device in ["/dev/zero", "/dev/null", "/dev/tty"] {
-            let message = crate::topography::content(device.as_ref()).unwrap_err().to_string();
-            assert!(message.contains("not a regular file"), "{device}: {message}");
-        }
-    }
-
-    #[test]
     fn what_a_length_or_a_mean_square_cannot_hold_is_refused() {
-        let wrong = |text: &str| MeasuredProfile::parse(text).unwrap_err().to_string();
+        let wrong = |text: &str| parsed(text).unwrap_err().to_string();
         assert!(wrong("0 1").contains("1 points; allowed: from 2 to"));
         let long = wrong(&format!("0 1\n1 {}", "κ".repeat(1000)));
         assert!(long.chars().count() < 120, "{long}");
@@ -288,14 +243,14 @@ mod tests {
             wrong("0 0\n0.5 1e9\n1 0"),
             "point 2: a slope of 2e9 from the point before; allowed: at most 1e9"
         );
-        let steepest = MeasuredProfile::parse("-1e9 1e9\n-999999998 -1e9\n1e9 1e9").unwrap();
+        let steepest = parsed("-1e9 1e9\n-999999998 -1e9\n1e9 1e9").unwrap();
         let (height, gradient) = steepest.rms_height_and_gradient();
         assert!(height.is_finite() && gradient.is_finite() && steepest.length() == 2e9);
     }
 
     #[test]
     fn samples_lie_on_the_straight_pieces() {
-        let profile = MeasuredProfile::parse("-2 7\n0 3\n1 6\n4 0").unwrap();
+        let profile = parsed("-2 7\n0 3\n1 6\n4 0").unwrap();
         // At −1.5, −0.5 … 3.5.
         assert_eq!(profile.sample(6.0, 6, 0.0).unwrap(), [6.0, 4.0, 4.5, 5.0, 3.0, 1.0]);
         // From the first point on.
@@ -314,35 +269,18 @@ mod tests {
             (0..points).map(|i| format!("{:e} {:e}\n", place(i), height(place(i)))).collect()
         };
         for (points, middles) in [(1000, 0.5), (1001, 0.5), (1000, 0.0)] {
-            let level = MeasuredProfile::parse(&text(points, middles, 0.0)).unwrap().amplitude().unwrap();
+            let level = parsed(&text(points, middles, 0.0)).unwrap().amplitude().unwrap();
             assert!((level.mean_wave_number / (15.0 * TAU) - 1.0).abs() < 0.01, "{level:?}");
             let curvature = 2e-3 * 0.5_f64.sqrt() * (15.0 * TAU).powi(2);
             assert!((level.rms_curvature / curvature - 1.0).abs() < 0.01, "{level:?}");
             // A tilt has no energy.
-            let tilted = MeasuredProfile::parse(&text(points, middles, 0.1)).unwrap().amplitude().unwrap();
+            let tilted = parsed(&text(points, middles, 0.1)).unwrap().amplitude().unwrap();
             assert!(tilted.rms_height > 10.0 * level.rms_height);
             let change = tilted.elastic_energy(1.0) / level.elastic_energy(1.0) - 1.0;
             assert!(change.abs() < 0.01, "{change}");
         }
-        let flat = MeasuredProfile::parse("0 1\n1 1\n2 1").unwrap().amplitude().unwrap();
+        let flat = parsed("0 1\n1 1\n2 1").unwrap().amplitude().unwrap();
         assert_eq!((flat.mean_wave_number, flat.elastic_energy(1e6)), (0.0, 0.0));
-    }
-
-    #[test]
-    fn a_line_from_a_file_has_the_elastic_energy_of_its_modes() {
-        for (hurst, last) in [(0.3, 64), (0.7, 64), (0.9, 200)] {
-            let spectrum = SelfAffine { hurst, first: 1, last };
-            let line = UnitRoughness::synthesize(spectrum, 5, 4096).unwrap();
-            let text: String = (0_u32..)
-                .zip(&line.heights)
-                .map(|(i, z)| format!("{:e} {:e}\n", (f64::from(i) + 0.5) / 4096.0, 1e-3 * z))
-                .collect();
-            let measured = MeasuredProfile::parse(&text).unwrap().amplitude().unwrap();
-            let expected = Amplitude::from_height(1e-3, spectrum.wave_numbers(1.0));
-            let error = measured.elastic_energy(1.0) / expected.elastic_energy(1.0) - 1.0;
-            println!("H = {hurst}, to mode {last}: {error:e}");
-            assert!(error.abs() < 1e-3, "H = {hurst}, to mode {last}: {error:e}");
-        }
     }
 
     #[test]
@@ -354,11 +292,11 @@ mod tests {
             ("5 1\n6 3\n9 -3", (31.0 / 12.0 + 39.0 / 4.0) / 4.0, 2.0),
             ("6e-5 5\n1 5\n3 5", 0.0, 0.0),
         ] {
-            let (height, gradient) = MeasuredProfile::parse(text).unwrap().rms_height_and_gradient();
+            let (height, gradient) = parsed(text).unwrap().rms_height_and_gradient();
             assert!((height - f64::sqrt(square)).abs() < 1e-15 && (gradient - slope).abs() < 1e-15, "{text}");
             assert!(square > 0.0 || (height, gradient) == (0.0, 0.0), "{text}");
         }
-        let level = MeasuredProfile::parse("0 1e9\n1 1e9").unwrap();
+        let level = parsed("0 1e9\n1 1e9").unwrap();
         assert_eq!((level.heights(), level.length()), (&[1e9, 1e9][..], 1.0));
     }
 }

@@ -13,14 +13,14 @@ mod roughness;
 mod spectrum;
 mod struve;
 
-pub use amplitude::{Amplitude, WaveNumbers};
+pub use amplitude::Amplitude;
 pub use equivalent::{EquivalentLine, Face, MeasuredOptions, MeasuredRoughness, read_faces};
 pub use error::SurfaceError;
-pub use form::{line_power_law, mdr_profile, power_law_factor};
+pub use form::{Form, power_law_factor};
 pub use histogram::Histogram;
 pub use line::Line;
 pub use measured::MeasuredProfile;
 pub use phases::phases;
-pub use roughness::{Synthesizer, UnitRoughness};
+pub use roughness::Synthesizer;
 pub use spectrum::SelfAffine;
 pub use struve::{struve_0, struve_1};

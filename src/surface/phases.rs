@@ -59,15 +59,4 @@ mod tests {
             assert_eq!(fraction(word), (word >> 11) as f64 / (1_u64 << 53) as f64, "{word:#x}");
         }
     }
-
-    #[test]
-    fn a_mode_keeps_its_phase() {
-        let all: Vec<f64> = phases(7, 1).take(50).collect();
-        for first in [2, 9, 17, 40] {
-            let some: Vec<f64> = phases(7, first).take(5).collect();
-            assert_eq!(some, all[first as usize - 1..][..5]);
-        }
-        assert_ne!(all[..5], phases(8, 1).take(5).collect::<Vec<_>>());
-        assert!(all.iter().all(|phase| (0.0..std::f64::consts::TAU).contains(phase)));
-    }
 }

@@ -17,29 +17,6 @@ const MANY_MODES: usize = 1 << 16;
 /// spring, which on longer profiles are worth more than the time saved.
 const LONGEST_KEPT: usize = 1 << 22;
 
-/// Heights of a self-affine profile of rms height 1, eqs. (8) and (9).
-///
-/// Length and rms height scale the heights; they depend only on spectrum, seed, number and position of the points.
-#[derive(Clone, Debug, PartialEq)]
-pub struct UnitRoughness {
-    /// Heights in units of the rms height.
-    pub heights: Vec<f64>,
-}
-
-impl UnitRoughness {
-    /// The profile of a spectrum and a seed on `points` springs at x = (i + ½)L/N; `spectrum.last` must not exceed
-    /// `points`/2.
-    ///
-    /// The rms height is that of the sum of cosines over the whole length. Two grids sample the same profile, to
-    /// the rounding of the transform.
-    ///
-    /// # Errors
-    /// [`SurfaceError::OutOfMemory`], [`SurfaceError::Transform`].
-    pub fn synthesize(spectrum: SelfAffine, seed: u64, points: usize) -> Result<Self, SurfaceError> {
-        Synthesizer::default().synthesize(spectrum, seed, points, 0.0, Vec::new())
-    }
-}
-
 /// Synthesises profiles in sequence, and keeps the planned transform and its memory between them.
 #[derive(Default)]
 pub struct Synthesizer {
@@ -66,8 +43,8 @@ impl Transform {
 }
 
 impl Synthesizer {
-    /// Synthesises the profile of [`UnitRoughness::synthesize`], displaced by `shift` cells along the springs, in
-    /// `memory`: heights at x = (i + ½ − `shift`)L/N. Without displacement the heights are the same bit for bit.
+    /// Synthesises the profile of [`SelfAffine::heights`], displaced by `shift` cells along the springs, in `memory`:
+    /// heights at x = (i + ½ − `shift`)L/N.
     ///
     /// # Errors
     /// [`SurfaceError::OutOfMemory`], [`SurfaceError::Transform`].
@@ -78,7 +55,7 @@ impl Synthesizer {
         points: usize,
         shift: f64,
         memory: Vec<f64>,
-    ) -> Result<UnitRoughness, SurfaceError> {
+    ) -> Result<Vec<f64>, SurfaceError> {
         let modes = Modes::new(spectrum, seed, points, 0.5 - shift);
         let draw = |first: usize, drawn: &mut [Complex64]| {
             // Another thread draws the modes from the middle on.
@@ -90,16 +67,12 @@ impl Synthesizer {
                 || modes.draw(first as u64, lower),
             );
         };
-        let heights = self.transform((spectrum.first, spectrum.last), points, memory, draw)?;
-        Ok(UnitRoughness { heights })
+        self.transform((spectrum.first, spectrum.last), points, memory, draw)
     }
 
     /// Sum of cosines with these amplitudes of the modes from a first to a last one, at most `points`/2, and the phases of
     /// the seed; places as in [`Self::synthesize`].
-    ///
-    /// # Errors
-    /// [`SurfaceError::OutOfMemory`], [`SurfaceError::Transform`].
-    pub fn synthesize_waves(
+    pub(crate) fn synthesize_waves(
         &mut self,
         amplitude: &dyn Fn(u64) -> f64,
         (first, last): (u64, u64),
@@ -155,6 +128,21 @@ impl Synthesizer {
     }
 }
 
+impl SelfAffine {
+    /// Synthesises heights in units of the rms height, eqs. (8) and (9), on `points` springs at x = (i + ½)L/N, at least
+    /// twice the last mode. Length and rms height scale the heights; they depend only on spectrum, seed, number and
+    /// position of the points.
+    ///
+    /// The rms height is that of the sum of cosines over the whole length. Two grids sample the same profile, to
+    /// the rounding of the transform.
+    ///
+    /// # Errors
+    /// [`SurfaceError::OutOfMemory`], [`SurfaceError::Transform`].
+    pub fn heights(self, seed: u64, points: usize) -> Result<Vec<f64>, SurfaceError> {
+        Synthesizer::default().synthesize(self, seed, points, 0.0, Vec::new())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -175,12 +163,16 @@ mod tests {
     fn is_the_sum_of_cosines_on_every_grid() {
         for (points, first, last) in [(64, 1, 32), (100, 3, 50), (101, 1, 50), (97, 2, 40), (2, 1, 1)] {
             let spectrum = SelfAffine { hurst: 0.6, first, last };
-            let line = UnitRoughness::synthesize(spectrum, 42, points).unwrap();
-            for (i, &height) in line.heights.iter().enumerate() {
+            let line = spectrum.heights(42, points).unwrap();
+            for (i, &height) in line.iter().enumerate() {
                 let expected = direct(spectrum, 42, (i as f64 + 0.5) / points as f64);
                 assert!((height - expected).abs() < 1e-12, "N = {points}, i = {i}: {height} {expected}");
             }
         }
+        // The rms height is 1.
+        let heights = SelfAffine { hurst: 0.8, first: 1, last: 100 }.heights(3, 1000).unwrap();
+        let rms = (heights.iter().map(|z| z * z).sum::<f64>() / 1000.0).sqrt();
+        assert!((rms - 1.0).abs() < 1e-12, "{rms}");
     }
 
     /// Heights by direct sums, powers and sines, mode by mode.
@@ -208,35 +200,28 @@ mod tests {
 
     #[test]
     fn heights_are_those_of_direct_sums_and_powers_to_rounding() {
-        let mut worst = [0.0_f64; 2];
         for hurst in [0.1, 0.3, 0.5, 0.7, 0.9] {
             for (points, first, last) in [
                 (64, 1, 32),
                 (101, 3, 50),
-                (1000, 60, 500),
-                (5000, 1, 700),
                 (5000, 500, 2500),
-                (1 << 15, 1, 1 << 13),
                 (1 << 16, 30_000, 1 << 15),
                 (200_001, 1, 100_000),
-                (1 << 18, 2, 1 << 17),
             ] {
                 for (seed, shift) in [(1, 0.0), (u64::MAX, 0.5)] {
                     let spectrum = SelfAffine { hurst, first, last };
                     let expected = mode_by_mode(spectrum, seed, points, shift);
                     let found = Synthesizer::default().synthesize(spectrum, seed, points, shift, Vec::new());
-                    let found = found.unwrap().heights;
+                    let found = found.unwrap();
                     let differences = found.iter().zip(&expected).map(|(found, expected)| found - expected);
                     let square = differences.clone().map(|difference| difference * difference).sum::<f64>();
                     let rms = (square / points as f64).sqrt();
                     let largest = differences.map(f64::abs).fold(0.0, f64::max);
                     let of = format!("H = {hurst}, modes {first} to {last} of {points} springs");
                     assert!(rms <= 2e-15 && largest <= 1e-14, "{of}: {rms:e}, {largest:e}");
-                    worst = [worst[0].max(rms), worst[1].max(largest)];
                 }
             }
         }
-        println!("differences in rms heights: rms {:e}, largest {:e}", worst[0], worst[1]);
     }
 
     #[test]
@@ -256,44 +241,11 @@ mod tests {
         ] {
             let spectrum = SelfAffine { hurst, first, last };
             let kept = synthesizer.synthesize(spectrum, seed, points, 0.0, memory).unwrap();
-            assert_eq!(kept, UnitRoughness::synthesize(spectrum, seed, points).unwrap());
+            assert_eq!(kept, spectrum.heights(seed, points).unwrap());
             // The same as on one thread and by another plan.
-            let alone = on_this_thread(|| UnitRoughness::synthesize(spectrum, seed, points).unwrap());
+            let alone = on_this_thread(|| spectrum.heights(seed, points).unwrap());
             assert_eq!(kept, alone);
-            memory = kept.heights;
+            memory = kept;
         }
-    }
-
-    #[test]
-    fn a_shifted_line_is_the_same_line_at_other_places() {
-        for (points, last) in [(64, 32), (64, 20), (97, 40)] {
-            let spectrum = SelfAffine { hurst: 0.6, first: 1, last };
-            for shift in [0.5, 0.25] {
-                let line =
-                    Synthesizer::default().synthesize(spectrum, 42, points, shift, Vec::new()).unwrap();
-                for (i, &height) in line.heights.iter().enumerate() {
-                    let expected = direct(spectrum, 42, (i as f64 + 0.5 - shift) / points as f64);
-                    assert!((height - expected).abs() < 1e-13, "N = {points}, i = {i}: {height} {expected}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn has_rms_one_and_refines_to_the_same_line() {
-        let spectrum = SelfAffine { hurst: 0.8, first: 1, last: 100 };
-        let coarse = UnitRoughness::synthesize(spectrum, 3, 1000).unwrap().heights;
-        // Three times the points: every third, from the second on, coincides with a coarse one.
-        let fine = UnitRoughness::synthesize(spectrum, 3, 3000).unwrap().heights;
-        for (i, &height) in coarse.iter().enumerate() {
-            assert!((height - fine[3 * i + 1]).abs() < 1e-12);
-        }
-        let rms = (coarse.iter().map(|z| z * z).sum::<f64>() / 1000.0).sqrt();
-        assert!((rms - 1.0).abs() < 1e-12, "{rms}");
-        let gradient =
-            (0..1000).map(|i| (fine[3 * i + 2] - fine[3 * i]) * 1500.0).map(|g| g * g).sum::<f64>();
-        let rms_gradient = (gradient / 1000.0).sqrt();
-        let expected = spectrum.gradient_per_height(1.0);
-        assert!((rms_gradient / expected - 1.0).abs() < 3e-3, "{rms_gradient} {expected}");
     }
 }

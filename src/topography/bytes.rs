@@ -151,14 +151,4 @@ mod tests {
             assert_eq!(Bytes::new(&bytes, Order::Big).numbers(1, of).unwrap(), [value], "{of:?}");
         }
     }
-
-    #[test]
-    fn no_byte_beyond_the_end_is_read() {
-        let mut bytes = Bytes::new(b"ab\0cd", Order::Little);
-        assert_eq!(bytes.text().unwrap(), b"ab");
-        let error = bytes.number(Number::F64).unwrap_err();
-        assert_eq!(error.to_string(), "byte 3: 2 bytes up to the end; allowed: at least 8 bytes");
-        assert!(bytes.numbers(usize::MAX, Number::F64).is_err());
-        assert!(bytes.text().unwrap_err().to_string().starts_with("byte 3: a text without an end"));
-    }
 }

@@ -8,16 +8,12 @@ use thiserror::Error;
 /// Longest text of a file in messages, characters.
 const MOST_SHOWN: usize = 40;
 
-/// Place of a fault within a file.
+/// Place of a fault within a file. Lines and points count from 1, bytes, after decompression, from 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Place {
-    /// The file as a whole.
+pub(crate) enum Place {
     File,
-    /// Line of a text, from 1.
     Line(usize),
-    /// Point of a profile or a list of points, from 1.
     Point(usize),
-    /// Byte of a binary file (after decompression), from 0.
     Byte(usize),
     /// Named part of a container: a file of an archive, an element, a channel.
     Part(String),
@@ -38,19 +34,9 @@ impl fmt::Display for Place {
 /// Reason why a file is no surface. The caller puts the name of the file before the message.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum TopographyError {
-    /// The content cannot be read, or the file is too long.
+    /// The content cannot be read, or is invalid: place within the file, fault, and allowed content.
     #[error("{0}")]
-    Read(String),
-    /// The content is invalid.
-    #[error("{place}{fault}; allowed: {allowed}")]
-    Content {
-        /// Place within the file.
-        place: Place,
-        /// Fault.
-        fault: String,
-        /// Allowed content.
-        allowed: String,
-    },
+    Refused(String),
     /// Insufficient memory for so many points.
     #[error("not enough memory for {0} points")]
     OutOfMemory(usize),
@@ -58,13 +44,13 @@ pub enum TopographyError {
 
 impl From<ReadError> for TopographyError {
     fn from(error: ReadError) -> Self {
-        TopographyError::Read(error.to_string())
+        TopographyError::Refused(error.to_string())
     }
 }
 
 /// Error of invalid content.
-pub(super) fn refused(place: Place, fault: impl Into<String>, allowed: impl Into<String>) -> TopographyError {
-    TopographyError::Content { place, fault: fault.into(), allowed: allowed.into() }
+pub(crate) fn refused(place: Place, fault: impl fmt::Display, allowed: impl fmt::Display) -> TopographyError {
+    TopographyError::Refused(format!("{place}{fault}; allowed: {allowed}"))
 }
 
 /// All values of an iterator of so many points, if the memory suffices.

@@ -5,7 +5,6 @@ use super::error::{Place, TopographyError, refused};
 /// Smallest share of measured points for interpolation.
 const LEAST_MEASURED: f64 = 0.5;
 
-/// Number of heights that are not finite.
 pub(super) fn count(heights: &[f64]) -> usize {
     heights.iter().filter(|height| !height.is_finite()).count()
 }

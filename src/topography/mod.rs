@@ -22,9 +22,10 @@ mod text;
 mod unit;
 mod x3p;
 
-pub use error::{Place, TopographyError};
+pub use error::TopographyError;
+pub(crate) use error::{Place, refused};
 pub use open::{content, parse, read};
-pub use reading::{Format, ReadOptions};
-pub use surface::{Cut, Grid, Topography};
+pub use reading::ReadOptions;
+pub use surface::{Cut, Topography};
 pub(crate) use surface::{UNEVEN, first_uneven, interpolated};
 pub use unit::{Unit, UnitError};

@@ -3,7 +3,7 @@
 
 use super::bytes::{Bytes, Number, Order};
 use super::error::{Place, TopographyError, gathered, refused};
-use super::reading::{Format, RawGrid, Reading};
+use super::reading::Reading;
 use super::surface::first_uneven;
 use super::unit::Unit;
 
@@ -57,32 +57,34 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
         dataset.variables.iter().filter(is_position).find(|variable| variable.dimensions == [dimension])
     };
     let position_unit = dataset.variable(b"x").and_then(|x| x.unit);
-    let grid = match heights.dimensions[..] {
-        [along] => match over(along) {
-            Some(x) => RawGrid::Positions(dataset.values(x)?),
-            None => RawGrid::Profile(None),
-        },
-        [slow, fast] => {
-            let spacing = |dimension: usize| {
-                over(dimension).map(|positions| even_distance(&dataset.values(positions)?)).transpose()
+    let units = [position_unit, heights.unit.or(position_unit)];
+    let (slow, fast) = match heights.dimensions[..] {
+        [slow, fast] => (slow, fast),
+        [along] => {
+            let Some(x) = over(along) else {
+                let points = values.len();
+                return Ok(Reading::even("NetCDF", values, points, None, units));
             };
-            let (rows, columns) = (dataset.length(slow)?, dataset.length(fast)?);
-            let spacings = spacing(fast)?.zip(spacing(slow)?).map(|(fast, slow)| [fast, slow]);
-            if over(slow).is_some_and(|variable| variable.name == b"x") {
-                // Rows are along x.
-                let turned = (0..columns).flat_map(|x| values.iter().skip(x).step_by(columns).copied());
-                values = gathered(values.len(), turned)?;
-                RawGrid::of(rows, columns, spacings.map(|[fast, slow]| [slow, fast]))
-            } else {
-                RawGrid::of(columns, rows, spacings)
-            }
+            return Ok(Reading::profile("NetCDF", dataset.values(x)?, values, units));
         }
         _ => {
             let fault = format!("`heights` over {} dimensions", heights.dimensions.len());
             return Err(refused(Place::File, fault, "one of a profile, or two of a map"));
         }
     };
-    Ok(Reading::new(Format::NetCdf, values, grid, [position_unit, heights.unit.or(position_unit)]))
+    let spacing = |dimension: usize| {
+        over(dimension).map(|positions| even_distance(&dataset.values(positions)?)).transpose()
+    };
+    let mut columns = dataset.length(fast)?;
+    let mut spacing = spacing(fast)?.zip(spacing(slow)?).map(|(fast, slow)| [fast, slow]);
+    if over(slow).is_some_and(|variable| variable.name == b"x") {
+        // Rows are along x.
+        let turned = (0..columns).flat_map(|x| values.iter().skip(x).step_by(columns).copied());
+        values = gathered(values.len(), turned)?;
+        columns = dataset.length(slow)?;
+        spacing = spacing.map(|[fast, slow]| [slow, fast]);
+    }
+    Ok(Reading::even("NetCDF", values, columns, spacing, units))
 }
 
 impl<'a> Dataset<'a> {
@@ -123,10 +125,9 @@ impl<'a> Dataset<'a> {
 
     /// Returns the values of a variable; NaN for missing points.
     fn values(&self, variable: &Variable) -> Result<Vec<f64>, TopographyError> {
-        let mut count = 1_usize;
-        for dimension in &variable.dimensions {
-            count = count.saturating_mul(self.length(*dimension)?);
-        }
+        let mut lengths = variable.dimensions.iter().map(|dimension| self.length(*dimension));
+        let count = lengths
+            .try_fold(1_usize, |count, length| Ok::<_, TopographyError>(count.saturating_mul(length?)))?;
         let mut data = Bytes::new(self.bytes, Order::Big);
         data.take(variable.begin)?;
         let mut values = data.numbers(count, variable.of)?;
@@ -179,18 +180,14 @@ fn number(header: &mut Bytes) -> Result<Option<Number>, TopographyError> {
     }))
 }
 
-/// Name of an attribute, and its text or its first number, if it has any.
-type Attribute<'a> = (&'a [u8], Option<&'a [u8]>, Option<f64>);
+/// Name, type (`None`: characters) and content of an attribute.
+type Attribute<'a> = (&'a [u8], Option<Number>, &'a [u8]);
 
 fn attribute<'a>(header: &mut Bytes<'a>) -> Result<Attribute<'a>, TopographyError> {
     let name = name(header)?;
     let of = number(header)?;
     let count = header.size(Number::U32)?;
-    let bytes = padded(header, count.saturating_mul(of.map_or(1, Number::size)))?;
-    Ok(match of {
-        None => (name, Some(bytes), None),
-        Some(of) => (name, None, Bytes::new(bytes, Order::Big).number(of).ok()),
-    })
+    Ok((name, of, padded(header, count.saturating_mul(of.map_or(1, Number::size)))?))
 }
 
 fn variable<'a>(header: &mut Bytes<'a>, offsets: Number) -> Result<Variable<'a>, TopographyError> {
@@ -200,15 +197,16 @@ fn variable<'a>(header: &mut Bytes<'a>, offsets: Number) -> Result<Variable<'a>,
         dimensions.push(header.size(Number::U32)?);
     }
     let (mut unit, mut missing, mut scale, mut offset) = (None, [f64::NAN; 2], 1.0, 0.0);
-    for attribute in list(header, ATTRIBUTES, attribute)? {
-        match attribute {
-            (b"unit" | b"units", Some(text), _) => {
-                unit = str::from_utf8(text).ok().and_then(|text| text.trim().parse().ok());
+    for (name, of, content) in list(header, ATTRIBUTES, attribute)? {
+        let number = of.and_then(|of| Bytes::new(content, Order::Big).number(of).ok());
+        match (name, number) {
+            (b"unit" | b"units", None) if of.is_none() => {
+                unit = str::from_utf8(content).ok().and_then(|text| text.trim().parse().ok());
             }
-            (b"missing_value", _, Some(value)) => missing[0] = value,
-            (b"_FillValue", _, Some(value)) => missing[1] = value,
-            (b"scale_factor", _, Some(value)) => scale = value,
-            (b"add_offset", _, Some(value)) => offset = value,
+            (b"missing_value", Some(value)) => missing[0] = value,
+            (b"_FillValue", Some(value)) => missing[1] = value,
+            (b"scale_factor", Some(value)) => scale = value,
+            (b"add_offset", Some(value)) => offset = value,
             _ => {}
         }
     }
@@ -228,87 +226,5 @@ fn even_distance(positions: &[f64]) -> Result<f64, TopographyError> {
     match first_uneven(positions, *first, distance) {
         Some(index) => Err(refused(Place::Point(index + 1), "uneven positions of a map", "even ones")),
         None => Ok(distance.abs()),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::topography::{Grid, ReadOptions, parse};
-
-    /// Name, numbers of the dimensions, unit and values of a variable.
-    type Variable<'a> = (&'a str, &'a [u32], &'a str, &'a [f64]);
-
-    /// A file with these dimensions and variables of doubles.
-    fn file(dimensions: &[(&str, u32)], variables: &[Variable<'_>]) -> Vec<u8> {
-        let text = |text: &str| {
-            let mut bytes = (text.len() as u32).to_be_bytes().to_vec();
-            bytes.extend(text.as_bytes());
-            bytes.resize(bytes.len().next_multiple_of(4), 0);
-            bytes
-        };
-        let words = |words: &[u32]| words.iter().flat_map(|word| word.to_be_bytes()).collect::<Vec<u8>>();
-        let mut bytes =
-            [b"CDF\x01".to_vec(), words(&[0, DIMENSIONS as u32, dimensions.len() as u32])].concat();
-        for (name, length) in dimensions {
-            bytes.extend([text(name), words(&[*length])].concat());
-        }
-        bytes.extend(words(&[0, 0, VARIABLES as u32, variables.len() as u32]));
-        let header = |begin: &dyn Fn(usize) -> u32| {
-            let of = |(index, (name, dimensions, unit, values)): (usize, &Variable<'_>)| {
-                let fill = [text("_FillValue"), words(&[4, 1, 999_999])].concat();
-                let unit = [text("unit"), words(&[CHARACTERS as u32]), text(unit)].concat();
-                let head = [text(name), words(&[dimensions.len() as u32]), words(dimensions)].concat();
-                let data = words(&[6, 8 * values.len() as u32, begin(index)]);
-                [head, words(&[ATTRIBUTES as u32, 2]), fill, unit, data].concat()
-            };
-            variables.iter().enumerate().flat_map(of).collect::<Vec<u8>>()
-        };
-        let first = (bytes.len() + header(&|_| 0).len()) as u32;
-        let before =
-            |index: usize| variables[..index].iter().map(|variable| 8 * variable.3.len() as u32).sum::<u32>();
-        bytes.extend(header(&|index| first + before(index)));
-        bytes.extend(variables.iter().flat_map(|variable| variable.3).flat_map(|value| value.to_be_bytes()));
-        bytes
-    }
-
-    #[test]
-    fn profiles_and_maps_are_read_with_their_units() {
-        let none = ReadOptions::default();
-        let profile = file(
-            &[("n", 3)],
-            &[("x", &[0], "um", &[0.0, 1.0, 4.0]), ("heights", &[0], "nm", &[1.0, 5.0, 2.0])],
-        );
-        let surface = parse(&profile, &none).unwrap();
-        assert_eq!((surface.format(), surface.heights()), (Format::NetCdf, &[1e-9, 5e-9, 2e-9][..]));
-        assert_eq!(surface.grid(), &Grid::Positions(vec![0.0, 1e-6, 4e-6]));
-        let axes: [Variable<'_>; 2] = [("x", &[0], "m", &[0.0, 2.0]), ("y", &[1], "m", &[0.0, 1.0, 2.0])];
-        let heights: Variable<'_> = ("heights", &[0, 1], "", &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
-        let map = parse(&file(&[("x", 2), ("y", 3)], &[heights, axes[0], axes[1]]), &none).unwrap();
-        // Two points along x in each of three rows.
-        assert_eq!(map.heights(), [1.0, 4.0, 2.0, 5.0, 3.0, 6.0]);
-        assert_eq!(map.grid(), &Grid::Map { columns: 2, spacing: [2.0, 1.0] });
-        let missing = file(&[("n", 2)], &[("heights", &[0], "m", &[1.0, 999_999.0])]);
-        let error = parse(&missing, &ReadOptions { spacing: Some(1.0), ..none }).unwrap_err().to_string();
-        assert!(error.starts_with("point 2: 1 of 2 points are missing"), "{error}");
-    }
-
-    #[test]
-    fn wrong_files_are_refused() {
-        let heights: Variable<'_> = ("heights", &[0], "m", &[1.0, 2.0]);
-        let whole = file(&[("n", 2)], &[heights]);
-        let error = |bytes: &[u8]| read(bytes).map(drop).unwrap_err().to_string();
-        for end in 4..whole.len() {
-            assert!(error(&whole[..end]).contains("up to the end; allowed: at least"), "{end}");
-        }
-        assert!(error(b"CDF\x05\0\0\0\0").contains("version 5 of NetCDF; allowed: 1 or 2"));
-        assert!(error(&file(&[("n", 2)], &[])).contains("no variable `heights`"));
-        assert!(error(&file(&[("n", 0)], &[heights])).contains("without a fixed length"));
-        assert!(error(&file(&[("n", u32::MAX)], &[heights])).contains("up to the end"));
-        assert!(error(&file(&[], &[heights])).contains("dimension 0; allowed: below 0"));
-        let uneven: (&str, &[u32], &str, &[f64]) = ("x", &[0], "m", &[0.0, 1.0, 3.0]);
-        let map: (&str, &[u32], &str, &[f64]) = ("heights", &[0, 1], "m", &[0.0; 6]);
-        let y: (&str, &[u32], &str, &[f64]) = ("y", &[1], "m", &[0.0, 1.0]);
-        assert!(error(&file(&[("x", 3), ("y", 2)], &[map, uneven, y])).contains("uneven positions of a map"));
     }
 }

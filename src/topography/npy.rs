@@ -6,7 +6,7 @@
 
 use super::bytes::{Bytes, Number, Order};
 use super::error::{Place, TopographyError, refused, shown};
-use super::reading::{Format, RawGrid, Reading};
+use super::reading::Reading;
 pub(super) use crate::io::npy::SIGNATURE;
 
 /// Reads an array of format version 1, 2 or 3.
@@ -97,35 +97,29 @@ impl Header {
         Ok(Header { number, order, is_column_major: is_column_major && !is_list, shape })
     }
 
-    fn into_reading(self, mut values: Vec<f64>) -> Result<Reading, TopographyError> {
+    fn into_reading(self, values: Vec<f64>) -> Result<Reading, TopographyError> {
+        let even = |values, columns| Ok(Reading::even("NumPy array", values, columns, None, [None; 2]));
         // A transposed array has exchanged axes, and with them rows and columns.
-        let grid = match (&self.shape[..], self.is_column_major) {
-            ([_], _) => RawGrid::Profile(None),
-            ([points, 2], is_column_major) => {
-                let at = |index: usize, axis: usize| {
-                    values[if is_column_major { axis * points + index } else { 2 * index + axis }]
-                };
-                let positions = (0..*points).map(|index| at(index, 0)).collect();
-                let mut heights: Vec<f64> = (0..*points).map(|index| at(index, 1)).collect();
-                let grid = RawGrid::scanned(positions, &mut heights);
-                values = heights;
-                grid
-            }
-            ([columns, rows], true) | ([rows, columns], false) => RawGrid::of(*columns, *rows, None),
+        let (points, fast, slow) = match (&self.shape[..], self.is_column_major) {
+            (&[points], _) => return even(values, points),
+            (&[points, 2], true) => (points, 1, points),
+            (&[points, 2], false) => (points, 2, 1),
+            (&[columns, _], true) | (&[_, columns], false) => return even(values, columns),
             (shape, _) => {
                 let fault = format!("an array with {} axes", shape.len());
                 return Err(refused(Place::Byte(10), fault, "1 or 2 axes"));
             }
         };
+        let column = |axis: usize| (0..points).map(|index| values[index * fast + axis * slow]).collect();
+        let reading = Reading::profile("NumPy array", column(0), column(1), [None; 2]);
         // NaN compares as false.
         let ascends = |pair: &[f64]| pair[0] < pair[1];
-        if let RawGrid::Positions(positions) = &grid
-            && let Some(index) = positions.windows(2).position(|pair| !ascends(pair))
-        {
-            let fault = format!("x = {:e} after {:e}", positions[index + 1], positions[index]);
+        let positions = reading.positions.iter().flat_map(|positions| positions.windows(2));
+        if let Some((index, pair)) = positions.enumerate().find(|(_, pair)| !ascends(pair)) {
+            let fault = format!("x = {:e} after {:e}", pair[1], pair[0]);
             return Err(refused(Place::Point(index + 2), fault, "positions that ascend, or descend"));
         }
-        Ok(Reading::new(Format::Npy, values, grid, [None, None]))
+        Ok(reading)
     }
 }
 
@@ -138,75 +132,4 @@ fn quoted(text: &str) -> Option<&str> {
 fn field_types(list: &str) -> Option<Vec<&str>> {
     let (list, _) = list.strip_prefix('[')?.split_once(']')?;
     list.split('(').skip(1).map(|field| quoted(field.split_once(',')?.1.trim_start())).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn array(header: &str, numbers: &[u8]) -> Vec<u8> {
-        [SIGNATURE, &[1, 0], &(header.len() as u16).to_le_bytes(), header.as_bytes(), numbers].concat()
-    }
-
-    fn doubles(header: &str, numbers: &[f64]) -> Vec<u8> {
-        let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
-        array(header, &bytes)
-    }
-
-    #[test]
-    fn arrays_are_profiles_and_maps() {
-        let six = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
-        let map =
-            read(&doubles("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }", &six)).unwrap();
-        assert_eq!((map.grid, &map.heights[..]), (RawGrid::Map { columns: 3, spacing: None }, &six[..]));
-        let turned =
-            read(&doubles("{'descr': '<f8', 'fortran_order': True, 'shape': (2, 3), }", &six)).unwrap();
-        assert_eq!(turned.grid, RawGrid::Map { columns: 2, spacing: None });
-        let profile =
-            read(&doubles("{'shape': (6,), 'fortran_order': False, 'descr': '<f8'}", &six)).unwrap();
-        assert_eq!(profile.grid, RawGrid::Profile(None));
-        for (order, numbers) in
-            [("False", [3.0, 1.0, 2.0, 5.0, 1.0, 7.0]), ("True", [3.0, 2.0, 1.0, 1.0, 5.0, 7.0])]
-        {
-            let columns = format!("{{'descr': '<f8', 'fortran_order': {order}, 'shape': (3, 2), }}");
-            let profile = read(&doubles(&columns, &numbers)).unwrap();
-            assert_eq!(profile.grid, RawGrid::Positions(vec![1.0, 2.0, 3.0]));
-            assert_eq!(profile.heights, [7.0, 5.0, 1.0]);
-        }
-        let fields = "{'descr': [('x', '<f8'), ('z', '<f8')], 'fortran_order': False, 'shape': (3,), }";
-        let profile = read(&doubles(fields, &six)).unwrap();
-        assert_eq!(profile.grid, RawGrid::Positions(vec![1.0, 3.0, 5.0]));
-        let field = "{'descr': [('z', '<f8')], 'fortran_order': False, 'shape': (6,), }";
-        assert_eq!(read(&doubles(field, &six)).unwrap().grid, RawGrid::Profile(None));
-        let big = array("{'descr': '>i2', 'fortran_order': False, 'shape': (2,), }", &[0, 1, 255, 254]);
-        assert_eq!(read(&big).unwrap().heights, [1.0, -2.0]);
-    }
-
-    #[test]
-    fn faults_have_a_place() {
-        for (header, expected) in [
-            ("{'descr': '<c16', 'fortran_order': False, 'shape': (3,)}", "byte 10: numbers of type \"<c16\""),
-            (
-                "{'descr': [('a', '<f8'), ('b', '<u8')], 'fortran_order': False, 'shape': (3,)}",
-                "byte 10: other fields than one or two",
-            ),
-            ("{'descr': [], 'fortran_order': False, 'shape': (3,)}", "byte 10: no field in"),
-            ("{'descr': [('a')], 'fortran_order': False, 'shape': (3,)}", "byte 10: fields that are not"),
-            (
-                "{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (3, 1)}",
-                "byte 10: fields along several axes in",
-            ),
-            ("{'descr': '<f8', 'shape': (3,)}", "byte 10: no fortran_order in"),
-            ("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 1, 1)}", "byte 10: an array with 3 axes"),
-            ("{'descr': '<f8', 'fortran_order': False, 'shape': (99999999999, 99999999999)}", "byte "),
-            ("{'descr': '<f8', 'fortran_order': False, 'shape': (4,)}", "byte "),
-            ("", "byte 10: no descr in"),
-        ] {
-            let error = read(&doubles(header, &[0.0; 3])).unwrap_err().to_string();
-            assert!(error.starts_with(expected) && error.contains("allowed: "), "{header}: {error}");
-        }
-        let level =
-            doubles("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 2), }", &[1.0, 0.0, 1.0, 0.0]);
-        assert!(read(&level).unwrap_err().to_string().starts_with("point 2: x = 1e0 after 1e0"));
-    }
 }

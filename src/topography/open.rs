@@ -58,7 +58,12 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, Topograp
         return Err(refused(Place::Byte(0), "gzip within gzip", "gzip once"));
     }
     let reader = SIGNATURES.iter().find(|(signature, _)| content.starts_with(signature));
-    reader.map_or_else(|| text::read(content), |(_, read)| read(content, options))?.resolve(options)
+    let reading = reader.map_or_else(|| text::read(content), |(_, read)| read(content, options))?;
+    let mut surface = reading.resolve(options)?;
+    if let Some(cut) = options.cut {
+        surface = surface.cut(cut)?;
+    }
+    if options.resample { surface.resampled() } else { Ok(surface) }
 }
 
 /// Decompresses gzip.
@@ -79,6 +84,7 @@ mod tests {
     use crate::topography::Unit;
     use flate2::Compression;
     use flate2::write::GzEncoder;
+    use std::fmt::Write as _;
     use std::io::Write;
 
     fn gzip(bytes: &[u8]) -> Vec<u8> {
@@ -89,6 +95,117 @@ mod tests {
 
     fn metres() -> ReadOptions {
         ReadOptions { unit: Some(Unit::METRE), ..ReadOptions::default() }
+    }
+
+    /// A file of the inputs of fuzzing, with some bytes replaced where they occur first.
+    fn file(name: &str, from: &[u8], to: &[u8]) -> Vec<u8> {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/seeds/surface").join(name);
+        let content = std::fs::read(path).unwrap();
+        let at = content.windows(from.len().max(1)).position(|found| found.starts_with(from)).unwrap();
+        [&content[..at], to, &content[at + from.len()..]].concat()
+    }
+
+    /// Options that suit a file without units and distances.
+    fn bare(name: &str) -> ReadOptions {
+        let unit = name.ends_with(".npy").then_some(Unit::METRE);
+        ReadOptions { unit, spacing: Some(0.5), interpolate: true, ..ReadOptions::default() }
+    }
+
+    #[test]
+    fn files_of_every_format_are_surfaces() {
+        let mut found = String::new();
+        let names = "binary.sdf text.sdf field.gsf map.npy columns.npy profile.npy linked.x3p listed.x3p map.gwy \
+                     plain.sur compressed.sur map.nc points.nc heights.txt matrix.txt points.txt latin1.txt utf16.txt descending.csv";
+        for name in names.split(' ') {
+            let mut surface = parse(&file(name, b"", b""), &bare(name)).unwrap();
+            surface.heights.truncate(12);
+            writeln!(found, "{name}: {surface:?}").unwrap();
+        }
+        insta::assert_snapshot!(found);
+    }
+
+    #[test]
+    fn headers_decide_on_units_rows_and_channels() {
+        let read = |name: &str, from: &[u8], to: &[u8], options: &ReadOptions| {
+            parse(&file(name, from, to), options).unwrap()
+        };
+        // µm in an MS-DOS code page.
+        let micrometres = read("plain.sur", b"um", b"\xe6m", &bare(""));
+        assert_eq!(micrometres, read("plain.sur", b"", b"", &bare("")));
+        // Rows along x become rows along y.
+        let (along_x, along_y) =
+            (&b"heights\0\0\0\0\x02\0\0\0\0\0\0\0\x01"[..], &b"heights\0\0\0\0\x02\0\0\0\x01\0\0\0\0"[..]);
+        let (turned, straight) =
+            (read("map.nc", b"", b"", &bare("")), read("map.nc", along_x, along_y, &bare("")));
+        assert_eq!((turned.columns, straight.columns), (6, 6));
+        assert_eq!((turned.heights[1], turned.heights[6]), (straight.heights[4], straight.heights[1]));
+        assert_eq!(read("map.npy", b"True, ", b"False,", &bare(".npy")).columns, 4);
+        let chosen = ReadOptions { channel: Some(0), ..bare("") };
+        assert_eq!(read("map.gwy", b"", b"", &chosen), read("map.gwy", b"", b"", &bare("")));
+        let none = ReadOptions { channel: Some(4), ..bare("") };
+        let error = parse(&file("map.gwy", b"", b""), &none).unwrap_err().to_string();
+        assert_eq!(error, "no channel 4; channels: 0; allowed: a channel of heights");
+    }
+
+    #[test]
+    fn faults_have_a_place_and_the_allowed_content() {
+        let mut errors = String::new();
+        for (name, from, to) in [
+            ("text.sdf", &b"9 1 2 3"[..], &b"9 1"[..]),
+            ("text.sdf", b"9 1", b"9 1 4"),
+            ("text.sdf", b"BAD", b"x"),
+            ("text.sdf", b"NumPoints = 4", b"NumPoints = 2.5"),
+            ("text.sdf", b"Zscale = 1e-9\n", b""),
+            ("text.sdf", b"DataType = 5", b"DataType = 9"),
+            ("text.sdf", b"*\n1", b"1"),
+            ("binary.sdf", b"\xf0\xbf\0", b"\xf0\xbf\x01"),
+            ("binary.sdf", b"\x04\0\x03", b"\x04\0\x04"),
+            ("field.gsf", b"YRes = 3\n", b""),
+            ("field.gsf", b"XRes = 4", b"XRes = -3"),
+            ("field.gsf", b"XReal = 4e-6", b"XReal = wide"),
+            ("field.gsf", b"ZUnits = m", b"ZUnits = V"),
+            ("field.gsf", b"YRes = 3", b"YRes = 4294967296"),
+            ("field.gsf", b"XRes = 4", b"XRes"),
+            ("map.npy", b">i2", b"<c16"),
+            ("map.npy", b"'>i2'", b"[('a', '<f8'), ('b', '<u8')]"),
+            ("map.npy", b"'>i2'", b"[]"),
+            ("map.npy", b"'>i2'", b"[('a')]"),
+            ("map.npy", b";\0{'descr': '>i2'", b"D\0{'descr': [('a', '<f8')]"),
+            ("map.npy", b"fortran_order", b"order"),
+            ("map.npy", b"(3, 4)", b"(3, 4, 1)"),
+            ("map.npy", b"(3, 4)", b"(99999999999, 99999999999)"),
+            ("columns.npy", b"?\0\0\0\0\0\0\xf0?", b"?\0\0\0\0\0\0\0\0"),
+            ("map.gwy", b"m\0data", b"V\0data"),
+            ("map.gwy", b"/0/data\0oG", b"/0/date\0oG"),
+            ("map.gwy", b"xres\0i", b"xres\0z"),
+            ("map.gwy", b"xres\0i\x04", b"xres\0i\x05"),
+            ("plain.sur", b"\x02\0", b"\x05\0"),
+            ("plain.sur", b"\x10\0", b"\x08\0"),
+            ("plain.sur", b"\x04\0", b"\0\0"),
+            ("plain.sur", b"\x03\0", b"\x09\0"),
+            ("plain.sur", b"um", b"Vo"),
+            ("compressed.sur", b"\x04\0\0\0\x03", b"\x04\0\0\x09\x03"),
+            ("map.nc", b"CDF\x02", b"CDF\x05"),
+            ("map.nc", b"heights", b"weights"),
+            ("map.nc", b"x\0\0\0\0\0\0\x06", b"x\0\0\0\0\0\0\0"),
+            ("map.nc", b"x\0\0\0\0\0\0\x06", b"x\0\0\0\xff\xff\xff\xff"),
+            ("map.nc", b"s\0\0\0\0\x02\0\0\0\0", b"s\0\0\0\0\x02\0\0\0\x07"),
+            ("map.nc", b"?\x0a\x36", b"?\x0b\x36"),
+        ] {
+            let options = ReadOptions { interpolate: false, ..bare(name) };
+            let error = parse(&file(name, from, to), &options).unwrap_err().to_string();
+            assert!(error.contains("; allowed: "), "{error}");
+            writeln!(errors, "{name}, {}: {error}", to.escape_ascii()).unwrap();
+        }
+        insta::assert_snapshot!(errors);
+        // What is missing at the end is missed at a place.
+        for name in ["map.gwy", "map.nc", "compressed.sur", "binary.sdf"] {
+            let whole = file(name, b"", b"");
+            for end in 13..whole.len() {
+                let error = parse(&whole[..end], &bare(name)).unwrap_err().to_string();
+                assert!(error.starts_with("byte "), "{name}, {end}: {error}");
+            }
+        }
     }
 
     #[test]

@@ -1,12 +1,8 @@
 //! From the numbers of a file to heights in m: units, distances between points, missing points.
 
 use super::error::{Place, TopographyError, refused};
-use super::{Grid, Topography, Unit, missing};
-use strum::IntoStaticStr;
-
-/// Largest position and height, m, and largest slope between neighbours: beyond these, lengths and mean squares
-/// could overflow.
-pub(super) const LARGEST: f64 = 1.0e9;
+use super::surface::{Cut, Grid, LARGEST, Topography};
+use super::{Unit, missing};
 
 /// Most points of a surface: 2 GiB of heights.
 const MOST_POINTS: usize = 1 << 28;
@@ -26,91 +22,61 @@ pub struct ReadOptions {
     pub interpolate: bool,
     /// Number of the channel of a file with several.
     pub channel: Option<u32>,
+    /// Row or column of a map read as a profile.
+    pub cut: Option<Cut>,
+    /// True if uneven profiles are resampled at their mean distance.
+    pub resample: bool,
 }
 
-/// Format of a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
-pub enum Format {
-    /// Columns x z, or x y z, or z.
-    #[strum(serialize = "text columns")]
-    Columns,
-    /// Rows of heights.
-    #[strum(serialize = "text matrix")]
-    Matrix,
-    /// ISO 25178-71.
-    #[strum(serialize = "SDF")]
-    Sdf,
-    /// Gwyddion Simple Field.
-    #[strum(serialize = "GSF")]
-    Gsf,
-    /// `.npy`.
-    #[strum(serialize = "NumPy array")]
-    Npy,
-    /// ISO 25178-72.
-    #[strum(serialize = "X3P")]
-    X3p,
-    /// Gwyddion's own format.
-    #[strum(serialize = "GWY")]
-    Gwy,
-    /// Digital Surf.
-    #[strum(serialize = "SUR")]
-    Sur,
-    /// The classic format.
-    #[strum(serialize = "NetCDF")]
-    NetCdf,
-}
-
-/// Positions of the heights of a file, in its unit.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum RawGrid {
-    /// Position of each height, ascending.
-    Positions(Vec<f64>),
-    /// Equally spaced profile, with the distance if the file states one.
-    Profile(Option<f64>),
-    /// Equally spaced rows of so many columns, with the distances along and between rows if the file states them.
-    Map { columns: usize, spacing: Option<[f64; 2]> },
-}
-
-impl RawGrid {
-    /// Grid of so many columns and rows: one row, or one column, is a profile.
-    pub fn of(columns: usize, rows: usize, spacing: Option<[f64; 2]>) -> RawGrid {
-        match (columns, rows) {
-            (_, 1) => RawGrid::Profile(spacing.map(|[along, _]| along)),
-            (1, _) => RawGrid::Profile(spacing.map(|[_, between]| between)),
-            _ => RawGrid::Map { columns, spacing },
-        }
-    }
-
-    /// Positions of a profile in the order of the file. A profile scanned backwards is the same profile: both columns are
-    /// reversed.
-    pub fn scanned(mut positions: Vec<f64>, heights: &mut [f64]) -> RawGrid {
-        if positions.len() > 1 && positions[0] > positions[1] {
-            positions.reverse();
-            heights.reverse();
-        }
-        RawGrid::Positions(positions)
-    }
-}
-
-/// Numbers of a file before conversion.
+/// Numbers of a file before conversion, in its units.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Reading {
-    pub format: Format,
+    pub format: &'static str,
     /// Heights row by row; not finite for a missing point.
     pub heights: Vec<f64>,
-    pub grid: RawGrid,
-    /// Unit of positions and distances; `None` if the file states none.
-    pub lateral_unit: Option<Unit>,
-    pub height_unit: Option<Unit>,
+    /// Points of a row; all points of a profile.
+    pub columns: usize,
+    /// Positions of a profile, ascending; `None` for evenly spaced points.
+    pub positions: Option<Vec<f64>>,
+    /// Distances of evenly spaced points along and between rows, if the file states them.
+    pub spacing: Option<[f64; 2]>,
+    /// Units of positions and of heights, if the file states them.
+    pub units: [Option<Unit>; 2],
     /// Place of the first missing point, if the reader knows a better one than its number.
     pub first_missing: Option<Place>,
 }
 
 impl Reading {
-    /// Numbers of a file with its units of positions and of heights.
-    pub fn new(format: Format, heights: Vec<f64>, grid: RawGrid, units: [Option<Unit>; 2]) -> Reading {
-        let [lateral_unit, height_unit] = units;
-        Reading { format, heights, grid, lateral_unit, height_unit, first_missing: None }
+    /// Evenly spaced rows of so many columns: one row, or one column, is a profile.
+    pub fn even(
+        format: &'static str,
+        heights: Vec<f64>,
+        columns: usize,
+        spacing: Option<[f64; 2]>,
+        units: [Option<Unit>; 2],
+    ) -> Reading {
+        let rows = heights.len() / columns.max(1);
+        let (columns, spacing) = match spacing {
+            Some([along, _]) if rows == 1 => (columns, Some([along; 2])),
+            Some([_, between]) if columns == 1 => (rows, Some([between; 2])),
+            spacing => (if columns == 1 { rows } else { columns }, spacing),
+        };
+        Reading { format, heights, columns, positions: None, spacing, units, first_missing: None }
+    }
+
+    /// Profile at positions in the order of the file: one scanned backwards is reversed.
+    pub fn profile(
+        format: &'static str,
+        mut positions: Vec<f64>,
+        mut heights: Vec<f64>,
+        units: [Option<Unit>; 2],
+    ) -> Reading {
+        if positions.len() > 1 && positions[0] > positions[1] {
+            positions.reverse();
+            heights.reverse();
+        }
+        let columns = heights.len();
+        Reading { positions: Some(positions), ..Reading::even(format, heights, columns, None, units) }
     }
 
     /// Converts heights and positions to m.
@@ -122,36 +88,32 @@ impl Reading {
         if !(2..=MOST_POINTS).contains(&points) {
             return Err(refused(Place::File, format!("{points} points"), format!("from 2 to {MOST_POINTS}")));
         }
+        let [lateral_unit, height_unit] = self.units;
         let height_option = options.height_unit.or(options.unit);
-        let height_unit = unit("heights", self.height_unit, height_option, options.convention)?;
+        let height_unit = unit("heights", height_unit, height_option, options.convention)?;
         let missing = self.heights_in_metres(height_unit, options.interpolate)?;
-        let Reading { format, mut heights, grid, lateral_unit, .. } = self;
+        let Reading { format, mut heights, columns, positions, spacing, .. } = self;
         let unit = |name: &str| unit(name, lateral_unit, options.unit, options.convention);
-        let even = |distance: Option<f64>| match (distance, options.spacing) {
-            (Some(distance), _) => check_spacing(unit("distances")?.to_metres(distance)),
+        let even = |axis: usize| match (spacing, options.spacing) {
+            (Some(spacing), _) => check_spacing(unit("distances")?.to_metres(spacing[axis])),
             (None, Some(spacing)) => check_spacing(spacing),
             (None, None) => {
-                let fault = format!("{} without a distance between points", <&str>::from(format));
+                let fault = format!("{format} without a distance between points");
                 let allowed = "a distance beside the file: --spacing 0.5um, in a scene roughness.spacing";
                 Err(refused(Place::File, fault, allowed))
             }
         };
-        let grid = match grid {
-            RawGrid::Positions(mut positions) => {
+        let grid = match positions {
+            Some(mut positions) => {
                 let unit = unit("positions")?;
                 positions.iter_mut().for_each(|x| *x = unit.to_metres(*x));
                 check_positions(&positions)?;
                 Grid::Positions(positions)
             }
-            RawGrid::Profile(spacing) => Grid::Profile { spacing: even(spacing)? },
-            RawGrid::Map { columns, spacing } => {
-                let [along, between] = spacing.map_or([None; 2], |spacing| spacing.map(Some));
-                Grid::Map { columns, spacing: [even(along)?, even(between)?] }
-            }
+            None => Grid::Even([even(0)?, even(1)?]),
         };
-        let columns = if let Grid::Map { columns, .. } = grid { columns } else { points };
         let interpolated = if missing { missing::interpolate(&mut heights, columns)? } else { Vec::new() };
-        Topography::new(format, heights, grid, interpolated)
+        Topography { format, heights, columns, grid, interpolated }.checked()
     }
 
     /// Converts heights to m. Returns true if some are missing.

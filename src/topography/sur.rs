@@ -3,7 +3,7 @@
 use super::Unit;
 use super::bytes::{Bytes, Number, Order, most_expanded};
 use super::error::{Place, TopographyError, refused};
-use super::reading::{Format, RawGrid, Reading};
+use super::reading::Reading;
 use crate::io::read_limited;
 use encoding_rs::WINDOWS_1252;
 use flate2::read::ZlibDecoder;
@@ -66,8 +66,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     // Distances in the unit of the rows; another unit between rows is rare, and converted.
     let units = unit_along.zip(unit_between);
     let between_factor = units.map_or(1.0, |(along, between)| between.to_metres(1.0) / along.to_metres(1.0));
-    let grid = RawGrid::of(columns, rows, Some([along, between * between_factor]));
-    Ok(Reading::new(Format::Sur, heights, grid, [unit_along, height_unit]))
+    let spacing = [along, between * between_factor];
+    Ok(Reading::even("SUR", heights, columns, Some(spacing), [unit_along, height_unit]))
 }
 
 fn count(data: &mut Bytes<'_>) -> Result<usize, TopographyError> {
@@ -119,88 +119,4 @@ fn expand(data: &mut Bytes<'_>, points: usize, number: Number) -> Result<Vec<u8>
         content.extend(part);
     }
     Ok(content)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use flate2::Compression;
-    use flate2::write::ZlibEncoder;
-    use std::io::Write;
-
-    /// A file of 3 × 2 heights, 16 bits each.
-    fn file(compressed: bool) -> Vec<u8> {
-        let mut bytes = if compressed { b"DSCOMPRESSED".to_vec() } else { b"DIGITAL SURF".to_vec() };
-        bytes.resize(512, 0);
-        let mut put = |at: usize, value: &[u8]| bytes[at..at + value.len()].copy_from_slice(value);
-        put(18, &2_u16.to_le_bytes());
-        put(86, &1_u16.to_le_bytes());
-        put(98, &16_u16.to_le_bytes());
-        put(100, &(-5_i32).to_le_bytes());
-        put(104, &6_i32.to_le_bytes());
-        put(108, &3_i32.to_le_bytes());
-        put(112, &2_i32.to_le_bytes());
-        put(116, &6_i32.to_le_bytes());
-        put(120, &0.5_f32.to_le_bytes());
-        put(124, &0.25_f32.to_le_bytes());
-        put(128, &2.0_f32.to_le_bytes());
-        put(180, b"\xe6m");
-        put(196, "µm".as_bytes());
-        put(212, b"nm              ");
-        put(334, &4_u16.to_le_bytes());
-        bytes.extend(b"note");
-        let heights: Vec<u8> =
-            [1_i16, 2, 3, -5, -7, 6].iter().flat_map(|height| height.to_le_bytes()).collect();
-        if !compressed {
-            bytes.extend(heights);
-            return bytes;
-        }
-        let parts = heights.chunks(8).map(|part| {
-            let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
-            encoder.write_all(part).unwrap();
-            (part.len(), encoder.finish().unwrap())
-        });
-        let parts: Vec<_> = parts.collect();
-        bytes.extend((parts.len() as u32).to_le_bytes());
-        for (plain, packed) in &parts {
-            bytes.extend((*plain as u32).to_le_bytes());
-            bytes.extend((packed.len() as u32).to_le_bytes());
-        }
-        parts.into_iter().for_each(|(_, packed)| bytes.extend(packed));
-        bytes
-    }
-
-    #[test]
-    fn plain_and_compressed_files_are_the_same_surface() {
-        for compressed in [false, true] {
-            let reading = read(&file(compressed)).unwrap();
-            assert_eq!(reading.grid, RawGrid::Map { columns: 3, spacing: Some([0.5, 0.25]) });
-            assert_eq!(reading.heights[..4], [2.0, 4.0, 6.0, -10.0]);
-            assert!(reading.heights[4].is_nan());
-            assert_eq!(reading.lateral_unit.map(Unit::name), Some("µm"));
-            assert_eq!(reading.height_unit.map(Unit::name), Some("nm"));
-        }
-    }
-
-    #[test]
-    fn faults_have_a_place() {
-        let with = |at: usize, value: &[u8], compressed: bool| {
-            let mut bytes = file(compressed);
-            bytes[at..at + value.len()].copy_from_slice(value);
-            read(&bytes).unwrap_err().to_string()
-        };
-        assert!(with(18, &[5], false).starts_with("byte 18: a study of type 5"));
-        assert!(with(98, &[8], false).starts_with("byte 98: heights of 8 bits"));
-        assert!(with(108, &[0], false).starts_with("byte 108: 0 points along an axis"));
-        assert!(with(112, &[9], false).starts_with("byte 516: 12 bytes up to the end"));
-        assert!(with(180, b"Volt", false).starts_with("byte 180: \"Volt\" is no unit of length"));
-        assert!(with(111, &[9], true).contains("allowed: at most 32 times the compressed size"));
-        assert_eq!(
-            with(516, &[1, 0, 1, 0], true),
-            "byte 516: 65537 compressed parts; allowed: at most 65536"
-        );
-        assert!(with(516, &[9, 9, 0, 0], true).starts_with("byte 520: "));
-        let file = file(true);
-        assert!(read(&file[..file.len() - 3]).is_err());
-    }
 }

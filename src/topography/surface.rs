@@ -1,8 +1,11 @@
 //! Measured heights in m with their positions.
 
 use super::error::{Place, TopographyError, gathered, refused};
-use super::reading::LARGEST;
-use super::{Format, missing};
+use super::missing;
+
+/// Largest position and height, m, and largest slope between neighbours: beyond these, lengths and mean squares
+/// could overflow.
+pub(super) const LARGEST: f64 = 1.0e9;
 
 /// Share of the distance between points by which points of an even grid may be displaced due to rounding.
 pub(crate) const UNEVEN: f64 = 1.0e-3;
@@ -14,25 +17,6 @@ pub(crate) fn first_uneven(positions: &[f64], first: f64, distance: f64) -> Opti
     positions.iter().enumerate().position(|point| !is_even(point))
 }
 
-/// Positions of heights.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Grid {
-    /// Positions of a profile, m, ascending.
-    Positions(Vec<f64>),
-    /// Profile with equally spaced points.
-    Profile {
-        /// Distance, m.
-        spacing: f64,
-    },
-    /// Map of rows.
-    Map {
-        /// Points of a row.
-        columns: usize,
-        /// Distances along and between rows, m.
-        spacing: [f64; 2],
-    },
-}
-
 /// Row or column of a map, from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cut {
@@ -42,49 +26,48 @@ pub enum Cut {
     Column(u64),
 }
 
-/// Measured heights of a profile or a map, m.
+/// Positions of heights, m.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Grid {
+    /// Positions of a profile, ascending.
+    Positions(Vec<f64>),
+    /// Distances along and between rows, equal for a profile.
+    Even([f64; 2]),
+}
+
+/// Measured heights of a profile or a map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Topography {
-    format: Format,
-    heights: Vec<f64>,
-    grid: Grid,
+    pub(super) format: &'static str,
+    /// Heights, m, row by row.
+    pub(crate) heights: Vec<f64>,
+    /// Points of a row; all points of a profile.
+    pub(crate) columns: usize,
+    pub(super) grid: Grid,
     /// Indices of the points with interpolated heights.
-    interpolated: Vec<usize>,
+    pub(super) interpolated: Vec<usize>,
 }
 
 impl Topography {
-    /// Heights (m) row by row on a grid, those of the indices `interpolated` from neighbours.
-    ///
-    /// # Errors
-    /// Slopes of a profile above 1e9.
-    pub(super) fn new(
-        format: Format,
-        heights: Vec<f64>,
-        grid: Grid,
-        interpolated: Vec<usize>,
-    ) -> Result<Self, TopographyError> {
-        let surface = Topography { format, heights, grid, interpolated };
-        let columns = surface.columns();
+    /// Checks that no slope is above 1e9.
+    pub(super) fn checked(self) -> Result<Self, TopographyError> {
         let slope = |index: usize| {
-            let distance = match &surface.grid {
+            let distance = match &self.grid {
                 Grid::Positions(positions) => positions[index] - positions[index - 1],
-                Grid::Profile { spacing } => *spacing,
-                Grid::Map { spacing: [along, between], .. } => along.min(*between),
+                Grid::Even([along, between]) => along.min(*between),
             };
-            (surface.heights[index] - surface.heights[index - 1]).abs() / distance
+            (self.heights[index] - self.heights[index - 1]).abs() / distance
         };
         let is_steep = |index: &usize| slope(*index).is_nan() || slope(*index) > LARGEST;
-        let Some(index) = (1..surface.heights.len()).filter(|index| index % columns > 0).find(is_steep)
-        else {
-            return Ok(surface);
-        };
+        let places = (1..self.heights.len()).filter(|index| index % self.columns > 0);
+        let Some(index) = places.into_iter().find(is_steep) else { return Ok(self) };
         let fault = format!("a slope of {:e} from the point before", slope(index));
         Err(refused(Place::Point(index + 1), fault, format!("at most {LARGEST:e}")))
     }
 
-    /// Format of the file.
+    /// Name of the format of the file.
     #[must_use]
-    pub fn format(&self) -> Format {
+    pub fn format(&self) -> &'static str {
         self.format
     }
 
@@ -94,55 +77,39 @@ impl Topography {
         &self.heights
     }
 
-    /// Positions of the heights.
-    #[must_use]
-    pub fn grid(&self) -> &Grid {
-        &self.grid
-    }
-
     /// Number of points with interpolated heights.
     #[must_use]
     pub fn interpolated(&self) -> usize {
         self.interpolated.len()
     }
 
-    /// Copies the heights, m, if the memory suffices.
-    pub(crate) fn copied_heights(&self) -> Result<Vec<f64>, TopographyError> {
-        gathered(self.heights.len(), self.heights.iter().copied())
-    }
-
-    /// Heights, m, with as many points interpolated once more: those some quarters of length and width from the interpolated
-    /// ones. What changes is an estimate of what interpolation has changed before.
-    ///
-    /// # Errors
-    /// Insufficient memory.
-    pub(crate) fn interpolated_again(&self, quarters: usize) -> Result<Vec<f64>, TopographyError> {
-        let (columns, rows) = (self.columns(), self.rows());
-        let mut heights = self.copied_heights()?;
+    /// Copies the heights, m. From one quarter on, as many points are interpolated once more: those so many quarters of
+    /// length and width from the interpolated ones. What changes is an estimate of what interpolation has changed before.
+    pub(crate) fn copied_heights(&self, quarters: usize) -> Result<Vec<f64>, TopographyError> {
+        let (columns, rows) = (self.columns, self.rows());
+        let mut heights = gathered(self.heights.len(), self.heights.iter().copied())?;
+        if quarters == 0 || self.interpolated.is_empty() {
+            return Ok(heights);
+        }
         for index in &self.interpolated {
             let moved = |place: usize, count: usize| (place + quarters * count / 4) % count;
             let (row, column) = (moved(index / columns, rows), moved(index % columns, columns));
             heights[row * columns + column] = f64::NAN;
         }
-        if !self.interpolated.is_empty() {
-            missing::interpolate(&mut heights, columns)?;
-        }
+        missing::interpolate(&mut heights, columns)?;
         Ok(heights)
     }
 
     /// Points of a row; all points of a profile.
     #[must_use]
     pub fn columns(&self) -> usize {
-        match &self.grid {
-            Grid::Map { columns, .. } => *columns,
-            Grid::Positions(_) | Grid::Profile { .. } => self.heights.len(),
-        }
+        self.columns
     }
 
     /// Number of rows; one for a profile.
     #[must_use]
     pub fn rows(&self) -> usize {
-        self.heights.len() / self.columns()
+        self.heights.len() / self.columns
     }
 
     /// Positions of a profile, m, and its heights, m; equally spaced points begin at x = 0.
@@ -150,26 +117,22 @@ impl Topography {
     /// # Errors
     /// A map.
     pub fn into_profile(self) -> Result<(Vec<f64>, Vec<f64>), TopographyError> {
-        match self.grid {
-            Grid::Positions(positions) => Ok((positions, self.heights)),
-            Grid::Profile { spacing } => {
-                let points = self.heights.len();
-                Ok((gathered(points, (0..points).map(|index| index as f64 * spacing))?, self.heights))
-            }
-            Grid::Map { columns, .. } => {
-                let fault = format!("a map of {} rows of {columns} points", self.heights.len() / columns);
-                Err(refused(Place::File, fault, "a profile"))
-            }
+        let (columns, rows) = (self.columns, self.rows());
+        if rows > 1 {
+            let fault = format!("a map of {rows} rows of {columns} points");
+            return Err(refused(Place::File, fault, "a profile"));
         }
+        let positions = match self.grid {
+            Grid::Positions(positions) => positions,
+            Grid::Even([spacing, _]) => gathered(columns, (0..columns).map(|index| index as f64 * spacing))?,
+        };
+        Ok((positions, self.heights))
     }
 
     /// One row or column of a map, as a profile.
-    ///
-    /// # Errors
-    /// A profile, a number beyond the last one.
-    pub fn cut(self, cut: Cut) -> Result<Self, TopographyError> {
-        let (columns, rows) = (self.columns(), self.rows());
-        let Grid::Map { spacing: [along, between], .. } = self.grid else {
+    pub(super) fn cut(self, cut: Cut) -> Result<Self, TopographyError> {
+        let (columns, rows) = (self.columns, self.rows());
+        let (Grid::Even([along, between]), 2..) = (&self.grid, rows) else {
             return Err(refused(Place::File, "a profile, which has no rows and columns", "a map"));
         };
         let (name, number, count) = match cut {
@@ -181,23 +144,20 @@ impl Topography {
             return Err(refused(Place::File, format!("{name} {number}"), format!("{name}s 1 to {count}")));
         };
         let (first, step, points, spacing) = match cut {
-            Cut::Row(_) => (index * columns, 1, columns, along),
-            Cut::Column(_) => (index, columns, rows, between),
+            Cut::Row(_) => (index * columns, 1, columns, *along),
+            Cut::Column(_) => (index, columns, rows, *between),
         };
-        let heights = gathered(points, self.heights.iter().skip(first).step_by(step).take(points).copied())?;
         let place = |index: &usize| {
             let offset = index.checked_sub(first).filter(|offset| offset % step == 0)?;
             Some(offset / step).filter(|place| *place < points)
         };
-        let interpolated = self.interpolated.iter().filter_map(place).collect();
-        Ok(Topography { heights, grid: Grid::Profile { spacing }, interpolated, ..self })
-    }
-
-    /// The same surface with the same number of other heights, m.
-    pub(crate) fn with_heights(mut self, change: impl FnOnce(&mut [f64], usize)) -> Self {
-        let columns = self.columns();
-        change(&mut self.heights, columns);
-        self
+        Ok(Topography {
+            heights: gathered(points, self.heights.iter().skip(first).step_by(step).take(points).copied())?,
+            columns: points,
+            grid: Grid::Even([spacing; 2]),
+            interpolated: self.interpolated.iter().filter_map(place).collect(),
+            ..self
+        })
     }
 
     /// Distances between points along and between rows, m; those of a profile are equal.
@@ -207,8 +167,7 @@ impl Topography {
     /// by more than 0.1 % of the mean distance.
     pub fn spacing(&self) -> Result<[f64; 2], TopographyError> {
         match &self.grid {
-            Grid::Map { spacing, .. } => Ok(*spacing),
-            Grid::Profile { spacing } => Ok([*spacing; 2]),
+            Grid::Even(spacing) => Ok(*spacing),
             Grid::Positions(positions) => {
                 let (first, mean) = (positions[0], mean_distance(positions));
                 let Some(index) = first_uneven(positions, first, mean) else { return Ok([mean; 2]) };
@@ -225,15 +184,12 @@ impl Topography {
 
     /// The same profile equally spaced at the mean distance: heights by linear interpolation. An equally spaced
     /// profile, or a map, is unchanged.
-    ///
-    /// # Errors
-    /// Insufficient memory.
-    pub fn resampled(mut self) -> Result<Self, TopographyError> {
+    pub(super) fn resampled(mut self) -> Result<Self, TopographyError> {
         let Grid::Positions(positions) = &self.grid else { return Ok(self) };
         let (first, spacing, points) = (positions[0], mean_distance(positions), positions.len());
         let places = (0..points).map(|index| first + index as f64 * spacing);
         self.heights = gathered(points, interpolated(positions, &self.heights, 0.0, places))?;
-        self.grid = Grid::Profile { spacing };
+        self.grid = Grid::Even([spacing; 2]);
         Ok(self)
     }
 }
@@ -272,9 +228,16 @@ fn mean_distance(positions: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
+    fn surface(heights: &[f64], columns: usize, grid: Grid) -> Result<Topography, TopographyError> {
+        Topography { format: "", heights: heights.to_vec(), columns, grid, interpolated: vec![] }.checked()
+    }
+
     fn profile(positions: &[f64], heights: &[f64]) -> Topography {
-        Topography::new(Format::Columns, heights.to_vec(), Grid::Positions(positions.to_vec()), Vec::new())
-            .unwrap()
+        surface(heights, heights.len(), Grid::Positions(positions.to_vec())).unwrap()
+    }
+
+    fn map() -> Topography {
+        surface(&[0.0, 1.0, 2.0, 3.0, 4.0, 5.0], 3, Grid::Even([1.0, 2.0])).unwrap()
     }
 
     #[test]
@@ -290,11 +253,6 @@ mod tests {
 
     #[test]
     fn rows_and_columns_of_a_map_are_profiles() {
-        let map = || {
-            let heights = (0..6).map(f64::from).collect();
-            Topography::new(Format::Npy, heights, Grid::Map { columns: 3, spacing: [1.0, 2.0] }, vec![])
-                .unwrap()
-        };
         let row = map().cut(Cut::Row(2)).unwrap();
         assert_eq!((row.heights(), row.spacing()), (&[3.0, 4.0, 5.0][..], Ok([1.0; 2])));
         let column = map().cut(Cut::Column(3)).unwrap();
@@ -311,26 +269,10 @@ mod tests {
     }
 
     #[test]
-    fn slopes_beyond_all_measure_are_refused() {
-        let steep = Topography::new(
-            Format::Npy,
-            vec![0.0, 1e5, 0.0, 0.0],
-            Grid::Map { columns: 2, spacing: [1e-5; 2] },
-            Vec::new(),
-        );
+    fn steep_slopes_and_maps_as_profiles_are_refused() {
+        let steep = surface(&[0.0, 1e5, 0.0, 0.0], 2, Grid::Even([1e-5; 2]));
         assert!(steep.unwrap_err().to_string().starts_with("point 2: a slope of 1e10"));
-    }
-
-    #[test]
-    fn a_map_is_no_profile() {
-        let grid = Grid::Map { columns: 2, spacing: [1.0; 2] };
-        let map = Topography::new(Format::Matrix, vec![0.0; 6], grid, Vec::new()).unwrap();
-        assert_eq!((map.columns(), map.rows()), (2, 3));
-        assert!(
-            map.into_profile()
-                .unwrap_err()
-                .to_string()
-                .contains("a map of 3 rows of 2 points; allowed: a profile")
-        );
+        let error = map().into_profile().unwrap_err().to_string();
+        assert_eq!(error, "a map of 2 rows of 3 points; allowed: a profile");
     }
 }

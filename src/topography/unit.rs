@@ -1,6 +1,6 @@
 //! Units of length in files.
 
-use super::error::{Place, TopographyError, refused, shown};
+use super::error::{Place, TopographyError, shown};
 use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
@@ -46,14 +46,12 @@ impl Unit {
 
     /// Returns the unit stated by a file at a place; `None` for an empty text.
     pub(super) fn stated(text: &str, place: Place) -> Result<Option<Unit>, TopographyError> {
-        let fault = || format!("{:?} is no unit of length", shown(text));
         let unit = Some(text).filter(|text| !text.is_empty()).map(str::parse).transpose();
-        unit.map_err(|_: UnitError| refused(place, fault(), UnitError::ALLOWED))
+        unit.map_err(|error: UnitError| TopographyError::Refused(format!("{place}{error}")))
     }
 
     /// Value in m of a value in this unit.
-    #[must_use]
-    pub fn to_metres(self, value: f64) -> f64 {
+    pub(crate) fn to_metres(self, value: f64) -> f64 {
         value / self.per_metre
     }
 }
@@ -100,11 +98,5 @@ mod tests {
         for text in ["", "Mm", "V", "MM", "px", "a.u.", "m²"] {
             assert!(text.parse::<Unit>().unwrap_err().to_string().contains("allowed: m, cm"), "{text}");
         }
-    }
-
-    #[test]
-    fn a_number_keeps_its_digits() {
-        let nanometre: Unit = "nm".parse().unwrap();
-        assert_eq!(nanometre.to_metres(123.456), 123.456e-9);
     }
 }

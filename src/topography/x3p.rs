@@ -3,7 +3,7 @@
 use super::Unit;
 use super::bytes::{Bytes, Number, Order, most_expanded};
 use super::error::{Place, TopographyError, refused, shown};
-use super::reading::{Format, RawGrid, Reading};
+use super::reading::Reading;
 use crate::io::{into_text, read_limited};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::io::Cursor;
@@ -24,11 +24,14 @@ const INDEX: &str = "main.xml";
 const TYPES: [(&str, Number); 4] =
     [("I", Number::I16), ("L", Number::I32), ("F", Number::F32), ("D", Number::F64)];
 
+/// Archive in memory.
+type Archive<'a> = ZipArchive<Cursor<&'a [u8]>>;
+
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
-    let archive = ZipArchive::new(Cursor::new(bytes))
+    let mut archive = ZipArchive::new(Cursor::new(bytes))
         .map_err(|error| refused(Place::File, format!("a damaged archive ({error})"), "an X3P archive"))?;
-    let mut archive = Archive { archive, most: most_expanded(bytes.len()) };
-    let index = into_text(archive.read(INDEX, LONGEST_INDEX)?)
+    let most = most_expanded(bytes.len());
+    let index = into_text(unpacked(&mut archive, INDEX, LONGEST_INDEX.min(most))?)
         .map_err(|error| wrong(error.to_string(), "XML in UTF-8"))?;
     check_index(&index)?;
     let options = ParsingOptions { allow_dtd: false, ..ParsingOptions::default() };
@@ -37,7 +40,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     let root = document.root_element();
     let axis = |name: &str| find(root, name).ok_or_else(|| wrong(format!("no axis {name}"), "CX, CY and CZ"));
     let [x, y, z] = [axis("CX")?, axis("CY")?, axis("CZ")?];
-    let steps = [number(x, "Increment")?, number(y, "Increment")?];
+    let (along, between) = (number(x, "Increment")?, number(y, "Increment")?);
     let (scale, offset) = (number(z, "Increment")?.unwrap_or(1.0), number(z, "Offset")?.unwrap_or(0.0));
     if let Some(axis) = [x, y].into_iter().find(|axis| text(*axis, "AxisType") != "I") {
         let kind = shown(text(axis, "AxisType"));
@@ -50,12 +53,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     }
     let points = columns.saturating_mul(rows);
     let mut heights = match find(root, "PointDataLink") {
-        Some(link) => linked(&mut archive, root, trimmed(link), points, text(z, "DataType"))?,
+        Some(link) => linked(&mut archive, most, root, trimmed(link), points, text(z, "DataType"))?,
         None => listed(root, points)?,
     };
     heights.iter_mut().for_each(|height| *height = *height * scale + offset);
-    let grid = RawGrid::of(columns, rows, steps[0].zip(steps[1]).map(|(along, between)| [along, between]));
-    Ok(Reading::new(Format::X3p, heights, grid, [Some(Unit::METRE); 2]))
+    let spacing = along.zip(between).map(|(along, between)| [along, between]);
+    Ok(Reading::even("X3P", heights, columns, spacing, [Some(Unit::METRE); 2]))
 }
 
 /// Refuses an index that takes the parser much more time or memory than its length.
@@ -74,51 +77,31 @@ fn check_index(index: &str) -> Result<(), TopographyError> {
 }
 
 /// Error of the index.
-fn wrong(fault: impl Into<String>, allowed: &str) -> TopographyError {
+fn wrong(fault: impl std::fmt::Display, allowed: &str) -> TopographyError {
     refused(Place::Part(INDEX.to_owned()), fault, allowed)
 }
 
-/// Archive with a limit of its expanded size.
-struct Archive<'a> {
-    archive: ZipArchive<Cursor<&'a [u8]>>,
-    most: usize,
-}
-
-impl Archive<'_> {
-    /// Returns the content of a file of the archive, at most `most` bytes.
-    fn read(&mut self, name: &str, most: usize) -> Result<Vec<u8>, TopographyError> {
-        let damaged = |error: &dyn std::fmt::Display| {
-            let fault = format!("cannot be unpacked ({error})");
-            refused(Place::Part(name.to_owned()), fault, "a file stored or deflated")
-        };
-        let entry = self.archive.by_name(name).map_err(|error| match error {
-            ZipError::FileNotFound => {
-                let fault = format!("no file {} in the archive", shown(name));
-                refused(Place::File, fault, "an X3P archive")
-            }
-            error => damaged(&error),
-        })?;
-        read_limited(entry, most.min(self.most)).map_err(|error| damaged(&error))
-    }
-
-    /// Returns the content of a file of the archive, exactly so many bytes for the points.
-    fn read_exactly(
-        &mut self,
-        name: &str,
-        bytes: usize,
-        allowed: String,
-    ) -> Result<Vec<u8>, TopographyError> {
-        let content = self.read(name, bytes)?;
-        if content.len() == bytes {
-            return Ok(content);
+/// Returns the content of a file of an archive, at most so many bytes.
+fn unpacked(archive: &mut Archive<'_>, name: &str, most: usize) -> Result<Vec<u8>, TopographyError> {
+    let damaged = |error: &dyn std::fmt::Display| {
+        let fault = format!("cannot be unpacked ({error})");
+        refused(Place::Part(name.to_owned()), fault, "a file stored or deflated")
+    };
+    let entry = archive.by_name(name).map_err(|error| match error {
+        ZipError::FileNotFound => {
+            let fault = format!("no file {} in the archive", shown(name));
+            refused(Place::File, fault, "an X3P archive")
         }
-        Err(refused(Place::Part(name.to_owned()), format!("{} bytes", content.len()), allowed))
-    }
+        error => damaged(&error),
+    })?;
+    read_limited(entry, most).map_err(|error| damaged(&error))
 }
 
-/// Reads the heights of a binary file of the archive; those marked invalid in its bit field are missing.
+/// Reads the heights of a binary file of an archive, which expands to at most so many bytes; those marked invalid in its
+/// bit field are missing.
 fn linked(
     archive: &mut Archive<'_>,
+    most: usize,
     root: Node<'_, '_>,
     link: &str,
     points: usize,
@@ -127,17 +110,19 @@ fn linked(
     let Some((_, number)) = TYPES.into_iter().find(|(letter, _)| *letter == kind) else {
         return Err(wrong(format!("heights of type {:?}", shown(kind)), "I, L, F or D"));
     };
+    let mut read = |name: &str, bytes: usize, allowed: String| match unpacked(archive, name, bytes.min(most))?
+    {
+        content if content.len() == bytes => Ok(content),
+        content => Err(refused(Place::Part(name.to_owned()), format!("{} bytes", content.len()), allowed)),
+    };
     let expected = points.saturating_mul(number.size());
-    let content = archive.read_exactly(link, expected, format!("{expected} bytes for {points} points"))?;
+    let content = read(link, expected, format!("{expected} bytes for {points} points"))?;
     let mut heights = Bytes::new(&content, Order::Little).numbers(points, number)?;
     if let Some(link) = find(root, "ValidPointsLink") {
-        let allowed = format!("a bit for each of {points} points");
-        let valid = archive.read_exactly(trimmed(link), points.div_ceil(8), allowed)?;
-        for (index, height) in heights.iter_mut().enumerate() {
-            if valid[index / 8] >> (index % 8) & 1 == 0 {
-                *height = f64::NAN;
-            }
-        }
+        let valid = read(trimmed(link), points.div_ceil(8), format!("a bit for each of {points} points"))?;
+        let is_missing = |index: usize| valid[index / 8] >> (index % 8) & 1 == 0;
+        let missing = heights.iter_mut().enumerate().filter(|(index, _)| is_missing(*index));
+        missing.for_each(|(_, height)| *height = f64::NAN);
     }
     Ok(heights)
 }
@@ -216,26 +201,18 @@ mod tests {
         writer.finish().unwrap().into_inner()
     }
 
-    fn heights() -> Vec<u8> {
-        [1_i16, 2, 3, 4, 5, 6].iter().flat_map(|height| height.to_le_bytes()).collect()
-    }
-
     fn with(main: &str) -> Result<Reading, String> {
+        let heights = [1, 0, 2, 0, 3, 0, 4, 0, 5, 0, 6, 0];
         let files: [(&str, &[u8]); 3] =
-            [(INDEX, main.as_bytes()), ("bindata/data.bin", &heights()), ("bindata/valid.bin", &[0b10_1111])];
+            [(INDEX, main.as_bytes()), ("bindata/data.bin", &heights), ("bindata/valid.bin", &[0b10_1111])];
         read(&archive(&files)).map_err(|error| error.to_string())
     }
 
     #[test]
-    fn linked_heights_have_scale_offset_and_validity() {
+    fn heights_have_scale_offset_and_validity() {
         let reading = with(MAIN).unwrap();
-        assert_eq!(reading.grid, RawGrid::Map { columns: 3, spacing: Some([1e-6, 2e-6]) });
+        assert_eq!((reading.columns, reading.spacing), (3, Some([1e-6, 2e-6])));
         assert!((reading.heights[3] - 9e-9).abs() < 1e-20 && reading.heights[4].is_nan());
-        assert_eq!(reading.height_unit, Some(Unit::METRE));
-    }
-
-    #[test]
-    fn listed_heights_are_the_last_of_each_entry() {
         let (before, rest) = MAIN.split_once("<DataLink>").unwrap();
         let (_, after) = rest.split_once("</DataLink>").unwrap();
         let list = "<DataList><Datum>0;0;1</Datum><Datum>2</Datum><Datum/><Datum>4</Datum><Datum>5</Datum>\
@@ -263,6 +240,8 @@ mod tests {
             let error = with(&MAIN.replacen(from, to, 1)).unwrap_err();
             assert!(error.starts_with(expected), "{to}: {error}");
         }
+        let long = with(&format!("{}{}", MAIN, " ".repeat(40 << 20))).unwrap_err();
+        assert!(long.starts_with("main.xml: cannot be unpacked (longer than"), "{long}");
         assert!(read(b"PK\x03\x04").unwrap_err().to_string().starts_with("a damaged archive"));
         let without = archive(&[("other", b"")]);
         assert!(read(&without).unwrap_err().to_string().starts_with("no file main.xml in the archive"));
@@ -286,12 +265,5 @@ mod tests {
             let error = with(&format!("{MAIN}<!--{}-->", marks.repeat(100_000))).unwrap_err();
             assert_eq!(error, "main.xml: more than a quarter of the characters are < or =; allowed: XML");
         }
-    }
-
-    #[test]
-    fn an_index_that_expands_too_far_is_refused() {
-        let long = format!("{}{}", MAIN, " ".repeat(40 << 20));
-        let error = with(&long).unwrap_err();
-        assert!(error.starts_with("main.xml: cannot be unpacked (longer than"), "{error}");
     }
 }

@@ -4,7 +4,7 @@ use super::solvers::{adhesive, nonadhesive};
 use asperity::analysis::Figures;
 use asperity::contact::{Body, ContactError, Foundation, HessRule, History, Reversal, Solver, run};
 use asperity::scene::{Edges, Move};
-use asperity::surface::{Line, SelfAffine, UnitRoughness};
+use asperity::surface::{Line, SelfAffine};
 use proptest::prelude::*;
 
 /// Springs under adhesion and their reversals.
@@ -178,8 +178,8 @@ fn turning_points_out_of_contact_are_refused() {
 fn the_loading_is_passed_once_for_all_reversals() {
     let springs = 1 << 13;
     let spectrum = SelfAffine { hurst: 0.7, first: 1, last: springs as u64 / 4 };
-    let rough = UnitRoughness::synthesize(spectrum, 1, springs).unwrap();
-    let line = Line::new(1e-3, springs, None, Some(&rough.heights), 5e-7).unwrap();
+    let rough = spectrum.heights(1, springs).unwrap();
+    let line = Line::new(1e-3, springs, None, Some(&rough), 5e-7).unwrap();
     let foundation = Foundation::endless(line.spacing, 2e6);
     let rms_gradient = 5e-7 * spectrum.gradient_per_height(1e-3);
     for kappa in [6.0_f64, 20.0] {

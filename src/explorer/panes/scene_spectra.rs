@@ -5,7 +5,7 @@ use crate::memory::check_room;
 use crate::scene::{Form, Roughness, Scene};
 use crate::simulation::{Outcome, measured_options};
 use crate::spectrum::{Analysis, LineMoments, line_spectrum};
-use crate::surface::{EquivalentLine, Line, SelfAffine, mdr_profile, read_faces};
+use crate::surface::{EquivalentLine, Line, SelfAffine, read_faces};
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -37,8 +37,8 @@ impl SceneSpectra {
         });
         let faces: Vec<&Analysis> = analyses.iter().collect();
         let mut spectra = Spectra::of_faces(&faces);
-        let equivalent =
-            EquivalentLine::from_spectra(faces.iter().map(|face| face.isotropic.clone()).collect()).ok();
+        let equivalent = EquivalentLine { faces: faces.iter().map(|face| face.isotropic.clone()).collect() };
+        let equivalent = Some(equivalent).filter(|_| !faces.is_empty());
         spectra.line = expected(scene, outcome, equivalent.as_ref());
         spectra.heights = of_heights(scene, line).unwrap_or_else(|error| {
             missing.get_or_insert(error);
@@ -86,7 +86,7 @@ fn of_heights(scene: &Scene, line: &Line) -> Result<Vec<SpectrumPoint>, String> 
     let axis = Form::spring_on_axis(line.points as u64) as f64;
     let depth = |index: usize| {
         let distance = (index as f64 - axis) * line.spacing;
-        scene.form.as_ref().map_or(0.0, |form| mdr_profile(form, distance))
+        scene.form.as_ref().map_or(0.0, |form| form.mdr_profile(distance))
     };
     let heights: Vec<f64> = line.heights().enumerate().map(|(index, z)| z + depth(index)).collect();
     let bins =

@@ -2,11 +2,10 @@
 
 use super::super::UNEVEN;
 use super::super::error::{Place, TopographyError, refused};
-use super::super::reading::RawGrid;
 
-/// The map, or the profile along x or y, of points listed row by row. Each point lies on an even grid within 0.1 % of
-/// the distance between points.
-pub(super) fn from_points([x, y]: &[Vec<f64>; 2]) -> Result<RawGrid, TopographyError> {
+/// Returns the number of columns and the distances along and between rows of points listed row by row, along x or y.
+/// Each point lies on an even grid within 0.1 % of the distance between points.
+pub(super) fn from_points([x, y]: &[Vec<f64>; 2]) -> Result<(usize, [f64; 2]), TopographyError> {
     let points = x.len();
     if points < 2 {
         return Err(refused(Place::File, format!("{points} points"), "at least 2"));
@@ -43,17 +42,14 @@ pub(super) fn from_points([x, y]: &[Vec<f64>; 2]) -> Result<RawGrid, TopographyE
             ));
         }
     }
-    if rows == 1 {
-        return Ok(RawGrid::Profile(Some(step.abs())));
-    }
-    Ok(RawGrid::Map { columns, spacing: Some([step.abs(), row_step.abs()]) })
+    Ok((columns, [step.abs(), row_step.abs()]))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn grid(points: &[(f64, f64)]) -> Result<RawGrid, String> {
+    fn grid(points: &[(f64, f64)]) -> Result<(usize, [f64; 2]), String> {
         let (x, y) = points.iter().copied().unzip();
         from_points(&[x, y]).map_err(|error| error.to_string())
     }
@@ -61,10 +57,10 @@ mod tests {
     #[test]
     fn rows_may_run_along_either_axis_and_in_either_direction() {
         let along_x = [(3.0, 0.0), (2.0, 0.0), (1.0, 0.0), (3.0, 5.0), (2.0, 5.0), (1.0, 5.0)];
-        let expected = RawGrid::Map { columns: 3, spacing: Some([1.0, 5.0]) };
-        assert_eq!(grid(&along_x), Ok(expected.clone()));
+        let expected = (3, [1.0, 5.0]);
+        assert_eq!(grid(&along_x), Ok(expected));
         assert_eq!(grid(&along_x.map(|(x, y)| (y, x))), Ok(expected));
-        assert_eq!(grid(&[(0.0, 1.0), (0.0, 3.0), (0.0, 5.0)]), Ok(RawGrid::Profile(Some(2.0))));
+        assert_eq!(grid(&[(0.0, 1.0), (0.0, 3.0), (0.0, 5.0)]), Ok((3, [2.0; 2])));
     }
 
     #[test]

@@ -50,19 +50,16 @@ impl Header {
         }
     }
 
-    /// Units of positions and heights of a text with so many columns.
-    pub fn units(&self, columns: usize) -> (Option<Unit>, Option<Unit>) {
-        let stated = match columns {
-            1 => (None, self.columns.first().copied()),
-            2 | 3 if self.columns.len() == columns => {
-                let of_x = self.columns[0];
-                // In a map both positions share a unit, or none is known.
-                let lateral = self.columns[..columns - 1].iter().all(|unit| *unit == of_x).then_some(of_x);
-                (lateral, self.columns.last().copied())
-            }
-            _ => (None, None),
+    /// Units of positions and of heights of a text with so many columns.
+    pub fn units(&self, columns: usize) -> [Option<Unit>; 2] {
+        let [lateral, height] = match self.columns[..] {
+            [first, ..] if columns == 1 => [None, Some(first)],
+            // In a map both positions share a unit, or none is known.
+            [x, height] if columns == 2 => [Some(x), Some(height)],
+            [x, y, height] if columns == 3 => [(x == y).then_some(x), Some(height)],
+            _ => [None; 2],
         };
-        (stated.0.or(self.lateral), stated.1.or(self.height))
+        [lateral.or(self.lateral), height.or(self.height)]
     }
 }
 
@@ -98,8 +95,7 @@ mod tests {
     fn units(lines: &[&str], columns: usize) -> [Option<&'static str>; 2] {
         let mut header = Header::default();
         lines.iter().for_each(|line| header.take(line));
-        let (lateral, height) = header.units(columns);
-        [lateral, height].map(|unit| unit.map(Unit::name))
+        header.units(columns).map(|unit| unit.map(Unit::name))
     }
 
     #[test]

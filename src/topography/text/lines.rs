@@ -16,7 +16,7 @@ pub(super) fn decoded(bytes: &[u8]) -> Result<Cow<'_, [u8]>, TopographyError> {
         return Ok(Cow::Borrowed(text));
     }
     check_room(2 * text.len() as u64).map_err(|_| {
-        TopographyError::Read(format!("not enough memory for {} bytes of UTF-16", text.len()))
+        TopographyError::Refused(format!("not enough memory for {} bytes of UTF-16", text.len()))
     })?;
     Ok(Cow::Owned(encoding.decode_without_bom_handling(text).0.into_owned().into_bytes()))
 }
@@ -40,31 +40,6 @@ pub(super) fn line_text<'a>(line: &'a [u8], place: &Place) -> Result<Cow<'a, str
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn all(bytes: &[u8]) -> Vec<String> {
-        let text = decoded(bytes).unwrap();
-        let lines = text.split(|byte| *byte == b'\n');
-        lines.map(|line| line_text(line, &Place::File).unwrap().into_owned()).collect()
-    }
-
-    #[test]
-    fn every_encoding_gives_the_same_lines() {
-        let expected = ["x [µm]", "1", "", "2"];
-        let text = "x [µm]\n1\r\n\n2";
-        let with_mark = |bytes: Vec<u8>, mark: &[u8]| [mark, &bytes].concat();
-        let utf16 = |order: fn(u16) -> [u8; 2]| text.encode_utf16().flat_map(order).collect::<Vec<u8>>();
-        for bytes in [
-            text.as_bytes().to_vec(),
-            with_mark(text.as_bytes().to_vec(), b"\xef\xbb\xbf"),
-            with_mark(utf16(u16::to_le_bytes), b"\xff\xfe"),
-            with_mark(utf16(u16::to_be_bytes), b"\xfe\xff"),
-            text.chars().map(|c| c as u8).collect(),
-        ] {
-            assert_eq!(all(&bytes), expected, "{bytes:?}");
-        }
-        // Half a character at the end.
-        assert_eq!(all(b"\xff\xfe1\x00\x02"), ["1\u{fffd}"]);
-    }
 
     #[test]
     fn binary_content_and_endless_lines_are_refused() {

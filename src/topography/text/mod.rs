@@ -11,7 +11,8 @@ mod lines;
 
 use super::Unit;
 use super::error::{Place, TopographyError, refused, shown};
-use super::reading::{Format, LARGEST, RawGrid, Reading};
+use super::reading::Reading;
+use super::surface::LARGEST;
 use crate::io::PROVENANCE;
 use header::Header;
 use layout::{Cell, Decimal, Separator};
@@ -143,28 +144,30 @@ impl Rows {
     }
 
     fn finish(self, header: &Header) -> Result<Reading, TopographyError> {
-        let Rows { columns, positions, mut heights, first_missing, .. } = self;
-        let (mut lateral_unit, height_unit) = header.units(columns);
-        let mut format = Format::Columns;
-        let grid = match columns {
-            1 => RawGrid::Profile(None),
+        let Rows { columns, positions, heights, first_missing, .. } = self;
+        let units = header.units(columns);
+        let points = heights.len();
+        let reading = match columns {
+            1 => Reading::even("text columns", heights, points, None, units),
             2 => {
                 let [positions, _] = positions;
-                RawGrid::scanned(positions, &mut heights)
+                Reading::profile("text columns", positions, heights, units)
             }
-            3 => grid::from_points(&positions)?,
+            3 => {
+                let (columns, spacing) = grid::from_points(&positions)?;
+                Reading::even("text columns", heights, columns, Some(spacing), units)
+            }
             columns => {
-                format = Format::Matrix;
-                let rows = heights.len() / columns;
+                let rows = points / columns;
                 let [width, height] = header.sizes;
-                let spacing = width.zip(height).map(|(width, height)| {
-                    lateral_unit = Some(Unit::METRE);
-                    [width / columns as f64, height / rows as f64]
-                });
-                RawGrid::Map { columns, spacing }
+                let spacing =
+                    width.zip(height).map(|(width, height)| [width / columns as f64, height / rows as f64]);
+                // Sizes are in m.
+                let lateral = if spacing.is_some() { Some(Unit::METRE) } else { units[0] };
+                Reading::even("text matrix", heights, columns, spacing, [lateral, units[1]])
             }
         };
-        Ok(Reading { format, heights, grid, lateral_unit, height_unit, first_missing })
+        Ok(Reading { first_missing, ..reading })
     }
 }
 
@@ -180,7 +183,7 @@ mod tests {
     #[test]
     fn a_profile_is_the_same_in_every_notation() {
         let expected = text("0.5 1e-1\n1.5 2.5\n2.5 -3\n").unwrap();
-        assert_eq!(expected.grid, RawGrid::Positions(vec![0.5, 1.5, 2.5]));
+        assert_eq!(expected.positions, Some(vec![0.5, 1.5, 2.5]));
         assert_eq!(expected.heights, [0.1, 2.5, -3.0]);
         for other in [
             "0.5\t1e-1\r\n1.5\t2.5\r\n2.5\t-3\r\n",
@@ -193,10 +196,7 @@ mod tests {
             assert_eq!(text(other).unwrap(), expected, "{other}");
         }
         let units = text("x [µm];z [nm]\n0,5;1e-1\n1,5;2,5\n2,5;-3\n").unwrap();
-        assert_eq!(
-            [units.lateral_unit, units.height_unit].map(|unit| unit.map(Unit::name)),
-            [Some("µm"), Some("nm")]
-        );
+        assert_eq!(units.units.map(|unit| unit.map(Unit::name)), [Some("µm"), Some("nm")]);
     }
 
     #[test]
@@ -216,27 +216,6 @@ mod tests {
             let error = text(lines).unwrap_err();
             assert!(error.starts_with(expected), "{lines:?}: {error}");
         }
-    }
-
-    #[test]
-    fn missing_heights_are_marked_with_their_line() {
-        let reading = text("x z\n1;2\n2;NaN\n3;\n4;5").unwrap();
-        assert_eq!(reading.first_missing, Some(Place::Line(3)));
-        assert_eq!(
-            reading.heights.iter().map(|z| z.is_nan()).collect::<Vec<_>>(),
-            [false, true, true, false]
-        );
-    }
-
-    #[test]
-    fn matrices_and_lists_of_points_are_maps() {
-        let matrix = text("# Width: 4 µm\n# Height: 1 µm\n# Value units: m\n1 2 3 4\n5 6 7 8").unwrap();
-        assert_eq!(matrix.grid, RawGrid::Map { columns: 4, spacing: Some([1e-6, 5e-7]) });
-        assert_eq!((matrix.lateral_unit, matrix.height_unit), (Some(Unit::METRE), Some(Unit::METRE)));
-        let points = text("0 0 1\n2 0 2\n4 0 3\n0 1 4\n2 1 5\n4 1 6").unwrap();
-        assert_eq!(points.grid, RawGrid::Map { columns: 3, spacing: Some([2.0, 1.0]) });
-        assert_eq!(points.heights, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
-        assert_eq!(text("1\n2\n3").unwrap().grid, RawGrid::Profile(None));
     }
 
     proptest! {

@@ -4,7 +4,7 @@ use asperity::contact::{
     self, Contact, ContactError, CurvePoint, Foundation, HessRule, History, LegRecord, Solver, run,
 };
 use asperity::scene::{Edges, Form, Move};
-use asperity::surface::{Line, SelfAffine, UnitRoughness, phases};
+use asperity::surface::{Line, SelfAffine, phases};
 use std::f64::consts::{PI, TAU};
 
 /// E*, Pa, length, m, and rms height, m, of bodies.
@@ -30,8 +30,8 @@ impl Body {
     }
 
     pub fn rough(spectrum: SelfAffine, seed: u64, points: usize, work: f64) -> Body {
-        let rough = UnitRoughness::synthesize(spectrum, seed, points).unwrap();
-        let line = Line::new(LENGTH, points, None, Some(&rough.heights), RMS_HEIGHT).unwrap();
+        let rough = spectrum.heights(seed, points).unwrap();
+        let line = Line::new(LENGTH, points, None, Some(&rough), RMS_HEIGHT).unwrap();
         Body { foundation: Foundation::endless(line.spacing, MODULUS), gaps: line.gaps.to_vec(), work }
     }
 

@@ -4,7 +4,8 @@ use super::body::{Body, end};
 use super::events::Events;
 use super::wide::{Wide, distance, pi, rounded, wide};
 use asperity::scene::{Edges, Move};
-use asperity::surface::{MeasuredProfile, SelfAffine, UnitRoughness, phases};
+use asperity::surface::{MeasuredOptions, MeasuredProfile, SelfAffine, phases};
+use asperity::topography::{ReadOptions, Unit};
 
 /// Moves a body through a tour by the exact solver and from event to event; returns the largest errors of
 /// forces, smallest forces and losses, each in units of its conditioning, and the partial contacts seen.
@@ -94,14 +95,14 @@ fn heights_are_sums_of_cosines_of_192_digits() {
         (0.999_999, 101, 1, 50),
         (1.0_f64.next_down(), 128, 1, 64),
     ] {
-        let line = UnitRoughness::synthesize(SelfAffine { hurst, first, last }, 3, points).unwrap();
+        let rough = SelfAffine { hurst, first, last }.heights(3, points).unwrap();
         let amplitude = |mode: u64| (-(wide(hurst) + wide(0.5)) * wide(mode as f64).ln()).exp();
         let amplitudes: Vec<Wide> = (first..=last).map(amplitude).collect();
         let squares = amplitudes.iter().fold(wide(0.0), |sum, a| sum + a.clone() * a.clone());
         let rms = (squares / wide(2.0)).sqrt();
         let phases: Vec<Wide> = phases(3, first).take(amplitudes.len()).map(wide).collect();
         let mut worst = 0.0_f64;
-        for (index, &height) in line.heights.iter().enumerate() {
+        for (index, &height) in rough.iter().enumerate() {
             let mut sum = wide(0.0);
             for ((mode, amplitude), phase) in (first..).zip(&amplitudes).zip(&phases) {
                 let turns = mode * (2 * index as u64 + 1) % (2 * points as u64);
@@ -119,12 +120,14 @@ fn heights_are_sums_of_cosines_of_192_digits() {
 fn statistics_on_an_offset_are_those_of_192_digits() {
     let points = 3000;
     let spectrum = SelfAffine { hurst: 0.7, first: 1, last: 1000 };
-    let rough = UnitRoughness::synthesize(spectrum, 9, points).unwrap();
+    let rough = spectrum.heights(9, points).unwrap();
     for offset in [0.0, 1e3, 1e9, -1e9] {
-        let heights: Vec<f64> = rough.heights.iter().map(|height| 1e-7 * (offset + height)).collect();
+        let heights: Vec<f64> = rough.iter().map(|height| 1e-7 * (offset + height)).collect();
         let positions: Vec<f64> = (0..points).map(|index| 3.0 + 1e-7 * index as f64).collect();
         let lines = positions.iter().zip(&heights).map(|(x, z)| format!("{x:e} {z:e}\n"));
-        let profile = MeasuredProfile::parse(&lines.collect::<String>()).unwrap();
+        let reading = ReadOptions { unit: Some(Unit::METRE), ..ReadOptions::default() };
+        let options = MeasuredOptions { reading, ..MeasuredOptions::default() };
+        let profile = MeasuredProfile::new(lines.collect::<String>().as_bytes(), &options).unwrap();
         let (mut area, mut square, mut slope) = (wide(0.0), wide(0.0), wide(0.0));
         let pieces = || positions.windows(2).zip(heights.windows(2));
         for (x, z) in pieces() {
@@ -140,7 +143,8 @@ fn statistics_on_an_offset_are_those_of_192_digits() {
             let rise = wide(z[1]) - wide(z[0]);
             slope += rise.clone() * rise / dx;
         }
-        let (height, gradient) = profile.rms_height_and_gradient();
+        let amplitude = profile.amplitude().unwrap();
+        let (height, gradient) = (amplitude.rms_height, amplitude.rms_gradient);
         for (found, expected) in [(height, square / length.clone()), (gradient, slope / length)] {
             let expected = expected.sqrt();
             let error = distance(found, &expected) / rounded(&expected);

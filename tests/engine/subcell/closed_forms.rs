@@ -575,7 +575,7 @@ fn orders_of_rough_lines(name: &str, form: Option<Form>) -> [f64; 2] {
         let spectrum = SelfAffine { hurst, first: 1, last: 24 };
         let shift = form.map_or(0.0, |form| form.shift(points as u64));
         let rough = Synthesizer::default().synthesize(spectrum, seed, points, shift, Vec::new()).unwrap();
-        let line = Line::new(1.0, points, form.as_ref(), Some(&rough.heights), 0.01).unwrap();
+        let line = Line::new(1.0, points, form.as_ref(), Some(&rough), 0.01).unwrap();
         let foundation = Foundation::endless(line.spacing, 1.0);
         let work = 1e-4 * spectrum.gradient_per_height(1.0) / (kappa * kappa);
         let body = Body { gaps: line.gaps.to_vec(), foundation, work, closing_work: work };
