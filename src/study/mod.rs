@@ -58,7 +58,6 @@ mod quantity;
 mod record;
 mod recorder;
 mod run;
-mod sbatch;
 mod select;
 mod shard;
 pub mod slurm;

@@ -117,15 +117,13 @@ impl Cluster {
         path
     }
 
-    /// Submits a plan; returns the numbers of the array and the merge.
-    fn submit(&self, plan: &Path, folder: &str, options: &[&str]) -> (String, String) {
+    /// Submits a plan; returns the number of the array.
+    fn submit(&self, plan: &Path, folder: &str, options: &[&str]) -> String {
         let mut submit = self.command(ASPERITY);
         submit.args(["sweep", "submit"]).arg(plan).arg("-o").arg(self.path(folder)).args(options);
         let answer = succeeded(&mut submit);
-        let numbers: Vec<_> =
-            answer.split(|c: char| !c.is_ascii_digit()).filter(|word| !word.is_empty()).collect();
-        // job ARRAY: TASKS tasks; job MERGE: …
-        (numbers[0].to_owned(), numbers[2].to_owned())
+        let number = answer.strip_prefix("Submitted batch job ").and_then(|rest| rest.split('\n').next());
+        number.unwrap_or_else(|| panic!("{answer}")).to_owned()
     }
 
     /// Output of squeue for a job, one line for each of its tasks; empty after its end.
@@ -229,22 +227,21 @@ fn a_cluster_gives_the_bytes_of_one_machine_even_when_programs_are_killed() {
 
         // A folder name with special characters of the shell and of Slurm.
         let name = "it's %j & $HOME";
-        let (_, merge) = cluster.submit(&plan, name, &["--shards", "4"]);
-        cluster.wait_for(&merge, 40);
+        let array = cluster.submit(&plan, name, &["--shards", "4"]);
+        cluster.wait_for(&array, 40);
         assert_eq!(cluster.tables(name), cluster.tables("serial"));
-        let log = cluster.path(name).join("slurm").join(format!("merge-{merge}.log"));
-        assert!(fs::read_to_string(log).unwrap().contains("24 of 24 records"), "{}", cluster.logs());
+        assert!(cluster.logs().contains("24 of 24 records"), "{}", cluster.logs());
 
         // Cells so large that a kill hits the middle of one.
         let plan = cluster.plan(1 << 21);
-        let (array, merge) = cluster.submit(&plan, "killed", &["--shards", "2", "--", "--job-name=killed"]);
+        let array = cluster.submit(&plan, "killed", &["--shards", "2", "--", "--job-name=killed"]);
         cluster.wait_until("there is a record, and shard 1 runs", 30, || {
             cluster.records("killed") > 0 && !cluster.processes("killed", "1/2").is_empty()
         });
         let running = cluster.processes("killed", "1/2");
         kill("-9", &running);
-        cluster.wait_for(&merge, 60);
-        let log = fs::read_to_string(cluster.path("killed/slurm").join(format!("{array}_1.log"))).unwrap();
+        cluster.wait_for(&array, 60);
+        let log = fs::read_to_string(cluster.path("killed").join(format!("slurm-{array}_1.log"))).unwrap();
         assert!(log.contains("killed by signal 9: retry 1 of 3"), "{log}");
         cluster.serial(&plan, "whole");
         assert_eq!(cluster.tables("killed"), cluster.tables("whole"));
@@ -259,7 +256,7 @@ fn lost_nodes_and_twins_change_no_byte() {
         let plan = cluster.plan(1 << 20);
         cluster.serial(&plan, "serial");
         let started = Instant::now();
-        let (array, merge) = cluster.submit(&plan, "lost", &["--shards", "2"]);
+        let array = cluster.submit(&plan, "lost", &["--shards", "2"]);
         cluster.wait_until("both shards run", 30, || {
             ["1/2", "2/2"].iter().all(|shard| !cluster.processes("lost", shard).is_empty())
                 && cluster.records("lost") > 1
@@ -284,7 +281,7 @@ fn lost_nodes_and_twins_change_no_byte() {
         // Now both of them compute.
         kill("-CONT", &lost);
         cluster.wait_until("both twins compute", 20, || cluster.processes("lost", "1/2").len() > 1);
-        cluster.wait_for(&merge, 400);
+        cluster.wait_for(&array, 400);
         cluster.wait_until("the lost task is over", 60, || cluster.processes("lost", "1/2").is_empty());
         println!("merged after {:.0} s", started.elapsed().as_secs_f64());
         assert_eq!(cluster.tables("lost"), cluster.tables("serial"));
@@ -304,7 +301,7 @@ fn a_node_that_dies_with_its_task_is_replaced() {
         let plan = cluster.plan(1 << 20);
         cluster.serial(&plan, "serial");
         let started = Instant::now();
-        let (array, merge) = cluster.submit(&plan, "dead", &["--shards", "2"]);
+        let array = cluster.submit(&plan, "dead", &["--shards", "2"]);
         cluster.wait_until("both shards run", 30, || {
             ["1/2", "2/2"].iter().all(|shard| !cluster.processes("dead", shard).is_empty())
                 && cluster.records("dead") > 1
@@ -321,7 +318,7 @@ fn a_node_that_dies_with_its_task_is_replaced() {
         let shell = parent(task[0]).unwrap();
         let keeper = parent(shell).unwrap();
         kill("-9", &[daemon.trim().parse().unwrap(), keeper, shell, task[0]]);
-        cluster.wait_for(&merge, 400);
+        cluster.wait_for(&array, 400);
         println!("done after {:.0} s", started.elapsed().as_secs_f64());
         assert_eq!(cluster.tables("dead"), cluster.tables("serial"));
     });
@@ -354,123 +351,32 @@ fn what_slurm_refuses_is_passed_on() {
     let none = stand_ins(&[]);
     let (code, _, message) = submit_to(none.path(), &["--shards", "4"]);
     assert_eq!(code, Some(1));
-    assert!(message.contains("sbatch: there is no such program here"), "{message}");
+    assert!(message.contains("sbatch was not found"), "{message}");
     assert!(message.contains("parallel --joblog shards.log --resume-failed --retries 3"), "{message}");
 
-    let refusing =
-        stand_ins(&[("sbatch", "echo 'sbatch: error: invalid partition specified: x' >&2; exit 1")]);
-    let (code, _, message) = submit_to(refusing.path(), &["--shards", "4", "--", "--partition=x"]);
-    assert_eq!(code, Some(1));
-    assert_eq!(message.trim(), "sbatch refuses the array: sbatch: error: invalid partition specified: x");
-
-    // The array is accepted, the merge is not: then the array is cancelled.
-    let sbatch = r#"case "$*" in *--dependency*) echo "no dependencies today" >&2; exit 1 ;; esac; echo 17"#;
-    let half = stand_ins(&[("sbatch", sbatch), ("scancel", "echo \"$*\" >cancelled")]);
-    let (code, _, message) = submit_to(half.path(), &["--shards", "4"]);
-    assert_eq!(code, Some(1));
+    let refusing = stand_ins(&[("sbatch", "echo 'sbatch: error: invalid partition' >&2; exit 1")]);
+    let (code, stdout, message) = submit_to(refusing.path(), &["--shards", "4"]);
+    assert_eq!((code, stdout.as_str()), (Some(1), ""));
     assert!(
-        message.contains("refuses the merge: no dependencies today") && message.contains("17 was cancelled"),
+        message.contains("sbatch failed (exit status: 1): sbatch: error: invalid partition"),
         "{message}"
     );
-    assert_eq!(fs::read_to_string(half.path().join("cancelled")).unwrap().trim(), "17");
 }
 
+/// The options of the user, those of the site in variables, and the script reach sbatch; its answer reaches the user.
 #[test]
-fn arrays_are_no_larger_than_the_cluster_has_them() {
-    let small = stand_ins(&[
-        ("sbatch", "echo \"$*\" >>asked; echo '21;east'"),
-        ("scontrol", "echo 'MaxArraySize            = 5'"),
-    ]);
-    let (code, _, message) = submit_to(small.path(), &["--shards", "5"]);
-    assert_eq!(code, Some(1));
-    assert!(
-        message.contains("arrays of at most 4 tasks") && message.contains("allowed: 1 to 4"),
-        "{message}"
-    );
-    assert!(!small.path().join("study").exists());
-    let (code, stdout, message) =
-        submit_to(small.path(), &["--shards", "4", "--at-once", "2", "--", "-p", "x"]);
-    assert_eq!(code, Some(0), "{message}");
-    assert!(stdout.starts_with("job 21: 4 tasks; job 21: the merge after them\n"), "{stdout}");
-    let asked = fs::read_to_string(small.path().join("asked")).unwrap();
-    let [array, merge] = asked.lines().collect::<Vec<_>>()[..] else { panic!("{asked}") };
-    assert!(array.contains("--partition=x --array=1-4%2 --requeue "), "{array}");
-    assert!(merge.contains("--partition=x --dependency=afterok:21 --kill-on-invalid-dep=yes"), "{merge}");
-
-    // Without an answer of the cluster, Slurm's own limit holds.
-    let silent = stand_ins(&[]);
-    let (code, _, message) = submit_to(silent.path(), &["--shards", "1001", "--dry-run"]);
-    assert_eq!(code, Some(1));
-    assert!(message.contains("arrays of at most 1000 tasks"), "{message}");
-    let (_, _, message) = submit_to(silent.path(), &["--shards", "4", "--", "--array=1-9"]);
-    assert!(message.contains("--array=1-9: this is not for sbatch here"), "{message}");
-}
-
-#[test]
-fn only_known_options_and_no_variables_reach_sbatch() {
-    // Treats its arguments like sbatch, as far as they can be distinguished.
-    let sbatch = "printf '%s\\n' \"$@\" >>asked; /usr/bin/env >>variables; echo 17";
+fn all_options_and_variables_reach_sbatch() {
+    let sbatch = "printf '%s\\n' \"$@\" >asked; /usr/bin/env >variables; /bin/cat >script; echo Submitted batch job 17";
     let folder = stand_ins(&[("sbatch", sbatch)]);
-    for words in [
-        &["x.sh"][..],
-        &["--quiet"],
-        &["--arr=1-50"],
-        &["-HW"],
-        &["-pshort"],
-        &["--partition=x", "x.sh"],
-        &["--exclusive", "x.sh"],
-        &["--wrap", "true"],
-        &["--", "x.sh"],
-    ] {
-        let arguments = [&["--shards", "4", "--"], words].concat();
-        let (code, stdout, message) = submit_to(folder.path(), &arguments);
-        assert_eq!((code, stdout.as_str()), (Some(1), ""), "{words:?}: {message}");
-        assert!(
-            message.contains("this is not for sbatch here; allowed: --account, --begin,"),
-            "{words:?}: {message}"
-        );
-    }
-    assert!(!folder.path().join("asked").exists() && !folder.path().join("study").exists());
     let mut command = Command::new(ASPERITY);
-    command.current_dir(folder.path()).env("PATH", folder.path().join("bin"));
-    command.envs([("SBATCH_ARRAY_INX", "1-50"), ("SBATCH_QUIET", "1"), ("SLURM_CONF", "kept")]);
-    command.args([
-        "sweep", "submit", "plan.ron", "-o", "study", "--shards", "4", "--", "-t", "1:00", "--mem=1G",
-    ]);
-    let output = command.output().unwrap();
-    let message = String::from_utf8(output.stderr).unwrap();
-    assert!(output.status.success(), "{message}");
-    assert!(message.contains("not passed on to sbatch: SBATCH_ARRAY_INX, SBATCH_QUIET"), "{message}");
-    let variables = fs::read_to_string(folder.path().join("variables")).unwrap();
-    assert!(variables.contains("SLURM_CONF=kept") && !variables.contains("SBATCH_"), "{variables}");
-    let asked = fs::read_to_string(folder.path().join("asked")).unwrap();
-    assert_eq!(asked.matches("--time=1:00\n--mem=1G\n").count(), 2, "{asked}");
-    assert_eq!(asked.lines().filter(|word| !word.starts_with("--")).count(), 2, "{asked}");
-}
-
-#[test]
-fn an_answer_that_is_no_number_of_a_job_is_an_error() {
-    for answer in ["", "Submitted batch job 17", "17;", "+17", "0", "17\\n18", "17 18"] {
-        let sbatch = format!("printf '{answer}\\n'");
-        let folder = stand_ins(&[("sbatch", &sbatch)]);
-        let (code, stdout, message) = submit_to(folder.path(), &["--shards", "4"]);
-        assert_eq!((code, stdout.as_str()), (Some(1), ""), "{answer:?}: {message}");
-        assert!(
-            message.contains("sbatch took the array and did not answer with the number"),
-            "{answer:?}: {message}"
-        );
-        assert!(message.contains("squeue --me lists the array"), "{answer:?}: {message}");
-    }
-    // If the answer for the merge has no number, the array is cancelled.
-    let sbatch = r#"case "$*" in *--dependency*) echo what ;; *) echo '17;east' ;; esac"#;
-    let folder = stand_ins(&[("sbatch", sbatch), ("scancel", "echo \"$*\" >cancelled")]);
-    let (code, _, message) = submit_to(folder.path(), &["--shards", "4"]);
-    assert_eq!(code, Some(1));
-    assert!(
-        message.contains("no number of a job: what") && message.contains("17 was cancelled"),
-        "{message}"
-    );
-    assert_eq!(fs::read_to_string(folder.path().join("cancelled")).unwrap().trim(), "--clusters=east 17");
+    command.current_dir(folder.path()).env("PATH", folder.path().join("bin")).env("SBATCH_ACCOUNT", "site");
+    command.args(["sweep", "submit", "plan.ron", "-o", "study", "--shards", "12", "--at-once", "3"]);
+    let answer = succeeded(command.args(["--", "--gpus=1", "-p", "short", "--signal", "B:TERM@60"]));
+    assert!(answer.starts_with("Submitted batch job 17\nasperity sweep status study"), "{answer}");
+    let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+    assert_eq!(read("asked"), "--gpus=1\n-p\nshort\n--signal\nB:TERM@60\n");
+    assert!(read("variables").contains("SBATCH_ACCOUNT=site\n"));
+    assert!(read("script").contains("\n#SBATCH --array=1-12%3\n"));
 }
 
 #[test]
@@ -479,13 +385,7 @@ fn a_dry_run_shows_and_touches_nothing() {
     let (code, stdout, message) =
         submit_to(folder.path(), &["--shards", "12", "--memory", "2G", "--dry-run"]);
     assert_eq!((code, message.as_str()), (Some(0), ""));
-    for expected in [
-        "--shard \"$SLURM_ARRAY_TASK_ID/12\"",
-        "--memory 2147483648",
-        "sweep merge \"$folder\"",
-        "--array=1-12 --requeue",
-        "--dependency=afterok:ARRAY",
-    ] {
+    for expected in ["--shard \"$SLURM_ARRAY_TASK_ID/12\"", "--memory 2147483648", "--array=1-12\n"] {
         assert!(stdout.contains(expected), "{expected}: {stdout}");
     }
     let mut left: Vec<_> =
@@ -499,8 +399,7 @@ fn a_task_starts_killed_programs_again_and_no_others() {
     // The script of a task, run by a shell, with a stand-in for the program.
     let folder = stand_ins(&[]);
     let (_, stdout, _) = submit_to(folder.path(), &["--shards", "4", "--retries", "2", "--dry-run"]);
-    let script = stdout.split("==> ").nth(1).unwrap().split_once(" <==\n").unwrap().1;
-    let script = script.replace(ASPERITY, "./program");
+    let script = stdout.replace(ASPERITY, "./program");
     for (program, code, runs) in [
         ("exit 0", 0, 1),
         ("exit 1", 1, 1),

@@ -61,7 +61,7 @@ pub enum SweepCommand {
     Boundary(BoundaryArguments),
     /// Draw a merged study: a map over two axes, or a section along one
     Plot(PlotArguments),
-    /// Let a Slurm cluster compute a plan: an array of tasks, and a merge after them
+    /// Let a Slurm cluster compute a plan: an array of tasks, the last of which merges
     Submit(SubmitArguments),
     /// List the built-in plans, or print one of them
     Plans(PlansArguments),

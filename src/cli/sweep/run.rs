@@ -6,7 +6,7 @@ use crate::cli::scene::threads;
 use crate::cli::{CliError, Overrides};
 use crate::scene::Scene;
 use crate::simulation;
-use crate::study::{Changes, Folder, Options, Plan, Shard, StudyError, merge, run as compute};
+use crate::study::{Changes, Folder, Options, Plan, Shard, Status, StudyError, merge, run as compute};
 use crate::text::memory_size;
 use clap::Args;
 use std::io::{self, Write};
@@ -26,9 +26,9 @@ pub struct SweepRunArguments {
     /// Threads; default: one for each core
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
-    /// Compute part K of N alone; merging takes the parts together
+    /// Compute part K of N alone; the part that completes the study merges it
     ///
-    /// All parts write to the same folder, or their folders are copied into one before merging.
+    /// All parts write to the same folder, or their folders are copied into one before `sweep merge`.
     #[arg(long, value_name = "K/N")]
     pub shard: Option<Shard>,
     /// Most memory for all threads: 500M, 2G; fewer threads run if need be
@@ -152,12 +152,14 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
         let (done, total) = (ended.progress.done, ended.progress.total);
         return Err(CliError::Stopped { signal: signal(), done, total });
     }
-    if arguments.shard.is_none() {
-        write_merged(&folder, &merge(&folder, false)?, stdout)?;
-    } else {
+    if arguments.shard.is_some() {
         let _ = writeln!(stderr, "{} records of shard {} are there", ended.progress.total, options.shard);
+        // The process that completes the study merges it; of two at the same time both do.
+        if Status::of(&folder)?.missing > 0 {
+            return Ok(());
+        }
     }
-    Ok(())
+    write_merged(&folder, &merge(&folder, false)?, stdout)
 }
 
 /// Number of the first signal to end, 0 until then; a second signal ends the process at once.
