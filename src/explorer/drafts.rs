@@ -2,7 +2,7 @@
 //! file for each process; files of the user are never written.
 
 use super::action::Action;
-use crate::io::{is_gone, machine, read_regular_text, write_new};
+use crate::io::{read_regular_text, write_new};
 use crate::scene::Document;
 use etcetera::{BaseStrategy, choose_base_strategy};
 use ron::ser::PrettyConfig;
@@ -209,6 +209,36 @@ fn write(folder: &Path, path: &Path, documents: &[Document]) -> Result<(), Strin
     fs::create_dir_all(folder).map_err(in_folder)?;
     let text = text_of(documents).map_err(|error| error.to_string())?;
     write_new(path, true, |file| file.write_all(text.as_bytes())).map_err(|error| error.to_string())
+}
+
+/// Identifier of this machine, and of this container on it, among the users of a folder: a checksum of its name and
+/// of its process namespace.
+#[cfg(unix)]
+fn machine() -> String {
+    let mut hash = crc32fast::Hasher::new();
+    hash.update(rustix::system::uname().nodename().to_bytes());
+    let numbering = fs::read_link("/proc/self/ns/pid").unwrap_or_default();
+    hash.update(numbering.as_os_str().as_encoded_bytes());
+    format!("{:08x}", hash.finalize())
+}
+
+#[cfg(not(unix))]
+fn machine() -> String {
+    "0".into()
+}
+
+/// Returns true for a process id that is unused on this machine.
+#[cfg(unix)]
+fn is_gone(process: u32) -> bool {
+    use rustix::process::{Pid, test_kill_process};
+    let process = i32::try_from(process).ok().and_then(Pid::from_raw);
+    process.is_some_and(|process| test_kill_process(process) == Err(rustix::io::Errno::SRCH))
+}
+
+/// Elsewhere no process is known to have ended.
+#[cfg(not(unix))]
+fn is_gone(_: u32) -> bool {
+    false
 }
 
 #[cfg(test)]

@@ -1,11 +1,10 @@
 //! Atomic writing of a file, never over an existing one without a request.
 
-use super::disk::{Disk, SystemDisk, folder_of};
-use super::unfinished::Unfinished;
 use crate::text::path_name;
-use std::fs::{self, OpenOptions, Permissions};
+use std::fs::{self, File, OpenOptions, Permissions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
 use thiserror::Error;
 
 /// Bytes gathered before a write to a file.
@@ -63,7 +62,7 @@ pub enum WriteError {
 pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
     match Target::of(path, overwrite)? {
         Target::Stream => Ok(()),
-        Target::File { path, .. } => Unfinished::beside(&path, &SystemDisk).map(drop),
+        Target::File { path, .. } => temporary_beside(&path).map(drop),
     }
 }
 
@@ -86,26 +85,11 @@ pub fn check_file_name(path: &Path) -> Result<(), WriteError> {
 /// An existing file is replaced only with `overwrite`; a pipe or a device, which cannot be overwritten,
 /// is written to directly, which waits for a reader.
 ///
-/// On systems that allow this the temporary file has no name until it is complete: any end of the process, at any
-/// time, leaves nothing behind. Elsewhere, and between naming and renaming, a file `.asperity-….tmp` can remain;
-/// the next write in the folder removes those of ended processes.
+/// A process that is killed while it writes may leave the temporary file `.asperity-….tmp`.
 ///
 /// # Errors
 /// [`WriteError`]; an error of `write` itself becomes [`WriteError::Failed`].
 pub fn write_new(
-    path: &Path,
-    overwrite: bool,
-    write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
-) -> Result<(), WriteError> {
-    write_new_on(&SystemDisk, path, overwrite, write)
-}
-
-/// [`write_new`] on another disk.
-///
-/// # Errors
-/// As [`write_new`].
-pub fn write_new_on(
-    disk: &dyn Disk,
     path: &Path,
     overwrite: bool,
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
@@ -116,7 +100,7 @@ pub fn write_new_on(
         let mut stream = OpenOptions::new().write(true).open(path).map_err(failed)?;
         return fill(&mut stream, write).map_err(failed);
     }
-    write_target(disk, path, target, overwrite, write)
+    write_target(path, target, overwrite, write)
 }
 
 /// The same for files only: a pipe or a device is refused at once.
@@ -128,11 +112,10 @@ pub fn write_new_file(
     overwrite: bool,
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> Result<(), WriteError> {
-    write_target(&SystemDisk, path, Target::of(path, overwrite)?, overwrite, write)
+    write_target(path, Target::of(path, overwrite)?, overwrite, write)
 }
 
 fn write_target(
-    disk: &dyn Disk,
     path: &Path,
     target: Target,
     overwrite: bool,
@@ -142,19 +125,58 @@ fn write_target(
     let Target::File { path: place, permissions } = target else {
         return Err(WriteError::NotRegular { path: path.to_path_buf() });
     };
-    let mut unfinished = Unfinished::beside(&place, disk)?;
-    let file = &mut unfinished.file;
-    fill(file, write).map_err(failed)?;
+    let mut file = temporary_beside(&place)?;
+    fill(file.as_file_mut(), write).map_err(failed)?;
     if let Some(permissions) = permissions {
-        file.set_permissions(permissions).map_err(failed)?;
+        file.as_file().set_permissions(permissions).map_err(failed)?;
     }
-    file.sync().map_err(failed)?;
-    unfinished.publish(&place, overwrite).map_err(|reason| match reason.kind() {
+    file.as_file().sync_all().map_err(failed)?;
+    let persisted = if overwrite { file.persist(&place) } else { file.persist_noclobber(&place) };
+    persisted.map_err(|error| match error.error.kind() {
         io::ErrorKind::AlreadyExists => WriteError::Exists { path: path.to_path_buf() },
-        _ => failed(reason),
+        _ => failed(error.error),
     })?;
     // The name has to be durable as well.
-    disk.sync_folder(folder_of(&place)).map_err(failed)
+    sync_folder(folder_of(&place)).map_err(failed)
+}
+
+/// Makes a file in the folder of another one, removed unless it is renamed.
+fn temporary_beside(path: &Path) -> Result<NamedTempFile, WriteError> {
+    let folder = folder_of(path);
+    let mut named = tempfile::Builder::new();
+    named.prefix(".asperity-").suffix(".tmp");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        named.permissions(Permissions::from_mode(0o666));
+    }
+    named.tempfile_in(folder).map_err(|error| match folder.is_dir() {
+        true => WriteError::Failed { path: path.into(), reason: error },
+        false => WriteError::NoFolder { path: path.into(), folder: folder.into() },
+    })
+}
+
+/// Waits until the names in a folder have reached the disk.
+pub(crate) fn sync_folder(path: &Path) -> io::Result<()> {
+    // Some systems cannot open a folder, some folders may not be read, and some file systems cannot synchronise one:
+    // there, names are as safe as the system makes them.
+    let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+    match File::open(path).and_then(|folder| folder.sync_all()) {
+        Err(error)
+            if matches!(
+                error.kind(),
+                io::ErrorKind::PermissionDenied | io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported
+            ) =>
+        {
+            Ok(())
+        }
+        synced => synced,
+    }
+}
+
+/// The parent folder of a path.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."))
 }
 
 fn fill(

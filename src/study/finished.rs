@@ -7,9 +7,10 @@ use super::numbering::number_at;
 use super::plan::Plan;
 use super::quantity::Quantity;
 use super::store::{Folder, LONGEST_LINE};
-use super::tables::{REGIME_COLUMNS, RESULTS, SUMMARY};
+use super::tables::{REGIME_COLUMNS, RESULTS, SIDECAR, SUMMARY};
 use crate::analysis::Regime;
-use crate::io::{ReadError, open_regular};
+use crate::io::{ReadError, open_regular, sha256_of};
+use serde::Deserialize;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
@@ -48,6 +49,7 @@ impl Finished {
             *place = Some(summary);
             Some(())
         })?;
+        check_merge(path)?;
         Ok(Finished { plan, cells })
     }
 
@@ -115,6 +117,28 @@ impl Finished {
             Some(())
         })
     }
+}
+
+/// Checks that summary and sidecar are of one merge.
+fn check_merge(path: &Path) -> Result<(), StudyError> {
+    #[derive(Deserialize)]
+    struct Sidecar {
+        summary_sha256: String,
+    }
+    // A study without a summary has not been merged; one without a sidecar cannot be of two merges.
+    let (Ok(hash), true) = (sha256_of(&path.join(SUMMARY)), path.join(SIDECAR).exists()) else {
+        return Ok(());
+    };
+    let wrong = |error: ReadError| StudyError::folder(&path.join(SIDECAR), error.to_string());
+    let file = open_regular(&path.join(SIDECAR)).map_err(wrong)?;
+    let sidecar: Option<Sidecar> = serde_json::from_reader(BufReader::new(file)).ok();
+    if sidecar.is_some_and(|sidecar| sidecar.summary_sha256 == hash) {
+        return Ok(());
+    }
+    let merge = crate::scene::quoted(&path.display().to_string());
+    let reason =
+        format!("{SUMMARY} and {SIDECAR} are not of one merge; asperity sweep merge {merge} renews both");
+    Err(StudyError::folder(path, reason))
 }
 
 /// Calls `each` with the columns of every row but the first, whose number of columns is checked.

@@ -53,7 +53,6 @@ mod plan;
 mod plan_check;
 mod plan_text;
 mod preloads;
-mod publish;
 mod quantity;
 mod record;
 mod recorder;

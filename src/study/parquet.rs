@@ -6,7 +6,6 @@
 use super::StudyError;
 use super::finished::{Finished, Row};
 use super::plan::Plan;
-use super::publish::{place_of, show};
 use super::quantity::Quantity;
 use super::store::Folder;
 use super::tables::PARQUET;
@@ -32,9 +31,7 @@ const PLAN: &str = "asperity.plan";
 /// # Errors
 /// A study that is not merged, or a file that cannot be written.
 pub fn write_parquet(folder: &Folder) -> Result<(), StudyError> {
-    // In the folder of its tables, so that a later merge removes both.
-    let place = place_of(folder.path());
-    write_new(&place.join(PARQUET), true, |out| {
+    write_new(&folder.path().join(PARQUET), true, |out| {
         let mut table = Table::new(out, folder.plan()).map_err(io::Error::other)?;
         let mut failure = None;
         Finished::rows(folder.path(), |row| {
@@ -44,7 +41,7 @@ pub fn write_parquet(folder: &Folder) -> Result<(), StudyError> {
         })?;
         failure.map_or(Ok(()), Err).and_then(|()| table.end()).map_err(io::Error::other)
     })?;
-    show(folder.disk(), folder.path(), PARQUET)
+    Ok(())
 }
 
 /// Gathered values of a column.

@@ -10,9 +10,10 @@ use super::shard::Shard;
 use super::solve::{Case, Next, SharedWork, Sink};
 use super::status::{count, rate};
 use super::store::Folder;
-use crate::io::DiskFile;
 use crate::parallel::begin_threads;
 use crate::simulation::{RunError, Simulation};
+use std::fs::File;
+use std::io::Write;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -165,7 +166,7 @@ impl Shared<'_> {
     /// records that have reached the disk.
     fn write(
         &self,
-        (path, mut file): (&Path, Box<dyn DiskFile>),
+        (path, mut file): (&Path, File),
         clock: Instant,
         receiver: Receiver<String>,
         report: &mut dyn FnMut(),
@@ -194,7 +195,7 @@ impl Shared<'_> {
                 pending += text.bytes().filter(|&byte| byte == b'\n').count() as u64;
             }
             if pending > 0 && (ended || synced.elapsed() >= SYNC) {
-                if let Err(reason) = file.sync() {
+                if let Err(reason) = file.sync_all() {
                     return self.fail(failed(reason));
                 }
                 self.written.fetch_add(pending, Ordering::SeqCst);

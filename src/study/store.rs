@@ -11,17 +11,14 @@ use super::plan::{PLAN_FILE, Plan};
 use super::plan_text::Changes;
 use super::record::{Key, key_of, seal, unseal, values_into};
 use super::shard::Shard;
-use crate::io::{
-    Disk, DiskFile, SystemDisk, WriteError, folder_of, make_folders, open_regular, write_new_on,
-};
+use crate::io::{WriteError, open_regular, sync_folder, write_new};
 use crate::scene::read_file;
 use crate::text::{path_name, printable};
 use serde::{Deserialize, Serialize};
-use std::fs::File;
+use std::fs::{self, File, OpenOptions};
 use std::hash::{BuildHasher, RandomState};
-use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
+use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Version of the shard files.
@@ -38,7 +35,6 @@ const ENDING: &str = "shard";
 pub struct Folder {
     path: PathBuf,
     plan: Plan,
-    disk: Arc<dyn Disk>,
 }
 
 /// Header of a shard file: its first line.
@@ -86,8 +82,6 @@ pub struct ShardFile {
 /// A record of a file.
 pub(super) struct Found<'l> {
     pub key: Key,
-    /// Byte offset of its line in the file.
-    pub offset: u64,
     /// One value for each quantity of the plan, NaN for missing ones.
     pub values: &'l [f64],
 }
@@ -99,21 +93,15 @@ impl Folder {
     /// A folder with another plan, a measured file that has changed or cannot be read, or a
     /// folder that cannot be written.
     pub fn create(path: &Path, plan: &Plan) -> Result<Folder, StudyError> {
-        Folder::create_on(SystemDisk::shared(), path, plan)
-    }
-
-    /// [`Folder::create`] on another disk.
-    ///
-    /// # Errors
-    /// As [`Folder::create`].
-    pub fn create_on(disk: Arc<dyn Disk>, path: &Path, plan: &Plan) -> Result<Folder, StudyError> {
         let plan = with_hash(plan)?;
-        make_folders(&*disk, path).map_err(StudyError::unwritable(path))?;
         let shards = path.join(SHARDS);
+        for folder in [path, &shards] {
+            fs::create_dir_all(folder).map_err(StudyError::unwritable(folder))?;
+        }
         let file = path.join(PLAN_FILE);
         let text = plan.to_ron();
         if !file.exists() {
-            match write_new_on(&*disk, &file, false, |out| out.write_all(text.as_bytes())) {
+            match write_new(&file, false, |out| out.write_all(text.as_bytes())) {
                 // Another process was faster.
                 Ok(()) | Err(WriteError::Exists { .. }) => {}
                 Err(error) => return Err(error.into()),
@@ -123,12 +111,10 @@ impl Folder {
         if there != text {
             return Err(refusal(path, &there, &plan));
         }
-        make_folders(&*disk, &shards).map_err(StudyError::unwritable(&shards))?;
-        // A killed process may have made them without waiting for the disk.
-        for folder in [folder_of(path), path] {
-            disk.sync_folder(folder).map_err(StudyError::unwritable(folder))?;
+        for folder in [path.parent().unwrap_or(path), path] {
+            sync_folder(folder).map_err(StudyError::unwritable(folder))?;
         }
-        Ok(Folder { path: path.to_path_buf(), plan, disk })
+        Ok(Folder { path: path.to_path_buf(), plan })
     }
 
     /// Returns true for the folder of a study, valid or not.
@@ -142,14 +128,6 @@ impl Folder {
     /// # Errors
     /// No study, or an unreadable plan.
     pub fn open(path: &Path) -> Result<Folder, StudyError> {
-        Folder::open_on(SystemDisk::shared(), path)
-    }
-
-    /// [`Folder::open`] on another disk.
-    ///
-    /// # Errors
-    /// As [`Folder::open`].
-    pub fn open_on(disk: Arc<dyn Disk>, path: &Path) -> Result<Folder, StudyError> {
         let file = path.join(PLAN_FILE);
         if !file.is_file() {
             let reason = format!("this is not the folder of a study: there is no {PLAN_FILE} in it");
@@ -157,7 +135,7 @@ impl Folder {
         }
         let text = read_file(&file).map_err(|reason| StudyError::folder(&file, reason))?;
         let plan = Plan::parse(&text, &file.display().to_string(), &Changes::default())?;
-        Ok(Folder { path: path.to_path_buf(), plan, disk })
+        Ok(Folder { path: path.to_path_buf(), plan })
     }
 
     /// Path.
@@ -172,18 +150,13 @@ impl Folder {
         &self.plan
     }
 
-    /// The disk of the folder.
-    pub(super) fn disk(&self) -> &dyn Disk {
-        &*self.disk
-    }
-
     /// Checksum of the plan.
     fn checksum(&self) -> String {
         format!("{:08x}", crc32fast::hash(self.plan.to_ron().as_bytes()))
     }
 
     /// Makes a new shard file for this process, with its header.
-    pub(super) fn new_file(&self, shard: Shard) -> Result<(PathBuf, Box<dyn DiskFile>), StudyError> {
+    pub(super) fn new_file(&self, shard: Shard) -> Result<(PathBuf, File), StudyError> {
         let begun = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
         let started = begun.as_secs();
         let (host, process) = (host(), std::process::id());
@@ -202,14 +175,14 @@ impl Folder {
         let Shard { number, count } = shard;
         let name = format!("{number}-of-{count}-{host}-{process}-{started}-{random:08x}.{ENDING}");
         let path = self.path.join(SHARDS).join(name);
-        let write = || -> io::Result<Box<dyn DiskFile>> {
+        let write = || -> io::Result<File> {
             let mut text = String::new();
             seal(&serde_json::to_string(&header)?, &mut text);
-            let mut file = self.disk.make_file(&path)?;
+            let mut file = File::create_new(&path)?;
             file.write_all(text.as_bytes())?;
-            file.sync()?;
+            file.sync_all()?;
             // The name in the folder has to be durable as well.
-            self.disk.sync_folder(&self.path.join(SHARDS))?;
+            sync_folder(&self.path.join(SHARDS))?;
             Ok(file)
         };
         let file = write().map_err(StudyError::unwritable(&path))?;
@@ -222,7 +195,9 @@ impl Folder {
     /// Files that cannot be read, or that belong to another plan, another measured file or another version.
     pub fn files(&self) -> Result<Vec<ShardFile>, StudyError> {
         let shards = self.path.join(SHARDS);
-        let mut paths = match self.disk.list(&shards) {
+        let listed =
+            fs::read_dir(&shards).and_then(|entries| entries.map(|entry| Ok(entry?.path())).collect());
+        let mut paths: Vec<PathBuf> = match listed {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
             listed => listed.map_err(StudyError::unreadable(&shards))?,
         };
@@ -293,7 +268,7 @@ impl Folder {
             });
             match key {
                 Some(key) if key.cell < cells && self.line_of(key.seed).is_some() => {
-                    each(&Found { key, offset, values: &values })?;
+                    each(&Found { key, values: &values })?;
                 }
                 // The header.
                 _ if offset == 0 => {}
@@ -325,10 +300,12 @@ impl Folder {
                 }
                 Ok(())
             })?;
-            self.disk.sync_file(&file.path).map_err(StudyError::unwritable(&file.path))?;
+            // Windows requires write access.
+            let open = OpenOptions::new().read(true).write(cfg!(windows)).open(&file.path);
+            open.and_then(|file| file.sync_all()).map_err(StudyError::unwritable(&file.path))?;
         }
         let shards = self.path.join(SHARDS);
-        self.disk.sync_folder(&shards).map_err(StudyError::unwritable(&shards))?;
+        sync_folder(&shards).map_err(StudyError::unwritable(&shards))?;
         Ok(done)
     }
 }
@@ -362,8 +339,8 @@ fn difference(there: &str, asked: &str) -> String {
     first.map_or_else(String::new, |(a, b)| format!("there: {}\nhere:  {}", shown(a), shown(b)))
 }
 
-/// Reader of the sealed lines of a shard file, in sequence or from any offset; cheap in sequence.
-pub(super) struct Lines {
+/// Reader of the sealed lines of a shard file.
+struct Lines {
     reader: BufReader<File>,
     here: u64,
     line: Vec<u8>,
@@ -371,27 +348,17 @@ pub(super) struct Lines {
 
 impl Lines {
     /// Lines of a file, read in blocks of so many bytes.
-    pub fn new(file: File, bytes: usize) -> Lines {
+    fn new(file: File, bytes: usize) -> Lines {
         Lines { reader: BufReader::with_capacity(bytes, file), here: 0, line: Vec::new() }
     }
 
     /// Next line: its offset and, if it is whole, its payload; `None` at the end.
-    pub fn next(&mut self) -> io::Result<Option<(u64, Option<&str>)>> {
+    fn next(&mut self) -> io::Result<Option<(u64, Option<&str>)>> {
         let offset = self.here;
         self.line.clear();
         self.here += self.reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut self.line)? as u64;
         let payload = self.line.strip_suffix(b"\n").and_then(unseal);
         Ok((self.here > offset).then_some((offset, payload)))
-    }
-
-    /// The payload of the line at an offset.
-    pub fn at(&mut self, offset: u64) -> io::Result<&str> {
-        // Within the buffer this moves nothing.
-        let by = offset as i64 - self.here as i64;
-        self.reader.seek_relative(by).or_else(|_| self.reader.seek(SeekFrom::Start(offset)).map(drop))?;
-        self.here = offset;
-        let payload = self.next()?.and_then(|(_, payload)| payload);
-        payload.ok_or_else(|| io::Error::new(io::ErrorKind::InvalidData, "a record has changed"))
     }
 }
 

@@ -119,8 +119,12 @@ pub struct Merged {
     pub programs: Vec<String>,
 }
 
-/// The sidecar of a plan with the contents found by a merge.
-pub(super) fn sidecar<'a>(plan: &'a Plan, merged: &'a Merged) -> impl Serialize + 'a {
+/// The sidecar of a plan with the contents found by a merge and the SHA-256 of the summary.
+pub(super) fn sidecar<'a>(
+    plan: &'a Plan,
+    merged: &'a Merged,
+    summary_sha256: &'a str,
+) -> impl Serialize + 'a {
     let axis = |axis: &'a Axis| {
         let (symbol, unit) = symbol_and_unit(axis.path());
         let scale = match axis {
@@ -161,6 +165,7 @@ pub(super) fn sidecar<'a>(plan: &'a Plan, merged: &'a Merged) -> impl Serialize 
         "first_missing": &merged.first_missing,
         "files": merged.files,
         "programs": &merged.programs,
+        "summary_sha256": summary_sha256,
     }
 }
 

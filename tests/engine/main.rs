@@ -1,5 +1,4 @@
-//! The library without the program: closed forms, brute force, laws, exact sums, scenes, and studies
-//! on a disk that fails.
+//! The library without the program: closed forms, brute force, laws, exact sums and scenes.
 
 mod closed_forms;
 mod equilibrium;
@@ -10,8 +9,6 @@ mod laws;
 mod numerics;
 mod reversals;
 mod scene;
-#[cfg(unix)]
-mod simulated_disk;
 mod solvers;
 mod stepwise;
 mod subcell;

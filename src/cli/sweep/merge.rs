@@ -14,7 +14,7 @@ Examples:
 
 results.csv has one row for each cell and line, summary.csv one for each cell: mean, standard
 deviation and 95 % confidence interval of the mean over the lines. results.json says what the
-columns mean. SI units. All three are links to the folder of the last merge, and change at once.";
+columns mean. SI units.";
 
 /// Arguments of `sweep merge`.
 #[derive(Args, Debug)]

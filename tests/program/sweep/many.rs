@@ -1,7 +1,7 @@
 //! Studies of many shards: few files are open at a time, and tables appear together.
 
-use super::{SMALL, compute, plan, shard_files, study, tables, undisturbed};
-use asperity::study::{Folder, RESULTS, SIDECAR, SUMMARY, Shard, Status, merge};
+use super::{SMALL, compute, plan, shard_files, study, tables};
+use asperity::study::{Finished, Folder, RESULTS, SIDECAR, SUMMARY, Shard, Status, merge};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -95,21 +95,22 @@ fn the_parts_of_a_study_are_the_whole() {
     }
 }
 
-/// The generation of the tables under their public names: the merge that made them.
-fn generation(folder: &Path, names: &[(String, [String; 3])]) -> Option<String> {
-    let read = [RESULTS, SUMMARY, SIDECAR].map(|name| fs::read_to_string(folder.join(name)).ok());
-    let [Some(results), Some(summary), Some(sidecar)] = read else {
-        assert!(read.iter().all(Option::is_none), "some tables are there, others are not");
-        return None;
-    };
-    let found = [results, summary, sidecar];
-    let known = names.iter().find(|(_, tables)| *tables == found);
-    Some(known.expect("tables of one merge").0.clone())
+/// Checks that each table is whole, of one of these merges, and returns true if all are of one merge; others are refused.
+fn are_of_one_merge(folder: &Path, known: &[[String; 3]; 2]) -> bool {
+    let found = [RESULTS, SUMMARY, SIDECAR].map(|name| fs::read_to_string(folder.join(name)).unwrap());
+    for (place, table) in found.iter().enumerate() {
+        assert!(known.iter().any(|tables| tables[place] == *table), "torn: {table}");
+    }
+    let refusal = Finished::open(folder).err().map(|error| error.to_string());
+    let of_one = |tables: &[String; 3]| tables[1..] == found[1..];
+    assert_eq!(refusal.is_none(), known.iter().any(of_one), "{refusal:?}");
+    assert!(refusal.is_none_or(|refusal| refusal.contains("are not of one merge")));
+    known.contains(&found)
 }
 
 #[test]
 #[ignore = "takes ten seconds or more; .ci/run runs it"]
-fn killed_merges_leave_the_tables_of_one_merge() {
+fn killed_merges_leave_whole_tables() {
     // Large enough for a kill while it writes.
     let plan = plan(&SMALL.replace("lines: 3", "lines: 200").replace("count: 4", "count: 8"));
     let (_place, folder) = study(&plan);
@@ -123,21 +124,20 @@ fn killed_merges_leave_the_tables_of_one_merge() {
         command.args(arguments).stdout(Stdio::null()).stderr(Stdio::null());
         command
     };
-    assert_eq!(generation(folder.path(), &[]), None);
     assert!(merge_once().status().unwrap().success());
-    let partial = ("partial".to_owned(), all());
+    let partial = all();
     compute(&folder, 2, Shard { number: 2, count: 2 });
     let clock = Instant::now();
     assert!(merge_once().status().unwrap().success());
     let long = clock.elapsed();
-    let known = [partial, ("whole".to_owned(), all())];
+    let known = [partial, all()];
     // Old and new alternate: each merge replaces the tables of the one before.
     let second = shard_files(&folder)
         .into_iter()
         .find(|path| path.file_name().unwrap().to_str().unwrap().starts_with("2-"))
         .unwrap();
     let aside = folder.path().join("aside");
-    let (mut kills, mut seen) = (0, std::collections::BTreeSet::new());
+    let mut kills = 0;
     for round in 0..60_u32 {
         if round % 2 == 0 {
             fs::rename(&second, &aside).unwrap()
@@ -150,44 +150,30 @@ fn killed_merges_leave_the_tables_of_one_merge() {
         );
         child.kill().unwrap();
         kills += u32::from(!child.wait().unwrap().success());
-        seen.extend(generation(folder.path(), &known));
+        are_of_one_merge(folder.path(), &known);
     }
-    assert!(kills >= 20 && seen.len() == 2, "{kills} {seen:?}");
+    assert!(kills >= 20, "{kills}");
     assert!(merge_once().status().unwrap().success());
-    assert_eq!(generation(folder.path(), &known).as_deref(), Some("whole"));
-    let remains =
-        fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
-    assert_eq!(remains.filter(|name| name.starts_with(".tables-")).count(), 1);
+    assert!(are_of_one_merge(folder.path(), &known));
 }
 
 #[test]
-fn tables_that_are_no_links_become_links() {
-    let plan = plan(SMALL);
-    let whole = undisturbed(&plan);
-    let (place, folder) = study(&plan);
+fn tables_of_two_merges_are_refused() {
+    let (place, folder) = study(&plan(SMALL));
     compute(&folder, 2, Shard::WHOLE);
-    // Tables of an earlier version.
-    for name in [RESULTS, SUMMARY, SIDECAR] {
-        fs::write(folder.path().join(name), "old").unwrap();
-    }
+    let refusal = || Finished::open(folder.path()).unwrap_err().to_string();
+    assert!(refusal().contains("has not been merged yet"), "{}", refusal());
     merge(&folder, false).unwrap();
-    assert_eq!(tables(&folder), whole);
-    // A copy by a program that follows links.
-    let copy = place.path().join("copy");
-    let copied = Command::new("cp").arg("-rL").arg(folder.path()).arg(&copy).status().unwrap();
-    assert!(copied.success());
-    let copy = Folder::open(&copy).unwrap();
-    assert_eq!(tables(&copy), whole);
-    for _ in 0..2 {
-        merge(&copy, false).unwrap();
-        assert_eq!(tables(&copy), whole);
-    }
-    for folder in [&folder, &copy] {
-        assert_eq!(fs::read_link(folder.path().join(RESULTS)).unwrap(), Path::new("tables/results.csv"));
-    }
-    // An obstacle in place of a table is not removed.
-    fs::remove_file(copy.path().join(RESULTS)).unwrap();
-    fs::create_dir(copy.path().join(RESULTS)).unwrap();
-    let message = merge(&copy, false).unwrap_err().to_string();
-    assert!(message.contains("results.csv is in the way"), "{message}");
+    let summary = folder.path().join(SUMMARY);
+    let text = fs::read_to_string(&summary).unwrap();
+    fs::write(&summary, text.lines().take(2).collect::<Vec<_>>().join("\n") + "\n").unwrap();
+    assert!(refusal().contains("summary.csv and results.json are not of one merge"), "{}", refusal());
+    merge(&folder, false).unwrap();
+    assert!(Finished::open(folder.path()).is_ok());
+    // A folder in place of a table is not removed.
+    fs::remove_file(folder.path().join(RESULTS)).unwrap();
+    fs::create_dir(folder.path().join(RESULTS)).unwrap();
+    let message = merge(&folder, false).unwrap_err().to_string();
+    assert!(message.contains("results.csv: this is not the name of a file"), "{message}");
+    drop(place);
 }
