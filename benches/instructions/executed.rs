@@ -46,7 +46,7 @@ pub const EFFECTS: &[Effect] = &[
         name: "unloading",
         lines: Lines::Of(&[
             ("src/contact/leg/mod.rs", "pub fn turn("),
-            ("src/contact/adhesive/unloading.rs", "pub fn list<"),
+            ("src/contact/adhesive/unloading.rs", "pub fn open("),
         ]),
         called_for: Case::goes_back,
         counted: |work| work.detached,
