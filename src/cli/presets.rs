@@ -3,7 +3,7 @@
 use super::{AnswerFormat, CliError};
 use crate::export::sheet::Sheet;
 use crate::io::object;
-use crate::scene::{self, Document, Entry, Library, Text, line_column};
+use crate::scene::{self, Document, Entry, Library};
 use crate::simulation::measured_options;
 use crate::surface::{MeasuredRoughness, read_faces};
 use crate::text::printable;
@@ -130,10 +130,6 @@ fn profile_error(document: &Document) -> Option<String> {
             Err(error) => error.to_string(),
             Ok(measured) => measured.check(scene.length, scene.numerics.points as usize).err()?,
         };
-    let offset = Text::new(document.text())
-        .ok()
-        .and_then(|text| text.span("roughness.file"))
-        .map_or(0, |span| span.value.start);
-    let (line, column) = line_column(document.text(), offset);
+    let (line, column) = document.place("roughness.file");
     Some(format!("{}:{line}:{column}: {error}", document.name()))
 }

@@ -9,6 +9,7 @@ mod ensemble;
 mod json;
 mod map;
 mod preloads;
+mod provenance;
 mod reversals;
 mod scene_figure;
 mod scene_tables;
@@ -28,6 +29,7 @@ pub use ensemble::{ensemble_text, write_ensemble_json, write_ensemble_table};
 pub use json::write_json;
 pub use map::write_map;
 pub use preloads::{PreloadReport, preload_axes, preload_layers};
+pub use provenance::Provenance;
 pub use reversals::{
     ReversalReport, reversals_figure, reversals_text, write_reversal_map_table, write_reversals_json,
     write_reversals_table,

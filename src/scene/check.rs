@@ -4,28 +4,26 @@
 //! No allocation here is proportional to a value of the scene, so an excessive scene is refused before anything is
 //! built.
 
+use serde_json::Value;
+
 use super::errors::SceneError;
-use super::fields::{FIELDS, LEG_INDENTATION, field};
+use super::field::{FILE_NAME, Field, LEG_INDENTATION, field};
+use super::fields::FIELDS;
 use super::form::Form;
-use super::found::Found;
-use super::model::{Adhesion, Edges, Move, Roughness, Scene, Solver};
-use super::text::ron_float;
-use super::write::leg;
+use super::model::{Adhesion, Edges, Move, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
+use super::range::Range;
+use super::text::{is_within, ron_float, ron_string};
+use super::tree::{Tree, in_ron, written};
+use crate::text::is_control;
 use crate::topography::{Unit, UnitError};
 
 /// Most samples of all loading stages together; a curve of this size still fits the memory of a small machine.
 const MOST_SAMPLES: u64 = 1 << 24;
 
-/// Fewest springs per wave about the axis of a form.
-const SPRINGS_PER_WAVE: f64 = 4.0;
-
 /// The line carries the transformed profile, which is at most this many times deeper than the profile.
 const MOST_GROWTH: f64 = 20.0;
 
-/// Fields that may specify adhesion.
-const GIVEN_BY: &[&str] = &["adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio"];
-
-/// Fields that determine the amplitude of the roughness.
+/// Fields that determine the amplitude of the roughness; all but the first three may specify adhesion.
 const AMPLITUDE: &[&str] = &[
     "roughness",
     "roughness.rms_height",
@@ -37,233 +35,332 @@ const AMPLITUDE: &[&str] = &[
 
 /// All errors of a scene, in the order of its fields; empty for a scene that can be computed.
 pub fn check(scene: &Scene) -> Vec<SceneError> {
-    let mut found = Found { scene, errors: Vec::new() };
+    let mut found = Found { scene, tree: Tree::of(scene), errors: Vec::new() };
     for field in FIELDS {
-        if let Some(value) = field.get(scene) {
-            found.check(field, value);
-        }
+        found.check_range(field);
     }
-    check_material(&mut found);
-    check_form(&mut found);
-    check_modes(&mut found);
-    check_measured(&mut found);
-    check_closing_work(&mut found);
-    check_amplitude(&mut found);
-    check_loading(&mut found);
-    check_edges(&mut found);
+    found.check_material();
+    found.check_form();
+    found.check_modes();
+    found.check_measured();
+    found.check_closing_work();
+    found.check_amplitude();
+    found.check_loading();
+    found.check_edges();
     found.errors
 }
 
-fn check_material(found: &mut Found) {
-    let material = found.scene.material;
-    let given = [material.effective_modulus, material.youngs_modulus, material.poisson_ratio];
-    let reason = match given.map(|value| value.is_some()) {
-        [true, false, false] => return,
-        [false, true, true] => return check_effective_modulus(found, material.effective_modulus()),
-        [true, ..] => "effective_modulus replaces youngs_modulus and poisson_ratio: give one or the other",
-        [false, true, false] => "youngs_modulus goes with poisson_ratio, which is missing",
-        [false, false, true] => "poisson_ratio goes with youngs_modulus, which is missing",
-        [false, false, false] => "give youngs_modulus with poisson_ratio, or effective_modulus",
-    };
-    let involves = &["material.effective_modulus", "material.youngs_modulus", "material.poisson_ratio"];
-    found.refuse("material", "", reason, involves);
+/// The errors found so far in a scene.
+struct Found<'s> {
+    scene: &'s Scene,
+    tree: Tree,
+    errors: Vec<SceneError>,
 }
 
-fn check_effective_modulus(found: &mut Found, modulus: f64) {
-    let Some(field) = field("material.effective_modulus", None) else { return };
-    if !found.has("material") && !field.range.contains(modulus) {
-        let value = format!("E* = {}", ron_float(modulus));
-        let involves = &["material.youngs_modulus", "material.poisson_ratio"];
-        found.refuse_value("material", value, field.allowed(), "effective modulus E/(1 − ν²)", involves);
+impl Found<'_> {
+    /// Returns true if an error of this field, or of anything inside it, was found.
+    fn has(&self, path: &str) -> bool {
+        self.errors.iter().any(|error| is_within(&error.field, path))
     }
-}
 
-fn check_form(found: &mut Found) {
-    let scene = found.scene;
-    let Some(form) = scene.form.filter(|_| !found.has("form") && !found.has("length")) else { return };
-    if let Some(radius) = form.flat_end() {
-        return check_flat_end(found, radius);
+    /// Refuses the value of a field for a reason other than its range. `allowed` is empty if `message` contains the
+    /// allowed values; the value of a group is not repeated.
+    fn refuse(&mut self, path: &str, allowed: &str, message: &str, involves: &'static [&'static str]) {
+        let here = FIELDS.iter().find(|field| field.path == path && self.tree.has(field));
+        let here = here.filter(|field| self.tree.inside(field).is_empty());
+        let value = here.and_then(|field| self.tree.written(field)).unwrap_or_default();
+        self.refuse_value(path, value, allowed, message, involves);
     }
-    let shortest = SPRINGS_PER_WAVE * scene.spacing();
-    if let Form::WavySphere { wavelength, .. } = form
-        && !found.has("numerics.points")
-        && wavelength < shortest
-    {
-        let reason = format!("a wave has at least {SPRINGS_PER_WAVE} springs: more points or longer waves");
-        let allowed = format!("at least {} m", ron_float(shortest));
-        return found.refuse("form.wavelength", allowed, reason, &["numerics.points", "length"]);
-    }
-    let (depth, of_waves) = (form.depth(scene.length / 2.0), form.wave_depth(scene.length / 2.0));
-    if !LEG_INDENTATION.range.contains(MOST_GROWTH * depth) {
-        let reason = format!(
-            "the body rises too steeply: at the ends of the line it is higher than the {} m an indentation can reach",
-            LEG_INDENTATION.range.max().unwrap_or_default()
-        );
-        // The first number of a form is its size; waves may be higher than their sphere.
-        let is_by_waves = 2.0 * of_waves > depth;
-        let size = FIELDS.iter().find(|field| {
-            let is_size = !is_by_waves || field.path == "form.amplitude";
-            field.parent() == "form" && is_size && field.get(scene).is_some()
-        });
-        let involves = &["form", "form.exponent", "form.amplitude", "length"];
-        found.refuse(size.map_or("form", |field| field.path), "", reason, involves);
-    }
-}
 
-fn check_flat_end(found: &mut Found, radius: f64) {
-    let (half, spacing) = (found.scene.length / 2.0, found.scene.spacing());
-    if radius > half {
-        let reason = format!("a punch is not wider than the line: at most length/2 = {}", ron_float(half));
-        found.refuse("form.radius", "", reason, &["length"]);
-    } else if !found.has("numerics.points") && found.scene.springs_under_body().is_empty() {
-        let reason = format!(
-            "no spring lies under the punch: the springs are {} m apart; more points or a larger radius",
-            ron_float(spacing)
-        );
-        found.refuse("form.radius", "", reason, &["length", "numerics.points"]);
+    /// Refuses a value that is only part of a field.
+    fn refuse_value(
+        &mut self,
+        path: &str,
+        value: String,
+        allowed: &str,
+        message: &str,
+        involves: &'static [&'static str],
+    ) {
+        let [field, allowed, message] = [path, allowed, message].map(str::to_owned);
+        self.errors.push(SceneError { field, value, allowed, message, involves, ..SceneError::default() });
     }
-}
 
-fn check_modes(found: &mut Found) {
-    let points = found.scene.numerics.points;
-    if let Some(Roughness::SelfAffine { modes: (_, last), .. }) = found.scene.roughness
-        && last > points / 2
-        && !found.has("roughness.modes")
-        && !found.has("numerics.points")
-    {
-        let allowed = format!("last mode at most points/2 = {}", points / 2);
-        let reason = format!("{points} springs carry no shorter wave");
-        found.refuse("roughness.modes", allowed, reason, &["numerics.points"]);
-    }
-}
-
-/// A profile is one row or one column; several files have a common spectrum and no profile.
-fn check_measured(found: &mut Found) {
-    let Some(Roughness::Measured { unit, height_unit, further_files, opposite, row, column, .. }) =
-        &found.scene.roughness
-    else {
-        return;
-    };
-    for (path, unit) in [("roughness.unit", unit), ("roughness.height_unit", height_unit)] {
-        if !unit.is_empty() && !found.has(path) && unit.parse::<Unit>().is_err() {
-            found.refuse(path, UnitError::ALLOWED, "unit of the file", &[]);
-        }
-    }
-    if row.is_some() && column.is_some() {
-        let reason = "a profile is a row or a column: give one of them";
-        found.refuse("roughness.column", "", reason, &["roughness.row"]);
-    }
-    if opposite.is_some() && found.scene.measured_as_line() {
-        let reason = "spectra of two faces add, their profiles do not: give as_line: false";
-        found.refuse("roughness.opposite", "", reason, &["roughness.as_line", "version"]);
-    }
-    if !further_files.is_empty() && found.scene.measured_as_line() {
-        let reason = "several files have one spectrum, and no profile: give as_line: false";
-        found.refuse("roughness.further_files", "", reason, &["roughness.as_line", "version"]);
-    }
-}
-
-/// A spring that attaches with more energy than it detaches with would detach at once.
-fn check_closing_work(found: &mut Found) {
-    let Some(Adhesion { work, closing_work: Some(closing), .. }) = found.scene.adhesion else { return };
-    if found.has("adhesion") {
-        return;
-    }
-    let (allowed, reason) = match work {
-        Some(work) if closing > work => (format!("0 to {} J/m²", ron_float(work)), "at most adhesion.work"),
-        Some(_) => return,
-        None => (
-            String::new(),
-            "closing_work goes with adhesion.work, which is missing: κ and e_el/γ refer to one work of adhesion",
-        ),
-    };
-    found.refuse("adhesion.closing_work", allowed, reason, &["adhesion.work"]);
-}
-
-/// Amplitude of the roughness, work of adhesion and κ or e_el/γ: any two determine the third.
-fn check_amplitude(found: &mut Found) {
-    let scene = found.scene;
-    let adhesion = scene.adhesion.unwrap_or_default();
-    let given = [adhesion.work, adhesion.kappa, adhesion.elastic_energy_ratio].map(|value| value.is_some());
-    match given {
-        [false, false, false] if scene.adhesion.is_some() => {
-            return found.refuse("adhesion", "", "give work, kappa or elastic_energy_ratio", GIVEN_BY);
-        }
-        [_, true, true] => {
-            let reason = "kappa and elastic_energy_ratio determine each other: give one of them";
-            return found.refuse("adhesion", "", reason, GIVEN_BY);
-        }
-        _ => {}
-    }
-    let parameter = adhesion.parameter().map(|(parameter, _)| parameter);
-    let Some(roughness) = &scene.roughness else {
-        if let Some(parameter) = parameter {
-            let reason = format!(
-                "{} measures adhesion against roughness, and there is none: give roughness, or adhesion by work",
-                parameter.symbol()
-            );
-            found.refuse_value(parameter.path(), String::new(), "", reason, &["roughness", "adhesion"]);
-        }
-        return;
-    };
-    if let Roughness::SelfAffine { rms_height: Some(_), rms_gradient: Some(_), .. } = roughness {
-        let reason = "rms_height and rms_gradient determine each other: give one of them";
-        return found.refuse("roughness", "", reason, &["roughness.rms_height", "roughness.rms_gradient"]);
-    }
-    match (roughness.has_amplitude(), adhesion.work, parameter) {
-        (true, Some(_), Some(parameter)) => {
-            let reason = format!(
-                "roughness amplitude, work and {}: two determine the third, so leave one out or set it to None",
-                parameter.name()
-            );
-            found.refuse("adhesion", "", reason, AMPLITUDE);
-        }
-        (false, Some(0.0), Some(parameter)) => {
-            let reason = format!(
-                "without work of adhesion {} does not set an amplitude: give rms_height or rms_gradient",
-                parameter.symbol()
-            );
-            found.refuse("roughness", "", reason, AMPLITUDE);
-        }
-        (false, Some(_), Some(_)) | (true, ..) => {}
-        (false, ..) => {
-            let reason =
-                "the amplitude is missing: give rms_height or rms_gradient, or adhesion by work and kappa";
-            found.refuse("roughness", "", reason, AMPLITUDE);
-        }
-    }
-}
-
-fn check_loading(found: &mut Found) {
-    let scene = found.scene;
-    let mut separated = true;
-    for (index, stage) in scene.loading.iter().enumerate() {
-        let pulls = match *stage {
-            Move::ToSeparation => true,
-            Move::ToForce(force) => force < 0.0,
-            _ => false,
+    /// Checks the value of a field against its range.
+    fn check_range(&mut self, field: &Field) {
+        let Some(value) = self.tree.value(field) else { return };
+        let range = &field.range;
+        let wrong = match (range, value) {
+            (Range::Real(..), value) => {
+                (!value.as_f64().is_some_and(|value| range.contains(value))).then(|| written(value))
+            }
+            (Range::Whole(..), value) => {
+                (!value.as_u64().is_some_and(|value| range.contains_whole(value))).then(|| written(value))
+            }
+            (Range::Band(..), Value::Array(ends)) => {
+                let ends: Vec<u64> = ends.iter().filter_map(Value::as_u64).collect();
+                let is_allowed = ends.is_sorted() && ends.iter().all(|end| range.contains_whole(*end));
+                (!is_allowed).then(|| format!("({}, {})", ends[0], ends[1]))
+            }
+            (Range::List { least, most, .. }, Value::Array(list))
+                if !(*least..=*most).contains(&list.len()) =>
+            {
+                Some(if list.is_empty() { "[]".to_owned() } else { format!("a list of {}", list.len()) })
+            }
+            _ => None,
         };
-        if separated && pulls {
-            let reason =
-                "from separation nothing can pull: press first, with ToTouch, ToForce or ToIndentation";
-            found.refuse_value(format!("loading.{index}"), leg(stage), "", reason, &["loading"]);
+        let texts: Vec<String> = match (range, value) {
+            (Range::Text { .. }, Value::String(text)) => vec![text.clone()],
+            (Range::List { .. }, Value::Array(list)) if field.variant.is_some() => {
+                list.iter().filter_map(|text| text.as_str().map(str::to_owned)).collect()
+            }
+            _ => Vec::new(),
+        };
+        if let Some(value) = wrong {
+            self.refuse_value(field.path, value, &field.allowed(), field.name, &[]);
         }
-        separated = *stage == Move::ToSeparation;
+        for text in texts {
+            self.check_text(field, &text);
+        }
+        if field.path == "loading" {
+            self.check_targets();
+        }
     }
-    let stages = scene.loading.len() as u64;
-    let is_too_fine = stages.saturating_mul(scene.numerics.samples) > MOST_SAMPLES;
-    if is_too_fine && !found.has("numerics.samples") && !found.has("loading") {
-        let allowed = format!("at most {}", MOST_SAMPLES / stages.max(1));
-        let reason = format!("{stages} legs have at most {MOST_SAMPLES} samples together");
-        found.refuse("numerics.samples", allowed, reason, &["loading"]);
-    }
-}
 
-fn check_edges(found: &mut Found) {
-    let numerics = found.scene.numerics;
-    if matches!(numerics.solver, Solver::Stepwise { .. }) && numerics.edges == Edges::SubCell {
-        let reason = "the stepwise solver moves whole springs: edges: Grid";
-        found.refuse("numerics.edges", "", reason, &["numerics.solver"]);
+    fn check_text(&mut self, field: &Field, text: &str) {
+        let range = if let Range::Text { .. } = field.range { field.range } else { FILE_NAME };
+        let Range::Text { least, most, lines } = range else { return };
+        // Control characters would reach the terminal of any reader of the scene.
+        let forbidden = |c: &char| is_control(*c) && !(lines && *c == '\n');
+        let count = text.chars().count();
+        let (value, allowed) = match text.chars().find(forbidden) {
+            Some(c) if lines => (format!("text with {c:?}"), "no control characters but line breaks".into()),
+            Some(c) => (format!("text with {c:?}"), "no control characters".into()),
+            None if count > most => (format!("{count} characters"), field.allowed()),
+            None if count < least => (ron_string(text), field.allowed()),
+            None => return,
+        };
+        self.refuse_value(field.path, value, &allowed, field.name, &[]);
+    }
+
+    fn check_targets(&mut self) {
+        let scene = self.scene;
+        for (index, stage) in scene.loading.iter().enumerate() {
+            if let Some((field, value)) = stage.field()
+                && !field.range.contains(value)
+            {
+                let path = format!("loading.{index}.0");
+                self.refuse_value(&path, ron_float(value), &field.allowed(), field.name, &[]);
+            }
+        }
+    }
+
+    fn check_material(&mut self) {
+        let material = self.scene.material;
+        let given = [material.effective_modulus, material.youngs_modulus, material.poisson_ratio];
+        let reason = match given.map(|value| value.is_some()) {
+            [true, false, false] => return,
+            [false, true, true] => return self.check_effective_modulus(material.effective_modulus()),
+            [true, ..] => {
+                "effective_modulus replaces youngs_modulus and poisson_ratio: give one or the other"
+            }
+            [false, true, false] => "youngs_modulus goes with poisson_ratio, which is missing",
+            [false, false, true] => "poisson_ratio goes with youngs_modulus, which is missing",
+            [false, false, false] => "give youngs_modulus with poisson_ratio, or effective_modulus",
+        };
+        let involves = &["material.effective_modulus", "material.youngs_modulus", "material.poisson_ratio"];
+        self.refuse("material", "", reason, involves);
+    }
+
+    fn check_effective_modulus(&mut self, modulus: f64) {
+        let Some(field) = field("material.effective_modulus", None) else { return };
+        if !self.has("material") && !field.range.contains(modulus) {
+            let value = format!("E* = {}", ron_float(modulus));
+            let involves = &["material.youngs_modulus", "material.poisson_ratio"];
+            self.refuse_value("material", value, &field.allowed(), "effective modulus E/(1 − ν²)", involves);
+        }
+    }
+
+    fn check_form(&mut self) {
+        let scene = self.scene;
+        let Some(form) = scene.form.filter(|_| !self.has("form") && !self.has("length")) else { return };
+        if let Some(radius) = form.flat_end() {
+            return self.check_flat_end(radius);
+        }
+        let shortest = SPRINGS_PER_WAVE as f64 * scene.spacing();
+        if let Form::WavySphere { wavelength, .. } = form
+            && !self.has("numerics.points")
+            && wavelength < shortest
+        {
+            let reason =
+                format!("a wave has at least {SPRINGS_PER_WAVE} springs: more points or longer waves");
+            let allowed = format!("at least {} m", ron_float(shortest));
+            return self.refuse("form.wavelength", &allowed, &reason, &["numerics.points", "length"]);
+        }
+        let (depth, of_waves) = (form.depth(scene.length / 2.0), form.wave_depth(scene.length / 2.0));
+        if !LEG_INDENTATION.range.contains(MOST_GROWTH * depth) {
+            let most = LEG_INDENTATION.range.ends().map_or(0.0, |(_, most)| most);
+            let reason = format!(
+                "the body rises too steeply: at the ends of the line it is higher than the {most} m an indentation \
+                 can reach"
+            );
+            // The first number of a form is its size; waves may be higher than their sphere.
+            let is_size = |field: &&Field| match 2.0 * of_waves > depth {
+                true => field.path == "form.amplitude",
+                false => field.parent() == "form" && self.tree.has(field),
+            };
+            let size = FIELDS.iter().find(is_size).map_or("form", |field| field.path);
+            self.refuse(size, "", &reason, &["form", "form.exponent", "form.amplitude", "length"]);
+        }
+    }
+
+    fn check_flat_end(&mut self, radius: f64) {
+        let (half, spacing) = (self.scene.length / 2.0, self.scene.spacing());
+        if radius > half {
+            let reason =
+                format!("a punch is not wider than the line: at most length/2 = {}", ron_float(half));
+            self.refuse("form.radius", "", &reason, &["length"]);
+        } else if !self.has("numerics.points") && self.scene.springs_under_body().is_empty() {
+            let reason = format!(
+                "no spring lies under the punch: the springs are {} m apart; more points or a larger radius",
+                ron_float(spacing)
+            );
+            self.refuse("form.radius", "", &reason, &["length", "numerics.points"]);
+        }
+    }
+
+    fn check_modes(&mut self) {
+        let points = self.scene.numerics.points;
+        if let Some(Roughness::SelfAffine { modes: (_, last), .. }) = self.scene.roughness
+            && last > points / 2
+            && !self.has("roughness.modes")
+            && !self.has("numerics.points")
+        {
+            let allowed = format!("last mode at most points/2 = {}", points / 2);
+            let reason = format!("{points} springs carry no shorter wave");
+            self.refuse("roughness.modes", &allowed, &reason, &["numerics.points"]);
+        }
+    }
+
+    /// A profile is one row or one column; several files have a common spectrum and no profile.
+    fn check_measured(&mut self) {
+        let Some(Roughness::Measured { unit, height_unit, further_files, opposite, row, column, .. }) =
+            &self.scene.roughness
+        else {
+            return;
+        };
+        for (path, unit) in [("roughness.unit", unit), ("roughness.height_unit", height_unit)] {
+            if !unit.is_empty() && !self.has(path) && unit.parse::<Unit>().is_err() {
+                self.refuse(path, UnitError::ALLOWED, "unit of the file", &[]);
+            }
+        }
+        if row.is_some() && column.is_some() {
+            let reason = "a profile is a row or a column: give one of them";
+            self.refuse("roughness.column", "", reason, &["roughness.row"]);
+        }
+        if opposite.is_some() && self.scene.measured_as_line() {
+            let reason = "spectra of two faces add, their profiles do not: give as_line: false";
+            self.refuse("roughness.opposite", "", reason, &["roughness.as_line", "version"]);
+        }
+        if !further_files.is_empty() && self.scene.measured_as_line() {
+            let reason = "several files have one spectrum, and no profile: give as_line: false";
+            self.refuse("roughness.further_files", "", reason, &["roughness.as_line", "version"]);
+        }
+    }
+
+    /// A spring that attaches with more energy than it detaches with would detach at once.
+    fn check_closing_work(&mut self) {
+        let Some(Adhesion { work, closing_work: Some(closing), .. }) = self.scene.adhesion else { return };
+        let (allowed, reason) = match work {
+            _ if self.has("adhesion") => return,
+            Some(work) if closing > work => {
+                (format!("0 to {} J/m²", ron_float(work)), "at most adhesion.work")
+            }
+            Some(_) => return,
+            None => (
+                String::new(),
+                "closing_work goes with adhesion.work, which is missing: κ and e_el/γ refer to one work of adhesion",
+            ),
+        };
+        self.refuse("adhesion.closing_work", &allowed, reason, &["adhesion.work"]);
+    }
+
+    /// Amplitude of the roughness, work of adhesion and κ or e_el/γ: any two determine the third.
+    fn check_amplitude(&mut self) {
+        let adhesion = self.scene.adhesion.unwrap_or_default();
+        let given =
+            [adhesion.work, adhesion.kappa, adhesion.elastic_energy_ratio].map(|value| value.is_some());
+        let by_adhesion = &AMPLITUDE[3..];
+        match given {
+            [false, false, false] if self.scene.adhesion.is_some() => {
+                return self.refuse("adhesion", "", "give work, kappa or elastic_energy_ratio", by_adhesion);
+            }
+            [_, true, true] => {
+                let reason = "kappa and elastic_energy_ratio determine each other: give one of them";
+                return self.refuse("adhesion", "", reason, by_adhesion);
+            }
+            _ => {}
+        }
+        let parameter = adhesion.parameter().map(|(parameter, _)| parameter);
+        let Some(roughness) = &self.scene.roughness else {
+            if let Some(parameter) = parameter {
+                let reason = format!(
+                    "{} measures adhesion against roughness, and there is none: give roughness, or adhesion by work",
+                    parameter.symbol()
+                );
+                let involves = &["roughness", "adhesion"];
+                self.refuse_value(parameter.path(), String::new(), "", &reason, involves);
+            }
+            return;
+        };
+        if let Roughness::SelfAffine { rms_height: Some(_), rms_gradient: Some(_), .. } = roughness {
+            let reason = "rms_height and rms_gradient determine each other: give one of them";
+            return self.refuse("roughness", "", reason, &AMPLITUDE[1..3]);
+        }
+        let (path, reason) = match (roughness.has_amplitude(), adhesion.work, parameter) {
+            (true, Some(_), Some(parameter)) => {
+                let name = parameter.name();
+                let end = "two determine the third, so leave one out or set it to None";
+                ("adhesion", format!("roughness amplitude, work and {name}: {end}"))
+            }
+            (false, Some(0.0), Some(parameter)) => {
+                let (symbol, end) = (parameter.symbol(), "give rms_height or rms_gradient");
+                ("roughness", format!("without work of adhesion {symbol} does not set an amplitude: {end}"))
+            }
+            (false, Some(_), Some(_)) | (true, ..) => return,
+            (false, ..) => {
+                let end = "give rms_height or rms_gradient, or adhesion by work and kappa";
+                ("roughness", format!("the amplitude is missing: {end}"))
+            }
+        };
+        self.refuse(path, "", &reason, AMPLITUDE);
+    }
+
+    fn check_loading(&mut self) {
+        let (scene, mut is_separated) = (self.scene, true);
+        for (index, stage) in scene.loading.iter().enumerate() {
+            let pulls = *stage == Move::ToSeparation || matches!(stage, Move::ToForce(force) if *force < 0.0);
+            if is_separated && pulls {
+                let reason =
+                    "from separation nothing can pull: press first, with ToTouch, ToForce or ToIndentation";
+                self.refuse_value(&format!("loading.{index}"), in_ron(stage), "", reason, &["loading"]);
+            }
+            is_separated = *stage == Move::ToSeparation;
+        }
+        let stages = scene.loading.len() as u64;
+        let is_too_fine = stages.saturating_mul(scene.numerics.samples) > MOST_SAMPLES;
+        if is_too_fine && !self.has("numerics.samples") && !self.has("loading") {
+            let allowed = format!("at most {}", MOST_SAMPLES / stages.max(1));
+            let reason = format!("{stages} legs have at most {MOST_SAMPLES} samples together");
+            self.refuse("numerics.samples", &allowed, &reason, &["loading"]);
+        }
+    }
+
+    fn check_edges(&mut self) {
+        let numerics = self.scene.numerics;
+        if matches!(numerics.solver, Solver::Stepwise { .. }) && numerics.edges == Edges::SubCell {
+            let reason = "the stepwise solver moves whole springs: edges: Grid";
+            self.refuse("numerics.edges", "", reason, &["numerics.solver"]);
+        }
     }
 }
 

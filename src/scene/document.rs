@@ -4,19 +4,17 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use super::check::check;
-use super::computed::Computed;
-use super::edit;
-use super::effects::Effect;
+use super::effects::SwitchedOff;
 use super::errors::{Origin, SceneError, SceneErrors, origin_at, overrides_behind};
-use super::field::Field;
-use super::fields::{FIELDS, field};
+use super::field::{Field, LEG_FORCE, LEG_INDENTATION, field};
+use super::fields::FIELDS;
 use super::measured_hash::{MeasuredHash, MeasuredHashError};
-use super::model::{Roughness, Scene};
+use super::model::Scene;
+use super::range::{Range, choice_name};
 use super::read::{Unread, read, wrong_version};
-use super::table_content::TableContent;
-use super::text::{Text, is_within};
-use super::undo::{Edit, SwitchedOff};
-use super::write::to_ron;
+use super::suggest::did_you_mean;
+use super::text::{Text, is_within, line_column, one_value};
+use super::tree::{Tree, to_ron};
 use crate::text::printable;
 
 /// Longest text; longer ones are refused unread. Scenes are a few hundred bytes.
@@ -28,15 +26,13 @@ pub const LONGEST_TEXT: usize = 1 << 20;
 pub struct Document {
     name: String,
     opened: String,
-    text: String,
+    text: Text,
     scene: Scene,
     overrides: Vec<(String, String)>,
-    /// Content of the source table of the text.
-    content: Option<TableContent>,
-    /// Measured files behind this table.
+    /// Measured files behind the table of results with this scene.
     measured: Vec<MeasuredHash>,
-    /// Effects switched off by edits, in this order.
-    switched_off: Vec<SwitchedOff>,
+    /// Effects switched off, with their removed text.
+    pub(super) switched_off: Vec<SwitchedOff>,
 }
 
 impl Scene {
@@ -57,31 +53,34 @@ impl Document {
     ///
     /// The first syntax error of the text, or all invalid values, each with line and column. A wrong
     /// version comes first, before any other error.
-    pub fn parse(text: &str, name: &str) -> Result<Document, SceneErrors> {
+    pub fn parse(source: &str, name: &str) -> Result<Document, SceneErrors> {
         // Some editors put a byte order mark before the text.
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        check_length(text)
+        let source = source.strip_prefix('\u{feff}').unwrap_or(source);
+        check_length(source)
             .map_err(|message| SceneError::whole(Origin::File { name: name.into() }, message))?;
-        let place = |offset| origin_at(text, name, offset);
-        let scene = read(text).map_err(|unread| {
-            let located = |unread: Unread| unread.error.at(place(unread.offset));
-            match wrong_version(text) {
-                Some(version) if unread.error.field == version.error.field => located(version).into(),
-                Some(version) => SceneErrors::from(located(version)).and(located(*unread)),
-                None => located(*unread).into(),
-            }
+        let located = |unread: Unread| unread.error.at(origin_at(source, name, unread.offset));
+        let text = Text::new(source);
+        let scene = read(source).map_err(|unread| {
+            let version = text.as_ref().ok().and_then(wrong_version);
+            let is_same = version.as_ref().is_some_and(|version| version.error.field == unread.error.field);
+            let mut all = version.into_iter().chain(Some(*unread).filter(|_| !is_same)).map(located);
+            let first = all.next().unwrap_or_default();
+            all.fold(SceneErrors::from(first), SceneErrors::and)
         })?;
-        let outline = Text::new(text).ok();
+        let text = text.map_err(|unreadable| {
+            let error = SceneError::whole(Origin::Scene, unreadable.reason);
+            located(Unread { offset: unreadable.offset, error })
+        })?;
         SceneErrors::result(check(&scene), |error| {
-            place(outline.as_ref().and_then(|outline| outline.nearest_value(&error.field)).unwrap_or(0))
+            origin_at(source, name, text.nearest_value(&error.field))
         })?;
+        let (name, opened) = (name.to_string(), source.to_string());
         Ok(Document {
-            name: name.to_string(),
-            opened: text.to_string(),
-            text: text.to_string(),
+            name,
+            opened,
+            text,
             scene,
             overrides: Vec::new(),
-            content: None,
             measured: Vec::new(),
             switched_off: Vec::new(),
         })
@@ -121,132 +120,41 @@ impl Document {
         for (path, value) in overrides {
             match new.splice(path, value) {
                 Ok(()) => remember(&mut new.overrides, path, value),
-                Err(refused) => errors.extend(refused.iter().cloned()),
+                Err(error) => errors.push(*error),
             }
         }
-        if let Some(errors) = SceneErrors::new(errors) {
-            return Err(errors);
-        }
+        SceneErrors::result(errors, |error| error.origin.clone())?;
         SceneErrors::result(check(&new.scene), |error| overrides_behind(error, overrides))?;
-        new.record_switches(self);
-        Ok(new)
-    }
-
-    /// As [`Document::set_all`], for overrides that switch an effect off: switching the effect on again undoes all
-    /// of them. `computed` has the values of this scene.
-    pub(super) fn switch_off(
-        &self,
-        effect: Effect,
-        overrides: &[(String, String)],
-        computed: &Computed,
-    ) -> Result<Document, SceneErrors> {
-        let mut new = self.set_all(overrides)?;
-        let edits =
-            overrides.iter().filter_map(|(path, _)| Edit::between(&self.text, &new.text, path)).collect();
-        new.switched_off.retain(|off| off.effect != effect);
-        new.switched_off.push(SwitchedOff { effect, edits, computed: *computed });
-        Ok(new)
-    }
-
-    /// This document with an effect as it was before an edit switched it off; `None` if no edit did, or if the
-    /// earlier effect is invalid in the present scene. Later changes are kept.
-    ///
-    /// Effects switched off later are undone first and switched off again afterwards: their values may replace
-    /// values of this effect.
-    pub(super) fn restored(&self, effect: Effect) -> Option<Document> {
-        let place = self.switched_off.iter().position(|off| off.effect == effect)?;
-        let later = &self.switched_off[place + 1..];
-        let in_order = || {
-            let undone = later.iter().rev().try_fold(self.clone(), |new, off| new.restored_alone(off.effect));
-            later.iter().try_fold(undone?.restored_alone(effect)?, |new, off| {
-                new.without(off.effect, &off.computed.or(self.switched_off[place].computed)).ok()
-            })
-        };
-        in_order().filter(|new| effect.is_on(&new.scene)).or_else(|| self.restored_alone(effect))
-    }
-
-    fn restored_alone(&self, effect: Effect) -> Option<Document> {
-        let SwitchedOff { edits, .. } = self.switched_off.iter().find(|off| off.effect == effect)?;
-        let own: Vec<Edit> =
-            edits.iter().filter(|edit| is_within(&edit.path, effect.path())).cloned().collect();
-        [edits, &own].into_iter().find_map(|edits| self.undone(edits).filter(|new| effect.is_on(&new.scene)))
-    }
-
-    /// This document without these edits, the last of them undone first; values changed since are kept. If the
-    /// scene is then invalid, waves that are too short are removed, and of adhesion that has set the amplitude of
-    /// the roughness only the work is kept.
-    fn undone(&self, edits: &[Edit]) -> Option<Document> {
-        let mut new = self.clone();
-        let mut paths = Vec::new();
-        for edit in edits.iter().rev() {
-            if let Some(text) = edit.undone(&new.text) {
-                new.text = text;
-                paths.push(edit.path.as_str());
-            }
-        }
-        new.scene = read(&new.text).ok()?;
-        let shortest = new.scene.numerics.points / 2;
-        if let Some(Roughness::SelfAffine { modes: (first, last), .. }) = new.scene.roughness
-            && last > shortest
-        {
-            // Waves too short for the present springs are left out.
-            new.splice("roughness.modes", &format!("({}, {shortest})", first.min(shortest))).ok()?;
-        }
-        if let Some(adhesion) = new.scene.adhesion
-            && let (Some(_), Some((parameter, _))) = (adhesion.work, adhesion.parameter())
-            && new.scene.roughness.as_ref().is_some_and(Roughness::has_amplitude)
-        {
-            // The amplitude has been specified since, so the parameter follows.
-            new.text = Text::new(&new.text).ok()?.remove(parameter.path()).ok()?;
-            new.scene = read(&new.text).ok()?;
-        }
-        for path in paths {
-            let value = field(path, None).and_then(|field| field.written(&new.scene));
-            remember(&mut new.overrides, path, &value.unwrap_or_else(|| "None".to_string()));
-        }
-        if new.text == new.opened {
+        if !new.is_changed() {
             new.overrides.clear();
         }
         new.record_switches(self);
-        check(&new.scene).is_empty().then_some(new)
-    }
-
-    /// Records the effects that the change from an earlier document has switched off, and removes those that are on.
-    fn record_switches(&mut self, before: &Document) {
-        for effect in Effect::ALL {
-            if effect.is_on(&self.scene) {
-                self.switched_off.retain(|off| off.effect != effect);
-            } else if effect.is_on(&before.scene) {
-                let edit = Edit::between(&before.text, &self.text, effect.path());
-                let edits = edit.into_iter().collect();
-                self.switched_off.push(SwitchedOff { effect, edits, computed: Computed::default() });
-            }
-        }
+        Ok(new)
     }
 
     /// Changes text and scene; leaves both unchanged on failure.
-    fn splice(&mut self, path: &str, value: &str) -> Result<(), SceneErrors> {
-        let origin = Origin::Overrides(vec![format!("{path}={value}")]);
-        let value = match edit::field_at(&self.text, path) {
-            Some(field) => field.read_typed(value).map_err(|error| SceneError {
-                field: path.to_string(),
-                value: value.to_string(),
-                allowed: field.allowed(),
-                ..SceneError::whole(origin.clone(), error.to_string())
+    fn splice(&mut self, path: &str, value: &str) -> Result<(), Box<SceneError>> {
+        let origin = || Origin::Overrides(vec![format!("{path}={value}")]);
+        let refused = |message: String| Box::new(SceneError::whole(origin(), message));
+        let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
+        let band = || field(parent, None).filter(|field| matches!(field.range, Range::Band(..)));
+        let typed = match field_at(&self.text, path).or_else(band) {
+            Some(known) => known.read_typed(value).map_err(|error| {
+                let (field, value, allowed) = (path.to_string(), value.to_string(), known.allowed());
+                Box::new(SceneError { field, value, allowed, ..*refused(error.to_string()) })
             })?,
             None => value.to_string(),
         };
-        let text = edit::set(&self.text, path, &value)
-            .and_then(|text| check_length(&text).map(|()| text))
-            .map_err(|message| SceneError::whole(origin.clone(), message))?;
-        self.scene = read(&text).map_err(|unread| unread.error.at(origin))?;
+        let text = set(&self.text, path, &typed).map_err(refused)?;
+        check_length(text.as_str()).map_err(refused)?;
+        self.scene = read(text.as_str()).map_err(|unread| Box::new(unread.error.at(origin())))?;
         self.text = text;
         Ok(())
     }
 
     /// The present text, with all comments.
     pub fn text(&self) -> &str {
-        &self.text
+        self.text.as_str()
     }
 
     /// The checked scene.
@@ -257,17 +165,17 @@ impl Document {
     /// Value of a field as written, or its default if the field is omitted. `None` if the scene has no such field,
     /// such as the radius of another form.
     pub fn value(&self, path: &str) -> Option<&str> {
-        let outline = Text::new(&self.text).ok()?;
-        outline.value(path).or_else(|| {
-            let field = fields_of(&outline).find(|field| field.path == path)?;
-            let default = field.default_in(&self.scene);
-            (!default.is_empty()).then_some(default)
+        self.text.value(path).or_else(|| {
+            let field = self.fields().into_iter().find(|field| field.path == path)?;
+            Some(Tree::of(&self.scene).default(field)).filter(|default| !default.is_empty())
         })
     }
 
     /// Fields that this scene has or could have: all but those of unselected choices.
     pub fn fields(&self) -> Vec<&'static Field> {
-        Text::new(&self.text).map_or_else(|_| Vec::new(), |outline| fields_of(&outline).collect())
+        let is_of =
+            |field: &&Field| field.variant.is_none() || field.variant == self.text.variant(field.parent());
+        FIELDS.iter().filter(is_of).collect()
     }
 
     /// Name of the file or of the built-in scene.
@@ -289,8 +197,8 @@ impl Document {
     }
 
     /// The document of a scene that was read from a table of results.
-    pub(super) fn with_table(self, content: Option<TableContent>, measured: Vec<MeasuredHash>) -> Document {
-        Document { content, measured, ..self }
+    pub(super) fn of_table(self, measured: Vec<MeasuredHash>) -> Document {
+        Document { measured, ..self }
     }
 
     /// Checks that the measured files of the scene are those behind its table of results.
@@ -299,41 +207,18 @@ impl Document {
     /// [`MeasuredHashError`] of the first file that differs.
     pub fn check_measured_files(&self) -> Result<(), MeasuredHashError> {
         let files = self.scene.measured_files();
-        let named = self.measured.iter().filter(|hash| files.contains(&hash.file.as_str()));
-        named.into_iter().try_for_each(|hash| hash.check(&self.resolve(""), &printable(&self.name)))
-    }
-
-    /// Content of the table of results from which the scene was read; `None` for a scene from another source.
-    pub fn table_content(&self) -> Option<TableContent> {
-        self.content
+        let mut named = self.measured.iter().filter(|hash| files.contains(&hash.file.as_str()));
+        named.try_for_each(|hash| hash.check(&self.resolve(""), &printable(&self.name)))
     }
 
     /// Number of comments in the text; smaller after a change that replaces a value with a comment inside.
     pub fn comments(&self) -> usize {
-        Text::new(&self.text).map_or(0, |text| text.comments())
+        self.text.comments()
     }
 
-    /// Number of comments about values changed since the text was opened.
-    pub fn stale_comments(&self) -> usize {
-        Text::new(&self.text).map_or(0, |text| self.stale(&text).len())
-    }
-
-    /// This document without the comments about changed values.
-    pub fn without_stale_comments(&self) -> Document {
-        let mut new = self.clone();
-        if let Ok(text) = Text::new(&self.text) {
-            let without = text.without_comments(&self.stale(&text));
-            if read(&without).as_ref() == Ok(&self.scene) {
-                new.text = without;
-            }
-        }
-        new
-    }
-
-    fn stale(&self, text: &Text<'_>) -> Vec<std::ops::Range<usize>> {
-        let paths = self.overrides.iter().map(|(path, _)| path.as_str());
-        let is_changed = |path: &&str| Edit::between(&self.opened, &self.text, path).is_some();
-        text.comments_about(paths.filter(is_changed))
+    /// Place of a field in the text, or of the nearest group around it: line and column, from 1.
+    pub fn place(&self, path: &str) -> (usize, usize) {
+        line_column(self.text(), self.text.nearest_value(path))
     }
 
     /// This document with another opened text, from which these overrides have made the present one.
@@ -349,17 +234,13 @@ impl Document {
 
     /// Returns true if the text differs from the opened one.
     pub fn is_changed(&self) -> bool {
-        self.text != self.opened
+        self.text.as_str() != self.opened
     }
 
     /// Path of a file named in the scene, relative to the scene's own file.
     pub fn resolve(&self, file: &str) -> PathBuf {
         Path::new(&self.name).parent().unwrap_or(Path::new("")).join(file)
     }
-}
-
-fn fields_of(outline: &Text) -> impl Iterator<Item = &'static Field> {
-    FIELDS.iter().filter(|field| field.variant.is_none() || field.variant == outline.variant(field.parent()))
 }
 
 /// An override: a path and a value in RON.
@@ -378,6 +259,81 @@ fn check_length(text: &str) -> Result<(), String> {
         return Err(format!("the scene is {} bytes long, at most {LONGEST_TEXT} are read", text.len()));
     }
     Ok(())
+}
+
+/// The field at a path, by the variant of its group or loading stage.
+pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
+    let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
+    let variant = text.variant(parent);
+    if parent.starts_with("loading.") {
+        return [&LEG_FORCE, &LEG_INDENTATION].into_iter().find(|field| field.variant == variant);
+    }
+    field(path, variant).or_else(|| field(path, None))
+}
+
+/// Sets the field at `path` to `value`, in RON, and returns the new text.
+///
+/// A missing field is inserted, with its group if that is missing too; a missing part set to `None` is not
+/// inserted. Any value changes this one place only.
+///
+/// # Errors
+///
+/// The reason in a sentence: no such field, not a single value, or no place for it.
+fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> {
+    let value = one_value(value)?;
+    // A position in a list or pair refers to that list or pair.
+    let is_position = |name: &str| !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_digit());
+    let mut base = path;
+    while let Some((before, last)) = base.rsplit_once('.')
+        && is_position(last)
+    {
+        base = before;
+    }
+    // Several if variants of a choice share the name.
+    let fields: Vec<&Field> = FIELDS.iter().filter(|field| field.path == base).collect();
+    let Some(field) = fields.first() else {
+        let mut names: Vec<_> = FIELDS.iter().map(|field| field.path).collect();
+        names.sort_unstable();
+        names.dedup();
+        let near = did_you_mean(path, names.iter().copied());
+        return Err(format!("no such field{near} (fields: {})", names.join(", ")));
+    };
+    let (parent, name) = (field.parent(), field.last());
+    let variant = text.variant(parent);
+    if text.span(path).is_some() {
+        return text.replace(path, value);
+    } else if base != path {
+        return Err("there is no such element".into());
+    } else if value == "None" && fields.iter().any(|field| field.default == "None") {
+        return Ok(text.clone());
+    } else if field.variant.is_some() && !fields.iter().any(|field| field.variant == variant) {
+        return Err(wrong_variant(parent, variant, &fields));
+    }
+    let group = format!("({name}: {value})");
+    match text.span(parent) {
+        None if parent.is_empty() => Err("the scene is not a group of fields".into()),
+        None => set(text, parent, &group),
+        Some(_) if text.written(parent) == Some("None") => text.replace(parent, &group),
+        Some(_) => {
+            let siblings = FIELDS.iter().filter(|field| field.parent() == parent);
+            let order: Vec<&str> = siblings.map(Field::last).collect();
+            text.insert(parent, name, value, &order)
+        }
+    }
+}
+
+/// Message with the values of the choice that have the field.
+fn wrong_variant(parent: &str, variant: Option<&str>, fields: &[&Field]) -> String {
+    let Some(Range::Choice(choices)) = field(parent, None).map(|field| field.range) else {
+        return format!("{parent} has no such field");
+    };
+    let has_it = |choice: &&&str| fields.iter().any(|field| field.variant == Some(choice_name(choice)));
+    let choices = choices.iter().filter(has_it).map(|choice| format!("{parent}={choice}"));
+    let here = match variant {
+        Some(variant) if variant != "None" => format!("{parent} is {variant}, which has no such field"),
+        _ => format!("there is no {parent}"),
+    };
+    format!("{here}: set {}", choices.collect::<Vec<_>>().join(" or "))
 }
 
 #[cfg(test)]
@@ -455,36 +411,6 @@ mod tests {
         let errors = Document::parse(&text, "x").unwrap_err();
         assert_eq!(errors.iter().count(), 101);
         assert!(errors.to_string().ends_with("and 49900 more errors"));
-    }
-
-    #[test]
-    fn comments_about_changed_values_are_found_and_removed() {
-        let text = SCENE
-            .replace("    length", "    // of the specimen\n    // in Fig. 2\n    length")
-            .replace("seed: 1),", "seed: 1), // measured /* twice */")
-            .replace("ToSeparation],", "ToSeparation], /* slow */ // and steady");
-        let document = Document::parse(&text, "a/scene.ron").unwrap();
-        let stale = |path: &str, value: &str| {
-            let changed = document.set(path, value).unwrap();
-            let without = changed.without_stale_comments();
-            assert_eq!(without.scene(), changed.scene());
-            assert_eq!(without.comments() + changed.stale_comments(), changed.comments());
-            (changed.stale_comments(), without.text().to_string())
-        };
-        assert_eq!(document.stale_comments(), 0);
-        assert_eq!(document.without_stale_comments(), document);
-        let (count, without) = stale("length", "2.0e-4");
-        let expected =
-            text.replace("    // of the specimen\n    // in Fig. 2\n", "").replace("1.0e-4", "2.0e-4");
-        assert_eq!((count, without), (2, expected));
-        let (count, without) = stale("roughness.hurst", "0.8");
-        assert_eq!((count, without.contains("measured")), (1, false));
-        let (count, without) = stale("loading", "[ToForce(2.0e-5), ToSeparation]");
-        assert_eq!((count, without.contains("slow"), without.contains("steady")), (2, false, false));
-        assert_eq!(stale("material.effective_modulus", "2.0e6").0, 1);
-        // Comments about other values stay.
-        assert!(without.contains("// soft") && without.contains("in Fig. 2"), "{without}");
-        assert_eq!(stale("length", "1.0e-4").0, 0, "nothing is changed");
     }
 
     #[test]
@@ -632,5 +558,162 @@ mod tests {
         assert_eq!(overrides, pairs(&[("formal", "3"), ("length", "4"), ("form", "5")]));
         remember(&mut overrides, "form.radius", "6");
         assert_eq!(overrides.len(), 4);
+    }
+
+    const COMMENTED: &str = r#"(
+    version: 1,
+    // Its parts.
+    material: (effective_modulus: 1.0e6), // soft
+    length: 1.0e-4, /* as long
+                       as it is */
+    roughness: SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1),
+    numerics: (
+        points: 4096, // enough
+        samples: 64 // few
+    ),
+    observe: []
+)
+"#;
+
+    fn set_text(text: &str, path: &str, value: &str) -> Result<String, String> {
+        set(&Text::new(text).unwrap(), path, value).map(|text| text.as_str().to_owned())
+    }
+
+    fn changed(path: &str, value: &str, from: &str, to: &str) {
+        assert_eq!(COMMENTED.matches(from).count(), 1, "{from}");
+        assert_eq!(set_text(COMMENTED, path, value).unwrap(), COMMENTED.replace(from, to), "{path}={value}");
+    }
+
+    #[test]
+    fn values_are_exchanged_in_their_place() {
+        changed("length", " 2.0e-4 ", "1.0e-4,", "2.0e-4,");
+        changed("roughness.hurst", "0.5", "hurst: 0.7", "hurst: 0.5");
+        changed("roughness.modes", "(2, 4)", "(1, 512)", "(2, 4)");
+        changed("roughness.modes.1", "4", "(1, 512)", "(1, 4)");
+        changed("observe", "[Fragments]", "[]", "[Fragments]");
+        let rough = "SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1)";
+        changed("roughness", "None", rough, "None");
+    }
+
+    #[test]
+    fn missing_fields_are_inserted_where_the_table_has_them() {
+        let after_length = "as it is */\n";
+        let line = |line: &str| format!("{after_length}    {line}\n");
+        changed("form", "Cone(angle: 0.1)", after_length, &line("form: Cone(angle: 0.1),"));
+        changed("title", "\"A\"", "version: 1,\n", "version: 1,\n    title: \"A\",\n");
+        changed("material.poisson_ratio", "0.5", "1.0e6)", "1.0e6, poisson_ratio: 0.5)");
+        changed("roughness.rms_gradient", "0.1", "1.0e-7,", "1.0e-7, rms_gradient: 0.1,");
+        changed("numerics.solver", "Exact", "// enough\n", "// enough\n        solver: Exact,\n");
+        changed("numerics.edges", "Grid", "// enough\n", "// enough\n        edges: Grid,\n");
+        let rough = "seed: 1),\n";
+        changed("adhesion.work", "0.1", rough, &format!("{rough}    adhesion: (work: 0.1),\n"));
+    }
+
+    #[test]
+    fn the_last_entry_keeps_its_comment_and_its_lack_of_a_comma() {
+        let text = "(\n    version: 1,\n    length: 1.0 // last\n)\n";
+        let new = "(\n    version: 1,\n    length: 1.0, // last\n    observe: []\n)\n";
+        assert_eq!(set_text(text, "observe", "[]").unwrap(), new);
+        let text = "(\r\n\tversion: 1,\r\n\tlength: 1.0\r\n)\r\n";
+        let new = "(\r\n\tversion: 1,\r\n\tlength: 1.0,\r\n\tobserve: []\r\n)\r\n";
+        assert_eq!(set_text(text, "observe", "[]").unwrap(), new);
+    }
+
+    #[test]
+    fn one_line_stays_one_line() {
+        for (text, path, value, new) in [
+            ("(length: 1.0)", "observe", "[]", "(length: 1.0, observe: [])"),
+            ("(length: 1.0,)", "observe", "[]", "(length: 1.0, observe: [],)"),
+            ("(length: 1.0 /* c */)", "observe", "[]", "(length: 1.0, observe: [] /* c */)"),
+            ("(observe: [])", "length", "1.0", "(observe: [], length: 1.0)"),
+            ("()", "adhesion.work", "0.1", "(adhesion: (work: 0.1))"),
+            ("(adhesion: None)", "adhesion.work", "0.1", "(adhesion: (work: 0.1))"),
+            ("(adhesion: ())", "adhesion.work", "0.1", "(adhesion: (work: 0.1))"),
+            ("( // c\n)", "length", "1.0", "(length: 1.0 // c\n)"),
+            (
+                "Scene(form: Some(Cone(angle: 1.0)))",
+                "form.angle",
+                "0.1",
+                "Scene(form: Some(Cone(angle: 0.1)))",
+            ),
+        ] {
+            assert_eq!(set_text(text, path, value).as_deref(), Ok(new), "{text} {path}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_there_need_not_be_taken_away() {
+        for path in ["form", "adhesion", "adhesion.work", "roughness.rms_gradient", "material.youngs_modulus"]
+        {
+            assert_eq!(set_text(COMMENTED, path, "None").as_deref(), Ok(COMMENTED), "{path}");
+        }
+    }
+
+    #[test]
+    fn a_value_is_one_value_and_stays_in_its_place() {
+        for value in [
+            "",
+            "1.0), title: (\"x\"",
+            "1 // ",
+            "1 /* ",
+            "1 /* a */",
+            "/* a */ 1",
+            "// a\n1",
+            "1.0, title: \"x\"",
+            "1.0 title",
+            "title: 1.0",
+            "\"a",
+            "\"a\" \"b\"",
+            "r#\"a\"",
+            "'",
+            "(",
+            ")",
+            "[1)",
+            ",",
+            ":",
+            "1,",
+            "(1) (2)",
+            "#![enable(unwrap_newtypes)] 1",
+        ] {
+            assert!(set_text(COMMENTED, "length", value).is_err(), "{value}");
+            assert!(set_text(COMMENTED, "adhesion.work", value).is_err(), "{value}");
+        }
+    }
+
+    #[test]
+    fn a_value_does_not_become_a_comment_with_what_follows() {
+        assert!(set_text("(length: 1.0// c\n)", "length", "/").is_err());
+        assert!(set_text("(length: 1.0/* c */)", "length", "/").is_err());
+    }
+
+    #[test]
+    fn refusals_say_what_to_do() {
+        for (path, said) in [
+            ("roughness.hurts", "did you mean roughness.hurst?"),
+            ("hurst", "did you mean roughness.hurst?"),
+            ("nothing", "no such field (fields: adhesion, adhesion."),
+            ("", "no such field"),
+            ("loading.", "no such field"),
+            ("..", "no such field"),
+            ("roughness..hurst", "no such field"),
+            ("form.radius", "there is no form: set form=Paraboloid(radius: 1.0e-3) or form=WavySphere("),
+            ("roughness.file", "roughness is SelfAffine, which has no such field: set roughness=Measured("),
+            ("numerics.solver.step", "set numerics.solver=Stepwise(step: 1.0e-9)"),
+            ("loading.0", "no such element"),
+            ("roughness.modes.2", "no such element"),
+            ("version.0", "no such element"),
+        ] {
+            let message = set_text(COMMENTED, path, "1").unwrap_err();
+            assert!(message.contains(said), "{path}: {message}");
+        }
+        let without = COMMENTED.replace("observe: []", "form: None");
+        let message = set_text(&without, "form.radius", "1").unwrap_err();
+        assert!(message.contains("there is no form: set "), "{message}");
+    }
+
+    #[test]
+    fn a_number_is_not_replaced_by_a_group() {
+        let message = set_text("(length: 1.0, adhesion: 3.0)", "adhesion.work", "0.1").unwrap_err();
+        assert_eq!(message, "adhesion has no fields here");
     }
 }

@@ -7,11 +7,11 @@ use std::path::{Component, Path, PathBuf, is_separator};
 use etcetera::{BaseStrategy, choose_base_strategy, home_dir};
 
 use super::document::{Document, LONGEST_TEXT};
-use super::errors::{Origin, SceneError, SceneErrors, shown};
-use super::presets::{Preset, presets};
+use super::errors::{Origin, SceneError, SceneErrors};
+use super::presets::presets;
 use super::text::Text;
 use crate::io::{ReadError, read_regular_text};
-use crate::text::is_control;
+use crate::text::printable;
 
 /// Most scene files read in one folder; the rest is counted.
 pub const MOST_FILES: usize = 500;
@@ -94,11 +94,9 @@ impl Library {
     /// The file of an own scene of this name, if it exists.
     pub fn own_scene(&self, name: &str) -> Option<PathBuf> {
         let mut components = Path::new(name).components();
-        let (Some(Component::Normal(_)), None) = (components.next(), components.next()) else {
-            return None;
-        };
+        let is_name = matches!((components.next(), components.next()), (Some(Component::Normal(_)), None));
         let path = self.own.as_ref()?.join(format!("{name}.ron"));
-        path.is_file().then_some(path)
+        Some(path).filter(|path| is_name && path.is_file())
     }
 
     /// Names of the user's own scenes.
@@ -114,60 +112,49 @@ impl Library {
     /// scene or cannot be read are listed with their error. In each folder at most [`MOST_FILES`] files and
     /// [`MOST_BYTES`] bytes are read, and only regular files are opened.
     pub fn list(&self) -> Vec<Entry> {
-        [Source::BuiltIn, Source::Own, Source::Working].map(|origin| self.list_of(origin)).concat()
-    }
-
-    /// Entries of one place; empty for a working folder that is also the user's own folder.
-    pub fn list_of(&self, origin: Source) -> Vec<Entry> {
-        match origin {
-            Source::BuiltIn => {
-                let entry =
-                    |preset: &Preset| Entry::of_text(preset.name.into(), origin, None, preset.text.into());
-                presets().iter().map(entry).collect()
-            }
-            Source::Own => self.own.as_ref().map_or_else(Vec::new, |own| list_folder(own, origin)),
-            Source::Working if self.own.as_ref().is_some_and(|own| is_same(own, &self.working)) => Vec::new(),
-            Source::Working => list_folder(&self.working, origin),
+        let built_in = presets()
+            .iter()
+            .map(|preset| Entry::new(preset.name.into(), Source::BuiltIn, None, Ok(preset.text.into())));
+        let own = self.own.as_ref().map_or_else(Vec::new, |own| list_folder(own, Source::Own));
+        let mut entries: Vec<Entry> = built_in.chain(own).collect();
+        let place = |folder: &Path| folder.canonicalize().ok();
+        let own = self.own.as_deref().and_then(place);
+        if own.is_none() || own != place(&self.working) {
+            entries.extend(list_folder(&self.working, Source::Working));
         }
+        entries
     }
 }
 
 impl Entry {
+    /// The entry of a text, or of the reason why there is none.
+    fn new(name: String, origin: Source, path: Option<PathBuf>, text: Result<String, String>) -> Entry {
+        let (error, text) = text.map_or_else(|error| (Some(error), String::new()), |text| (None, text));
+        let (title, notice) = (String::new(), String::new());
+        let mut entry = Entry { name, origin, path, title, notice, text, error };
+        match entry.document() {
+            Ok(document) => {
+                (entry.title, entry.notice) =
+                    (document.scene().title.clone(), document.scene().notice.clone());
+            }
+            Err(errors) => entry.error = entry.error.or_else(|| Some(in_one_line(&errors))),
+        }
+        entry
+    }
+
     /// The scene as a document. Files of a scene are relative to its own file.
     ///
     /// # Errors
     ///
     /// All errors of the scene.
     pub fn document(&self) -> Result<Document, SceneErrors> {
-        let name = self.document_name();
+        let name = self.path.as_ref().map_or_else(|| self.name.clone(), |path| path.display().to_string());
         match &self.error {
             Some(error) if self.text.is_empty() => {
                 Err(SceneError::whole(Origin::File { name }, error.as_str()).into())
             }
             _ => Document::parse(&self.text, &name),
         }
-    }
-
-    fn document_name(&self) -> String {
-        self.path.as_ref().map_or_else(|| self.name.clone(), |path| path.display().to_string())
-    }
-
-    fn of_text(name: String, origin: Source, path: Option<PathBuf>, text: String) -> Entry {
-        let (title, notice, error) = (String::new(), String::new(), None);
-        let mut entry = Entry { name, origin, path, title, notice, text, error };
-        match Document::parse(&entry.text, &entry.document_name()) {
-            Ok(document) => {
-                entry.title.clone_from(&document.scene().title);
-                entry.notice.clone_from(&document.scene().notice);
-            }
-            Err(errors) => entry.error = Some(in_one_line(&errors)),
-        }
-        entry
-    }
-
-    fn unread(name: String, origin: Source, path: PathBuf, error: String) -> Entry {
-        let (title, notice, text) = (String::new(), String::new(), String::new());
-        Entry { name, origin, path: Some(path), title, notice, text, error: Some(error) }
     }
 }
 
@@ -185,21 +172,11 @@ fn in_one_line(errors: &SceneErrors) -> String {
     format!("{place}{}{more}", first.what())
 }
 
-/// Returns true if a text is the plan of a study: it contains a scene.
-fn is_plan(text: &str) -> bool {
-    Text::new(text).is_ok_and(|text| text.span("scene").is_some())
-}
-
-/// Returns true if two paths are the same folder.
-fn is_same(one: &Path, other: &Path) -> bool {
-    matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
-}
-
 /// The scene files of a folder by name; empty for a missing folder.
 fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
     let about_folder = |error: String| {
-        let name = printable(&folder.display().to_string());
-        Entry::unread(name, origin, folder.to_path_buf(), error)
+        let name = printable(&folder.display().to_string()).into_owned();
+        Entry::new(name, origin, Some(folder.to_path_buf()), Err(error))
     };
     let mut paths = match scene_files(folder) {
         Ok(paths) => paths,
@@ -210,7 +187,14 @@ fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
     let left = paths.len().saturating_sub(MOST_FILES);
     paths.truncate(MOST_FILES);
     let mut room = MOST_BYTES;
-    let mut entries: Vec<Entry> = paths.into_iter().map(|path| entry_of(path, origin, &mut room)).collect();
+    let read = |path: PathBuf| {
+        let text = read_within(&path, room);
+        room -= text.as_ref().map_or(0, String::len);
+        Entry::new(printable(&name_of(&path, origin)).into_owned(), origin, Some(path), text)
+    };
+    let mut entries: Vec<Entry> = paths.into_iter().map(read).collect();
+    // A plan of a study contains a scene.
+    let is_plan = |text: &str| Text::new(text).is_ok_and(|text| text.span("scene").is_some());
     entries.retain(|entry| entry.error.is_none() || !is_plan(&entry.text));
     if left > 0 {
         entries
@@ -222,39 +206,24 @@ fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
 /// The files of a folder that end in `.ron`, unread.
 fn scene_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let paths = fs::read_dir(folder)?.take(MOST_LOOKED_AT).filter_map(|entry| Some(entry.ok()?.path()));
-    let is_scene = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "ron");
     // The target of a link decides; a link without a target is no folder.
-    let is_folder = |path: &PathBuf| fs::metadata(path).is_ok_and(|found| found.is_dir());
-    Ok(paths.filter(is_scene).filter(|path| !is_folder(path)).collect())
+    let is_scene = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "ron") && !path.is_dir();
+    Ok(paths.filter(is_scene).collect())
 }
 
 fn name_of(path: &Path, origin: Source) -> String {
-    let name = match origin {
-        Source::Own => path.file_stem(),
-        Source::BuiltIn | Source::Working => path.file_name(),
-    };
+    let name = if origin == Source::Own { path.file_stem() } else { path.file_name() };
     name.unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
-}
-
-fn entry_of(path: PathBuf, origin: Source, room: &mut usize) -> Entry {
-    let name = printable(&name_of(&path, origin));
-    match read_within(&path, *room) {
-        Ok(text) => {
-            *room -= text.len().min(*room);
-            Entry::of_text(name, origin, Some(path), text)
-        }
-        Err(error) => Entry::unread(name, origin, path, error),
-    }
 }
 
 /// Text of a regular file, if its size is within `room`.
 fn read_within(path: &Path, room: usize) -> Result<String, String> {
-    match read_regular_text(path, room.min(LONGEST_TEXT)) {
-        Err(ReadError::TooLong { limit }) if limit < LONGEST_TEXT => {
-            Err(format!("not read: the scene files of this folder are more than {MOST_BYTES} bytes long"))
+    read_regular_text(path, room.min(LONGEST_TEXT)).map_err(|error| match error {
+        ReadError::TooLong { limit } if limit < LONGEST_TEXT => {
+            format!("not read: the scene files of this folder are more than {MOST_BYTES} bytes long")
         }
-        read => read.map_err(describe),
-    }
+        error => describe(error),
+    })
 }
 
 /// Reason why the file of a scene was not read.
@@ -266,13 +235,9 @@ pub(super) fn describe(error: ReadError) -> String {
     }
 }
 
-/// A name that does not control the terminal.
-pub(super) fn printable(name: &str) -> String {
-    if name.contains(is_control) { shown(name) } else { name.to_string() }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::presets::Preset;
     use super::*;
 
     const SCENE: &str = "(version: 1, title: \"A title\", notice: \"A notice\", \

@@ -1,7 +1,7 @@
 //! Numbers with prefixes and units: `2.5 MPa`, `10 µm`, `50 mJ/m²`.
 
+use super::errors::shown;
 use crate::text::{SI_PREFIXES, si_prefix};
-use std::fmt;
 
 /// Digits of a written number.
 const DIGITS: usize = 4;
@@ -19,55 +19,28 @@ const DIMENSIONS: &[(&str, &str, &str)] = &[
 ];
 
 /// Reason why a typed text is no quantity.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum QuantityError {
-    /// The text does not begin with a number.
-    NoNumber {
-        /// The text.
-        typed: String,
-        /// Unit of the field, as in the table of fields.
-        unit: String,
-    },
-    /// The number has the unit of another quantity.
-    WrongUnit {
-        /// The text behind the number.
-        typed: String,
-        /// Unit of the field.
-        unit: String,
-    },
-    /// The number is too large.
-    TooLarge {
-        /// The text.
-        typed: String,
-    },
-}
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct QuantityError(String);
 
-impl fmt::Display for QuantityError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let shown = super::errors::shown;
-        match self {
-            QuantityError::NoNumber { typed, unit } => {
-                let example = match unit.as_str() {
-                    "1" | "" => "0.7, 16k or 1.0e-3".to_string(),
-                    unit if !has_prefixes(unit) => "0.7 or 1.0e-3".to_string(),
-                    unit => format!("1.0e-3, 2.5 m{unit} or 2.5k{unit}"),
-                };
-                write!(f, "{:?} is no number, such as {example}", shown(typed))
-            }
-            QuantityError::WrongUnit { typed, unit } => {
-                let typed = shown(typed);
-                let unit = if unit.is_empty() { "1" } else { unit };
-                match DIMENSIONS.iter().find(|(known, ..)| *known == unit) {
-                    Some((_, quantity, units)) => write!(f, "{typed} is no {quantity}: {units}"),
-                    None => write!(f, "{typed} is not the unit {unit}"),
-                }
-            }
-            QuantityError::TooLarge { typed } => write!(f, "{} is too large", shown(typed)),
-        }
+impl QuantityError {
+    fn no_number(typed: &str, unit: &str) -> Self {
+        let example = match unit {
+            "1" | "" => "0.7, 16k or 1.0e-3".to_string(),
+            unit if !has_prefixes(unit) => "0.7 or 1.0e-3".to_string(),
+            unit => format!("1.0e-3, 2.5 m{unit} or 2.5k{unit}"),
+        };
+        QuantityError(format!("{:?} is no number, such as {example}", shown(typed)))
+    }
+
+    fn wrong_unit(typed: &str, unit: &str) -> Self {
+        let (typed, unit) = (shown(typed), if unit.is_empty() { "1" } else { unit });
+        QuantityError(match DIMENSIONS.iter().find(|(known, ..)| *known == unit) {
+            Some((_, quantity, units)) => format!("{typed} is no {quantity}: {units}"),
+            None => format!("{typed} is not the unit {unit}"),
+        })
     }
 }
-
-impl std::error::Error for QuantityError {}
 
 /// Parses a number typed for a field of this unit, in SI units: `50m` for J/m² is 0.05, `10um` for m is 1.0e-5.
 ///
@@ -80,19 +53,18 @@ impl std::error::Error for QuantityError {}
 ///
 /// A text that is no number, has another unit, or is not finite.
 pub fn parse_quantity(text: &str, unit: &str) -> Result<f64, QuantityError> {
-    let (typed, unit_of_field) = (text.trim().to_string(), unit.to_string());
-    let Some((digits, exponent, suffix)) = split_number(text.trim()) else {
-        return Err(QuantityError::NoNumber { typed, unit: unit_of_field });
-    };
+    let typed = text.trim();
+    let (digits, exponent, suffix) =
+        split_number(typed).ok_or_else(|| QuantityError::no_number(typed, unit))?;
     let suffix = suffix.trim();
-    let Some((power, factor)) = suffix_factor(suffix, unit) else {
-        return Err(QuantityError::WrongUnit { typed: suffix.to_string(), unit: unit_of_field });
-    };
+    let factor = suffix_factor(suffix, unit).ok_or_else(|| QuantityError::wrong_unit(suffix, unit));
+    let (power, factor) = factor?;
     // The prefix goes into the decimal exponent: 100 nm is then 1.0e-7 exactly as if typed so.
     let number =
         exponent.checked_add(power).and_then(|power| format!("{digits}e{power}").parse::<f64>().ok());
     let value = number.map(|number| number * factor);
-    value.filter(|value| value.is_finite()).ok_or(QuantityError::TooLarge { typed })
+    let too_large = || QuantityError(format!("{} is too large", shown(typed)));
+    value.filter(|value| value.is_finite()).ok_or_else(too_large)
 }
 
 /// Splits `2.5e3 MPa` into its digits, its exponent of ten, and the rest.

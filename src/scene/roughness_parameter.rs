@@ -1,6 +1,6 @@
 //! Dimensionless parameters that compare roughness with adhesion and may replace the work of adhesion.
 
-use super::fields::field;
+use super::field::field;
 use super::model::Adhesion;
 
 /// Dimensionless roughness-adhesion parameter.

@@ -1,7 +1,6 @@
 //! Steps of a field by a key: from the text of one value to the text of the next.
 
-use super::field::{Field, Step};
-use super::fields::fields_inside;
+use super::field::{Field, Step, fields_inside};
 use super::range::{Range, choice_key, choice_name};
 use super::text::ron_float;
 
@@ -25,7 +24,7 @@ impl Field {
             return None;
         }
         let next = match self.step {
-            Step::Linear { fine, coarse: large } => {
+            Step::Linear(fine, large) => {
                 let size = if coarse { (large / fine).round() } else { 1.0 };
                 let grid = (number(value)? / fine).round() + size * f64::from(steps);
                 self.kept(decimal(grid * fine, fine))
@@ -40,7 +39,7 @@ impl Field {
                 }
                 self.kept(next)
             }
-            Step::Integer { fine, coarse: large } => {
+            Step::Integer(fine, large) => {
                 let size = if coarse { large } else { fine };
                 let distance = u64::from(steps.unsigned_abs()).saturating_mul(size);
                 let value: u64 = ron::from_str(value).ok()?;
@@ -66,15 +65,15 @@ impl Field {
     }
 
     fn kept(&self, value: f64) -> Option<String> {
-        let value = match (self.range.min(), self.range.max()) {
-            (Some(min), Some(max)) if !self.range.contains(value) => value.clamp(min, max),
+        let value = match self.range.ends() {
+            Some((min, max)) if !self.range.contains(value) => value.clamp(min, max),
             _ => value,
         };
         self.range.contains(value).then(|| ron_float(value))
     }
 
     fn kept_whole(&self, value: u64) -> Option<String> {
-        let Range::Whole { min, max } = self.range else {
+        let Range::Whole(min, max) = self.range else {
             return None;
         };
         Some(value.clamp(min, max).to_string())
@@ -143,7 +142,8 @@ fn preferred(value: f64, series: &[f64], up: bool) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fields::{FIELDS, field};
+    use super::super::field::field;
+    use super::super::fields::FIELDS;
 
     fn stepped(path: &str, value: &str, steps: i32, coarse: bool) -> Option<String> {
         field(path, None).unwrap().stepped(value, steps, coarse)
@@ -206,8 +206,10 @@ mod tests {
                         {
                             assert!(
                                 field.range.contains(next)
-                                    || next >= field.range.min().unwrap()
-                                        && next <= field.range.max().unwrap()
+                                    || field
+                                        .range
+                                        .ends()
+                                        .is_some_and(|(min, max)| (min..=max).contains(&next))
                             );
                         }
                     }

@@ -1,7 +1,6 @@
 //! Typed values of fields, in `--set` and in the explorer alike.
 
-use super::field::Field;
-use super::fields::FILE_NAME;
+use super::field::{FILE_NAME, Field};
 use super::quantity::{QuantityError, parse_quantity};
 use super::range::Range;
 use super::text::{ron_float, ron_string};
@@ -28,11 +27,11 @@ impl Field {
             return Ok(typed.to_string());
         }
         match self.range {
-            Range::Real { .. } if ron::from_str::<f64>(typed).is_err() => {
+            Range::Real(..) if ron::from_str::<f64>(typed).is_err() => {
                 parse_quantity(typed, self.unit).map(ron_float)
             }
             // A seed has more digits than a floating-point number keeps.
-            Range::Whole { .. } | Range::Band { .. } if ron::from_str::<u64>(typed).is_err() => {
+            Range::Whole(..) | Range::Band(..) if ron::from_str::<u64>(typed).is_err() => {
                 let value = parse_quantity(typed, self.unit)?;
                 let is_whole = value.fract() == 0.0 && (0.0..MOST_EXACT).contains(&value);
                 Ok(if is_whole { format!("{}", value as u64) } else { typed.to_string() })
@@ -49,8 +48,10 @@ fn is_file_name(typed: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fields::{FIELDS, field};
+    use super::super::field::field;
+    use super::super::fields::FIELDS;
     use super::super::strategies::sound_scenes;
+    use super::super::tree::Tree;
     use proptest::prelude::*;
 
     #[test]
@@ -88,7 +89,7 @@ mod tests {
         #[test]
         fn values_as_they_are_written_are_left_alone(scene in sound_scenes()) {
             for field in FIELDS {
-                if let Some(written) = field.written(&scene) {
+                if let Some(written) = Tree::of(&scene).written(field) {
                     prop_assert_eq!(field.read_typed(&written), Ok(written), "{}", field.path);
                 }
             }

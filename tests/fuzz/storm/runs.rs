@@ -2,8 +2,8 @@
 
 use super::*;
 use asperity::contact::{ContactError, CurvePoint, Direction, LegRecord};
-use asperity::export::{TableFormat, write_curve};
-use asperity::scene::{Move, Provenance, Roughness, TableContent};
+use asperity::export::{Provenance, TableFormat, write_curve};
+use asperity::scene::{Move, Roughness};
 use asperity::simulation::{Outcome, RunError, Simulation};
 use asperity::surface::SurfaceError;
 use profiles::{FILE, Shape};
@@ -163,7 +163,8 @@ fn assert_energy(outcome: &Outcome) -> Result<(), TestCaseError> {
 fn assert_written(scene: &Scene, outcome: &Outcome) -> Result<(), TestCaseError> {
     let mut table = Vec::new();
     let here = Path::new("");
-    let provenance = Provenance::new(TableContent::ForceCurve, scene, here, here);
+    let provenance = Provenance::new("asperity run drawn", scene, here, here)
+        .map_err(|error| TestCaseError::fail(error.to_string()))?;
     write_curve(&mut table, TableFormat::Csv, &provenance, outcome)
         .map_err(|error| TestCaseError::fail(error.to_string()))?;
     let table = String::from_utf8_lossy(&table);
