@@ -117,15 +117,16 @@ impl OutputArguments {
     }
 }
 
-/// The command of this process, for a POSIX shell, without the destination of its results.
+/// The command of this process, for a POSIX shell, without format and destination of its results.
 pub(super) fn command() -> String {
     let mut words = vec!["asperity".to_owned()];
     let mut typed = std::env::args().skip(1);
     while let Some(word) = typed.next() {
-        let is_destination = word.starts_with("-o") || word.starts_with("--output");
-        if is_destination && ["-o", "--output"].contains(&word.as_str()) {
+        if ["-o", "--output", "--format"].contains(&word.as_str()) {
             typed.next();
-        } else if !is_destination && word != "--force" {
+        } else if word != "--force"
+            && !["-o", "--output=", "--format="].iter().any(|one| word.starts_with(one))
+        {
             words.push(quoted(&word));
         }
     }

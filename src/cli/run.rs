@@ -7,8 +7,8 @@ use crate::accuracy::{Choice, choose, estimate, parse_tolerance};
 use crate::contact::{Leg, LegRecord};
 use crate::draw::Figure;
 use crate::export::{
-    ContactSets, PreloadReport, ensemble_text, force_figure, summary, write_curve, write_ensemble_json,
-    write_ensemble_table, write_json,
+    ContactSets, MeasuredHash, PreloadReport, ensemble_text, force_figure, summary, write_curve,
+    write_ensemble_json, write_ensemble_table, write_json,
 };
 use crate::scene::{Document, Scene, open_argument};
 use crate::study::{self, Preloads};
@@ -132,7 +132,7 @@ impl RunArguments {
 pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.chosen_format()?;
     let document = arguments.scene.open()?;
-    document.check_measured_files()?;
+    MeasuredHash::check_all(&document)?;
     arguments.output.check()?;
     if let Some(preloads) = arguments.preloads {
         return over_preloads(arguments, &document, format, preloads, stdout);

@@ -4,13 +4,13 @@ use super::output::command;
 use super::scene::{MOST_LINES, threads};
 use super::{CliError, Format, OutputArguments};
 use crate::export::{
-    MeasuredFace, Provenance, Spectra, SurfaceAdhesion, SurfaceContact, SurfaceFile, SurfaceReport,
-    write_surface_table,
+    MeasuredFace, MeasuredHash, Provenance, Spectra, SurfaceAdhesion, SurfaceContact, SurfaceFile,
+    SurfaceReport, named_from, write_surface_table,
 };
 use crate::io::{check_writable, hexadecimal, write_new};
 use crate::scene::{
-    Adhesion, Document, MOST_POINTS, Material, MeasuredHash, Move, Numerics, Roughness, SCENE_VERSIONS,
-    Scene, named_from, parse_quantity,
+    Adhesion, Document, MOST_POINTS, Material, Move, Numerics, Roughness, SCENE_VERSIONS, Scene,
+    parse_quantity,
 };
 use crate::simulation::measured_roughness_options;
 use crate::spectrum::{Analysis, Detrend, Options, analyse};

@@ -8,6 +8,7 @@ mod cost;
 mod ensemble;
 mod json;
 mod map;
+mod measured_hash;
 mod preloads;
 mod provenance;
 mod reversals;
@@ -28,6 +29,7 @@ pub use cost::{cost_text, write_cost_csv, write_cost_json};
 pub use ensemble::{ensemble_text, write_ensemble_json, write_ensemble_table};
 pub use json::write_json;
 pub use map::write_map;
+pub use measured_hash::{MeasuredHash, MeasuredHashError, named_from};
 pub use preloads::{PreloadReport, preload_axes, preload_layers};
 pub use provenance::Provenance;
 pub use reversals::{

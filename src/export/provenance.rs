@@ -2,7 +2,8 @@
 //!
 //! In CSV the text fills the first lines, each after `# `; in `.npy` it is an array after that of the results.
 
-use crate::scene::{MeasuredHash, MeasuredHashError, Scene, named_from, to_ron};
+use super::measured_hash::{MeasuredHash, MeasuredHashError, named_from};
+use crate::scene::{Scene, to_ron};
 use std::path::Path;
 
 /// Version, command, measured files and scene behind a table.

@@ -39,11 +39,10 @@ impl Document {
         for field in
             fields_inside("", None).filter(|field| !["title", "notice", "version"].contains(&field.path))
         {
-            if field.path == "loading" && scenes[0].loading.len() == scenes[1].loading.len() {
-                let pairs = scenes[0].loading.iter().zip(&scenes[1].loading).enumerate();
-                changes.extend(pairs.filter(|(_, (one, other))| one != other).map(change_of_stage));
-            } else {
-                add_changes(field, &trees, &mut changes);
+            let stages = if field.path == "loading" { changed_stages(&scenes) } else { None };
+            match stages {
+                Some(stages) => changes.extend(stages),
+                None => add_changes(field, &trees, &mut changes),
             }
         }
         changes
@@ -64,6 +63,16 @@ fn add_changes(field: &Field, trees: &[Tree; 2], changes: &mut Vec<Change>) {
     } else {
         inside.into_iter().for_each(|field| add_changes(field, trees, changes));
     }
+}
+
+/// The changed stages of two histories with as many stages; `None` if the histories as a whole are shorter to name.
+fn changed_stages(scenes: &[Scene; 2]) -> Option<Vec<Change>> {
+    let [one, other] = scenes.each_ref().map(|scene| &scene.loading);
+    let pairs = one.iter().zip(other).enumerate().filter(|(_, (one, other))| one != other);
+    let changes: Vec<Change> = pairs.map(change_of_stage).collect();
+    // A change takes the room of its value and of some fourteen characters.
+    let length: usize = changes.iter().map(|change| 14 + change.from.len()).sum();
+    (one.len() == other.len() && length < 14 + in_ron(one).len()).then_some(changes)
 }
 
 fn change_of_stage((index, (one, other)): (usize, (&Move, &Move))) -> Change {

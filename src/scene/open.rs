@@ -7,7 +7,6 @@ use std::path::Path;
 use super::document::{Document, LONGEST_TEXT};
 use super::errors::{Origin, SceneError, SceneErrors};
 use super::library::{Library, describe};
-use super::measured_hash::MeasuredHash;
 use super::presets::{find, presets};
 use super::suggest::did_you_mean;
 use crate::io::{PROVENANCE, ReadError, into_text, npy, open_regular, read_limited, read_regular_text};
@@ -99,7 +98,7 @@ fn document_of(source: Result<Source, ReadError>, name: &str) -> Result<Document
         Source::Scene(text) => Document::parse(&text, name),
         Source::Table(text) => match text.split_once("\nscene:\n") {
             Some((head, scene)) if head.starts_with("asperity ") => {
-                Ok(Document::parse(scene, name)?.of_table(MeasuredHash::of_lines(head)))
+                Ok(Document::parse(scene, name)?.of_table(head))
             }
             _ => {
                 let reason = "a table without a scene; allowed: a scene, or a table that asperity has computed from one";

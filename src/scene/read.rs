@@ -5,7 +5,7 @@ use ron::error::SpannedError;
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
 
-use super::document::field_at;
+use super::edit::field_at;
 use super::errors::{Origin, SceneError};
 use super::model::{SCENE_VERSIONS, Scene};
 use super::range::Range;

@@ -196,12 +196,12 @@ fn few_files_name_a_pane() {
 }
 
 #[test]
-fn three_files_name_a_form() {
+fn two_files_name_a_form() {
     // The profile of a sphere only constructs a form.
     let is_example = |file: &String| file == "profile";
     for form in ["Form::Paraboloid", "Form::Cone", "Form::Power", "Form::Punch"] {
         let files: Vec<String> = files_that_name(form).into_iter().filter(|file| !is_example(file)).collect();
-        assert_eq!(files, ["scene::fields", "scene::form", "surface::form"], "{form}");
+        assert_eq!(files, ["scene::form", "surface::form"], "{form}");
     }
 }
 

@@ -1,7 +1,8 @@
 //! Hashes of the measured files behind a table of results, which are part of its input.
 
 use crate::io::sha256_of;
-use crate::text::path_name;
+use crate::scene::Document;
+use crate::text::{path_name, printable};
 use std::path::Path;
 use thiserror::Error;
 
@@ -33,10 +34,7 @@ impl MeasuredHash {
     }
 
     /// Checks that the file, named from the folder of the table, still has this content.
-    ///
-    /// # Errors
-    /// [`MeasuredHashError`].
-    pub fn check(&self, folder: &Path, table: &str) -> Result<(), MeasuredHashError> {
+    fn check(&self, folder: &Path, table: &str) -> Result<(), MeasuredHashError> {
         let path = folder.join(&self.file);
         let found = hash_of(&path)?;
         if found == self.sha256 {
@@ -51,13 +49,23 @@ impl MeasuredHash {
     }
 
     /// Line of a provenance. The name is a RON string, always on one line.
-    #[must_use]
-    pub fn line(&self) -> String {
+    pub(super) fn line(&self) -> String {
         format!("{LINE}{} {:?}\n", self.sha256, self.file)
     }
 
+    /// Checks that the measured files of a scene are those behind its table of results.
+    ///
+    /// # Errors
+    /// [`MeasuredHashError`] of the first file that differs.
+    pub fn check_all(document: &Document) -> Result<(), MeasuredHashError> {
+        let files = document.scene().measured_files();
+        let hashes = MeasuredHash::of_lines(document.table_head());
+        let mut named = hashes.iter().filter(|hash| files.contains(&hash.file.as_str()));
+        named.try_for_each(|hash| hash.check(&document.resolve(""), &printable(document.name())))
+    }
+
     /// Hashes of the lines of a provenance that hold one.
-    pub(super) fn of_lines(text: &str) -> Vec<Self> {
+    fn of_lines(text: &str) -> Vec<Self> {
         let of_line = |line: &str| {
             let (sha256, file) = line.strip_prefix(LINE)?.split_once(' ')?;
             Some(MeasuredHash { file: ron::from_str(file).ok()?, sha256: sha256.to_owned() })

@@ -1,0 +1,437 @@
+//! Effects of a document switched off, on and to the next choice, and the specifications of adhesion.
+//!
+//! Amplitude of the roughness, work of adhesion and κ or e_el/γ determine each other, so that switching one of them
+//! off may require a replacement value. That value follows from the profile, which this module does not know: the
+//! caller passes it from the computed scene.
+
+use super::document::{Document, SwitchedOff, pair};
+use super::effects::{Effect, adhesion_text, pressing, rounded};
+use super::errors::{Origin, SceneError, SceneErrors};
+use super::field::Field;
+use super::model::{Adhesion, Roughness};
+use super::range::choice_key;
+use super::roughness_parameter::RoughnessParameter;
+use super::text::ron_float;
+use super::tree::{Tree, in_ron};
+
+/// Values that a scene determines through its profile, known after the computation.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Computed {
+    /// Work of adhesion γ, J/m².
+    pub work_of_adhesion: Option<f64>,
+    /// Roughness–adhesion parameter κ.
+    pub kappa: Option<f64>,
+    /// Elastic energy of conformity over the work of adhesion, e_el/γ.
+    pub elastic_energy_ratio: Option<f64>,
+    /// Root mean square height h of the roughness, m.
+    pub rms_height: Option<f64>,
+}
+
+impl Document {
+    /// This document without an effect; unchanged if the effect is off.
+    ///
+    /// Without roughness, adhesion by κ or e_el/γ becomes adhesion by work. Without adhesion, roughness with
+    /// an amplitude set by adhesion keeps it as an rms height. `computed` has these values for this scene. Without
+    /// unloading, the stage that presses most remains.
+    ///
+    /// # Errors
+    ///
+    /// A replacement value is not in `computed`, or is invalid.
+    pub fn without(&self, effect: Effect, computed: &Computed) -> Result<Document, SceneErrors> {
+        let scene = self.scene();
+        if !effect.is_on(scene) {
+            return Ok(self.clone());
+        }
+        let (replaced, value) = match effect {
+            Effect::Roughness => (self.work_in_place_of_roughness(computed)?, "None".to_owned()),
+            Effect::Adhesion => (self.height_in_place_of_adhesion(computed)?, "None".to_owned()),
+            Effect::Unloading => (None, in_ron(&[pressing(&scene.loading)])),
+            Effect::Form => (None, "None".to_owned()),
+            _ => {
+                let others = scene.observe.iter().filter(|other| Some(**other) != effect.row().2);
+                (None, in_ron(&others.collect::<Vec<_>>()))
+            }
+        };
+        let overrides: Vec<_> = replaced.into_iter().chain([pair(effect.path(), value)]).collect();
+        let mut new = self.set_all(&overrides)?;
+        if let Some(off) = new.switched_off.iter_mut().find(|off| off.effect == effect) {
+            off.paths = overrides.into_iter().map(|(path, _)| path).collect();
+        }
+        Ok(new)
+    }
+
+    /// This document with an effect; unchanged if the effect is on.
+    ///
+    /// Restores the text that was removed when the effect was switched off, other changes since are kept. If there is no
+    /// such text, or it is no longer valid, the effect is set to suit the scene.
+    ///
+    /// # Errors
+    ///
+    /// The effect is impossible in the scene, such as roughness on a single spring.
+    pub fn with(&self, effect: Effect) -> Result<Document, SceneErrors> {
+        if effect.is_on(self.scene()) {
+            return Ok(self.clone());
+        }
+        match self.restored(effect) {
+            Some(document) => Ok(document),
+            None => self.set(effect.path(), &effect.suited(self.scene())),
+        }
+    }
+
+    fn restored(&self, effect: Effect) -> Option<Document> {
+        let SwitchedOff { paths, before, after, .. } =
+            self.switched_off.iter().find(|off| off.effect == effect)?;
+        if self.text() == after.text() {
+            return Some(Document::clone(before));
+        }
+        // Values changed since stay.
+        let unchanged = paths.iter().filter(|path| self.value(path) == after.value(path));
+        let removed = |path: &String| Some(pair(path, before.value(path)?));
+        let removed: Vec<_> = unchanged.filter_map(removed).collect();
+        let own: Vec<_> = removed.iter().filter(|(path, _)| path == effect.path()).cloned().collect();
+        [removed, own].iter().find_map(|back| self.set_all(back).ok().filter(|new| effect.is_on(new.scene())))
+    }
+
+    /// This document with adhesion of this work, J/m². Sets the field of adhesion by work; any other
+    /// adhesion, and none, becomes adhesion by work.
+    ///
+    /// # Errors
+    ///
+    /// An invalid work of adhesion.
+    pub fn with_work_of_adhesion(&self, work: f64) -> Result<Document, SceneErrors> {
+        match self.scene().adhesion {
+            Some(Adhesion { work: Some(_), .. }) => self.set("adhesion.work", &ron_float(work)),
+            _ => self.set("adhesion", &adhesion_text(self.scene(), |adhesion| adhesion.with_work(work))),
+        }
+    }
+
+    /// This document with adhesion of this κ or e_el/γ. Sets the field of adhesion by this parameter; any other
+    /// adhesion, and none, becomes adhesion by the parameter. A work of adhesion that sets the amplitude of the
+    /// roughness together with the other parameter is kept.
+    ///
+    /// # Errors
+    ///
+    /// An invalid value, or a scene without roughness.
+    pub fn with_parameter(&self, parameter: RoughnessParameter, value: f64) -> Result<Document, SceneErrors> {
+        match self.scene().adhesion.and_then(|adhesion| adhesion.parameter()) {
+            Some((given, _)) if given == parameter => self.set(parameter.path(), &ron_float(value)),
+            _ => {
+                let changed = |adhesion: Adhesion| Adhesion {
+                    work: adhesion.work.filter(|_| adhesion.parameter().is_some()),
+                    ..adhesion.with_parameter(parameter, value)
+                };
+                self.set("adhesion", &adhesion_text(self.scene(), changed))
+            }
+        }
+    }
+
+    /// This document with the next choice of a field in this direction that the scene allows; `None` if there is no
+    /// other.
+    ///
+    /// Omitting an effect switches it off, and the next choice switches it on as before or as suits the scene.
+    /// Adhesion by work, by κ and by e_el/γ are the same adhesion: `computed` has the values for this scene.
+    ///
+    /// # Errors
+    ///
+    /// No other choice is allowed, or a converted value is not in `computed`.
+    pub fn with_next_choice(
+        &self,
+        field: &Field,
+        forwards: bool,
+        computed: &Computed,
+    ) -> Result<Option<Document>, SceneErrors> {
+        let Some(here) = Tree::of(self.scene()).written(field) else { return Ok(None) };
+        let mut refused = None;
+        for distance in 1.. {
+            let next = field.stepped(&here, if forwards { distance } else { -distance }, false);
+            let Some(next) = next.filter(|next| choice_key(next) != choice_key(&here)) else { break };
+            match self.chosen(field, &next, computed) {
+                Ok(document) => return Ok(Some(document)),
+                Err(errors) if errors.first().message.ends_with(NOT_KNOWN) => return Err(errors),
+                Err(errors) => refused = refused.or(Some(errors)),
+            }
+        }
+        refused.map_or(Ok(None), Err)
+    }
+
+    fn chosen(&self, field: &Field, next: &str, computed: &Computed) -> Result<Document, SceneErrors> {
+        let effect = Effect::ALL.into_iter().find(|effect| effect.path() == field.path);
+        match effect {
+            Some(effect) if next == "None" => self.without(effect, computed),
+            Some(Effect::Adhesion) if Effect::Adhesion.is_on(self.scene()) => self.converted(next, computed),
+            Some(effect) if !effect.is_on(self.scene()) => {
+                // Any specification of adhesion counts as the next choice, since each follows from the other.
+                let is_next = |new: &Document| {
+                    let written = Tree::of(new.scene()).written(field).unwrap_or_default();
+                    effect == Effect::Adhesion || choice_key(&written) == choice_key(next)
+                };
+                let as_before = self.with(effect)?;
+                if is_next(&as_before) {
+                    return Ok(as_before);
+                }
+                let suited = self.set(field.path, &effect.suited(self.scene())).ok().filter(is_next);
+                suited.map_or_else(|| self.set(field.path, next), Ok)
+            }
+            _ => self.set(field.path, next),
+        }
+    }
+
+    /// The same adhesion specified otherwise.
+    fn converted(&self, next: &str, computed: &Computed) -> Result<Document, SceneErrors> {
+        let key = |parameter: RoughnessParameter| format!("({}", parameter.name());
+        let parameter = RoughnessParameter::ALL.into_iter().find(|one| choice_key(next) == key(*one));
+        if parameter.is_some() && self.scene().roughness.is_none() {
+            return self.set("adhesion", next);
+        }
+        let value = match parameter {
+            Some(RoughnessParameter::Kappa) => computed.kappa,
+            Some(RoughnessParameter::ElasticEnergyRatio) => computed.elastic_energy_ratio,
+            None => computed.work_of_adhesion,
+        };
+        let value = value.ok_or_else(|| self.unknown("adhesion", "the same adhesion given the other way"))?;
+        // The typed value, if conversion from it has led here.
+        let value = if parameter.is_some() && rounded(value, 10) == rounded(value, 14) {
+            rounded(value, 10)
+        } else {
+            value
+        };
+        let changed = |adhesion: Adhesion| match parameter {
+            Some(parameter) => adhesion.with_parameter(parameter, value),
+            None => adhesion.with_work(value),
+        };
+        let height = self.height_in_place_of_adhesion(computed)?;
+        let adhesion = pair("adhesion", adhesion_text(self.scene(), changed));
+        self.set_all(&height.into_iter().chain([adhesion]).collect::<Vec<_>>())
+    }
+
+    /// Adhesion by work in place of adhesion by κ or e_el/γ, which require roughness.
+    fn work_in_place_of_roughness(
+        &self,
+        computed: &Computed,
+    ) -> Result<Option<(String, String)>, SceneErrors> {
+        let adhesion = self.scene().adhesion.unwrap_or_default();
+        let Some((parameter, _)) = adhesion.parameter() else { return Ok(None) };
+        if adhesion.work.is_some() {
+            return Ok(Some(pair(parameter.path(), "None")));
+        }
+        let what = format!("{} requires roughness, and the work of adhesion", parameter.symbol());
+        let work = computed.work_of_adhesion.ok_or_else(|| self.unknown("adhesion", &what))?;
+        Ok(Some(pair("adhesion", adhesion_text(self.scene(), |adhesion| adhesion.with_work(work)))))
+    }
+
+    /// The rms height of roughness whose amplitude follows from work of adhesion and κ.
+    fn height_in_place_of_adhesion(
+        &self,
+        computed: &Computed,
+    ) -> Result<Option<(String, String)>, SceneErrors> {
+        if self.scene().roughness.as_ref().is_none_or(Roughness::has_amplitude) {
+            return Ok(None);
+        }
+        let what = "adhesion sets its amplitude, and the rms height";
+        let height = computed.rms_height.ok_or_else(|| self.unknown("roughness", what))?;
+        Ok(Some(pair("roughness.rms_height", ron_float(height))))
+    }
+
+    fn unknown(&self, field: &str, what: &str) -> SceneErrors {
+        let value = self.value(field).unwrap_or_default().to_string();
+        let error = SceneError::whole(Origin::Scene, format!("{what}{NOT_KNOWN}"));
+        SceneError { field: field.to_string(), value, ..error }.into()
+    }
+}
+
+/// End of the message about a value that only the computed scene has.
+const NOT_KNOWN: &str = " is not known yet: compute the scene first";
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::field::field;
+    use super::super::form::Form;
+    use super::super::model::Move::{ToForce, ToSeparation};
+    use super::super::strategies::sound_scenes;
+    use super::*;
+
+    const SCENE: &str = "(
+    version: 1,
+    material: (effective_modulus: 1.0e6),
+    length: 1.0e-4,
+    roughness: SelfAffine(hurst: 0.70, rms_height: 2.0e-7, modes: (1, 512), seed: 1), // rough
+    adhesion: (kappa: 6.0), // as measured
+    loading: [ToForce(1.0e-5), /* slowly */ ToSeparation],
+)
+";
+
+    const COMPUTED: Computed = Computed {
+        work_of_adhesion: Some(0.0123),
+        kappa: Some(6.000_000_000_000_001),
+        elastic_energy_ratio: Some(0.9),
+        rms_height: Some(1.5e-7),
+    };
+
+    fn document() -> Document {
+        Document::parse(SCENE, "scene").unwrap()
+    }
+
+    /// Roughness whose amplitude follows from work of adhesion and κ.
+    fn both() -> Document {
+        let set = [pair("roughness.rms_height", "None"), pair("adhesion.work", "0.1")];
+        document().set_all(&set).unwrap()
+    }
+
+    fn off(document: &Document, effect: Effect) -> Document {
+        document.without(effect, &COMPUTED).unwrap()
+    }
+
+    fn adhesion(document: &Document) -> (Option<f64>, Option<f64>) {
+        document.scene().adhesion.map_or((None, None), |adhesion| (adhesion.work, adhesion.kappa))
+    }
+
+    fn next(document: &Document, path: &str, forwards: bool) -> Document {
+        let field = field(path, None).unwrap();
+        document.with_next_choice(field, forwards, &COMPUTED).unwrap().unwrap()
+    }
+
+    #[test]
+    fn an_effect_that_was_never_on_suits_the_scene() {
+        let bare =
+            "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4, loading: [ToForce(1.0e-5)])";
+        let bare = Document::parse(bare, "scene").unwrap();
+        let rough = "SelfAffine(hurst: 0.7, rms_height: 2.0e-7, modes: (1, 512), seed: 1)";
+        for (effect, value) in [
+            (Effect::Form, "Paraboloid(radius: 1.0e-4)"),
+            (Effect::Roughness, rough),
+            (Effect::Adhesion, "(work: 0.05)"),
+            (Effect::Unloading, "[ToForce(1.0e-5), ToSeparation]"),
+            (Effect::Fragments, "[Fragments]"),
+        ] {
+            assert_eq!(bare.with(effect).unwrap().value(effect.path()), Some(value));
+        }
+        let observed = bare.with(Effect::HeightHistogram).unwrap().with(Effect::Fragments).unwrap();
+        assert_eq!(observed.value("observe"), Some("[Fragments, HeightHistogram]"));
+        let sticky = bare.set("roughness", rough).unwrap().with(Effect::Adhesion).unwrap();
+        assert_eq!(adhesion(&sticky), (None, Some(2.0)));
+        // One spring carries no wave at all.
+        let one = bare.set("numerics.points", "1").unwrap().with(Effect::Roughness).unwrap_err();
+        assert!(one.to_string().contains("points/2 = 0"), "{one}");
+    }
+
+    #[test]
+    fn without_roughness_kappa_becomes_its_work() {
+        assert_eq!(adhesion(&off(&document(), Effect::Roughness)), (Some(0.0123), None));
+        let unknown = document().without(Effect::Roughness, &Computed::default()).unwrap_err();
+        assert_eq!(
+            unknown.to_string(),
+            "adhesion = (kappa: 6.0): κ requires roughness, and the work of adhesion is not known yet: \
+             compute the scene first"
+        );
+        assert_eq!(adhesion(&off(&both(), Effect::Roughness)), (Some(0.1), None));
+    }
+
+    #[test]
+    fn without_adhesion_the_amplitude_it_set_stays() {
+        let unknown = both().without(Effect::Adhesion, &Computed::default()).unwrap_err();
+        assert!(unknown.to_string().contains("the rms height is not known yet"), "{unknown}");
+        let without = off(&both(), Effect::Adhesion);
+        assert_eq!(without.value("roughness.rms_height"), Some("1.5e-7"));
+        assert_eq!(without.with(Effect::Adhesion).unwrap(), both());
+    }
+
+    #[test]
+    fn what_was_changed_meanwhile_stays_changed() {
+        let back = |smooth: &Document| smooth.with(Effect::Roughness).unwrap();
+        let smooth = off(&document(), Effect::Roughness);
+        let stickier = back(&smooth.with_work_of_adhesion(0.2).unwrap());
+        assert_eq!(
+            (adhesion(&stickier), stickier.value("roughness.hurst")),
+            ((Some(0.2), None), Some("0.70"))
+        );
+        let longer = back(&smooth.set("length", "2.0e-4").unwrap());
+        assert_eq!((adhesion(&longer), longer.scene().length), ((None, Some(6.0)), 2e-4));
+        let held = off(&document(), Effect::Unloading).set("loading.0", "ToForce(3.0e-5)").unwrap();
+        let pulled = held.with(Effect::Unloading).unwrap();
+        assert_eq!(pulled.scene().loading, [ToForce(3e-5), ToSeparation]);
+        // What is no longer valid is set anew.
+        let coarse = back(&smooth.set("numerics.points", "64").unwrap());
+        assert_eq!(coarse.value("roughness.modes"), Some("(1, 8)"));
+    }
+
+    #[test]
+    fn adhesion_is_given_one_way_or_the_other() {
+        let kappa = |document: &Document| document.with_parameter(RoughnessParameter::Kappa, 3.0);
+        assert_eq!(adhesion(&kappa(&document()).unwrap()), (None, Some(3.0)));
+        let work = document().with_work_of_adhesion(0.1).unwrap();
+        assert_eq!(adhesion(&work), (Some(0.1), None));
+        assert!(work.text().contains("adhesion: (work: 0.1), // as measured"));
+        assert_eq!(adhesion(&kappa(&off(&work, Effect::Adhesion)).unwrap()), (None, Some(3.0)));
+        // If both are given, because they set the amplitude, both are kept.
+        assert_eq!(adhesion(&kappa(&both()).unwrap()), (Some(0.1), Some(3.0)));
+        assert_eq!(adhesion(&both().with_work_of_adhesion(0.2).unwrap()), (Some(0.2), Some(6.0)));
+        let none = kappa(&off(&work, Effect::Roughness)).unwrap_err();
+        assert!(none.to_string().contains("there is none"), "{none}");
+        assert!(document().with_work_of_adhesion(-1.0).is_err());
+    }
+
+    #[test]
+    fn the_next_choice_of_adhesion_is_the_same_adhesion() {
+        let work = next(&document(), "adhesion", false);
+        assert_eq!(adhesion(&work), (Some(0.0123), None));
+        assert_eq!(next(&work, "adhesion", true).text(), SCENE);
+        let none = next(&work, "adhesion", false);
+        assert_eq!(none.scene().adhesion, None);
+        assert_eq!(next(&none, "adhesion", true).text(), work.text());
+        let ratio = next(&document(), "adhesion", true);
+        assert_eq!(ratio.value("adhesion"), Some("(elastic_energy_ratio: 0.9)"));
+        assert_eq!(next(&ratio, "adhesion", true).scene().adhesion, None);
+        // Not before the value has been computed.
+        let field = field("adhesion", None).unwrap();
+        let unknown = document().with_next_choice(field, false, &Computed::default()).unwrap_err();
+        assert!(unknown.to_string().contains("compute the scene first"), "{unknown}");
+        // A smooth body has no κ.
+        let smooth = work.set("roughness", "None").unwrap();
+        assert_eq!(next(&smooth, "adhesion", true).scene().adhesion, None);
+        let kappa = next(&both(), "adhesion", true);
+        assert_eq!(
+            (adhesion(&kappa), kappa.value("roughness.rms_height")),
+            ((None, Some(6.0)), Some("1.5e-7"))
+        );
+    }
+
+    #[test]
+    fn choices_form_a_circle() {
+        let smooth = next(&document(), "roughness", true);
+        assert_eq!(smooth.scene().roughness, None);
+        assert_eq!(next(&smooth, "roughness", true).scene(), document().scene());
+        let sphere = next(&document(), "form", true);
+        assert_eq!(sphere.scene().form, Some(Form::Paraboloid { radius: 1e-4 }));
+        assert_eq!(next(&sphere, "form", false).scene(), document().scene());
+        assert_eq!(next(&document(), "form", false).value("form"), Some("Punch(radius: 2.0e-5)"));
+    }
+
+    proptest! {
+        #[test]
+        fn every_switch_of_every_scene_goes_both_ways(
+            scene in sound_scenes(),
+            work in 0.0..1e6,
+            rms_height in 1e-30..100.0,
+        ) {
+            let document = Document::from_scene(&scene, "scene").unwrap();
+            let computed =
+                Computed { work_of_adhesion: Some(work), rms_height: Some(rms_height), ..Computed::default() };
+            for effect in Effect::ALL {
+                let without = document.without(effect, &computed).unwrap();
+                prop_assert!(!effect.is_on(without.scene()));
+                for also in Effect::ALL.into_iter().filter(|also| *also != effect) {
+                    prop_assert!(also.is_on(without.scene()) == also.is_on(&scene) || work == 0.0);
+                }
+                match Document::parse(without.text(), "forgotten").unwrap().with(effect) {
+                    Ok(suited) => prop_assert!(effect.is_on(suited.scene())),
+                    Err(error) => prop_assert!(effect == Effect::Roughness && scene.numerics.points < 2, "{error}"),
+                }
+                if effect.is_on(&scene) {
+                    prop_assert_eq!(&without.with(effect).unwrap(), &document);
+                }
+            }
+        }
+    }
+}
