@@ -86,18 +86,19 @@ fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
     let mut wrong = Vec::new();
     for file in files {
         match checked(file) {
-            Ok(name) => writeln!(stdout, "{}: ok", printable(&name))?,
+            Ok((name, None)) => writeln!(stdout, "{}: ok", printable(&name))?,
+            Ok((name, Some(warning))) => writeln!(stdout, "{}: ok; warning: {warning}", printable(&name))?,
             Err(errors) => wrong.push(errors),
         }
     }
     if wrong.is_empty() { Ok(()) } else { Err(CliError::Checked(wrong)) }
 }
 
-/// The name of a valid scene, or all its errors, line by line.
-fn checked(file: &str) -> Result<String, String> {
+/// The name of a valid scene with its warning, or all its errors, line by line.
+fn checked(file: &str) -> Result<(String, Option<String>), String> {
     let document = of_file(file)?;
     match profile_error(&document) {
-        None => Ok(document.name().into()),
+        None => Ok((document.name().into(), document.scene().warning())),
         Some(error) => Err(error),
     }
 }

@@ -9,7 +9,7 @@ use crate::export::{
 };
 use crate::io::{check_writable, hexadecimal, write_new};
 use crate::scene::{
-    Adhesion, Document, MOST_POINTS, Material, Move, Numerics, Roughness, SCENE_VERSIONS, Scene,
+    self, Adhesion, Document, MOST_POINTS, Material, Move, Numerics, Roughness, SCENE_VERSIONS, Scene,
     parse_quantity,
 };
 use crate::simulation::measured_roughness_options;
@@ -39,8 +39,8 @@ Files are profiles or maps: text in columns or as a matrix, SDF, GSF, NumPy, X3P
 NetCDF, and these in gzip. Several files are samples of the same roughness. A profile is a cut
 through the surface; the contact computation needs the equivalent line.";
 
-/// Springs of a scene per period of its shortest wave.
-const SPRINGS_PER_WAVE: f64 = 8.0;
+/// Springs of a written scene per period of its shortest wave: twice the fewest, from where on both edge models agree.
+const SPRINGS_PER_WAVE: f64 = 2.0 * scene::SPRINGS_PER_WAVE as f64;
 
 /// Default number of random profiles for the adhesion force, and the largest number of springs for it: some seconds.
 const LINES: u32 = 16;

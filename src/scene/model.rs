@@ -15,7 +15,8 @@ use strum::IntoStaticStr;
 /// `roughness.as_line` states otherwise, in version 2 the line is the equivalent one.
 pub const SCENE_VERSIONS: std::ops::RangeInclusive<u32> = 1..=2;
 
-/// Fewest springs per wave of a profile.
+/// Fewest springs per wave of a form, of roughness and of the maps. The adhesion force of a rough sphere has an error of
+/// 6 % with two springs to the shortest wave, of 0.2 % with four (docs/accuracy.md).
 pub const SPRINGS_PER_WAVE: u64 = 4;
 
 /// A scene: two bodies, their loading, and the resolution of the computation.
@@ -221,6 +222,24 @@ impl Scene {
     pub fn springs_under_body(&self) -> Range<u64> {
         let points = self.numerics.points;
         self.form.map_or(0..points, |form| form.springs_under(self.length, points))
+    }
+
+    /// Warning about roughness whose shortest wave has fewer springs than [`SPRINGS_PER_WAVE`], which is allowed.
+    pub fn warning(&self) -> Option<String> {
+        let (path, springs) = match self.roughness.as_ref()? {
+            Roughness::SelfAffine { modes: (_, last), .. } => {
+                ("roughness.modes", self.numerics.points as f64 / *last as f64)
+            }
+            Roughness::Measured { continue_to, .. } => {
+                ("roughness.continue_to", (*continue_to)? / self.spacing())
+            }
+        };
+        (springs < SPRINGS_PER_WAVE as f64).then(|| {
+            format!(
+                "{path}: the shortest wave has {springs:.1} springs, a resolved one at least {SPRINGS_PER_WAVE}: more \
+                 points or longer waves"
+            )
+        })
     }
 
     /// Returns true if a measured profile is the line itself.
