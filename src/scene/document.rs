@@ -80,7 +80,7 @@ impl Document {
             let error = SceneError::whole(Origin::Scene, unreadable.reason);
             located(Unread { offset: unreadable.offset, error })
         })?;
-        SceneErrors::result(check(&scene), |error| {
+        SceneErrors::result(as_written(check(&scene), &text), |error| {
             origin_at(source, name, text.nearest_value(&error.field))
         })?;
         let (name, opened) = (name.to_string(), source.to_string());
@@ -133,7 +133,9 @@ impl Document {
             }
         }
         SceneErrors::result(errors, |error| error.origin.clone())?;
-        SceneErrors::result(check(&new.scene), |error| overrides_behind(error, overrides))?;
+        SceneErrors::result(as_written(check(&new.scene), &new.text), |error| {
+            overrides_behind(error, overrides)
+        })?;
         if !new.is_changed() {
             new.overrides.clear();
         }
@@ -269,6 +271,14 @@ pub(super) fn pair(path: &str, value: impl Into<String>) -> (String, String) {
 fn remember(overrides: &mut Vec<(String, String)>, path: &str, value: &str) {
     overrides.retain(|(earlier, _)| !is_within(earlier, path));
     overrides.push(pair(path, value));
+}
+
+/// Errors with numbers that are not finite as they are written: `1e999`.
+fn as_written(mut errors: Vec<SceneError>, text: &Text) -> Vec<SceneError> {
+    for error in errors.iter_mut().filter(|error| error.value == "NaN") {
+        error.value = text.value(&error.field).unwrap_or_default().to_owned();
+    }
+    errors
 }
 
 fn check_length(text: &str) -> Result<(), String> {
