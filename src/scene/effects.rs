@@ -34,7 +34,7 @@ impl Effect {
     ];
 
     /// Name and path of the effect, and its observed quantity.
-    pub(super) const fn row(self) -> (&'static str, &'static str, Option<Observer>) {
+    const fn row(self) -> (&'static str, &'static str, Option<Observer>) {
         match self {
             Effect::Form => ("form", "form", None),
             Effect::Roughness => ("roughness", "roughness", None),
@@ -55,6 +55,11 @@ impl Effect {
         self.row().1
     }
 
+    /// Observed quantity of the effect.
+    pub(super) const fn observer(self) -> Option<Observer> {
+        self.row().2
+    }
+
     /// Returns true if the scene has the effect. A work of adhesion of zero is no adhesion.
     pub fn is_on(self, scene: &Scene) -> bool {
         match self {
@@ -62,7 +67,7 @@ impl Effect {
             Effect::Roughness => scene.roughness.is_some(),
             Effect::Adhesion => scene.adhesion.is_some_and(|adhesion| adhesion.work != Some(0.0)),
             Effect::Unloading => may_pull(&scene.loading),
-            _ => self.row().2.is_some_and(|observer| scene.observe.contains(&observer)),
+            _ => self.observer().is_some_and(|observer| scene.observe.contains(&observer)),
         }
     }
 
@@ -87,7 +92,7 @@ impl Effect {
             Effect::Unloading => in_ron(&[&scene.loading[..], &[Move::ToSeparation]].concat()),
             Effect::Fragments | Effect::HeightHistogram => {
                 let all = Effect::ALL.into_iter().filter(|effect| *effect == self || effect.is_on(scene));
-                in_ron(&all.filter_map(|effect| effect.row().2).collect::<Vec<_>>())
+                in_ron(&all.filter_map(Effect::observer).collect::<Vec<_>>())
             }
         }
     }

@@ -63,8 +63,6 @@ pub struct SceneError {
     pub allowed: String,
     /// Reason, or the name of the field.
     pub message: String,
-    /// Paths of other fields involved: changing one of them may also fix the error.
-    pub involves: &'static [&'static str],
 }
 
 impl SceneError {
@@ -149,19 +147,12 @@ pub(super) fn origin_at(text: &str, name: &str, offset: usize) -> Origin {
     Origin::Place { name: name.into(), line, column }
 }
 
-/// Overrides that cause an error: those of its field, else those of the involved fields, else all of them.
+/// Overrides that cause an error: those of its field, else all of them.
 pub(super) fn overrides_behind(error: &SceneError, overrides: &[(String, String)]) -> Origin {
-    let is_behind: [&dyn Fn(&str) -> bool; 3] = [
-        &|path| is_within(&error.field, path),
-        &|path| error.involves.iter().any(|field| is_within(field, path) || is_within(path, field)),
-        &|_| true,
-    ];
-    let named = |is_behind: &dyn Fn(&str) -> bool| {
-        let behind = overrides.iter().filter(|(path, _)| is_behind(path));
-        behind.map(|(path, value)| format!("{path}={value}")).collect::<Vec<_>>()
-    };
-    let found = is_behind.into_iter().map(named).find(|named| !named.is_empty());
-    Origin::Overrides(found.unwrap_or_default())
+    let is_behind = |path: &str| is_within(&error.field, path);
+    let is_known = overrides.iter().any(|(path, _)| is_behind(path));
+    let behind = overrides.iter().filter(|(path, _)| !is_known || is_behind(path));
+    Origin::Overrides(behind.map(|(path, value)| format!("{path}={value}")).collect())
 }
 
 /// Foreign text for a message: one line, shortened, without control characters.
@@ -183,7 +174,6 @@ mod tests {
             value: "1.4".into(),
             allowed: "above 0 and below 1".into(),
             message: "Hurst exponent".into(),
-            involves: &[],
         }
     }
 
@@ -211,31 +201,5 @@ mod tests {
         assert_eq!(shown("a\u{1b}[2J\nb"), "a\\u{1b}[2J b");
         assert_eq!(shown("a\u{202e}b"), "a\\u{202e}b");
         assert_eq!(shown(&"x".repeat(1000)).chars().count(), MOST_SHOWN + 1);
-    }
-
-    fn pairs(overrides: &[(&str, &str)]) -> Vec<(String, String)> {
-        overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect()
-    }
-
-    fn source(field: &str, involves: &'static [&'static str], overrides: &[(&str, &str)]) -> Vec<String> {
-        let error = SceneError { field: field.into(), involves, ..SceneError::default() };
-        match overrides_behind(&error, &pairs(overrides)) {
-            Origin::Overrides(overrides) => overrides,
-            other => panic!("{other:?}"),
-        }
-    }
-
-    #[test]
-    fn the_nearest_overrides_are_the_source() {
-        let overrides = [("roughness", "…"), ("numerics.points", "1"), ("length", "2")];
-        for (field, involves, expected) in [
-            ("length", &[][..], &["length=2"][..]),
-            ("roughness.hurst", &[], &["roughness=…"]),
-            ("form.radius", &["length", "numerics"], &["numerics.points=1", "length=2"]),
-            ("form", &[], &["roughness=…", "numerics.points=1", "length=2"]),
-            ("lengths", &["length"], &["length=2"]),
-        ] {
-            assert_eq!(source(field, involves, &overrides), expected, "{field}");
-        }
     }
 }

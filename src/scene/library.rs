@@ -1,4 +1,4 @@
-//! Sources of scenes: the program, the user's own folder, and the working folder.
+//! Sources of scenes: the user's own folder and the working folder, beside the built-in scenes.
 
 use std::fs;
 use std::io;
@@ -15,9 +15,6 @@ use crate::text::printable;
 
 /// Most scene files read in one folder; the rest is counted.
 pub const MOST_FILES: usize = 500;
-
-/// Most bytes of scene files read in one folder. Scenes are a few hundred bytes.
-pub const MOST_BYTES: usize = 16 * LONGEST_TEXT;
 
 /// Most entries of a folder that are examined.
 const MOST_LOOKED_AT: usize = 100_000;
@@ -109,8 +106,8 @@ impl Library {
     /// folder, each by name.
     ///
     /// Lists files ending in `.ron`, except for plans of studies; subfolders are not searched. Files that are no
-    /// scene or cannot be read are listed with their error. In each folder at most [`MOST_FILES`] files and
-    /// [`MOST_BYTES`] bytes are read, and only regular files are opened.
+    /// scene or cannot be read are listed with their error. In each folder at most [`MOST_FILES`] files are read, and only
+    /// regular files are opened.
     pub fn list(&self) -> Vec<Entry> {
         let built_in = presets()
             .iter()
@@ -160,15 +157,12 @@ impl Entry {
 
 /// The first error of a file with its place, and the number of further ones.
 fn in_one_line(errors: &SceneErrors) -> String {
-    let first = errors.first();
+    let (first, more) = (errors.first(), errors.iter().count() - 1);
     let place = match &first.origin {
         Origin::Place { line, column, .. } => format!("line {line}, column {column}: "),
         _ => String::new(),
     };
-    let more = match errors.iter().count() - 1 {
-        0 => String::new(),
-        more => format!(" (and {more} more)"),
-    };
+    let more = if more > 0 { format!(" (and {more} more)") } else { String::new() };
     format!("{place}{}{more}", first.what())
 }
 
@@ -186,10 +180,8 @@ fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
     paths.sort_by_cached_key(|path| name_of(path, origin));
     let left = paths.len().saturating_sub(MOST_FILES);
     paths.truncate(MOST_FILES);
-    let mut room = MOST_BYTES;
     let read = |path: PathBuf| {
-        let text = read_within(&path, room);
-        room -= text.as_ref().map_or(0, String::len);
+        let text = read_regular_text(&path, LONGEST_TEXT).map_err(describe);
         Entry::new(printable(&name_of(&path, origin)).into_owned(), origin, Some(path), text)
     };
     let mut entries: Vec<Entry> = paths.into_iter().map(read).collect();
@@ -214,16 +206,6 @@ fn scene_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
 fn name_of(path: &Path, origin: Source) -> String {
     let name = if origin == Source::Own { path.file_stem() } else { path.file_name() };
     name.unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
-}
-
-/// Text of a regular file, if its size is within `room`.
-fn read_within(path: &Path, room: usize) -> Result<String, String> {
-    read_regular_text(path, room.min(LONGEST_TEXT)).map_err(|error| match error {
-        ReadError::TooLong { limit } if limit < LONGEST_TEXT => {
-            format!("not read: the scene files of this folder are more than {MOST_BYTES} bytes long")
-        }
-        error => describe(error),
-    })
 }
 
 /// Reason why the file of a scene was not read.
@@ -382,23 +364,17 @@ mod tests {
     }
 
     #[test]
-    fn no_more_is_read_than_is_said() {
-        let (_root, library, own, working) = library();
+    fn no_more_files_are_read_than_is_said() {
+        let (_root, library, _, working) = library();
         for index in 0..MOST_FILES + 3 {
             fs::write(working.join(format!("{index:04}.ron")), SCENE).unwrap();
         }
-        let long = SCENE.to_string() + &" ".repeat(LONGEST_TEXT - SCENE.len());
-        for index in 0..18 {
-            fs::write(own.join(format!("{index:02}.ron")), &long).unwrap();
-        }
-        let entries = library.list();
-        let of = |origin| entries.iter().filter(move |entry| entry.origin == origin).collect::<Vec<_>>();
-        let (own, working) = (of(Source::Own), of(Source::Working));
-        assert_eq!(working.len(), MOST_FILES + 1);
-        assert!(working[..MOST_FILES].iter().all(|entry| entry.error.is_none()));
-        let said = working[MOST_FILES].error.as_deref().unwrap();
+        let entries = library.list().split_off(presets().len());
+        assert!(
+            entries.len() == MOST_FILES + 1
+                && entries[..MOST_FILES].iter().all(|entry| entry.error.is_none())
+        );
+        let said = entries[MOST_FILES].error.as_deref().unwrap();
         assert!(said.starts_with("3 more scene files"), "{said}");
-        assert_eq!(own.iter().map(|entry| entry.text.len()).sum::<usize>(), MOST_BYTES);
-        assert!(own[16..].iter().all(|entry| entry.error.as_deref().unwrap().starts_with("not read")));
     }
 }

@@ -55,7 +55,7 @@ pub use errors::{Origin, SceneError, SceneErrors};
 pub use field::{Field, LEG_FORCE, LEG_INDENTATION, Step, field};
 pub use fields::{FIELDS, MOST_POINTS};
 pub use form::Form;
-pub use library::{Entry, Library, MOST_BYTES, MOST_FILES, Source, typed_path};
+pub use library::{Entry, Library, MOST_FILES, Source, typed_path};
 pub use model::*;
 pub(crate) use open::{is_file_name, read_file};
 pub use open::{open, open_argument};

@@ -337,19 +337,6 @@ mod tests {
         }
     }
 
-    #[test]
-    fn what_is_written_is_read_back_to_its_digits() {
-        for unit in ["Pa", "m", "J/m²", "N", "rad", "1", "m^(1−n)"] {
-            for exponent in -20..20 {
-                for mantissa in [1.0, 1.5, 9.999, 9.9999, -3.25] {
-                    let value: f64 = format!("{mantissa}e{exponent}").parse().unwrap();
-                    let read = parse_quantity(&format_quantity(value, unit), unit).unwrap();
-                    assert!((read / value - 1.0).abs() < 6e-4, "{value} {unit}: {read}");
-                }
-            }
-        }
-    }
-
     proptest! {
         #[test]
         fn all_digits_are_read_back(bits in any::<u64>(), decades in -30..30_i32, size in 1.0..10.0_f64) {
@@ -382,13 +369,6 @@ mod tests {
             let value: f64 = format!("1e{}", 3 * (place as i32 - 8)).parse().unwrap();
             assert_eq!(parse_quantity(&format!("1 {prefix}Pa"), "Pa"), Ok(value));
             assert_eq!(format_quantity(value, "Pa"), format!("1 {prefix}Pa"));
-        }
-    }
-
-    #[test]
-    fn binary_multiples_of_counts_are_powers_of_1024() {
-        for (place, prefix) in ["Ki", "Mi", "Gi"].into_iter().enumerate() {
-            assert_eq!(parse_quantity(&format!("3{prefix}"), "1"), Ok(3.0 * 1024_f64.powi(place as i32 + 1)));
         }
     }
 }

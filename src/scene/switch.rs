@@ -42,14 +42,28 @@ impl Document {
         if !effect.is_on(scene) {
             return Ok(self.clone());
         }
-        let (replaced, value) = match effect {
-            Effect::Roughness => (self.work_in_place_of_roughness(computed)?, "None".to_owned()),
-            Effect::Adhesion => (self.height_in_place_of_adhesion(computed)?, "None".to_owned()),
-            Effect::Unloading => (None, in_ron(&[pressing(&scene.loading)])),
-            Effect::Form => (None, "None".to_owned()),
-            _ => {
-                let others = scene.observe.iter().filter(|other| Some(**other) != effect.row().2);
-                (None, in_ron(&others.collect::<Vec<_>>()))
+        let adhesion = scene.adhesion.unwrap_or_default();
+        let replaced = match (effect, adhesion.parameter()) {
+            (Effect::Roughness, Some((parameter, _))) if adhesion.work.is_some() => {
+                Some(pair(parameter.path(), "None"))
+            }
+            (Effect::Roughness, Some((parameter, _))) => {
+                let what = format!("{} requires roughness, and the work of adhesion", parameter.symbol());
+                let work = self.known(computed.work_of_adhesion, "adhesion", &what)?;
+                Some(pair("adhesion", adhesion_text(scene, |adhesion| adhesion.with_work(work))))
+            }
+            (Effect::Adhesion, _) if !scene.roughness.as_ref().is_none_or(Roughness::has_amplitude) => {
+                let what = "adhesion sets its amplitude, and the rms height";
+                let height = self.known(computed.rms_height, "roughness", what)?;
+                Some(pair("roughness.rms_height", ron_float(height)))
+            }
+            _ => None,
+        };
+        let value = match (effect, effect.observer()) {
+            (Effect::Unloading, _) => in_ron(&[pressing(&scene.loading)]),
+            (_, None) => "None".to_owned(),
+            (_, observer) => {
+                in_ron(&scene.observe.iter().filter(|other| Some(**other) != observer).collect::<Vec<_>>())
             }
         };
         let overrides: Vec<_> = replaced.into_iter().chain([pair(effect.path(), value)]).collect();
@@ -62,7 +76,7 @@ impl Document {
 
     /// This document with an effect; unchanged if the effect is on.
     ///
-    /// Restores the text that was removed when the effect was switched off, other changes since are kept. If there is no
+    /// Restores the text that was removed when the effect was switched off; other changes since are kept. If there is no
     /// such text, or it is no longer valid, the effect is set to suit the scene.
     ///
     /// # Errors
@@ -86,8 +100,7 @@ impl Document {
         }
         // Values changed since stay.
         let unchanged = paths.iter().filter(|path| self.value(path) == after.value(path));
-        let removed = |path: &String| Some(pair(path, before.value(path)?));
-        let removed: Vec<_> = unchanged.filter_map(removed).collect();
+        let removed: Vec<_> = unchanged.filter_map(|path| Some(pair(path, before.value(path)?))).collect();
         let own: Vec<_> = removed.iter().filter(|(path, _)| path == effect.path()).cloned().collect();
         [removed, own].iter().find_map(|back| self.set_all(back).ok().filter(|new| effect.is_on(new.scene())))
     }
@@ -140,107 +153,69 @@ impl Document {
         forwards: bool,
         computed: &Computed,
     ) -> Result<Option<Document>, SceneErrors> {
+        let effect = Effect::ALL.into_iter().find(|effect| effect.path() == field.path);
+        let effect = effect.map(|effect| (effect, effect.is_on(self.scene())));
+        if effect == Some((Effect::Adhesion, true)) && self.scene().roughness.is_some() {
+            self.known(computed.work_of_adhesion, "adhesion", "the same adhesion given the other way")?;
+        }
         let Some(here) = Tree::of(self.scene()).written(field) else { return Ok(None) };
         let mut refused = None;
         for distance in 1.. {
             let next = field.stepped(&here, if forwards { distance } else { -distance }, false);
             let Some(next) = next.filter(|next| choice_key(next) != choice_key(&here)) else { break };
-            match self.chosen(field, &next, computed) {
+            let chosen = match effect {
+                Some((effect, _)) if next == "None" => self.without(effect, computed),
+                Some((Effect::Adhesion, true)) => self.converted(&next, computed),
+                // Any specification of adhesion will do, since each follows from the other.
+                Some((Effect::Adhesion, false)) => self.with(Effect::Adhesion),
+                Some((effect, false)) => {
+                    let is_next = |new: &Document| {
+                        let written = Tree::of(new.scene()).written(field).unwrap_or_default();
+                        choice_key(&written) == choice_key(&next)
+                    };
+                    let with_effect = self.with(effect).ok().filter(is_next);
+                    with_effect.map_or_else(|| self.set(field.path, &next), Ok)
+                }
+                _ => self.set(field.path, &next),
+            };
+            match chosen {
+                // Work and a parameter given together are two choices already.
+                Ok(document) if document.scene() == self.scene() => {}
                 Ok(document) => return Ok(Some(document)),
-                Err(errors) if errors.first().message.ends_with(NOT_KNOWN) => return Err(errors),
                 Err(errors) => refused = refused.or(Some(errors)),
             }
         }
         refused.map_or(Ok(None), Err)
     }
 
-    fn chosen(&self, field: &Field, next: &str, computed: &Computed) -> Result<Document, SceneErrors> {
-        let effect = Effect::ALL.into_iter().find(|effect| effect.path() == field.path);
-        match effect {
-            Some(effect) if next == "None" => self.without(effect, computed),
-            Some(Effect::Adhesion) if Effect::Adhesion.is_on(self.scene()) => self.converted(next, computed),
-            Some(effect) if !effect.is_on(self.scene()) => {
-                // Any specification of adhesion counts as the next choice, since each follows from the other.
-                let is_next = |new: &Document| {
-                    let written = Tree::of(new.scene()).written(field).unwrap_or_default();
-                    effect == Effect::Adhesion || choice_key(&written) == choice_key(next)
-                };
-                let as_before = self.with(effect)?;
-                if is_next(&as_before) {
-                    return Ok(as_before);
-                }
-                let suited = self.set(field.path, &effect.suited(self.scene())).ok().filter(is_next);
-                suited.map_or_else(|| self.set(field.path, next), Ok)
-            }
-            _ => self.set(field.path, next),
-        }
-    }
-
-    /// The same adhesion specified otherwise.
+    /// The same adhesion specified otherwise; the next choice as it stands if the value is not known.
     fn converted(&self, next: &str, computed: &Computed) -> Result<Document, SceneErrors> {
-        let key = |parameter: RoughnessParameter| format!("({}", parameter.name());
-        let parameter = RoughnessParameter::ALL.into_iter().find(|one| choice_key(next) == key(*one));
-        if parameter.is_some() && self.scene().roughness.is_none() {
-            return self.set("adhesion", next);
-        }
-        let value = match parameter {
-            Some(RoughnessParameter::Kappa) => computed.kappa,
-            Some(RoughnessParameter::ElasticEnergyRatio) => computed.elastic_energy_ratio,
+        // Without the last digits a typed value comes back from a conversion to another one.
+        let value = |value: Option<f64>| value.map(|value| rounded(value, 14));
+        let is_next = |one: &RoughnessParameter| choice_key(next) == format!("({}", one.name());
+        let parameter = RoughnessParameter::ALL.into_iter().find(is_next);
+        let known = match parameter {
+            Some(RoughnessParameter::Kappa) => value(computed.kappa),
+            Some(RoughnessParameter::ElasticEnergyRatio) => value(computed.elastic_energy_ratio),
             None => computed.work_of_adhesion,
         };
-        let value = value.ok_or_else(|| self.unknown("adhesion", "the same adhesion given the other way"))?;
-        // The typed value, if conversion from it has led here.
-        let value = if parameter.is_some() && rounded(value, 10) == rounded(value, 14) {
-            rounded(value, 10)
-        } else {
-            value
-        };
-        let changed = |adhesion: Adhesion| match parameter {
-            Some(parameter) => adhesion.with_parameter(parameter, value),
-            None => adhesion.with_work(value),
-        };
-        let height = self.height_in_place_of_adhesion(computed)?;
-        let adhesion = pair("adhesion", adhesion_text(self.scene(), changed));
-        self.set_all(&height.into_iter().chain([adhesion]).collect::<Vec<_>>())
-    }
-
-    /// Adhesion by work in place of adhesion by κ or e_el/γ, which require roughness.
-    fn work_in_place_of_roughness(
-        &self,
-        computed: &Computed,
-    ) -> Result<Option<(String, String)>, SceneErrors> {
-        let adhesion = self.scene().adhesion.unwrap_or_default();
-        let Some((parameter, _)) = adhesion.parameter() else { return Ok(None) };
-        if adhesion.work.is_some() {
-            return Ok(Some(pair(parameter.path(), "None")));
+        match (parameter, known) {
+            (Some(parameter), Some(value)) => self.with_parameter(parameter, value),
+            (None, Some(work)) => self.with_work_of_adhesion(work),
+            (_, None) => self.set("adhesion", next),
         }
-        let what = format!("{} requires roughness, and the work of adhesion", parameter.symbol());
-        let work = computed.work_of_adhesion.ok_or_else(|| self.unknown("adhesion", &what))?;
-        Ok(Some(pair("adhesion", adhesion_text(self.scene(), |adhesion| adhesion.with_work(work)))))
     }
 
-    /// The rms height of roughness whose amplitude follows from work of adhesion and κ.
-    fn height_in_place_of_adhesion(
-        &self,
-        computed: &Computed,
-    ) -> Result<Option<(String, String)>, SceneErrors> {
-        if self.scene().roughness.as_ref().is_none_or(Roughness::has_amplitude) {
-            return Ok(None);
-        }
-        let what = "adhesion sets its amplitude, and the rms height";
-        let height = computed.rms_height.ok_or_else(|| self.unknown("roughness", what))?;
-        Ok(Some(pair("roughness.rms_height", ron_float(height))))
-    }
-
-    fn unknown(&self, field: &str, what: &str) -> SceneErrors {
-        let value = self.value(field).unwrap_or_default().to_string();
-        let error = SceneError::whole(Origin::Scene, format!("{what}{NOT_KNOWN}"));
-        SceneError { field: field.to_string(), value, ..error }.into()
+    /// A value of the computed scene for a field.
+    fn known(&self, value: Option<f64>, field: &str, what: &str) -> Result<f64, SceneErrors> {
+        value.ok_or_else(|| {
+            let message = format!("{what} is not known yet: compute the scene first");
+            let value = self.value(field).unwrap_or_default().to_string();
+            let error = SceneError::whole(Origin::Scene, message);
+            SceneError { field: field.to_string(), value, ..error }.into()
+        })
     }
 }
-
-/// End of the message about a value that only the computed scene has.
-const NOT_KNOWN: &str = " is not known yet: compute the scene first";
 
 #[cfg(test)]
 mod tests {
@@ -390,11 +365,8 @@ mod tests {
         // A smooth body has no κ.
         let smooth = work.set("roughness", "None").unwrap();
         assert_eq!(next(&smooth, "adhesion", true).scene().adhesion, None);
-        let kappa = next(&both(), "adhesion", true);
-        assert_eq!(
-            (adhesion(&kappa), kappa.value("roughness.rms_height")),
-            ((None, Some(6.0)), Some("1.5e-7"))
-        );
+        let ratio = next(&both(), "adhesion", true);
+        assert_eq!(ratio.value("adhesion"), Some("(work: 0.1, elastic_energy_ratio: 0.9)"));
     }
 
     #[test]

@@ -15,7 +15,7 @@ const LONGEST_PATH: usize = 100;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
     pub(super) source: String,
-    pub(super) entries: Vec<Span>,
+    spans: Vec<Span>,
     /// Bytes of the comments.
     pub(super) comments: Vec<Range<usize>>,
 }
@@ -31,11 +31,7 @@ pub struct Span {
     pub value: Range<usize>,
     /// The value without any `Some(…)` around it.
     bare: Range<usize>,
-    /// Name of the variant, or an empty range.
-    variant: Range<usize>,
-    /// Tokens of the brackets of the value.
-    brackets: Option<(usize, usize)>,
-    /// The bytes between the brackets.
+    /// Between the brackets of the value.
     pub(super) inside: Option<Range<usize>>,
     /// Byte after the comma that follows.
     pub(super) comma: Option<usize>,
@@ -43,20 +39,18 @@ pub struct Span {
 
 /// Line and column of a byte, both from 1, columns counted in characters.
 pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
-    let mut offset = offset.min(text.len());
-    while !text.is_char_boundary(offset) {
-        offset -= 1;
-    }
-    let before = &text[..offset];
+    let ends = |offset: &usize| text.is_char_boundary(*offset);
+    let before = &text[..(0..=offset.min(text.len())).rev().find(ends).unwrap_or(0)];
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
     (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }
 
 /// The byte at a line and column, or the end of the line or text before it.
 pub(in crate::scene) fn offset_of(text: &str, line: usize, column: usize) -> usize {
-    let Some(line) = text.split('\n').nth(line.saturating_sub(1)) else { return text.len() };
-    let within = line.char_indices().nth(column.saturating_sub(1)).map_or(line.len(), |(at, _)| at);
-    line.as_ptr() as usize - text.as_ptr() as usize + within
+    let mut lines = text.split_inclusive('\n');
+    let start: usize = lines.by_ref().take(line.saturating_sub(1)).map(str::len).sum();
+    let line = lines.next().unwrap_or_default().trim_end_matches('\n');
+    start + line.char_indices().nth(column.saturating_sub(1)).map_or(line.len(), |(at, _)| at)
 }
 
 /// Returns true if a path equals another path or lies inside it.
@@ -73,17 +67,20 @@ impl Text {
         let source = source.into();
         let Scan { tokens, comments } = scan(&source)?;
         let tokens = Tokens { source: &source, tokens };
-        let mut entries: Vec<Span> = Vec::new();
-        entries.extend(tokens.root().and_then(|root| tokens.entry(String::new(), root, root)));
+        let mut spans: Vec<Span> = Vec::new();
+        // Brackets of groups whose values are still to be added, by the path before the names of these.
+        let mut open = Vec::new();
+        if let Some(root) = tokens.root() {
+            open.extend(
+                tokens.add_span(String::new(), (root, root), &mut spans).map(|one| (String::new(), one)),
+            );
+        }
         let mut next = 0;
-        while let Some(group) = entries.get(next) {
-            if let Some(brackets) = group.brackets.filter(|_| group.path.len() <= LONGEST_PATH) {
-                let group = if next == 0 { String::new() } else { format!("{}.", group.path) };
-                tokens.add_entries(&group, brackets, &mut entries);
-            }
+        while let Some((group, brackets)) = open.get(next).cloned() {
+            tokens.add_inside(&group, brackets, &mut spans, &mut open);
             next += 1;
         }
-        Ok(Text { source, entries, comments })
+        Ok(Text { source, spans, comments })
     }
 
     /// The text.
@@ -93,19 +90,19 @@ impl Text {
 
     /// Place of the value at a path.
     pub fn span(&self, path: &str) -> Option<&Span> {
-        self.entries.iter().find(|entry| entry.path == path)
+        self.spans.iter().find(|span| span.path == path)
     }
 
     /// First byte of the value at a path, or of the nearest group around it.
     pub(in crate::scene) fn nearest_value(&self, path: &str) -> usize {
         let mut around = std::iter::successors(Some(path), |path| Some(path.rsplit_once('.')?.0));
         let found = around.find_map(|path| self.span(path).filter(|_| !path.is_empty()));
-        found.map(|entry| entry.value.start).or_else(|| self.opening()).unwrap_or(0)
+        found.map(|span| span.value.start).or_else(|| self.opening()).unwrap_or(0)
     }
 
     /// Byte of the bracket that opens the whole; `None` for a value without brackets.
     pub(in crate::scene) fn opening(&self) -> Option<usize> {
-        Some(self.entries.first()?.inside.as_ref()?.start - 1)
+        Some(self.spans.first()?.inside.as_ref()?.start - 1)
     }
 
     /// The value at a path as written, with any `Some(…)` around it.
@@ -120,14 +117,15 @@ impl Text {
 
     /// Name of the variant at a path: `Cone` for `Some(Cone(angle: 0.1))`.
     pub(in crate::scene) fn variant(&self, path: &str) -> Option<&str> {
-        self.source.get(self.span(path)?.variant.clone()).filter(|name| !name.is_empty())
+        let name = self.value(path)?.split(['(', '[', '{', '"']).next()?.trim();
+        Some(name.strip_prefix("r#").unwrap_or(name)).filter(|name| !name.is_empty())
     }
 
-    /// Entries of the group or list at a path, in order.
+    /// Values of the group or list at a path, in order.
     pub(super) fn inside(&self, path: &str) -> Vec<&Span> {
-        let parent = |path: &str| path.rfind('.').unwrap_or(0);
-        let is_inside = |entry: &&Span| !entry.path.is_empty() && entry.path[..parent(&entry.path)] == *path;
-        self.entries.iter().filter(is_inside).collect()
+        let group = |path: &str| path.rfind('.').unwrap_or(0);
+        let is_inside = |span: &&Span| !span.path.is_empty() && span.path[..group(&span.path)] == *path;
+        self.spans.iter().filter(is_inside).collect()
     }
 
     /// Number of comments.
@@ -137,15 +135,18 @@ impl Text {
 
     /// Path of the innermost value whose entry contains a byte; empty if there is none.
     pub(in crate::scene) fn path_at(&self, offset: usize) -> &str {
-        let around = self.entries.iter().filter(|entry| entry.entry.contains(&offset));
-        around.max_by_key(|entry| entry.entry.start).map_or("", |entry| &entry.path)
+        let around = self.spans.iter().filter(|span| span.entry.contains(&offset));
+        around.max_by_key(|span| span.entry.start).map_or("", |span| &span.path)
     }
 
     /// Returns true if the text is exactly one value.
     pub(super) fn is_one_value(&self) -> bool {
-        self.entries.first().is_some_and(|root| root.value == (0..self.source.len()))
+        self.spans.first().is_some_and(|root| root.value == (0..self.source.len()))
     }
 }
+
+/// Indices of the tokens of two brackets.
+type Brackets = (usize, usize);
 
 /// Tokens of a text.
 struct Tokens<'t> {
@@ -154,38 +155,46 @@ struct Tokens<'t> {
 }
 
 impl Tokens<'_> {
-    /// The entry that starts at a token, with the value that starts at another one.
-    fn entry(&self, path: String, start: usize, first: usize) -> Option<Span> {
-        let end = self.value_end(first)?;
-        let inner = self.inside_some(first);
-        let inner_end = self.value_end(inner)?;
+    /// Adds the value that starts at the second token, in an entry that starts at the first. Returns its brackets.
+    fn add_span(
+        &self,
+        path: String,
+        (start, first): (usize, usize),
+        spans: &mut Vec<Span>,
+    ) -> Option<Brackets> {
+        let (end, inner) = (self.value_end(first)?, self.inside_some(first));
         let bytes = |first: usize, end: usize| self.tokens[first].start..self.tokens[end - 1].end;
-        let brackets = self.brackets(inner);
-        let variant = self.word(inner).map_or(0..0, |word| {
-            let end = self.tokens[inner].end;
-            end - word.len()..end
-        });
-        Some(Span {
-            path,
-            entry: bytes(start, end),
-            value: bytes(first, end),
-            bare: bytes(inner, inner_end),
-            variant,
-            brackets,
-            inside: brackets.map(|(open, close)| self.tokens[open].end..self.tokens[close].start),
-            comma: self.is(end, Kind::Comma).then(|| self.tokens[end].end),
-        })
+        let open = if self.is(inner, Kind::Word) { inner + 1 } else { inner };
+        let brackets = match self.tokens.get(open).map(|token| token.kind) {
+            Some(Kind::Open('(', close)) => Some((open, close)),
+            Some(Kind::Open('[', close)) if open == inner => Some((open, close)),
+            _ => None,
+        };
+        let inside = brackets.map(|(open, close)| self.tokens[open].end..self.tokens[close].start);
+        let comma = self.is(end, Kind::Comma).then(|| self.tokens[end].end);
+        let (entry, value, bare) =
+            (bytes(start, end), bytes(first, end), bytes(inner, self.value_end(inner)?));
+        spans.push(Span { path, entry, value, bare, inside, comma });
+        brackets
     }
 
-    /// Adds the entries between two brackets, up to the first unreadable one.
-    fn add_entries(&self, group: &str, (open, close): (usize, usize), entries: &mut Vec<Span>) {
+    /// Adds the values between two brackets, up to the first unreadable one, and their own brackets.
+    fn add_inside(
+        &self,
+        group: &str,
+        (open, close): Brackets,
+        spans: &mut Vec<Span>,
+        all: &mut Vec<(String, Brackets)>,
+    ) {
         let mut start = open + 1;
         for index in 0.. {
             let name = self.word(start).filter(|_| self.is(start + 1, Kind::Colon));
             let first = if name.is_some() { start + 2 } else { start };
             let Some(end) = self.value_end(first).filter(|end| *end <= close) else { return };
             let path = name.map_or_else(|| format!("{group}{index}"), |name| format!("{group}{name}"));
-            entries.extend(self.entry(path, start, first));
+            let below = format!("{path}.");
+            let brackets = self.add_span(path, (start, first), spans).filter(|_| below.len() <= LONGEST_PATH);
+            all.extend(brackets.map(|brackets| (below, brackets)));
             // Without a comma this is the last entry, regardless of the text after it.
             if !self.is(end, Kind::Comma) {
                 return;
@@ -216,16 +225,6 @@ impl Tokens<'_> {
             (Kind::Open(_, close), _) | (Kind::Word, Some(Kind::Open('(', close))) => Some(close + 1),
             (Kind::Quoted | Kind::Word, _) => Some(first + 1),
             (Kind::Close | Kind::Comma | Kind::Colon, _) => None,
-        }
-    }
-
-    /// The brackets of the value that starts at a token.
-    fn brackets(&self, first: usize) -> Option<(usize, usize)> {
-        let open = if self.is(first, Kind::Word) { first + 1 } else { first };
-        match self.tokens.get(open)?.kind {
-            Kind::Open('(', close) => Some((open, close)),
-            Kind::Open('[', close) if open == first => Some((open, close)),
-            _ => None,
         }
     }
 
