@@ -363,11 +363,6 @@ mod tests {
     }
 
     #[test]
-    fn a_byte_order_mark_is_no_error() {
-        assert_eq!(Document::parse(&format!("\u{feff}{SCENE}"), "x").unwrap().scene(), document().scene());
-    }
-
-    #[test]
     fn overrides_allowed_only_together_are_checked_together() {
         let document = document();
         assert!(document.set("numerics.points", "64").is_err());

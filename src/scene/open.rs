@@ -144,7 +144,6 @@ fn text_of_stream(mut stream: impl Read) -> Result<Source, ReadError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::presets::DEFAULT;
     use super::*;
     use std::fs;
 
@@ -156,16 +155,6 @@ mod tests {
             assert!(!document.scene().notice.is_empty(), "{}", preset.name);
             assert_eq!(document.name(), preset.name);
         }
-    }
-
-    #[test]
-    fn presets_have_different_names_and_one_is_the_default() {
-        let mut names: Vec<_> = presets().iter().map(|preset| preset.name).collect();
-        names.sort_unstable();
-        names.dedup();
-        assert_eq!(names.len(), presets().len());
-        assert!(find(DEFAULT).is_some());
-        assert_eq!(find("nothing"), None);
     }
 
     #[test]

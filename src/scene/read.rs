@@ -247,17 +247,6 @@ mod tests {
     }
 
     #[test]
-    fn nesting_is_bounded() {
-        for text in
-            ["(".repeat(100_000), "[".repeat(100_000), scene(&format!("form: {}", "Some(".repeat(100_000)))]
-        {
-            assert!(read(&text).is_err());
-        }
-        let deep = scene(&format!("form: {}None{}", "Some(".repeat(1000), ")".repeat(1000)));
-        assert!(read(&deep).is_err());
-    }
-
-    #[test]
     fn the_version_is_stated_whatever_else_is_wrong() {
         let wrong = |text: &str| wrong_version(&Text::new(text).unwrap());
         assert_eq!(wrong("(version: 1, nonsense)"), None);
