@@ -1,7 +1,8 @@
 //! Differences between two scenes, by technical names.
 
 use super::document::Document;
-use super::field::{Field, fields_inside};
+use super::field::Field;
+use super::fields::fields_inside;
 use super::model::{Move, Roughness, Scene};
 use super::quantity::format_quantity;
 use super::tree::{Tree, in_ron};
@@ -31,7 +32,6 @@ impl Change {
 impl Document {
     /// The fields, other than texts, with different values in this scene and another one: each by itself where both
     /// scenes make the same choices, else their group; loading stages one by one if both scenes have as many.
-    #[must_use]
     pub fn changes_to(&self, other: &Document) -> Vec<Change> {
         let scenes = [self, other].map(|document| with_stated_use(document.scene()));
         let trees = scenes.each_ref().map(Tree::of);

@@ -7,8 +7,8 @@
 use serde_json::Value;
 
 use super::errors::SceneError;
-use super::field::{FILE_NAME, Field, LEG_INDENTATION, field};
-use super::fields::FIELDS;
+use super::field::{FILE_NAME, Field, LEG_INDENTATION};
+use super::fields::{FIELDS, field};
 use super::form::Form;
 use super::model::{Adhesion, Edges, Move, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
 use super::range::Range;

@@ -8,8 +8,8 @@ use super::check::check;
 use super::edit::{field_at, set};
 use super::effects::Effect;
 use super::errors::{Origin, SceneError, SceneErrors, origin_at, overrides_behind};
-use super::field::{Field, field};
-use super::fields::FIELDS;
+use super::field::Field;
+use super::fields::{FIELDS, field};
 use super::model::Scene;
 use super::range::Range;
 use super::read::{Unread, read, wrong_version};
@@ -48,7 +48,6 @@ impl Scene {
     /// Checks all values of a scene that was not read from text.
     ///
     /// # Errors
-    ///
     /// All invalid values, each with its field and its allowed range.
     pub fn check(&self) -> Result<(), SceneErrors> {
         SceneErrors::result(check(self), |_| Origin::Scene)
@@ -59,7 +58,6 @@ impl Document {
     /// Reads and checks a scene. `name` is that of the file or of the built-in scene, for errors.
     ///
     /// # Errors
-    ///
     /// The first syntax error of the text, or all invalid values, each with line and column. A wrong
     /// version comes first, before any other error.
     pub fn parse(source: &str, name: &str) -> Result<Document, SceneErrors> {
@@ -98,7 +96,6 @@ impl Document {
     /// The document of a scene that was not read from text, in canonical form.
     ///
     /// # Errors
-    ///
     /// All invalid values.
     pub fn from_scene(scene: &Scene, name: &str) -> Result<Document, SceneErrors> {
         scene.check()?;
@@ -108,7 +105,6 @@ impl Document {
     /// This document with one field overridden; see [`Document::set_all`].
     ///
     /// # Errors
-    ///
     /// As [`Document::set_all`].
     pub fn set(&self, path: &str, value: &str) -> Result<Document, SceneErrors> {
         self.set_all(&[pair(path, value)])
@@ -121,7 +117,6 @@ impl Document {
     /// checked once, at the end, so that overrides allowed only together may come in any order.
     ///
     /// # Errors
-    ///
     /// All errors, each with the overrides that caused it.
     pub fn set_all(&self, overrides: &[(String, String)]) -> Result<Document, SceneErrors> {
         let mut new = self.clone();
@@ -208,7 +203,6 @@ impl Document {
     }
 
     /// Title of the scene, or if there is none the name of its file without folders.
-    #[must_use]
     pub fn title(&self) -> &str {
         let file = || Path::new(&self.name).file_name().and_then(OsStr::to_str);
         if self.scene.title.is_empty() { file().unwrap_or(&self.name) } else { &self.scene.title }
@@ -241,7 +235,6 @@ impl Document {
     }
 
     /// This document with another opened text, from which these overrides have made the present one.
-    #[must_use]
     pub fn resumed(self, opened: String, overrides: Vec<(String, String)>) -> Document {
         Document { opened, overrides, ..self }
     }

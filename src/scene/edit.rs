@@ -1,7 +1,7 @@
 //! Change of one field in the text of a scene, with every comment preserved.
 
-use super::field::{Field, LEG_FORCE, LEG_INDENTATION, field};
-use super::fields::FIELDS;
+use super::field::{Field, LEG_FORCE, LEG_INDENTATION};
+use super::fields::{FIELDS, field};
 use super::range::{Range, choice_name};
 use super::suggest::did_you_mean;
 use super::text::{Text, one_value};
@@ -22,7 +22,6 @@ pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
 /// inserted. Any value changes this one place only.
 ///
 /// # Errors
-///
 /// The reason in a sentence: no such field, not a single value, or no place for it.
 pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> {
     let value = one_value(value)?;

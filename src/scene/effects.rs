@@ -1,6 +1,6 @@
 //! Optional effects of a scene beyond the nonadhesive contact of a flat body.
 
-use super::field::field;
+use super::fields::field;
 use super::model::{Adhesion, Move, Observer, Scene};
 use super::text::ron_float;
 use super::tree::{Tree, in_ron};

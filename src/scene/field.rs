@@ -1,10 +1,7 @@
 //! One field of a scene: path, symbol, unit, range, step, default and meaning.
 
-use serde::de::DeserializeOwned;
-
-use super::fields::FIELDS;
-use super::model::Move;
 use super::range::Range;
+use crate::contact::Move;
 
 /// One field of a scene.
 #[derive(Clone, Copy, Debug)]
@@ -119,26 +116,6 @@ impl PartialEq for Field {
     fn eq(&self, other: &Field) -> bool {
         (self.path, self.variant) == (other.path, other.variant)
     }
-}
-
-/// The field at a path. If variants of a choice share the name, `variant` decides; with `None` the
-/// first one is returned.
-pub fn field(path: &str, variant: Option<&str>) -> Option<&'static Field> {
-    let is_of = |field: &Field| variant.is_none() || field.variant.is_none() || field.variant == variant;
-    FIELDS.iter().find(|field| field.path == path && is_of(field))
-}
-
-/// Fields inside the group or choice at a path, with this variant; the top level for an empty path.
-pub(super) fn fields_inside(path: &str, variant: Option<&str>) -> impl Iterator<Item = &'static Field> {
-    let is_of = move |field: &Field| field.variant.is_none() || field.variant == variant;
-    FIELDS.iter().filter(move |field| field.parent() == path && is_of(field))
-}
-
-/// Value of an omitted field.
-pub(super) fn default<T: DeserializeOwned>(path: &str, variant: Option<&str>) -> T {
-    let text = field(path, variant).map_or("", |field| field.default);
-    // The table is part of the program.
-    ron::from_str(text).unwrap_or_else(|error| panic!("default of {path}: {error}"))
 }
 
 /// Range of file names.

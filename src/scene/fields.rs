@@ -3,15 +3,39 @@
 //! Reading and writing, checks of ranges, defaults, overrides, steps of the keys, axes of studies, the explorer's list
 //! of parameters, random scenes of the tests and the reference in docs/scene-file.md are loops over this table.
 
+use serde::de::DeserializeOwned;
 use std::f64::consts::FRAC_PI_2;
 
 use super::field::Step::{Doubling, Integer, Linear, Typed};
 use super::field::{FILE_NAME, Field, row};
-use super::model::SCENE_VERSIONS;
 use super::range::Range::{self, Band, Choice, List, Text, Whole};
+
+/// Supported versions of the scene file. In version 1 a measured profile is the line itself unless
+/// `roughness.as_line` states otherwise, in version 2 the line is the equivalent one.
+pub const SCENE_VERSIONS: std::ops::RangeInclusive<u32> = 1..=2;
 
 /// Largest number of springs.
 pub const MOST_POINTS: u64 = 1 << 28;
+
+/// The field at a path. If variants of a choice share the name, `variant` decides; with `None` the
+/// first one is returned.
+pub fn field(path: &str, variant: Option<&str>) -> Option<&'static Field> {
+    let is_of = |field: &Field| variant.is_none() || field.variant.is_none() || field.variant == variant;
+    FIELDS.iter().find(|field| field.path == path && is_of(field))
+}
+
+/// Fields inside the group or choice at a path, with this variant; the top level for an empty path.
+pub(super) fn fields_inside(path: &str, variant: Option<&str>) -> impl Iterator<Item = &'static Field> {
+    let is_of = move |field: &Field| field.variant.is_none() || field.variant == variant;
+    FIELDS.iter().filter(move |field| field.parent() == path && is_of(field))
+}
+
+/// Value of an omitted field.
+pub(super) fn default<T: DeserializeOwned>(path: &str, variant: Option<&str>) -> T {
+    let text = field(path, variant).map_or("", |field| field.default);
+    // The table is part of the program.
+    ron::from_str(text).unwrap_or_else(|error| panic!("default of {path}: {error}"))
+}
 
 const MATERIALS: Range =
     Choice(&["(youngs_modulus: 2.0e6, poisson_ratio: 0.5)", "(effective_modulus: 2.7e6)"]);

@@ -75,7 +75,6 @@ impl Form {
     }
 
     /// The form without its waves.
-    #[must_use]
     pub fn without_waves(self) -> Form {
         match self {
             Form::WavySphere { radius, .. } => Form::Paraboloid { radius },

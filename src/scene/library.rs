@@ -20,7 +20,6 @@ pub const MOST_FILES: usize = 500;
 const MOST_LOOKED_AT: usize = 100_000;
 
 /// A typed path: a leading `~` becomes the home folder, if there is one.
-#[must_use]
 pub fn typed_path(text: &str) -> PathBuf {
     let text = text.trim();
     let in_home = text.strip_prefix('~').filter(|rest| rest.is_empty() || rest.starts_with(is_separator));
@@ -142,7 +141,6 @@ impl Entry {
     /// The scene as a document. Files of a scene are relative to its own file.
     ///
     /// # Errors
-    ///
     /// All errors of the scene.
     pub fn document(&self) -> Result<Document, SceneErrors> {
         let name = self.path.as_ref().map_or_else(|| self.name.clone(), |path| path.display().to_string());

@@ -2,7 +2,7 @@
 //!
 //! These types hold values as written; [`super::check()`] finds the invalid ones.
 
-use super::field::default;
+use super::fields::default;
 use super::form::Form;
 pub use crate::contact::{Edges, Move};
 use crate::spectrum::Detrend;
@@ -10,10 +10,6 @@ use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use strum::IntoStaticStr;
-
-/// Supported versions of the scene file. In version 1 a measured profile is the line itself unless
-/// `roughness.as_line` states otherwise, in version 2 the line is the equivalent one.
-pub const SCENE_VERSIONS: std::ops::RangeInclusive<u32> = 1..=2;
 
 /// Fewest springs per wave of a form, of roughness and of the maps. The adhesion force of a rough sphere has an error of
 /// 6 % with two springs to the shortest wave, of 0.2 % with four (docs/accuracy.md).
@@ -23,7 +19,7 @@ pub const SPRINGS_PER_WAVE: u64 = 4;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
-    /// Version of the file format, one of [`SCENE_VERSIONS`].
+    /// Version of the file format, one of [`SCENE_VERSIONS`](super::SCENE_VERSIONS).
     pub version: u32,
     /// Title of the scene, one line.
     #[serde(default)]
@@ -69,13 +65,11 @@ pub struct Material {
 
 impl Material {
     /// Material given by its effective modulus E*, Pa.
-    #[must_use]
     pub fn effective(modulus: f64) -> Self {
         Material { youngs_modulus: None, poisson_ratio: None, effective_modulus: Some(modulus) }
     }
 
     /// Isotropic material under a rigid body, given by Young's modulus E (Pa) and Poisson's ratio ν: E* = E/(1 − ν²).
-    #[must_use]
     pub fn isotropic(youngs_modulus: f64, poisson_ratio: f64) -> Self {
         Material {
             youngs_modulus: Some(youngs_modulus),
@@ -319,7 +313,6 @@ pub struct Adhesion {
 
 impl Adhesion {
     /// The same adhesion with this work of adhesion γ, J/m², in place of κ or e_el/γ.
-    #[must_use]
     pub fn with_work(mut self, work: f64) -> Self {
         (self.work, self.kappa, self.elastic_energy_ratio) = (Some(work), None, None);
         self

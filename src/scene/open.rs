@@ -18,7 +18,6 @@ use crate::text::printable;
 /// its scene.
 ///
 /// # Errors
-///
 /// No such scene, an unreadable file, or the errors of its scene.
 pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
     open_in(name_or_path, &Library::of_environment())

@@ -50,7 +50,6 @@ impl QuantityError {
 /// lost to the prefix.
 ///
 /// # Errors
-///
 /// A text that is no number, has another unit, or is not finite.
 pub fn parse_quantity(text: &str, unit: &str) -> Result<f64, QuantityError> {
     let typed = text.trim();

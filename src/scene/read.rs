@@ -7,7 +7,8 @@ use serde::de::DeserializeOwned;
 
 use super::edit::field_at;
 use super::errors::{Origin, SceneError};
-use super::model::{SCENE_VERSIONS, Scene};
+use super::fields::SCENE_VERSIONS;
+use super::model::Scene;
 use super::range::Range;
 use super::suggest::{did_you_mean, nearest};
 use super::text::{Text, offset_of};

@@ -1,6 +1,7 @@
 //! Steps of a field by a key: from the text of one value to the text of the next.
 
-use super::field::{Field, Step, fields_inside};
+use super::field::{Field, Step};
+use super::fields::fields_inside;
 use super::range::{Range, choice_key, choice_name};
 use super::text::ron_float;
 
@@ -142,8 +143,8 @@ fn preferred(value: f64, series: &[f64], up: bool) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::field::field;
     use super::super::fields::FIELDS;
+    use super::super::fields::field;
 
     fn stepped(path: &str, value: &str, steps: i32, coarse: bool) -> Option<String> {
         field(path, None).unwrap().stepped(value, steps, coarse)

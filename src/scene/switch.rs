@@ -35,7 +35,6 @@ impl Document {
     /// unloading, the stage that presses most remains.
     ///
     /// # Errors
-    ///
     /// A replacement value is not in `computed`, or is invalid.
     pub fn without(&self, effect: Effect, computed: &Computed) -> Result<Document, SceneErrors> {
         let scene = self.scene();
@@ -80,7 +79,6 @@ impl Document {
     /// such text, or it is no longer valid, the effect is set to suit the scene.
     ///
     /// # Errors
-    ///
     /// The effect is impossible in the scene, such as roughness on a single spring.
     pub fn with(&self, effect: Effect) -> Result<Document, SceneErrors> {
         if effect.is_on(self.scene()) {
@@ -109,7 +107,6 @@ impl Document {
     /// adhesion, and none, becomes adhesion by work.
     ///
     /// # Errors
-    ///
     /// An invalid work of adhesion.
     pub fn with_work_of_adhesion(&self, work: f64) -> Result<Document, SceneErrors> {
         match self.scene().adhesion {
@@ -123,7 +120,6 @@ impl Document {
     /// roughness together with the other parameter is kept.
     ///
     /// # Errors
-    ///
     /// An invalid value, or a scene without roughness.
     pub fn with_parameter(&self, parameter: RoughnessParameter, value: f64) -> Result<Document, SceneErrors> {
         match self.scene().adhesion.and_then(|adhesion| adhesion.parameter()) {
@@ -145,7 +141,6 @@ impl Document {
     /// Adhesion by work, by κ and by e_el/γ are the same adhesion: `computed` has the values for this scene.
     ///
     /// # Errors
-    ///
     /// No other choice is allowed, or a converted value is not in `computed`.
     pub fn with_next_choice(
         &self,
@@ -188,10 +183,11 @@ impl Document {
         refused.map_or(Ok(None), Err)
     }
 
-    /// The same adhesion specified otherwise; the next choice as it stands if the value is not known.
+    /// The same adhesion specified otherwise; the next choice itself if the value is not known.
     fn converted(&self, next: &str, computed: &Computed) -> Result<Document, SceneErrors> {
-        // Without the last digits a typed value comes back from a conversion to another one.
-        let value = |value: Option<f64>| value.map(|value| rounded(value, 14));
+        // A typed value comes back from a conversion to another one without digits of rounding.
+        let typed = |value| if rounded(value, 10) == rounded(value, 14) { rounded(value, 10) } else { value };
+        let value = |value: Option<f64>| value.map(typed);
         let is_next = |one: &RoughnessParameter| choice_key(next) == format!("({}", one.name());
         let parameter = RoughnessParameter::ALL.into_iter().find(is_next);
         let known = match parameter {
@@ -221,7 +217,7 @@ impl Document {
 mod tests {
     use proptest::prelude::*;
 
-    use super::super::field::field;
+    use super::super::fields::field;
     use super::super::form::Form;
     use super::super::model::Move::{ToForce, ToSeparation};
     use super::super::strategies::sound_scenes;

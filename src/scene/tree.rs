@@ -3,8 +3,8 @@
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-use super::field::{Field, fields_inside};
-use super::fields::FIELDS;
+use super::field::Field;
+use super::fields::{FIELDS, fields_inside};
 use super::model::Scene;
 use super::range::Range;
 use super::text::{ron_float, ron_string};
@@ -16,19 +16,16 @@ pub struct Tree(Value);
 
 impl Tree {
     /// The values of a scene. A number that is not finite becomes `null`.
-    #[must_use]
     pub fn of(scene: &Scene) -> Tree {
         Tree(serde_json::to_value(scene).unwrap_or_default())
     }
 
     /// The scene with these values; `None` if there is none.
-    #[must_use]
     pub fn scene(self) -> Option<Scene> {
         serde_json::from_value(self.0).ok()
     }
 
     /// Number at a path: `form.radius`, `roughness.modes.0`, `loading.1.0`.
-    #[must_use]
     pub fn get(&self, path: &str) -> Option<f64> {
         self.at(path)?.as_f64()
     }
@@ -37,7 +34,6 @@ impl Tree {
     /// is made for it.
     ///
     /// Returns `false`, with the tree unchanged, if the scene has no such number.
-    #[must_use]
     pub fn set(&mut self, path: &str, value: f64) -> bool {
         let is_adhesion = |field: &Field| field.parent() == "adhesion" && self.0["adhesion"].is_null();
         let row = FIELDS.iter().find(|row| row.path == path && (self.has(row) || is_adhesion(row)));
@@ -192,7 +188,7 @@ fn contents_mut(value: &mut Value) -> &mut Value {
 #[cfg(test)]
 mod tests {
     use super::super::document::Document;
-    use super::super::field::field;
+    use super::super::fields::field;
     use super::super::model::Move;
     use super::super::strategies::{sound, sound_scenes};
     use super::*;

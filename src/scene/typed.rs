@@ -48,8 +48,8 @@ fn is_file_name(typed: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::field::field;
     use super::super::fields::FIELDS;
+    use super::super::fields::field;
     use super::super::strategies::sound_scenes;
     use super::super::tree::Tree;
     use proptest::prelude::*;

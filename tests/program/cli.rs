@@ -32,10 +32,12 @@ const KEYS: &[&str] = &[
 const LINE_KEYS: &[&str] = &["points", "length", "spacing", "rms_height", "rms_gradient", "modes", "seed"];
 const CURVE_KEYS: &[&str] = &["leg", "indentation", "force", "contact_length", "fragments", "stored_energy"];
 
-/// Standard output of a command that succeeds without messages.
+/// Standard output of a command that succeeds without messages but for that of few springs.
 fn done(arguments: &[&str]) -> String {
     let Finished { code, stdout, stderr } = asperity(arguments);
-    assert_eq!((code, stderr.as_str()), (Some(0), ""), "{arguments:?}");
+    let is_quiet =
+        stderr.lines().all(|line| line.starts_with("warning: ") && line.contains("the shortest wave has"));
+    assert!(code == Some(0) && is_quiet, "{arguments:?}: {code:?}, {stderr}");
     stdout
 }
 

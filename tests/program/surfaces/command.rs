@@ -132,7 +132,7 @@ fn the_profile_of_a_scene_is_read_back_with_its_moments() {
 fn spectra_are_drawn_and_their_table_has_its_command() {
     let folder = folder();
     let folder = folder.path();
-    let options = ["surface", "plain.txt", "--unit", "um", "--detrend", "curvature", "--periodic"];
+    let options = ["surface", "plain.txt", "--unit", "um", "--periodic", "--continue-to", "0.7um"];
     done(folder, &[&options[..], &["-o", "a.csv"]].concat());
     let table = std::fs::read_to_string(folder.join("a.csv")).unwrap();
     assert!(table.contains(&format!("\n# command: asperity {}\n", options.join(" "))), "{table}");
