@@ -226,10 +226,10 @@ impl SurfaceArguments {
         let place = |file: &Path| file.canonicalize().ok();
         let outputs: Vec<PathBuf> =
             [self.output.file(), self.scene.as_deref()].into_iter().flatten().filter_map(place).collect();
-        let files = self.files.iter().chain(&self.opposite).map(|file| file);
+        let files = self.files.iter().chain(&self.opposite);
         match files.into_iter().find(|file| place(file).is_some_and(|file| outputs.contains(&file))) {
             Some(file) => Err(CliError::named(
-                path_name(&file),
+                path_name(file),
                 "the output would replace this measured file; allowed: another name",
             )),
             None => Ok(()),
@@ -276,7 +276,7 @@ impl SurfaceArguments {
 
     /// Error of the equivalent line, named by the first file.
     fn failed(&self, error: impl Into<Box<dyn Error + Send + Sync>>) -> CliError {
-        let file = self.files.first().map(|file| path_name(&file));
+        let file = self.files.first().map(|file| path_name(file));
         CliError::named(file.unwrap_or_default(), error)
     }
 
