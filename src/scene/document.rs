@@ -185,16 +185,18 @@ impl Document {
     /// such as the radius of another form.
     pub fn value(&self, path: &str) -> Option<&str> {
         self.text.value(path).or_else(|| {
-            let field = self.fields().into_iter().find(|field| field.path == path)?;
+            let field = FIELDS.iter().find(|field| field.path == path && self.has(field))?;
             Some(Tree::of(&self.scene).default(field)).filter(|default| !default.is_empty())
         })
     }
 
     /// Fields that this scene has or could have: all but those of unselected choices.
     pub fn fields(&self) -> Vec<&'static Field> {
-        let is_of =
-            |field: &&Field| field.variant.is_none() || field.variant == self.text.variant(field.parent());
-        FIELDS.iter().filter(is_of).collect()
+        FIELDS.iter().filter(|field| self.has(field)).collect()
+    }
+
+    fn has(&self, field: &Field) -> bool {
+        field.variant.is_none() || field.variant == self.text.variant(field.parent())
     }
 
     /// Name of the file or of the built-in scene.

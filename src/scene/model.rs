@@ -181,29 +181,6 @@ impl Roughness {
     pub(super) fn has_amplitude(&self) -> bool {
         !matches!(self, Roughness::SelfAffine { rms_height: None, rms_gradient: None, .. })
     }
-
-    /// Measured surface of a file, all other fields omitted.
-    pub fn measured(file: impl Into<String>) -> Self {
-        let file = file.into();
-        Roughness::Measured {
-            file,
-            further_files: Vec::new(),
-            as_line: None,
-            opposite: None,
-            row: None,
-            column: None,
-            detrend: None,
-            periodic: false,
-            unit: String::new(),
-            height_unit: String::new(),
-            spacing: None,
-            interpolate: false,
-            resample: false,
-            channel: None,
-            continue_to: None,
-            seed: default_seed(),
-        }
-    }
 }
 
 impl Scene {
@@ -244,22 +221,24 @@ impl Scene {
 
     /// Files of the measured surfaces, relative to the scene file.
     pub fn measured_files(&self) -> Vec<&str> {
-        self.measured_faces().concat()
-    }
-
-    /// Files of the measured surfaces of each face, relative to the scene file.
-    pub fn measured_faces(&self) -> Vec<Vec<&str>> {
         let Some(Roughness::Measured { file, further_files, opposite, .. }) = &self.roughness else {
             return Vec::new();
         };
-        let first = std::iter::once(file).chain(further_files).map(String::as_str).collect();
-        std::iter::once(first).chain(opposite.as_deref().map(|file| vec![file])).collect()
+        std::iter::once(file).chain(further_files).chain(opposite).map(String::as_str).collect()
     }
 
     /// Paths of the files of each face, with names relative to `folder`.
     pub fn measured_paths(&self, folder: &Path) -> Vec<Vec<PathBuf>> {
-        let paths = |face: Vec<&str>| face.into_iter().map(|file| folder.join(file)).collect();
-        self.measured_faces().into_iter().map(paths).collect()
+        let mut files: Vec<PathBuf> =
+            self.measured_files().into_iter().map(|file| folder.join(file)).collect();
+        match &self.roughness {
+            Some(Roughness::Measured { opposite: Some(_), .. }) => {
+                let opposite = files.pop();
+                vec![files, opposite.into_iter().collect()]
+            }
+            Some(Roughness::Measured { .. }) => vec![files],
+            _ => Vec::new(),
+        }
     }
 
     /// Renames the files of the measured surfaces.

@@ -150,9 +150,8 @@ mod tests {
     fn every_preset_is_a_scene_with_a_title_and_a_notice() {
         for preset in presets() {
             let document = open(preset.name).unwrap_or_else(|errors| panic!("{errors}"));
-            assert!(!document.scene().title.is_empty(), "{}", preset.name);
-            assert!(!document.scene().notice.is_empty(), "{}", preset.name);
-            assert_eq!(document.name(), preset.name);
+            let scene = document.scene();
+            assert!(document.name() == preset.name && !scene.title.is_empty() && !scene.notice.is_empty());
         }
     }
 

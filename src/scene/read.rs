@@ -189,61 +189,42 @@ mod tests {
 
     #[test]
     fn errors_are_stated_in_the_terms_of_the_scene() {
-        let rough = |fields: &str| scene(&format!("    roughness: SelfAffine({fields}),"));
-        for (text, place, field, value, said) in [
-            (scene("    lenght: 1,"), (5, 5), "lenght", "", "did you mean length?"),
-            (scene("    title: \"a\",\n    title: \"b\","), (6, 5), "title", "", "given twice"),
-            (
-                scene("    form: Cube(radius: 1.0),"),
-                (5, 11),
-                "form",
-                "Cube",
-                "Cone, Power, WavySphere, Punch",
-            ),
-            (scene("    form: Cone(angel: 1.0),"), (5, 16), "form.angel", "", "did you mean angle?"),
-            (
-                scene("    loading: [ToTouch, ToFroce(1.0)],"),
-                (5, 24),
-                "loading.1",
-                "ToFroce",
-                "mean ToForce?",
-            ),
-            (
-                scene("    loading: [ToForce(\"a\")],"),
-                (5, 23),
-                "loading.0.0",
-                "\"a\"",
-                "from -1e30 to 1e30 N",
-            ),
-            (scene("    numerics: (points: 1.5),"), (5, 24), "numerics.points", "1.5", "from 1 to 268435456"),
-            (scene("    numerics: (points: -5),"), (5, 24), "numerics.points", "-5", "from 1 to 268435456"),
-            (scene("    numerics: (points: 1e3),"), (5, 24), "numerics.points", "1e3", "from 1 to 268435456"),
-            (scene("    title: Hello,"), (5, 12), "title", "Hello", "text in quotes"),
-            (
-                scene("    adhesion: 0.5,"),
-                (5, 15),
-                "adhesion",
-                "0.5",
-                "(work: 0.05), (kappa: 2.0) or (elastic_energy_ratio: 0.5)",
-            ),
-            (
-                rough("hurst: 0.7, modes: (1, 2)"),
-                (5, 52),
-                "roughness.seed",
-                "",
-                "missing; allowed: a whole number",
-            ),
-            (rough("hurst: \"x\""), (5, 34), "roughness.hurst", "\"x\"", "above 0 and below 1"),
-            (rough("hurst: 0.7 seed: 1"), (5, 38), "roughness", "", "a comma is expected"),
-            ("(version: 1)".into(), (1, 12), "material", "", "missing"),
-            ("(version: 1".into(), (1, 1), "", "", "not closed"),
-            ("(version: 1, title: \"a)".into(), (1, 21), "", "", "not closed"),
-            ("".into(), (1, 1), "", "", ""),
+        // Fifth line of a scene; column, field, value and words of its error.
+        for row in [
+            "lenght: 1,|5|lenght||did you mean length?",
+            "length: 1.0,|5|length||given twice",
+            "form: Cube(radius: 1.0),|11|form|Cube|Cone, Power, WavySphere, Punch",
+            "form: Cone(angel: 1.0),|16|form.angel||did you mean angle?",
+            "loading: [ToTouch, ToFroce(1.0)],|24|loading.1|ToFroce|mean ToForce?",
+            "loading: [ToForce(\"a\")],|23|loading.0.0|\"a\"|from -1e30 to 1e30 N",
+            "numerics: (points: 1.5),|24|numerics.points|1.5|from 1 to 268435456",
+            "numerics: (points: -5),|24|numerics.points|-5|from 1 to 268435456",
+            "title: Hello,|12|title|Hello|text in quotes",
+            "adhesion: 0.5,|15|adhesion|0.5|(work: 0.05), (kappa: 2.0) or (elastic_energy_ratio: 0.5)",
+            "roughness: SelfAffine(hurst: 0.7, modes: (1, 2)),|52|roughness.seed||missing; allowed: a whole number",
+            "roughness: SelfAffine(hurst: \"x\"),|34|roughness.hurst|\"x\"|above 0 and below 1",
+            "roughness: SelfAffine(hurst: 0.7 seed: 1),|38|roughness||a comma is expected",
         ] {
-            let (at, path, text_value, allowed, message) = unread(&text);
-            let said_all = format!("{allowed} {message}");
-            assert!(said_all.contains(said), "{text}: {said_all}");
-            assert_eq!((at, path.as_str(), text_value.as_str()), (place, field, value), "{text}: {said_all}");
+            let [line, column, field, value, said] = row.split('|').collect::<Vec<_>>()[..] else {
+                panic!("{row}")
+            };
+            let (at, path, found, allowed, message) = unread(&scene(&format!("    {line}")));
+            let place = (5, column.parse().unwrap());
+            assert_eq!(
+                (at, path.as_str(), found.as_str()),
+                (place, field, value),
+                "{row}: {allowed} {message}"
+            );
+            assert!(format!("{allowed} {message}").contains(said), "{row}: {allowed} {message}");
+        }
+        for (text, place, field, said) in [
+            ("(version: 1)", (1, 12), "material", "missing"),
+            ("(version: 1", (1, 1), "", "not closed"),
+            ("(version: 1, title: \"a)", (1, 21), "", "not closed"),
+            ("", (1, 1), "", ""),
+        ] {
+            let (at, path, _, _, message) = unread(text);
+            assert!((at, path.as_str()) == (place, field) && message.contains(said), "{text}: {message}");
         }
     }
 

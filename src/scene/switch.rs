@@ -328,22 +328,6 @@ mod tests {
     }
 
     #[test]
-    fn adhesion_is_given_one_way_or_the_other() {
-        let kappa = |document: &Document| document.with_parameter(RoughnessParameter::Kappa, 3.0);
-        assert_eq!(adhesion(&kappa(&document()).unwrap()), (None, Some(3.0)));
-        let work = document().with_work_of_adhesion(0.1).unwrap();
-        assert_eq!(adhesion(&work), (Some(0.1), None));
-        assert!(work.text().contains("adhesion: (work: 0.1), // as measured"));
-        assert_eq!(adhesion(&kappa(&off(&work, Effect::Adhesion)).unwrap()), (None, Some(3.0)));
-        // If both are given, because they set the amplitude, both are kept.
-        assert_eq!(adhesion(&kappa(&both()).unwrap()), (Some(0.1), Some(3.0)));
-        assert_eq!(adhesion(&both().with_work_of_adhesion(0.2).unwrap()), (Some(0.2), Some(6.0)));
-        let none = kappa(&off(&work, Effect::Roughness)).unwrap_err();
-        assert!(none.to_string().contains("there is none"), "{none}");
-        assert!(document().with_work_of_adhesion(-1.0).is_err());
-    }
-
-    #[test]
     fn the_next_choice_of_adhesion_is_the_same_adhesion() {
         let work = next(&document(), "adhesion", false);
         assert_eq!(adhesion(&work), (Some(0.0123), None));

