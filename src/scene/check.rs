@@ -28,6 +28,9 @@ pub fn check(scene: &Scene) -> Vec<SceneError> {
     let mut found = Found { scene, tree: Tree::of(scene), errors: Vec::new() };
     for field in FIELDS {
         found.check_range(field);
+        if field.path == "loading" {
+            found.check_targets();
+        }
     }
     found.check_material();
     found.check_form();
@@ -38,6 +41,23 @@ pub fn check(scene: &Scene) -> Vec<SceneError> {
     found.check_loading();
     found.check_edges();
     found.errors
+}
+
+/// The wrong part of a text, and what is allowed.
+fn wrong_text(field: &Field, text: &str) -> Option<(String, String)> {
+    let range = if let Range::Text { .. } = field.range { field.range } else { FILE_NAME };
+    let Range::Text { least, most, lines } = range else { return None };
+    // Control characters would reach the terminal of any reader of the scene.
+    let forbidden = |c: &char| is_control(*c) && !(lines && *c == '\n');
+    match (text.chars().find(forbidden), text.chars().count()) {
+        (Some(c), _) => {
+            let but = if lines { " but line breaks" } else { "" };
+            Some((format!("text with {c:?}"), format!("no control characters{but}")))
+        }
+        (None, count) if count > most => Some((format!("{count} characters"), field.allowed())),
+        (None, count) if count < least => Some((ron_string(text), field.allowed())),
+        _ => None,
+    }
 }
 
 /// The errors found so far in a scene.
@@ -91,38 +111,15 @@ impl Found<'_> {
             }
             _ => None,
         };
-        let texts: Vec<String> = match (range, value) {
-            (Range::Text { .. }, Value::String(text)) => vec![text.clone()],
-            (Range::List { .. }, Value::Array(list)) if field.variant.is_some() => {
-                list.iter().filter_map(|text| text.as_str().map(str::to_owned)).collect()
-            }
-            _ => Vec::new(),
+        let texts = match (range, value) {
+            (Range::Text { .. }, text) => std::slice::from_ref(text),
+            (Range::List { .. }, Value::Array(list)) if field.variant.is_some() => list,
+            _ => &[],
         };
-        if let Some(value) = wrong {
-            self.refuse_value(field.path, value, &field.allowed(), field.name);
+        let wrong_texts: Vec<_> = texts.iter().filter_map(|text| wrong_text(field, text.as_str()?)).collect();
+        for (value, allowed) in wrong.map(|value| (value, field.allowed())).into_iter().chain(wrong_texts) {
+            self.refuse_value(field.path, value, &allowed, field.name);
         }
-        for text in texts {
-            self.check_text(field, &text);
-        }
-        if field.path == "loading" {
-            self.check_targets();
-        }
-    }
-
-    fn check_text(&mut self, field: &Field, text: &str) {
-        let range = if let Range::Text { .. } = field.range { field.range } else { FILE_NAME };
-        let Range::Text { least, most, lines } = range else { return };
-        // Control characters would reach the terminal of any reader of the scene.
-        let forbidden = |c: &char| is_control(*c) && !(lines && *c == '\n');
-        let count = text.chars().count();
-        let (value, allowed) = match text.chars().find(forbidden) {
-            Some(c) if lines => (format!("text with {c:?}"), "no control characters but line breaks".into()),
-            Some(c) => (format!("text with {c:?}"), "no control characters".into()),
-            None if count > most => (format!("{count} characters"), field.allowed()),
-            None if count < least => (ron_string(text), field.allowed()),
-            None => return,
-        };
-        self.refuse_value(field.path, value, &allowed, field.name);
     }
 
     fn check_targets(&mut self) {
@@ -142,7 +139,15 @@ impl Found<'_> {
         let given = [material.effective_modulus, material.youngs_modulus, material.poisson_ratio];
         let reason = match given.map(|value| value.is_some()) {
             [true, false, false] => return,
-            [false, true, true] => return self.check_effective_modulus(material.effective_modulus()),
+            [false, true, true] => {
+                let modulus = material.effective_modulus();
+                let field = field("material.effective_modulus", None).filter(|_| !self.has("material"));
+                if let Some(field) = field.filter(|field| !field.range.contains(modulus)) {
+                    let value = format!("E* = {}", ron_float(modulus));
+                    self.refuse_value("material", value, &field.allowed(), "effective modulus E/(1 − ν²)");
+                }
+                return;
+            }
             [true, ..] => {
                 "effective_modulus replaces youngs_modulus and poisson_ratio: give one or the other"
             }
@@ -151,14 +156,6 @@ impl Found<'_> {
             [false, false, false] => "give youngs_modulus with poisson_ratio, or effective_modulus",
         };
         self.refuse("material", "", reason);
-    }
-
-    fn check_effective_modulus(&mut self, modulus: f64) {
-        let Some(field) = field("material.effective_modulus", None) else { return };
-        if !self.has("material") && !field.range.contains(modulus) {
-            let value = format!("E* = {}", ron_float(modulus));
-            self.refuse_value("material", value, &field.allowed(), "effective modulus E/(1 − ν²)");
-        }
     }
 
     fn check_form(&mut self) {
