@@ -1,7 +1,7 @@
 //! The text of a scene.
 
-use super::{assert_document, assert_errors, assert_leads, assert_place, text};
-use asperity::scene::{Computed, DEFAULT, Document, Effect, LONGEST_TEXT, Origin, find};
+use super::{assert_document, assert_errors, assert_place, text};
+use asperity::scene::{Computed, Document, Effect, LONGEST_TEXT, Origin};
 use asperity::simulation::Plan;
 
 const NAME: &str = "fuzzed.ron";
@@ -28,10 +28,6 @@ pub fn scene(bytes: &[u8]) {
             assert_document(&document);
             assert_fields(&document);
             assert_effects(&document);
-            let default = find(DEFAULT).and_then(|preset| Document::parse(preset.text, preset.name).ok());
-            let Some(default) = default else { panic!("{DEFAULT} is a scene") };
-            assert_leads(&default, &document);
-            assert_leads(&document, &default);
             let _ = Plan::of(document.scene());
         }
     }
@@ -47,7 +43,7 @@ fn assert_fields(document: &Document) {
             let Some(next) = field.stepped(value, steps, coarse) else { continue };
             assert_ne!(next, value, "{}", field.path);
             if let Ok(next) = next.parse()
-                && field.range.min().is_some()
+                && field.range.ends().is_some()
             {
                 let inside = field.range.contains(next) || field.range.contains_whole(next as u64);
                 assert!(inside, "{} = {value} steps to {next}", field.path);

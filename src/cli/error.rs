@@ -3,8 +3,9 @@
 use crate::draw::PngError;
 use crate::explorer::OpeningError;
 use crate::explorer::config::ConfigError;
+use crate::export::MeasuredHashError;
 use crate::io::WriteError;
-use crate::scene::{MeasuredHashError, SceneErrors, quoted};
+use crate::scene::{SceneErrors, quoted};
 use crate::study::slurm::SlurmError;
 use crate::study::{FigureError, StudyError};
 use std::io;

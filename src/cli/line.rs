@@ -3,7 +3,6 @@
 use super::scene::simulation_of;
 use super::{CliError, Format, OutputArguments, SceneArguments};
 use crate::export::{TableFormat, write_line};
-use crate::scene::{Document, Scene, TableContent};
 use clap::Args;
 use std::io::Write;
 
@@ -31,19 +30,10 @@ pub(super) fn line(arguments: &LineArguments, stdout: &mut dyn Write) -> Result<
     let format = format.table().unwrap_or(TableFormat::Csv);
     let document = arguments.scene.open()?;
     arguments.output.check()?;
-    write(&arguments.output, stdout, (&document, document.scene()), format)
-}
-
-/// Makes the profile of the scene of a document and writes it.
-pub(super) fn write(
-    output: &OutputArguments,
-    stdout: &mut dyn Write,
-    (document, scene): (&Document, &Scene),
-    format: TableFormat,
-) -> Result<(), CliError> {
-    let mut simulation = simulation_of(document);
-    let (line, ..) = simulation.make_line(scene).map_err(|error| CliError::named(document.name(), error))?;
-    output.write_table(stdout, (document, scene, TableContent::Profile), |out, provenance| {
+    let mut simulation = simulation_of(&document);
+    let made = simulation.make_line(document.scene());
+    let (line, ..) = made.map_err(|error| CliError::named(document.name(), error))?;
+    arguments.output.write_table(stdout, (&document, document.scene()), |out, provenance| {
         write_line(out, format, provenance, line)
     })
 }

@@ -2,8 +2,9 @@
 
 use super::{CliError, Format};
 use crate::draw::{Colours, Figure, figure_text};
+use crate::export::Provenance;
 use crate::io::{check_writable, write_new};
-use crate::scene::{Document, MeasuredHash, Provenance, Scene, TableContent};
+use crate::scene::{Document, Scene, quoted};
 use crate::text::path_name;
 use clap::Args;
 use std::io::{self, IsTerminal, Write};
@@ -96,12 +97,10 @@ impl OutputArguments {
     pub(super) fn write_table(
         &self,
         stdout: &mut dyn Write,
-        (document, scene, content): (&Document, &Scene, TableContent),
+        (document, scene): (&Document, &Scene),
         write: impl FnOnce(&mut dyn Write, &Provenance) -> io::Result<()>,
     ) -> Result<(), CliError> {
-        let (folder, destination) = (document.resolve(""), self.folder());
-        let hashes = MeasuredHash::of_files(scene.measured_files(), &folder, destination)?;
-        let provenance = Provenance::new(content, scene, &folder, destination).with_hashes(&hashes);
+        let provenance = Provenance::new(&command(), scene, &document.resolve(""), self.folder())?;
         self.write(stdout, |out| write(out, &provenance))
     }
 
@@ -116,6 +115,22 @@ impl OutputArguments {
             None => Ok(write(stdout)?),
         }
     }
+}
+
+/// The command of this process, for a POSIX shell, without format and destination of its results.
+pub(super) fn command() -> String {
+    let mut words = vec!["asperity".to_owned()];
+    let mut typed = std::env::args().skip(1);
+    while let Some(word) = typed.next() {
+        if ["-o", "--output", "--format"].contains(&word.as_str()) {
+            typed.next();
+        } else if word != "--force"
+            && !["-o", "--output=", "--format="].iter().any(|one| word.starts_with(one))
+        {
+            words.push(quoted(&word));
+        }
+    }
+    words.join(" ")
 }
 
 /// Columns of figures as text without a terminal.

@@ -1,6 +1,7 @@
 //! Preloads on the command line: `1uN..20uN`, and their number.
 
-use crate::scene::{PRELOADS, Preloads, parse_quantity};
+use crate::scene::parse_quantity;
+use crate::study::{PRELOADS, Preloads};
 
 /// Number of preloads by default.
 const USUAL: usize = 64;

@@ -3,7 +3,7 @@
 use super::{AnswerFormat, CliError};
 use crate::export::sheet::Sheet;
 use crate::io::object;
-use crate::scene::{self, Document, Entry, Library, Text, line_column};
+use crate::scene::{self, Document, Entry, Library};
 use crate::simulation::measured_options;
 use crate::surface::{MeasuredRoughness, read_faces};
 use crate::text::printable;
@@ -86,18 +86,19 @@ fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
     let mut wrong = Vec::new();
     for file in files {
         match checked(file) {
-            Ok(name) => writeln!(stdout, "{}: ok", printable(&name))?,
+            Ok((name, None)) => writeln!(stdout, "{}: ok", printable(&name))?,
+            Ok((name, Some(warning))) => writeln!(stdout, "{}: ok; warning: {warning}", printable(&name))?,
             Err(errors) => wrong.push(errors),
         }
     }
     if wrong.is_empty() { Ok(()) } else { Err(CliError::Checked(wrong)) }
 }
 
-/// The name of a valid scene, or all its errors, line by line.
-fn checked(file: &str) -> Result<String, String> {
+/// The name of a valid scene with its warning, or all its errors, line by line.
+fn checked(file: &str) -> Result<(String, Option<String>), String> {
     let document = of_file(file)?;
     match profile_error(&document) {
-        None => Ok(document.name().into()),
+        None => Ok((document.name().into(), document.scene().warning())),
         Some(error) => Err(error),
     }
 }
@@ -130,10 +131,6 @@ fn profile_error(document: &Document) -> Option<String> {
             Err(error) => error.to_string(),
             Ok(measured) => measured.check(scene.length, scene.numerics.points as usize).err()?,
         };
-    let offset = Text::new(document.text())
-        .ok()
-        .and_then(|text| text.span("roughness.file"))
-        .map_or(0, |span| span.value.start);
-    let (line, column) = line_column(document.text(), offset);
+    let (line, column) = document.place("roughness.file");
     Some(format!("{}:{line}:{column}: {error}", document.name()))
 }

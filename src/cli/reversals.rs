@@ -7,9 +7,8 @@ use crate::export::{
     ReversalReport, reversals_figure, reversals_text, write_reversal_map_table, write_reversals_json,
     write_reversals_table,
 };
-use crate::scene::{Document, Preloads, ReversalContent, TableContent};
 use crate::simulation::{RunError, TURNING_POINTS};
-use crate::study::solve_preloads;
+use crate::study::{Preloads, solve_preloads};
 use clap::Args;
 use std::io::Write;
 
@@ -17,7 +16,7 @@ const EXAMPLES: &str = "\
 Examples:
   asperity reversals pressure-sensitive
   asperity reversals pressure-sensitive --preloads 1uN..20uN --count 128 -o reversals.svg
-  asperity reversals rough-sphere --map -o map.csv   ... asperity run map.csv makes it again
+  asperity reversals rough-sphere --map -o map.csv
 
 Turning points are at equal indentations. The Everett function is half of what the force falls by
 from the turning point on; the density is -1/2 of the mixed second derivative of the force.";
@@ -80,50 +79,24 @@ fn forces(text: &str) -> Result<(f64, f64), String> {
     parse_preloads(text).map(|preloads| preloads.ends())
 }
 
-impl ReversalOptions {
-    /// Options of a table; options without effect on a table have their defaults.
-    pub(super) fn of_table(content: ReversalContent) -> Self {
-        let ReversalContent { count, forces, map_smoothing } = content;
-        let smoothing = map_smoothing.unwrap_or(SMOOTHING).clamp(1, MOST_SMOOTHING as u8);
-        ReversalOptions { count, preloads: forces, smoothing, loops: LOOPS, map: map_smoothing.is_some() }
-    }
-
-    fn table_content(&self) -> ReversalContent {
-        let map_smoothing = self.map.then_some(self.smoothing);
-        ReversalContent { count: self.count, forces: self.preloads, map_smoothing }
-    }
-}
-
 /// Unloads a scene from many turning points and writes the result.
 pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let ReversalsArguments { scene, options, format, output } = arguments;
+    let ReversalsArguments { options, output, .. } = arguments;
     let (formats, usual) = if options.map { (TABLES, Format::Csv) } else { (FORMATS, Format::Text) };
-    let format = output.format(*format, formats, usual)?;
+    let format = output.format(arguments.format, formats, usual)?;
     if options.map && format.table().is_none() {
         return Err(CliError::OnlyInTable { what: "--map" });
     }
-    let document = scene.open()?;
+    let document = arguments.scene.open()?;
     output.check()?;
-    write_reversals(&document, options, format, output, stdout)
-}
-
-/// Unloads the scene of a document from many turning points and writes the result.
-pub(super) fn write_reversals(
-    document: &Document,
-    options: &ReversalOptions,
-    format: Format,
-    output: &OutputArguments,
-    stdout: &mut dyn Write,
-) -> Result<(), CliError> {
     let scene = document.scene();
     let failed = |error: RunError| CliError::named(document.name(), error);
-    let mut simulation = simulation_of(document);
+    let mut simulation = simulation_of(&document);
     let (count, never) = (usize::from(options.count), || false);
     let map = simulation.reversal_map(scene, options.preloads, count, &never).map_err(failed)?;
     let smoothing = usize::from(options.smoothing);
     if let Some(format) = format.table() {
-        let content = TableContent::Reversals(options.table_content());
-        return output.write_table(stdout, (document, scene, content), |out, provenance| match options.map {
+        return output.write_table(stdout, (&document, scene), |out, provenance| match options.map {
             true => write_reversal_map_table(out, format, provenance, &map, smoothing),
             false => write_reversals_table(out, format, provenance, &map),
         });

@@ -1,31 +1,26 @@
 //! `asperity run`: computation of a scene without a terminal.
 
 use super::preloads::parse_preloads;
-use super::reversals::{ReversalOptions, write_reversals};
 use super::scene::{MOST_LINES, compute, simulation_of, threads};
-use super::{
-    Arguments, CliError, Command, Format, OutputArguments, SceneArguments, SurfaceArguments, line, surface,
-};
+use super::{CliError, Format, OutputArguments, SceneArguments};
 use crate::accuracy::{Choice, choose, estimate, parse_tolerance};
 use crate::contact::{Leg, LegRecord};
 use crate::draw::Figure;
 use crate::export::{
-    ContactSets, PreloadReport, ensemble_text, force_figure, summary, write_curve, write_ensemble_json,
-    write_ensemble_table, write_json,
+    ContactSets, MeasuredHash, PreloadReport, ensemble_text, force_figure, summary, write_curve,
+    write_ensemble_json, write_ensemble_table, write_json,
 };
-use crate::scene::{Document, Preloads, ReversalContent, Scene, SpectraTable, TableContent, open_argument};
-use crate::study;
-use crate::text::path_name;
-use clap::{Args, Parser};
+use crate::scene::{Document, Scene, open_argument};
+use crate::study::{self, Preloads};
+use clap::Args;
 use std::io::{self, Write};
-use std::path::Path;
 
 const EXAMPLES: &str = "\
 Examples:
   asperity run pressure-sensitive
   asperity run my-scene.ron --set adhesion.work=0.1 --format json | jq .adhesion_force
   asperity run jkr-sphere --set numerics.points=65536 -o jkr.csv
-  asperity run jkr.csv -o again.npy
+  asperity run jkr.csv --set adhesion.work=0.1 -o other.npy
   asperity run jkr-sphere --tolerance 0.1%
   asperity run pressure-sensitive --lines 32 --format csv
   asperity run pressure-sensitive --preloads 0..20uN --lines 16
@@ -34,7 +29,7 @@ Examples:
   asperity run ideal-adhesion pressure-sensitive non-adhesive -o loops.svg
 
 JSON, CSV and .npy are in SI units. Compression is positive, indentation counts from first touch.
-CSV and .npy hold version, scene and seed: such a file is a scene, and run computes its table again.";
+CSV and .npy hold version, command and scene: such a file is a scene, and opens as one.";
 
 /// Arguments of `run`.
 #[derive(Args, Debug)]
@@ -90,36 +85,6 @@ pub struct RunArguments {
 const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png];
 
 impl RunArguments {
-    /// Returns true if a request goes beyond a table of preloads or reversals.
-    fn asks_for_more(&self) -> bool {
-        self.profile || self.fragments || !self.more.is_empty()
-    }
-
-    /// Requested preloads and number of random profiles, or those of a scene from a table of preloads.
-    fn asked_preloads(&self, document: &Document) -> Option<(Preloads, Option<u32>)> {
-        match (self.preloads, document.table_content()) {
-            (Some(preloads), _) => Some((preloads, self.lines)),
-            (None, Some(TableContent::Preloads(preloads, lines))) if !self.asks_for_more() => {
-                Some((preloads, self.lines.or(lines)))
-            }
-            _ => None,
-        }
-    }
-
-    /// Reversals of a scene from a table of reversals.
-    fn asked_reversals(&self, document: &Document, format: Format) -> Option<ReversalOptions> {
-        match document.table_content() {
-            Some(TableContent::Reversals(content))
-                if !self.asks_for_more() && self.lines.is_none() && self.tolerance.is_none() =>
-            {
-                // Only a table holds each point of the map.
-                let map_smoothing = content.map_smoothing.filter(|_| format.table().is_some());
-                Some(ReversalOptions::of_table(ReversalContent { map_smoothing, ..content }))
-            }
-            _ => None,
-        }
-    }
-
     fn chosen_format(&self) -> Result<Format, CliError> {
         let needs_picture = [
             (!self.more.is_empty(), "several scenes"),
@@ -166,38 +131,24 @@ impl RunArguments {
 /// Computes a scene and writes its results.
 pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.chosen_format()?;
-    if let Some(again) = surface_again(arguments, format)? {
-        return surface::surface(&again, stdout);
-    }
     let document = arguments.scene.open()?;
-    document.check_measured_files()?;
+    MeasuredHash::check_all(&document)?;
     arguments.output.check()?;
-    if let Some(asked) = arguments.asked_preloads(&document) {
-        return over_preloads(arguments, &document, format, asked, stdout);
-    }
-    if let Some(options) = arguments.asked_reversals(&document, format) {
-        return write_reversals(&document, &options, format, &arguments.output, stdout);
+    if let Some(preloads) = arguments.preloads {
+        return over_preloads(arguments, &document, format, preloads, stdout);
     }
     if format.picture().is_some() {
         return arguments.output.write_figure(stdout, &figure(arguments, document)?, format);
     }
     let (scene, choice) = arguments.scene_of(&document)?;
-    let of_table = match document.table_content() {
-        Some(TableContent::RandomProfiles(count)) => Some(count),
-        _ => None,
-    };
-    if let Some(lines) = arguments.lines.or(of_table) {
+    if let Some(lines) = arguments.lines {
         return on_lines(arguments, &document, (scene, choice.as_ref()), (format, lines), stdout);
-    }
-    if let (Some(format), Some(TableContent::Profile)) = (format.table(), document.table_content()) {
-        return line::write(&arguments.output, stdout, (&document, &scene), format);
     }
     let outcome = compute(&document, &scene)?;
     if let Some(format) = format.table() {
-        let table = (&document, &scene, TableContent::ForceCurve);
-        return arguments
-            .output
-            .write_table(stdout, table, |out, provenance| write_curve(out, format, provenance, &outcome));
+        return arguments.output.write_table(stdout, (&document, &scene), |out, provenance| {
+            write_curve(out, format, provenance, &outcome)
+        });
     }
     let choice = choice.as_ref();
     let estimate = match choice {
@@ -209,32 +160,6 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
         return arguments.output.write(stdout, write);
     }
     arguments.write_text(stdout, &summary(&scene, &outcome, estimate.as_ref()), choice)
-}
-
-/// Arguments of `surface` if the scene is from a table of spectra.
-fn surface_again(arguments: &RunArguments, format: Format) -> Result<Option<SurfaceArguments>, CliError> {
-    let path = Path::new(&arguments.scene.scene);
-    let Some(SpectraTable { arguments: deciding, measured }) = SpectraTable::open(path) else {
-        return Ok(None);
-    };
-    let refused = |reason: String| CliError::named(path_name(path), reason);
-    let named = ["asperity", "surface"].map(str::to_owned).into_iter().chain(deciding);
-    let parsed = Arguments::try_parse_from(named).map_err(|error| refused(error.kind().to_string()))?;
-    let Some(Command::Surface(surface)) = parsed.command else { return Ok(None) };
-    let others = [
-        (!arguments.scene.overrides.set.is_empty(), "--set"),
-        (!arguments.more.is_empty(), "several scenes"),
-        (arguments.profile, "--profile"),
-        (arguments.fragments, "--fragments"),
-        (arguments.tolerance.is_some(), "--tolerance"),
-        (arguments.lines.is_some(), "--lines"),
-    ];
-    if let Some((_, what)) = others.into_iter().find(|(is_given, _)| *is_given) {
-        return Err(refused(format!("spectra have no {what}; allowed: --format and -o")));
-    }
-    let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
-    measured.iter().try_for_each(|hash| hash.check(&folder, &path_name(path)))?;
-    Ok(Some(SurfaceArguments { format: Some(format), output: arguments.output.clone(), folder, ..surface }))
 }
 
 /// Computes the scenes and draws the requested figure.
@@ -268,12 +193,12 @@ fn over_preloads(
     arguments: &RunArguments,
     document: &Document,
     format: Format,
-    (preloads, lines): (Preloads, Option<u32>),
+    preloads: Preloads,
     stdout: &mut dyn Write,
 ) -> Result<(), CliError> {
     let (scene, choice) = arguments.scene_of(document)?;
     let forces = preloads.forces();
-    let results = match lines {
+    let results = match arguments.lines {
         Some(lines) => {
             let (folder, lines) = (document.resolve(""), lines as usize);
             let solved =
@@ -291,9 +216,8 @@ fn over_preloads(
     };
     let report = PreloadReport::new(&scene, results);
     if let Some(format) = format.table() {
-        let table = (document, &scene, TableContent::Preloads(preloads, lines));
         let write = |out: &mut dyn Write, provenance: &_| report.write_table(out, format, provenance);
-        return arguments.output.write_table(stdout, table, write);
+        return arguments.output.write_table(stdout, (document, &scene), write);
     }
     match format {
         Format::Text => arguments.write_text(stdout, &report.text(), choice.as_ref()),
@@ -313,8 +237,7 @@ fn on_lines(
     let results = study::solve_lines(&scene, &document.resolve(""), lines as usize, threads(arguments.jobs))
         .map_err(|error| CliError::named(document.name(), error))?;
     if let Some(format) = format.table() {
-        let table = (document, &scene, TableContent::RandomProfiles(lines));
-        return arguments.output.write_table(stdout, table, |out, provenance| {
+        return arguments.output.write_table(stdout, (document, &scene), |out, provenance| {
             write_ensemble_table(out, format, provenance, &results)
         });
     }

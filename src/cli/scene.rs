@@ -4,7 +4,9 @@ use super::CliError;
 use crate::parallel;
 use crate::scene::{Document, Scene, open_argument};
 use crate::simulation::{Outcome, Simulation};
+use crate::text::printable;
 use clap::Args;
+use std::io::{self, Write};
 
 /// Most random profiles of a scene.
 pub(super) const MOST_LINES: i64 = 1_000_000;
@@ -36,7 +38,12 @@ pub struct Overrides {
 impl SceneArguments {
     /// Opens the scene and changes it.
     pub(super) fn open(&self) -> Result<Document, CliError> {
-        self.overrides.apply(open_argument(&self.scene)?)
+        let document = self.overrides.apply(open_argument(&self.scene)?)?;
+        if let Some(warning) = document.scene().warning() {
+            // A closed standard error is no reason to stop.
+            let _ = writeln!(io::stderr(), "warning: {}: {warning}", printable(document.name()));
+        }
+        Ok(document)
     }
 }
 

@@ -1,14 +1,16 @@
 //! `asperity surface`: measured surfaces, their statistics and spectrum, and the equivalent line.
 
+use super::output::command;
 use super::scene::{MOST_LINES, threads};
 use super::{CliError, Format, OutputArguments};
 use crate::export::{
-    MeasuredFace, Spectra, SurfaceAdhesion, SurfaceContact, SurfaceFile, SurfaceReport, write_surface_table,
+    MeasuredFace, MeasuredHash, Provenance, Spectra, SurfaceAdhesion, SurfaceContact, SurfaceFile,
+    SurfaceReport, named_from, write_surface_table,
 };
 use crate::io::{check_writable, hexadecimal, write_new};
 use crate::scene::{
-    Adhesion, Document, MOST_POINTS, Material, MeasuredHash, Move, Numerics, Provenance, Roughness,
-    SCENE_VERSIONS, Scene, exact_quantity, named_from, parse_quantity,
+    self, Adhesion, Document, MOST_POINTS, Material, Move, Numerics, Roughness, SCENE_VERSIONS, Scene,
+    parse_quantity,
 };
 use crate::simulation::measured_roughness_options;
 use crate::spectrum::{Analysis, Detrend, Options, analyse};
@@ -37,8 +39,8 @@ Files are profiles or maps: text in columns or as a matrix, SDF, GSF, NumPy, X3P
 NetCDF, and these in gzip. Several files are samples of the same roughness. A profile is a cut
 through the surface; the contact computation needs the equivalent line.";
 
-/// Springs of a scene per period of its shortest wave.
-const SPRINGS_PER_WAVE: f64 = 8.0;
+/// Springs of a written scene per period of its shortest wave: twice the fewest, from where on both edge models agree.
+const SPRINGS_PER_WAVE: f64 = 2.0 * scene::SPRINGS_PER_WAVE as f64;
 
 /// Default number of random profiles for the adhesion force, and the largest number of springs for it: some seconds.
 const LINES: u32 = 16;
@@ -90,9 +92,6 @@ pub struct SurfaceArguments {
     /// Overwrite the scene if it exists
     #[arg(long, requires = "scene")]
     pub force_scene: bool,
-    /// Folder that the files are relative to.
-    #[arg(skip)]
-    pub folder: PathBuf,
 }
 
 /// Reading of files that leave something open.
@@ -227,48 +226,19 @@ impl SurfaceArguments {
         let place = |file: &Path| file.canonicalize().ok();
         let outputs: Vec<PathBuf> =
             [self.output.file(), self.scene.as_deref()].into_iter().flatten().filter_map(place).collect();
-        let files = self.files.iter().chain(&self.opposite).map(|file| self.folder.join(file));
+        let files = self.files.iter().chain(&self.opposite);
         match files.into_iter().find(|file| place(file).is_some_and(|file| outputs.contains(&file))) {
             Some(file) => Err(CliError::named(
-                path_name(&file),
+                path_name(file),
                 "the output would replace this measured file; allowed: another name",
             )),
             None => Ok(()),
         }
     }
 
-    /// Arguments that determine the spectra, for their table.
-    fn deciding(&self) -> Vec<String> {
-        let (reading, analysis) = (&self.reading, &self.analysis);
-        let length = |value: Option<Length>| Some(exact_quantity(self.in_metres(value)?, "m"));
-        let unit = |unit: Option<Unit>| unit.map(|unit| unit.name().to_owned());
-        let detrend = analysis.detrend.to_possible_value().map(|value| value.get_name().to_owned());
-        let options = [
-            ("--unit", unit(reading.unit)),
-            ("--height-unit", unit(reading.height_unit)),
-            ("--spacing", length(reading.spacing)),
-            ("--channel", reading.channel.map(|channel| channel.to_string())),
-            ("--row", reading.row.map(|row| row.to_string())),
-            ("--column", reading.column.map(|column| column.to_string())),
-            ("--detrend", detrend),
-            ("--continue-to", length(analysis.continue_to)),
-        ];
-        let flags = [
-            ("--interpolate", reading.interpolate),
-            ("--resample", reading.resample),
-            ("--periodic", analysis.periodic),
-        ];
-        let options =
-            options.into_iter().filter_map(|(name, value)| Some([name.to_owned(), value?])).flatten();
-        let flags = flags.into_iter().filter(|(_, is_given)| *is_given).map(|(name, _)| name.to_owned());
-        let opposite = self.opposite.iter().flat_map(|file| ["--opposite".to_owned(), self.in_table(file)]);
-        let files = self.files.iter().map(|file| self.in_table(file));
-        options.chain(flags).chain(opposite).chain(["--".to_owned()]).chain(files).collect()
-    }
-
     /// Name of a file in a table in the destination of the results.
     fn in_table(&self, file: &Path) -> String {
-        named_from(&file.to_string_lossy(), &self.folder, self.output.folder())
+        named_from(&file.to_string_lossy(), Path::new(""), self.output.folder())
     }
 
     /// Roughness of a scene in a file, with the surfaces named from the folder of that file.
@@ -306,7 +276,7 @@ impl SurfaceArguments {
 
     /// Error of the equivalent line, named by the first file.
     fn failed(&self, error: impl Into<Box<dyn Error + Send + Sync>>) -> CliError {
-        let file = self.files.first().map(|file| path_name(&self.folder.join(file)));
+        let file = self.files.first().map(|file| path_name(file));
         CliError::named(file.unwrap_or_default(), error)
     }
 
@@ -319,15 +289,14 @@ impl SurfaceArguments {
         let options = measured_roughness_options(&self.roughness(Path::new("")), false);
         let (mut surfaces, mut facts) = (Vec::new(), Vec::new());
         for file in files {
-            let path = self.folder.join(file);
-            let failed = |error| CliError::named(path_name(&path), error);
-            let bytes = content(&path).map_err(failed)?;
+            let failed = |error| CliError::named(path_name(file), error);
+            let bytes = content(file).map_err(failed)?;
             let surface = parse(&bytes, &options.reading).map_err(failed)?;
             if let Some(hashes) = hashes {
                 let sha256 = hexadecimal(Sha256::new_with_prefix(bytes));
                 hashes.push(MeasuredHash { file: self.in_table(file), sha256 });
             }
-            facts.push(SurfaceFile::new(path, &surface));
+            facts.push(SurfaceFile::new(file.clone(), &surface));
             surfaces.push(surface);
         }
         let options = Options { tip_radius: self.in_metres(self.analysis.tip_radius), ..options.spectrum };
@@ -370,8 +339,7 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
         return arguments.output.write_figure(stdout, &figure, format);
     }
     if let Some(format) = format.table() {
-        let provenance =
-            Provenance::of_spectra(&arguments.deciding()).with_hashes(&hashes.unwrap_or_default());
+        let provenance = Provenance::of_files(&command(), &hashes.unwrap_or_default());
         let write = |out: &mut dyn Write| write_surface_table(out, format, &provenance, &faces, &line);
         return arguments.output.write(stdout, write);
     }

@@ -4,9 +4,8 @@
 use super::keys::Bindings;
 use super::theme::{Appearance, Marker, Theme};
 use crate::io::{WriteError, read_regular_text, write_new};
-use crate::scene::{Text, describe_error, line_column, ron_string};
+use crate::scene::{Text, describe_error, line_column, read_ron, ron_string};
 use etcetera::{BaseStrategy, choose_base_strategy};
-use ron::extensions::Extensions;
 use serde::Deserialize;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
@@ -165,14 +164,14 @@ impl Config {
             let (line, column) = line_column(text, offset);
             ConfigError::Wrong { path: path.display().to_string(), line, column, message }
         };
-        let options = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
-        let file: ConfigFile = options.from_str(text).map_err(|error| {
+        let file: ConfigFile = read_ron(text).map_err(|error| {
             let (offset, message) = describe_error(text, &error);
             wrong_at(offset, message)
         })?;
         let wrong = |field: &str, message: String| {
-            let span = Text::new(text).ok().and_then(|text| text.span(field));
-            wrong_at(span.map_or(0, |span| span.value.start), message)
+            let text = Text::new(text).ok();
+            let start = text.and_then(|text| Some(text.span(field)?.value.start));
+            wrong_at(start.unwrap_or(0), message)
         };
         if file.version != VERSION {
             return Err(wrong("version", format!("version = {}: allowed: {VERSION}", file.version)));
@@ -236,12 +235,12 @@ pub fn remember(path: &Path, appearance: Appearance) -> Result<(), ConfigError> 
     Config::parse(&text, path)?;
     let Appearance { theme, marker } = appearance;
     for (field, value) in [("theme", format!("{theme:?}")), ("markers", format!("{marker:?}"))] {
-        let read = Text::new(&text).map_err(|error| unread(error.reason.to_owned()))?;
+        let read = Text::new(text.as_str()).map_err(|error| unread(error.reason.to_owned()))?;
         let set = match read.span(field) {
             Some(_) => read.replace(field, &value),
             None => read.insert("", field, &value, &ORDER),
         };
-        text = set.map_err(unread)?;
+        text = set.map_err(unread)?.as_str().to_owned();
     }
     // A written configuration can be read.
     Config::parse(&text, path)?;

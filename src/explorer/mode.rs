@@ -26,15 +26,6 @@ pub enum Mode {
     Palette(Finder),
     /// Typing title, notice and the name of the file to save the scene to.
     SaveAs(SaveForm),
-    /// Asking whether to remove comments about changed values.
-    StaleComments {
-        /// Number of the comments.
-        count: usize,
-        /// The file to save to.
-        path: PathBuf,
-        /// True to leave afterwards.
-        then_quit: bool,
-    },
     /// Typing the name of the file to export to.
     Export(TextLine),
     /// Asking whether to overwrite a file.
@@ -125,8 +116,6 @@ pub enum ModeKind {
     Palette,
     /// See [`Mode::SaveAs`].
     SaveAs,
-    /// See [`Mode::StaleComments`].
-    StaleComments,
     /// See [`Mode::Export`].
     Export,
     /// See [`Mode::Overwrite`].
@@ -139,7 +128,7 @@ pub enum ModeKind {
 
 impl ModeKind {
     /// All modes.
-    pub const ALL: [ModeKind; 16] = [
+    pub const ALL: [ModeKind; 15] = [
         ModeKind::Explore,
         ModeKind::Chart,
         ModeKind::Crosshair,
@@ -151,7 +140,6 @@ impl ModeKind {
         ModeKind::Find,
         ModeKind::Palette,
         ModeKind::SaveAs,
-        ModeKind::StaleComments,
         ModeKind::Export,
         ModeKind::Overwrite,
         ModeKind::Help,
@@ -180,7 +168,6 @@ impl Mode {
             Mode::Find(_) => ModeKind::Find,
             Mode::Palette(_) => ModeKind::Palette,
             Mode::SaveAs(_) => ModeKind::SaveAs,
-            Mode::StaleComments { .. } => ModeKind::StaleComments,
             Mode::Export(_) => ModeKind::Export,
             Mode::Overwrite { .. } => ModeKind::Overwrite,
             Mode::Help { .. } => ModeKind::Help,
@@ -196,11 +183,7 @@ impl Mode {
             Mode::Library(Library { finder, .. }) | Mode::Find(finder) | Mode::Palette(finder) => {
                 Some(&mut finder.query)
             }
-            Mode::Explore
-            | Mode::StaleComments { .. }
-            | Mode::Overwrite { .. }
-            | Mode::Help { .. }
-            | Mode::Quit => None,
+            Mode::Explore | Mode::Overwrite { .. } | Mode::Help { .. } | Mode::Quit => None,
         }
     }
 }

@@ -326,12 +326,10 @@ impl Model {
     pub fn governing(&self) -> Option<Governing> {
         let computed = self.computed.as_ref()?;
         let (before, now) = (computed.scene.as_ref(), self.document.scene());
-        let mut roughness = now.roughness.clone();
-        if let Some(roughness) = &mut roughness {
-            // The computed scene names files from the working folder.
-            roughness.rename_files(|file| self.document.resolve(file).to_string_lossy().into_owned());
-        }
-        let same_line = before.roughness == roughness
+        // The computed scene names files from the working folder.
+        let mut named = now.clone();
+        named.rename_measured_files(|file| self.document.resolve(file).to_string_lossy().into_owned());
+        let same_line = before.roughness == named.roughness
             && before.length == now.length
             && before.form == now.form
             && before.material == now.material;

@@ -7,9 +7,9 @@ use super::picture::{png, svg, text};
 use super::theme::Theme;
 use super::view;
 use crate::draw::{Palette, PictureFormat, PngError};
-use crate::export::{write_curve, write_json, write_map};
+use crate::export::{Provenance, write_curve, write_json, write_map};
 use crate::io::{WriteError, check_file_name, write_new_file};
-use crate::scene::{MeasuredHash, Provenance, TableContent};
+use crate::scene::command_line;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
@@ -57,9 +57,9 @@ fn write_content(file: &mut dyn Write, model: &Model, path: &Path, content: Cont
         Content::Curve(format) => {
             let (document, destination) = (&model.document, path.parent().unwrap_or(Path::new("")));
             let (scene, folder) = (document.scene(), document.resolve(""));
-            let hashes = MeasuredHash::of_files(scene.measured_files(), &folder, destination);
-            let provenance = Provenance::new(TableContent::ForceCurve, scene, &folder, destination)
-                .with_hashes(&hashes.map_err(io::Error::other)?);
+            let command = command_line("asperity run", document.name(), document.overrides());
+            let provenance = Provenance::new(&command, scene, &folder, destination);
+            let provenance = provenance.map_err(io::Error::other)?;
             write_curve(file, format, &provenance, &computed()?.outcome)
         }
         Content::Outcome => {

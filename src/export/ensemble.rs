@@ -1,12 +1,13 @@
 //! Results of many random profiles as text, JSON and CSV.
 
+use super::Provenance;
 use super::sheet::Sheet;
 use super::summary::tabor_number;
 use super::table::{Column, TableFormat, Value, write_table};
 use crate::accuracy::Choice;
 use crate::analysis::Regime;
 use crate::io::write_json_value;
-use crate::scene::{Provenance, Scene, format_quantity, format_rounded};
+use crate::scene::{Scene, format_quantity, format_rounded};
 use crate::study::{LineResult, LinesSummary, Statistics, quartiles};
 use crate::text::grouped;
 use serde::Serialize;

@@ -8,7 +8,9 @@ mod cost;
 mod ensemble;
 mod json;
 mod map;
+mod measured_hash;
 mod preloads;
+mod provenance;
 mod reversals;
 mod scene_figure;
 mod scene_tables;
@@ -27,7 +29,9 @@ pub use cost::{cost_text, write_cost_csv, write_cost_json};
 pub use ensemble::{ensemble_text, write_ensemble_json, write_ensemble_table};
 pub use json::write_json;
 pub use map::write_map;
+pub use measured_hash::{MeasuredHash, MeasuredHashError, named_from};
 pub use preloads::{PreloadReport, preload_axes, preload_layers};
+pub use provenance::Provenance;
 pub use reversals::{
     ReversalReport, reversals_figure, reversals_text, write_reversal_map_table, write_reversals_json,
     write_reversals_table,

@@ -1,10 +1,11 @@
 //! Adhesion against preload as text, JSON, tables and a figure.
 
+use super::Provenance;
 use super::sheet::{Sheet, thinned};
 use super::table::{Column, TableFormat, Value, write_table};
 use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Span, Stroke};
 use crate::io::{object, write_json_value};
-use crate::scene::{Provenance, Scene, format_quantity};
+use crate::scene::{Scene, format_quantity};
 use crate::study::{Preloaded, Statistics, preload_statistics};
 use crate::text::grouped;
 use std::io::{self, Write};

@@ -1,5 +1,6 @@
 //! First-order reversal curves of a scene as text, JSON, tables and a figure.
 
+use super::Provenance;
 use super::preloads::{preload_axes, preload_layers, unloadings};
 use super::sheet::{Sheet, thinned};
 use super::table::{Column, Record, TableFormat, Value, write_table};
@@ -7,7 +8,7 @@ use crate::analysis::{MinorLoops, ReversalMap};
 use crate::contact::Reversal;
 use crate::draw::{Axis, AxisScale, Chart, Figure, HeatMap, Ink, Label, Layer, Shape, Span};
 use crate::io::{object, write_json_value};
-use crate::scene::{Provenance, Scene, format_quantity};
+use crate::scene::{Scene, format_quantity};
 use crate::study::Preloaded;
 use crate::text::grouped;
 use std::io::{self, Write};

@@ -1,8 +1,8 @@
 //! Tables of a scene: its force curve and its profile.
 
+use super::Provenance;
 use super::table::{Column, TableFormat, Value, write_table};
 use crate::contact::CurvePoint;
-use crate::scene::Provenance;
 use crate::simulation::Outcome;
 use crate::surface::Line;
 use std::io::{self, Write};

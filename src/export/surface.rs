@@ -1,11 +1,12 @@
 //! Analysed surfaces: text for readers, JSON and CSV for programs.
 
+use super::Provenance;
 use super::ensemble::profiles_text;
 use super::sheet::Sheet;
 use super::spectrum_figure::{SpectrumPoint, spectrum_name, wave_numbers};
 use super::table::{Column, TableFormat, Value, write_table};
 use crate::io::{object, write_json_value};
-use crate::scene::{Move, Provenance, Scene, format_quantity, format_rounded};
+use crate::scene::{Move, Scene, format_quantity, format_rounded};
 use crate::spectrum::{Analysis, Bin, Direction, End, Estimate, LineMoments, Moment};
 use crate::study::MeasuredAdhesion;
 use crate::surface::EquivalentLine;

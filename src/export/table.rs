@@ -3,8 +3,8 @@
 //! CSV begins with the provenance in comments. An array has a field for each column, and the provenance is a second
 //! array in the same file, since the header of an array holds only its type and shape.
 
+use super::Provenance;
 use crate::io::npy;
-use crate::scene::Provenance;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::borrow::Borrow;
 use std::io::{self, Write};
@@ -140,7 +140,6 @@ impl<T, R: Borrow<T>> Serialize for Record<'_, T, R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::TableContent;
     use std::path::Path;
 
     type Row = (Option<f64>, u64, &'static str);
@@ -149,7 +148,7 @@ mod tests {
     fn columns_have_their_types_in_either_format() {
         let document = crate::scene::open("jkr-sphere").unwrap();
         let here = Path::new("");
-        let provenance = Provenance::new(TableContent::ForceCurve, document.scene(), here, here);
+        let provenance = Provenance::new("asperity run", document.scene(), here, here).unwrap();
         let columns = [
             Column("a", Value::Optional(|row: &Row| row.0)),
             Column("b", Value::Whole(|row| row.1)),

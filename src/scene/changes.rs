@@ -2,8 +2,10 @@
 
 use super::document::Document;
 use super::field::Field;
-use super::fields::field;
+use super::fields::fields_inside;
+use super::model::{Move, Roughness, Scene};
 use super::quantity::format_quantity;
+use super::tree::{Tree, in_ron};
 
 /// A field with different values in two scenes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -12,55 +14,85 @@ pub struct Change {
     pub name: String,
     /// Value in the first scene, with its unit.
     pub from: String,
-    /// Value in the second scene; `…` if the second scene has other fields instead.
+    /// Value in the second scene.
     pub to: String,
 }
 
+impl Change {
+    fn of(field: &Field, values: [String; 2]) -> Change {
+        let [from, to] = values.map(|value| match value.parse() {
+            Ok(number) => format_quantity(number, field.unit),
+            Err(_) => value.split_whitespace().collect::<Vec<_>>().join(" "),
+        });
+        let name = if field.symbol.is_empty() { field.name } else { field.symbol };
+        Change { name: name.to_owned(), from, to }
+    }
+}
+
 impl Document {
-    /// The fields, other than texts, with different values in this scene and another one.
-    #[must_use]
+    /// The fields, other than texts, with different values in this scene and another one: each by itself where both
+    /// scenes make the same choices, else their group; loading stages one by one if both scenes have as many.
     pub fn changes_to(&self, other: &Document) -> Vec<Change> {
-        let [this, other] = [self, other].map(with_stated_use);
-        let theirs = other.overrides_from(&this);
-        let is_text = |path: &str| ["title", "notice", "version"].contains(&path);
-        let change = |(path, value): &(String, String)| {
-            let (name, known) = name_of(path, &this);
-            let read = |value: &str| match (value.parse::<f64>(), known) {
-                (Ok(number), Some(field)) => format_quantity(number, field.unit),
-                _ => value.split_whitespace().collect::<Vec<_>>().join(" "),
-            };
-            let to = theirs.iter().find(|(their, _)| their == path);
-            Change {
-                name,
-                from: read(value),
-                to: to.map_or_else(|| "…".to_owned(), |(_, value)| read(value)),
+        let scenes = [self, other].map(|document| with_stated_use(document.scene()));
+        let trees = scenes.each_ref().map(Tree::of);
+        let mut changes = Vec::new();
+        for field in
+            fields_inside("", None).filter(|field| !["title", "notice", "version"].contains(&field.path))
+        {
+            let stages = if field.path == "loading" { changed_stages(&scenes) } else { None };
+            match stages {
+                Some(stages) => changes.extend(stages),
+                None => add_changes(field, &trees, &mut changes),
             }
-        };
-        let mine = this.overrides_from(&other);
-        mine.iter().filter(|(path, _)| !is_text(path)).map(change).collect()
+        }
+        changes
     }
 }
 
-/// The document with an explicit use of its measured profile as the line, which is mostly omitted.
-fn with_stated_use(document: &Document) -> Document {
-    let use_as_line = document.scene().measured_as_line().to_string();
-    let is_measured = !document.scene().measured_files().is_empty();
-    let stated = is_measured.then(|| document.set("roughness.as_line", &use_as_line).ok()).flatten();
-    stated.unwrap_or_else(|| document.clone())
+fn add_changes(field: &Field, trees: &[Tree; 2], changes: &mut Vec<Change>) {
+    let values = trees.each_ref().map(|tree| tree.written(field).unwrap_or_default());
+    // A field at its default in both is equal, though the default may depend on another field.
+    let is_default = |place: usize| values[place] == trees[place].default(field);
+    if values[0] == values[1] || is_default(0) && is_default(1) {
+        return;
+    }
+    let [inside, others] = trees.each_ref().map(|tree| tree.inside(field));
+    let is_given = |field: &&Field| trees[0].value(field).is_some() == trees[1].value(field).is_some();
+    if inside.is_empty() || inside != others || !inside.iter().all(is_given) {
+        changes.push(Change::of(field, values));
+    } else {
+        inside.into_iter().for_each(|field| add_changes(field, trees, changes));
+    }
 }
 
-/// Technical name of a path, and its field if it has one.
-fn name_of(path: &str, scene: &Document) -> (String, Option<&'static Field>) {
-    let symbol = |field: &'static Field| if field.symbol.is_empty() { field.name } else { field.symbol };
-    let mut parts = path.strip_prefix("loading.").unwrap_or_default().split('.');
-    if let Some(index) = parts.next().and_then(|index| index.parse::<usize>().ok()) {
-        let leg = parts.next().and(scene.scene().loading.get(index));
-        let target = leg.and_then(|leg| leg.field()).map(|(field, _)| field);
-        let symbol = target.map(|field| format!(" {}", symbol(field))).unwrap_or_default();
-        return (format!("leg {}{symbol}", index + 1), target);
+/// The changed stages of two histories with as many stages; `None` if the histories as a whole are shorter to name.
+fn changed_stages(scenes: &[Scene; 2]) -> Option<Vec<Change>> {
+    let [one, other] = scenes.each_ref().map(|scene| &scene.loading);
+    let pairs = one.iter().zip(other).enumerate().filter(|(_, (one, other))| one != other);
+    let changes: Vec<Change> = pairs.map(change_of_stage).collect();
+    // A change takes the room of its value and of some fourteen characters.
+    let length: usize = changes.iter().map(|change| 14 + change.from.len()).sum();
+    (one.len() == other.len() && length < 14 + in_ron(one).len()).then_some(changes)
+}
+
+fn change_of_stage((index, (one, other)): (usize, (&Move, &Move))) -> Change {
+    let leg = format!("leg {}", index + 1);
+    match (one.field(), other.field()) {
+        (Some((field, from)), Some((same, to))) if field == same => {
+            let change = Change::of(field, [from, to].map(|value| in_ron(&value)));
+            Change { name: format!("{leg} {}", change.name), ..change }
+        }
+        _ => Change { name: leg, from: in_ron(one), to: in_ron(other) },
     }
-    let known = field(path, None);
-    (known.map_or(path, symbol).to_owned(), known)
+}
+
+/// The scene with an explicit use of its measured profile as the line, which is mostly omitted.
+fn with_stated_use(scene: &Scene) -> Scene {
+    let mut stated = scene.clone();
+    if let Some(Roughness::Measured { as_line, .. }) = &mut stated.roughness {
+        *as_line = Some(scene.measured_as_line());
+    }
+    stated
 }
 
 #[cfg(test)]

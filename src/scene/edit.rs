@@ -1,42 +1,13 @@
 //! Change of one field in the text of a scene, with every comment preserved.
 
-use super::field::Field;
-use super::fields::{FIELDS, LEG_FORCE, LEG_INDENTATION, field};
+use super::field::{Field, LEG_FORCE, LEG_INDENTATION};
+use super::fields::{FIELDS, field};
 use super::range::{Range, choice_name};
-use super::suggest::nearest;
+use super::suggest::did_you_mean;
 use super::text::{Text, one_value};
 
-/// Sets the field at `path` to `value`, in RON, and returns the new text.
-///
-/// A missing field is inserted, with its group if that is missing too; a missing part set to `None` is not
-/// inserted. Any value changes this one place only.
-///
-/// # Errors
-///
-/// The reason in a sentence: no such field, not a single value, or no place for it.
-pub(super) fn set(text: &str, path: &str, value: &str) -> Result<String, String> {
-    let value = one_value(value)?;
-    let fields = fields_at(path)?;
-    let outline = Text::new(text).map_err(|unreadable| unreadable.reason.to_string())?;
-    if outline.span(path).is_some() {
-        outline.replace(path, value)
-    } else if value == "None" && fields.iter().any(|field| field.default == "None" && field.path == path) {
-        Ok(text.to_string())
-    } else {
-        insert(text, &outline, path, value, &fields)
-    }
-}
-
-/// The field at a path of a text, by the variant of its group or loading stage; for an end of a pair, the pair.
-pub(super) fn field_at(text: &str, path: &str) -> Option<&'static Field> {
-    let text = Text::new(text).ok()?;
-    let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
-    let pair = || field(parent, None).filter(|field| matches!(field.range, Range::Band { .. }));
-    known_field(&text, path).or_else(pair)
-}
-
 /// The field at a path, by the variant of its group or loading stage.
-pub(super) fn known_field(text: &Text, path: &str) -> Option<&'static Field> {
+pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
     let variant = text.variant(parent);
     if parent.starts_with("loading.") {
@@ -45,71 +16,68 @@ pub(super) fn known_field(text: &Text, path: &str) -> Option<&'static Field> {
     field(path, variant).or_else(|| field(path, None))
 }
 
-/// Possible fields of a path: several if variants of a choice share a name. A position in a list or pair refers to
-/// that list or pair.
-fn fields_at(path: &str) -> Result<Vec<&'static Field>, String> {
+/// Sets the field at `path` to `value`, in RON, and returns the new text.
+///
+/// A missing field is inserted, with its group if that is missing too; a missing part set to `None` is not
+/// inserted. Any value changes this one place only.
+///
+/// # Errors
+/// The reason in a sentence: no such field, not a single value, or no place for it.
+pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> {
+    let value = one_value(value)?;
+    // A position in a list or pair refers to that list or pair.
+    let is_position = |name: &str| !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_digit());
     let mut base = path;
     while let Some((before, last)) = base.rsplit_once('.')
-        && !last.is_empty()
-        && last.bytes().all(|byte| byte.is_ascii_digit())
+        && is_position(last)
     {
         base = before;
     }
-    let fields: Vec<_> = FIELDS.iter().filter(|field| field.path == base).collect();
-    if !fields.is_empty() {
-        return Ok(fields);
-    }
-    let mut names: Vec<_> = FIELDS.iter().map(|field| field.path).collect();
-    names.sort_unstable();
-    names.dedup();
-    let near = nearest(path, names.iter().copied());
-    let near = near.map_or_else(String::new, |near| format!("; did you mean {near}?"));
-    Err(format!("no such field{near} (fields: {})", names.join(", ")))
-}
-
-fn insert(
-    text: &str,
-    outline: &Text,
-    path: &str,
-    value: &str,
-    fields: &[&'static Field],
-) -> Result<String, String> {
-    let Some(field) = fields.iter().find(|field| field.path == path) else {
-        return Err("there is no such element".into());
+    // Several if variants of a choice share the name.
+    let fields: Vec<&Field> = FIELDS.iter().filter(|field| field.path == base).collect();
+    let Some(field) = fields.first() else {
+        let mut names: Vec<_> = FIELDS.iter().map(|field| field.path).collect();
+        names.sort_unstable();
+        names.dedup();
+        let near = did_you_mean(path, names.iter().copied());
+        return Err(format!("no such field{near} (fields: {})", names.join(", ")));
     };
     let (parent, name) = (field.parent(), field.last());
-    let variant = outline.variant(parent);
-    if field.variant.is_some() && !fields.iter().any(|field| field.variant == variant) {
-        return Err(wrong_variant(parent, variant, fields));
+    let variant = text.variant(parent);
+    if text.span(path).is_some() {
+        return text.replace(path, value);
+    } else if base != path {
+        return Err("there is no such element".into());
+    } else if value == "None" && fields.iter().any(|field| field.default == "None") {
+        return Ok(text.clone());
+    } else if field.variant.is_some() && !fields.iter().any(|field| field.variant == variant) {
+        return Err(wrong_variant(parent, variant, &fields));
     }
     let group = format!("({name}: {value})");
-    match (outline.opening(parent), outline.written(parent)) {
-        (None, Some("None")) => outline.replace(parent, &group),
-        (None, None) if parent.is_empty() => Err("the scene is not a group of fields".into()),
-        (None, None) => set(text, parent, &group),
-        _ => {
+    match text.span(parent) {
+        None if parent.is_empty() => Err("the scene is not a group of fields".into()),
+        None => set(text, parent, &group),
+        Some(_) if text.written(parent) == Some("None") => text.replace(parent, &group),
+        Some(_) => {
             let siblings = FIELDS.iter().filter(|field| field.parent() == parent);
-            let order: Vec<&str> = siblings.map(|field| field.last()).collect();
-            outline.insert(parent, name, value, &order)
+            let order: Vec<&str> = siblings.map(Field::last).collect();
+            text.insert(parent, name, value, &order)
         }
     }
 }
 
 /// Message with the values of the choice that have the field.
-fn wrong_variant(parent: &str, head: Option<&str>, fields: &[&Field]) -> String {
-    let choices = FIELDS.iter().find(|field| field.path == parent).map(|field| field.range);
-    let Some(Range::Choice(choices)) = choices else {
+fn wrong_variant(parent: &str, variant: Option<&str>, fields: &[&Field]) -> String {
+    let Some(Range::Choice(choices)) = field(parent, None).map(|field| field.range) else {
         return format!("{parent} has no such field");
     };
-    let with_it = choices
-        .iter()
-        .filter(|choice| fields.iter().any(|field| field.variant == Some(choice_name(choice))))
-        .map(|choice| format!("{parent}={choice}"));
-    let here = match head {
-        Some(head) if head != "None" => format!("{parent} is {head}, which has no such field"),
+    let has_it = |choice: &&&str| fields.iter().any(|field| field.variant == Some(choice_name(choice)));
+    let choices = choices.iter().filter(has_it).map(|choice| format!("{parent}={choice}"));
+    let here = match variant {
+        Some(variant) if variant != "None" => format!("{parent} is {variant}, which has no such field"),
         _ => format!("there is no {parent}"),
     };
-    format!("{here}: set {}", with_it.collect::<Vec<_>>().join(" or "))
+    format!("{here}: set {}", choices.collect::<Vec<_>>().join(" or "))
 }
 
 #[cfg(test)]
@@ -131,9 +99,13 @@ mod tests {
 )
 "#;
 
+    fn set_text(text: &str, path: &str, value: &str) -> Result<String, String> {
+        set(&Text::new(text).unwrap(), path, value).map(|text| text.as_str().to_owned())
+    }
+
     fn changed(path: &str, value: &str, from: &str, to: &str) {
         assert_eq!(SCENE.matches(from).count(), 1, "{from}");
-        assert_eq!(set(SCENE, path, value).unwrap(), SCENE.replace(from, to), "{path}={value}");
+        assert_eq!(set_text(SCENE, path, value).unwrap(), SCENE.replace(from, to), "{path}={value}");
     }
 
     #[test]
@@ -165,10 +137,10 @@ mod tests {
     fn the_last_entry_keeps_its_comment_and_its_lack_of_a_comma() {
         let text = "(\n    version: 1,\n    length: 1.0 // last\n)\n";
         let new = "(\n    version: 1,\n    length: 1.0, // last\n    observe: []\n)\n";
-        assert_eq!(set(text, "observe", "[]").unwrap(), new);
+        assert_eq!(set_text(text, "observe", "[]").unwrap(), new);
         let text = "(\r\n\tversion: 1,\r\n\tlength: 1.0\r\n)\r\n";
         let new = "(\r\n\tversion: 1,\r\n\tlength: 1.0,\r\n\tobserve: []\r\n)\r\n";
-        assert_eq!(set(text, "observe", "[]").unwrap(), new);
+        assert_eq!(set_text(text, "observe", "[]").unwrap(), new);
     }
 
     #[test]
@@ -189,7 +161,7 @@ mod tests {
                 "Scene(form: Some(Cone(angle: 0.1)))",
             ),
         ] {
-            assert_eq!(set(text, path, value).as_deref(), Ok(new), "{text} {path}");
+            assert_eq!(set_text(text, path, value).as_deref(), Ok(new), "{text} {path}");
         }
     }
 
@@ -197,45 +169,24 @@ mod tests {
     fn what_is_not_there_need_not_be_taken_away() {
         for path in ["form", "adhesion", "adhesion.work", "roughness.rms_gradient", "material.youngs_modulus"]
         {
-            assert_eq!(set(SCENE, path, "None").as_deref(), Ok(SCENE), "{path}");
+            assert_eq!(set_text(SCENE, path, "None").as_deref(), Ok(SCENE), "{path}");
         }
     }
 
     #[test]
     fn a_value_is_one_value_and_stays_in_its_place() {
-        for value in [
-            "",
-            "1.0), title: (\"x\"",
-            "1 // ",
-            "1 /* ",
-            "1 /* a */",
-            "/* a */ 1",
-            "// a\n1",
-            "1.0, title: \"x\"",
-            "1.0 title",
-            "title: 1.0",
-            "\"a",
-            "\"a\" \"b\"",
-            "r#\"a\"",
-            "'",
-            "(",
-            ")",
-            "[1)",
-            ",",
-            ":",
-            "1,",
-            "(1) (2)",
-            "#![enable(unwrap_newtypes)] 1",
-        ] {
-            assert!(set(SCENE, "length", value).is_err(), "{value}");
-            assert!(set(SCENE, "adhesion.work", value).is_err(), "{value}");
+        let values = "|1.0), title: (\"x\"|1 // |1 /* |1 /* a */|/* a */ 1|// a\n1|1.0, title: \"x\"|1.0 title|title: 1.0\
+                      |\"a|\"a\" \"b\"|r#\"a\"|'|(|)|[1)|,|:|1,|(1) (2)|#![enable(unwrap_newtypes)] 1";
+        for value in values.split('|') {
+            assert!(set_text(SCENE, "length", value).is_err(), "{value}");
+            assert!(set_text(SCENE, "adhesion.work", value).is_err(), "{value}");
         }
     }
 
     #[test]
     fn a_value_does_not_become_a_comment_with_what_follows() {
-        assert!(set("(length: 1.0// c\n)", "length", "/").is_err());
-        assert!(set("(length: 1.0/* c */)", "length", "/").is_err());
+        assert!(set_text("(length: 1.0// c\n)", "length", "/").is_err());
+        assert!(set_text("(length: 1.0/* c */)", "length", "/").is_err());
     }
 
     #[test]
@@ -255,17 +206,17 @@ mod tests {
             ("roughness.modes.2", "no such element"),
             ("version.0", "no such element"),
         ] {
-            let message = set(SCENE, path, "1").unwrap_err();
+            let message = set_text(SCENE, path, "1").unwrap_err();
             assert!(message.contains(said), "{path}: {message}");
         }
         let without = SCENE.replace("observe: []", "form: None");
-        let message = set(&without, "form.radius", "1").unwrap_err();
+        let message = set_text(&without, "form.radius", "1").unwrap_err();
         assert!(message.contains("there is no form: set "), "{message}");
     }
 
     #[test]
     fn a_number_is_not_replaced_by_a_group() {
-        let message = set("(length: 1.0, adhesion: 3.0)", "adhesion.work", "0.1").unwrap_err();
+        let message = set_text("(length: 1.0, adhesion: 3.0)", "adhesion.work", "0.1").unwrap_err();
         assert_eq!(message, "adhesion has no fields here");
     }
 }

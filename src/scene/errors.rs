@@ -1,9 +1,9 @@
-//! Errors of a scene: place, value, allowed range.
+//! Errors of a scene: place, value, allowed values.
 
 use std::fmt;
 
 use super::text::{is_within, line_column};
-use crate::text::is_control;
+use crate::text::printable;
 
 /// Most errors listed; further ones are only counted.
 const MOST_LISTED: usize = 100;
@@ -50,7 +50,8 @@ impl fmt::Display for Origin {
 }
 
 /// One error of a scene.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, thiserror::Error)]
+#[error("{origin}{}", self.what())]
 pub struct SceneError {
     /// Origin.
     pub origin: Origin,
@@ -62,8 +63,6 @@ pub struct SceneError {
     pub allowed: String,
     /// Reason, or the name of the field.
     pub message: String,
-    /// Paths of other fields involved: changing one of them may also fix the error.
-    pub involves: &'static [&'static str],
 }
 
 impl SceneError {
@@ -77,93 +76,66 @@ impl SceneError {
         SceneError { origin, ..self }
     }
 
-    /// The error without its origin: `roughness.hurst = 1.4: allowed: above 0 and below 1 (Hurst
-    /// exponent)`.
-    pub fn what(&self) -> impl fmt::Display {
-        let mut what = shown(&self.field);
-        if !self.field.is_empty() && !self.value.is_empty() {
-            what.push_str(" = ");
+    /// The error without its origin: `roughness.hurst = 1.4: allowed: above 0 and below 1 (Hurst exponent)`.
+    pub fn what(&self) -> String {
+        let of =
+            [&self.field, &self.value].map(|part| shown(part)).into_iter().filter(|part| !part.is_empty());
+        let of = of.collect::<Vec<_>>().join(" = ");
+        let of = if of.is_empty() { of } else { of + ": " };
+        match (self.allowed.as_str(), self.message.as_str()) {
+            ("", message) => format!("{of}{message}"),
+            (allowed, "") => format!("{of}allowed: {allowed}"),
+            (allowed, message) => format!("{of}allowed: {allowed} ({message})"),
         }
-        what.push_str(&shown(&self.value));
-        if !what.is_empty() {
-            what.push_str(": ");
-        }
-        if self.allowed.is_empty() {
-            what.push_str(&self.message);
-        } else {
-            what.push_str("allowed: ");
-            what.push_str(&self.allowed);
-            if !self.message.is_empty() {
-                what.push_str(&format!(" ({})", self.message));
-            }
-        }
-        what
     }
 }
 
-impl fmt::Display for SceneError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}{}", self.origin, self.what())
-    }
-}
-
-impl std::error::Error for SceneError {}
-
-/// All errors of a scene, at least one, each a line of its own.
+/// All errors of a scene in the order of their detection, at least one, each a line of its own.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SceneErrors {
-    first: Box<SceneError>,
-    rest: Vec<SceneError>,
-}
+pub struct SceneErrors(Vec<SceneError>);
 
 impl SceneErrors {
-    /// The errors of a list; `None` for an empty list.
-    pub fn new(errors: Vec<SceneError>) -> Option<SceneErrors> {
-        let mut errors = errors.into_iter();
-        Some(SceneErrors { first: Box::new(errors.next()?), rest: errors.collect() })
-    }
-
     /// Returns `Err` for a list of errors that is not empty: the errors with their origins, a long list shortened.
     pub(super) fn result(
         mut errors: Vec<SceneError>,
         origin: impl Fn(&SceneError) -> Origin,
     ) -> Result<(), SceneErrors> {
-        let count = errors.len();
+        let more = errors.len().saturating_sub(MOST_LISTED);
         errors.truncate(MOST_LISTED);
         errors.iter_mut().for_each(|error| error.origin = origin(error));
-        if count > MOST_LISTED {
-            errors.push(SceneError::whole(Origin::Scene, format!("and {} more errors", count - MOST_LISTED)));
+        if more > 0 {
+            errors.push(SceneError::whole(Origin::Scene, format!("and {more} more errors")));
         }
-        SceneErrors::new(errors).map_or(Ok(()), Err)
+        if errors.is_empty() { Ok(()) } else { Err(SceneErrors(errors)) }
     }
 
     /// These errors and another one.
     pub(super) fn and(mut self, error: SceneError) -> SceneErrors {
-        self.rest.push(error);
+        self.0.push(error);
         self
     }
 
     /// The first error.
     pub fn first(&self) -> &SceneError {
-        &self.first
+        &self.0[0]
     }
 
-    /// All errors, in the order of their detection.
-    pub fn iter(&self) -> impl Iterator<Item = &SceneError> {
-        std::iter::once(&*self.first).chain(&self.rest)
+    /// All errors.
+    pub fn iter(&self) -> std::slice::Iter<'_, SceneError> {
+        self.0.iter()
     }
 }
 
 impl From<SceneError> for SceneErrors {
     fn from(error: SceneError) -> SceneErrors {
-        SceneErrors { first: Box::new(error), rest: Vec::new() }
+        SceneErrors(vec![error])
     }
 }
 
 impl fmt::Display for SceneErrors {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.first)?;
-        self.rest.iter().try_for_each(|error| write!(f, "\n{error}"))
+        let lines: Vec<String> = self.iter().map(SceneError::to_string).collect();
+        f.write_str(&lines.join("\n"))
     }
 }
 
@@ -175,39 +147,20 @@ pub(super) fn origin_at(text: &str, name: &str, offset: usize) -> Origin {
     Origin::Place { name: name.into(), line, column }
 }
 
-/// Overrides that cause an error: those of its field, else those of the involved fields, else all of them.
+/// Overrides that cause an error: those of its field, else all of them.
 pub(super) fn overrides_behind(error: &SceneError, overrides: &[(String, String)]) -> Origin {
-    let naming = |touches: &dyn Fn(&str) -> bool| {
-        let touching = overrides.iter().filter(|(path, _)| touches(path));
-        touching.map(|(path, value)| format!("{path}={value}")).collect::<Vec<_>>()
-    };
-    let mut source = naming(&|path| is_within(&error.field, path));
-    if source.is_empty() {
-        source = naming(&|path| {
-            error.involves.iter().any(|field| is_within(field, path) || is_within(path, field))
-        });
-    }
-    if source.is_empty() {
-        source = naming(&|_| true);
-    }
-    Origin::Overrides(source)
+    let is_behind = |path: &str| is_within(&error.field, path);
+    let is_known = overrides.iter().any(|(path, _)| is_behind(path));
+    let behind = overrides.iter().filter(|(path, _)| !is_known || is_behind(path));
+    Origin::Overrides(behind.map(|(path, value)| format!("{path}={value}")).collect())
 }
 
 /// Foreign text for a message: one line, shortened, without control characters.
 pub(super) fn shown(text: &str) -> String {
-    let mut shown = String::new();
-    for (index, c) in text.chars().enumerate() {
-        if index == MOST_SHOWN {
-            shown.push('…');
-            break;
-        }
-        match c {
-            '\n' | '\r' | '\t' => shown.push(' '),
-            c if is_control(c) => shown.extend(c.escape_default()),
-            c => shown.push(c),
-        }
-    }
-    shown
+    let start: String = text.chars().take(MOST_SHOWN).collect();
+    let end = if start.len() < text.len() { "…" } else { "" };
+    let start = start.replace(['\n', '\r', '\t'], " ");
+    format!("{}{end}", printable(&start))
 }
 
 #[cfg(test)]
@@ -221,7 +174,6 @@ mod tests {
             value: "1.4".into(),
             allowed: "above 0 and below 1".into(),
             message: "Hurst exponent".into(),
-            involves: &[],
         }
     }
 
@@ -234,15 +186,14 @@ mod tests {
         let origin = Origin::Overrides(vec!["roughness.hurst=1.4".into()]);
         let error = SceneError { origin, allowed: String::new(), message: "no".into(), ..error() };
         assert_eq!(error.to_string(), "--set roughness.hurst=1.4: roughness.hurst = 1.4: no");
-        assert_eq!(error.what().to_string(), "roughness.hurst = 1.4: no");
+        assert_eq!(error.what(), "roughness.hurst = 1.4: no");
     }
 
     #[test]
     fn errors_are_lines() {
-        let errors = SceneErrors::new(vec![error(), error()]).unwrap();
+        let errors = SceneErrors::from(error()).and(error());
         assert_eq!(errors.to_string().lines().count(), 2);
-        assert_eq!(errors.iter().count(), 2);
-        assert_eq!(SceneErrors::new(vec![]), None);
+        assert_eq!(SceneErrors::result(vec![], |_| Origin::Scene), Ok(()));
     }
 
     #[test]
@@ -250,31 +201,5 @@ mod tests {
         assert_eq!(shown("a\u{1b}[2J\nb"), "a\\u{1b}[2J b");
         assert_eq!(shown("a\u{202e}b"), "a\\u{202e}b");
         assert_eq!(shown(&"x".repeat(1000)).chars().count(), MOST_SHOWN + 1);
-    }
-
-    fn pairs(overrides: &[(&str, &str)]) -> Vec<(String, String)> {
-        overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect()
-    }
-
-    fn source(field: &str, involves: &'static [&'static str], overrides: &[(&str, &str)]) -> Vec<String> {
-        let error = SceneError { field: field.into(), involves, ..SceneError::default() };
-        match overrides_behind(&error, &pairs(overrides)) {
-            Origin::Overrides(overrides) => overrides,
-            other => panic!("{other:?}"),
-        }
-    }
-
-    #[test]
-    fn the_nearest_overrides_are_the_source() {
-        let overrides = [("roughness", "…"), ("numerics.points", "1"), ("length", "2")];
-        for (field, involves, expected) in [
-            ("length", &[][..], &["length=2"][..]),
-            ("roughness.hurst", &[], &["roughness=…"]),
-            ("form.radius", &["length", "numerics"], &["numerics.points=1", "length=2"]),
-            ("form", &[], &["roughness=…", "numerics.points=1", "length=2"]),
-            ("lengths", &["length"], &["length=2"]),
-        ] {
-            assert_eq!(source(field, involves, &overrides), expected, "{field}");
-        }
     }
 }

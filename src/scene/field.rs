@@ -1,8 +1,7 @@
-//! One field of a scene: path, symbol, unit, range, meaning, and access to its value.
+//! One field of a scene: path, symbol, unit, range, step, default and meaning.
 
-use super::model::Scene;
 use super::range::Range;
-use super::value::{Access, Value};
+use crate::contact::Move;
 
 /// One field of a scene.
 #[derive(Clone, Copy, Debug)]
@@ -26,30 +25,18 @@ pub struct Field {
     pub default: &'static str,
     /// Meaning in one line.
     pub meaning: &'static str,
-    /// Access to the value.
-    pub(super) access: Access,
 }
 
 /// Step of a field for a key press.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
-    /// By addition; the result is a multiple of `fine`.
-    Linear {
-        /// Small step.
-        fine: f64,
-        /// Large step.
-        coarse: f64,
-    },
+    /// By addition of the first number, or of the second as the large step; the result is a multiple of the first.
+    Linear(f64, f64),
     /// To the next preferred number: twenty to a decade (the Renard series R20) as the small step,
     /// 1–2–5 as the large one.
     Logarithmic,
-    /// By addition to an integer.
-    Integer {
-        /// Small step.
-        fine: u64,
-        /// Large step.
-        coarse: u64,
-    },
+    /// By addition of the first number to an integer, or of the second as the large step.
+    Integer(u64, u64),
     /// To the next power of two; the large step is four of them.
     Doubling,
     /// The last mode of a pair to the next power of two; the large step moves the first mode.
@@ -60,20 +47,28 @@ pub enum Step {
     Typed,
 }
 
-/// The row of a field; see `at!` for the combination of path, variant and access.
+/// A required field, with the usual unit and step of its range; its name is its path.
+pub(super) const fn row(path: &'static str, range: Range) -> Field {
+    let (step, unit) = match range {
+        Range::Real(..) => (Step::Logarithmic, "1"),
+        Range::Whole(..) => (Step::Typed, "1"),
+        Range::Band(..) => (Step::Band, "1"),
+        Range::Choice(_) => (Step::Choice, ""),
+        Range::Text { .. } | Range::List { .. } | Range::Group => (Step::Typed, ""),
+    };
+    Field { path, variant: None, name: path, symbol: "", unit, range, step, default: "", meaning: "" }
+}
+
+/// Changes of a row in the table of fields.
 impl Field {
-    /// Required group of fields; its name is its path.
-    pub(super) const fn new(path: &'static str, variant: Option<&'static str>, access: Access) -> Field {
-        let (symbol, unit, default, meaning) = ("", "", "", "");
-        let (name, range, step) = (path, Range::Group, Step::Typed);
-        Field { path, variant, name, symbol, unit, range, step, default, meaning, access }
+    pub(super) const fn of(self, variant: &'static str) -> Field {
+        Field { variant: Some(variant), ..self }
     }
 
     pub(super) const fn name(self, name: &'static str) -> Field {
         Field { name, ..self }
     }
 
-    /// Name, symbol and unit.
     pub(super) const fn quantity(
         self,
         name: &'static str,
@@ -81,19 +76,6 @@ impl Field {
         unit: &'static str,
     ) -> Field {
         Field { name, symbol, unit, ..self }
-    }
-
-    /// Range, with the usual step of its kind; a number without a unit has the unit 1.
-    pub(super) const fn range(self, range: Range) -> Field {
-        let (step, is_number) = match range {
-            Range::Real { .. } => (Step::Logarithmic, true),
-            Range::Whole { .. } => (Step::Typed, true),
-            Range::Band { .. } => (Step::Band, true),
-            Range::Choice(_) => (Step::Choice, false),
-            Range::Text { .. } | Range::List { .. } | Range::Group => (Step::Typed, false),
-        };
-        let unit = if is_number && self.unit.is_empty() { "1" } else { self.unit };
-        Field { range, step, unit, ..self }
     }
 
     pub(super) const fn step(self, step: Step) -> Field {
@@ -110,20 +92,6 @@ impl Field {
 }
 
 impl Field {
-    /// Value in a scene; `None` if the field belongs to an unselected choice.
-    pub fn get<'s>(&self, scene: &'s Scene) -> Option<Value<'s>> {
-        (self.access.get)(scene)
-    }
-
-    /// Sets the field to a value, valid or not. A missing optional group is made for it.
-    ///
-    /// Returns `false`, with the scene unchanged, for a value of another kind, for a field of an unselected choice,
-    /// and for a whole choice, which [`Document::set`](super::Document::set) replaces.
-    #[must_use]
-    pub fn set(&self, scene: &mut Scene, value: Value<'_>) -> bool {
-        (self.access.set)(scene, value)
-    }
-
     /// Allowed values with the unit: `from 1 to 1e13 Pa`.
     pub fn allowed(&self) -> String {
         match self.unit {
@@ -147,5 +115,32 @@ impl Field {
 impl PartialEq for Field {
     fn eq(&self, other: &Field) -> bool {
         (self.path, self.variant) == (other.path, other.variant)
+    }
+}
+
+/// Range of file names.
+pub(super) const FILE_NAME: Range = Range::Text { least: 1, most: 4096, lines: false };
+
+/// The force of a loading stage [`ToForce`](super::Move::ToForce), at `loading.0.0` for the first stage.
+pub const LEG_FORCE: Field = row("loading", Range::closed(-1e30, 1e30))
+    .of("ToForce")
+    .quantity("force of a stage", "F", "N")
+    .meaning("target: the stage ends where the force first reaches this value; compression is positive");
+
+/// The indentation of a loading stage [`ToIndentation`](super::Move::ToIndentation), at `loading.0.0`
+/// for the first stage.
+pub const LEG_INDENTATION: Field = row("loading", Range::closed(-1e6, 1e6))
+    .of("ToIndentation")
+    .quantity("indentation of a stage", "d", "m")
+    .meaning("target: the stage ends at this indentation; 0 is first touch, positive is deeper");
+
+impl Move {
+    /// Field and value of the target, if the stage has a numeric target.
+    pub fn field(&self) -> Option<(&'static Field, f64)> {
+        match *self {
+            Move::ToForce(force) => Some((&LEG_FORCE, force)),
+            Move::ToIndentation(indentation) => Some((&LEG_INDENTATION, indentation)),
+            Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => None,
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! Sources of scenes: the program, the user's own folder, and the working folder.
+//! Sources of scenes: the user's own folder and the working folder, beside the built-in scenes.
 
 use std::fs;
 use std::io;
@@ -7,23 +7,19 @@ use std::path::{Component, Path, PathBuf, is_separator};
 use etcetera::{BaseStrategy, choose_base_strategy, home_dir};
 
 use super::document::{Document, LONGEST_TEXT};
-use super::errors::{Origin, SceneError, SceneErrors, shown};
-use super::presets::{Preset, presets};
+use super::errors::{Origin, SceneError, SceneErrors};
+use super::presets::presets;
 use super::text::Text;
 use crate::io::{ReadError, read_regular_text};
-use crate::text::is_control;
+use crate::text::printable;
 
 /// Most scene files read in one folder; the rest is counted.
 pub const MOST_FILES: usize = 500;
-
-/// Most bytes of scene files read in one folder. Scenes are a few hundred bytes.
-pub const MOST_BYTES: usize = 16 * LONGEST_TEXT;
 
 /// Most entries of a folder that are examined.
 const MOST_LOOKED_AT: usize = 100_000;
 
 /// A typed path: a leading `~` becomes the home folder, if there is one.
-#[must_use]
 pub fn typed_path(text: &str) -> PathBuf {
     let text = text.trim();
     let in_home = text.strip_prefix('~').filter(|rest| rest.is_empty() || rest.starts_with(is_separator));
@@ -94,11 +90,9 @@ impl Library {
     /// The file of an own scene of this name, if it exists.
     pub fn own_scene(&self, name: &str) -> Option<PathBuf> {
         let mut components = Path::new(name).components();
-        let (Some(Component::Normal(_)), None) = (components.next(), components.next()) else {
-            return None;
-        };
+        let is_name = matches!((components.next(), components.next()), (Some(Component::Normal(_)), None));
         let path = self.own.as_ref()?.join(format!("{name}.ron"));
-        path.is_file().then_some(path)
+        Some(path).filter(|path| is_name && path.is_file())
     }
 
     /// Names of the user's own scenes.
@@ -111,35 +105,45 @@ impl Library {
     /// folder, each by name.
     ///
     /// Lists files ending in `.ron`, except for plans of studies; subfolders are not searched. Files that are no
-    /// scene or cannot be read are listed with their error. In each folder at most [`MOST_FILES`] files and
-    /// [`MOST_BYTES`] bytes are read, and only regular files are opened.
+    /// scene or cannot be read are listed with their error. In each folder at most [`MOST_FILES`] files are read, and only
+    /// regular files are opened.
     pub fn list(&self) -> Vec<Entry> {
-        [Source::BuiltIn, Source::Own, Source::Working].map(|origin| self.list_of(origin)).concat()
-    }
-
-    /// Entries of one place; empty for a working folder that is also the user's own folder.
-    pub fn list_of(&self, origin: Source) -> Vec<Entry> {
-        match origin {
-            Source::BuiltIn => {
-                let entry =
-                    |preset: &Preset| Entry::of_text(preset.name.into(), origin, None, preset.text.into());
-                presets().iter().map(entry).collect()
-            }
-            Source::Own => self.own.as_ref().map_or_else(Vec::new, |own| list_folder(own, origin)),
-            Source::Working if self.own.as_ref().is_some_and(|own| is_same(own, &self.working)) => Vec::new(),
-            Source::Working => list_folder(&self.working, origin),
+        let built_in = presets()
+            .iter()
+            .map(|preset| Entry::new(preset.name.into(), Source::BuiltIn, None, Ok(preset.text.into())));
+        let own = self.own.as_ref().map_or_else(Vec::new, |own| list_folder(own, Source::Own));
+        let mut entries: Vec<Entry> = built_in.chain(own).collect();
+        let place = |folder: &Path| folder.canonicalize().ok();
+        let own = self.own.as_deref().and_then(place);
+        if own.is_none() || own != place(&self.working) {
+            entries.extend(list_folder(&self.working, Source::Working));
         }
+        entries
     }
 }
 
 impl Entry {
+    /// The entry of a text, or of the reason why there is none.
+    fn new(name: String, origin: Source, path: Option<PathBuf>, text: Result<String, String>) -> Entry {
+        let (error, text) = text.map_or_else(|error| (Some(error), String::new()), |text| (None, text));
+        let (title, notice) = (String::new(), String::new());
+        let mut entry = Entry { name, origin, path, title, notice, text, error };
+        match entry.document() {
+            Ok(document) => {
+                (entry.title, entry.notice) =
+                    (document.scene().title.clone(), document.scene().notice.clone());
+            }
+            Err(errors) => entry.error = entry.error.or_else(|| Some(in_one_line(&errors))),
+        }
+        entry
+    }
+
     /// The scene as a document. Files of a scene are relative to its own file.
     ///
     /// # Errors
-    ///
     /// All errors of the scene.
     pub fn document(&self) -> Result<Document, SceneErrors> {
-        let name = self.document_name();
+        let name = self.path.as_ref().map_or_else(|| self.name.clone(), |path| path.display().to_string());
         match &self.error {
             Some(error) if self.text.is_empty() => {
                 Err(SceneError::whole(Origin::File { name }, error.as_str()).into())
@@ -147,59 +151,24 @@ impl Entry {
             _ => Document::parse(&self.text, &name),
         }
     }
-
-    fn document_name(&self) -> String {
-        self.path.as_ref().map_or_else(|| self.name.clone(), |path| path.display().to_string())
-    }
-
-    fn of_text(name: String, origin: Source, path: Option<PathBuf>, text: String) -> Entry {
-        let (title, notice, error) = (String::new(), String::new(), None);
-        let mut entry = Entry { name, origin, path, title, notice, text, error };
-        match Document::parse(&entry.text, &entry.document_name()) {
-            Ok(document) => {
-                entry.title.clone_from(&document.scene().title);
-                entry.notice.clone_from(&document.scene().notice);
-            }
-            Err(errors) => entry.error = Some(in_one_line(&errors)),
-        }
-        entry
-    }
-
-    fn unread(name: String, origin: Source, path: PathBuf, error: String) -> Entry {
-        let (title, notice, text) = (String::new(), String::new(), String::new());
-        Entry { name, origin, path: Some(path), title, notice, text, error: Some(error) }
-    }
 }
 
 /// The first error of a file with its place, and the number of further ones.
 fn in_one_line(errors: &SceneErrors) -> String {
-    let first = errors.first();
+    let (first, more) = (errors.first(), errors.iter().count() - 1);
     let place = match &first.origin {
         Origin::Place { line, column, .. } => format!("line {line}, column {column}: "),
         _ => String::new(),
     };
-    let more = match errors.iter().count() - 1 {
-        0 => String::new(),
-        more => format!(" (and {more} more)"),
-    };
+    let more = if more > 0 { format!(" (and {more} more)") } else { String::new() };
     format!("{place}{}{more}", first.what())
-}
-
-/// Returns true if a text is the plan of a study: it contains a scene.
-fn is_plan(text: &str) -> bool {
-    Text::new(text).is_ok_and(|text| text.span("scene").is_some())
-}
-
-/// Returns true if two paths are the same folder.
-fn is_same(one: &Path, other: &Path) -> bool {
-    matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
 }
 
 /// The scene files of a folder by name; empty for a missing folder.
 fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
     let about_folder = |error: String| {
-        let name = printable(&folder.display().to_string());
-        Entry::unread(name, origin, folder.to_path_buf(), error)
+        let name = printable(&folder.display().to_string()).into_owned();
+        Entry::new(name, origin, Some(folder.to_path_buf()), Err(error))
     };
     let mut paths = match scene_files(folder) {
         Ok(paths) => paths,
@@ -209,8 +178,13 @@ fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
     paths.sort_by_cached_key(|path| name_of(path, origin));
     let left = paths.len().saturating_sub(MOST_FILES);
     paths.truncate(MOST_FILES);
-    let mut room = MOST_BYTES;
-    let mut entries: Vec<Entry> = paths.into_iter().map(|path| entry_of(path, origin, &mut room)).collect();
+    let read = |path: PathBuf| {
+        let text = read_regular_text(&path, LONGEST_TEXT).map_err(describe);
+        Entry::new(printable(&name_of(&path, origin)).into_owned(), origin, Some(path), text)
+    };
+    let mut entries: Vec<Entry> = paths.into_iter().map(read).collect();
+    // A plan of a study contains a scene.
+    let is_plan = |text: &str| Text::new(text).is_ok_and(|text| text.span("scene").is_some());
     entries.retain(|entry| entry.error.is_none() || !is_plan(&entry.text));
     if left > 0 {
         entries
@@ -222,39 +196,14 @@ fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
 /// The files of a folder that end in `.ron`, unread.
 fn scene_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let paths = fs::read_dir(folder)?.take(MOST_LOOKED_AT).filter_map(|entry| Some(entry.ok()?.path()));
-    let is_scene = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "ron");
     // The target of a link decides; a link without a target is no folder.
-    let is_folder = |path: &PathBuf| fs::metadata(path).is_ok_and(|found| found.is_dir());
-    Ok(paths.filter(is_scene).filter(|path| !is_folder(path)).collect())
+    let is_scene = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "ron") && !path.is_dir();
+    Ok(paths.filter(is_scene).collect())
 }
 
 fn name_of(path: &Path, origin: Source) -> String {
-    let name = match origin {
-        Source::Own => path.file_stem(),
-        Source::BuiltIn | Source::Working => path.file_name(),
-    };
+    let name = if origin == Source::Own { path.file_stem() } else { path.file_name() };
     name.unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
-}
-
-fn entry_of(path: PathBuf, origin: Source, room: &mut usize) -> Entry {
-    let name = printable(&name_of(&path, origin));
-    match read_within(&path, *room) {
-        Ok(text) => {
-            *room -= text.len().min(*room);
-            Entry::of_text(name, origin, Some(path), text)
-        }
-        Err(error) => Entry::unread(name, origin, path, error),
-    }
-}
-
-/// Text of a regular file, if its size is within `room`.
-fn read_within(path: &Path, room: usize) -> Result<String, String> {
-    match read_regular_text(path, room.min(LONGEST_TEXT)) {
-        Err(ReadError::TooLong { limit }) if limit < LONGEST_TEXT => {
-            Err(format!("not read: the scene files of this folder are more than {MOST_BYTES} bytes long"))
-        }
-        read => read.map_err(describe),
-    }
 }
 
 /// Reason why the file of a scene was not read.
@@ -264,11 +213,6 @@ pub(super) fn describe(error: ReadError) -> String {
         ReadError::TooLong { limit } => format!("the scene is too long: at most {limit} bytes are read"),
         other => other.to_string(),
     }
-}
-
-/// A name that does not control the terminal.
-pub(super) fn printable(name: &str) -> String {
-    if name.contains(is_control) { shown(name) } else { name.to_string() }
 }
 
 #[cfg(test)]
@@ -319,13 +263,6 @@ mod tests {
     #[test]
     fn scenes_are_listed_where_they_are() {
         let (_root, library, own, working) = library();
-        let preset = |(entry, preset): (&Entry, &Preset)| {
-            entry.name == preset.name
-                && entry.text == preset.text
-                && entry.error.is_none()
-                && entry.path.is_none()
-        };
-        assert!(library.list().iter().zip(presets()).all(preset));
         assert_eq!(listed(&library), []);
         for name in ["b-c.ron", "b.ron", "a.ron", ".hidden.ron", "notes.txt", "ron"] {
             fs::write(own.join(name), SCENE).unwrap();
@@ -369,12 +306,6 @@ mod tests {
             two.contains("material.effective_modulus = 0.0: allowed") && two.ends_with("(and 1 more)"),
             "{two}"
         );
-        // Opening reports all errors, not the one line of the list.
-        let listed = library.list().into_iter().find(|entry| entry.name == "two.ron").unwrap();
-        let errors = listed.document().unwrap_err();
-        let fields: Vec<_> = errors.iter().map(|error| error.field.as_str()).collect();
-        assert_eq!(fields, ["material.effective_modulus", "length"]);
-        assert!(!error_of(&library, "empty.ron").is_empty());
         assert_eq!(error_of(&library, "binary.ron"), "this is not UTF-8 text: byte 1 is not");
         assert!(error_of(&library, "long.ron").contains("too long"));
         let library = Library::of(None, working.join("other.ron"));
@@ -417,23 +348,17 @@ mod tests {
     }
 
     #[test]
-    fn no_more_is_read_than_is_said() {
-        let (_root, library, own, working) = library();
+    fn no_more_files_are_read_than_is_said() {
+        let (_root, library, _, working) = library();
         for index in 0..MOST_FILES + 3 {
             fs::write(working.join(format!("{index:04}.ron")), SCENE).unwrap();
         }
-        let long = SCENE.to_string() + &" ".repeat(LONGEST_TEXT - SCENE.len());
-        for index in 0..18 {
-            fs::write(own.join(format!("{index:02}.ron")), &long).unwrap();
-        }
-        let entries = library.list();
-        let of = |origin| entries.iter().filter(move |entry| entry.origin == origin).collect::<Vec<_>>();
-        let (own, working) = (of(Source::Own), of(Source::Working));
-        assert_eq!(working.len(), MOST_FILES + 1);
-        assert!(working[..MOST_FILES].iter().all(|entry| entry.error.is_none()));
-        let said = working[MOST_FILES].error.as_deref().unwrap();
+        let entries = library.list().split_off(presets().len());
+        assert!(
+            entries.len() == MOST_FILES + 1
+                && entries[..MOST_FILES].iter().all(|entry| entry.error.is_none())
+        );
+        let said = entries[MOST_FILES].error.as_deref().unwrap();
         assert!(said.starts_with("3 more scene files"), "{said}");
-        assert_eq!(own.iter().map(|entry| entry.text.len()).sum::<usize>(), MOST_BYTES);
-        assert!(own[16..].iter().all(|entry| entry.error.as_deref().unwrap().starts_with("not read")));
     }
 }

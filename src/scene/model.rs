@@ -2,6 +2,7 @@
 //!
 //! These types hold values as written; [`super::check()`] finds the invalid ones.
 
+use super::fields::default;
 pub use crate::contact::{Edges, Move};
 use crate::spectrum::Detrend;
 use crate::surface::Form;
@@ -10,15 +11,15 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use strum::IntoStaticStr;
 
-/// Supported versions of the scene file. In version 1 a measured profile is the line itself unless
-/// `roughness.as_line` states otherwise, in version 2 the line is the equivalent one.
-pub const SCENE_VERSIONS: std::ops::RangeInclusive<u32> = 1..=2;
+/// Fewest springs per wave of a form, of roughness and of the maps. The adhesion force of a rough sphere has an error of
+/// 6 % with two springs to the shortest wave, of 0.2 % with four (docs/accuracy.md).
+pub const SPRINGS_PER_WAVE: u64 = 4;
 
 /// A scene: two bodies, their loading, and the resolution of the computation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
-    /// Version of the file format, one of [`SCENE_VERSIONS`].
+    /// Version of the file format, one of [`SCENE_VERSIONS`](super::SCENE_VERSIONS).
     pub version: u32,
     /// Title of the scene, one line.
     #[serde(default)]
@@ -31,13 +32,10 @@ pub struct Scene {
     /// Apparent diameter L of the contact, m.
     pub length: f64,
     /// Macroscopic form; `None`: nominally flat.
-    #[serde(default)]
     pub form: Option<Form>,
     /// Roughness; `None`: smooth.
-    #[serde(default)]
     pub roughness: Option<Roughness>,
     /// Adhesion; `None`: no adhesion.
-    #[serde(default)]
     pub adhesion: Option<Adhesion>,
     /// Loading history from separation: consecutive loading stages.
     #[serde(default = "default_loading")]
@@ -55,25 +53,23 @@ pub struct Scene {
 #[serde(deny_unknown_fields)]
 pub struct Material {
     /// Young's modulus E, Pa.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub youngs_modulus: Option<f64>,
     /// Poisson's ratio ν.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub poisson_ratio: Option<f64>,
     /// Effective modulus E*, Pa.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub effective_modulus: Option<f64>,
 }
 
 impl Material {
     /// Material given by its effective modulus E*, Pa.
-    #[must_use]
     pub fn effective(modulus: f64) -> Self {
         Material { youngs_modulus: None, poisson_ratio: None, effective_modulus: Some(modulus) }
     }
 
     /// Isotropic material under a rigid body, given by Young's modulus E (Pa) and Poisson's ratio ν: E* = E/(1 − ν²).
-    #[must_use]
     pub fn isotropic(youngs_modulus: f64, poisson_ratio: f64) -> Self {
         Material {
             youngs_modulus: Some(youngs_modulus),
@@ -104,10 +100,10 @@ pub enum Roughness {
         /// Hurst exponent H.
         hurst: f64,
         /// Root mean square height h, m.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         rms_height: Option<f64>,
         /// Root mean square gradient ⟨∇z⟩.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         rms_gradient: Option<f64>,
         /// First and last mode k, q = 2πk/L.
         modes: (u64, u64),
@@ -123,19 +119,19 @@ pub enum Roughness {
         further_files: Vec<String>,
         /// True if the measured profile itself is the line. `None`: true in scenes of version 1, false in those of
         /// version 2; see [`Scene::measured_as_line`].
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         as_line: Option<bool>,
         /// File of the opposite face, relative to the scene file; the spectra of both faces add.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         opposite: Option<String>,
         /// Row of a map used as the profile, from 1.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         row: Option<u64>,
         /// Column of a map used as the profile, from 1.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         column: Option<u64>,
         /// Part removed from the heights; `None`: the tilt for an equivalent line, nothing for `as_line`.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         detrend: Option<Detrend>,
         /// True if the surface repeats itself at its borders: its spectrum is then estimated without a window.
         #[serde(default, skip_serializing_if = "is_false")]
@@ -147,7 +143,7 @@ pub enum Roughness {
         #[serde(default, skip_serializing_if = "String::is_empty")]
         height_unit: String,
         /// Distance between points, m, if the file states none.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         spacing: Option<f64>,
         /// True if missing heights are interpolated from their neighbours.
         #[serde(default, skip_serializing_if = "is_false")]
@@ -156,11 +152,11 @@ pub enum Roughness {
         #[serde(default, skip_serializing_if = "is_false")]
         resample: bool,
         /// Number of the channel of a file with several.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         channel: Option<u64>,
         /// Shortest wavelength, m, down to which the spectrum of the equivalent line continues as a power law;
         /// `None`: the last resolved wavelength.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         continue_to: Option<f64>,
         /// Seed of the random phases of the equivalent line.
         #[serde(default = "default_seed", skip_serializing_if = "is_default_seed")]
@@ -169,53 +165,21 @@ pub enum Roughness {
 }
 
 fn default_seed() -> u64 {
-    1
-}
-
-fn is_false(value: &bool) -> bool {
-    !value
+    default("roughness.seed", Some("Measured"))
 }
 
 fn is_default_seed(seed: &u64) -> bool {
     *seed == default_seed()
 }
 
+fn is_false(value: &bool) -> bool {
+    !value
+}
+
 impl Roughness {
     /// Returns true if the roughness, rather than the adhesion, specifies the amplitude.
     pub(super) fn has_amplitude(&self) -> bool {
         !matches!(self, Roughness::SelfAffine { rms_height: None, rms_gradient: None, .. })
-    }
-
-    /// Renames the files of the measured surfaces.
-    pub fn rename_files(&mut self, rename: impl Fn(&str) -> String) {
-        if let Roughness::Measured { file, further_files, opposite, .. } = self {
-            for name in std::iter::once(file).chain(further_files).chain(opposite) {
-                *name = rename(name);
-            }
-        }
-    }
-
-    /// Measured surface of a file, all other fields omitted.
-    pub fn measured(file: impl Into<String>) -> Self {
-        let file = file.into();
-        Roughness::Measured {
-            file,
-            further_files: Vec::new(),
-            as_line: None,
-            opposite: None,
-            row: None,
-            column: None,
-            detrend: None,
-            periodic: false,
-            unit: String::new(),
-            height_unit: String::new(),
-            spacing: None,
-            interpolate: false,
-            resample: false,
-            channel: None,
-            continue_to: None,
-            seed: default_seed(),
-        }
     }
 }
 
@@ -231,6 +195,24 @@ impl Scene {
         self.form.map_or(0..points, |form| form.springs_under(self.length, points))
     }
 
+    /// Warning about roughness whose shortest wave has fewer springs than [`SPRINGS_PER_WAVE`], which is allowed.
+    pub fn warning(&self) -> Option<String> {
+        let (path, springs) = match self.roughness.as_ref()? {
+            Roughness::SelfAffine { modes: (_, last), .. } => {
+                ("roughness.modes", self.numerics.points as f64 / *last as f64)
+            }
+            Roughness::Measured { continue_to, .. } => {
+                ("roughness.continue_to", (*continue_to)? / self.spacing())
+            }
+        };
+        (springs < SPRINGS_PER_WAVE as f64).then(|| {
+            format!(
+                "{path}: the shortest wave has {springs:.1} springs, a resolved one at least {SPRINGS_PER_WAVE}: more \
+                 points or longer waves"
+            )
+        })
+    }
+
     /// Returns true if a measured profile is the line itself.
     pub fn measured_as_line(&self) -> bool {
         let Some(Roughness::Measured { as_line, .. }) = &self.roughness else { return false };
@@ -239,28 +221,32 @@ impl Scene {
 
     /// Files of the measured surfaces, relative to the scene file.
     pub fn measured_files(&self) -> Vec<&str> {
-        self.measured_faces().concat()
-    }
-
-    /// Files of the measured surfaces of each face, relative to the scene file.
-    pub fn measured_faces(&self) -> Vec<Vec<&str>> {
         let Some(Roughness::Measured { file, further_files, opposite, .. }) = &self.roughness else {
             return Vec::new();
         };
-        let first = std::iter::once(file).chain(further_files).map(String::as_str).collect();
-        std::iter::once(first).chain(opposite.as_deref().map(|file| vec![file])).collect()
+        std::iter::once(file).chain(further_files).chain(opposite).map(String::as_str).collect()
     }
 
     /// Paths of the files of each face, with names relative to `folder`.
     pub fn measured_paths(&self, folder: &Path) -> Vec<Vec<PathBuf>> {
-        let paths = |face: Vec<&str>| face.into_iter().map(|file| folder.join(file)).collect();
-        self.measured_faces().into_iter().map(paths).collect()
+        let mut files: Vec<PathBuf> =
+            self.measured_files().into_iter().map(|file| folder.join(file)).collect();
+        match &self.roughness {
+            Some(Roughness::Measured { opposite: Some(_), .. }) => {
+                let opposite = files.pop();
+                vec![files, opposite.into_iter().collect()]
+            }
+            Some(Roughness::Measured { .. }) => vec![files],
+            _ => Vec::new(),
+        }
     }
 
     /// Renames the files of the measured surfaces.
     pub fn rename_measured_files(&mut self, rename: impl Fn(&str) -> String) {
-        if let Some(roughness) = &mut self.roughness {
-            roughness.rename_files(rename);
+        if let Some(Roughness::Measured { file, further_files, opposite, .. }) = &mut self.roughness {
+            for name in std::iter::once(file).chain(further_files).chain(opposite) {
+                *name = rename(name);
+            }
         }
     }
 
@@ -288,25 +274,24 @@ impl Scene {
 #[serde(deny_unknown_fields)]
 pub struct Adhesion {
     /// Work of adhesion γ, J/m².
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub work: Option<f64>,
     /// Work of adhesion γ₁ on closing, J/m², at most `work`; `None`: equal to `work`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub closing_work: Option<f64>,
     /// κ = sqrt(h⟨∇z⟩E*/γ).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub kappa: Option<f64>,
     /// Elastic energy of conformity over the work of adhesion, e_el/γ.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub elastic_energy_ratio: Option<f64>,
     /// Range z₀ of the attraction, m, for the Tabor number alone; `None`: 0.3 nm.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub range: Option<f64>,
 }
 
 impl Adhesion {
     /// The same adhesion with this work of adhesion γ, J/m², in place of κ or e_el/γ.
-    #[must_use]
     pub fn with_work(mut self, work: f64) -> Self {
         (self.work, self.kappa, self.elastic_energy_ratio) = (Some(work), None, None);
         self
@@ -345,7 +330,9 @@ struct NumericsText {
 
 impl Default for NumericsText {
     fn default() -> Self {
-        NumericsText { points: 16_384, solver: Solver::Exact, edges: None, samples: 512 }
+        let number = |path| default(path, None);
+        let (points, samples) = (number("numerics.points"), number("numerics.samples"));
+        NumericsText { points, solver: default("numerics.solver", None), edges: None, samples }
     }
 }
 
@@ -387,35 +374,6 @@ pub enum Observer {
     HeightHistogram,
 }
 
-pub(super) fn default_loading() -> Vec<Move> {
-    vec![Move::ToZeroForce, Move::ToSeparation]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::strategies::sound;
-    use super::*;
-
-    #[test]
-    fn the_effective_modulus_is_that_of_equation_2() {
-        let modulus = |youngs_modulus, poisson_ratio, effective_modulus| {
-            Material { youngs_modulus, poisson_ratio, effective_modulus }.effective_modulus()
-        };
-        assert_eq!(modulus(Some(3e6), Some(0.5), None), 4e6);
-        assert_eq!(modulus(Some(3e6), Some(0.0), None), 3e6);
-        assert_eq!(modulus(None, None, Some(2.5e6)), 2.5e6);
-        for undetermined in [
-            modulus(None, None, None),
-            modulus(Some(3e6), None, None),
-            modulus(None, Some(0.5), None),
-            modulus(Some(3e6), Some(0.5), Some(4e6)),
-        ] {
-            assert!(undetermined.is_nan());
-        }
-    }
-
-    #[test]
-    fn springs_share_the_length() {
-        assert_eq!(sound().spacing(), 1e-4 / 4096.0);
-    }
+fn default_loading() -> Vec<Move> {
+    default("loading", None)
 }

@@ -1,16 +1,16 @@
-//! Opening a scene by file, by name or from a stream.
+//! Opening a scene by file, by name or from a stream; a table of results opens as its scene.
 
-use std::fs;
-use std::io::{self, Read};
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Cursor, Read, Seek, SeekFrom};
 use std::path::Path;
 
 use super::document::{Document, LONGEST_TEXT};
 use super::errors::{Origin, SceneError, SceneErrors};
-use super::library::{Library, describe, printable};
+use super::library::{Library, describe};
 use super::presets::{find, presets};
-use super::provenance::{SceneText, SceneTextError};
-use super::suggest::nearest;
-use crate::io::read_regular_text;
+use super::suggest::did_you_mean;
+use crate::io::{PROVENANCE, ReadError, into_text, npy, open_regular, read_limited, read_regular_text};
+use crate::text::printable;
 
 /// Opens a scene: a file if one of that name exists or the name looks like a path (ends in `.ron` or has a path
 /// separator), else a built-in scene, else one of the user's own scenes, see [`Library::own_folder`]. Only regular
@@ -18,7 +18,6 @@ use crate::io::read_regular_text;
 /// its scene.
 ///
 /// # Errors
-///
 /// No such scene, an unreadable file, or the errors of its scene.
 pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
     open_in(name_or_path, &Library::of_environment())
@@ -26,30 +25,33 @@ pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
 
 fn open_in(name_or_path: &str, library: &Library) -> Result<Document, SceneErrors> {
     let path = Path::new(name_or_path);
-    let looks_like_file = name_or_path.ends_with(".ron") || name_or_path.chars().any(std::path::is_separator);
-    if looks_like_file || path.is_file() {
-        return open_file(path, name_or_path);
+    if is_file_name(name_or_path) {
+        return document_of(text_of_file(path), name_or_path);
     }
     if let Some(preset) = find(name_or_path) {
         return Document::parse(preset.text, preset.name);
     }
     if let Some(path) = library.own_scene(name_or_path) {
-        return open_file(&path, &path.display().to_string());
+        return document_of(text_of_file(&path), &path.display().to_string());
     }
     let names: Vec<_> = presets().iter().map(|preset| preset.name).collect();
     let own = library.own_names();
-    let near = nearest(name_or_path, names.iter().copied().chain(own.iter().map(String::as_str)));
-    let near = near.map_or_else(String::new, |near| format!("; did you mean {}?", printable(near)));
+    let near = did_you_mean(name_or_path, names.iter().copied().chain(own.iter().map(String::as_str)));
     let no_file = if path.is_dir() { "it is a directory" } else { "there is no such file" };
     let nowhere = match library.own_folder() {
         Some(folder) => {
-            let folder = printable(&folder.display().to_string());
-            format!(", no such built-in scene and none of this name in {folder}")
+            let folder = folder.display().to_string();
+            format!(", no such built-in scene and none of this name in {}", printable(&folder))
         }
         None => " and no such built-in scene".into(),
     };
-    let message = format!("{no_file}{nowhere}{near} (built-in scenes: {})", names.join(", "));
+    let message = format!("{no_file}{nowhere}{} (built-in scenes: {})", printable(&near), names.join(", "));
     Err(whole(name_or_path, message))
+}
+
+/// Returns true for the name of a file: that of an existing one, or one that looks like a path.
+pub(crate) fn is_file_name(name: &str) -> bool {
+    name.ends_with(".ron") || name.chars().any(std::path::is_separator) || Path::new(name).is_file()
 }
 
 /// Opens the scene of a command argument: as [`open`], but also from a stream. `-` is standard input, and a pipe or
@@ -62,37 +64,17 @@ fn open_in(name_or_path: &str, library: &Library) -> Result<Document, SceneError
 /// As [`open`].
 pub fn open_argument(argument: &str) -> Result<Document, SceneErrors> {
     if argument == "-" {
-        return open_stream(io::stdin().lock(), "standard input");
+        return document_of(text_of_stream(io::stdin().lock()), "standard input");
     }
     let path = Path::new(argument);
     match path.metadata() {
         Ok(found) if !found.is_file() && !found.is_dir() => {
-            let failed = |error| whole(argument, format!("cannot be read: {error}"));
-            open_stream(fs::File::open(path).map_err(failed)?, argument)
+            let file =
+                File::open(path).map_err(|error| whole(argument, format!("cannot be read: {error}")))?;
+            document_of(text_of_stream(file), argument)
         }
         _ => open(argument),
     }
-}
-
-fn open_stream(stream: impl Read, name: &str) -> Result<Document, SceneErrors> {
-    open_source(SceneText::of_stream(stream), name)
-}
-
-fn open_file(path: &Path, name: &str) -> Result<Document, SceneErrors> {
-    open_source(SceneText::of_file(path), name)
-}
-
-fn open_source(source: Result<SceneText, SceneTextError>, name: &str) -> Result<Document, SceneErrors> {
-    let refused = |error| match error {
-        SceneTextError::Unread(error) => whole(name, describe(error)),
-        SceneTextError::NoProvenance(message) => whole(name, message.to_owned()),
-    };
-    let SceneText { text, content, measured } = source.map_err(refused)?;
-    Ok(Document::parse(&text, name)?.with_table(content, measured))
-}
-
-fn whole(name: &str, message: String) -> SceneErrors {
-    SceneError::whole(Origin::File { name: name.into() }, message).into()
 }
 
 /// Text of a regular file, at most as long as a scene can be.
@@ -100,29 +82,77 @@ pub(crate) fn read_file(path: &Path) -> Result<String, String> {
     read_regular_text(path, LONGEST_TEXT).map_err(describe)
 }
 
+fn whole(name: &str, message: String) -> SceneErrors {
+    SceneError::whole(Origin::File { name: name.into() }, message).into()
+}
+
+/// Text of a source: that of a scene, or the provenance of a table, which alone is read.
+enum Source {
+    Scene(String),
+    Table(String),
+}
+
+fn document_of(source: Result<Source, ReadError>, name: &str) -> Result<Document, SceneErrors> {
+    match source.map_err(|error| whole(name, describe(error)))? {
+        Source::Scene(text) => Document::parse(&text, name),
+        Source::Table(text) => match text.split_once("\nscene:\n") {
+            Some((head, scene)) if head.starts_with("asperity ") => {
+                Ok(Document::parse(scene, name)?.of_table(head))
+            }
+            _ => {
+                let reason = "a table without a scene; allowed: a scene, or a table that asperity has computed from one";
+                Err(whole(name, reason.into()))
+            }
+        },
+    }
+}
+
+fn text_of_file(path: &Path) -> Result<Source, ReadError> {
+    let mut file = open_regular(path)?;
+    let mut start = Vec::new();
+    file.by_ref().take(npy::SIGNATURE.len() as u64).read_to_end(&mut start)?;
+    if start != npy::SIGNATURE {
+        return text_of_stream(Cursor::new(start).chain(file));
+    }
+    let most = npy::most_appended(LONGEST_TEXT) as u64;
+    let length = file.metadata()?.len();
+    file.seek(SeekFrom::Start(length.saturating_sub(most)))?;
+    let tail = read_limited(file, most as usize)?;
+    Ok(Source::Table(npy::appended_text(&tail).unwrap_or_default().to_owned()))
+}
+
+fn text_of_stream(mut stream: impl Read) -> Result<Source, ReadError> {
+    let mut start = Vec::new();
+    stream.by_ref().take(PROVENANCE.len() as u64).read_to_end(&mut start)?;
+    let is_table = start == PROVENANCE.as_bytes();
+    let whole = Cursor::new(start).chain(stream);
+    if !is_table {
+        return Ok(Source::Scene(into_text(read_limited(whole, LONGEST_TEXT)?)?));
+    }
+    // Comments of a scene of the greatest length, with a line for each byte.
+    let most = 3 * LONGEST_TEXT as u64;
+    let mut lines = BufReader::new(whole.take(most));
+    let (mut text, mut line) = (Vec::new(), Vec::new());
+    while lines.read_until(b'\n', &mut line)? > 0 {
+        let Some(content) = line.strip_prefix(b"#") else { break };
+        text.extend_from_slice(content.strip_prefix(b" ").unwrap_or(content));
+        line.clear();
+    }
+    Ok(Source::Table(into_text(text)?.replace("\r\n", "\n")))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::presets::DEFAULT;
     use super::*;
+    use std::fs;
 
     #[test]
     fn every_preset_is_a_scene_with_a_title_and_a_notice() {
         for preset in presets() {
             let document = open(preset.name).unwrap_or_else(|errors| panic!("{errors}"));
-            assert!(!document.scene().title.is_empty(), "{}", preset.name);
-            assert!(!document.scene().notice.is_empty(), "{}", preset.name);
-            assert_eq!(document.name(), preset.name);
+            let scene = document.scene();
+            assert!(document.name() == preset.name && !scene.title.is_empty() && !scene.notice.is_empty());
         }
-    }
-
-    #[test]
-    fn presets_have_different_names_and_one_is_the_default() {
-        let mut names: Vec<_> = presets().iter().map(|preset| preset.name).collect();
-        names.sort_unstable();
-        names.dedup();
-        assert_eq!(names.len(), presets().len());
-        assert!(find(DEFAULT).is_some());
-        assert_eq!(find("nothing"), None);
     }
 
     #[test]
@@ -177,5 +207,31 @@ mod tests {
         fs::create_dir(path("folder.ron")).unwrap();
         assert!(message("folder.ron").ends_with("this is a directory, not a scene file"));
         assert!(message("missing.ron").contains("cannot be read"));
+    }
+
+    #[test]
+    fn a_table_opens_as_its_scene() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("table");
+        let read = |bytes: &[u8]| {
+            fs::write(&path, bytes).unwrap();
+            open(path.to_str().unwrap())
+        };
+        let scene = presets()[0].text;
+        let text = format!("asperity 0.1.0\nsha256: 00 \"a.txt\"\ncommand: asperity run x\nscene:\n{scene}");
+        let csv: String = text.lines().map(|line| format!("# {line}\n")).collect::<String>() + "x,z\n1,2\n";
+        let mut array = Vec::new();
+        npy::write_header(&mut array, "'<f8'", "1,").unwrap();
+        array.extend(1.0_f64.to_le_bytes());
+        npy::write_text(&mut array, &text).unwrap();
+        for file in [csv.clone().into_bytes(), csv.replace('\n', "\r\n").into_bytes(), array.clone()] {
+            assert_eq!(read(&file).unwrap().scene(), open(presets()[0].name).unwrap().scene());
+        }
+        array.clear();
+        npy::write_header(&mut array, "'<f8'", "0,").unwrap();
+        for file in [&b"# asperity 0.1.0\nx,z\n"[..], &array] {
+            let refused = read(file).unwrap_err().to_string();
+            assert!(refused.contains("a table without a scene; allowed: "), "{refused}");
+        }
     }
 }

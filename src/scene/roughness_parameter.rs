@@ -19,7 +19,6 @@ impl RoughnessParameter {
         [RoughnessParameter::Kappa, RoughnessParameter::ElasticEnergyRatio];
 
     /// Path of the field in a scene.
-    #[must_use]
     pub const fn path(self) -> &'static str {
         match self {
             RoughnessParameter::Kappa => "adhesion.kappa",
@@ -28,25 +27,21 @@ impl RoughnessParameter {
     }
 
     /// Name of the field within `adhesion`, of axes and of columns.
-    #[must_use]
     pub fn name(self) -> &'static str {
         self.path().trim_start_matches("adhesion.")
     }
 
     /// Symbol in the equations.
-    #[must_use]
     pub fn symbol(self) -> &'static str {
         field(self.path(), None).map_or("", |field| field.symbol)
     }
 
     /// The parameter with this name or path of its field.
-    #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|parameter| [parameter.name(), parameter.path()].contains(&name))
     }
 
     /// Energy per area over the work of adhesion at a value of the parameter: h⟨∇z⟩E*/γ = κ², or e_el/γ.
-    #[must_use]
     pub fn energy_over_work(self, value: f64) -> f64 {
         match self {
             RoughnessParameter::Kappa => value.powi(2),
@@ -55,7 +50,6 @@ impl RoughnessParameter {
     }
 
     /// Value of the parameter for this energy per area over the work of adhesion.
-    #[must_use]
     pub fn of_energy_over_work(self, ratio: f64) -> f64 {
         match self {
             RoughnessParameter::Kappa => ratio.sqrt(),
@@ -66,14 +60,12 @@ impl RoughnessParameter {
 
 impl Adhesion {
     /// The parameter that specifies the adhesion, and its value; the first of two.
-    #[must_use]
     pub fn parameter(&self) -> Option<(RoughnessParameter, f64)> {
         let mut given = RoughnessParameter::ALL.into_iter().zip([self.kappa, self.elastic_energy_ratio]);
         given.find_map(|(parameter, value)| Some((parameter, value?)))
     }
 
     /// The same adhesion by this value of a parameter instead of the work of adhesion.
-    #[must_use]
     pub fn with_parameter(self, parameter: RoughnessParameter, value: f64) -> Self {
         let mut changed = Adhesion { work: None, kappa: None, elastic_energy_ratio: None, ..self };
         match parameter {
@@ -84,7 +76,6 @@ impl Adhesion {
     }
 
     /// The same adhesion by this κ instead of the work of adhesion.
-    #[must_use]
     pub fn with_kappa(self, kappa: f64) -> Self {
         self.with_parameter(RoughnessParameter::Kappa, kappa)
     }

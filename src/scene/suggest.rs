@@ -1,5 +1,7 @@
 //! The name of a list that is nearest to an unknown one.
 
+use strsim::osa_distance;
+
 /// Longest name that is compared; longer ones are not mistyped.
 const LONGEST: usize = 64;
 
@@ -7,47 +9,24 @@ const LONGEST: usize = 64;
 ///
 /// The last component of a name suffices: `hurst` means `roughness.hurst`.
 pub(crate) fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
-    if name.is_empty() || name.len() > LONGEST {
-        return None;
-    }
-    let short = last(name);
+    let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_lowercase();
+    // At most a third of the name is wrong.
+    let near_enough = |name: &str, candidate: &str| {
+        Some(osa_distance(name, candidate)).filter(|far| *far <= (name.chars().count() / 3).max(1))
+    };
     let near = |candidate: &'n str| {
-        let whole = near_enough(name, candidate).map(|far| 2 * far);
+        let whole = near_enough(&name.to_lowercase(), &candidate.to_lowercase()).map(|far| 2 * far);
         // A match of the last component alone counts slightly less than one of the whole.
-        let end = near_enough(short, last(candidate)).map(|far| 2 * far + 1);
+        let end = near_enough(&last(name), &last(candidate)).map(|far| 2 * far + 1);
         Some((whole.into_iter().chain(end).min()?, candidate))
     };
-    names.into_iter().filter_map(near).min_by_key(|(far, _)| *far).map(|(_, candidate)| candidate)
+    let names = names.into_iter().filter(|_| !name.is_empty() && name.len() <= LONGEST);
+    names.filter_map(near).min_by_key(|(far, _)| *far).map(|(_, candidate)| candidate)
 }
 
-fn last(path: &str) -> &str {
-    path.rsplit('.').next().unwrap_or(path)
-}
-
-/// The distance, if at most a third of the name is wrong.
-fn near_enough(name: &str, candidate: &str) -> Option<usize> {
-    let far = distance(name, candidate);
-    (far <= (name.chars().count() / 3).max(1)).then_some(far)
-}
-
-/// Fewest insertions, deletions, exchanges and swaps of neighbours from one text to the other.
-fn distance(one: &str, other: &str) -> usize {
-    let one: Vec<char> = one.to_lowercase().chars().collect();
-    let other: Vec<char> = other.to_lowercase().chars().collect();
-    let mut before: Vec<usize> = vec![0; other.len() + 1];
-    let mut above: Vec<usize> = (0..=other.len()).collect();
-    for (i, a) in one.iter().enumerate() {
-        let mut row = vec![i + 1];
-        for (j, b) in other.iter().enumerate() {
-            let mut least = (above[j + 1] + 1).min(row[j] + 1).min(above[j] + usize::from(a != b));
-            if i > 0 && j > 0 && *a == other[j - 1] && one[i - 1] == *b {
-                least = least.min(before[j - 1] + 1);
-            }
-            row.push(least);
-        }
-        before = std::mem::replace(&mut above, row);
-    }
-    above[other.len()]
+/// The question for the nearest name, behind a message: `; did you mean length?`. Empty if no name is near.
+pub(crate) fn did_you_mean<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> String {
+    nearest(name, names).map_or_else(String::new, |near| format!("; did you mean {near}?"))
 }
 
 #[cfg(test)]
@@ -69,14 +48,5 @@ mod tests {
             assert_eq!(nearest(name, names), expected, "{name}");
         }
         assert_eq!(nearest(&"x".repeat(1_000_000), names), None);
-    }
-
-    #[test]
-    fn distances_are_counted() {
-        for (one, other, expected) in
-            [("", "abc", 3), ("abc", "abc", 0), ("abc", "acb", 1), ("kitten", "sitting", 3)]
-        {
-            assert_eq!(distance(one, other), expected);
-        }
     }
 }

@@ -1,52 +1,84 @@
-//! Effects of a document switched off and on, and the specifications of adhesion.
+//! Effects of a document switched off, on and to the next choice, and the specifications of adhesion.
 //!
 //! Amplitude of the roughness, work of adhesion and κ or e_el/γ determine each other, so that switching one of them
 //! off may require a replacement value. That value follows from the profile, which this module does not know: the
-//! caller passes it from the computed scene. Switching on undoes the edits of switching off.
+//! caller passes it from the computed scene.
 
-use super::computed::Computed;
-use super::document::{Document, pair};
-use super::effects::{Effect, adhesion_as, by_work, pressing};
+use super::document::{Document, SwitchedOff, pair};
+use super::effects::{Effect, adhesion_text, pressing, rounded};
 use super::errors::{Origin, SceneError, SceneErrors};
-use super::model::{Adhesion, Observer, Roughness, Scene};
+use super::field::Field;
+use super::model::{Adhesion, Roughness};
+use super::range::choice_key;
 use super::roughness_parameter::RoughnessParameter;
-use super::text::{Text, ron_float};
+use super::text::ron_float;
+use super::tree::{Tree, in_ron};
+
+/// Values that a scene determines through its profile, known after the computation.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Computed {
+    /// Work of adhesion γ, J/m².
+    pub work_of_adhesion: Option<f64>,
+    /// Roughness–adhesion parameter κ.
+    pub kappa: Option<f64>,
+    /// Elastic energy of conformity over the work of adhesion, e_el/γ.
+    pub elastic_energy_ratio: Option<f64>,
+    /// Root mean square height h of the roughness, m.
+    pub rms_height: Option<f64>,
+}
 
 impl Document {
     /// This document without an effect; unchanged if the effect is off.
     ///
     /// Without roughness, adhesion by κ or e_el/γ becomes adhesion by work. Without adhesion, roughness with
     /// an amplitude set by adhesion keeps it as an rms height. `computed` has these values for this scene. Without
-    /// unloading, stages that may pull are removed, and those certain to be passed on the way to a larger force.
+    /// unloading, the stage that presses most remains.
     ///
     /// # Errors
-    ///
     /// A replacement value is not in `computed`, or is invalid.
     pub fn without(&self, effect: Effect, computed: &Computed) -> Result<Document, SceneErrors> {
         let scene = self.scene();
         if !effect.is_on(scene) {
             return Ok(self.clone());
         }
-        let overrides = match effect {
-            Effect::Roughness => self.without_roughness(computed)?,
-            Effect::Adhesion => self.without_adhesion(computed)?,
-            Effect::Unloading => vec![self.only("loading", &pressing(&scene.loading))],
-            _ => match effect.observer() {
-                Some(observer) => vec![self.only("observe", &others(scene, observer))],
-                None => vec![pair(effect.path(), "None")],
-            },
+        let adhesion = scene.adhesion.unwrap_or_default();
+        let replaced = match (effect, adhesion.parameter()) {
+            (Effect::Roughness, Some((parameter, _))) if adhesion.work.is_some() => {
+                Some(pair(parameter.path(), "None"))
+            }
+            (Effect::Roughness, Some((parameter, _))) => {
+                let what = format!("{} requires roughness, and the work of adhesion", parameter.symbol());
+                let work = self.known(computed.work_of_adhesion, "adhesion", &what)?;
+                Some(pair("adhesion", adhesion_text(scene, |adhesion| adhesion.with_work(work))))
+            }
+            (Effect::Adhesion, _) if !scene.roughness.as_ref().is_none_or(Roughness::has_amplitude) => {
+                let what = "adhesion sets its amplitude, and the rms height";
+                let height = self.known(computed.rms_height, "roughness", what)?;
+                Some(pair("roughness.rms_height", ron_float(height)))
+            }
+            _ => None,
         };
-        self.switch_off(effect, &overrides, computed)
+        let value = match (effect, effect.observer()) {
+            (Effect::Unloading, _) => in_ron(&[pressing(&scene.loading)]),
+            (_, None) => "None".to_owned(),
+            (_, observer) => {
+                in_ron(&scene.observe.iter().filter(|other| Some(**other) != observer).collect::<Vec<_>>())
+            }
+        };
+        let overrides: Vec<_> = replaced.into_iter().chain([pair(effect.path(), value)]).collect();
+        let mut new = self.set_all(&overrides)?;
+        if let Some(off) = new.switched_off.iter_mut().find(|off| off.effect == effect) {
+            off.paths = overrides.into_iter().map(|(path, _)| path).collect();
+        }
+        Ok(new)
     }
 
     /// This document with an effect; unchanged if the effect is on.
     ///
-    /// Undoes the edits that switched the effect off: the text is as before, but for values changed since, loading
-    /// stages among them. If there is no such edit, or the earlier effect is no longer valid, the effect is set to
-    /// suit the scene.
+    /// Restores the text that was removed when the effect was switched off; other changes since are kept. If there is no
+    /// such text, or it is no longer valid, the effect is set to suit the scene.
     ///
     /// # Errors
-    ///
     /// The effect is impossible in the scene, such as roughness on a single spring.
     pub fn with(&self, effect: Effect) -> Result<Document, SceneErrors> {
         if effect.is_on(self.scene()) {
@@ -58,16 +90,28 @@ impl Document {
         }
     }
 
+    fn restored(&self, effect: Effect) -> Option<Document> {
+        let SwitchedOff { paths, before, after, .. } =
+            self.switched_off.iter().find(|off| off.effect == effect)?;
+        if self.text() == after.text() {
+            return Some(Document::clone(before));
+        }
+        // Values changed since stay.
+        let unchanged = paths.iter().filter(|path| self.value(path) == after.value(path));
+        let removed: Vec<_> = unchanged.filter_map(|path| Some(pair(path, before.value(path)?))).collect();
+        let own: Vec<_> = removed.iter().filter(|(path, _)| path == effect.path()).cloned().collect();
+        [removed, own].iter().find_map(|back| self.set_all(back).ok().filter(|new| effect.is_on(new.scene())))
+    }
+
     /// This document with adhesion of this work, J/m². Sets the field of adhesion by work; any other
     /// adhesion, and none, becomes adhesion by work.
     ///
     /// # Errors
-    ///
     /// An invalid work of adhesion.
     pub fn with_work_of_adhesion(&self, work: f64) -> Result<Document, SceneErrors> {
         match self.scene().adhesion {
             Some(Adhesion { work: Some(_), .. }) => self.set("adhesion.work", &ron_float(work)),
-            _ => self.set("adhesion", &by_work(self.scene(), work)),
+            _ => self.set("adhesion", &adhesion_text(self.scene(), |adhesion| adhesion.with_work(work))),
         }
     }
 
@@ -76,7 +120,6 @@ impl Document {
     /// roughness together with the other parameter is kept.
     ///
     /// # Errors
-    ///
     /// An invalid value, or a scene without roughness.
     pub fn with_parameter(&self, parameter: RoughnessParameter, value: f64) -> Result<Document, SceneErrors> {
         match self.scene().adhesion.and_then(|adhesion| adhesion.parameter()) {
@@ -86,98 +129,113 @@ impl Document {
                     work: adhesion.work.filter(|_| adhesion.parameter().is_some()),
                     ..adhesion.with_parameter(parameter, value)
                 };
-                self.set("adhesion", &adhesion_as(self.scene(), changed))
+                self.set("adhesion", &adhesion_text(self.scene(), changed))
             }
         }
     }
 
-    /// The list at a path reduced to these elements, as written.
-    fn only(&self, path: &str, elements: &[usize]) -> (String, String) {
-        let list = self.value(path).unwrap_or_default();
-        let all = Text::new(list).ok().and_then(|text| text.elements()).unwrap_or_default();
-        let kept: Vec<&str> = elements.iter().filter_map(|index| all.get(*index).copied()).collect();
-        pair(path, format!("[{}]", kept.join(", ")))
-    }
-
-    fn without_roughness(&self, computed: &Computed) -> Result<Vec<(String, String)>, SceneErrors> {
-        let adhesion = self.scene().adhesion;
-        let parameter = adhesion.and_then(|adhesion| adhesion.parameter()).map(|(parameter, _)| parameter);
-        let adhesion = match (adhesion.and_then(|adhesion| adhesion.work), parameter) {
-            (Some(_), Some(parameter)) => vec![pair(parameter.path(), "None")],
-            (None, Some(parameter)) => {
-                let work = computed.work_of_adhesion.ok_or_else(|| {
-                    let symbol = parameter.symbol();
-                    let reason =
-                        format!("{symbol} requires roughness, and the work of adhesion is not known yet");
-                    self.unknown("adhesion", &reason)
-                })?;
-                vec![pair("adhesion", by_work(self.scene(), work))]
-            }
-            _ => Vec::new(),
-        };
-        Ok(adhesion.into_iter().chain([pair("roughness", "None")]).collect())
-    }
-
-    fn without_adhesion(&self, computed: &Computed) -> Result<Vec<(String, String)>, SceneErrors> {
-        let height = self.height_in_place_of_adhesion(computed)?;
-        Ok(height.into_iter().chain([pair("adhesion", "None")]).collect())
-    }
-
-    /// The rms height of roughness whose amplitude follows from work of adhesion and κ.
-    pub(super) fn height_in_place_of_adhesion(
+    /// This document with the next choice of a field in this direction that the scene allows; `None` if there is no
+    /// other.
+    ///
+    /// Omitting an effect switches it off, and the next choice switches it on as before or as suits the scene.
+    /// Adhesion by work, by κ and by e_el/γ are the same adhesion: `computed` has the values for this scene.
+    ///
+    /// # Errors
+    /// No other choice is allowed, or a converted value is not in `computed`.
+    pub fn with_next_choice(
         &self,
+        field: &Field,
+        forwards: bool,
         computed: &Computed,
-    ) -> Result<Option<(String, String)>, SceneErrors> {
-        if self.scene().roughness.as_ref().is_none_or(Roughness::has_amplitude) {
-            return Ok(None);
+    ) -> Result<Option<Document>, SceneErrors> {
+        let effect = Effect::ALL.into_iter().find(|effect| effect.path() == field.path);
+        let effect = effect.map(|effect| (effect, effect.is_on(self.scene())));
+        if effect == Some((Effect::Adhesion, true)) && self.scene().roughness.is_some() {
+            self.known(computed.work_of_adhesion, "adhesion", "the same adhesion given the other way")?;
         }
-        let height = computed.rms_height.ok_or_else(|| {
-            self.unknown("roughness", "adhesion sets its amplitude, and the rms height is not known yet")
-        })?;
-        Ok(Some(pair("roughness.rms_height", ron_float(height))))
+        let Some(here) = Tree::of(self.scene()).written(field) else { return Ok(None) };
+        let mut refused = None;
+        for distance in 1.. {
+            let next = field.stepped(&here, if forwards { distance } else { -distance }, false);
+            let Some(next) = next.filter(|next| choice_key(next) != choice_key(&here)) else { break };
+            let chosen = match effect {
+                Some((effect, _)) if next == "None" => self.without(effect, computed),
+                Some((Effect::Adhesion, true)) => self.converted(&next, computed),
+                // Any specification of adhesion will do, since each follows from the other.
+                Some((Effect::Adhesion, false)) => self.with(Effect::Adhesion),
+                Some((effect, false)) => {
+                    let is_next = |new: &Document| {
+                        let written = Tree::of(new.scene()).written(field).unwrap_or_default();
+                        choice_key(&written) == choice_key(&next)
+                    };
+                    let with_effect = self.with(effect).ok().filter(is_next);
+                    with_effect.map_or_else(|| self.set(field.path, &next), Ok)
+                }
+                _ => self.set(field.path, &next),
+            };
+            match chosen {
+                // Work and a parameter given together are two choices already.
+                Ok(document) if document.scene() == self.scene() => {}
+                Ok(document) => return Ok(Some(document)),
+                Err(errors) => refused = refused.or(Some(errors)),
+            }
+        }
+        refused.map_or(Ok(None), Err)
     }
 
-    pub(super) fn unknown(&self, field: &str, message: &str) -> SceneErrors {
-        let value = self.value(field).unwrap_or_default().to_string();
-        let error = SceneError::whole(Origin::Scene, format!("{message}: compute the scene first"));
-        SceneError { field: field.to_string(), value, ..error }.into()
+    /// The same adhesion specified otherwise; the next choice itself if the value is not known.
+    fn converted(&self, next: &str, computed: &Computed) -> Result<Document, SceneErrors> {
+        // A typed value comes back from a conversion to another one without digits of rounding.
+        let typed = |value| if rounded(value, 10) == rounded(value, 14) { rounded(value, 10) } else { value };
+        let value = |value: Option<f64>| value.map(typed);
+        let is_next = |one: &RoughnessParameter| choice_key(next) == format!("({}", one.name());
+        let parameter = RoughnessParameter::ALL.into_iter().find(is_next);
+        let known = match parameter {
+            Some(RoughnessParameter::Kappa) => value(computed.kappa),
+            Some(RoughnessParameter::ElasticEnergyRatio) => value(computed.elastic_energy_ratio),
+            None => computed.work_of_adhesion,
+        };
+        match (parameter, known) {
+            (Some(parameter), Some(value)) => self.with_parameter(parameter, value),
+            (None, Some(work)) => self.with_work_of_adhesion(work),
+            (_, None) => self.set("adhesion", next),
+        }
     }
-}
 
-/// Indices of the observers other than this one.
-fn others(scene: &Scene, observer: Observer) -> Vec<usize> {
-    let observed = scene.observe.iter().enumerate();
-    observed.filter(|(_, other)| **other != observer).map(|(index, _)| index).collect()
+    /// A value of the computed scene for a field.
+    fn known(&self, value: Option<f64>, field: &str, what: &str) -> Result<f64, SceneErrors> {
+        value.ok_or_else(|| {
+            let message = format!("{what} is not known yet: compute the scene first");
+            let value = self.value(field).unwrap_or_default().to_string();
+            let error = SceneError::whole(Origin::Scene, message);
+            SceneError { field: field.to_string(), value, ..error }.into()
+        })
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
 
-    use super::super::model::Move;
-    use super::super::strategies::{Drawn, sound_scenes};
-    use super::super::text::is_within;
-    use super::super::write::legs;
+    use super::super::fields::field;
+    use super::super::model::Move::{ToForce, ToSeparation};
+    use super::super::strategies::sound_scenes;
     use super::*;
     use crate::surface::Form;
 
     const SCENE: &str = "(
-    version: 1, // the first
-    material: (effective_modulus: 1.0e6), // soft
+    version: 1,
+    material: (effective_modulus: 1.0e6),
     length: 1.0e-4,
-    form: Punch(
-        radius: 2.0e-5, // flat
-    ), // under it
     roughness: SelfAffine(hurst: 0.70, rms_height: 2.0e-7, modes: (1, 512), seed: 1), // rough
-    adhesion: (kappa: 6.0), // sticky
-    loading: [ToForce(1.0e-5), /* and back */ ToSeparation], // history
-    observe: [HeightHistogram, Fragments], // both
+    adhesion: (kappa: 6.0), // as measured
+    loading: [ToForce(1.0e-5), /* slowly */ ToSeparation],
 )
 ";
 
     const COMPUTED: Computed = Computed {
         work_of_adhesion: Some(0.0123),
-        kappa: Some(6.0),
+        kappa: Some(6.000_000_000_000_001),
         elastic_energy_ratio: Some(0.9),
         rms_height: Some(1.5e-7),
     };
@@ -186,61 +244,44 @@ mod tests {
         Document::parse(SCENE, "scene").unwrap()
     }
 
-    fn adhesion(document: &Document) -> (Option<f64>, Option<f64>) {
-        document.scene().adhesion.map_or((None, None), |adhesion| (adhesion.work, adhesion.kappa))
+    /// Roughness whose amplitude follows from work of adhesion and κ.
+    fn both() -> Document {
+        let set = [pair("roughness.rms_height", "None"), pair("adhesion.work", "0.1")];
+        document().set_all(&set).unwrap()
     }
 
     fn off(document: &Document, effect: Effect) -> Document {
         document.without(effect, &COMPUTED).unwrap()
     }
 
-    #[test]
-    fn an_effect_goes_and_comes_back_as_it_was_written() {
-        for effect in Effect::ALL {
-            let without = off(&document(), effect);
-            assert!(!effect.is_on(without.scene()));
-            for comment in
-                ["// the first", "// soft", "// under it", "// rough", "// sticky", "// history", "// both"]
-            {
-                assert!(without.text().contains(comment), "{effect:?}: {comment}");
-            }
-            assert_eq!(off(&without, effect), without);
-            let with = without.with(effect).unwrap();
-            assert_eq!(with.text(), SCENE, "{effect:?}");
-            assert_eq!(with.with(effect).unwrap(), with);
-        }
+    fn adhesion(document: &Document) -> (Option<f64>, Option<f64>) {
+        document.scene().adhesion.map_or((None, None), |adhesion| (adhesion.work, adhesion.kappa))
+    }
+
+    fn next(document: &Document, path: &str, forwards: bool) -> Document {
+        let field = field(path, None).unwrap();
+        document.with_next_choice(field, forwards, &COMPUTED).unwrap().unwrap()
     }
 
     #[test]
-    fn a_restored_value_is_written_as_it_was() {
-        let written = SCENE.replace("modes: (1, 512)", "modes: (1,0512) /* short */");
-        let document = Document::parse(&written, "scene").unwrap();
-        let restored = off(&document, Effect::Roughness).with(Effect::Roughness).unwrap();
-        assert_eq!(restored.text(), written);
-    }
-
-    #[test]
-    fn effects_come_anew_as_they_suit_the_scene() {
-        let bare = Effect::ALL.into_iter().fold(document(), |document, effect| off(&document, effect));
-        // A document opened anew has no record of earlier effects.
-        let bare = Document::parse(bare.text(), "bare").unwrap();
-        let value = |document: &Document, effect: Effect| {
-            document.with(effect).unwrap().value(effect.path()).unwrap().to_string()
-        };
-        assert_eq!(value(&bare, Effect::Form), "Paraboloid(radius: 1.0e-4)");
+    fn an_effect_that_was_never_on_suits_the_scene() {
+        let bare =
+            "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4, loading: [ToForce(1.0e-5)])";
+        let bare = Document::parse(bare, "scene").unwrap();
         let rough = "SelfAffine(hurst: 0.7, rms_height: 2.0e-7, modes: (1, 512), seed: 1)";
-        assert_eq!(value(&bare, Effect::Roughness), rough);
-        assert_eq!(value(&bare, Effect::Adhesion), "(work: 0.05)");
-        assert_eq!(value(&bare, Effect::Unloading), "[ToForce(1.0e-5), ToSeparation]");
-        assert_eq!(value(&bare, Effect::Fragments), "[Fragments]");
-        let observed = bare.with(Effect::HeightHistogram).unwrap();
-        assert_eq!(value(&observed, Effect::Fragments), "[Fragments, HeightHistogram]");
-        assert_eq!(value(&bare.set("roughness", rough).unwrap(), Effect::Adhesion), "(kappa: 2.0)");
-        let sphere = bare.with(Effect::Form).unwrap().set("numerics.points", "40").unwrap();
-        assert!(value(&sphere, Effect::Roughness).contains("modes: (4, 5)"));
-        // An observer that is listed twice leaves a free place.
-        let twice = bare.set("observe", "[Fragments, Fragments]").unwrap();
-        assert_eq!(value(&twice, Effect::HeightHistogram), "[Fragments, HeightHistogram]");
+        for (effect, value) in [
+            (Effect::Form, "Paraboloid(radius: 1.0e-4)"),
+            (Effect::Roughness, rough),
+            (Effect::Adhesion, "(work: 0.05)"),
+            (Effect::Unloading, "[ToForce(1.0e-5), ToSeparation]"),
+            (Effect::Fragments, "[Fragments]"),
+        ] {
+            assert_eq!(bare.with(effect).unwrap().value(effect.path()), Some(value));
+        }
+        let observed = bare.with(Effect::HeightHistogram).unwrap().with(Effect::Fragments).unwrap();
+        assert_eq!(observed.value("observe"), Some("[Fragments, HeightHistogram]"));
+        let sticky = bare.set("roughness", rough).unwrap().with(Effect::Adhesion).unwrap();
+        assert_eq!(adhesion(&sticky), (None, Some(2.0)));
         // One spring carries no wave at all.
         let one = bare.set("numerics.points", "1").unwrap().with(Effect::Roughness).unwrap_err();
         assert!(one.to_string().contains("points/2 = 0"), "{one}");
@@ -255,168 +296,68 @@ mod tests {
             "adhesion = (kappa: 6.0): κ requires roughness, and the work of adhesion is not known yet: \
              compute the scene first"
         );
-        let too_much = Computed { work_of_adhesion: Some(f64::INFINITY), ..Computed::default() };
-        assert!(document().without(Effect::Roughness, &too_much).is_err());
-        // A given work is used unchanged.
-        let both = document().set("roughness.rms_height", "None").unwrap_err();
-        assert!(both.to_string().contains("the amplitude is missing"));
-        let set = [pair("roughness.rms_height", "None"), pair("adhesion.work", "0.1")];
-        let both = document().set_all(&set).unwrap();
-        let smooth = both.without(Effect::Roughness, &Computed::default()).unwrap();
-        assert_eq!(adhesion(&smooth), (Some(0.1), None));
-        assert_eq!(smooth.with(Effect::Roughness).unwrap().scene(), both.scene());
-    }
-
-    #[test]
-    fn what_was_changed_meanwhile_stays_changed() {
-        let document = document();
-        let back = |smooth: &Document| smooth.with(Effect::Roughness).unwrap();
-        let smooth = off(&document, Effect::Roughness);
-        let stickier = smooth.with_work_of_adhesion(0.2).unwrap();
-        assert_eq!(adhesion(&back(&stickier)), (Some(0.2), None));
-        let typed = smooth.set("adhesion", "(work: 0.3)").unwrap();
-        assert_eq!(adhesion(&back(&typed)), (Some(0.3), None));
-        let unrelated = smooth.set("length", "2.0e-4").unwrap();
-        assert_eq!(adhesion(&back(&unrelated)), (None, Some(6.0)));
-        // If κ had set the amplitude, κ sets it again.
-        let set = [pair("roughness.rms_height", "None"), pair("adhesion.work", "0.1")];
-        let both = document.set_all(&set).unwrap();
-        let stickier = off(&both, Effect::Roughness).with_work_of_adhesion(0.2).unwrap();
-        assert_eq!(adhesion(&back(&stickier)), (Some(0.2), Some(6.0)));
-        let none = off(&stickier, Effect::Adhesion);
-        let rough = back(&none);
-        assert_eq!((adhesion(&rough), rough.value("roughness.rms_height")), ((None, None), Some("1.5e-7")));
-        // Other stages that press are kept.
-        let held = off(&document, Effect::Unloading).set("loading.0", "ToForce(3.0e-5)").unwrap();
-        let pulled = held.with(Effect::Unloading).unwrap();
-        assert_eq!(pulled.scene().loading, [Move::ToForce(3e-5), Move::ToSeparation]);
-    }
-
-    #[test]
-    fn loading_edited_without_unloading_keeps_the_stages_that_pull() {
-        let cycles = "[ToForce(1.0e-5), ToZeroForce, /* deeper */ ToForce(2e-5), ToSeparation]";
-        let document = document().set("loading", "[ToForce(1.0), ToSeparation]").unwrap();
-        let document =
-            Document::parse(&document.text().replace("[ToForce(1.0), ToSeparation]", cycles), "cycles")
-                .unwrap();
-        let pressed = off(&document, Effect::Unloading);
-        assert_eq!(pressed.value("loading"), Some("[ToForce(2e-5)]"));
-        for (path, value, expected) in [
-            ("loading.0.0", "3e-5", cycles.replace("2e-5", "3e-5")),
-            ("loading.0", "ToIndentation(1e-7)", cycles.replace("ToForce(2e-5)", "ToIndentation(1e-7)")),
-            (
-                "loading",
-                "[ToTouch, ToIndentation(1e-7)]",
-                cycles.replace("ToForce(2e-5)", "ToTouch, ToIndentation(1e-7)"),
-            ),
-        ] {
-            let edited = pressed.set(path, value).unwrap();
-            let back = edited.with(Effect::Unloading).unwrap();
-            assert_eq!(back.value("loading"), Some(expected.as_str()), "{path}={value}");
-        }
-    }
-
-    #[test]
-    fn effects_come_back_in_any_order() {
-        let set = [pair("roughness.rms_height", "None"), pair("adhesion.work", "0.1")];
-        let documents = [document(), document().set_all(&set).unwrap()];
-        let pairs = Effect::ALL.into_iter().flat_map(|one| Effect::ALL.map(|other| (one, other)));
-        for (first, second) in pairs.filter(|(first, second)| first != second) {
-            for document in &documents {
-                let without = off(&off(document, first), second);
-                for (one, other) in [(first, second), (second, first)] {
-                    let back = without.with(one).unwrap();
-                    assert!(one.is_on(back.scene()) && !other.is_on(back.scene()), "{one:?} {other:?}");
-                    let back = back.with(other).unwrap();
-                    assert_eq!(
-                        back.scene(),
-                        document.scene(),
-                        "{first:?} {second:?}, back {one:?} {other:?}"
-                    );
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn what_no_longer_fits_is_fitted() {
-        let coarse = off(&document(), Effect::Roughness).set("numerics.points", "64").unwrap();
-        let rough = coarse.with(Effect::Roughness).unwrap();
-        assert_eq!(rough.value("roughness.modes"), Some("(1, 32)"));
-        assert_eq!((rough.value("roughness.hurst"), adhesion(&rough)), (Some("0.70"), (None, Some(6.0))));
-        let short = off(&document(), Effect::Form).set("length", "1.0e-5").unwrap();
-        let formed = short.with(Effect::Form).unwrap();
-        assert_eq!(formed.scene().form, Some(Form::Paraboloid { radius: 1e-5 }));
-        let smooth = off(&document(), Effect::Roughness);
-        let sticky = off(&smooth, Effect::Adhesion).with(Effect::Adhesion).unwrap();
-        assert_eq!(adhesion(&sticky), (Some(0.0123), None));
-        assert_eq!(sticky.with(Effect::Roughness).unwrap().text(), SCENE);
+        assert_eq!(adhesion(&off(&both(), Effect::Roughness)), (Some(0.1), None));
     }
 
     #[test]
     fn without_adhesion_the_amplitude_it_set_stays() {
-        let set = [pair("roughness.rms_height", "None"), pair("adhesion.work", "0.1")];
-        let both = document().set_all(&set).unwrap();
-        let unknown = both.without(Effect::Adhesion, &Computed::default()).unwrap_err();
+        let unknown = both().without(Effect::Adhesion, &Computed::default()).unwrap_err();
         assert!(unknown.to_string().contains("the rms height is not known yet"), "{unknown}");
-        let without = off(&both, Effect::Adhesion);
+        let without = off(&both(), Effect::Adhesion);
         assert_eq!(without.value("roughness.rms_height"), Some("1.5e-7"));
-        assert_eq!(without.with(Effect::Adhesion).unwrap().scene(), both.scene());
-        let other_line = without.set("roughness.seed", "2").unwrap();
-        let back = other_line.with(Effect::Adhesion).unwrap();
-        assert_eq!(
-            (adhesion(&back), back.value("roughness.rms_height")),
-            ((Some(0.1), Some(6.0)), Some("None"))
-        );
-        // A later amplitude is kept, and κ follows from it and from the same work of adhesion.
-        let rougher = without.set("roughness.rms_height", "3.0e-7").unwrap();
-        let back = rougher.with(Effect::Adhesion).unwrap();
-        assert_eq!(
-            (adhesion(&back), back.value("roughness.rms_height")),
-            ((Some(0.1), None), Some("3.0e-7"))
-        );
+        assert_eq!(without.with(Effect::Adhesion).unwrap(), both());
     }
 
     #[test]
-    fn adhesion_is_given_one_way_or_the_other() {
-        let document = document();
+    fn what_was_changed_meanwhile_stays_changed() {
+        let back = |smooth: &Document| smooth.with(Effect::Roughness).unwrap();
+        let smooth = off(&document(), Effect::Roughness);
+        let stickier = back(&smooth.with_work_of_adhesion(0.2).unwrap());
         assert_eq!(
-            adhesion(&document.with_parameter(RoughnessParameter::Kappa, 3.0).unwrap()),
-            (None, Some(3.0))
+            (adhesion(&stickier), stickier.value("roughness.hurst")),
+            ((Some(0.2), None), Some("0.70"))
         );
-        let work = document.with_work_of_adhesion(0.1).unwrap();
-        assert_eq!(adhesion(&work), (Some(0.1), None));
-        assert!(work.text().contains("adhesion: (work: 0.1), // sticky"));
-        assert_eq!(
-            adhesion(&work.with_parameter(RoughnessParameter::Kappa, 3.0).unwrap()),
-            (None, Some(3.0))
-        );
-        assert_eq!(
-            adhesion(&off(&work, Effect::Adhesion).with_parameter(RoughnessParameter::Kappa, 3.0).unwrap()),
-            (None, Some(3.0))
-        );
-        // If both are given, because they set the amplitude, both are kept.
-        let set = [pair("roughness.rms_height", "None"), pair("adhesion.work", "0.1")];
-        let both = document.set_all(&set).unwrap();
-        assert_eq!(
-            adhesion(&both.with_parameter(RoughnessParameter::Kappa, 3.0).unwrap()),
-            (Some(0.1), Some(3.0))
-        );
-        let ratio = both.with_parameter(RoughnessParameter::ElasticEnergyRatio, 0.7).unwrap();
-        assert_eq!(ratio.scene().adhesion.unwrap().work, Some(0.1));
-        assert_eq!(ratio.scene().adhesion.unwrap().elastic_energy_ratio, Some(0.7));
-        assert_eq!(adhesion(&both.with_work_of_adhesion(0.2).unwrap()), (Some(0.2), Some(6.0)));
-        assert!(
-            off(&work, Effect::Roughness)
-                .with_parameter(RoughnessParameter::Kappa, 3.0)
-                .unwrap_err()
-                .to_string()
-                .contains("there is none")
-        );
-        assert!(
-            document.with_work_of_adhesion(-1.0).is_err()
-                && document.with_parameter(RoughnessParameter::Kappa, f64::NAN).is_err()
-        );
+        let longer = back(&smooth.set("length", "2.0e-4").unwrap());
+        assert_eq!((adhesion(&longer), longer.scene().length), ((None, Some(6.0)), 2e-4));
+        let held = off(&document(), Effect::Unloading).set("loading.0", "ToForce(3.0e-5)").unwrap();
+        let pulled = held.with(Effect::Unloading).unwrap();
+        assert_eq!(pulled.scene().loading, [ToForce(3e-5), ToSeparation]);
+        // What is no longer valid is set anew.
+        let coarse = back(&smooth.set("numerics.points", "64").unwrap());
+        assert_eq!(coarse.value("roughness.modes"), Some("(1, 8)"));
+    }
+
+    #[test]
+    fn the_next_choice_of_adhesion_is_the_same_adhesion() {
+        let work = next(&document(), "adhesion", false);
+        assert_eq!(adhesion(&work), (Some(0.0123), None));
+        assert_eq!(next(&work, "adhesion", true).text(), SCENE);
+        let none = next(&work, "adhesion", false);
+        assert_eq!(none.scene().adhesion, None);
+        assert_eq!(next(&none, "adhesion", true).text(), work.text());
+        let ratio = next(&document(), "adhesion", true);
+        assert_eq!(ratio.value("adhesion"), Some("(elastic_energy_ratio: 0.9)"));
+        assert_eq!(next(&ratio, "adhesion", true).scene().adhesion, None);
+        // Not before the value has been computed.
+        let field = field("adhesion", None).unwrap();
+        let unknown = document().with_next_choice(field, false, &Computed::default()).unwrap_err();
+        assert!(unknown.to_string().contains("compute the scene first"), "{unknown}");
+        // A smooth body has no κ.
+        let smooth = work.set("roughness", "None").unwrap();
+        assert_eq!(next(&smooth, "adhesion", true).scene().adhesion, None);
+        let ratio = next(&both(), "adhesion", true);
+        assert_eq!(ratio.value("adhesion"), Some("(work: 0.1, elastic_energy_ratio: 0.9)"));
+    }
+
+    #[test]
+    fn choices_form_a_circle() {
+        let smooth = next(&document(), "roughness", true);
+        assert_eq!(smooth.scene().roughness, None);
+        assert_eq!(next(&smooth, "roughness", true).scene(), document().scene());
+        let sphere = next(&document(), "form", true);
+        assert_eq!(sphere.scene().form, Some(Form::Paraboloid { radius: 1e-4 }));
+        assert_eq!(next(&sphere, "form", false).scene(), document().scene());
+        assert_eq!(next(&document(), "form", false).value("form"), Some("Punch(radius: 2.0e-5)"));
     }
 
     proptest! {
@@ -427,80 +368,21 @@ mod tests {
             rms_height in 1e-30..100.0,
         ) {
             let document = Document::from_scene(&scene, "scene").unwrap();
-            let computed = Computed { work_of_adhesion: Some(work), rms_height: Some(rms_height), ..Computed::default() };
+            let computed =
+                Computed { work_of_adhesion: Some(work), rms_height: Some(rms_height), ..Computed::default() };
             for effect in Effect::ALL {
                 let without = document.without(effect, &computed).unwrap();
                 prop_assert!(!effect.is_on(without.scene()));
                 for also in Effect::ALL.into_iter().filter(|also| *also != effect) {
-                    prop_assert!(also.is_on(without.scene()) == also.is_on(&scene) || work == 0.0, "{effect:?} {also:?}");
+                    prop_assert!(also.is_on(without.scene()) == also.is_on(&scene) || work == 0.0);
                 }
-                let forgotten = Document::parse(without.text(), "forgotten").unwrap();
-                match forgotten.with(effect) {
+                match Document::parse(without.text(), "forgotten").unwrap().with(effect) {
                     Ok(suited) => prop_assert!(effect.is_on(suited.scene())),
-                    Err(error) => prop_assert!(effect == Effect::Roughness && scene.numerics.points < 2, "{effect:?}: {error}"),
+                    Err(error) => prop_assert!(effect == Effect::Roughness && scene.numerics.points < 2, "{error}"),
                 }
-                if !effect.is_on(&scene) {
-                    continue;
+                if effect.is_on(&scene) {
+                    prop_assert_eq!(&without.with(effect).unwrap(), &document);
                 }
-                let back = without.with(effect).unwrap();
-                prop_assert_eq!(back.text(), document.text(), "{:?}", effect);
-                prop_assert!(back.overrides().is_empty() && !back.is_changed());
-            }
-        }
-
-        /// For the tables of effects and of fields alike: an edit without an effect results, once the effect is on
-        /// again, in the scene of the same edit with the effect.
-        #[test]
-        fn switching_an_effect_on_undoes_that_switch_alone(
-            scene in sound_scenes(),
-            effect in prop::sample::select(Effect::ALL.to_vec()),
-            edits in Drawn::default().overrides(1),
-            work in 0.001..10.0,
-            rms_height in 1e-9..1e-5,
-        ) {
-            prop_assume!(effect.is_on(&scene));
-            let document = Document::from_scene(&scene, "scene").unwrap();
-            let computed = Computed { work_of_adhesion: Some(work), rms_height: Some(rms_height), ..Computed::default() };
-            let without = document.without(effect, &computed).unwrap();
-            let Ok(edited) = without.set_all(&edits) else { return Ok(()) };
-            prop_assume!(!effect.is_on(edited.scene()));
-            let Ok(back) = edited.with(effect) else { return Ok(()) };
-            prop_assert!(effect.is_on(back.scene()));
-            let path = edits[0].0.as_str();
-            let is_list = ["loading", "observe"].iter().any(|list| is_within(path, list));
-            // Changes by the switch itself are compared below.
-            let is_switched = |field: &str| without.value(field) != document.value(field);
-            if !is_list && !is_switched(path)
-                && let Ok(expected) = document.set_all(&edits)
-                && edited.value(path) == expected.value(path)
-            {
-                prop_assert_eq!(back.scene(), expected.scene(), "{:?} {:?}", effect, edits);
-            }
-            if !is_list && !is_within(path, effect.path()) {
-                prop_assert_eq!(back.value(path), edited.value(path), "{:?} {:?}", effect, edits);
-            }
-        }
-
-        /// Stages that pull return around those that press, after any change of these.
-        #[test]
-        fn stages_that_pull_come_back_around_edited_ones(scene in sound_scenes(), other in sound_scenes()) {
-            prop_assume!(Effect::Unloading.is_on(&scene));
-            let document = Document::from_scene(&scene, "scene").unwrap();
-            let without = document.without(Effect::Unloading, &Computed::default()).unwrap();
-            let (kept, pressing_others) = (pressing(&scene.loading), pressing(&other.loading));
-            let pressed: Vec<Move> =
-                kept.iter().enumerate().map(|(at, kept)| match pressing_others.get(at) {
-                    Some(index) => other.loading[*index],
-                    None => scene.loading[*kept],
-                }).collect();
-            let Ok(edited) = without.set("loading", &legs(&pressed)) else { return Ok(()) };
-            prop_assume!(!Effect::Unloading.is_on(edited.scene()));
-            let mut loading = scene.loading.clone();
-            kept.iter().zip(&pressed).for_each(|(place, leg)| loading[*place] = *leg);
-            let expected = Scene { loading, ..scene };
-            if expected.check().is_ok() && Effect::Unloading.is_on(&expected) {
-                let back = edited.with(Effect::Unloading).unwrap();
-                prop_assert_eq!(&back.scene().loading, &expected.loading);
             }
         }
     }

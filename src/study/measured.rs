@@ -70,7 +70,6 @@ fn read(scene: &Scene) -> Result<(MeasuredRoughness, String), StudyError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Roughness;
 
     #[test]
     fn hashes_are_those_of_sha256sum() {
@@ -79,9 +78,9 @@ mod tests {
         // A byte order mark, a comment, both kinds of line breaks, and none at the end.
         std::fs::write(&file, "\u{feff}# heights\r\n0 0\n1e-6 1e-9").unwrap();
         let known = "3301e005145807de31f1e613c0705281eacbe8fc66deec574eba4d53402a7e71";
-        let scene = crate::scene::open("rough-sphere").unwrap().scene().clone();
-        let scene = Scene { roughness: Some(Roughness::measured(file.to_str().unwrap())), ..scene };
-        assert_eq!(read(&scene).unwrap().1, known);
+        let scene = crate::scene::open("rough-sphere").unwrap();
+        let scene = scene.set("roughness", &format!("Measured(file: {file:?}, as_line: true)")).unwrap();
+        assert_eq!(read(scene.scene()).unwrap().1, known);
         assert!(is_hash(known));
         for wrong in [&known[1..], &known.to_uppercase(), &format!("{known}0"), "", &"x".repeat(64)] {
             assert!(!is_hash(wrong), "{wrong}");

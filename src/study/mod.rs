@@ -84,7 +84,9 @@ pub use parquet::write_parquet;
 pub use plan::{Plan, StiffnessRange};
 pub use plan_check::{MOST_CELLS, MOST_LINES, MOST_RECORDS};
 pub use plan_text::{Changes, PLAN_VERSION, PlanErrors};
-pub use preloads::{Preloaded, preload_statistics, solve_preloads, solve_preloads_on_lines};
+pub use preloads::{
+    PRELOADS, Preloaded, Preloads, preload_statistics, solve_preloads, solve_preloads_on_lines,
+};
 pub use quantity::Quantity;
 pub use record::Key;
 pub use run::{Ended, Options, Progress, run};

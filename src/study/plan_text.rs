@@ -5,10 +5,9 @@ use super::builtin;
 use super::plan::{Plan, StiffnessRange};
 use super::quantity::Quantity;
 use crate::scene::{
-    Document, LONGEST_TEXT, Scene, SceneErrors, describe_error, line_column, nearest, open, read_file,
-    ron_float, ron_string, to_ron,
+    Document, LONGEST_TEXT, Scene, SceneErrors, describe_error, is_file_name, line_column, nearest, open,
+    read_file, read_ron, ron_float, ron_string, to_ron,
 };
-use ron::extensions::Extensions;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -76,9 +75,7 @@ impl Plan {
     /// All errors, up to those of the scene of every single cell.
     pub fn open(name_or_path: &str, changes: &Changes) -> Result<Plan, PlanErrors> {
         let path = Path::new(name_or_path);
-        let looks_like_file =
-            name_or_path.ends_with(".ron") || name_or_path.chars().any(std::path::is_separator);
-        if looks_like_file || path.is_file() {
+        if is_file_name(name_or_path) {
             let text = read_file(path).map_err(|error| {
                 PlanErrors(vec![format!("{name_or_path}: {}", error.replace("scene", "plan"))])
             })?;
@@ -106,8 +103,7 @@ impl Plan {
         if text.len() > LONGEST_TEXT {
             return Err(refused(format!("the plan is too long: at most {LONGEST_TEXT} bytes are read")));
         }
-        let options = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
-        let read: PlanText = options.from_str(text).map_err(|error| {
+        let read: PlanText = read_ron(text).map_err(|error| {
             let (offset, what) = describe_error(text, &error);
             let (line, column) = line_column(text, offset);
             PlanErrors(vec![format!("{name}:{line}:{column}: {what}")])

@@ -7,7 +7,43 @@ use crate::contact::Reversal;
 use crate::scene::{Move, Scene};
 use crate::simulation::{RunError, Simulation};
 use serde::Serialize;
+use std::ops::RangeInclusive;
 use std::path::Path;
+
+/// Numbers of preloads.
+pub const PRELOADS: RangeInclusive<usize> = 2..=512;
+
+/// Equally spaced preloads, N.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Preloads {
+    from: f64,
+    to: f64,
+    count: usize,
+}
+
+impl Preloads {
+    /// Preloads between two forces, N, the first at least 0 and below the second; `None` for other forces, or a
+    /// number outside [`PRELOADS`].
+    #[must_use]
+    pub fn new(from: f64, to: f64, count: usize) -> Option<Self> {
+        let is_allowed = from >= 0.0 && to > from && to.is_finite() && PRELOADS.contains(&count);
+        is_allowed.then_some(Preloads { from, to, count })
+    }
+
+    /// Smallest and largest preload, N.
+    #[must_use]
+    pub fn ends(&self) -> (f64, f64) {
+        (self.from, self.to)
+    }
+
+    /// The forces, N, in ascending order.
+    #[must_use]
+    pub fn forces(&self) -> Vec<f64> {
+        let last = (self.count - 1) as f64;
+        let at = |index: usize| (self.from + (self.to - self.from) * (index as f64 / last)).min(self.to);
+        (0..self.count).map(at).collect()
+    }
+}
 
 /// The unloading from one preload to separation, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -100,7 +136,7 @@ pub fn preload_statistics(lines: &[Vec<Preloaded>]) -> Vec<Option<Statistics>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Preloads, open};
+    use crate::scene::open;
 
     #[test]
     fn adhesion_grows_with_the_preload_over_sixteen_profiles() {

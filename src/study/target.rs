@@ -1,7 +1,7 @@
 //! Quantities that an axis may vary: the numbers of a scene by their paths, and others that are derived from several.
 
 use crate::analysis::Governing;
-use crate::scene::{FIELDS, Field, Move, Range, Roughness, RoughnessParameter, Scene, Value, field, nearest};
+use crate::scene::{FIELDS, Field, Move, Range, Roughness, RoughnessParameter, Scene, Tree, field, nearest};
 use crate::surface::SelfAffine;
 
 /// Quantities that are not fields of a scene.
@@ -37,6 +37,11 @@ pub enum Part {
 }
 
 impl Part {
+    /// Path of the part of a field.
+    fn path(self, field: &Field) -> String {
+        format!("{}{}", field.path, self.suffix())
+    }
+
     /// End of the path after that of the field.
     fn suffix(self) -> &'static str {
         match self {
@@ -56,7 +61,7 @@ fn numbers() -> impl Iterator<Item = (String, &'static Field, Part)> {
         _ => &[],
     };
     let all = FIELDS.iter().flat_map(move |field| parts(field).iter().map(move |part| (field, *part)));
-    all.map(|(field, part)| (format!("{}{}", field.path, part.suffix()), field, part))
+    all.map(|(field, part)| (part.path(field), field, part))
 }
 
 /// No number of a scene has this path.
@@ -124,13 +129,24 @@ impl Target {
         values: impl Iterator<Item = (Target, f64)> + Clone,
         scene: &mut Scene,
     ) -> Result<(), (usize, String)> {
+        // Consecutive fields are set in one tree.
+        let mut fields = None;
         for follows in [false, true] {
             for (place, (target, value)) in values.clone().enumerate() {
-                if (target == Target::SpringsPerWave) == follows {
-                    target.set(scene, value).map_err(|reason| (place, reason))?;
+                let failed = |reason: String| (place, reason);
+                if (target == Target::SpringsPerWave) != follows {
+                    continue;
+                }
+                if let Target::Field(field, part) = target {
+                    let tree = fields.get_or_insert_with(|| Tree::of(scene));
+                    set(tree, &part.path(field), value).map_err(failed)?;
+                } else {
+                    fields.take().and_then(Tree::scene).into_iter().for_each(|changed| *scene = changed);
+                    target.set(scene, value).map_err(failed)?;
                 }
             }
         }
+        fields.and_then(Tree::scene).into_iter().for_each(|changed| *scene = changed);
         Ok(())
     }
 
@@ -146,16 +162,7 @@ impl Target {
                 Move::ToForce(to) | Move::ToIndentation(to) => Some(*to),
                 _ => None,
             },
-            Target::Field(field, part) => {
-                let all = FIELDS.iter().filter(|other| other.path == field.path);
-                all.filter_map(|field| field.get(scene)).find_map(|value| match (value, part) {
-                    (Value::Real(number), _) => Some(number),
-                    (Value::Whole(number), _)
-                    | (Value::Band(number, _), Part::First)
-                    | (Value::Band(_, number), Part::Last) => Some(number as f64),
-                    _ => None,
-                })
-            }
+            Target::Field(field, part) => Tree::of(scene).get(&part.path(field)),
         }
     }
 
@@ -171,32 +178,30 @@ impl Target {
             }
             Target::SpringsPerWave => {
                 let last = (scene.numerics.points as f64 / value).round();
-                set(scene, "roughness.modes", Part::Last, last)?;
+                Target::of("roughness.modes.1").map_or(Ok(()), |modes| modes.set(scene, last))?;
             }
             Target::Leg(index) => match scene.loading.get_mut(index) {
                 Some(Move::ToForce(to) | Move::ToIndentation(to)) => *to = value,
                 Some(_) => return Err(format!("leg {index} of the scene has no number")),
                 None => return Err(format!("the scene has {} legs, the first is 0", scene.loading.len())),
             },
-            Target::Field(field, part) => set(scene, field.path, part, value)?,
+            Target::Field(field, part) => {
+                let mut tree = Tree::of(scene);
+                set(&mut tree, &part.path(field), value)?;
+                tree.scene().into_iter().for_each(|changed| *scene = changed);
+            }
         }
         Ok(())
     }
 }
 
-/// Sets the number at a path in the scene's variant.
-fn set(scene: &mut Scene, path: &str, part: Part, number: f64) -> Result<(), String> {
-    let whole = number as u64;
-    let done = FIELDS.iter().filter(|field| field.path == path).any(|field| {
-        let value = match (part, field.get(scene), field.range) {
-            (Part::First, Some(Value::Band(_, last)), _) => Value::Band(whole, last),
-            (Part::Last, Some(Value::Band(first, _)), _) => Value::Band(first, whole),
-            (.., Range::Whole { .. }) => Value::Whole(whole),
-            _ => Value::Real(number),
-        };
-        field.set(scene, value)
-    });
-    if done { Ok(()) } else { Err(format!("the scene has no {path}")) }
+/// Sets the number at a path.
+fn set(tree: &mut Tree, path: &str, number: f64) -> Result<(), String> {
+    if tree.set(path, number) {
+        Ok(())
+    } else {
+        Err(format!("the scene has no {}", path.trim_end_matches(".0").trim_end_matches(".1")))
+    }
 }
 
 /// Governing parameters of a scene with a self-affine profile.
@@ -259,8 +264,7 @@ mod tests {
         Target::SpringsPerWave.set(&mut scene, 8.0).unwrap();
         assert_eq!(Target::SpringsPerWave.get(&scene), Some(8.0));
         let points = scene.numerics.points;
-        let modes = field("roughness.modes", None).unwrap().get(&scene).unwrap();
-        assert!(matches!(modes, Value::Band(_, last) if last == points / 8), "{modes:?}");
+        assert_eq!(Tree::of(&scene).get("roughness.modes.1"), Some((points / 8) as f64));
     }
 
     #[test]

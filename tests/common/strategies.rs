@@ -72,9 +72,9 @@ impl Drawn {
             return value.clone();
         }
         let value = match field.range {
-            Range::Real { min, max } => self.number(field, min, max).prop_map(ron_float).boxed(),
-            Range::Whole { min, max } => whole(min, max).prop_map(|value| value.to_string()).boxed(),
-            Range::Band { min, max } => (whole(min, max), whole(min, max))
+            Range::Real(min, max) => self.number(field, min, max).prop_map(ron_float).boxed(),
+            Range::Whole(min, max) => whole(min, max).prop_map(|value| value.to_string()).boxed(),
+            Range::Band(min, max) => (whole(min, max), whole(min, max))
                 .prop_map(|(one, other)| format!("({}, {})", one.min(other), one.max(other)))
                 .boxed(),
             Range::Text { most, lines, .. } => text(most.min(MOST_CHARACTERS), lines),
@@ -203,7 +203,7 @@ fn mistake(field: &'static Field) -> BoxedStrategy<String> {
         ["", "NaN", "-inf", "-1", "1e999", "None", "()", "[]", "\"\\u{1b}[2J\"", "Nothing"]
             .map(str::to_string)
             .to_vec();
-    for end in [field.range.min(), field.range.max()].into_iter().flatten() {
+    for end in field.range.ends().into_iter().flat_map(|(least, most)| [least, most]) {
         let away = end.abs().max(f64::MIN_POSITIVE) * 1e-9;
         values.extend([ron_float(end - away), ron_float(end + away)]);
     }

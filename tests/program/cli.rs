@@ -32,10 +32,12 @@ const KEYS: &[&str] = &[
 const LINE_KEYS: &[&str] = &["points", "length", "spacing", "rms_height", "rms_gradient", "modes", "seed"];
 const CURVE_KEYS: &[&str] = &["leg", "indentation", "force", "contact_length", "fragments", "stored_energy"];
 
-/// Standard output of a command that succeeds without messages.
+/// Standard output of a command that succeeds without messages but for that of few springs.
 fn done(arguments: &[&str]) -> String {
     let Finished { code, stdout, stderr } = asperity(arguments);
-    assert_eq!((code, stderr.as_str()), (Some(0), ""), "{arguments:?}");
+    let is_quiet =
+        stderr.lines().all(|line| line.starts_with("warning: ") && line.contains("the shortest wave has"));
+    assert!(code == Some(0) && is_quiet, "{arguments:?}: {code:?}, {stderr}");
     stdout
 }
 
@@ -521,66 +523,41 @@ fn measured_lines_are_found_beside_their_scene() {
 }
 
 #[test]
-fn a_table_computes_again_from_itself() {
+fn a_table_has_its_command_and_opens_as_its_scene() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let stylus: String =
         (0..=150).map(|x| format!("{:e} {:e}\n", f64::from(x) * 1e-6, 1e-8 * f64::from(x % 7))).collect();
     write(folder.path(), "stylus.txt", &stylus);
-    let title = "title=\"Unit: nm, x [um]\"";
     let measured = "roughness=Measured(file: \"stylus.txt\", as_line: true)";
     let scene = write(folder.path(), "scene.ron", SMALL);
+    let few = ["--set", "numerics.points=1024"];
     for (name, arguments) in [
-        ("curve", &["run", &scene, "--set", "adhesion.work=0.07", "--set", title][..]),
-        ("chosen", &["run", "jkr-sphere", "--tolerance", "1%"]),
+        ("curve", &["run", &scene, "--set", "adhesion.work=0.07", "--set", "title=\"Unit: nm, x [um]\""][..]),
         ("measured", &["run", &scene, "--set", measured]),
-        ("line", &["line", "profile-hurst-025", "--set", "roughness.modes=(1, 256)", "--set", title]),
-        (
-            "lines",
-            &[
-                "run",
-                "rough-sphere",
-                "--set",
-                "numerics.points=1024",
-                "--set",
-                "roughness.modes=(1, 128)",
-                "--lines",
-                "3",
-            ],
-        ),
-        ("preloads", &["run", "jkr-sphere", "--set", "numerics.points=512", "--preloads", "0..1uN:5"]),
-        (
-            "random-preloads",
-            &[
-                "run",
-                "rough-sphere",
-                "--set",
-                "numerics.points=1024",
-                "--set",
-                "roughness.modes=(1, 128)",
-                "--preloads",
-                "1uN..0.02mN:4",
-                "--lines",
-                "2",
-            ],
-        ),
+        ("line", &["line", "pressure-sensitive", few[0], few[1]]),
+        ("lines", &["run", "pressure-sensitive", few[0], few[1], "--lines", "3"]),
+        ("preloads", &["run", "jkr-sphere", few[0], few[1], "--preloads", "0..1uN:5"]),
+        ("map", &["reversals", "pressure-sensitive", few[0], few[1], "--count", "8", "--map"]),
     ] {
         for ending in ["csv", "npy"] {
-            let [first, second, other] =
-                ["", "-again", "-other"].map(|part| path(&format!("{name}{part}.{ending}")));
-            // Numbers of springs chosen for a tolerance are reported on standard error.
-            assert_eq!(asperity(&[arguments, &["-o", &first]].concat()).code, Some(0));
-            assert_eq!(done(&["run", &first, "-o", &second]), "");
-            let written = fs::read(&first).unwrap();
-            assert!(written == fs::read(&second).unwrap(), "{name}.{ending}");
-            // Another scene makes another table.
-            assert_eq!(done(&["run", &first, "--set", "length=0.9e-4", "-o", &other]), "");
-            assert!(written != fs::read(&other).unwrap(), "{name}.{ending}");
+            let [first, again, curve] =
+                ["", "-again", "-curve"].map(|part| path(&format!("{name}{part}.{ending}")));
+            done(&[arguments, &["-o", &first]].concat());
+            done(&[arguments, &["-o", &again]].concat());
+            assert!(fs::read(&first).unwrap() == fs::read(&again).unwrap(), "{name}.{ending}");
+            // As a scene, and not as the table, of which the command is known.
+            done(&["run", &first, "-o", &curve]);
+            let text = String::from_utf8_lossy(&fs::read(&first).unwrap()).into_owned();
+            let command = format!("command: asperity {} ", arguments[0]);
+            assert!(
+                text.contains(&command)
+                    && text.contains(&format!("asperity {}\n", env!("CARGO_PKG_VERSION")))
+            );
         }
-        let table = fs::read_to_string(path(&format!("{name}.csv"))).unwrap();
-        assert!(table.starts_with(&format!("# asperity {}\n# ", env!("CARGO_PKG_VERSION"))), "{table}");
-        assert!(table.contains("\n# content: "), "{table}");
     }
+    let [curve, again] = ["curve.csv", "curve-curve.csv"].map(|name| fs::read_to_string(path(name)).unwrap());
+    assert!(rows(&curve).eq(rows(&again)) && curve.contains("work: 0.07"), "{again}");
     let line = fs::read_to_string(path("line.csv")).unwrap();
     assert!(line.contains("\n# seed: "), "{line}");
     // Units are those of the reader and not words of the scene.
@@ -588,7 +565,7 @@ fn a_table_computes_again_from_itself() {
     let array = json(&["surface", &path("line.npy"), "--unit", "m", "--format", "json"]);
     assert!(number(&report["rms_height"]) > 0.0 && report["rms_height"] == array["rms_height"]);
     let none = write(folder.path(), "none.csv", "# asperity 0.1.0\nx,z\n");
-    assert!(failed(1, &["run", &none]).contains("first comments hold no scene"));
+    assert!(failed(1, &["run", &none]).contains("a table without a scene; allowed: "));
 }
 
 #[test]
@@ -1068,7 +1045,7 @@ fn adhesion_against_preload_is_printed_for_one_profile_and_for_many() {
     assert!(text.contains("Adhesion against preload, one profile of 1 024 springs"), "{text}");
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
     let csv = run(&["--format", "csv"]);
-    assert!(csv.contains("\n# content: 5 preloads from 0.0 to 2e-5 N\n"), "{csv}");
+    assert!(csv.contains("\n# command: asperity run pressure-sensitive --preloads 0..20uN:5 "), "{csv}");
     let rows: Vec<Vec<&str>> = rows(&csv).map(|line| line.split(',').collect()).collect();
     assert_eq!(rows[0][..2], ["seed", "preload"]);
     assert_eq!(rows.len(), 6);
@@ -1179,43 +1156,4 @@ fn reversals_are_printed_in_all_formats() {
             failed(code, &[&["reversals", "pressure-sensitive"], &FEW_SPRINGS[..], arguments].concat());
         assert!(error.contains(words), "{arguments:?}: {error}");
     }
-}
-
-#[test]
-fn tables_of_reversals_are_computed_again_from_themselves() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    let options: [(&[&str], &str); 4] = [
-        (&["--count", "8"], "8 reversals"),
-        (&["--count", "9", "--preloads", "1uN..20uN"], "9 reversals from 1e-6 to 2e-5 N"),
-        (&["--count", "8", "--map", "--smoothing", "2"], "8 reversals, map of densities over 2 steps"),
-        (
-            &["--count", "8", "--preloads", "1uN..20uN", "--map"],
-            "8 reversals from 1e-6 to 2e-5 N, map of densities over 3 steps",
-        ),
-    ];
-    for (number, (options, content)) in options.into_iter().enumerate() {
-        for ending in ["csv", "npy"] {
-            let [first, again] = ["first", "again"].map(|name| path(&format!("{name}{number}.{ending}")));
-            let scene = ["reversals", "pressure-sensitive", "--set", "roughness.seed=7"];
-            done(&[&scene[..], &FEW_SPRINGS, options, &["-o", &first]].concat());
-            done(&["run", &first, "-o", &again]);
-            let [one, other] = [&first, &again].map(|file| fs::read(file).unwrap());
-            assert!(one == other, "{content}, {ending}");
-            let text = String::from_utf8_lossy(&one);
-            for line in [format!("asperity {}", env!("CARGO_PKG_VERSION")), format!("content: {content}")] {
-                assert!(text.lines().any(|found| found.ends_with(&line)), "{line}: {text}");
-            }
-            assert!(text.contains("seed: 7\n") && text.contains("points: 1024"), "{text}");
-        }
-    }
-    // Other formats contain the same reversals, other results the scene.
-    let summary = done(&["run", &path("first3.csv")]);
-    assert!(summary.contains("8 reversals of one loading, 1 024 springs"), "{summary}");
-    let other = done(&["run", &path("first0.csv"), "--set", "roughness.seed=8", "--format", "csv"]);
-    let first = fs::read_to_string(path("first0.csv")).unwrap();
-    assert!(other.contains("# content: 8 reversals\n") && rows(&other).ne(rows(&first)), "{other}");
-    let wrong = first.replace("content: 8 reversals", "content: 8 reversals from 2.0 to 1.0 N");
-    fs::write(path("wrong.csv"), wrong).unwrap();
-    assert!(failed(1, &["run", &path("wrong.csv")]).contains("a table without its content; allowed: "));
 }

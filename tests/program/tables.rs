@@ -69,7 +69,7 @@ fn lines_of_python_read_tables() {
         folder,
         &format!(
             "{origin}{expected}assert list(curve['force']) == expected\n\
-             assert origin.startswith('asperity ') and 'content: force curve' in origin\n\
+             assert origin.startswith('asperity ') and 'command: asperity run ' in origin\n\
              scene = origin.split('scene:\\n')[1]\n\
              assert scene.startswith('(\\n    version: 1,') and 'points: 1024' in scene"
         ),

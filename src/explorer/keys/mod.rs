@@ -68,7 +68,6 @@ const SEARCHED: &[ModeKind] = &[ModeKind::Library, ModeKind::Find, ModeKind::Pal
 const PATH: &[ModeKind] = &[ModeKind::Edit, ModeKind::SaveAs, ModeKind::Export, ModeKind::Library];
 const ASK: &[ModeKind] = &[ModeKind::Overwrite];
 const SAVE: &[ModeKind] = &[ModeKind::SaveAs];
-const COMMENTS: &[ModeKind] = &[ModeKind::StaleComments];
 const LEAVE: &[ModeKind] = &[ModeKind::Quit];
 const ANY: &[ModeKind] = &ModeKind::ALL;
 
@@ -245,9 +244,6 @@ pub const BINDINGS: &[Binding] = &[
     row(&[control('u')], TYPED, "clear", Act(|model| dialogue::edit_line(model, TextLine::clear)), "clear", "clear the typed text", TEXT),
     row(&[key(KeyCode::Down)], SAVE, "next-line 1", Silent(|model| dialogue::go_to_line(model, 1)), "title, notice", "edit the title, the notice, or the name of the file", TEXT),
     row(&[key(KeyCode::Up)], SAVE, "next-line -1", Silent(|model| dialogue::go_to_line(model, -1)), "", "edit the line before", TEXT),
-    row(&[char('y')], COMMENTS, "accept", Act(dialogue::accept), "remove", "save without the comments about changed values", TEXT),
-    row(&[char('n')], COMMENTS, "keep-comments", Act(files::save_with_comments), "keep", "save with all comments", TEXT),
-    row(&[key(KeyCode::Esc), control('c')], COMMENTS, "cancel", Act(dialogue::cancel), "back", "do not save", TEXT),
     row(&[char('y')], ASK, "accept", Act(dialogue::accept), "overwrite", "overwrite the file", TEXT),
     row(&[char('n'), key(KeyCode::Esc), control('c')], ASK, "cancel", Act(dialogue::cancel), "keep it", "keep the existing file", TEXT),
     row(&[char('s')], LEAVE, "save-then-quit", Act(files::save_before_leaving), "save", "save, then quit", TEXT),

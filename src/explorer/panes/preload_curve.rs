@@ -3,8 +3,9 @@
 
 use crate::analysis::Figures;
 use crate::explorer::snapshot::SolvedScene;
-use crate::scene::{Preloads, Scene, Solver};
+use crate::scene::{Scene, Solver};
 use crate::simulation::{RunError, Simulation};
+use crate::study::Preloads;
 use crate::study::{Preloaded, Statistics, preload_statistics, solve_preloads};
 use std::path::Path;
 use std::sync::Arc;

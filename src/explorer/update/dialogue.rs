@@ -103,7 +103,6 @@ pub fn accept(model: &mut Model) -> Vec<Effect> {
             let chosen = finder.choice().and_then(|index| entries(&model.bindings).into_iter().nth(index));
             chosen.map_or_else(Vec::new, |entry| run_entry(model, &entry))
         }
-        Mode::StaleComments { path, then_quit, .. } => files::save_without_comments(model, path, then_quit),
         Mode::Overwrite { path, content, then_quit } => files::write(model, path, content, then_quit, true),
         Mode::Explore | Mode::Help { .. } | Mode::Quit => Vec::new(),
     }

@@ -236,7 +236,7 @@ fn with_selected(model: &Model, written: &str) -> Result<Document, String> {
 
 /// Errors of values, without their places.
 fn reasons(errors: &SceneErrors) -> String {
-    errors.iter().map(|error| error.what().to_string()).collect::<Vec<_>>().join("; ")
+    errors.iter().map(|error| error.what()).collect::<Vec<_>>().join("; ")
 }
 
 /// Most springs for a preview while a value is typed: the next character stops the computation.

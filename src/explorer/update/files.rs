@@ -18,8 +18,7 @@ pub fn ask_save(model: &mut Model, then_quit: bool) {
     model.mode = Mode::SaveAs(SaveForm { lines, line: 0, then_quit });
 }
 
-/// Saves the scene with the typed title and notice, as an edit where these differ. A question about comments on changed
-/// values comes first.
+/// Saves the scene with the typed title and notice, as an edit where these differ.
 pub fn save(model: &mut Model, form: &SaveForm) -> Vec<Effect> {
     let [file, title, notice] = form.lines.each_ref().map(TextLine::text);
     let path = typed_path(&file);
@@ -39,27 +38,8 @@ pub fn save(model: &mut Model, form: &SaveForm) -> Vec<Effect> {
             return effects;
         }
     }
-    let (count, then_quit) = (model.document.stale_comments(), form.then_quit);
-    if count > 0 {
-        model.mode = Mode::StaleComments { count, path, then_quit };
-    } else {
-        effects.extend(write(model, path, Content::Scene, then_quit, false));
-    }
+    effects.extend(write(model, path, Content::Scene, form.then_quit, false));
     effects
-}
-
-/// Saves the scene without the comments about changed values.
-pub fn save_without_comments(model: &mut Model, path: PathBuf, then_quit: bool) -> Vec<Effect> {
-    let document = model.document.without_stale_comments();
-    let mut effects = edit::adopt(model, document);
-    effects.extend(write(model, path, Content::Scene, then_quit, false));
-    effects
-}
-
-/// Saves the scene with all comments.
-pub fn save_with_comments(model: &mut Model) -> Vec<Effect> {
-    let Mode::StaleComments { path, then_quit, .. } = model.mode.clone() else { return Vec::new() };
-    write(model, path, Content::Scene, then_quit, false)
 }
 
 /// Asks for the file of the scene or, where that is saved, of one left with unsaved changes.
@@ -188,7 +168,7 @@ pub fn quit(model: &mut Model) {
 
 /// Copies the command that opens the present scene.
 pub fn copy_command(model: &mut Model) -> Vec<Effect> {
-    let command = command_line(model.document.name(), model.document.overrides());
+    let command = command_line("asperity", model.document.name(), model.document.overrides());
     if command.contains(is_control) {
         // Pasted into a shell they would act on its terminal.
         model

@@ -53,10 +53,6 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
             let name = SaveForm::PROMPTS.get(form.line).copied().unwrap_or_default();
             form.lines.get(form.line).map_or_else(Line::default, |line| prompted(name, line))
         }
-        (Mode::StaleComments { count, .. }, _) => {
-            let (comments, are) = if *count == 1 { ("comment", "is") } else { ("comments", "are") };
-            error(format!("{count} {comments} {are} about values that have changed. Save without?"))
-        }
         // The typed text is visible in the smallest window too.
         (Mode::Export(line), _) if area.width < 60 => prompted("Export to: ", line),
         (Mode::Export(line), _) => {

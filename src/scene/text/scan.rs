@@ -206,36 +206,11 @@ mod tests {
     }
 
     #[test]
-    fn comments_are_counted_wherever_they_stand() {
-        let text = "// one\n( /* two /* within */ */ a: \"// no\", // three\n// four\n) /* five */";
-        let comments = |text: &str| scan(text).unwrap().comments.len();
-        assert_eq!((comments(text), comments(""), comments("(a: 1)")), (5, 0, 0));
-    }
-
-    #[test]
     fn strings_hide_what_is_in_them() {
-        let text = r####"("a\"),(", r#"b"),("#, r"c\", 'd', '\'', ''', b"e)", br##"f"#)"##, b'g', r#h)"####;
-        let quoted: Vec<_> = scan(text)
-            .unwrap()
-            .tokens
-            .into_iter()
-            .filter(|token| token.kind == Kind::Quoted)
-            .map(|token| &text[token.start..token.end])
-            .collect();
-        assert_eq!(
-            quoted,
-            [
-                r#""a\"),(""#,
-                r##"r#"b"),("#"##,
-                r#"r"c\""#,
-                "'d'",
-                r"'\''",
-                "'''",
-                r#"b"e)""#,
-                r###"br##"f"#)"##"###,
-                "b'g'"
-            ]
-        );
+        let quoted = r####""a\"),(" r#"b"),("# r"c\" 'd' '\'' ''' b"e)" br##"f"#)"## b'g'"####;
+        let text = format!("({}, r#h)", quoted.replace(' ', ", "));
+        let tokens = scan(&text).unwrap().tokens.into_iter().filter(|token| token.kind == Kind::Quoted);
+        assert!(tokens.map(|token| &text[token.start..token.end]).eq(quoted.split(' ')));
     }
 
     #[test]

@@ -2,7 +2,9 @@
 
 use super::axis::MapAxis;
 use super::grid::{Level, hursts, parameter_values};
-use crate::scene::{Adhesion, Edges, Numerics, Roughness, RoughnessParameter, Scene, Solver};
+use crate::scene::{
+    Adhesion, Edges, Numerics, Roughness, RoughnessParameter, SPRINGS_PER_WAVE, Scene, Solver,
+};
 use crate::study::axis::Axis;
 use crate::study::plan::Plan;
 use crate::study::quantity::Quantity;
@@ -16,8 +18,6 @@ pub const RECORD: [Quantity; 3] =
     [Quantity::ZeroLoadAdhesionShare, Quantity::AdhesionCoefficient, Quantity::Regime];
 /// Fewest and most springs of a map; a scene with fewer keeps its own number, shorter waves need more.
 const SPRINGS: (u64, u64) = (1 << 10, 1 << 12);
-/// Springs per period of the shortest wave, up to the limit.
-const SPRINGS_PER_WAVE: u64 = 4;
 /// Number of springs above which a map gets fewer cells, and still fewer far above.
 const MANY: u64 = 1 << 14;
 const VERY_MANY: u64 = 1 << 17;

@@ -22,7 +22,7 @@ const NAME: &str = "drawn.ron";
 
 /// Quantities of an axis: the numbers of a scene, derived ones, and a few unknown ones.
 fn paths() -> impl Strategy<Value = &'static str> {
-    let is_number = |field: &&Field| matches!(field.range, Range::Real { .. } | Range::Whole { .. });
+    let is_number = |field: &&Field| matches!(field.range, Range::Real(..) | Range::Whole(..));
     let mut paths: Vec<_> = FIELDS.iter().filter(is_number).map(|field| field.path).collect();
     paths.extend(DERIVED);
     paths.extend(["roughness.modes.1", "loading.0.0", "loading.7.0", "title", "nothing"]);
@@ -33,9 +33,10 @@ fn paths() -> impl Strategy<Value = &'static str> {
 fn numbers(path: &str) -> BoxedStrategy<f64> {
     let range = FIELDS.iter().find(|field| field.path == path).map(|field| field.range);
     let (low, high) = match range {
-        Some(Range::Real { .. } | Range::Whole { .. }) => {
+        Some(Range::Real(..) | Range::Whole(..)) => {
             let of = |end: Option<f64>| end.unwrap_or_default();
-            (of(range.and_then(|range| range.min())), of(range.and_then(|range| range.max())))
+            let ends = range.and_then(|range| range.ends());
+            (of(ends.map(|(least, _)| least)), of(ends.map(|(_, most)| most)))
         }
         _ => (1e-3, 1e3),
     };

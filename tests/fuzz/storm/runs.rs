@@ -2,12 +2,11 @@
 
 use super::*;
 use asperity::contact::{ContactError, CurvePoint, Direction, LegRecord};
-use asperity::export::{TableFormat, write_curve};
-use asperity::scene::{Move, Provenance, Roughness, TableContent};
+use asperity::export::{Provenance, TableFormat, write_curve};
+use asperity::scene::{Move, Roughness};
 use asperity::simulation::{Outcome, RunError, Simulation};
 use asperity::surface::SurfaceError;
 use profiles::{FILE, Shape};
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// Number of scenes computed.
@@ -31,7 +30,7 @@ fn compute(document: &Document, folder: &std::path::Path) -> Result<(), TestCase
                 assert_leg(leg, &before, &outcome)?;
             }
             assert_energy(&outcome)?;
-            assert_written(scene, &outcome)
+            assert_written(&outcome)
         }
         Err(error) => assert_refused(&error, scene),
     }
@@ -160,10 +159,9 @@ fn assert_energy(outcome: &Outcome) -> Result<(), TestCaseError> {
 }
 
 /// The written curve reads back bit for bit.
-fn assert_written(scene: &Scene, outcome: &Outcome) -> Result<(), TestCaseError> {
+fn assert_written(outcome: &Outcome) -> Result<(), TestCaseError> {
     let mut table = Vec::new();
-    let here = Path::new("");
-    let provenance = Provenance::new(TableContent::ForceCurve, scene, here, here);
+    let provenance = Provenance::of_files("asperity run drawn", &[]);
     write_curve(&mut table, TableFormat::Csv, &provenance, outcome)
         .map_err(|error| TestCaseError::fail(error.to_string()))?;
     let table = String::from_utf8_lossy(&table);

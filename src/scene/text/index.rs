@@ -1,0 +1,339 @@
+//! Places of the values in RON text: one flat list, made in one pass over the tokens.
+//!
+//! Paths consist of names and, in lists and tuples, of positions: `roughness.hurst`, `loading.0`, `roughness.modes.1`;
+//! the whole has the empty path. Names of structs and variants and `Some(…)` are transparent:
+//! `roughness: Some(SelfAffine(hurst: 0.7))` has its 0.7 at `roughness.hurst`.
+
+use std::ops::Range;
+
+use super::scan::{Kind, Scan, Token, Unreadable, scan};
+
+/// Longest path below which values have places: no scene has a longer one.
+const LONGEST_PATH: usize = 100;
+
+/// RON text whose brackets and quotes match, with the places of its values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Text {
+    pub(super) source: String,
+    spans: Vec<Span>,
+    /// Bytes of the comments.
+    pub(super) comments: Vec<Range<usize>>,
+}
+
+/// Place of a value, in bytes of the text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Span {
+    /// Path of the value.
+    pub path: String,
+    /// The whole entry, `name: value`; equal to `value` in a list.
+    pub entry: Range<usize>,
+    /// The value alone.
+    pub value: Range<usize>,
+    /// The value without any `Some(…)` around it.
+    bare: Range<usize>,
+    /// Between the brackets of the value.
+    pub(super) inside: Option<Range<usize>>,
+    /// Byte after the comma that follows.
+    pub(super) comma: Option<usize>,
+}
+
+/// Line and column of a byte, both from 1, columns counted in characters.
+pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
+    let ends = |offset: &usize| text.is_char_boundary(*offset);
+    let before = &text[..(0..=offset.min(text.len())).rev().find(ends).unwrap_or(0)];
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+}
+
+/// The byte at a line and column, or the end of the line or text before it.
+pub(in crate::scene) fn offset_of(text: &str, line: usize, column: usize) -> usize {
+    let mut lines = text.split_inclusive('\n');
+    let start: usize = lines.by_ref().take(line.saturating_sub(1)).map(str::len).sum();
+    let line = lines.next().unwrap_or_default().trim_end_matches('\n');
+    start + line.char_indices().nth(column.saturating_sub(1)).map_or(line.len(), |(at, _)| at)
+}
+
+/// Returns true if a path equals another path or lies inside it.
+pub(in crate::scene) fn is_within(path: &str, other: &str) -> bool {
+    path.strip_prefix(other).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+}
+
+impl Text {
+    /// Reads a text and indexes its values.
+    ///
+    /// # Errors
+    /// A bracket, quote or comment that does not close.
+    pub fn new(source: impl Into<String>) -> Result<Text, Unreadable> {
+        let source = source.into();
+        let Scan { tokens, comments } = scan(&source)?;
+        let tokens = Tokens { source: &source, tokens };
+        let mut spans: Vec<Span> = Vec::new();
+        // Brackets of groups whose values are still to be added, by the path before the names of these.
+        let mut open = Vec::new();
+        if let Some(root) = tokens.root() {
+            open.extend(
+                tokens.add_span(String::new(), (root, root), &mut spans).map(|one| (String::new(), one)),
+            );
+        }
+        let mut next = 0;
+        while let Some((group, brackets)) = open.get(next).cloned() {
+            tokens.add_inside(&group, brackets, &mut spans, &mut open);
+            next += 1;
+        }
+        Ok(Text { source, spans, comments })
+    }
+
+    /// The text.
+    pub fn as_str(&self) -> &str {
+        &self.source
+    }
+
+    /// Place of the value at a path.
+    pub fn span(&self, path: &str) -> Option<&Span> {
+        self.spans.iter().find(|span| span.path == path)
+    }
+
+    /// First byte of the value at a path, or of the nearest group around it.
+    pub(in crate::scene) fn nearest_value(&self, path: &str) -> usize {
+        let mut around = std::iter::successors(Some(path), |path| Some(path.rsplit_once('.')?.0));
+        let found = around.find_map(|path| self.span(path).filter(|_| !path.is_empty()));
+        found.map(|span| span.value.start).or_else(|| self.opening()).unwrap_or(0)
+    }
+
+    /// Byte of the bracket that opens the whole; `None` for a value without brackets.
+    pub(in crate::scene) fn opening(&self) -> Option<usize> {
+        Some(self.spans.first()?.inside.as_ref()?.start - 1)
+    }
+
+    /// The value at a path as written, with any `Some(…)` around it.
+    pub(in crate::scene) fn written(&self, path: &str) -> Option<&str> {
+        self.source.get(self.span(path)?.value.clone())
+    }
+
+    /// The value at a path without any `Some(…)` around it.
+    pub(in crate::scene) fn value(&self, path: &str) -> Option<&str> {
+        self.source.get(self.span(path)?.bare.clone())
+    }
+
+    /// Name of the variant at a path: `Cone` for `Some(Cone(angle: 0.1))`.
+    pub(in crate::scene) fn variant(&self, path: &str) -> Option<&str> {
+        let name = self.value(path)?.split(['(', '[', '{', '"']).next()?.trim();
+        Some(name.strip_prefix("r#").unwrap_or(name)).filter(|name| !name.is_empty())
+    }
+
+    /// Values of the group or list at a path, in order.
+    pub(super) fn inside(&self, path: &str) -> Vec<&Span> {
+        let group = |path: &str| path.rfind('.').unwrap_or(0);
+        let is_inside = |span: &&Span| !span.path.is_empty() && span.path[..group(&span.path)] == *path;
+        self.spans.iter().filter(is_inside).collect()
+    }
+
+    /// Number of comments.
+    pub(in crate::scene) fn comments(&self) -> usize {
+        self.comments.len()
+    }
+
+    /// Path of the innermost value whose entry contains a byte; empty if there is none.
+    pub(in crate::scene) fn path_at(&self, offset: usize) -> &str {
+        let around = self.spans.iter().filter(|span| span.entry.contains(&offset));
+        around.max_by_key(|span| span.entry.start).map_or("", |span| &span.path)
+    }
+
+    /// Returns true if the text is exactly one value.
+    pub(super) fn is_one_value(&self) -> bool {
+        self.spans.first().is_some_and(|root| root.value == (0..self.source.len()))
+    }
+}
+
+/// Indices of the tokens of two brackets.
+type Brackets = (usize, usize);
+
+/// Tokens of a text.
+struct Tokens<'t> {
+    source: &'t str,
+    tokens: Vec<Token>,
+}
+
+impl Tokens<'_> {
+    /// Adds the value that starts at the second token, in an entry that starts at the first. Returns its brackets.
+    fn add_span(
+        &self,
+        path: String,
+        (start, first): (usize, usize),
+        spans: &mut Vec<Span>,
+    ) -> Option<Brackets> {
+        let (end, inner) = (self.value_end(first)?, self.inside_some(first));
+        let bytes = |first: usize, end: usize| self.tokens[first].start..self.tokens[end - 1].end;
+        let open = if self.is(inner, Kind::Word) { inner + 1 } else { inner };
+        let brackets = match self.tokens.get(open).map(|token| token.kind) {
+            Some(Kind::Open('(', close)) => Some((open, close)),
+            Some(Kind::Open('[', close)) if open == inner => Some((open, close)),
+            _ => None,
+        };
+        let inside = brackets.map(|(open, close)| self.tokens[open].end..self.tokens[close].start);
+        let comma = self.is(end, Kind::Comma).then(|| self.tokens[end].end);
+        let (entry, value, bare) =
+            (bytes(start, end), bytes(first, end), bytes(inner, self.value_end(inner)?));
+        spans.push(Span { path, entry, value, bare, inside, comma });
+        brackets
+    }
+
+    /// Adds the values between two brackets, up to the first unreadable one, and their own brackets.
+    fn add_inside(
+        &self,
+        group: &str,
+        (open, close): Brackets,
+        spans: &mut Vec<Span>,
+        all: &mut Vec<(String, Brackets)>,
+    ) {
+        let mut start = open + 1;
+        for index in 0.. {
+            let name = self.word(start).filter(|_| self.is(start + 1, Kind::Colon));
+            let first = if name.is_some() { start + 2 } else { start };
+            let Some(end) = self.value_end(first).filter(|end| *end <= close) else { return };
+            let path = name.map_or_else(|| format!("{group}{index}"), |name| format!("{group}{name}"));
+            let below = format!("{path}.");
+            let brackets = self.add_span(path, (start, first), spans).filter(|_| below.len() <= LONGEST_PATH);
+            all.extend(brackets.map(|brackets| (below, brackets)));
+            // Without a comma this is the last entry, regardless of the text after it.
+            if !self.is(end, Kind::Comma) {
+                return;
+            }
+            start = end + 1;
+        }
+    }
+
+    /// The token with which the whole value starts, after attributes such as `#![enable(…)]`.
+    fn root(&self) -> Option<usize> {
+        let mut index = 0;
+        loop {
+            let token = self.tokens.get(index)?;
+            let text = &self.source[token.start..token.end];
+            if !(text.starts_with('#') || index > 0 && text == "!") {
+                return Some(index);
+            }
+            index += 1;
+            if let Some(Token { kind: Kind::Open('[', close), .. }) = self.tokens.get(index) {
+                index = close + 1;
+            }
+        }
+    }
+
+    /// The token after the value that starts at a token.
+    fn value_end(&self, first: usize) -> Option<usize> {
+        match (self.tokens.get(first)?.kind, self.tokens.get(first + 1).map(|token| token.kind)) {
+            (Kind::Open(_, close), _) | (Kind::Word, Some(Kind::Open('(', close))) => Some(close + 1),
+            (Kind::Quoted | Kind::Word, _) => Some(first + 1),
+            (Kind::Close | Kind::Comma | Kind::Colon, _) => None,
+        }
+    }
+
+    /// The value inside any number of `Some(…)`.
+    fn inside_some(&self, mut first: usize) -> usize {
+        while self.word(first) == Some("Some")
+            && matches!(self.tokens.get(first + 1), Some(Token { kind: Kind::Open('(', _), .. }))
+            // With the extension that unwraps variants, `Some(work: 0.1)` is itself a struct.
+            && !self.is(first + 3, Kind::Colon)
+            && self.value_end(first + 2).is_some()
+        {
+            first += 2;
+        }
+        first
+    }
+
+    fn is(&self, index: usize, kind: Kind) -> bool {
+        self.tokens.get(index).is_some_and(|token| token.kind == kind)
+    }
+
+    /// The word at a token, without the mark of a raw identifier.
+    fn word(&self, index: usize) -> Option<&str> {
+        let token = self.tokens.get(index).filter(|token| token.kind == Kind::Word)?;
+        let word = &self.source[token.start..token.end];
+        Some(word.strip_prefix("r#").unwrap_or(word))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENE: &str = r##"#![enable(implicit_some)]
+#! [ enable(unwrap_newtypes) ]
+// A comment with ( and "quotes".
+Scene(
+    version: 1, /* , title: "no" /* nested */ */
+    title: r#"Rough (very "rough")"#,
+    material: (youngs_modulus: Some(2.0e6), poisson_ratio: 0.5),
+    roughness: Some(SelfAffine(r#hurst: 0.7, modes: (1, 512,), seed: 7)),
+    loading: [ToForce(1.0e-5), ToIndentation(-1e-7), ToSeparation],
+    numerics: (solver: Stepwise(step: 1e-9)),
+    adhesion: Some(work: 0.05),
+)
+"##;
+
+    #[test]
+    fn values_are_found_by_path() {
+        let text = Text::new(SCENE).unwrap();
+        for (path, expected) in [
+            ("version", Some("1")),
+            ("title", Some("r#\"Rough (very \"rough\")\"#")),
+            ("material", Some("(youngs_modulus: Some(2.0e6), poisson_ratio: 0.5)")),
+            ("material.youngs_modulus", Some("Some(2.0e6)")),
+            ("material.poisson_ratio", Some("0.5")),
+            ("roughness.hurst", Some("0.7")),
+            ("roughness.modes", Some("(1, 512,)")),
+            ("roughness.modes.1", Some("512")),
+            ("roughness.modes.2", None),
+            ("loading.1", Some("ToIndentation(-1e-7)")),
+            ("loading.1.0", Some("-1e-7")),
+            ("loading.2", Some("ToSeparation")),
+            ("loading.2.0", None),
+            ("numerics.solver.step", Some("1e-9")),
+            ("adhesion.work", Some("0.05")),
+            ("adhesion.kappa", None),
+            ("form", None),
+            ("0", None),
+            ("version.", None),
+        ] {
+            assert_eq!(text.written(path), expected, "{path}");
+        }
+    }
+
+    #[test]
+    fn variants_are_read_through_some() {
+        let text = Text::new(SCENE).unwrap();
+        assert_eq!(&SCENE[text.span("roughness.seed").unwrap().entry.clone()], "seed: 7");
+        assert_eq!(text.variant("roughness"), Some("SelfAffine"));
+        assert_eq!(text.variant("loading.0"), Some("ToForce"));
+        assert_eq!(text.variant("material"), None);
+        assert_eq!(text.value("material.youngs_modulus"), Some("2.0e6"));
+        assert_eq!(text.value("adhesion"), Some("Some(work: 0.05)"));
+        assert_eq!(text.opening(), SCENE.find("Scene(").map(|start| start + "Scene".len()));
+    }
+
+    #[test]
+    fn bytes_know_their_paths() {
+        let outline = Text::new(SCENE).unwrap();
+        for (needle, path) in [
+            ("0.7", "roughness.hurst"),
+            ("512", "roughness.modes.1"),
+            ("-1e-7", "loading.1.0"),
+            ("r#hurst", "roughness.hurst"),
+            ("nested", ""),
+            ("1e-9", "numerics.solver.step"),
+        ] {
+            assert_eq!(outline.path_at(SCENE.find(needle).unwrap()), path, "{needle}");
+        }
+    }
+
+    #[test]
+    fn columns_count_characters() {
+        let text = "a\nκκ x\r\n";
+        assert_eq!(line_column(text, 0), (1, 1));
+        assert_eq!(line_column(text, text.find('x').unwrap()), (2, 4));
+        assert_eq!(line_column(text, text.len() + 5), (3, 1));
+        assert_eq!(line_column(text, 3), (2, 1));
+        assert_eq!(offset_of(text, 2, 4), text.find('x').unwrap());
+        assert_eq!(offset_of(text, 9, 9), text.len());
+    }
+}
