@@ -1,5 +1,7 @@
 //! The command that opens a scene.
 
+use std::ffi::OsStr;
+
 /// The command of `program` on a scene with overrides, for a POSIX shell; only words that need quotes are quoted.
 ///
 /// ```
@@ -19,11 +21,12 @@ pub fn command_line(program: &str, name: &str, overrides: &[(String, String)]) -
 }
 
 /// A word quoted for a shell.
-pub(crate) fn quoted(word: &str) -> String {
+pub(crate) fn quoted(word: impl AsRef<OsStr>) -> String {
+    let word = word.as_ref().to_string_lossy();
     let plain = |c: char| c.is_alphanumeric() || "_-./:,+@%=".contains(c);
     // zsh takes a word that starts with = for the path of a command.
     if !word.is_empty() && !word.starts_with('=') && word.chars().all(plain) {
-        word.to_string()
+        word.into_owned()
     } else {
         format!("'{}'", word.replace('\'', r"'\''"))
     }

@@ -7,8 +7,9 @@
 
 use super::plan::PLAN_FILE;
 pub use super::sbatch::{SbatchOption, SbatchOptionError, sbatch_options};
+use crate::scene::quoted;
 use crate::text::{is_control, path_name};
-use std::ffi::{OsStr, OsString};
+use std::ffi::OsString;
 use std::io;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
@@ -144,7 +145,7 @@ impl Submission {
     /// The script of a task of the array.
     fn shard_script(&self) -> String {
         let arguments: String =
-            self.arguments.iter().map(|argument| format!(" {}", word(argument))).collect();
+            self.arguments.iter().map(|argument| format!(" {}", quoted(argument))).collect();
         format!(
             r#"{head}
 retries={retries}
@@ -180,7 +181,7 @@ done
     }
 
     fn head(&self, what: &str) -> String {
-        let [program, folder] = [&self.program, &self.folder].map(word);
+        let [program, folder] = [&self.program, &self.folder].map(quoted);
         format!("#!/bin/sh\n# {what}\nprogram={program}\nfolder={folder}")
     }
 
@@ -233,7 +234,7 @@ done
     #[must_use]
     pub fn without_scheduler(&self) -> String {
         let plan = self.folder.join(PLAN_FILE);
-        let [program, plan, folder] = [&self.program, &plan, &self.folder].map(word);
+        let [program, plan, folder] = [&self.program, &plan, &self.folder].map(quoted);
         let shards = self.shards;
         format!(
             "seq {shards} | parallel --joblog shards.log --resume-failed --retries 3 \
@@ -359,17 +360,6 @@ fn size_in(config: &str) -> Option<u64> {
     let value =
         config.lines().find_map(|line| line.trim().strip_prefix("MaxArraySize")?.trim().strip_prefix('='));
     value?.trim().parse().ok()
-}
-
-/// A word quoted for a shell.
-#[must_use]
-pub fn word(word: impl AsRef<OsStr>) -> String {
-    let word = word.as_ref().to_string_lossy();
-    let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-_=./,:+@%".contains(&byte);
-    if !word.is_empty() && word.bytes().all(plain) {
-        return word.into_owned();
-    }
-    format!("'{}'", word.replace('\'', r"'\''"))
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::run::size;
 use crate::cli::{CliError, Overrides};
 use crate::io::write_new;
 use crate::scene::quoted;
-use crate::study::slurm::{SlurmError, Submission, array_size, ignored_variables, sbatch_options, word};
+use crate::study::slurm::{SlurmError, Submission, array_size, ignored_variables, sbatch_options};
 use crate::study::{Changes, Folder, Plan, StudyError};
 use crate::text::{printable, printable_lines};
 use clap::Args;
@@ -118,7 +118,7 @@ fn print_submission(submission: &Submission, stdout: &mut dyn Write) -> io::Resu
         writeln!(stdout, "==> {} <==\n{script}", path.display())?;
     }
     let command = |arguments: Vec<OsString>| {
-        let words: Vec<_> = arguments.iter().map(word).collect();
+        let words: Vec<_> = arguments.iter().map(quoted).collect();
         format!("sbatch {}", words.join(" "))
     };
     writeln!(stdout, "==> commands <==")?;
