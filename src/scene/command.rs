@@ -10,7 +10,7 @@ use std::ffi::OsStr;
 /// assert_eq!(command, "asperity jkr-sphere --set 'form=Cone(angle: 0.1)'");
 /// ```
 pub fn command_line(program: &str, name: &str, overrides: &[(String, String)]) -> String {
-    let set = |(path, value): &(String, String)| format!(" --set {}", quoted(&format!("{path}={value}")));
+    let set = |(path, value): &(String, String)| format!(" --set {}", quoted(format!("{path}={value}")));
     let sets: String = overrides.iter().map(set).collect();
     // A name that looks like an option comes after all options.
     if name.starts_with('-') {
@@ -64,7 +64,7 @@ mod tests {
 
         #[test]
         fn a_shell_reads_the_words_that_were_meant(words in prop::collection::vec("[^\0]{0,20}|[ -~\n]{0,20}", 1..4)) {
-            let all: Vec<String> = words.iter().map(|word| quoted(word)).collect();
+            let all: Vec<String> = words.iter().map(quoted).collect();
             let script = format!("printf '%s\\0' {}", all.join(" "));
             let output = std::process::Command::new("sh").arg("-c").arg(script).output().unwrap();
             let text = String::from_utf8(output.stdout).unwrap();

@@ -105,7 +105,7 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
     // Warnings of sbatch are not a result.
     let _ = write!(io::stderr(), "{}", printable_lines(&jobs.notes));
     let (array, merge) = (&jobs.array, &jobs.merge);
-    let path = quoted(&folder.path().display().to_string());
+    let path = quoted(folder.path().display().to_string());
     let tasks = if arguments.shards == 1 { "1 task".into() } else { format!("{} tasks", arguments.shards) };
     writeln!(stdout, "job {array}: {tasks}; job {merge}: the merge after them")?;
     writeln!(stdout, "squeue --jobs={array},{merge}, or asperity sweep status {path}, shows their progress")?;
