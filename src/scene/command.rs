@@ -1,5 +1,7 @@
 //! The command that opens a scene.
 
+use std::ffi::OsStr;
+
 /// The command of `program` on a scene with overrides, for a POSIX shell; only words that need quotes are quoted.
 ///
 /// ```
@@ -8,7 +10,7 @@
 /// assert_eq!(command, "asperity jkr-sphere --set 'form=Cone(angle: 0.1)'");
 /// ```
 pub fn command_line(program: &str, name: &str, overrides: &[(String, String)]) -> String {
-    let set = |(path, value): &(String, String)| format!(" --set {}", quoted(&format!("{path}={value}")));
+    let set = |(path, value): &(String, String)| format!(" --set {}", quoted(format!("{path}={value}")));
     let sets: String = overrides.iter().map(set).collect();
     // A name that looks like an option comes after all options.
     if name.starts_with('-') {
@@ -19,11 +21,12 @@ pub fn command_line(program: &str, name: &str, overrides: &[(String, String)]) -
 }
 
 /// A word quoted for a shell.
-pub(crate) fn quoted(word: &str) -> String {
+pub(crate) fn quoted(word: impl AsRef<OsStr>) -> String {
+    let word = word.as_ref().to_string_lossy();
     let plain = |c: char| c.is_alphanumeric() || "_-./:,+@%=".contains(c);
     // zsh takes a word that starts with = for the path of a command.
     if !word.is_empty() && !word.starts_with('=') && word.chars().all(plain) {
-        word.to_string()
+        word.into_owned()
     } else {
         format!("'{}'", word.replace('\'', r"'\''"))
     }
@@ -61,7 +64,7 @@ mod tests {
 
         #[test]
         fn a_shell_reads_the_words_that_were_meant(words in prop::collection::vec("[^\0]{0,20}|[ -~\n]{0,20}", 1..4)) {
-            let all: Vec<String> = words.iter().map(|word| quoted(word)).collect();
+            let all: Vec<String> = words.iter().map(quoted).collect();
             let script = format!("printf '%s\\0' {}", all.join(" "));
             let output = std::process::Command::new("sh").arg("-c").arg(script).output().unwrap();
             let text = String::from_utf8(output.stdout).unwrap();

@@ -179,7 +179,7 @@ fn each_row(path: &Path, plan: &Plan, mut each: impl FnMut(&[&str]) -> Option<()
 }
 
 fn not_merged(folder: &Path) -> StudyError {
-    let merge = crate::scene::quoted(&folder.display().to_string());
+    let merge = crate::scene::quoted(folder.display().to_string());
     let reason = format!("the study has not been merged yet; asperity sweep merge {merge} does it");
     StudyError::folder(folder, reason)
 }

@@ -138,9 +138,8 @@ done
 
     /// Command for hosts without a scheduler, with GNU parallel.
     fn without_scheduler(&self) -> String {
-        let quote = |path: PathBuf| quoted(&path.to_string_lossy());
-        let [program, plan, folder] =
-            [self.program.clone(), self.folder.join(PLAN_FILE), self.folder.clone()].map(quote);
+        let plan = self.folder.join(PLAN_FILE);
+        let [program, plan, folder] = [&self.program, &plan, &self.folder].map(quoted);
         let shards = self.shards;
         format!(
             "seq {shards} | parallel --joblog shards.log --resume-failed --retries 3 \

@@ -619,7 +619,6 @@ fn a_process_that_is_killed_while_it_writes_leaves_nothing_behind() {
                 fs::write(&out, &whole).unwrap();
             }
         }
-        // Where files have names from the beginning, the next run removes those of ended processes.
         assert!(program().args(arguments).arg(&out).status().unwrap().success());
         let names = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name());
         assert_eq!(names.collect::<Vec<_>>(), ["out.csv"]);

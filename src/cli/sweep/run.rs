@@ -28,7 +28,7 @@ pub struct SweepRunArguments {
     pub jobs: Option<u16>,
     /// Compute part K of N alone; the part that completes the study merges it
     ///
-    /// All parts write to the same folder, or their folders are copied into one before `sweep merge`.
+    /// All parts write to the same folder, or their folders are copied into one before merging.
     #[arg(long, value_name = "K/N")]
     pub shard: Option<Shard>,
     /// Most memory for all threads: 500M, 2G; fewer threads run if need be
