@@ -135,7 +135,7 @@ fn check_merge(path: &Path) -> Result<(), StudyError> {
     if sidecar.is_some_and(|sidecar| sidecar.summary_sha256 == hash) {
         return Ok(());
     }
-    let merge = crate::scene::quoted(&path.display().to_string());
+    let merge = crate::scene::quoted(path);
     let reason =
         format!("{SUMMARY} and {SIDECAR} are not of one merge; asperity sweep merge {merge} renews both");
     Err(StudyError::folder(path, reason))

@@ -78,7 +78,7 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
     }
     let folder = Folder::create(&arguments.output, &plan)?;
     let answer = submission.submit(&arguments.options)?;
-    let path = quoted(&folder.path().display().to_string());
+    let path = quoted(folder.path());
     writeln!(stdout, "{}\nasperity sweep status {path} shows the progress", printable_lines(answer.trim()))?;
     Ok(())
 }
