@@ -43,8 +43,8 @@ impl Regime {
     ///
     /// Pressure-insensitive: F_a(0) is at least [`INSENSITIVE_SHARE`] of F_a(F_n) and at least
     /// [`VANISHING_SHARE`] of the smooth body's. Otherwise non-adhesive if F_a(F_n)/F_n is below
-    /// [`NEGLIGIBLE_COEFFICIENT`], or, without a preload, because F_a(0) has vanished;
-    /// pressure-sensitive in all other cases.
+    /// [`NEGLIGIBLE_COEFFICIENT`] or, without a preload, if the adhesion force is below [`VANISHING_SHARE`] of the smooth
+    /// body's; pressure-sensitive in all other cases.
     #[must_use]
     pub fn of_loading(figures: &Figures, zero_load: Option<f64>, smooth: Option<f64>) -> Option<Self> {
         let preload = figures.preload.unwrap_or(0.0);
@@ -61,7 +61,9 @@ impl Regime {
         let present = zero_load >= VANISHING_SHARE * smooth && zero_load > 0.0;
         if present && zero_load >= INSENSITIVE_SHARE * adhesion {
             Regime::PressureInsensitive
-        } else if adhesion <= NEGLIGIBLE_COEFFICIENT * preload || (preload <= 0.0 && !present) {
+        } else if adhesion <= NEGLIGIBLE_COEFFICIENT * preload
+            || (preload <= 0.0 && adhesion < VANISHING_SHARE * smooth)
+        {
             Regime::NonAdhesive
         } else {
             Regime::PressureSensitive
@@ -130,9 +132,10 @@ mod tests {
             // A hundredth of the preload is negligible; slightly more is not.
             (0.0, NEGLIGIBLE_COEFFICIENT, 1.0, 1.0, non_adhesive),
             (0.0, NEGLIGIBLE_COEFFICIENT.next_up(), 1.0, 1.0, sensitive),
-            // Without a preload adhesion below a twentieth has vanished, at any ratio to the preload.
-            (0.01, 0.1, 0.0, 1.0, non_adhesive),
-            (0.01, 0.1, -1.0, 1.0, non_adhesive),
+            // Without a preload adhesion below a twentieth of the smooth body's is none; a twentieth is some.
+            (0.01, VANISHING_SHARE.next_down(), 0.0, 1.0, non_adhesive),
+            (0.01, VANISHING_SHARE.next_down(), -1.0, 1.0, non_adhesive),
+            (0.01, VANISHING_SHARE, 0.0, 1.0, sensitive),
             (0.3, 1.0, 0.0, 1.0, sensitive),
             (0.3, 1.0, -1.0, 1.0, sensitive),
         ] {

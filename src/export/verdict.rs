@@ -32,6 +32,10 @@ pub(super) fn rows(sheet: &mut Sheet, outcome: &Outcome) {
     share(sheet, "  F_a(0)/F_a", zero_load, adhesion, INSENSITIVE_SHARE, says);
     let says = ["there at first touch", "vanished at first touch"];
     share(sheet, "  F_a(0)/F_smooth", zero_load, smooth, VANISHING_SHARE, says);
+    if preload.is_some_and(|preload| preload <= 0.0) {
+        let says = ["there without a preload", "vanished without a preload"];
+        share(sheet, "  F_a/F_smooth", adhesion, smooth, VANISHING_SHARE, says);
+    }
     let says = ["not negligible", "negligible"];
     share(sheet, "  F_a/F_n", adhesion, preload, NEGLIGIBLE_COEFFICIENT, says);
 }
