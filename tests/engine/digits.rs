@@ -36,7 +36,8 @@ proptest! {
             let size = body.deepest() + last.indentation.abs() + body.largest_stretch();
             let separates = target == Move::ToSeparation;
             if last.springs > 0 {
-                prop_assert_eq!(&indices(&solver.leg().patches(last.indentation)), &events.contact(), "{:?}", target);
+                let found = indices(&solver.leg().patches(last.indentation));
+                prop_assert_eq!(found, events.contact(), "{:?}", target);
                 let force = events.compression() * wide(stiffness);
                 let unit = rounded(&force).abs() + all * body.deepest() / 512.0;
                 if unit > 0.0 {

@@ -13,5 +13,7 @@ mod symmetries;
 mod work;
 
 use super::body::*;
-use asperity::contact::{CurvePoint, Direction, Edges, Foundation, Leg, LegRecord, Move, Solver, Stepwise};
+use asperity::contact::{
+    CurvePoint, Direction, Edges, Foundation, History, Leg, LegRecord, Move, Solver, Stepwise,
+};
 use proptest::prelude::*;

@@ -44,7 +44,8 @@ proptest! {
                 near("force", point.force, relaxed.each_ref().map(|one| one.force()), largest)?;
                 near("length", point.contact_length, relaxed.each_ref().map(|one| one.contact_length()), line)?;
                 near("energy", point.stored_energy, relaxed.each_ref().map(|one| one.stored_energy()), energy)?;
-                prop_assert_eq!((point.fragments, point.springs), (contacts.len() as u64, indices(&contacts).len() as u64));
+                let counts = (contacts.len() as u64, indices(&contacts).len() as u64);
+                prop_assert_eq!((point.fragments, point.springs), counts);
                 prop_assert_eq!(solver.leg().patches(point.indentation), contacts);
             }
             relaxed.iter_mut().for_each(|one| one.move_to(turn));

@@ -6,7 +6,9 @@ proptest! {
     #![proptest_config(cases(800))]
 
     #[test]
-    fn a_contact_that_is_formed_again_is_what_it_was(body in bodies(120), drawn in targets(14), samples in 2_usize..40) {
+    fn a_contact_that_is_formed_again_is_what_it_was(
+        body in bodies(120), drawn in targets(14), samples in 2_usize..40,
+    ) {
         let mut first = body.on(samples);
         let mut new = body.on(samples);
         let (mut free, mut at) = (true, 0.0);

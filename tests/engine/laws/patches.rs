@@ -93,7 +93,8 @@ proptest! {
     #[test]
     fn patches_add_up_to_the_point_of_the_curve(body in bodies(200), turns in indentations(5)) {
         let mut solver = body.on(12);
-        let [slack, spread] = [body.force_scale(), body.foundation.spacing * body.gaps.len() as f64].map(|size| 1e-9 * size);
+        let length = body.foundation.spacing * body.gaps.len() as f64;
+        let [slack, spread] = [body.force_scale(), length].map(|size| 1e-9 * size);
         for target in to_indentations(&turns) {
             let record = solver.advance(target).unwrap();
             let leg = solver.leg();

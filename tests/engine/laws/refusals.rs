@@ -33,7 +33,9 @@ proptest! {
     }
 
     #[test]
-    fn where_nothing_touches_nothing_acts(body in bodies(200), heights in prop::collection::vec(0.0..2.0_f64, 1..6)) {
+    fn where_nothing_touches_nothing_acts(
+        body in bodies(200), heights in prop::collection::vec(0.0..2.0_f64, 1..6),
+    ) {
         let (mut flown, mut fresh) = (body.on(17), body.on(17));
         let mut below = 0.0;
         for height in heights.iter().map(|height| height + 1e-9) {

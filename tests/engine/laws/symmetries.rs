@@ -65,7 +65,8 @@ proptest! {
                 prop_assert_eq!(scaled_bits(&one, 1.0, 1.0), scaled_bits(&other, 1.0, 1.0), "{:?}", target);
             }
             prop_assert_eq!((one.direction, one.curve.len()), (other.direction, other.curve.len()));
-            for (a, b) in one.curve.iter().chain([&one.largest, &one.smallest]).zip(other.curve.iter().chain([&other.largest, &other.smallest])) {
+            let extremes = [(&one.largest, &other.largest), (&one.smallest, &other.smallest)];
+            for (a, b) in one.curve.iter().zip(&other.curve).chain(extremes) {
                 prop_assert!((a.indentation - b.indentation).abs() <= 2e-12, "{:?} {:?}", a, b);
                 prop_assert!((a.force - b.force).abs() <= 1e-12 * scale, "{:?} {:?}", a, b);
                 prop_assert!((a.contact_length - b.contact_length).abs() <= 1e-10, "{:?} {:?}", a, b);
@@ -119,20 +120,25 @@ proptest! {
         other.foundation = Foundation::endless(length * spacing, stress * effective_modulus);
         let higher: Vec<f64> = turns.iter().map(|turn| height * turn).collect();
         let slight = [1.0 + 1e-11, 1.0 - 1e-11].map(|factor| body.with_more_adhesion(factor));
-        let [one, more, less] = [&body, &slight[0], &slight[1]].map(|body| body.history(&to_indentations(&turns), 2));
+        let history = |body: &Body| body.history(&to_indentations(&turns), 2);
+        let [one, more, less] = [&body, &slight[0], &slight[1]].map(history);
         let other = other.history(&to_indentations(&higher), 2);
         // For an event at a turning point to rounding, either contact is right.
         prop_assume!(more.contacts == less.contacts);
         prop_assert_eq!(&one.contacts, &other.contacts);
         // An edge about to run away amplifies a rounding.
-        let [one, other, more, less] = [one, other, more, less].map(|history| end(history.legs.last().unwrap()).force);
+        let force = |history: History| end(history.legs.last().unwrap()).force;
+        let [one, other, more, less] = [one, other, more, less].map(force);
         let error = (one - other / (length * height * stress)).abs();
         prop_assert!(error <= 1e-14 * body.scales()[0] + (more - less).abs(), "{} {}", one, other);
     }
 
     #[test]
     fn a_mirror_changes_nothing_but_left_and_right(
-        body in bodies(200), turns in indentations(6), force in 0.0..1.0_f64, probes in prop::collection::vec(0.0..1.0_f64, 4),
+        body in bodies(200),
+        turns in indentations(6),
+        force in 0.0..1.0_f64,
+        probes in prop::collection::vec(0.0..1.0_f64, 4),
     ) {
         let mirrored = Body { gaps: body.gaps.iter().rev().copied().collect(), ..body.clone() };
         let last = body.gaps.len() - 1;
