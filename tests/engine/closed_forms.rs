@@ -268,7 +268,7 @@ fn flat_faces_and_punches_of_whole_cells_are_kendalls_to_rounding() {
 }
 
 #[test]
-fn any_other_punch_is_out_by_less_than_a_cell_at_each_edge() {
+fn other_punches_err_by_less_than_a_cell_at_each_edge() {
     let radius = 0.123_456_789;
     let form = Some(Form::Punch { radius });
     let problem = Problem { form, length: 1.0, modulus: 3.0, works: [0.7; 2], deepest: 0.3 };

@@ -1,7 +1,7 @@
 //! Whole springs against blind relaxation of the rules, independent of the library, after any history.
 
 use super::body::*;
-use asperity::contact::{self, ContactError, Foundation, Move, Solver};
+use asperity::contact::{self, ContactError, Edges, Foundation, HessRule, Move, Solver};
 use proptest::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -199,4 +199,21 @@ fn contact_states_agree_with_blind_relaxation() {
     let [states, springs, refused] = COMPARED.each_ref().map(|count| count.load(Ordering::Relaxed));
     println!("{states} contact states, {springs} states of springs, {refused} legs refused");
     assert!(states >= 300_000 && springs >= 8_000_000 && refused >= 1000);
+}
+
+/// At its threshold a spring beside a fragment attaches, and a spring held by no more than Δl_max detaches.
+#[test]
+fn springs_change_at_the_threshold_itself() {
+    for (wall, work) in [(0.5, 0.3), (0.7, 1e-3), (0.9, 2.0)] {
+        let body = Body::new(vec![0.0, wall], Edges::Grid, Foundation::endless(0.01, 1.0), work);
+        let stretch = |springs: u32| HessRule::new(body.foundation, work).largest_stretch(springs);
+        let springs =
+            |turns: &[f64]| end(body.history(&to_indentations(turns), 2).legs.last().unwrap()).springs;
+        let attaches = wall - stretch(1);
+        assert_eq!([attaches.next_down(), attaches].map(|d| springs(&[d])), [1, 2]);
+        let detaches = wall - stretch(2);
+        assert_eq!([detaches.next_up(), detaches].map(|d| springs(&[1.0, d])), [2, 1]);
+        let separates = -stretch(1);
+        assert_eq!([separates.next_up(), separates].map(|d| springs(&[0.0, d])), [1, 0]);
+    }
 }

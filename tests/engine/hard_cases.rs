@@ -6,7 +6,7 @@ use asperity::contact::{Edges, Foundation, Move};
 use proptest::prelude::*;
 
 #[test]
-fn the_catalogue_holds() {
+fn every_check_of_the_catalogue_passes() {
     let mut failed = Vec::new();
     let checks = checks(|case| !case.large);
     assert!(checks.len() >= 30, "{} checks", checks.len());

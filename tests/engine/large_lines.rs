@@ -67,7 +67,7 @@ fn a_ramp_is_a_wedge_that_peels_from_one_side() {
 }
 
 #[test]
-fn a_staircase_goes_down_step_by_step() {
+fn a_staircase_detaches_tread_by_tread() {
     // 1024 treads of 1024 springs. A tread attaches or detaches at once, so every state is the first k treads, held to
     // c_k − √(π k γ/(1024 E*)) where c_k is the deepest of them.
     let treads = 1024;
@@ -105,7 +105,7 @@ fn a_staircase_goes_down_step_by_step() {
 }
 
 #[test]
-fn teeth_that_do_not_know_of_each_other_add_up() {
+fn separate_teeth_add_up() {
     // 2^14 equal teeth of 64 springs, pressed so little that none reaches the next.
     let (teeth, springs_each) = (SPRINGS / 64, 64);
     let rise = 1.0 / SPRINGS as f64;

@@ -88,7 +88,7 @@ fn turning_points_out_of_contact_are_refused() {
 }
 
 #[test]
-fn the_loading_is_passed_once_for_all_reversals() {
+fn all_reversals_share_one_loading_pass() {
     for work in [0.002, 0.02] {
         let gaps = self_affine(0.7, 1, 1 << 13, 1 << 11);
         let mut body = Body::new(gaps, Edges::SubCell, Foundation::endless(1e-3, 1.0), work).on(2);

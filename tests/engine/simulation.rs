@@ -47,7 +47,7 @@ const STEPS: (&str, &str) = ("numerics.solver", "Stepwise(step: 2.0e-9)");
 const BARE: (&str, &str) = ("adhesion", "None");
 
 #[test]
-fn what_a_simulation_keeps_changes_no_bit() {
+fn kept_stages_do_not_change_results() {
     let mut kept = Simulation::default();
     let edits: [Overrides; 16] = [
         &[],
@@ -90,7 +90,7 @@ fn what_a_simulation_keeps_changes_no_bit() {
 }
 
 #[test]
-fn what_was_made_for_one_scene_is_made_once() {
+fn stages_are_computed_once_for_equal_inputs() {
     let mut simulation = Simulation::default();
     let steps: [(Overrides, _); 6] = [
         (&[], (64, 1, 0)),
@@ -107,7 +107,7 @@ fn what_was_made_for_one_scene_is_made_once() {
 }
 
 #[test]
-fn a_run_asked_to_stop_stops_and_leaves_all_fit_for_the_next() {
+fn an_interrupted_run_does_not_affect_the_next() {
     // So long that a second thread takes part.
     let scene = scene(&[("numerics.points", "40000"), OBSERVED]);
     let expected = outcome(&mut Simulation::default(), &scene);
@@ -138,7 +138,7 @@ fn figures_of_first_touch_are_those_of_its_protocol() {
 }
 
 #[test]
-fn work_is_what_it_was() {
+fn work_counts_match_the_snapshot() {
     let smooth: Overrides =
         &[("roughness", "None"), ("form", "Paraboloid(radius: 1.0e-4)"), ("adhesion", "(work: 0.05)")];
     let loops = (
@@ -159,7 +159,7 @@ fn work_is_what_it_was() {
 }
 
 #[test]
-fn nothing_is_done_that_a_scene_does_not_call_for() {
+fn only_required_work_is_done() {
     for solver in [("numerics.solver", "Exact"), STEPS] {
         let whole = work(&[solver]);
         assert!(whole.hess_evaluations > 0 || solver == STEPS);

@@ -78,7 +78,7 @@ proptest! {
     #![proptest_config(cases(400))]
 
     #[test]
-    fn each_spring_joins_and_leaves_within_one_step_of_its_threshold(
+    fn each_spring_changes_within_one_step_of_its_threshold(
         body in whole_springs(120), step in 0.003..0.1_f64, turns in indentations(7),
     ) {
         let contact = body.contact();
@@ -108,7 +108,7 @@ proptest! {
     }
 
     #[test]
-    fn a_refused_leg_leaves_the_body_at_its_place(
+    fn a_refused_target_does_not_change_the_body(
         body in whole_springs(60), to in 0.0..0.5_f64, back in -0.1..0.5_f64,
     ) {
         let contact = body.contact();
@@ -124,7 +124,7 @@ proptest! {
     }
 
     #[test]
-    fn legs_without_motion_are_stated_alike(
+    fn legs_without_motion_equal_those_of_the_exact_solver(
         body in whole_springs(60), to in 0.0..0.5_f64, below in 0.1..1.0_f64,
     ) {
         let targets = [-below, -below, -0.5 * below, to, to].map(Move::ToIndentation);
@@ -177,7 +177,7 @@ fn of_equal_forces_the_first_is_the_smallest() {
 }
 
 #[test]
-fn it_gives_up_on_demand_or_when_steps_are_too_many() {
+fn it_stops_on_request_and_refuses_too_many_steps() {
     let contact = body(rough(16, 1), 0.0).contact();
     let stop = || true;
     let mut solver = Stepwise::new(&contact, 0.01, 9, &stop).unwrap();

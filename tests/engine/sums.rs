@@ -112,7 +112,7 @@ proptest! {
     }
 
     #[test]
-    fn no_order_shows(gaps in gaps(600), seed in any::<u64>(), share in 0.0..1.5_f64) {
+    fn sums_do_not_depend_on_the_order_of_springs(gaps in gaps(600), seed in any::<u64>(), share in 0.0..1.5_f64) {
         let scale = scale_of(&gaps);
         let other = shuffled(&gaps, seed);
         prop_assert_eq!(totals(&gaps, &scale), totals(&other, &scale));

@@ -121,7 +121,7 @@ fn steep_waves_detach_by_the_rule_before_jkr() {
 /// Kesari and Lew (2011): waves short against the contact are equivalent to two works of adhesion, and the dissipated
 /// energy per area is A√(8πE*γ/λ). The error falls with λ.
 #[test]
-fn the_loss_per_area_of_short_waves_goes_to_that_of_two_works_of_adhesion() {
+fn short_waves_dissipate_as_two_works_of_adhesion() {
     let work = 1e3;
     let error = |wavelength: f64| {
         // A²E*/(λγ) is constant, and with it both works of adhesion.
@@ -139,7 +139,7 @@ fn the_loss_per_area_of_short_waves_goes_to_that_of_two_works_of_adhesion() {
 }
 
 #[test]
-fn steep_waves_of_a_scene_are_stated_with_the_force_of_the_closed_form() {
+fn steep_waves_of_a_scene_agree_with_the_closed_form() {
     let of = |amplitude: f64, wavelength: f64, work: f64| {
         let form = format!("WavySphere(radius: 1.0, amplitude: {amplitude:?}, wavelength: {wavelength:?})");
         let fields = [

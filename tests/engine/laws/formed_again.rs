@@ -6,7 +6,7 @@ proptest! {
     #![proptest_config(cases(800))]
 
     #[test]
-    fn a_contact_that_is_formed_again_is_what_it_was(
+    fn a_second_contact_equals_that_of_a_new_body(
         body in bodies(120), drawn in targets(14), samples in 2_usize..40,
     ) {
         let mut first = body.on(samples);

@@ -129,7 +129,7 @@ proptest! {
     }
 
     #[test]
-    fn a_move_is_the_leg_that_it_would_record(
+    fn moves_without_a_curve_equal_recorded_legs(
         body in bodies(200), drawn in targets(14), parts in prop::collection::vec(0.0..1.0_f64, 0..4),
     ) {
         let mut parts = parts;
@@ -139,7 +139,7 @@ proptest! {
     }
 
     #[test]
-    fn a_leg_has_the_extremes_and_forces_of_its_record(body in bodies(200), turns in indentations(6)) {
+    fn queries_of_a_leg_agree_with_its_record(body in bodies(200), turns in indentations(6)) {
         let targets = to_indentations(&turns);
         let [scale, _] = body.scales();
         asked_alike(body.on(9), &targets, scale)?;

@@ -8,7 +8,7 @@ proptest! {
     #![proptest_config(cases(500))]
 
     #[test]
-    fn a_refused_leg_leaves_everything_as_it_was(
+    fn a_refused_target_does_not_change_the_body(
         body in bodies(200),
         turns in indentations(8),
         refused in prop::collection::vec(prop_oneof![Just(f64::MAX), Just(-1e300), Just(-1e30)], 8),
@@ -33,7 +33,7 @@ proptest! {
     }
 
     #[test]
-    fn where_nothing_touches_nothing_acts(
+    fn a_separated_body_carries_no_force(
         body in bodies(200), heights in prop::collection::vec(0.0..2.0_f64, 1..6),
     ) {
         let (mut flown, mut fresh) = (body.on(17), body.on(17));
@@ -60,7 +60,7 @@ proptest! {
     }
 
     #[test]
-    fn what_a_separated_body_does_changes_no_figure(
+    fn motions_after_separation_do_not_change_figures(
         body in bodies(200), to in 0.0..1.0_f64, heights in prop::collection::vec(0.0..2.0_f64, 1..5),
     ) {
         let mut targets = vec![Move::ToIndentation(to), Move::ToSeparation];
@@ -74,7 +74,7 @@ proptest! {
     }
 
     #[test]
-    fn a_leg_to_where_the_body_is_does_nothing(body in bodies(200), to in 0.0..1.0_f64) {
+    fn a_target_already_reached_does_nothing(body in bodies(200), to in 0.0..1.0_f64) {
         let mut solver = body.on(17);
         let there = end(&solver.advance(Move::ToIndentation(to)).unwrap());
         let before = solver.work();

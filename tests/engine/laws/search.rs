@@ -145,7 +145,7 @@ proptest! {
     /// accordingly: both carry it half of s deeper than the second one touches by itself, less half of the first one's
     /// depth.
     #[test]
-    fn a_force_lost_as_it_is_reached_is_reached_again(
+    fn a_force_lost_in_a_jump_is_reached_further_on(
         wall in 0.25..1.0_f64, share in 0.05..0.9_f64, first: bool,
     ) {
         // E* Δx = 1 N/m: force and compression are the same number.

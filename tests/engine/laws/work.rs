@@ -8,7 +8,7 @@ proptest! {
 
     /// The points of a curve divide the leg evenly; an extreme of the force between them is added.
     #[test]
-    fn curves_have_the_samples_asked_for(
+    fn curves_have_the_requested_samples(
         body in bodies(200), deep in 0.1..1.2_f64, back in 0.0..0.9_f64, samples in 2_usize..80,
     ) {
         for mut solver in [body.on(samples), body.bare(samples)] {
@@ -27,7 +27,7 @@ proptest! {
 
     /// F_a(0) takes one pass and evaluates the rule of Hess for the springs that touch first and those that these attach.
     #[test]
-    fn the_way_back_from_first_touch_looks_at_the_springs_in_contact(body in bodies(200)) {
+    fn pull_off_at_touch_takes_one_pass(body in bodies(200)) {
         let back = body.history(&[Move::ToTouch, Move::ToSeparation], 2);
         let mut solver = body.on(2);
         let force = solver.pull_off_at_touch().unwrap();
@@ -52,7 +52,7 @@ proptest! {
 }
 
 #[test]
-fn a_leg_takes_memory_as_its_contact_has_parts() {
+fn memory_of_a_leg_grows_with_its_patches() {
     // Flat punches of 8 springs at one height, far apart, above springs out of reach.
     let punches = |count: usize| {
         let gaps = [vec![0.0; 8], vec![100.0; 24]].concat().repeat(count);
