@@ -41,9 +41,8 @@ scene)
     ;;
 surface)
     below="contact io memory parallel scene spectrum text topography" above="analysis reference simulation"
-    beside="engine/closed_forms engine/subcell fuzz/corpus" unfit="every_target_has"
-    slow="a_sphere_in_other_units heights_are_those hertz_without power_laws_converge rough_bodies rough_lines
-        what_is_kept what_is_lost"
+    beside="engine/closed_forms fuzz/corpus" unfit="every_target_has"
+    slow="heights_are_those hertz_without rough_bodies smooth_bodies wavy_spheres what_is_kept"
     ;;
 analysis) below="contact io memory parallel scene spectrum surface text topography" ;;
 store)
@@ -56,10 +55,9 @@ store)
     ;;
 contact)
     below="io memory parallel scene spectrum surface text topography" above="analysis reference simulation"
-    beside="engine/closed_forms engine/incremental engine/laws engine/reversals engine/stepwise engine/subcell
-        engine/sums"
-    slow="a_million_terms a_sphere_in_other_units a_step_costs contact_sets_on_the_way forces_at_full_contact
-        hertz_without power_laws_converge_to rough_lines_of_few what_is_lost"
+    beside="engine/closed_forms engine/laws engine/levels engine/reversals engine/stepwise engine/sums"
+    slow="a_million_terms forces_at_full_contact hertz_without pull_off_force_energy rough_bodies smooth_bodies
+        the_work_of_each wavy_spheres"
     ;;
 *) usage ;;
 esac
@@ -101,7 +99,7 @@ roots() {
 # Leaves in a root only the modules beside the room, and those that these share.
 choose_modules() {
     local root="$tree/tests/$1/main.rs"
-    awk -v chosen=" $(for name in $beside; do echo "${name#"$1/"}"; done | xargs) formed mutator numerics " '
+    awk -v chosen=" $(for name in $beside; do echo "${name#"$1/"}"; done | xargs) body mutator numerics " '
         /^#\[/ { held = held $0 "\n"; next }
         !/^mod [a-z_]+;$/ || held ~ /path/ || index(chosen, " " substr($2, 1, length($2) - 1) " ") { print held $0 }
         { held = "" }' "$root" >"$root.chosen"

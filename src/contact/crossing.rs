@@ -75,13 +75,13 @@ mod tests {
 
     /// Zeros are found to the last place, in far fewer evaluations in total than the fifty-odd of halving.
     #[test]
-    fn a_rising_zero_is_met_in_few_looks() {
-        let looks = Cell::new(0);
+    fn a_rising_zero_is_found_in_few_evaluations() {
+        let evaluations = Cell::new(0);
         let mut zeros = 0;
         for root in (1..100).map(|k| f64::from(k) / 100.0) {
             for bend in [0.0, 1.0, 10.0] {
                 let value = |at: f64| {
-                    looks.set(looks.get() + 1);
+                    evaluations.set(evaluations.get() + 1);
                     (at - root) * (1.0 + bend * (at + 0.5))
                 };
                 let found = crossing(-0.5, 1.0, value);
@@ -91,6 +91,6 @@ mod tests {
                 zeros += 2;
             }
         }
-        assert!(looks.get() <= 40 * zeros, "{} looks for {zeros} zeros", looks.get());
+        assert!(evaluations.get() <= 40 * zeros, "{} evaluations for {zeros} zeros", evaluations.get());
     }
 }

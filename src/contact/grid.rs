@@ -122,7 +122,7 @@ mod tests {
 
         /// Small numbers added to a large one, which is then subtracted, are kept.
         #[test]
-        fn what_rounding_takes_from_a_sum_is_kept(power in 40..60_i32, small in 1e-3..1.0_f64, count in 1_u32..99) {
+        fn a_sum_keeps_its_rounding_errors(power in 40..60_i32, small in 1e-3..1.0_f64, count in 1_u32..99) {
             let large = 2.0_f64.powi(power);
             let mut sum = CompensatedSum::default();
             (0..count).for_each(|_| [small, large, small].into_iter().for_each(|term| sum.add(term)));

@@ -1,17 +1,12 @@
-//! The catalogue of `asperity check`, case by case, and the engine against arithmetic of 192 binary digits.
+//! The catalogue of `asperity check`, case by case, and more hard cases: finer grids, vanishing adhesion, far loads.
 
-mod body;
-mod events;
-mod extended;
-mod laws;
-mod sub_cell;
-mod wide;
-
-use super::subcell::brute_force as level_by_level;
+use super::body::*;
 use asperity::check::{checks, judge};
+use asperity::contact::{Edges, Foundation, Move};
+use proptest::prelude::*;
 
 #[test]
-fn the_catalogue_holds() {
+fn every_check_of_the_catalogue_passes() {
     let mut failed = Vec::new();
     let checks = checks(|case| !case.large);
     assert!(checks.len() >= 30, "{} checks", checks.len());
@@ -25,4 +20,95 @@ fn the_catalogue_holds() {
         }
     }
     assert!(failed.is_empty(), "{}", failed.join("\n"));
+}
+
+/// The same straight pieces with `factor`, odd, times as many springs.
+fn refined(body: &Body, factor: usize) -> Body {
+    let gaps = (0..factor * body.gaps.len()).map(|index| {
+        let (cell, part) = (index / factor, index % factor);
+        let beside = if part < factor / 2 { cell.checked_sub(1) } else { Some(cell + 1) };
+        let here = body.gaps[cell];
+        // Beyond the first and the last spring the profile is level.
+        let there = beside.and_then(|beside| body.gaps.get(beside)).copied().unwrap_or(here);
+        here + (there - here) * (part.abs_diff(factor / 2) as f64 / factor as f64)
+    });
+    let foundation = Foundation { spacing: body.foundation.spacing / factor as f64, ..body.foundation };
+    Body { gaps: gaps.collect(), foundation, ..body.clone() }
+}
+
+proptest! {
+    #![proptest_config(cases(100))]
+
+    #[test]
+    fn more_springs_on_the_same_straight_pieces_change_nothing(body in bodies(200)) {
+        let body = Body { edges: Edges::SubCell, ..body };
+        let coarse = body.history(&body.tour(), 17);
+        for factor in [3, 5] {
+            let fine = refined(&body, factor).history(&body.tour(), 17);
+            for (one, other) in coarse.legs.iter().zip(&fine.legs) {
+                let of_end = (end(one).force - end(other).force).abs();
+                let error = of_end.max((one.smallest.force - other.smallest.force).abs());
+                prop_assert!(error <= 1e-14 * body.force_scale(), "{} times as many springs: {}", factor, error);
+            }
+        }
+    }
+}
+
+/// E* = 2 MPa over 0.1 mm.
+fn on_rubber(gaps: Vec<f64>, edges: Edges, work: f64) -> Body {
+    let foundation = Foundation::endless(1.0e-4 / gaps.len() as f64, 2.0e6);
+    Body::new(gaps, edges, foundation, work)
+}
+
+#[test]
+fn vanishing_adhesion_pulls_no_more_than_its_longest_stretch() {
+    let gaps: Vec<f64> = self_affine(0.7, 1, 1024, 256).iter().map(|gap| 5e-7 * gap).collect();
+    for edges in [Edges::Grid, Edges::SubCell] {
+        let force = |work: f64| {
+            let body = on_rubber(gaps.clone(), edges, work);
+            let deep = [Move::ToIndentation(0.6 * body.deepest())];
+            (end(&body.history(&deep, 2).legs[0]).force, body.stiffness() * body.largest_stretch())
+        };
+        let without = force(0.0).0;
+        for power in [-280, -200, -100, -50, -30, -20, -12, -9, -7, -6, -5, -4, -3] {
+            let (with, pull) = force(10.0_f64.powi(power));
+            let most = pull + 1e-14 * without;
+            assert!((-1e-14 * most..=most).contains(&(without - with)), "γ = 1e{power}: {with:e} N");
+        }
+    }
+}
+
+#[test]
+fn under_far_loads_the_contact_only_grows() {
+    let rough: Vec<f64> = self_affine(0.7, 1, 257, 128).iter().map(|gap| 5e-7 * gap).collect();
+    let sphere: Vec<f64> =
+        (-128..=128).map(|place| (1.0e-4 / 257.0 * f64::from(place)).powi(2) / 1.0e-4).collect();
+    for (edges, work) in
+        [Edges::Grid, Edges::SubCell].into_iter().flat_map(|edges| [(edges, 0.0), (edges, 2e-5)])
+    {
+        for body in [&rough, &sphere].map(|gaps| on_rubber(gaps.clone(), edges, work)) {
+            for power in 0..=30 {
+                let far = Move::ToIndentation(10.0_f64.powi(power) * body.deepest());
+                let legs = body.history(&[far, Move::ToIndentation(0.5 * body.deepest())], 17).legs;
+                let force = end(&legs[0]).force;
+                let again = body.history(&[Move::ToForce(force)], 17).legs;
+                for leg in legs.iter().chain(&again) {
+                    let mut curve = leg.curve.clone();
+                    curve.sort_by(|a, b| a.indentation.total_cmp(&b.indentation));
+                    let grows = curve.windows(2).all(|pair| pair[0].contact_length <= pair[1].contact_length);
+                    let whole = 1.0e-4 * (1.0 + 2.0 * f64::EPSILON);
+                    let inside = curve.iter().all(|point| (0.0..=whole).contains(&point.contact_length));
+                    assert!(grows && inside, "{edges:?}, 1e{power} times the depth: {curve:?}");
+                }
+                let sum: f64 = body.gaps.iter().map(|gap| end(&legs[0]).indentation - gap).sum();
+                let expected = body.foundation.spring_stiffness() * sum;
+                for found in [force, end(&again[0]).force] {
+                    assert!(
+                        (found / expected - 1.0).abs() <= 1e-13,
+                        "{edges:?}, 1e{power}: {found:e} {expected:e}"
+                    );
+                }
+            }
+        }
+    }
 }

@@ -1,21 +1,16 @@
 //! A million springs in the hardest shapes for a tree: a chain, all gaps equal, or all fragments alike. All results are
 //! known.
 
-use super::solvers::adhesive;
-use asperity::contact::{CurvePoint, Foundation, HessRule, LegRecord, Solver};
-use asperity::scene::{Edges, Move};
+use super::body::Body;
+use asperity::contact::{CurvePoint, Edges, Foundation, LegRecord, Move, Solver};
 use std::f64::consts::PI;
 
 const SPRINGS: usize = 1 << 20;
 
-/// A line of 1 m with E* = 1 Pa.
-fn foundation(springs: usize) -> Foundation {
-    Foundation::endless(1.0 / springs as f64, 1.0)
-}
-
-/// The legs of a line on springs of this foundation, with the fragments in contact after the first.
-fn legs(gaps: &[f64], foundation: Foundation, work: f64, deepest: f64) -> ([LegRecord; 2], usize) {
-    let mut solver = adhesive(gaps, Edges::Grid, HessRule::new(foundation, work), foundation, 64);
+/// The legs of a line on springs of which a million are 1 m long, with E* = 1 Pa, and its fragments after the first leg.
+fn legs(gaps: &[f64], work: f64, deepest: f64) -> ([LegRecord; 2], usize) {
+    let foundation = Foundation::endless(1.0 / SPRINGS as f64, 1.0);
+    let mut solver = Body::new(gaps.to_vec(), Edges::Grid, foundation, work).on(64);
     let loading = solver.advance(Move::ToIndentation(deepest)).unwrap();
     let fragments = solver.leg().patches(deepest).len();
     let unloading = solver.advance(Move::ToSeparation).unwrap();
@@ -30,7 +25,7 @@ fn near(found: f64, expected: f64, relative: f64) {
 #[test]
 fn a_flat_line_is_kendalls_punch() {
     let work = 0.3;
-    let ([loading, unloading], fragments) = legs(&vec![0.0; SPRINGS], foundation(SPRINGS), work, 0.1);
+    let ([loading, unloading], fragments) = legs(&vec![0.0; SPRINGS], work, 0.1);
     let stretch = (PI * work).sqrt();
     assert_eq!((loading.attached, fragments), (SPRINGS as u64, 1));
     near(loading.largest.force, 0.1, 1e-15);
@@ -51,8 +46,8 @@ fn a_ramp_is_a_wedge_that_peels_from_one_side() {
     let smallest = 9.0 * PI * work / (4.0 * slope * slope);
     let rising: Vec<f64> = (0..SPRINGS).map(|i| slope * i as f64 / SPRINGS as f64).collect();
     let falling: Vec<f64> = rising.iter().rev().copied().collect();
-    let (one, fragments) = legs(&rising, foundation(SPRINGS), work, deepest);
-    let (other, fragments_of_other) = legs(&falling, foundation(SPRINGS), work, deepest);
+    let (one, fragments) = legs(&rising, work, deepest);
+    let (other, fragments_of_other) = legs(&falling, work, deepest);
     assert_eq!((fragments, fragments_of_other), (1, 1));
     for (one, other) in one.iter().zip(&other) {
         assert_eq!(one.curve, other.curve);
@@ -72,14 +67,14 @@ fn a_ramp_is_a_wedge_that_peels_from_one_side() {
 }
 
 #[test]
-fn a_staircase_goes_down_step_by_step() {
+fn a_staircase_detaches_tread_by_tread() {
     // 1024 treads of 1024 springs. A tread attaches or detaches at once, so every state is the first k treads, held to
     // c_k − √(π k γ/(1024 E*)) where c_k is the deepest of them.
     let treads = 1024;
     let rise = 1.0 / treads as f64;
     let work = 0.02;
     let gaps: Vec<f64> = (0..SPRINGS).map(|i| rise * (i / (SPRINGS / treads)) as f64).collect();
-    let ([loading, unloading], fragments) = legs(&gaps, foundation(SPRINGS), work, 0.5);
+    let ([loading, unloading], fragments) = legs(&gaps, work, 0.5);
     assert_eq!(fragments, 1);
     let stretch = |treads_held: usize| (PI * work * treads_held as f64 / treads as f64).sqrt();
     let gap = |tread: usize| rise * tread as f64;
@@ -110,7 +105,7 @@ fn a_staircase_goes_down_step_by_step() {
 }
 
 #[test]
-fn teeth_that_do_not_know_of_each_other_add_up() {
+fn separate_teeth_add_up() {
     // 2^14 equal teeth of 64 springs, pressed so little that none reaches the next.
     let (teeth, springs_each) = (SPRINGS / 64, 64);
     let rise = 1.0 / SPRINGS as f64;
@@ -118,8 +113,8 @@ fn teeth_that_do_not_know_of_each_other_add_up() {
     let comb: Vec<f64> = tooth.iter().copied().cycle().take(SPRINGS).collect();
     let work = 40.0 * rise;
     let deepest = 1000.0 * rise;
-    let (whole, fragments) = legs(&comb, foundation(SPRINGS), work, deepest);
-    let (single, _) = legs(&tooth, foundation(SPRINGS), work, deepest);
+    let (whole, fragments) = legs(&comb, work, deepest);
+    let (single, _) = legs(&tooth, work, deepest);
     assert!(single[0].attached < springs_each as u64 - 1, "a tooth touches the next");
     assert_eq!(fragments, teeth);
     // A power of two of equal sums: bit for bit.
@@ -147,7 +142,7 @@ fn teeth_pressed_together_are_one_fragment() {
     let comb: Vec<f64> = (0..SPRINGS).map(|i| 64.0 * rise * (i % 64) as f64).collect();
     let deepest = 64.0 * 64.0 * rise;
     let work = 0.5;
-    let ([loading, unloading], fragments) = legs(&comb, foundation(SPRINGS), work, deepest);
+    let ([loading, unloading], fragments) = legs(&comb, work, deepest);
     assert_eq!((loading.attached, fragments), (SPRINGS as u64, 1));
     // The line holds as one face until its deepest springs detach, and all others with them.
     let lets_go = 63.0 * 64.0 * rise - (PI * work).sqrt();

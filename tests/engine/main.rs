@@ -1,15 +1,16 @@
 //! The library without the program: closed forms, brute force, laws, exact sums and scenes.
 
+mod body;
 mod closed_forms;
+mod digits;
 mod equilibrium;
-mod formed;
 mod hard_cases;
 mod large_lines;
 mod laws;
+mod levels;
 mod numerics;
 mod reversals;
 mod scene;
-mod solvers;
+mod simulation;
 mod stepwise;
-mod subcell;
 mod sums;

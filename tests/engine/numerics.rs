@@ -1,13 +1,11 @@
 //! Small numerics of the tests.
 
-/// Observed order of convergence: the slope of ln(error) over −ln(N) by least squares.
-pub fn observed_order(grids: &[usize], errors: &[f64]) -> f64 {
-    let xs: Vec<f64> = grids.iter().map(|&points| -(points as f64).ln()).collect();
-    let ys: Vec<f64> = errors.iter().map(|error| error.ln()).collect();
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-    let (x, y) = (mean(&xs), mean(&ys));
-    let covariance: f64 = xs.iter().zip(&ys).map(|(a, b)| (a - x) * (b - y)).sum();
-    covariance / xs.iter().map(|a| (a - x) * (a - x)).sum::<f64>()
+/// Observed order of convergence: the slope of ln(error) over ln(step) by least squares.
+pub fn observed_order(steps: &[f64], errors: &[f64]) -> f64 {
+    let mean = |values: &[f64]| values.iter().map(|value| value.ln()).sum::<f64>() / values.len() as f64;
+    let (x, y) = (mean(steps), mean(errors));
+    let pairs = || steps.iter().zip(errors).map(|(step, error)| (step.ln() - x, error.ln() - y));
+    pairs().map(|(a, b)| a * b).sum::<f64>() / pairs().map(|(a, _)| a * a).sum::<f64>()
 }
 
 /// Argument between `low` and `high` at which a rising function takes a value.

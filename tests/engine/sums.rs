@@ -1,9 +1,8 @@
 //! Sums of gaps and forces against exact arithmetic: the documented bound also holds where nearly all of a force
 //! cancels, and the order of the springs has no effect.
 
-use super::solvers::{adhesive, nonadhesive};
-use asperity::contact::{ContactTotals, Foundation, GapScale, HessRule, Solver};
-use asperity::scene::{Edges, Move};
+use super::body::{Body, cases, end, from_lowest};
+use asperity::contact::{ContactTotals, Edges, Foundation, GapScale, Move, Solver};
 use dashu_float::{FBig, round::mode::HalfEven};
 use proptest::prelude::*;
 
@@ -104,7 +103,7 @@ fn gaps(most: usize) -> impl Strategy<Value = Vec<f64>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 600, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(cases(600))]
 
     #[test]
     fn compressions_keep_their_bound(gaps in gaps(600), share in -3.0..3.0_f64) {
@@ -113,18 +112,14 @@ proptest! {
     }
 
     #[test]
-    fn no_order_shows(gaps in gaps(600), seed in any::<u64>(), share in 0.0..1.5_f64) {
+    fn sums_do_not_depend_on_the_order_of_springs(gaps in gaps(600), seed in any::<u64>(), share in 0.0..1.5_f64) {
         let scale = scale_of(&gaps);
         let other = shuffled(&gaps, seed);
         prop_assert_eq!(totals(&gaps, &scale), totals(&other, &scale));
         // Without adhesion a force does not depend on the places of the springs.
-        let lowest = gaps.iter().copied().fold(f64::INFINITY, f64::min);
-        let largest = gaps.iter().copied().fold(0.0, f64::max);
         let forces = [gaps, other].map(|gaps| {
-            let gaps: Vec<f64> = gaps.iter().map(|gap| gap - lowest).collect();
-            let foundation = Foundation::endless(1e-3, 3.0);
-            let mut solver = nonadhesive(&gaps, Edges::Grid, foundation, 40);
-            let leg = solver.advance(Move::ToIndentation(share * (largest - lowest))).unwrap();
+            let body = Body::new(from_lowest(&gaps), Edges::Grid, Foundation::endless(1e-3, 3.0), 0.0);
+            let leg = body.bare(40).advance(Move::ToIndentation(share * body.deepest())).unwrap();
             leg.curve.iter().map(|point| (point.force.to_bits(), point.springs)).collect::<Vec<_>>()
         });
         prop_assert_eq!(&forces[0], &forces[1]);
@@ -170,13 +165,11 @@ fn forces_at_full_contact_keep_the_bound_where_they_vanish() {
     let foundation = Foundation::endless(1e-6, 2.0e6);
     let stiffness = foundation.spring_stiffness();
     // Enough adhesion to hold everything when hardly pressed.
-    let hess = HessRule::new(foundation, 4.0e6);
-    let mut solver = adhesive(&gaps, Edges::Grid, hess, foundation, 20);
+    let mut solver = Body::new(gaps.clone(), Edges::Grid, foundation, 4.0e6).on(20);
     let (scale, sum) = (scale_of(&gaps), sum(&gaps));
     let balanced = balance(gaps.len(), &sum, 2);
     for leg in [Move::ToIndentation(1.0), Move::ToZeroForce, Move::ToIndentation(balanced)] {
-        let record = solver.advance(leg).unwrap();
-        let end = record.curve.last().unwrap();
+        let end = end(&solver.advance(leg).unwrap());
         assert_eq!(end.springs, 1 << 20, "{leg:?}");
         let exact = compression(gaps.len(), &sum, end.indentation) * unrounded(stiffness);
         // One rounding more, of the product with the stiffness.

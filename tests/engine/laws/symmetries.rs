@@ -1,135 +1,141 @@
-//! Contact without adhesion is reversible; scales of height and of stress only scale; a mirror only mirrors.
+//! Contact without adhesion is reversible; scales of height and of stress only scale; a mirror only mirrors; stronger
+//! adhesion holds more.
 
 use super::*;
 
-/// All numbers of a leg, bit for bit; energies of 0 and −0 are the same.
-fn leg_bits(record: &LegRecord) -> Vec<u64> {
-    let points = record.curve.iter().chain([&record.largest, &record.smallest]);
-    let energy = (record.released_energy + 0.0).to_bits();
-    points.flat_map(bits).chain([record.attached, record.detached, energy]).collect()
-}
-
-fn scaled(point: &CurvePoint, length: f64, force: f64) -> [u64; 4] {
-    bits(&CurvePoint { indentation: point.indentation * length, force: point.force * force, ..*point })
-}
-
-/// The legs with lengths and forces scaled.
-fn scaled_legs(legs: &[Move], length: f64, force: f64) -> Vec<Move> {
-    let scale = |leg: &Move| match *leg {
-        Move::ToIndentation(to) => Move::ToIndentation(to * length),
-        Move::ToForce(to) => Move::ToForce(to * force),
-        other => other,
+/// All numbers of a leg with lengths across the line and forces scaled, bit for bit; energies of 0 and −0 are the same.
+fn scaled_bits(record: &LegRecord, height: f64, force: f64) -> Vec<u64> {
+    let energy = |joules: f64| height * force * joules + 0.0;
+    let scaled = |point: &CurvePoint| {
+        // The number next to 0 does not scale.
+        let indentation = if point.indentation.abs() < 1e-300 { 0.0 } else { height * point.indentation };
+        let stored_energy = energy(point.stored_energy);
+        bits(&CurvePoint { indentation, force: force * point.force, stored_energy, ..*point })
     };
-    legs.iter().map(scale).collect()
+    let points = record.curve.iter().chain([&record.largest, &record.smallest]);
+    let counts = [record.attached, record.detached, energy(record.released_energy).to_bits()];
+    points.flat_map(scaled).chain(counts).collect()
 }
 
-/// A history possible for every body.
-fn legs(body: &Body, turns: &[f64], force: f64) -> Vec<Move> {
-    let mut legs = vec![Move::ToForce(force * body.force_scale())];
-    legs.extend(to_indentations(turns));
-    legs.extend([Move::ToZeroForce, Move::ToSeparation]);
-    legs
+/// A history possible for every body. Between springs a force without adhesion vanishes by and by, so that the place of
+/// zero force is a matter of rounding.
+fn targets(body: &Body, turns: &[f64], force: f64) -> Vec<Move> {
+    let first = Move::ToForce(force * body.force_scale());
+    let last = [Move::ToZeroForce, Move::ToSeparation];
+    let last = last.into_iter().skip(usize::from(body.edges == Edges::SubCell));
+    [first].into_iter().chain(to_indentations(turns)).chain(last).collect()
+}
+
+/// Springs in contact after a history.
+fn springs(body: &Body, turns: &[f64]) -> Vec<usize> {
+    indices(&body.history(&to_indentations(turns), 2).contacts)
 }
 
 proptest! {
-    #![proptest_config(cases(400))]
+    #![proptest_config(cases(600))]
 
     #[test]
     fn without_adhesion_approach_and_retraction_are_one_curve(
-        body in bare_body(),
-        deepest in 0.0..1.5_f64,
-        samples in 2_usize..700,
+        body in bodies(200), deepest in 0.0..1.5_f64, samples in 2_usize..700,
     ) {
-        let legs = [Move::ToIndentation(deepest), Move::ToSeparation];
-        let adhesive = body.history(&legs, samples);
-        let bare = run(&mut nonadhesive(&body.gaps, Edges::Grid, body.foundation, samples), &legs, |_, _| Ok(())).unwrap();
-        for history in [adhesive, bare] {
-            let mut back = curve_bits(&history.legs[1]);
+        let body = body.with_more_adhesion(0.0);
+        let targets = [Move::ToIndentation(deepest), Move::ToSeparation];
+        for mut solver in [body.on(samples), body.bare(samples)] {
+            let [up, down] = targets.map(|target| solver.advance(target).unwrap());
+            let mut back = curve_bits(&down);
             back.reverse();
-            prop_assert_eq!(curve_bits(&history.legs[0]), back);
-            prop_assert_eq!(history.legs[0].released_energy, 0.0);
-            prop_assert_eq!(history.legs[1].released_energy, 0.0);
+            prop_assert_eq!(curve_bits(&up), back);
+            prop_assert_eq!((up.released_energy, down.released_energy), (0.0, 0.0));
         }
     }
 
+    /// A contact without adhesion, which has no tree, agrees with a work of adhesion of zero: bit for bit where patches are
+    /// whole springs.
     #[test]
     fn without_adhesion_the_past_leaves_no_trace(
-        body in bare_body(),
-        turns in indentations(8),
-        force in 0.0..1.0_f64,
+        body in bodies(200), turns in indentations(8), force in 0.0..1.0_f64,
     ) {
-        let legs = legs(&body, &turns, force);
-        let mut adhesive = body.on(33);
-        let mut bare = nonadhesive(&body.gaps, Edges::Grid, body.foundation, 33);
-        for leg in legs {
-            let (a, b) = (adhesive.advance(leg).unwrap(), bare.advance(leg).unwrap());
-            prop_assert_eq!(leg_bits(&a), leg_bits(&b), "the two solvers, {:?}", leg);
-            prop_assert_eq!(a.released_energy, 0.0);
-            let end = *a.curve.last().unwrap();
-            if end.springs > 0 {
-                let at_once = body.history(&[Move::ToIndentation(end.indentation)], 2);
-                prop_assert_eq!(bits(&end), bits(&super::end(&at_once)), "{:?} against going there", leg);
-                prop_assert_eq!(adhesive.leg().patches(end.indentation), at_once.contacts.clone());
-                prop_assert_eq!(bare.leg().patches(end.indentation), at_once.contacts);
+        let body = body.with_more_adhesion(0.0);
+        let (mut tree, mut bare) = (body.on(33), body.bare(33));
+        let [scale, _] = body.scales();
+        for target in targets(&body, &turns, force) {
+            let (one, other) = (tree.advance(target).unwrap(), bare.advance(target).unwrap());
+            prop_assert_eq!((one.released_energy, other.released_energy), (0.0, 0.0));
+            if body.edges == Edges::Grid {
+                prop_assert_eq!(scaled_bits(&one, 1.0, 1.0), scaled_bits(&other, 1.0, 1.0), "{:?}", target);
+            }
+            prop_assert_eq!((one.direction, one.curve.len()), (other.direction, other.curve.len()));
+            let extremes = [(&one.largest, &other.largest), (&one.smallest, &other.smallest)];
+            for (a, b) in one.curve.iter().zip(&other.curve).chain(extremes) {
+                prop_assert!((a.indentation - b.indentation).abs() <= 2e-12, "{:?} {:?}", a, b);
+                prop_assert!((a.force - b.force).abs() <= 1e-12 * scale, "{:?} {:?}", a, b);
+                prop_assert!((a.contact_length - b.contact_length).abs() <= 1e-10, "{:?} {:?}", a, b);
+            }
+            for (solver, record) in [(&tree, &one), (&bare, &other)] {
+                let end = end(record);
+                if end.springs > 0 {
+                    let at_once = body.history(&[Move::ToIndentation(end.indentation)], 2);
+                    let apart = (end.force - super::end(&at_once.legs[0]).force).abs();
+                    let allowed = if body.edges == Edges::Grid { 0.0 } else { 1e-12 * scale };
+                    prop_assert!(apart <= allowed, "{:?} against going there", target);
+                    prop_assert_eq!(solver.leg().patches(end.indentation), at_once.contacts);
+                }
             }
         }
+        prop_assert_eq!(bare.work().hess_evaluations, 0);
     }
 
     #[test]
-    fn a_power_of_two_in_height_scales_bit_for_bit(
-        body in body(),
-        turns in indentations(6),
-        force in 0.0..1.0_f64,
-        exponent in -60_i32..60,
+    fn powers_of_two_in_height_and_stress_scale_bit_for_bit(
+        body in bodies(200), turns in indentations(6), force in 0.0..1.0_f64, powers in [-60_i32..60, -60..60],
     ) {
-        // z → λz and γ → λ²γ: d → λd and F → λF, energies → λ² times.
-        let lambda = 2_f64.powi(exponent);
-        let larger = Body {
-            gaps: body.gaps.iter().map(|gap| lambda * gap).collect(),
-            work: lambda * lambda * body.work,
-            ..body
-        };
-        let legs = legs(&body, &turns, force);
-        let (history, of_larger) =
-            (body.history(&legs, 65), larger.history(&scaled_legs(&legs, lambda, lambda), 65));
-        for (one, other) in history.legs.iter().zip(&of_larger.legs) {
-            let expected: Vec<_> = one.curve.iter().map(|point| scaled(point, lambda, lambda)).collect();
-            prop_assert_eq!(expected, curve_bits(other));
-            prop_assert_eq!(scaled(&one.largest, lambda, lambda), bits(&other.largest));
-            prop_assert_eq!(scaled(&one.smallest, lambda, lambda), bits(&other.smallest));
-            prop_assert_eq!(one.released_energy * lambda * lambda, other.released_energy);
-        }
-        prop_assert_eq!(history.work, of_larger.work);
-    }
-
-    #[test]
-    fn modulus_and_work_of_adhesion_scaled_alike_leave_contact_unchanged(
-        body in body(),
-        turns in indentations(6),
-        force in 0.0..1.0_f64,
-        exponent in -60_i32..60,
-    ) {
-        let factor = 2_f64.powi(exponent);
+        // z → λz, E* → fE* and γ → λ²fγ: d → λd and F → λfF.
+        let [height, stress] = powers.map(|power| 2_f64.powi(power));
         let Foundation { spacing, effective_modulus, .. } = body.foundation;
-        let stiffer = Body {
-            foundation: Foundation::endless(spacing, factor * effective_modulus),
-            work: factor * body.work,
-            ..body.clone()
-        };
-        let legs = legs(&body, &turns, force);
-        let (history, of_stiffer) =
-            (body.history(&legs, 65), stiffer.history(&scaled_legs(&legs, 1.0, factor), 65));
-        for (one, other) in history.legs.iter().zip(&of_stiffer.legs) {
-            let expected: Vec<_> = one.curve.iter().map(|point| scaled(point, 1.0, factor)).collect();
-            prop_assert_eq!(expected, curve_bits(other));
-            prop_assert_eq!(one.released_energy * factor, other.released_energy);
+        let mut other = body.with_more_adhesion(height * height * stress);
+        other.gaps.iter_mut().for_each(|gap| *gap *= height);
+        other.foundation = Foundation::endless(spacing, stress * effective_modulus);
+        let targets = targets(&body, &turns, force);
+        let scaled = targets.iter().map(|target| match *target {
+            Move::ToIndentation(to) => Move::ToIndentation(height * to),
+            Move::ToForce(force) => Move::ToForce(height * stress * force),
+            other => other,
+        });
+        let (one, other) = (body.history(&targets, 65), other.history(&scaled.collect::<Vec<_>>(), 65));
+        for (one, other) in one.legs.iter().zip(&other.legs) {
+            prop_assert_eq!(scaled_bits(one, height, height * stress), scaled_bits(other, 1.0, 1.0));
         }
-        prop_assert_eq!(history.work, of_stiffer.work);
+        prop_assert_eq!(one.work, other.work);
+    }
+
+    /// Any other factors change contact and forces by roundings.
+    #[test]
+    fn units_are_arbitrary(
+        body in bodies(200), turns in indentations(6), powers in [-9.0..9.0_f64, -9.0..9.0, -9.0..9.0],
+    ) {
+        let [length, height, stress] = powers.map(|power| 10.0_f64.powf(power));
+        let Foundation { spacing, effective_modulus, .. } = body.foundation;
+        let mut other = body.with_more_adhesion(height * height / length * stress);
+        other.gaps.iter_mut().for_each(|gap| *gap *= height);
+        other.foundation = Foundation::endless(length * spacing, stress * effective_modulus);
+        let higher: Vec<f64> = turns.iter().map(|turn| height * turn).collect();
+        let slight = [1.0 + 1e-11, 1.0 - 1e-11].map(|factor| body.with_more_adhesion(factor));
+        let history = |body: &Body| body.history(&to_indentations(&turns), 2);
+        let [one, more, less] = [&body, &slight[0], &slight[1]].map(history);
+        let other = other.history(&to_indentations(&higher), 2);
+        // For an event at a turning point to rounding, either contact is right.
+        prop_assume!(more.contacts == less.contacts);
+        prop_assert_eq!(&one.contacts, &other.contacts);
+        // An edge about to run away amplifies a rounding.
+        let force = |history: History| end(history.legs.last().unwrap()).force;
+        let [one, other, more, less] = [one, other, more, less].map(force);
+        let error = (one - other / (length * height * stress)).abs();
+        prop_assert!(error <= 1e-14 * body.scales()[0] + (more - less).abs(), "{} {}", one, other);
     }
 
     #[test]
     fn a_mirror_changes_nothing_but_left_and_right(
-        body in body(),
+        body in bodies(200),
         turns in indentations(6),
         force in 0.0..1.0_f64,
         probes in prop::collection::vec(0.0..1.0_f64, 4),
@@ -137,20 +143,31 @@ proptest! {
         let mirrored = Body { gaps: body.gaps.iter().rev().copied().collect(), ..body.clone() };
         let last = body.gaps.len() - 1;
         let (mut solver, mut mirrored) = (body.on(33), mirrored.on(33));
-        let mut energy = 0.0;
-        for leg in legs(&body, &turns, force) {
-            let (one, other) = (solver.advance(leg).unwrap(), mirrored.advance(leg).unwrap());
-            // Also the forces: sums of gaps do not depend on their order.
-            prop_assert_eq!(curve_bits(&one), curve_bits(&other));
+        let [scale, energy_scale] = body.scales().map(|scale| 1e-14 * scale);
+        for target in targets(&body, &turns, force) {
+            let (one, other) = (solver.advance(target).unwrap(), mirrored.advance(target).unwrap());
+            // Sums of whole springs do not depend on their order.
+            if body.edges == Edges::Grid {
+                prop_assert_eq!(curve_bits(&one), curve_bits(&other));
+            }
+            let (a, b) = (end(&one), end(&other));
+            prop_assert!((a.force - b.force).abs() <= 10.0 * scale, "{:?} {:?}", a, b);
+            prop_assert_eq!((a.springs, a.fragments), (b.springs, b.fragments));
             prop_assert_eq!((one.attached, one.detached), (other.attached, other.detached));
-            energy += one.released_energy.abs();
-            prop_assert!((one.released_energy - other.released_energy).abs() <= 1e-14 * energy);
+            prop_assert!((one.released_energy - other.released_energy).abs() <= energy_scale);
             for probe in probes.iter().chain(&[0.0, 1.0]) {
                 let d = one.start() + probe * (one.end() - one.start());
-                let turn = |&(first, end): &(usize, usize)| (last - end, last - first);
-                let turned: Vec<_> = mirrored.leg().patches(d).iter().rev().map(turn).collect();
-                prop_assert_eq!(solver.leg().patches(d), turned, "at {} of {:?}", d, leg);
+                let turned = |&(first, end): &(usize, usize)| (last - end, last - first);
+                let turned: Vec<_> = mirrored.leg().patches(d).iter().rev().map(turned).collect();
+                prop_assert_eq!(solver.leg().patches(d), turned, "at {} of {:?}", d, target);
             }
         }
+    }
+
+    #[test]
+    fn stronger_adhesion_holds_more(body in bodies(200), turns in indentations(6), factor in 1.0..30.0_f64) {
+        let less = springs(&body, &turns);
+        let more = springs(&body.with_more_adhesion(factor), &turns);
+        prop_assert!(less.iter().all(|spring| more.binary_search(spring).is_ok()));
     }
 }

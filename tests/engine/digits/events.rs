@@ -1,14 +1,15 @@
 //! Whole springs from event to event: each rule evaluated anew for every spring it may apply to, in 192 digits. No
 //! tree, no pass, no curve, and no rounding that could decide a contact.
 
-use super::body::Body;
 use super::wide::{Wide, pi, wide};
+use crate::body::Body;
 
 /// A body moved from event to event.
 pub struct Events<'a> {
     body: &'a Body,
-    /// Largest stretch of a fragment by its number of springs.
-    stretch: Vec<Wide>,
+    /// Largest stretches of a fragment by its number of springs, on closing and on opening.
+    closing: Vec<Wide>,
+    opening: Vec<Wide>,
     contact: Vec<bool>,
     indentation: Wide,
     springs: usize,
@@ -25,20 +26,23 @@ pub struct Moved {
     pub squares: Wide,
     /// Σ (c − θ)(c + |θ|): the effect of roundings of θ, m².
     pub rounding: f64,
-    /// Smallest Σ (d − c) held, and its indentation.
-    pub smallest: Option<(Wide, Wide)>,
+    /// Smallest Σ (d − c) held, m.
+    pub smallest: Option<Wide>,
     /// Indentation at which the last spring detached, if it did.
     pub separated_at: Option<Wide>,
 }
 
 impl<'a> Events<'a> {
     pub fn new(body: &'a Body) -> Self {
-        let one =
-            pi() * wide(body.foundation.spacing) * wide(body.work) / wide(body.foundation.effective_modulus);
-        let stretch = (0..=body.gaps.len()).map(|springs| (one.clone() * wide(springs as f64)).sqrt());
+        let stretches = |work: f64| {
+            let range = wide(work) / wide(body.foundation.effective_modulus);
+            let one = pi() * wide(body.foundation.spacing) * range;
+            (0..=body.gaps.len()).map(|springs| (one.clone() * wide(springs as f64)).sqrt()).collect()
+        };
         Events {
             body,
-            stretch: stretch.collect(),
+            closing: stretches(body.closing_work),
+            opening: stretches(body.work),
             contact: vec![false; body.gaps.len()],
             indentation: wide(0.0),
             springs: 0,
@@ -46,8 +50,9 @@ impl<'a> Events<'a> {
         }
     }
 
-    pub fn contact(&self) -> &[bool] {
-        &self.contact
+    /// Springs in contact.
+    pub fn contact(&self) -> Vec<usize> {
+        (0..self.contact.len()).filter(|&spring| self.contact[spring]).collect()
     }
 
     pub fn springs(&self) -> usize {
@@ -128,7 +133,7 @@ impl<'a> Events<'a> {
             for (first, springs) in self.fragments() {
                 for beside in [first.checked_sub(1), Some(first + springs)].into_iter().flatten() {
                     if let Some(&gap) = self.body.gaps.get(beside) {
-                        let at = wide(gap) - self.stretch[springs].clone();
+                        let at = wide(gap) - self.closing[springs].clone();
                         if next.as_ref().is_none_or(|(nearest, _)| at < *nearest) {
                             next = Some((at, beside));
                         }
@@ -153,7 +158,7 @@ impl<'a> Events<'a> {
             for (first, springs) in self.fragments() {
                 let by_gap = |a: &usize, b: &usize| self.body.gaps[*a].total_cmp(&self.body.gaps[*b]);
                 let Some(spring) = (first..first + springs).max_by(by_gap) else { continue };
-                let at = wide(self.body.gaps[spring]) - self.stretch[springs].clone();
+                let at = wide(self.body.gaps[spring]) - self.opening[springs].clone();
                 if next.as_ref().is_none_or(|(nearest, _)| at > *nearest) {
                     next = Some((at, spring));
                 }
@@ -182,8 +187,8 @@ impl<'a> Events<'a> {
 
     fn look(&self, moved: &mut Moved) {
         let compression = self.compression();
-        if moved.smallest.as_ref().is_none_or(|(smallest, _)| compression < *smallest) {
-            moved.smallest = Some((compression, self.indentation.clone()));
+        if moved.smallest.as_ref().is_none_or(|smallest| compression < *smallest) {
+            moved.smallest = Some(compression);
         }
     }
 }

@@ -1,9 +1,9 @@
 //! The force along a leg straight from its thresholds: all of them sorted, nothing bounded or skipped.
 
-use super::Body;
+use crate::body::Body;
 
 /// All segments of a leg: between two thresholds the same springs are in contact.
-pub struct Steps {
+pub struct Segments {
     stiffness: f64,
     /// Thresholds in ascending order, with the springs in contact from there on.
     steps: Vec<Step>,
@@ -36,7 +36,7 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - (sum - added)) + (b - added))
 }
 
-impl Steps {
+impl Segments {
     pub fn new(thresholds: &[f64], body: &Body) -> Self {
         let mut springs: Vec<(f64, f64)> =
             thresholds.iter().copied().zip(body.gaps.iter().copied()).collect();
@@ -53,16 +53,16 @@ impl Steps {
             }
             steps.push(next);
         }
-        Steps { stiffness: body.foundation.spring_stiffness(), steps, springs }
+        Segments { stiffness: body.foundation.spring_stiffness(), steps, springs }
     }
 
     /// Pieces (from, to, step) of a range, in ascending order.
     fn pieces(&self, low: f64, high: f64) -> impl DoubleEndedIterator<Item = (f64, f64, Step)> {
         (0..self.steps.len()).filter_map(move |index| {
             let step = self.steps[index];
-            let to = self.steps.get(index + 1).map_or(f64::INFINITY, |next| next.from);
-            let (from, to) = (step.from.max(low), to.min(high));
-            (from < to || (from == to && from == high)).then_some((from, to, step))
+            let next = self.steps.get(index + 1).map_or(f64::INFINITY, |next| next.from);
+            let (from, to) = (step.from.max(low), next.min(high));
+            (from < to || (from == to && high < next)).then_some((from, to, step))
         })
     }
 

@@ -14,7 +14,7 @@ pub fn pi() -> Wide {
     Wide::pi(DIGITS)
 }
 
-pub fn magnitude(value: Wide) -> Wide {
+fn magnitude(value: Wide) -> Wide {
     if value < Wide::ZERO { -value } else { value }
 }
 

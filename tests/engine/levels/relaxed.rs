@@ -1,6 +1,7 @@
 //! The rule on the line that runs straight from spring to spring, step by step along the levels: no tree, no
 //! threshold, no formula of the solver.
 
+use crate::body::Body;
 use asperity::contact::Foundation;
 
 /// Points of a stretch of levels at which the rule is evaluated before bisection.
@@ -32,7 +33,10 @@ impl Part {
 #[derive(Clone)]
 pub struct Relaxed<'a> {
     gaps: &'a [f64],
-    foundation: Foundation,
+    /// E* times the length of a cell, N/m.
+    stiffness: f64,
+    /// m
+    spacing: f64,
     /// Largest stretch of a fragment one cell long before it grows, m.
     closing: f64,
     /// Largest stretch of a fragment one cell long before it recedes, m.
@@ -42,11 +46,13 @@ pub struct Relaxed<'a> {
 }
 
 impl<'a> Relaxed<'a> {
-    pub fn new(gaps: &'a [f64], foundation: Foundation, closing_work: f64, work: f64) -> Self {
-        let [closing, opening] = [closing_work, work].map(|work| {
-            (std::f64::consts::PI * foundation.spacing * work / foundation.effective_modulus).sqrt()
-        });
-        Relaxed { gaps, foundation, closing, opening, indentation: 0.0, fragments: Vec::new() }
+    pub fn new(body: &'a Body) -> Self {
+        let Foundation { spacing, effective_modulus, .. } = body.foundation;
+        let [closing, opening] = [body.closing_work, body.work]
+            .map(|work| (std::f64::consts::PI * spacing * work / effective_modulus).sqrt());
+        let stiffness = effective_modulus * spacing;
+        let (gaps, fragments) = (body.gaps.as_slice(), Vec::new());
+        Relaxed { gaps, stiffness, spacing, closing, opening, indentation: 0.0, fragments }
     }
 
     /// The component of {c ≤ level} (`closed`) or {c < level} around a spring in it.
@@ -217,16 +223,22 @@ impl<'a> Relaxed<'a> {
 
     /// m
     pub fn contact_length(&self) -> f64 {
-        self.parts().map(|(_, part)| part.length()).sum::<f64>() * self.foundation.spacing
+        self.parts().map(|(_, part)| part.length()).sum::<f64>() * self.spacing
     }
 
     /// N
     pub fn force(&self) -> f64 {
-        self.integral(|d, a, b, share| share * (d - 0.5 * (a + b)))
+        self.stiffness * self.integral(|a, b| 0.5 * (a + b))
     }
 
-    /// Sum of `cell` over all cells in contact, each with the share held from gap a to gap b.
-    fn integral(&self, cell: impl Fn(f64, f64, f64, f64) -> f64) -> f64 {
+    /// J
+    pub fn stored_energy(&self) -> f64 {
+        0.5 * self.stiffness * self.integral(|a, b| (a * a + a * b + b * b) / 3.0)
+    }
+
+    /// Sum over all cells in contact of a mean along them, given the compressions at their ends, in cells.
+    fn integral(&self, mean: impl Fn(f64, f64) -> f64) -> f64 {
+        let cell = |a: f64, b: f64| mean(self.indentation - a, self.indentation - b);
         let mut sum = 0.0;
         for (level, part) in self.parts() {
             let edges = [
@@ -234,13 +246,12 @@ impl<'a> Relaxed<'a> {
                 (part.to - part.last as f64, self.gaps[part.last], part.last + 1 == self.gaps.len()),
             ];
             for (share, gap, is_end) in edges {
-                sum += cell(self.indentation, gap, if is_end { gap } else { level }, share);
+                sum += share * cell(gap, if is_end { gap } else { level });
             }
-            for pair in self.gaps[part.first..=part.last].windows(2) {
-                sum += cell(self.indentation, pair[0], pair[1], 1.0);
-            }
+            let pairs = self.gaps[part.first..=part.last].windows(2);
+            sum += pairs.map(|pair| cell(pair[0], pair[1])).sum::<f64>();
         }
-        sum * self.foundation.effective_modulus * self.foundation.spacing
+        sum
     }
 }
 
