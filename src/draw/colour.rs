@@ -149,8 +149,7 @@ fn lightness([red, green, blue]: Rgb) -> f64 {
 }
 
 /// Black or white, whichever is readable on a colour.
-#[must_use]
-pub fn ink_on(colour: Rgb) -> Rgb {
+pub(super) fn ink_on(colour: Rgb) -> Rgb {
     if lightness(colour) > 0.5 { [0; 3] } else { [255; 3] }
 }
 

@@ -21,7 +21,7 @@ pub use axis::Axis;
 #[cfg(feature = "tui")]
 pub use cells::{CellPlot, CellStyle, Colours, SHADES, dry, figure_text, glyph, key, legend};
 pub use chart::{Chart, Class, Contour, Entry, Figure, HeatMap, Layer, Sample, Shape, Sign, Stroke};
-pub use colour::{Ink, Palette, Rgb, Shades, hex, ink_on};
+pub use colour::{Ink, Palette, Rgb, Shades, hex};
 pub use label::{Label, prefixed, short, value_label};
 #[cfg(feature = "tui")]
 pub use png::{PictureFormat, PngError};

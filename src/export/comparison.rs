@@ -67,7 +67,8 @@ mod tests {
         assert!(text.ends_with("ratio 2\n"), "{text}");
         let names: Vec<String> =
             comparison_figure(pair).legend().iter().map(|entry| entry.name.to_string()).collect();
-        assert_eq!(names, ["A", "B"]);
+        let title = first.title();
+        assert_eq!(names, [format!("A: {title}"), format!("B: {title}")]);
         assert!(comparison_text([pair[0], pair[0]]).contains("different from A to B: nothing\n"));
     }
 }

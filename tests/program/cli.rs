@@ -1027,7 +1027,7 @@ fn every_figure_is_written_as_svg_and_as_png_by_its_extension() {
     let quick = ["--set", "numerics.points=256", "--set", "numerics.samples=16"];
     let commands: [(&[&str], &[&str], &str); 5] = [
         (&["run", "jkr-sphere"], &quick, "indentation"),
-        (&["compare", "jkr-sphere", "kendall-punch"], &quick, ">A<"),
+        (&["compare", "jkr-sphere", "kendall-punch"], &quick, ">A: Sphere"),
         (&["reversals", "jkr-sphere", "--count", "8", "--loops", "0"], &quick, "Everett function"),
         (&["cost", "kendall-punch", "--budget", "1s"], &[], "time of a run"),
         (&["surface", &profile, "--unit", "um"], &[], "wave number"),
