@@ -1,9 +1,8 @@
 //! `asperity demo`: automatic play of the explorer.
 
 use super::format::Format;
-use super::output::{OutputArguments, PICTURES};
+use super::output::OutputArguments;
 use super::{CliError, Overrides};
-use crate::draw::PictureFormat;
 use crate::explorer::demo::{Demo, ONE_SCENE, TOUR, play};
 use crate::explorer::picture::{Cast, text};
 use crate::explorer::theme::{Appearance, Marker, Theme};
@@ -65,7 +64,7 @@ pub struct DemoArguments {
     /// Print only the frame at so many seconds
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub at: Option<f64>,
-    /// Write a picture of the screen to FILE, .svg or .png
+    /// Write a picture of the screen to FILE, an SVG document
     #[arg(long, alias = "svg", value_name = "FILE", requires = "at")]
     pub picture: Option<PathBuf>,
     /// Overwrite FILE if it exists
@@ -94,12 +93,12 @@ fn size(text: &str) -> Result<(u16, u16), String> {
     Ok((side(columns)?, side(rows)?))
 }
 
-/// Format and file of a picture, by the file name.
-fn picture_file(path: PathBuf, force: bool) -> Result<(PictureFormat, OutputArguments), CliError> {
+/// File of a picture.
+fn picture_file(path: PathBuf, force: bool) -> Result<OutputArguments, CliError> {
     let output = OutputArguments { output: Some(path), force };
-    let format = output.format(None, PICTURES, Format::Svg)?;
+    output.format(None, &[Format::Svg], Format::Svg)?;
     output.check()?;
-    Ok((format.picture().unwrap_or(PictureFormat::Svg), output))
+    Ok(output)
 }
 
 /// Plays the demo to its destination.
@@ -136,10 +135,7 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
         while demo.advance().is_some_and(|seconds| seconds + 1e-9 < at) {}
         let model = demo.model();
         return match picture {
-            Some((format, output)) => {
-                let picture = screenshot(model, format)?;
-                output.write(stdout_, |out| out.write_all(&picture))
-            }
+            Some(output) => output.write(stdout_, |out| out.write_all(screenshot(model).as_bytes())),
             None => Ok(stdout_.write_all(text(&picture_of(model)).as_bytes())?),
         };
     }

@@ -4,6 +4,9 @@ use super::label::{Label, prefixed};
 use super::scale::{AxisScale, Span};
 use super::ticks::{Tick, ticks};
 
+/// Largest numbers of a linear axis whose ticks have few digits.
+const SHORT: (f64, f64) = (1e-3, 1e6);
+
 /// An axis of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
@@ -31,11 +34,19 @@ impl Axis {
         (self.scale.coordinate(number) - self.span.low) / self.span.width()
     }
 
-    /// Divisor of the numbers on the axis, and the unit with the corresponding SI prefix.
+    /// Divisor of the numbers on the axis, and the unit with the corresponding SI prefix. Numbers without a prefix
+    /// are divided by a power of ten where a linear axis would have too many digits.
     #[must_use]
     pub fn prefix(&self) -> (f64, String) {
         let ends = self.span.bounds().map(|end| self.scale.number(end).abs());
-        prefixed(&self.unit, ends[0].max(ends[1]))
+        let largest = ends[0].max(ends[1]);
+        let (divisor, unit) = prefixed(&self.unit, largest);
+        let is_short = (SHORT.0..SHORT.1).contains(&(largest / divisor));
+        if self.scale == AxisScale::Logarithmic || is_short || !largest.is_normal() {
+            return (divisor, unit);
+        }
+        let power = 3 * (largest.log10() / 3.0).floor() as i32;
+        (10_f64.powi(power), format!("{} {unit}", Label::power_of_ten(power)).trim_end().to_owned())
     }
 
     /// Label with the prefixed unit in brackets.
@@ -80,6 +91,8 @@ mod tests {
         assert_eq!(unnamed.symbol_with_unit(), unnamed.label_with_unit());
         let axis = Axis::new(AxisScale::Linear, Span { low: -3e-6, high: 1e-6 }, "", "F", "N");
         assert_eq!(axis.label_with_unit().to_string(), "F (µN)");
+        let share = Axis::new(AxisScale::Linear, Span { low: 0.0, high: 7e18 }, "", "F_a/F_n", "1");
+        assert_eq!(share.label_with_unit().to_string(), "F_a/F_n (10¹⁸)");
         let labels: Vec<_> = axis.ticks(5).into_iter().filter_map(|tick| tick.label).collect();
         assert_eq!(labels.iter().map(Label::to_string).collect::<Vec<_>>(), ["−3", "−2", "−1", "0", "1"]);
     }

@@ -1,7 +1,7 @@
 //! Content of a figure: charts with axes and layers of data in SI units. The backend decides on the appearance.
 
 use super::axis::Axis;
-use super::colour::Ink;
+use super::colour::{Ink, Rgb, Shades};
 use super::label::Label;
 use super::scale::{AxisScale, Span};
 
@@ -23,6 +23,8 @@ impl Figure {
     pub const SMALL: (f64, f64) = (330.0, 270.0);
     /// Frame of a single chart, px.
     pub const WIDE: (f64, f64) = (480.0, 300.0);
+    /// Frame of a chart over the position, px.
+    pub const LOW: (f64, f64) = (640.0, 240.0);
 
     /// A figure of one chart.
     #[must_use]
@@ -202,6 +204,8 @@ pub struct HeatMap {
     pub values: Vec<Option<f64>>,
     /// Axis of the values.
     pub key: Axis,
+    /// Colours of the values.
+    pub shades: Shades,
     /// Class of each cell, an index of `class_names`; empty without classes.
     pub classes: Vec<Option<usize>>,
     /// The classes.
@@ -235,6 +239,12 @@ pub struct Contour {
 }
 
 impl HeatMap {
+    /// Colour of a value.
+    #[must_use]
+    pub fn colour(&self, value: f64) -> Rgb {
+        self.shades.at(self.key.share(value))
+    }
+
     /// Borders of cells with these values on an axis, in coordinates: halfway between the values.
     #[must_use]
     pub fn borders(scale: AxisScale, values: &[f64]) -> Vec<f64> {

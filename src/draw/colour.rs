@@ -99,22 +99,48 @@ impl Ink {
     }
 }
 
+/// Colours of the values of a heat map, from low to high.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
+#[strum(serialize_all = "lowercase")]
+pub enum Shades {
+    /// From dark to light.
+    Sequential,
+    /// From blue over white to red, for a range with zero in its middle.
+    Diverging,
+}
+
 /// Viridis (van der Walt and Smith, 2015) at equal distances: readable without red or green cones, and
 /// monotonic in lightness.
-const SHADES: [Rgb; 9] =
+const VIRIDIS: [Rgb; 9] =
     rgb([0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c, 0x28ae80, 0x5ec962, 0xaddc30, 0xfde725]);
 
-/// Colour at a share of the scale of a heat map; the lowest one for NaN.
-#[must_use]
-pub fn shade(share: f64) -> Rgb {
-    let share = if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) };
-    let place = share * (SHADES.len() - 1) as f64;
-    let index = (place as usize).min(SHADES.len() - 2);
-    let (from, to) = (SHADES[index], SHADES[index + 1]);
-    std::array::from_fn(|channel| {
-        let (from, to) = (f64::from(from[channel]), f64::from(to[channel]));
-        (from + (to - from) * (place - index as f64)).round() as u8
-    })
+/// Reversed RdBu of ColorBrewer (Brewer and Harrower, 2003), readable without red or green cones.
+const BLUE_TO_RED: [Rgb; 9] =
+    rgb([0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b]);
+
+impl Shades {
+    /// Colours at equal distances.
+    #[must_use]
+    pub fn colours(self) -> [Rgb; 9] {
+        match self {
+            Shades::Sequential => VIRIDIS,
+            Shades::Diverging => BLUE_TO_RED,
+        }
+    }
+
+    /// Colour at a share of the range; the lowest one for NaN.
+    #[must_use]
+    pub fn at(self, share: f64) -> Rgb {
+        let colours = self.colours();
+        let share = if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) };
+        let place = share * (colours.len() - 1) as f64;
+        let index = (place as usize).min(colours.len() - 2);
+        let (from, to) = (colours[index], colours[index + 1]);
+        std::array::from_fn(|channel| {
+            let (from, to) = (f64::from(from[channel]), f64::from(to[channel]));
+            (from + (to - from) * (place - index as f64)).round() as u8
+        })
+    }
 }
 
 /// Lightness of a colour in grey, from 0 to 1.
@@ -123,8 +149,7 @@ fn lightness([red, green, blue]: Rgb) -> f64 {
 }
 
 /// Black or white, whichever is readable on a colour.
-#[must_use]
-pub fn ink_on(colour: Rgb) -> Rgb {
+pub(super) fn ink_on(colour: Rgb) -> Rgb {
     if lightness(colour) > 0.5 { [0; 3] } else { [255; 3] }
 }
 
@@ -139,20 +164,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn shades_keep_their_order_in_grey() {
-        let greys: Vec<f64> = (0..=100).map(|percent| lightness(shade(f64::from(percent) / 100.0))).collect();
-        assert!(greys.windows(2).all(|pair| pair[0] < pair[1]), "{greys:?}");
-        assert!(greys[100] - greys[0] > 0.7, "{greys:?}");
-        assert_eq!([f64::NAN, f64::NEG_INFINITY].map(shade), [shade(0.0); 2]);
-        assert_eq!(shade(f64::INFINITY), SHADES[8]);
-    }
-
-    #[test]
-    fn ink_is_readable_on_every_shade() {
-        for percent in 0..=100 {
-            let colour = shade(f64::from(percent) / 100.0);
-            assert!((lightness(colour) - lightness(ink_on(colour))).abs() >= 0.5, "{percent} {colour:?}");
+    fn shades_are_ordered_in_grey_and_ink_is_readable_on_them() {
+        let shades = |shades: Shades| (0..=100).map(move |percent| shades.at(f64::from(percent) / 100.0));
+        let greys = |all| shades(all).map(lightness).collect::<Vec<f64>>();
+        let sequential = greys(Shades::Sequential);
+        assert!(sequential.windows(2).all(|pair| pair[0] < pair[1]), "{sequential:?}");
+        assert!(sequential[100] - sequential[0] > 0.7, "{sequential:?}");
+        let diverging = greys(Shades::Diverging);
+        assert!(diverging[..=50].is_sorted() && diverging[50..].iter().rev().is_sorted(), "{diverging:?}");
+        for colour in shades(Shades::Sequential).chain(shades(Shades::Diverging)) {
+            assert!((lightness(colour) - lightness(ink_on(colour))).abs() >= 0.5, "{colour:?}");
         }
+        assert_eq!([f64::NAN, f64::NEG_INFINITY].map(|share| Shades::Sequential.at(share)), [VIRIDIS[0]; 2]);
+        assert_eq!(Shades::Sequential.at(f64::INFINITY), VIRIDIS[8]);
     }
 
     #[test]

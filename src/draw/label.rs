@@ -207,7 +207,10 @@ pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
     if matches!(unit, "" | "1") {
         return (1.0, String::new());
     }
-    if !(["N", "m", "J", "Pa", "J/m²", "N/m", "s"].contains(&unit) && largest > 0.0 && largest.is_finite()) {
+    if !(["N", "m", "J", "Pa", "J/m²", "N/m", "N/m²", "s"].contains(&unit)
+        && largest > 0.0
+        && largest.is_finite())
+    {
         return (1.0, unit.into());
     }
     // 999.9999999 nm is 1 µm.

@@ -10,24 +10,25 @@ mod chart;
 mod colour;
 mod contour;
 mod label;
-mod picture;
+#[cfg(feature = "tui")]
+mod png;
 mod scale;
 pub mod section;
+mod svg;
 mod ticks;
 
 pub use axis::Axis;
 #[cfg(feature = "tui")]
 pub use cells::{CellPlot, CellStyle, Colours, SHADES, dry, figure_text, glyph, key, legend};
 pub use chart::{Chart, Class, Contour, Entry, Figure, HeatMap, Layer, Sample, Shape, Sign, Stroke};
-pub use colour::{Ink, Palette, Rgb, hex, ink_on, shade};
+pub use colour::{Ink, Palette, Rgb, Shades, hex};
 pub use label::{Label, prefixed, short, value_label};
-pub use picture::{Document, escaped};
 #[cfg(feature = "tui")]
-pub(crate) use picture::{Font, Pixels};
-#[cfg(feature = "tui")]
-pub use picture::{PictureFormat, PngError};
+pub use png::{PictureFormat, PngError};
 pub use scale::{AxisScale, Span};
+#[cfg(feature = "tui")]
+pub(crate) use svg::{Svg, escaped};
 pub use ticks::Tick;
 
 #[cfg(test)]
-pub(crate) use picture::tests as svg_tests;
+pub(crate) use svg::{attribute, elements, parsed};

@@ -81,14 +81,12 @@ pub enum Content {
     Curve(TableFormat),
     /// The whole outcome, in JSON.
     Outcome,
-    /// The panes as a picture.
-    Picture(PictureFormat),
+    /// The selected pane as a figure.
+    Figure(PictureFormat),
     /// The panes as plain text.
     Text,
     /// The cells of the map, or of its sections, as comma-separated values.
     MapCells,
-    /// The map or its sections as a figure.
-    MapFigure(PictureFormat),
 }
 
 impl Content {
@@ -97,16 +95,16 @@ impl Content {
         ("csv", Content::Curve(TableFormat::Csv)),
         ("npy", Content::Curve(TableFormat::Npy)),
         ("json", Content::Outcome),
-        ("svg", Content::Picture(PictureFormat::Svg)),
-        ("png", Content::Picture(PictureFormat::Png)),
+        ("svg", Content::Figure(PictureFormat::Svg)),
+        ("png", Content::Figure(PictureFormat::Png)),
         ("txt", Content::Text),
     ];
 
     /// Exports of the map, while its pane is selected.
     pub const MAP_EXPORTS: [(&'static str, Content); 4] = [
         ("csv", Content::MapCells),
-        ("svg", Content::MapFigure(PictureFormat::Svg)),
-        ("png", Content::MapFigure(PictureFormat::Png)),
+        ("svg", Content::Figure(PictureFormat::Svg)),
+        ("png", Content::Figure(PictureFormat::Png)),
         ("txt", Content::Text),
     ];
 

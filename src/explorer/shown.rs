@@ -5,6 +5,7 @@ use super::layout::Layout;
 use super::mode::ModeKind;
 use super::model::Model;
 use super::panes::{Pane, Place};
+use crate::draw::Figure;
 use crate::study::map::StudyMap;
 use std::sync::Arc;
 
@@ -76,6 +77,13 @@ impl Model {
     #[must_use]
     pub fn exports(&self) -> &'static [(&'static str, Content)] {
         if self.pane == Pane::Chart { &Content::MAP_EXPORTS } else { &Content::EXPORTS }
+    }
+
+    /// The selected pane as a figure; the force curve while the parameters are selected.
+    #[must_use]
+    pub fn figure(&self) -> Option<Figure> {
+        let pane = if self.pane == Pane::Parameters { Pane::Force } else { self.pane };
+        (pane.row().figure)(self)
     }
 
     /// Shows the map of a study, the first of them.

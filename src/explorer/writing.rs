@@ -1,12 +1,12 @@
-//! Files of the explorer: scenes, curves, pictures of its screen.
+//! Files of the explorer: scenes, curves, figures of its panes, pictures of its screen.
 
 use super::action::{Content, WriteFailure, Written};
 use super::model::{Mode, Model, Notice};
 use super::panes;
-use super::picture::{png, svg, text};
+use super::picture::{svg, text};
 use super::theme::Theme;
 use super::view;
-use crate::draw::{Palette, PictureFormat, PngError};
+use crate::draw::Palette;
 use crate::export::{Provenance, write_curve, write_json, write_map};
 use crate::io::{WriteError, check_file_name, write_new_file};
 use crate::scene::command_line;
@@ -66,35 +66,24 @@ fn write_content(file: &mut dyn Write, model: &Model, path: &Path, content: Cont
             let estimate = model.appraisal.estimate();
             write_json(file, model.document.scene(), &computed()?.outcome, None, estimate)
         }
-        Content::Picture(format) => file.write_all(&screenshot(model, format).map_err(io::Error::other)?),
+        Content::Figure(format) => {
+            let figure = model.figure().ok_or_else(|| io::Error::other("the pane is empty"))?;
+            file.write_all(&figure.picture(format).map_err(io::Error::other)?)
+        }
         Content::MapCells => {
             let map_model = model.chart.map_model().ok_or_else(no_map)?;
             write_map(file, map_model, model.chart.sections.then(|| panes::section_cell(model, map_model)))
-        }
-        Content::MapFigure(format) => {
-            let map_model = model.chart.map_model().ok_or_else(no_map)?;
-            let picture = panes::map_figure(model, map_model).picture(format).map_err(io::Error::other)?;
-            file.write_all(&picture)
         }
         Content::Text => file.write_all(text(&picture_of(model)).as_bytes()),
     }
 }
 
-/// The screen as the file of a picture, on a background that suits its colours.
-///
-/// # Errors
-/// For a picture of too many pixels.
-pub fn screenshot(model: &Model, format: PictureFormat) -> Result<Vec<u8>, PngError> {
+/// The screen as an SVG document, on a background that suits its colours.
+#[must_use]
+pub fn screenshot(model: &Model) -> String {
     let palette = if model.appearance.theme == Theme::Light { Palette::LIGHT } else { Palette::DARK };
-    let screen = picture_of(model);
-    match format {
-        PictureFormat::Svg => {
-            let name = Path::new(model.document.name()).file_stem().unwrap_or_default();
-            let title = format!("Asperity: {}", name.to_string_lossy());
-            Ok(svg(&screen, &palette, &title).into_bytes())
-        }
-        PictureFormat::Png => png(&screen, &palette),
-    }
+    let name = Path::new(model.document.name()).file_stem().unwrap_or_default();
+    svg(&picture_of(model), &palette, &format!("Asperity: {}", name.to_string_lossy()))
 }
 
 /// The screen without any question or line of text.

@@ -27,7 +27,9 @@ pub fn comparison_text([first, second]: Pair<'_>) -> String {
 /// Force curves of two scenes in one figure.
 #[must_use]
 pub fn comparison_figure([first, second]: Pair<'_>) -> Figure {
-    force_figure(&[("A", first.1), ("B", second.1)])
+    let titles =
+        [("A", first), ("B", second)].map(|(letter, (scene, _))| format!("{letter}: {}", scene.title()));
+    force_figure(&[(&titles[0], first.1), (&titles[1], second.1)])
 }
 
 /// Two adhesion forces, N, and the ratio of the second to the first.
@@ -65,7 +67,8 @@ mod tests {
         assert!(text.ends_with("ratio 2\n"), "{text}");
         let names: Vec<String> =
             comparison_figure(pair).legend().iter().map(|entry| entry.name.to_string()).collect();
-        assert_eq!(names, ["A", "B"]);
+        let title = first.title();
+        assert_eq!(names, [format!("A: {title}"), format!("B: {title}")]);
         assert!(comparison_text([pair[0], pair[0]]).contains("different from A to B: nothing\n"));
     }
 }

@@ -36,6 +36,7 @@ pub use reversals::{
     ReversalReport, reversals_figure, reversals_text, write_reversal_map_table, write_reversals_json,
     write_reversals_table,
 };
+pub(crate) use scene_figure::mark_name;
 pub use scene_figure::{ContactSets, force_figure, sign};
 pub use scene_tables::{write_curve, write_line};
 pub use spectrum_figure::{Spectra, SpectrumPoint};

@@ -6,7 +6,7 @@ use super::sheet::{Sheet, thinned};
 use super::table::{Column, Record, TableFormat, Value, write_table};
 use crate::analysis::{MinorLoops, ReversalMap};
 use crate::contact::Reversal;
-use crate::draw::{Axis, AxisScale, Chart, Figure, HeatMap, Ink, Label, Layer, Shape, Span};
+use crate::draw::{Axis, AxisScale, Chart, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Span};
 use crate::io::{object, write_json_value};
 use crate::scene::{Scene, format_quantity};
 use crate::study::Preloaded;
@@ -173,8 +173,8 @@ pub fn reversals_figure(report: &ReversalReport<'_>, title: &str) -> Figure {
                 heading: Label::quantity("adhesion force", "F_a"),
                 ..preload_axes(preload_layers(preloads, &[]))
             },
-            map_chart(map, "Everett function", ("E", "N"), &everett),
-            map_chart(map, "FORC density", ("ρ", "N/m²"), &density),
+            map_chart(map, "Everett function", ("E", "N"), Shades::Sequential, &everett),
+            map_chart(map, "FORC density", ("ρ", "N/m²"), Shades::Diverging, &density),
         ],
         size: Figure::SMALL,
     }
@@ -184,6 +184,7 @@ fn map_chart(
     map: &ReversalMap,
     name: &str,
     (symbol, unit): (&str, &str),
+    shades: Shades,
     value: &dyn Fn(usize, usize) -> Option<f64>,
 ) -> Chart {
     // A subset of the points of a fine map: the eye cannot distinguish more cells.
@@ -191,7 +192,12 @@ fn map_chart(
     let (columns, rows) = (every(map.points.len()), every(map.reversals.len()));
     let values: Vec<Option<f64>> =
         rows.iter().flat_map(|&turn| columns.iter().map(move |&point| value(turn, point))).collect();
-    let key = Span::around(values.iter().flatten().copied(), 0.0);
+    let known = values.iter().flatten().copied();
+    let key = match shades {
+        Shades::Sequential => Span::around(known, 0.0),
+        // White is zero.
+        Shades::Diverging => Span::around(known.flat_map(|value| [value, -value]), 0.0),
+    };
     let of = |indices: &[usize], offset: usize| {
         indices.iter().map(|&index| map.points[offset + index]).collect::<Vec<f64>>()
     };
@@ -205,6 +211,7 @@ fn map_chart(
         rows,
         values,
         key: Axis::new(scale, key, "", symbol, unit),
+        shades,
         classes: Vec::new(),
         class_names: Vec::new(),
         contour: None,

@@ -19,8 +19,7 @@ const MOST_STAGES: usize = 4;
 /// Contact patches are merged over gaps below this share of the profile.
 const LEAST_GAP: f64 = 5e-4;
 
-/// Frames of figures over the position, px.
-const PROFILE: (f64, f64) = (640.0, 240.0);
+/// Frame of contact patches over the position, px.
 const PATCHES: (f64, f64) = (400.0, 300.0);
 
 /// Force curves of computed scenes with their titles: loading and unloading of one scene in two colours, each of
@@ -83,7 +82,8 @@ pub fn sign(mark: Mark) -> Sign {
     }
 }
 
-fn mark_name(mark: Mark, force: f64) -> Label {
+/// Name of a mark with its force.
+pub(crate) fn mark_name(mark: Mark, force: f64) -> Label {
     let (symbol, value) = match mark {
         Mark::Preload => ("F_n", force),
         Mark::PullOff => ("F_a", -force),
@@ -170,7 +170,7 @@ impl ContactSets {
         let chart = Chart::new(position(outcome), z, layers);
         let at = Label::plain("largest force: ").join(&value_label("", "F", "N", force)).then(", ");
         let notes = vec![at.join(&value_label("", "d", "m", indentation))];
-        Figure { notes, size: PROFILE, ..Figure::of_chart(title, chart) }
+        Figure { notes, size: Figure::LOW, ..Figure::of_chart(title, chart) }
     }
 
     /// Contact patches over position and indentation, one chart for each loading stage with contact.
@@ -223,7 +223,7 @@ fn position(outcome: &Outcome) -> Axis {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draw::svg_tests::parsed;
+    use crate::draw::parsed;
     use crate::scene::Document;
     use crate::simulation::Simulation;
 

@@ -2,8 +2,8 @@
 
 use crate::analysis::Regime;
 use crate::draw::{
-    Axis, AxisScale, Chart, Class, Contour, Figure, HeatMap, Ink, Label, Layer, Shape, Sign, Span, Stroke,
-    value_label,
+    Axis, AxisScale, Chart, Class, Contour, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Sign, Span,
+    Stroke, value_label,
 };
 use crate::study::figure::{Estimate, Figure as Study, FigureAxis, Panel};
 
@@ -66,6 +66,7 @@ fn map(study: &Study, up: &FigureAxis, panel: &Panel) -> Chart {
         rows: up.values.clone(),
         values,
         key: axis_of(panel, panel.scale, range),
+        shades: Shades::Sequential,
         classes: study.regimes.iter().map(class).collect(),
         class_names: REGIMES
             .map(|(regime, sign, letter, ink)| Class {
@@ -142,8 +143,12 @@ fn layers(study: &Study, panel: &Panel) -> Vec<Layer> {
         let of = |figure: fn(&Estimate) -> f64, estimate: &Option<Estimate>| {
             estimate.as_ref().map_or(f64::NAN, figure)
         };
+        // A quantity that is never negative has no confidence below zero.
+        let least = if panel.quantity.signed { f64::NEG_INFINITY } else { 0.0 };
         let band: Vec<_> = known()
-            .map(|(x, estimate)| (*x, of(|one| one.low, estimate), of(|one| one.high, estimate)))
+            .map(|(x, estimate)| {
+                (*x, of(|one| one.low, estimate).clamp(least, f64::INFINITY), of(|one| one.high, estimate))
+            })
             .collect();
         if band.iter().any(|(_, low, high)| high > low) {
             layers.push(Layer::new("95 % confidence of the mean".into(), ink, Shape::Band(band)));
@@ -183,7 +188,7 @@ fn layers(study: &Study, panel: &Panel) -> Vec<Layer> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draw::svg_tests::{attribute, elements, parsed};
+    use crate::draw::{attribute, elements, parsed};
     use crate::study::figure::{Boundary, FigureQuantity};
 
     fn axis(name: &str, symbol: &str, scale: AxisScale, values: Vec<f64>) -> FigureAxis {
@@ -310,11 +315,15 @@ mod tests {
     #[test]
     fn each_cell_with_a_value_is_coloured_and_the_others_are_not() {
         let study = phase_map();
-        let there: usize = study.panels.iter().map(|panel| panel.estimates.iter().flatten().count()).sum();
-        // The paper, the cells, 128 stripes beside each panel, frames, a sample of a cell without a value.
-        let frames = 2 * study.panels.len() + 1;
-        assert_eq!(elements(&drawn(&study), "rect").len(), 1 + there + study.panels.len() * 128 + frames);
-        assert!(there < study.panels.iter().map(|panel| panel.estimates.len()).sum());
+        let all: usize = study.panels.iter().map(|panel| panel.estimates.len()).sum();
+        let missing: usize =
+            study.panels.iter().map(|panel| panel.estimates.iter().filter(|one| one.is_none()).count()).sum();
+        let rects = elements(&drawn(&study), "rect");
+        let hatched = rects.iter().filter(|rect| rect.contains("#hatched"));
+        let area: f64 = hatched.map(|rect| attribute(rect, "width") * attribute(rect, "height")).sum();
+        // The cells, all of one size, and a sample of 12 × 12 px in the legend.
+        let cell = study.panels.len() as f64 * 330.0 * 270.0 / all as f64;
+        assert!((area - 144.0 - missing as f64 * cell).abs() < 5.0, "{area} {missing} {cell}");
     }
 
     #[test]

@@ -6,7 +6,7 @@ use super::quantity::Quantity;
 use super::target::symbol_and_unit;
 use crate::analysis::{Regime, VANISHING_SHARE};
 pub use crate::draw::AxisScale;
-use crate::scene::{Move, field, format_quantity};
+use crate::scene::{Move, RoughnessParameter, field, format_quantity};
 
 /// Smallest ratio of the values on a logarithmic scale.
 const LOGARITHMIC_RATIO: f64 = 50.0;
@@ -218,6 +218,23 @@ pub(super) fn fixed(plan: &Plan, axis: &Axis, place: u64) -> String {
     let FigureAxis { name, symbol, unit, .. } = FigureAxis::new(plan, axis);
     let value = format_quantity(axis.value(place), &unit);
     if symbol.is_empty() { format!("{name} {value}") } else { format!("{symbol} = {value}") }
+}
+
+/// Axes across and up, as places among the axes of a study: H goes across and κ or e_el/γ up; of other free axes the
+/// first goes across. `None` without a free axis.
+pub(super) fn across_and_up(axes: &[&Axis], free: &[usize]) -> Option<(usize, Option<usize>)> {
+    let find = |wanted: &dyn Fn(&str) -> bool| free.iter().copied().find(|axis| wanted(axes[*axis].path()));
+    let other = |one: Option<usize>| free.iter().copied().find(|axis| Some(*axis) != one);
+    let up = find(&|path| RoughnessParameter::named(path).is_some());
+    let across = find(&|path| path == "roughness.hurst").or(other(up)).or(up)?;
+    Some((across, up.filter(|up| *up != across).or(other(Some(across)))))
+}
+
+/// Least and largest mean that a scale shows.
+pub(super) fn range_of(estimates: &[Option<Estimate>], scale: AxisScale) -> Option<(f64, f64)> {
+    let means = estimates.iter().flatten().map(|estimate| estimate.mean);
+    let shown = means.filter(|mean| scale.coordinate(*mean).is_finite());
+    shown.map(|mean| (mean, mean)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
 }
 
 /// Logarithmic scale where all means are above zero and half of them below a fiftieth of the largest.

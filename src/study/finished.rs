@@ -3,6 +3,7 @@
 use super::StudyError;
 use super::axis::Axis;
 use super::cell_summary::{CellSummary, Spread};
+use super::figure::Estimate;
 use super::numbering::number_at;
 use super::plan::Plan;
 use super::quantity::Quantity;
@@ -70,6 +71,11 @@ impl Finished {
     #[must_use]
     pub fn at(&self, places: &[u64]) -> Option<&CellSummary> {
         self.cell(number_at(places, self.plan.all_axes().into_iter().map(Axis::count))?)
+    }
+
+    /// A recorded quantity in all cells.
+    pub(super) fn estimates(&self, column: usize) -> Vec<Option<Estimate>> {
+        self.cells.iter().map(|cell| cell.as_ref()?.estimate(column)).collect()
     }
 
     /// The cells over one axis or two, by their numbers, at these places on the others: row by row, both axes by

@@ -1,7 +1,9 @@
 //! Selection of a figure from a merged study: quantities, axes across and up, values of the other axes.
 
 use super::axis::Axis;
-use super::figure::{AxisScale, Boundary, Estimate, Figure, FigureAxis, Panel, fixed, scale_of};
+use super::figure::{
+    AxisScale, Boundary, Estimate, Figure, FigureAxis, Panel, across_and_up, fixed, range_of, scale_of,
+};
 use super::finished::Finished;
 use super::plan::Plan;
 use super::quantity::Quantity;
@@ -119,6 +121,7 @@ impl Selection {
         let series = second.filter(|&second| self.up.is_none() && few(second) && !few(across));
         let places = chosen.iter().map(|one| one.at.unwrap_or(0)).collect();
         let cells = study.grid(across, second, places);
+        let is_map = second.is_some() && series.is_none();
         let estimates = |quantity: Quantity| -> Vec<Option<Estimate>> {
             let column = study.column(quantity);
             cells.iter().map(|cell| cell.as_ref()?.estimate(column?)).collect()
@@ -127,6 +130,12 @@ impl Selection {
         let fixed = chosen.iter().filter_map(|one| Some(fixed(plan, one.axis, one.at?)));
         let panel = |&quantity: &Quantity| {
             let estimates = estimates(quantity);
+            if is_map {
+                // All maps of a study have one scale, whatever the values of the other axes.
+                let all = study.column(quantity).map(|column| study.estimates(column)).unwrap_or_default();
+                let scale = self.scale.unwrap_or_else(|| scale_of(&all));
+                return Panel { range: range_of(&all, scale), ..Panel::new(quantity, estimates, scale) };
+            }
             // A single curve has an inset for its small values; of several the highest would hide the others.
             let mut curves = estimates.chunks(chosen[across].axis.count().max(1) as usize);
             let first = curves.next();
@@ -238,11 +247,10 @@ impl Selection {
             (None, Some(up), [across]) => (*across, Some(up)),
             // Only one axis, and named to go up.
             (None, Some(only), []) => (only, None),
-            (None, None, [across]) => (*across, None),
-            (None, None, [across, second]) => (*across, Some(*second)),
-            (None, None, []) => {
+            (None, None, free @ ([] | [_] | [_, _])) => {
+                let axes: Vec<&Axis> = chosen.iter().map(|one| one.axis).collect();
                 let fixed = if self.at.is_empty() { "" } else { " left by --at" };
-                return Err(FigureError::NoAxes { fixed });
+                across_and_up(&axes, free).ok_or(FigureError::NoAxes { fixed })?
             }
             _ => {
                 let shortest = rest.iter().min_by_key(|index| chosen[**index].axis.count());

@@ -9,7 +9,6 @@ mod demo;
 mod edit;
 mod effects;
 mod failures;
-mod figures;
 mod files;
 mod fragments;
 mod library;

@@ -219,7 +219,7 @@ fn curve_figures_and_panes_are_exported() {
         assert!(lines[screen.len() - 2].starts_with("F_a "), "{}", lines[screen.len() - 2]);
         let picture = file("out.svg");
         assert!(picture.trim_start().starts_with("<svg") && picture.trim_end().ends_with("</svg>"));
-        assert!(picture.contains("<title>Asperity: scene</title>"), "{}", &picture[..300]);
+        assert!(picture.contains("<title>Rough line</title>"), "{}", &picture[..300]);
 
         // An existing file is not overwritten without a question, and the name must have a known extension.
         terminal.send("E");

@@ -779,12 +779,9 @@ fn one_moment_of_a_demo_is_printed_or_drawn() {
         assert!(message.contains("--force overwrites it"), "{message}");
         done(&["demo", "jkr-sphere", "--at", "9", "--svg", path, "--force"]);
         assert_ne!(fs::read_to_string(&file).unwrap(), first);
-        let pixels = folder.path().join("screen.png");
-        done(&["demo", "jkr-sphere", "--at", "3", "--picture", pixels.to_str().unwrap()]);
-        assert!(fs::read(&pixels).unwrap().starts_with(b"\x89PNG"));
-        let other = folder.path().join("screen.gif");
+        let other = folder.path().join("screen.png");
         let stated = failed(1, &["demo", "jkr-sphere", "--at", "3", "--picture", other.to_str().unwrap()]);
-        assert!(stated.contains(".svg, .png") && !other.exists(), "{stated}");
+        assert!(stated.contains("allowed: .svg") && !other.exists(), "{stated}");
     });
 }
 
@@ -1006,7 +1003,7 @@ fn every_figure_is_written_as_svg_and_as_png_by_its_extension() {
     let quick = ["--set", "numerics.points=256", "--set", "numerics.samples=16"];
     let commands: [(&[&str], &[&str], &str); 5] = [
         (&["run", "jkr-sphere"], &quick, "indentation"),
-        (&["compare", "jkr-sphere", "kendall-punch"], &quick, ">A<"),
+        (&["compare", "jkr-sphere", "kendall-punch"], &quick, ">A: Sphere"),
         (&["reversals", "jkr-sphere", "--count", "8", "--loops", "0"], &quick, "Everett function"),
         (&["cost", "kendall-punch", "--budget", "1s"], &[], "time of a run"),
         (&["surface", &profile, "--unit", "um"], &[], "wave number"),

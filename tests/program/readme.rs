@@ -8,7 +8,6 @@ mod public_items;
 pub mod scenes;
 
 use asperity::check::checks;
-use asperity::draw::PictureFormat;
 use asperity::explorer::demo::{Demo, ONE_SCENE};
 use asperity::explorer::theme::{Appearance, Marker, Theme};
 use asperity::explorer::{keys, screenshot};
@@ -140,8 +139,7 @@ fn the_picture_is_that_of_the_program() {
     let appearance = Appearance { theme: Theme::Dark, marker: Marker::Braille };
     let mut demo = Demo::new(document, ONE_SCENE, (120, 36), appearance, 12.0);
     while demo.advance().is_some_and(|seconds| seconds + 1e-9 < 9.0) {}
-    let picture = screenshot(demo.model(), PictureFormat::Svg).unwrap();
-    compare("docs/explorer.svg", std::str::from_utf8(&picture).unwrap());
+    compare("docs/explorer.svg", &screenshot(demo.model()));
 }
 
 /// Compares a picture with the drawing of the program, or writes it.

@@ -3,7 +3,7 @@
 use super::style::{CellStyle, Colours};
 use crate::draw::axis::Axis;
 use crate::draw::chart::{Class, HeatMap};
-use crate::draw::colour::{ink_on, shade};
+use crate::draw::colour::ink_on;
 use crate::draw::label::short;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -42,7 +42,7 @@ pub(super) fn draw(buffer: &mut Buffer, area: Rect, map: &HeatMap, style: &CellS
                     (SHADES[step(map.key.share(value))].to_owned(), looks)
                 }
                 (Some(value), colours) => {
-                    let ground = shade(map.key.share(value));
+                    let ground = map.colour(value);
                     let looks = Style::new().bg(colours.colour(ground)).fg(colours.colour(ink_on(ground)));
                     (" ".to_owned(), looks)
                 }
@@ -149,7 +149,7 @@ pub fn key(map: &HeatMap, columns: usize, colours: Colours) -> Vec<(String, Styl
     let all = (0..=steps).map(|step| number(step).chars().count()).sum::<usize>() + 5 * steps <= columns;
     let mut parts = vec![(number(0), Style::new())];
     for (step, character) in SHADES.into_iter().enumerate() {
-        let colour = shade((step as f64 + 0.5) / steps as f64);
+        let colour = map.shades.at((step as f64 + 0.5) / steps as f64);
         if all || step == 0 {
             parts.push((" ".to_owned(), Style::new()));
         }

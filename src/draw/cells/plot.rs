@@ -314,7 +314,7 @@ fn label_hides_numbers(chart: &Chart, width: u16) -> bool {
 mod tests {
     use super::*;
     use crate::draw::cells::Colours;
-    use crate::draw::{AxisScale, Sign, Span, Stroke};
+    use crate::draw::{AxisScale, Shades, Sign, Span, Stroke};
     use ratatui::style::Style;
 
     const MARKERS: [Marker; 3] = [Marker::Braille, Marker::Octant, Marker::HalfBlock];
@@ -371,6 +371,7 @@ mod tests {
         let map = HeatMap {
             values: vec![Some(1.0); columns.len() * rows.len()],
             key: axis(0.0, 1.0, "", "1"),
+            shades: Shades::Sequential,
             classes: Vec::new(),
             class_names: Vec::new(),
             contour: None,

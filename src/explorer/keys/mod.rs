@@ -217,7 +217,7 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('o')], EXPLORE, "open-library", Act(library::open), "open", "open a scene: built-in, your own, or by path; or the folder of a study", SCENE),
     row(DIGITS.split_at(1).1, OTHER_PANES, "preset", Character(edit::open_built_in), "", "open a built-in scene by its number, unless the pane of parameters is selected", SCENE),
     row(&[char('s')], EXPLORE, "save", Silent(|model| files::ask_save(model, false)), "save", "save the scene to a file", SCENE),
-    row(&[char('E')], EXPLORE, "export", Silent(files::ask_export), "export", "export curve (.csv, .npy), figures (.json), panes (.svg, .png, .txt) or the selected map", SCENE),
+    row(&[char('E')], EXPLORE, "export", Silent(files::ask_export), "export", "export curve (.csv, .npy), figures (.json), selected pane (.svg, .png) or screen (.txt)", SCENE),
     row(&[char('y')], EXPLORE, "copy-command", Act(files::copy_command), "copy", "copy the command that opens the present scene", SCENE),
     row(&[char(':'), control('p')], EXPLORE, "open-palette", Silent(dialogue::open_palette), "commands", "find a command by letters of its description, and run it", SCENE),
     row(&[char('?'), key(KeyCode::F(1))], EXPLORE, "help", Silent(|model| model.mode = Mode::Help { scroll: 0 }), "help", "show this help", SCENE),

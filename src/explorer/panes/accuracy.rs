@@ -23,6 +23,11 @@ use std::sync::Arc;
 pub static ROW: PaneRow = PaneRow {
     title: |_| " Accuracy: error over time, log–log ".to_owned(),
     draw,
+    figure: |model| {
+        let table = model.appraisal.costs.table.as_deref()?;
+        let figure = work_precision(model.document.title(), table);
+        Some(figure).filter(|figure| !figure.legend().is_empty())
+    },
     task: |model, computed| {
         let costs = Some(model.appraisal.costs.clone()).filter(|costs| !costs.is_whole)?;
         let data = PaneData::Costs(Arc::clone(&computed.scene), costs);

@@ -1,7 +1,7 @@
 //! The newest ghost beside the scene: its profile and contact at the same part of its loading, the differences of the
 //! scenes, and both adhesion forces.
 
-use super::{PaneRow, Place, force, profile};
+use super::{PaneRow, Place, force, profile, section};
 use crate::explorer::layout::inside;
 use crate::explorer::mode::ModeKind;
 use crate::explorer::model::{Ghost, Model};
@@ -18,6 +18,11 @@ pub static ROW: PaneRow = PaneRow {
     place: Place::CloseUp,
     title,
     draw,
+    figure: |model| {
+        let (snapshot, title) = (model.snapshot.as_deref()?, model.beside()?.document.title());
+        let beside = snapshot.beside.as_deref()?;
+        Some(section::figure(title, &beside.profile, beside, profile::heights(snapshot)))
+    },
     edge: |model, area| {
         let snapshot = model.snapshot.as_deref()?;
         let beside = snapshot.beside.as_deref()?;

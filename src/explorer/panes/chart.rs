@@ -21,6 +21,7 @@ use ratatui::widgets::Paragraph;
 pub static ROW: PaneRow = PaneRow {
     title: words::title,
     draw,
+    figure: |model| model.chart.map_model().map(|map_model| figure(model, map_model)),
     keys: Some(ModeKind::Chart),
     press: |model, area, here| {
         model.chart.moving = false;
@@ -72,7 +73,7 @@ pub(super) fn chart(map_model: &MapModel, charted: Charted) -> Option<Chart> {
 }
 
 /// Figure of the pane: the map, with the quantities behind the regimes while these are mapped, or the sections.
-pub fn map_figure(model: &Model, map_model: &MapModel) -> Figure {
+fn figure(model: &Model, map_model: &MapModel) -> Figure {
     let mut figure = if model.chart.sections || map_model.up().is_none() {
         Figure {
             title: String::new(),

@@ -3,7 +3,7 @@
 
 use super::position::zoom_at;
 use super::{PaneRow, Place, section};
-use crate::draw::{CellPlot, Chart, Span};
+use crate::draw::{CellPlot, Chart, Ink, Layer, Shape, Sign, Span};
 use crate::explorer::layout::inside;
 use crate::explorer::mode::ModeKind;
 use crate::explorer::model::Model;
@@ -22,6 +22,14 @@ pub static ROW: PaneRow = PaneRow {
     place: Place::CloseUp,
     title,
     draw,
+    figure: |model| {
+        let snapshot = model.snapshot.as_deref()?;
+        let shown = &snapshot.close_up.section;
+        let mut figure = section::figure(model.document.title(), shown, snapshot, heights(shown));
+        let ends = Shape::signs(patch_ends(snapshot).collect(), Sign::Ring);
+        figure.charts[0].layers.push(Layer::new("patch end".into(), Ink::Contact, ends));
+        Some(figure)
+    },
     edge: names,
     keys: Some(ModeKind::Crosshair),
     section: Some(section_at),
@@ -70,8 +78,7 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let (strip_rows, text_rows) = rows_below(area);
     let (chart, place) = placed(snapshot, area);
     plot::in_theme(model.appearance, |style| place.draw(frame.buffer_mut(), &chart, style));
-    for &(spring, height) in &close_up.boundaries {
-        let at = (section::position(snapshot.line, spring), height);
+    for at in patch_ends(snapshot) {
         if let Some(cell) = place.cell(&chart, model.appearance.marker.symbols(), at) {
             frame.buffer_mut()[cell].set_symbol("○").set_style(theme.style(Meaning::Contact));
         }
@@ -86,6 +93,12 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     }
     let lines = describe(close_up.fragment, snapshot.point.fragments, area.width);
     draw_lines(frame, Rect { y: area.bottom() - text_rows, height: text_rows, ..area }, lines);
+}
+
+/// Positions and heights of the ends of contact patches, m.
+fn patch_ends(snapshot: &ContactSnapshot) -> impl Iterator<Item = (f64, f64)> {
+    let ends = snapshot.close_up.boundaries.iter();
+    ends.map(|&(spring, height)| (section::position(snapshot.line, spring), height))
 }
 
 /// Rows below the plot: those of the whole contact and those of the text.

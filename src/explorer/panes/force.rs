@@ -4,7 +4,7 @@ use super::{PaneRow, Place};
 use crate::analysis::{LEAST_TABOR_NUMBER, Mark, marks};
 use crate::contact::{CurvePoint, Direction, LegRecord};
 use crate::draw::{
-    Axis, AxisScale, CellPlot, Chart, Ink, Label, Layer, Shape, Sign, Span, Stroke, glyph, legend,
+    Axis, AxisScale, CellPlot, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, glyph, legend,
 };
 use crate::explorer::caption::caption;
 use crate::explorer::layout::inside;
@@ -17,7 +17,7 @@ use crate::explorer::update::{Effect, movement};
 use crate::explorer::view::lines::{draw_lines, draw_reason};
 use crate::explorer::view::plot;
 use crate::explorer::view::wrap::fitting;
-use crate::export::sign;
+use crate::export::{mark_name, sign};
 use crate::scene::format_rounded;
 use ratatui::Frame;
 use ratatui::layout::{Position, Rect};
@@ -27,6 +27,7 @@ use ratatui::text::{Line, Span as Text};
 pub static ROW: PaneRow = PaneRow {
     title,
     draw,
+    figure,
     edge,
     place: Place::Own,
     keys: Some(ModeKind::Crosshair),
@@ -311,6 +312,27 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     });
     let above = Rect { height: above.min(area.height), ..area };
     draw_lines(frame, above, rows.into_iter().chain(values).chain(ghosts));
+}
+
+/// The chart with names for the marks and the compared curves, which the pane writes beside it.
+fn figure(model: &Model) -> Option<Figure> {
+    let computed = model.computed.as_ref().filter(|_| model.indentations().is_some())?;
+    let mut chart = chart(model, Units::of(model, computed));
+    let mut marks = marks(model.legs()).into_iter();
+    for layer in chart.layers.iter_mut().filter(|layer| layer.name.is_empty()) {
+        layer.name = match (layer.ink, &layer.shape) {
+            (Ink::Compared(number), _) => {
+                let ghost = model.ghosts.get(number)?;
+                Label::plain(&format!("{}: {}", letter(number), ghost.differs))
+            }
+            (Ink::Text, Shape::Curve { sign: Some(_), .. }) => {
+                let (mark, point) = marks.next()?;
+                mark_name(mark, point.force)
+            }
+            _ => continue,
+        };
+    }
+    Some(Figure::of_chart(model.document.title(), chart))
 }
 
 /// The curve, curves compared with it, the path of manual loading, and marks.

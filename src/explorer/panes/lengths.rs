@@ -1,7 +1,7 @@
 //! Lengths of the contact fragments: their number over their length, both logarithmic.
 
 use super::{PaneRow, Place};
-use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Sign, Span, Stroke};
+use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Layer, Shape, Sign, Span, Stroke};
 use crate::explorer::layout::inside;
 use crate::explorer::model::Model;
 use crate::explorer::theme::Meaning;
@@ -16,6 +16,7 @@ pub static ROW: PaneRow = PaneRow {
     place: Place::CloseUp,
     title: |_| " Fragments by length, log–log ".to_owned(),
     draw,
+    figure: |model| Some(Figure::of_chart(model.document.title(), chart(model)?)),
     help: &[(
         "Lengths",
         "D: number n of contact patches over their length δx, both logarithmic; ○ is the patches in a step of length by √2 \
@@ -28,13 +29,25 @@ pub static ROW: PaneRow = PaneRow {
 fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let area = inside(area);
     let theme = model.appearance.theme;
-    let shown =
-        model.snapshot.as_ref().and_then(|snapshot| snapshot.lengths.as_ref()).zip(model.computed.as_ref());
-    let Some((bins, computed)) = shown else { return };
-    let spacing = computed.outcome.line.spacing;
-    if bins.is_empty() {
+    let Some(bins) = model.snapshot.as_ref().and_then(|snapshot| snapshot.lengths.as_ref()) else { return };
+    let Some(chart) = chart(model) else {
         return draw_reason(frame, area, "nothing is in contact", theme);
+    };
+    let text_rows = u16::from(area.height >= 6);
+    let plot = Rect { height: area.height - text_rows, ..area };
+    plot::draw_chart(frame, plot, &chart, model.appearance);
+    if text_rows > 0 {
+        let count: u64 = bins.values().sum();
+        let text = format!("○ n, {count} in all, in steps of δx by √2");
+        let row = Rect { y: area.bottom() - 1, height: 1, ..area };
+        draw_lines(frame, row, [Line::styled(text, theme.style(Meaning::Quiet))]);
     }
+}
+
+/// The distribution; `None` without contact.
+fn chart(model: &Model) -> Option<Chart> {
+    let bins = model.snapshot.as_ref()?.lengths.as_ref().filter(|bins| !bins.is_empty())?;
+    let spacing = model.computed.as_ref()?.outcome.line.spacing;
     // The fewest springs whose square has this binary logarithm.
     let least = |square: u32| 2_f64.powf(f64::from(square) / 2.0).ceil();
     let points = bins.iter().map(|(&square, &count)| {
@@ -48,15 +61,6 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     };
     let x = axis(&mut points.iter().map(|point| point.0), "δx", "m");
     let y = axis(&mut points.iter().map(|point| point.1), "n", "1");
-    let text_rows = u16::from(area.height >= 6);
     let shape = Shape::Curve { points, stroke: Some(Stroke::Dotted), sign: Some(Sign::Ring) };
-    let chart = Chart::new(x, y, vec![Layer::unnamed(Ink::Contact, shape)]);
-    let plot = Rect { height: area.height - text_rows, ..area };
-    plot::draw_chart(frame, plot, &chart, model.appearance);
-    if text_rows > 0 {
-        let count: u64 = bins.values().sum();
-        let text = format!("○ n, {count} in all, in steps of δx by √2");
-        let row = Rect { y: area.bottom() - 1, height: 1, ..area };
-        draw_lines(frame, row, [Line::styled(text, theme.style(Meaning::Quiet))]);
-    }
+    Some(Chart::new(x, y, vec![Layer::unnamed(Ink::Contact, shape)]))
 }

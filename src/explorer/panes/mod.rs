@@ -20,7 +20,6 @@ mod section;
 mod sections;
 mod spectrum;
 
-pub use chart::map_figure;
 pub use costs::Costs;
 pub use force::{indentation_at, stage_at};
 pub use parameters::first_listed;

@@ -3,7 +3,7 @@
 
 use super::sections::section;
 use super::{Pane, PaneRow, PreloadCurve};
-use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Sign};
+use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Layer, Shape, Sign};
 use crate::explorer::layout::inside;
 use crate::explorer::model::Model;
 use crate::explorer::study::{PaneData, Task};
@@ -17,6 +17,10 @@ use std::sync::Arc;
 pub static ROW: PaneRow = PaneRow {
     title: |_| " Adhesion against preload ".to_owned(),
     draw,
+    figure: |model| {
+        let curve = model.preloads.as_deref().filter(|curve| !curve.own.is_empty())?;
+        Some(Figure::of_chart(model.document.title(), chart(model, curve)))
+    },
     task: |model, computed| {
         let begun = model.preloads.clone();
         let curve = begun.or_else(|| PreloadCurve::new(computed).ok().map(Arc::new));

@@ -21,6 +21,10 @@ use ratatui::widgets::Paragraph;
 pub static ROW: PaneRow = PaneRow {
     title,
     draw,
+    figure: |model| {
+        let snapshot = model.snapshot.as_deref()?;
+        Some(section::figure(model.document.title(), &snapshot.profile, snapshot, heights(snapshot)))
+    },
     edge: names,
     place: Place::Own,
     keys: Some(ModeKind::Crosshair),

@@ -1,6 +1,6 @@
 //! The row of a pane: all properties of the pane for layout, drawing, keys, mouse and data.
 
-use crate::draw::{CellPlot, Chart};
+use crate::draw::{CellPlot, Chart, Figure};
 use crate::explorer::mode::ModeKind;
 use crate::explorer::model::Model;
 use crate::explorer::snapshot::{Section, SolvedScene};
@@ -37,6 +37,8 @@ pub struct PaneRow {
     pub title: fn(&Model) -> String,
     /// Draws the inside.
     pub draw: fn(&mut Frame<'_>, Rect, &Model),
+    /// Content as a figure for a file; `None` while there is nothing to draw.
+    pub figure: fn(&Model) -> Option<Figure>,
     /// Text in the lower edge of the frame.
     pub edge: fn(&Model, Rect) -> Option<Line<'static>>,
     /// Keys of the selected pane; those of the crosshair, while this is shown.
@@ -67,6 +69,7 @@ impl PaneRow {
         place: Place::Large,
         title: |_| String::new(),
         draw: |_, _, _| (),
+        figure: |_| None,
         edge: |_, _| None,
         keys: None,
         section: None,

@@ -1,6 +1,6 @@
 //! Part of the profile on its axes: rigid profile, elastic surface and contact, for profile and close-up.
 
-use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Span, legend};
+use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Layer, Shape, Span, legend, value_label};
 use crate::explorer::snapshot::{Column, ContactSnapshot, Section};
 use crate::explorer::theme::{Appearance, Meaning, Theme};
 use crate::explorer::view::plot;
@@ -23,6 +23,16 @@ pub fn chart(section: &Section, line: LineFacts, z: Span) -> Chart {
     ];
     let axis = |span, symbol, unit| Axis::new(AxisScale::Linear, span, "", symbol, unit);
     Chart::new(axis(Span { low, high }, "x", "m"), axis(z, "z", "m"), layers)
+}
+
+/// Figure of a section with its indentation and force, heights within `z`.
+pub fn figure(title: &str, section: &Section, snapshot: &ContactSnapshot, z: Span) -> Figure {
+    let mut chart = chart(section, snapshot.line, z);
+    add_crosshair(&mut chart, snapshot);
+    let point = &snapshot.point;
+    let force = value_label("", "F", "N", point.force).then(", ");
+    let notes = vec![force.join(&value_label("", "d", "m", point.indentation))];
+    Figure { notes, size: Figure::LOW, ..Figure::of_chart(title, chart) }
 }
 
 /// Position of the left edge of a spring, m.

@@ -23,6 +23,10 @@ use std::sync::Arc;
 pub static ROW: PaneRow = PaneRow {
     title: |_| " Spectrum: C over q, log–log ".to_owned(),
     draw,
+    figure: |model| {
+        let spectra = &model.present()?.spectra.as_deref()?.spectra;
+        Some(spectra.figure(model.document.title())).filter(|figure| !figure.legend().is_empty())
+    },
     needs_spectra: true,
     task: |model, computed| {
         let begun = model.adhesion_spread.clone();

@@ -1,8 +1,6 @@
 //! The screen in ASCII, for terminals, fonts and files limited to ASCII.
 
-use super::raster::{blocks, dots};
-use super::strokes::strokes;
-use super::{Glyph, glyphs};
+use super::{Glyph, dots, glyphs};
 use ratatui::buffer::{Buffer, Cell, CellDiffOption};
 use std::sync::LazyLock;
 
@@ -51,7 +49,7 @@ fn bits(shape: &str) -> u8 {
 }
 
 /// Replacements of characters. Greek letters become letters that look or sound like them.
-const ALIKE: [(char, &str); 61] = [
+const ALIKE: [(char, &str); 62] = [
     (' ', "\u{a0}\u{2007}\u{2009}\u{202f}"),
     ('^', "▲△↑⌃"),
     ('v', "▼▽↓⌄νυ▾"),
@@ -60,22 +58,23 @@ const ALIKE: [(char, &str); 61] = [
     ('*', "◆★☆•∗⋆"),
     ('o', "○◇◌◦°οθ"),
     ('@', "●◉◎"),
-    ('#', "■▓"),
-    ('+', "▪▫□±"),
+    ('#', "■▓█▉▊"),
+    ('+', "▪▫□±┌┐└┘├┤┬┴┼"),
+    ('_', "▁▄"),
     ('.', "·…⋅∙"),
     (':', "░¦"),
     ('%', "▒"),
-    ('-', "−–—‐‑‒―⁻₋"),
+    ('-', "─−–—‐‑‒―⁻₋"),
     ('~', "∓≈≃∼∝≅"),
     ('=', "≡≠₌⁼"),
     ('/', "╱÷⁄∕"),
     ('\\', "╲"),
     ('x', "×╳✕✗ξχ"),
     ('\'', "′‘’ʹ"),
-    ('"', "″“”"),
+    ('"', "▀″“”"),
     ('(', "⁽₍"),
     (')', "⁾₎"),
-    ('|', "∣‖"),
+    ('|', "│┊▋▌▍▎▏▕∣‖"),
     ('0', "⁰₀"),
     ('1', "¹₁"),
     ('2', "²₂"),
@@ -176,16 +175,6 @@ fn of_character(character: char) -> char {
     if let Some(dots) = dots(character) {
         return NEAREST[usize::from(dots)];
     }
-    if let Some(strokes) = strokes(character) {
-        return match strokes.arms {
-            [_, _, None, None] => '-',
-            [None, None, _, _] => '|',
-            _ => '+',
-        };
-    }
-    if let Some(raster) = blocks(character) {
-        return NEAREST[usize::from(raster.dots())];
-    }
     let alike = ALIKE.iter().find(|(_, characters)| characters.contains(character));
     let marked = || {
         let plain = |(marked, plain): &(&str, &str)| {
@@ -205,7 +194,6 @@ mod tests {
     use ratatui::layout::Rect;
     use ratatui::style::{Color, Style};
     use ratatui::symbols::braille::BRAILLE;
-    use ratatui::symbols::pixel::{OCTANTS, QUADRANTS, SEXTANTS};
     use std::num::NonZeroU16;
 
     fn ascii(rows: &str) -> String {
@@ -215,16 +203,11 @@ mod tests {
     }
 
     #[test]
-    fn every_marker_becomes_printable_and_no_dot_is_lost() {
-        for characters in [&BRAILLE[..], &OCTANTS, &SEXTANTS, &QUADRANTS, &['▀', '▄', '█', '•', '▁', '▏']]
-        {
-            for (place, &character) in characters.iter().enumerate() {
-                let plain = of_character(character);
-                assert!(plain.is_ascii_graphic() || plain == ' ', "{character} {plain:?}");
-                let empty = place == 0 && characters.len() > 6;
-                assert_eq!(plain == ' ', empty, "{character} {plain:?}");
-                assert_ne!(plain, '?', "{character}");
-            }
+    fn no_dot_is_lost() {
+        for (place, &character) in BRAILLE.iter().enumerate() {
+            let plain = of_character(character);
+            assert!(plain.is_ascii_graphic() || plain == ' ', "{character} {plain:?}");
+            assert_eq!(plain == ' ', place == 0, "{character} {plain:?}");
         }
     }
 
@@ -257,10 +240,10 @@ mod tests {
 
     #[test]
     fn frames_marks_and_letters_have_likenesses() {
-        let drawn = "┌─┬╮╔═╗┏┄┐\n│ ┊║┃╱╲╳\n▲▼◆○●■▪·▸›…•\n↑↓←→⟨∇z⟩κγνΔδµμπ²³⁻×−–′\n▏▎▍▌▋▊▉█▁▄▀░▒▓\nnaïve Å";
+        let drawn = "┌─┬┐\n│ ┊╱╲╳\n▲▼◆○●■▪·▸›…•\n↑↓←→⟨∇z⟩κγνΔδµμπ²³⁻×−–′\n▏▎▍▌▋▊▉█▁▄▀░▒▓\nnaïve Å";
         assert_eq!(
             ascii(drawn),
-            "+-+++-++-+\n| |||/\\x\n^v*o@#+.>>.*\n^v<><Vz>kgvDduup23-x--'\n|||||###__\":%#\nnaive A\n"
+            "+-++\n| |/\\x\n^v*o@#+.>>.*\n^v<><Vz>kgvDduup23-x--'\n|||||###__\":%#\nnaive A\n"
         );
     }
 
@@ -276,7 +259,7 @@ mod tests {
         all.dedup();
         assert_eq!(all.len(), count);
         for character in all {
-            assert!(dots(character).is_none() && blocks(character).is_none(), "{character}");
+            assert!(dots(character).is_none(), "{character}");
             assert_ne!(of_character(character), '?', "{character}");
         }
         assert_eq!(of_character('☃'), '?');

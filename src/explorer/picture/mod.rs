@@ -1,21 +1,14 @@
-//! Screens in forms for use outside of the terminal: plain text, ASCII, a
-//! picture, a recording. Nothing here depends on the panes.
+//! Screens in forms for use outside of the terminal: plain text, ASCII, an SVG document, a recording. Nothing here
+//! depends on the panes.
 
 mod ascii;
 mod cast;
-mod letters;
-mod outline;
 mod palette;
-mod png;
-mod raster;
-mod sheet;
-mod strokes;
 mod svg;
 mod text;
 
 pub use ascii::to_ascii;
 pub use cast::Cast;
-pub use png::png;
 pub use svg::svg;
 pub use text::text;
 
@@ -71,4 +64,13 @@ fn width_of(cell: &Cell) -> u16 {
         _ if cell.symbol().contains(is_control) => 1,
         _ => cell.cell_width().max(1),
     }
+}
+
+/// The dots of a Braille pattern, two across and four down, bits row by row from the upper left.
+fn dots(character: char) -> Option<u8> {
+    /// Braille numbers three dots down each side; the lowest row came later.
+    const PLACES: [u8; 8] = [0, 2, 4, 1, 3, 5, 6, 7];
+    let pattern = u32::from(character).checked_sub(0x2800).and_then(|bits| u8::try_from(bits).ok())?;
+    let dots = PLACES.iter().enumerate().filter(|(bit, _)| pattern >> bit & 1 == 1);
+    Some(dots.fold(0, |bits, (_, place)| bits | 1 << place))
 }

@@ -1,77 +1,242 @@
-//! The screen as a scalable picture, for slides and for pages on the web.
+//! The screen as an SVG document, for slides and for pages on the web.
+//!
+//! Letters are text, stretched to the grid of cells. Dots, blocks and lines are drawn, so that they meet from cell to
+//! cell with any font.
 
-use super::sheet::{MARGIN, Part, Pen, Sheet, size};
-use crate::draw::{Document, Palette, hex};
+use super::palette::{mixed, rgb};
+use super::{Glyph, dots, glyphs};
+use crate::draw::{Palette, Rgb, Svg, escaped, hex};
 use ratatui::buffer::Buffer;
-use std::fmt::Write as _;
+use ratatui::style::Modifier;
+use ratatui::symbols::pixel::OCTANTS;
+use std::collections::BTreeMap;
 
-/// A picture of the screen: a self-contained document of SVG 1.1, the same bytes for the same screen.
+/// Width and height of a cell, height of the base line of letters in it, and room around the screen, px.
+const WIDTH: u32 = 8;
+const HEIGHT: u32 = 16;
+const BASE: u32 = 12;
+const MARGIN: u32 = 8;
+/// Monospaced fonts of the common systems, with letters about 0.6 times as wide as their size.
+const FONTS: &str =
+    "ui-monospace,SFMono-Regular,Menlo,Consolas,'DejaVu Sans Mono','Liberation Mono',monospace";
+const FONT_SIZE: f64 = 13.3;
+/// Remaining share of a dimmed colour, percent.
+const DIMMED: u8 = 60;
+
+/// Appearance of a path or of a text, in the order of drawing.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Look {
+    Ground(Rgb),
+    Block(Rgb),
+    Line(Rgb),
+    Dots(Rgb),
+    Text { colour: Rgb, is_bold: bool, is_underlined: bool },
+}
+
+/// The screen as a self-contained document, the same bytes for the same screen.
 #[must_use]
 pub fn svg(buffer: &Buffer, palette: &Palette, title: &str) -> String {
-    let ((width, height), ground) = (size(buffer), hex(palette.background));
-    let (parts, letters) = Sheet::new(buffer, palette).parts();
-    let mut document = Document::new(f64::from(width), f64::from(height), title);
-    let mut svg = format!(
-        "<rect width=\"{width}\" height=\"{height}\" rx=\"6\" fill=\"{ground}\"/>\n\
-         <g transform=\"translate({MARGIN} {MARGIN})\">\n"
-    );
-    for Part { path, colour, pen } in parts {
-        let colour = hex(colour);
-        // Writing to a string does not fail.
-        let _ = match pen {
-            None => writeln!(svg, "<path fill=\"{colour}\" d=\"{path}\"/>"),
-            Some(pen) => {
-                let width = pen.width();
-                let ends = match pen {
-                    Pen::Whole(_) => "stroke-linecap=\"square\"",
-                    Pen::Dot => "stroke-linecap=\"round\" stroke-linejoin=\"round\"",
-                    _ => "stroke-linecap=\"butt\"",
-                };
-                writeln!(
-                    svg,
-                    "<path fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" {ends} d=\"{path}\"/>"
-                )
+    let width = u32::from(buffer.area.width) * WIDTH + 2 * MARGIN;
+    let height = u32::from(buffer.area.height) * HEIGHT + 2 * MARGIN;
+    let mut svg = Svg::new(f64::from(width), f64::from(height), title);
+    let ground = hex(palette.background);
+    svg.push(format_args!("<rect width=\"{width}\" height=\"{height}\" rx=\"6\" fill=\"{ground}\"/>"));
+    svg.push(format_args!(
+        "<g transform=\"translate({MARGIN} {MARGIN})\" font-family=\"{FONTS}\" font-size=\"{FONT_SIZE}\" \
+         xml:space=\"preserve\">"
+    ));
+    for (look, drawn) in parts(buffer, palette) {
+        match look {
+            Look::Ground(colour) | Look::Block(colour) => svg.push(format_args!(
+                "<path fill=\"{}\" shape-rendering=\"crispEdges\" d=\"{drawn}\"/>",
+                hex(colour)
+            )),
+            Look::Line(colour) => svg.push(format_args!(
+                "<path fill=\"none\" stroke=\"{}\" stroke-width=\"1.2\" stroke-linecap=\"square\" d=\"{drawn}\"/>",
+                hex(colour)
+            )),
+            Look::Dots(colour) => svg.push(format_args!(
+                "<path fill=\"none\" stroke=\"{}\" stroke-width=\"2.8\" stroke-linecap=\"round\" d=\"{drawn}\"/>",
+                hex(colour)
+            )),
+            Look::Text { colour, is_bold, is_underlined } => {
+                let bold = if is_bold { " font-weight=\"bold\"" } else { "" };
+                let underlined = if is_underlined { " text-decoration=\"underline\"" } else { "" };
+                svg.push(format_args!("<g fill=\"{}\"{bold}{underlined}>\n{drawn}</g>", hex(colour)));
             }
-        };
+        }
     }
-    document.push(&(svg + &letters.elements() + "</g>\n"));
-    document.finish()
+    svg.push(format_args!("</g>"));
+    svg.finish()
+}
+
+/// Data of the paths, and elements of the texts.
+fn parts(buffer: &Buffer, palette: &Palette) -> BTreeMap<Look, String> {
+    let mut parts: BTreeMap<Look, String> = BTreeMap::new();
+    let mut runs: Vec<Run> = Vec::new();
+    for glyph in glyphs(buffer) {
+        let Glyph { column, row, width, cell } = glyph;
+        let (colour, ground) = colours(&glyph, palette);
+        let (x, y) = (u32::from(column) * WIDTH, u32::from(row) * HEIGHT);
+        let mut draw = |look: Look, path: String| parts.entry(look).or_default().push_str(&path);
+        if ground != palette.background {
+            let wide = u32::from(width) * WIDTH;
+            draw(Look::Ground(ground), format!("M{x} {y}h{wide}v{HEIGHT}h-{wide}z"));
+        }
+        match shape(&glyph) {
+            Some(Shape::Boxes(boxes, quarters)) => {
+                let path = |[left, top, wide, high]: [u32; 4]| {
+                    format!("M{} {}h{wide}v{high}h-{wide}z", x + left, y + top)
+                };
+                draw(
+                    Look::Block(mixed(colour, ground, 25 * quarters)),
+                    boxes.into_iter().map(path).collect(),
+                );
+            }
+            Some(Shape::Lines(lines)) => {
+                let path = |line: &&str| format!("M{} {}{line}", x + WIDTH / 2, y + HEIGHT / 2);
+                draw(Look::Line(colour), lines.iter().map(path).collect());
+            }
+            Some(Shape::Dots(dots)) => {
+                let path = |dot: u32| format!("M{} {}h.1", x + 2 + dot % 2 * 4, y + 2 + dot / 2 * 4);
+                draw(Look::Dots(colour), (0..8).filter(|dot| dots >> dot & 1 == 1).map(path).collect());
+            }
+            None if glyph.symbol() == " " => {}
+            None => {
+                let is_bold = cell.modifier.contains(Modifier::BOLD);
+                let is_underlined = cell.modifier.contains(Modifier::UNDERLINED);
+                let look = Look::Text { colour, is_bold, is_underlined };
+                add_letters(
+                    &mut runs,
+                    Run { look, column, row, columns: width, text: glyph.symbol().into() },
+                );
+            }
+        }
+    }
+    for Run { look, column, row, columns, text } in runs {
+        let (x, y) = (u32::from(column) * WIDTH, u32::from(row) * HEIGHT + BASE);
+        let (length, text) = (u32::from(columns) * WIDTH, escaped(&text));
+        parts
+            .entry(look)
+            .or_default()
+            .push_str(&format!("<text x=\"{x}\" y=\"{y}\" textLength=\"{length}\">{text}</text>\n"));
+    }
+    parts
+}
+
+/// Letters on one row, set as one element.
+struct Run {
+    look: Look,
+    column: u16,
+    row: u16,
+    columns: u16,
+    text: String,
+}
+
+/// Adds letters to the last run if they have the same look and at most one blank lies between them.
+fn add_letters(runs: &mut Vec<Run>, letters: Run) {
+    // Other characters come from a font of another width.
+    let is_plain = |run: &Run| run.text.chars().all(is_common);
+    let gap = |run: &Run| letters.column - run.column - run.columns;
+    match runs.last_mut() {
+        Some(run)
+            if (run.look, run.row) == (letters.look, letters.row)
+                && gap(run) <= 1
+                && is_plain(run)
+                && is_plain(&letters) =>
+        {
+            let gap = gap(run);
+            run.columns += gap + letters.columns;
+            run.text.push_str(if gap == 1 { " " } else { "" });
+            run.text.push_str(&letters.text);
+        }
+        _ => runs.push(letters),
+    }
+}
+
+/// Colours of a symbol and of its background.
+fn colours(glyph: &Glyph<'_>, palette: &Palette) -> (Rgb, Rgb) {
+    let (cell, modifier) = (glyph.cell, glyph.cell.modifier);
+    let mut ink = rgb(palette, cell.fg, palette.foreground);
+    let mut ground = rgb(palette, cell.bg, palette.background);
+    if modifier.contains(Modifier::DIM) {
+        ink = mixed(ink, ground, DIMMED);
+    }
+    if modifier.contains(Modifier::REVERSED) {
+        std::mem::swap(&mut ink, &mut ground);
+    }
+    (ink, ground)
+}
+
+/// Shape of a character other than a letter.
+enum Shape {
+    /// Left, top, width and height of boxes, and the quarters of their area that are filled.
+    Boxes(Vec<[u32; 4]>, u8),
+    /// Paths from the middle of the cell.
+    Lines(&'static [&'static str]),
+    /// Dots, two across and four down, bits row by row from the upper left.
+    Dots(u8),
+}
+
+fn shape(glyph: &Glyph<'_>) -> Option<Shape> {
+    const LEFT: &str = "h-4";
+    const RIGHT: &str = "h4";
+    const UP: &str = "v-8";
+    const DOWN: &str = "v8";
+    let character = glyph.character().filter(|_| glyph.width == 1)?;
+    let filled = |boxes: [u32; 4]| Some(Shape::Boxes(vec![boxes], 4));
+    let lines = |lines| Some(Shape::Lines(lines));
+    match character {
+        '─' => lines(&[LEFT, RIGHT]),
+        '│' => lines(&[UP, DOWN]),
+        '┌' => lines(&[RIGHT, DOWN]),
+        '┐' => lines(&[LEFT, DOWN]),
+        '└' => lines(&[RIGHT, UP]),
+        '┘' => lines(&[LEFT, UP]),
+        '├' => lines(&[RIGHT, UP, DOWN]),
+        '┤' => lines(&[LEFT, UP, DOWN]),
+        '┬' => lines(&[LEFT, RIGHT, DOWN]),
+        '┴' => lines(&[LEFT, RIGHT, UP]),
+        '▀' => filled([0, 0, 8, 8]),
+        '▄' => filled([0, 8, 8, 8]),
+        '▁' => filled([0, 14, 8, 2]),
+        '▕' => filled([7, 0, 1, 16]),
+        '█'..='▏' => filled([0, 0, 8 - (character as u32 - '█' as u32), 16]),
+        '░'..='▓' => Some(Shape::Boxes(vec![[0, 0, 8, 16]], (character as u32 - '░' as u32) as u8 + 1)),
+        ' ' => None,
+        _ => dots(character).map(Shape::Dots).or_else(|| {
+            let bits = OCTANTS.iter().position(|octant| *octant == character)? as u32;
+            let boxes = (0..8).filter(|bit| bits >> bit & 1 == 1).map(|bit| [bit % 2 * 4, bit / 2 * 4, 4, 4]);
+            Some(Shape::Boxes(boxes.collect(), 4))
+        }),
+    }
+}
+
+/// Returns true if a character is in the common monospaced fonts.
+fn is_common(character: char) -> bool {
+    matches!(character, ' '..='~' | '\u{a1}'..='ſ' | 'Α'..='ω' | '–' | '—' | '‘'..='”' | '…' | '−')
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::letters::FONTS;
     use super::*;
-    use crate::draw::svg_tests::parsed;
-    use ratatui::Terminal;
-    use ratatui::backend::TestBackend;
-    use ratatui::layout::{Constraint, Layout, Rect};
+    use crate::draw::parsed;
+    use ratatui::layout::Rect;
     use ratatui::style::{Color, Style};
-    use ratatui::symbols::Marker;
-    use ratatui::widgets::Block;
-    use ratatui::widgets::canvas::{Canvas, Line};
-    use std::collections::BTreeMap;
+    use ratatui::symbols::braille::BRAILLE;
 
-    /// The elements between the background and the end, of a screen of one row.
-    fn drawn(buffer: &Buffer) -> Vec<String> {
-        let svg = svg(buffer, &Palette::DARK, "");
-        parsed(&svg);
-        let inner = svg.split_once("translate(8 8)\">\n").unwrap().1.replace(FONTS, "FONTS");
-        inner
-            .lines()
-            .filter(|line| !line.starts_with("</") && !line.contains("FONTS"))
-            .map(str::to_owned)
-            .collect()
-    }
-
-    fn styled(text: &str, style: Style) -> Vec<String> {
+    /// The elements within the margins of a screen of one row.
+    fn drawn(text: &str, style: Style) -> Vec<String> {
         let mut buffer = Buffer::empty(Rect::new(0, 0, 12, 1));
         buffer.set_string(1, 0, text, style);
-        drawn(&buffer)
+        let svg = svg(&buffer, &Palette::DARK, "");
+        parsed(&svg);
+        let inner = svg.split_once("\"preserve\">\n").unwrap().1;
+        inner.lines().filter(|line| !line.starts_with("</")).map(str::to_owned).collect()
     }
 
     #[test]
-    fn the_document_says_what_it_is() {
+    fn the_document_has_a_title_and_the_size_of_the_screen() {
         let svg = svg(&Buffer::empty(Rect::new(5, 5, 120, 40)), &Palette::LIGHT, "κ < 6 & \"h\" > 0\u{1}");
         let (elements, text) = parsed(&svg);
         assert_eq!(text.trim(), "κ < 6 & \"h\" > 0\u{fffd}");
@@ -79,138 +244,69 @@ mod tests {
             elements[0].contains(r#"width="976" height="656" viewBox="0 0 976 656" role="img""#),
             "{svg}"
         );
-        assert_eq!(elements[1], "title");
         assert_eq!(elements[2], r##"rect width="976" height="656" rx="6" fill="#ffffff""##);
-        assert_eq!(elements.len(), 5, "{svg}");
+        assert_eq!(elements.len(), 4, "{svg}");
         parsed(&super::svg(&Buffer::empty(Rect::ZERO), &Palette::LIGHT, ""));
     }
 
     #[test]
     fn letters_of_one_look_are_one_text_on_the_grid() {
         let face = r##"<g fill="#e1e6eb">"##;
-        let one = [face, r#"<text x="8" y="12" textLength="64">F_a = µN</text>"#];
-        assert_eq!(styled("F_a = µN", Style::new()), one);
-        let two = [
-            face,
-            r#"<text x="8" y="12" textLength="24">a&lt;b</text>"#,
-            r#"<text x="48" y="12" textLength="8">c</text>"#,
-        ];
-        assert_eq!(styled("a<b  c", Style::new()), two);
+        let text = |x: u32, columns: u32, letters: &str| {
+            format!(r#"<text x="{x}" y="12" textLength="{}">{letters}</text>"#, 8 * columns)
+        };
+        assert_eq!(drawn("F_a = µN", Style::new()), [face, &text(8, 8, "F_a = µN")]);
+        assert_eq!(drawn("a<b  c", Style::new()), [face, &text(8, 3, "a&lt;b"), &text(48, 1, "c")]);
         // Rare and wide characters are set one by one.
-        let alone = [
-            face,
-            r#"<text x="8" y="12" textLength="8">⟨</text>"#,
-            r#"<text x="16" y="12" textLength="8">z</text>"#,
-            r#"<text x="24" y="12" textLength="16">漢</text>"#,
-            r#"<text x="40" y="12" textLength="8">y</text>"#,
-        ];
-        assert_eq!(styled("⟨z漢y", Style::new()), alone);
+        let alone = [face, &text(8, 1, "⟨"), &text(16, 1, "z"), &text(24, 2, "漢"), &text(40, 1, "y")];
+        assert_eq!(drawn("⟨z漢y", Style::new()), alone);
     }
 
     #[test]
     fn looks_are_kept() {
         let text = r#"<text x="8" y="12" textLength="8">x</text>"#;
-        let [foreground, background] = ["#e1e6eb", "#10151b"];
         assert_eq!(
-            styled("x", Style::new().bold().italic().red()),
-            [r##"<g fill="#ff6b3d" font-weight="bold" font-style="italic">"##, text]
+            drawn("x", Style::new().bold().red()),
+            [r##"<g fill="#ff6b3d" font-weight="bold">"##, text]
         );
         // Three fifths of the foreground over the background.
-        assert_eq!(styled("x", Style::new().dim()), [r##"<g fill="#8d9297">"##, text]);
+        assert_eq!(drawn("x", Style::new().dim()), [r##"<g fill="#8d9297">"##, text]);
         let reversed = [
-            format!(r#"<path fill="{foreground}" d="M8 0H16V16H8z"/>"#),
-            format!(r#"<g fill="{background}">"#),
-            text.to_owned(),
+            r##"<path fill="#e1e6eb" shape-rendering="crispEdges" d="M8 0h8v16h-8z"/>"##,
+            r##"<g fill="#10151b">"##,
+            text,
         ];
-        assert_eq!(styled("x", Style::new().reversed()), reversed);
-        let ground = r##"<path fill="#0000ff" d="M8 0H24V16H8z"/>"##;
-        assert_eq!(styled("  ", Style::new().bg(Color::Indexed(21))), [ground]);
-        assert_eq!(styled("x", Style::new().hidden()), [""; 0]);
-        let line = |colour: &str, height: u32| {
-            format!(
-                r#"<path fill="none" stroke="{colour}" stroke-width="1" stroke-linecap="butt" d="M8 {height}H32"/>"#
-            )
-        };
-        assert_eq!(styled("   ", Style::new().underlined()), [line(foreground, 14)]);
-        assert_eq!(styled("   ", Style::new().crossed_out()), [line(foreground, 8)]);
-        let coloured = Style::new().underlined().underline_color(Color::Rgb(1, 2, 3));
-        assert_eq!(styled("   ", coloured), [line("#010203", 14)]);
+        assert_eq!(drawn("x", Style::new().reversed()), reversed);
+        let ground = r##"<path fill="#0000ff" shape-rendering="crispEdges" d="M8 0h8v16h-8z"/>"##;
+        assert_eq!(drawn(" ", Style::new().bg(Color::Indexed(21))), [ground]);
     }
 
     #[test]
     fn shapes_are_drawn_whatever_the_font() {
-        let blocks = styled("▌█▀", Style::new());
-        assert_eq!(blocks, [r##"<path fill="#e1e6eb" d="M8 0H12V16H8zM16 0H32V8H16zM16 8H24V16H16z"/>"##]);
+        let blocks =
+            [("▌", "M8 0h4v16h-4z"), ("▄", "M8 8h8v8h-8z"), ("▁", "M8 14h8v2h-8z"), ("█", "M8 0h8v16h-8z")];
+        for (text, path) in blocks {
+            let path = format!("<path fill=\"#e1e6eb\" shape-rendering=\"crispEdges\" d=\"{path}\"/>");
+            assert_eq!(drawn(text, Style::new()), [path]);
+        }
         // A quarter of the way from the background to the foreground.
-        assert_eq!(styled("░░", Style::new()), [r##"<path fill="#44494f" d="M8 0H24V16H8z"/>"##]);
-        let line = r##"<path fill="none" stroke="#e1e6eb" stroke-width="1.2" stroke-linecap="square" d="M8 8H28M28 8V16"/>"##;
-        assert_eq!(styled("──┐", Style::new()), [line]);
-        for mark in "▲▼◆■▪▸•●○".chars() {
-            let drawn = styled(&mark.to_string(), Style::new());
-            assert!(drawn.len() == 1 && drawn[0].contains("d=\"M8 0m"), "{drawn:?}");
+        assert!(drawn("░", Style::new())[0].contains("#44494f"));
+        assert!(drawn("┐", Style::new())[0].contains("d=\"M12 8h-4M12 8v8\""));
+        for (bits, character) in OCTANTS.into_iter().enumerate().skip(1) {
+            let area: u32 = match shape_of(character) {
+                Some(Shape::Boxes(boxes, 4)) => boxes.iter().map(|part| part[2] * part[3]).sum(),
+                _ => panic!("{character}"),
+            };
+            assert_eq!(area, 16 * bits.count_ones(), "{character}");
+        }
+        for (bits, character) in BRAILLE.into_iter().enumerate() {
+            assert!(matches!(shape_of(character), Some(Shape::Dots(dots)) if usize::from(dots) == bits));
         }
     }
 
-    #[test]
-    fn every_dot_is_a_point_of_the_path_of_its_colour() {
-        let mut buffer = Buffer::empty(Rect::new(0, 0, 32, 8));
-        let mut expected = BTreeMap::new();
-        for (pattern, cell) in (0_u8..=255).zip(&mut buffer.content) {
-            let colour = if pattern % 3 == 0 { Color::Red } else { Color::Blue };
-            cell.set_char(char::from_u32(0x2800 + u32::from(pattern)).unwrap()).set_fg(colour);
-            *expected.entry(colour == Color::Red).or_insert(0) += pattern.count_ones();
-        }
-        let paths = drawn(&buffer);
-        assert_eq!(paths.len(), 2);
-        for (is_red, colour) in [(true, "#ff6b3d"), (false, "#3b94f5")] {
-            let path = paths.iter().find(|path| path.contains(colour)).unwrap();
-            assert_eq!(path.matches("h.1z").count() as u32, expected[&is_red]);
-        }
-    }
-
-    /// Four framed panes full of curves and filled bars.
-    fn screen(marker: Marker) -> Buffer {
-        let mut terminal = Terminal::new(TestBackend::new(120, 40)).unwrap();
-        terminal
-            .draw(|frame| {
-                let rows = Layout::vertical([Constraint::Fill(1); 2]).split(frame.area());
-                for (row, area) in rows.iter().enumerate() {
-                    for (column, area) in
-                        Layout::horizontal([Constraint::Fill(1); 2]).split(*area).iter().enumerate()
-                    {
-                        let canvas = Canvas::default()
-                            .marker(marker)
-                            .block(Block::bordered().title("Force F(d), µN"))
-                            .x_bounds([0.0, 200.0])
-                            .y_bounds([-1.5, 1.5])
-                            .paint(|context| {
-                                for x in 0..200 {
-                                    let x = f64::from(x);
-                                    let y = (0.05 * x + row as f64).sin();
-                                    let other = 0.2 * (0.9 * x).sin() - column as f64;
-                                    context.draw(&Line::new(x, y, x + 1.0, y, Color::Green));
-                                    context.draw(&Line::new(x, other, x, other + 0.4, Color::Magenta));
-                                }
-                                context.print(20.0, 1.2, "◆ now");
-                            });
-                        frame.render_widget(canvas, *area);
-                    }
-                }
-            })
-            .unwrap();
-        terminal.backend().buffer().clone()
-    }
-
-    #[test]
-    fn a_full_screen_stays_small_and_the_same() {
-        for marker in [Marker::Braille, Marker::Octant, Marker::HalfBlock, Marker::Sextant, Marker::Quadrant]
-        {
-            let screen = screen(marker);
-            let svg = svg(&screen, &Palette::DARK, "Asperity");
-            let (elements, text) = parsed(&svg);
-            assert!(svg.len() < 60_000 && elements.len() < 60, "{marker} {} {}", svg.len(), elements.len());
-            assert_eq!(text.matches("Force F(d), µN").count(), 4);
-            assert_eq!(svg, super::svg(&screen, &Palette::DARK, "Asperity"));
-        }
+    fn shape_of(character: char) -> Option<Shape> {
+        let mut buffer = Buffer::empty(Rect::new(0, 0, 1, 1));
+        buffer[(0, 0)].set_char(character);
+        glyphs(&buffer).next().and_then(|glyph| shape(&glyph))
     }
 }

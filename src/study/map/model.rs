@@ -4,7 +4,7 @@
 use super::axis::MapAxis;
 use crate::analysis::Regime;
 use crate::study::cell_summary::CellSummary;
-use crate::study::figure::{AxisScale, Boundary, Estimate, Figure, Panel, scale_of};
+use crate::study::figure::{AxisScale, Boundary, Estimate, Figure, Panel, range_of, scale_of};
 use crate::study::quantity::Quantity;
 
 /// A map for display.
@@ -38,9 +38,8 @@ pub struct Layer {
 impl Layer {
     /// A quantity in all cells of all maps that share the scale.
     pub(super) fn new(quantity: Quantity, estimates: Vec<Option<Estimate>>) -> Self {
-        let means = estimates.iter().flatten().map(|estimate| estimate.mean);
-        let range = means.map(|mean| (mean, mean)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
-        Layer { quantity, scale: scale_of(&estimates), range, estimates }
+        let scale = scale_of(&estimates);
+        Layer { quantity, scale, range: range_of(&estimates, scale), estimates }
     }
 
     /// The quantity in other cells, on the same scale.

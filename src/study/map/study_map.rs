@@ -6,7 +6,7 @@ use super::template::Template;
 use crate::scene::{Adhesion, Document, Move, Numerics, Roughness, Scene, SceneErrors};
 use crate::study::axis::Axis;
 use crate::study::error::StudyError;
-use crate::study::figure::{FigureAxis, fixed};
+use crate::study::figure::{FigureAxis, across_and_up, fixed};
 use crate::study::finished::Finished;
 use crate::study::numbering::places_of;
 use crate::study::plan::Plan;
@@ -17,7 +17,6 @@ use thiserror::Error;
 
 /// Paths of the axes of κ.
 const KAPPA: [&str; 2] = ["kappa", "adhesion.kappa"];
-const HURST: [&str; 1] = ["roughness.hurst"];
 
 /// Reason why a folder has no maps.
 #[derive(Debug, Error)]
@@ -69,33 +68,16 @@ impl StudyMap {
     pub fn of(study: Finished, folder: &Path) -> Result<StudyMap, StudyMapError> {
         let axes = study.plan().all_axes();
         let free: Vec<usize> = (0..axes.len()).filter(|axis| axes[*axis].count() > 1).collect();
-        let find = |paths: &[&str]| free.iter().copied().find(|axis| paths.contains(&axes[*axis].path()));
-        let (hurst, kappa) = (find(&HURST), find(&KAPPA));
-        let other = |one: usize| free.iter().copied().find(|axis| *axis != one);
-        // H goes across and κ up on every study with both; of other axes the first goes across.
-        let (across, up) = match (hurst, kappa, free.first()) {
-            (Some(hurst), Some(kappa), _) => (hurst, Some(kappa)),
-            (None, Some(kappa), _) => other(kappa).map_or((kappa, None), |across| (across, Some(kappa))),
-            (Some(hurst), None, _) => (hurst, other(hurst)),
-            (None, None, Some(first)) => (*first, other(*first)),
-            (None, None, None) => {
-                let said: Vec<String> =
-                    axes.iter().map(|axis| format!("{} (1 value)", axis.path())).collect();
-                let axes = if said.is_empty() {
-                    "it has no axes".into()
-                } else {
-                    format!("it has {}", said.join(", "))
-                };
-                return Err(StudyMapError::OneCell { folder: folder.display().to_string(), axes });
-            }
+        let Some((across, up)) = across_and_up(&axes, &free) else {
+            let said: Vec<String> = axes.iter().map(|axis| format!("{} (1 value)", axis.path())).collect();
+            let axes =
+                if said.is_empty() { "it has no axes".into() } else { format!("it has {}", said.join(", ")) };
+            return Err(StudyMapError::OneCell { folder: folder.display().to_string(), axes });
         };
         let others = (0..axes.len()).filter(|axis| *axis != across && Some(*axis) != up).collect();
         let record = study.plan().record.iter().enumerate();
         let drawn = record.filter(|(_, quantity)| **quantity != Quantity::Regime);
-        let layers = drawn.map(|(column, quantity)| {
-            let cells = (0..study.plan().cells()).map(|cell| study.cell(cell)?.estimate(column));
-            (column, Layer::new(*quantity, cells.collect()))
-        });
+        let layers = drawn.map(|(column, quantity)| (column, Layer::new(*quantity, study.estimates(column))));
         let layers = layers.collect();
         // Without a separator at its end.
         let folder = folder.components().collect();

@@ -3,18 +3,17 @@
 use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
-use super::{SIZES, pressed};
+use super::pressed;
 use asperity::draw::PictureFormat;
 use asperity::explorer::action::Content;
 use asperity::explorer::model::Mode;
+use asperity::explorer::panes::Pane;
 use asperity::explorer::theme::{Marker, Theme};
 use asperity::explorer::update::Effect;
-use asperity::explorer::{picture, picture_of, screenshot};
+use asperity::explorer::{picture, screenshot};
 use asperity::export::{Provenance, TableFormat, write_curve, write_json};
 use asperity::scene::{Document, command_line, open, presets};
-use ratatui::style::Modifier;
 use std::fs;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// Exports to a file and returns the effects.
@@ -40,8 +39,8 @@ fn the_ending_of_a_name_shows_what_is_exported() {
             ("a.csv", Content::Curve(TableFormat::Csv)),
             ("a.npy", Content::Curve(TableFormat::Npy)),
             ("folder/b.JSON", Content::Outcome),
-            ("c.d.svg", Content::Picture(PictureFormat::Svg)),
-            ("c.png", Content::Picture(PictureFormat::Png)),
+            ("c.d.svg", Content::Figure(PictureFormat::Svg)),
+            ("c.png", Content::Figure(PictureFormat::Png)),
             ("e.txt", Content::Text),
         ] {
             let mut driver = pressed("");
@@ -166,7 +165,43 @@ fn elements(xml: &str) -> (Vec<String>, String) {
 }
 
 #[test]
-fn the_picture_is_sound_and_shows_the_panes_without_the_prompt() {
+fn every_pane_is_exported_as_a_figure() {
+    within(60, || {
+        for (keys, pane, expected) in [
+            ("", Pane::Parameters, ["loading", "unloading", "preload", "pull-off"].as_slice()),
+            ("", Pane::Profile, &["surface", "profile", "contact", " (nm)"]),
+            ("", Pane::CloseUp, &["surface", "patch end"]),
+            ("D", Pane::Lengths, &["δx"]),
+            ("Q", Pane::Spectrum, &["wave number"]),
+            ("c L &", Pane::Beside, &["surface", "profile", "contact"]),
+            ("c L", Pane::Force, &["A: ", "loading"]),
+        ] {
+            let mut driver = pressed(keys);
+            driver.model.pane = pane;
+            let figure = exported(&mut driver, "a.svg");
+            let (names, text) = elements(&figure);
+            assert_eq!(names[0], "svg");
+            for expected in expected.iter().chain(&["Rough line"]) {
+                assert!(text.contains(*expected), "{pane:?}: {expected}: {text}");
+            }
+            assert_eq!(exported(&mut driver, "a.svg"), figure, "{pane:?}");
+        }
+        let mut driver = super::preloads::computed_preloads(rough());
+        driver.model.pane = Pane::Preloads;
+        assert!(exported(&mut driver, "a.svg").contains("present preload"));
+        let mut driver = pressed("");
+        driver.model.pane = Pane::Spectrum;
+        assert!(export(&mut driver, Path::new("a.svg")).is_empty());
+        assert!(driver.status().contains("there is no figure to export"), "{}", driver.status());
+        let folder = tempfile::tempdir().unwrap();
+        driver.model.pane = Pane::Force;
+        export(&mut driver, &folder.path().join("a.png"));
+        assert!(fs::read(folder.path().join("a.png")).unwrap().starts_with(b"\x89PNG"));
+    });
+}
+
+#[test]
+fn the_picture_of_the_screen_is_sound_and_shows_the_panes() {
     within(60, || {
         for (marker, theme) in [
             (Marker::Braille, Theme::Neutral),
@@ -174,75 +209,16 @@ fn the_picture_is_sound_and_shows_the_panes_without_the_prompt() {
             (Marker::Octant, Theme::Light),
             (Marker::Ascii, Theme::Plain),
         ] {
-            let mut driver = pressed("c L");
+            let mut driver = pressed("c L E");
             driver.model.appearance.marker = marker;
             driver.model.appearance.theme = theme;
-            let written = exported(&mut driver, "a.svg");
-            let (names, text) = elements(&written);
-            assert_eq!(names[0], "svg");
+            let (names, text) = elements(&screenshot(&driver.model));
             assert!(names.len() > 20, "{names:?}");
             for expected in ["Asperity: rough-line", "Force F(d)", "Profile z(x)", "Parameters", "Fragments"]
             {
                 assert!(text.contains(expected), "{marker:?}: {expected}");
             }
             assert!(!text.contains("Export to") && !text.contains("cancel"), "{marker:?}");
-            driver.press("j k");
-            let again = screenshot(&driver.model, PictureFormat::Svg).unwrap();
-            assert_eq!(written.as_bytes(), again, "the same screen gives the same file");
-        }
-    });
-}
-
-/// Width in pixels, and red, green and blue of all pixels of a file in PNG that has no filters.
-fn decoded(file: &[u8]) -> (usize, Vec<[u8; 3]>) {
-    let number = |at: usize| u32::from_be_bytes(file[at..at + 4].try_into().unwrap()) as usize;
-    let (mut at, mut packed) = (8, Vec::new());
-    while at < file.len() {
-        let (length, kind) = (number(at), &file[at + 4..at + 8]);
-        if kind == b"IDAT" {
-            packed.extend(&file[at + 8..at + 8 + length]);
-        }
-        at += 12 + length;
-    }
-    let mut rows = Vec::new();
-    flate2::read::ZlibDecoder::new(&packed[..]).read_to_end(&mut rows).unwrap();
-    let width = number(16);
-    let pixels = rows.chunks(1 + 3 * width).flat_map(|row| row[1..].chunks(3).map(|c| [c[0], c[1], c[2]]));
-    (width, pixels.collect())
-}
-
-#[test]
-fn a_picture_of_pixels_has_the_size_and_the_colours_of_the_screen() {
-    within(60, || {
-        for size in SIZES {
-            let mut driver = pressed("c L");
-            driver.model.appearance.theme = Theme::Dark;
-            driver.resize(size);
-            let folder = tempfile::tempdir().unwrap();
-            let path = folder.path().join("a.png");
-            export(&mut driver, &path);
-            let (width, pixels) = decoded(&fs::read(&path).unwrap());
-            // Two pixels for each px; cells of 8 × 16 px, and a margin of 8 px.
-            let side = |cells: u16, cell: usize| 2 * (usize::from(cells) * cell + 16);
-            assert_eq!((width, pixels.len() / width), (side(size.0, 8), side(size.1, 16)));
-            let at = |x: usize, y: usize| pixels[y * width + x];
-            let ground = at(0, 0);
-            let screen = picture_of(&driver.model);
-            let seen = Modifier::REVERSED | Modifier::UNDERLINED | Modifier::CROSSED_OUT;
-            // Cells with a sign have other colours than the background, blank ones do not.
-            let mut signs = 0;
-            for (column, row) in (0..size.0).flat_map(|column| (0..size.1).map(move |row| (column, row))) {
-                let (x, y) = (16 * (usize::from(column) + 1), 32 * usize::from(row) + 16);
-                let cell = &screen[(column, row)];
-                let is_blank = matches!(cell.symbol(), " " | "\u{2800}") && !cell.modifier.intersects(seen);
-                // Ends of lines reach slightly into the next cell.
-                let inset = if is_blank { 3 } else { 0 };
-                let is_drawn = (x + inset..x + 16 - inset)
-                    .any(|x| (y + inset..y + 32 - inset).any(|y| at(x, y) != ground));
-                assert!(is_drawn != is_blank, "{size:?} {column} {row} {:?}", cell.symbol());
-                signs += usize::from(is_drawn);
-            }
-            assert!(signs > 20, "{signs}");
         }
     });
 }

@@ -1,6 +1,6 @@
 //! Place of an inset: a corner of its chart without curves.
 
-use super::canvas::Place;
+use super::elements::Place;
 use super::frame::Frame;
 use crate::draw::axis::Axis;
 use crate::draw::chart::{Chart, Shape};

@@ -1,7 +1,8 @@
 //! Legend of a figure: rows of samples with names.
 
-use super::canvas::{Anchor, Canvas, Pen, Place};
-use super::layers::{AREA_OPACITY, QUIET, SIGN, TEXT, draw_sign, guide};
+use super::elements::{Anchor, Pen, Place, Svg};
+use super::layers::{AREA_OPACITY, SIGN, draw_sign, guide};
+use super::{QUIET, TEXT};
 use crate::draw::chart::{Entry, Sample};
 
 /// Size of names, px.
@@ -42,13 +43,13 @@ impl Legend {
     }
 
     /// Draws the rows around a middle, the first at this height.
-    pub(super) fn draw(&self, canvas: &mut dyn Canvas, middle: f64, top: f64) {
+    pub(super) fn draw(&self, svg: &mut Svg, middle: f64, top: f64) {
         for (index, (row_width, entries)) in self.rows.iter().enumerate() {
             let mut x = middle - row_width / 2.0;
             let y = top + index as f64 * ROW;
             for entry in entries {
-                sample(canvas, entry, (x, y));
-                canvas.label(&entry.name, (x + room(entry), y), SIZE, Anchor::Left, TEXT);
+                sample(svg, entry, (x, y));
+                svg.label(&entry.name, (x + room(entry), y), SIZE, Anchor::Left, TEXT);
                 x += width(entry) + BETWEEN;
             }
         }
@@ -70,33 +71,33 @@ fn room(entry: &Entry) -> f64 {
 }
 
 /// Draws the samples of an entry from this place; several share the room.
-fn sample(canvas: &mut dyn Canvas, entry: &Entry, (x, y): Place) {
+fn sample(svg: &mut Svg, entry: &Entry, (x, y): Place) {
     let part = 22.0 / entry.samples.len().max(1) as f64;
     for (index, (ink, sample)) in entry.samples.iter().enumerate() {
         let (colour, left) = (ink.on_paper(), x + index as f64 * part);
         match sample {
             Sample::Line(None, Some(sign)) if entry.samples.len() == 1 => {
-                draw_sign(canvas, *sign, (x + SIGN, y), SIGN, colour);
+                draw_sign(svg, *sign, (x + SIGN, y), SIGN, colour);
             }
             Sample::Line(stroke, sign) => {
                 if let Some(stroke) = stroke {
-                    canvas.line(&[(left, y), (left + part, y)], Pen { colour, width: 1.6, stroke: *stroke });
+                    svg.line(&[(left, y), (left + part, y)], Pen { colour, width: 1.6, stroke: *stroke });
                 }
                 if let Some(sign) = sign {
-                    draw_sign(canvas, *sign, (left + part / 2.0, y), SIGN, colour);
+                    draw_sign(svg, *sign, (left + part / 2.0, y), SIGN, colour);
                 }
             }
             Sample::Area | Sample::Solid => {
                 let (from, to) = ((left, y - 5.0), (left + part, y + 5.0));
                 let opacity = if *sample == Sample::Area { AREA_OPACITY } else { 1.0 };
-                canvas.area(&[from, (to.0, from.1), to, (from.0, to.1)], colour, opacity);
+                svg.area(&[from, (to.0, from.1), to, (from.0, to.1)], colour, opacity);
             }
-            Sample::Guide => canvas.line(&[(x + 5.0, y + 7.0), (x + 5.0, y - 7.0)], guide(*ink)),
-            Sample::Contour => canvas.line(&[(x, y), (x + 22.0, y)], Pen::solid(colour, 1.8)),
+            Sample::Guide => svg.line(&[(x + 5.0, y + 7.0), (x + 5.0, y - 7.0)], guide(*ink)),
+            Sample::Contour => svg.line(&[(x, y), (x + 22.0, y)], Pen::solid(colour, 1.8)),
             Sample::Empty => {
                 let (from, to) = ((x, y - 6.0), (x + 12.0, y + 6.0));
-                canvas.frame(from, to, Pen::solid(QUIET, 0.8));
-                canvas.line(&[(from.0, to.1), (to.0, from.1)], Pen::solid(QUIET, 0.8));
+                svg.hatched(from, to);
+                svg.frame(from, to, Pen::solid(QUIET, 0.8));
             }
         }
     }

@@ -1,8 +1,8 @@
 //! The frame of a chart: conversion of numbers to places, and the axes.
 
-use super::canvas::{Anchor, Canvas, Pen, Place};
+use super::TEXT;
+use super::elements::{Anchor, Pen, Place, Svg};
 use crate::draw::axis::Axis;
-use crate::draw::colour::Rgb;
 use crate::draw::label::Label;
 use crate::draw::ticks::Tick;
 
@@ -70,7 +70,7 @@ impl Frame<'_> {
     }
 
     /// Draws an axis; with its label if `labelled`.
-    pub(super) fn axis(&self, canvas: &mut dyn Canvas, side: Side, ink: Rgb, labelled: bool) {
+    pub(super) fn axis(&self, svg: &mut Svg, side: Side, labelled: bool) {
         let size = self.size;
         let axis = if side == Side::Below { self.x } else { self.y };
         let ticks = axis.ticks(self.ticks(side));
@@ -88,9 +88,9 @@ impl Frame<'_> {
                 Side::Left => ([(edge + length, y), (edge, y)], (edge - 0.7 * size, y), Anchor::Right),
                 Side::Right => ([(edge, y), (edge + length, y)], (edge + 0.7 * size, y), Anchor::Left),
             };
-            canvas.line(&ends, Pen::solid(ink, 1.0));
+            svg.line(&ends, Pen::solid(TEXT, 1.0));
             if let Some(label) = label {
-                canvas.label(label, place, size, anchor, ink);
+                svg.label(label, place, size, anchor, TEXT);
             }
         }
         let label = axis.label_with_unit();
@@ -100,7 +100,7 @@ impl Frame<'_> {
                 Side::Below => ((middle.0, edge + 2.9 * size), Anchor::Middle),
                 _ => ((edge + outwards * beside(&ticks, size), middle.1), Anchor::Upwards),
             };
-            canvas.label(&label, place, LABEL * size / NUMBER, anchor, ink);
+            svg.label(&label, place, LABEL * size / NUMBER, anchor, TEXT);
         }
     }
 

@@ -1,86 +1,73 @@
-//! Figures as pictures: SVG and PNG. Equal figures have equal bytes.
+//! Figures as SVG documents. Equal figures have equal bytes.
 
-mod canvas;
-#[cfg(feature = "tui")]
-mod font;
+mod elements;
 mod frame;
 mod inset;
 mod layers;
 mod legend;
-#[cfg(feature = "tui")]
-mod png;
-mod svg;
 
-#[cfg(feature = "tui")]
-pub(crate) use font::Font;
-#[cfg(feature = "tui")]
-pub(crate) use png::Pixels;
-#[cfg(feature = "tui")]
-pub use png::PngError;
-pub use svg::{Document, escaped};
+pub(crate) use elements::{Svg, escaped};
+#[cfg(test)]
+pub(crate) use tests::{attribute, elements, parsed};
 
 use super::axis::Axis;
 use super::chart::{Chart, Figure, HeatMap};
-use super::colour::shade;
+use super::colour::{Palette, Rgb, Shades, hex};
 use super::label::Label;
 use super::scale::{AxisScale, Span};
-use canvas::{Anchor, Canvas, Pen, Place};
+use elements::{Anchor, Pen, Place};
 use frame::{Frame, LABEL, NUMBER, Side};
-use layers::{PAPER, TEXT};
 use legend::Legend;
-#[cfg(feature = "tui")]
-use png::Raster;
 
-/// Least room on the left of a chart and below it for the axes, px.
+const TEXT: Rgb = Palette::LIGHT.foreground;
+const QUIET: Rgb = [0x96, 0x9c, 0xa2];
+const PAPER: Rgb = Palette::LIGHT.background;
+
+/// Least room on the left of a chart and below it for the axes, and on the right of a chart, px.
 const AXES: (f64, f64) = (78.0, 50.0);
-/// Least room on the right of a map for its colour scale, and of another chart, px.
-const SCALE: f64 = 104.0;
 const BESIDE: f64 = 22.0;
 /// Distance of the colour scale from its map, and its width, px.
 const FROM_MAP: f64 = 14.0;
 const BAR: f64 = 13.0;
-/// Stripes of the colour scale.
-const STRIPES: u32 = 128;
 /// Least distance of text from the border, px.
 const MARGIN: f64 = 6.0;
 /// Size of the title, px.
 const TITLE: f64 = 14.5;
-
-/// Format of a picture.
-#[cfg(feature = "tui")]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PictureFormat {
-    /// Vector picture, SVG.
-    Svg,
-    /// Raster picture, two pixels for each px of the SVG.
-    Png,
-}
 
 impl Figure {
     /// The figure as SVG.
     #[must_use]
     pub fn svg(&self) -> String {
         let page = Page::new(self);
-        let mut document = Document::new(page.width, page.height, &Label::plain(&self.title).to_string());
-        document.begin_text();
-        page.draw(&mut document);
-        document.end_text();
-        document.finish()
+        let mut svg = Svg::new(page.width, page.height, &Label::plain(&self.title).to_string());
+        definitions(&mut svg, &self.charts);
+        svg.in_fonts(|svg| page.draw(svg));
+        svg.finish()
     }
+}
 
-    /// The figure as the content of a picture file.
-    ///
-    /// # Errors
-    /// A picture with more pixels than allowed.
-    #[cfg(feature = "tui")]
-    pub fn picture(&self, format: PictureFormat) -> Result<Vec<u8>, PngError> {
-        if format == PictureFormat::Svg {
-            return Ok(self.svg().into_bytes());
+/// Defines the shades and the hatching of maps.
+fn definitions(svg: &mut Svg, charts: &[Chart]) {
+    let maps = || charts.iter().filter_map(Chart::map);
+    for shades in [Shades::Sequential, Shades::Diverging] {
+        if maps().any(|map| map.shades == shades) {
+            let colours = shades.colours();
+            let last = (colours.len() - 1) as f64;
+            let stop = |(index, colour): (usize, &Rgb)| {
+                format!("<stop offset=\"{}\" stop-color=\"{}\"/>", index as f64 / last, hex(*colour))
+            };
+            let stops: String = colours.iter().enumerate().map(stop).collect();
+            svg.push(format_args!(
+                "<linearGradient id=\"{shades}\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">{stops}</linearGradient>"
+            ));
         }
-        let page = Page::new(self);
-        let mut raster = Raster::new(page.width, page.height)?;
-        page.draw(&mut raster);
-        raster.finish()
+    }
+    if maps().any(|map| map.values.contains(&None)) {
+        let quiet = hex(QUIET);
+        svg.push(format_args!(
+            "<pattern id=\"hatched\" width=\"6\" height=\"6\" patternUnits=\"userSpaceOnUse\">\
+             <path d=\"M-1 1L1 -1M0 6L6 0M5 7L7 5\" stroke=\"{quiet}\" stroke-width=\"0.8\"/></pattern>"
+        ));
     }
 }
 
@@ -92,9 +79,8 @@ struct Page<'a> {
     notes: Vec<Label>,
     width: f64,
     height: f64,
-    /// Width of a chart with its margins, and its left margin.
-    wide: f64,
-    before: f64,
+    /// Room on the left and on the right of each chart.
+    rooms: Vec<(f64, f64)>,
     /// Upper and lower ends of the charts, including the axes below.
     top: f64,
     bottom: f64,
@@ -102,11 +88,10 @@ struct Page<'a> {
 
 impl<'a> Page<'a> {
     fn new(figure: &'a Figure) -> Page<'a> {
-        let (before, beside) = rooms(figure);
-        let wide = before + figure.size.0 + beside;
-        let charts = figure.charts.len().max(1) as f64;
-        let legend = Legend::new(figure.legend(), charts * wide - 40.0);
-        let width = (charts * wide).max(legend.width() + 40.0);
+        let rooms: Vec<(f64, f64)> = figure.charts.iter().map(|chart| rooms(chart, figure.size)).collect();
+        let charts = charts_width(&rooms, figure.size.0);
+        let legend = Legend::new(figure.legend(), charts - 40.0);
+        let width = charts.max(legend.width() + 40.0);
         let title = Label::plain(&figure.title).wrapped((width - 24.0) / TITLE);
         let notes: Vec<Label> =
             figure.notes.iter().flat_map(|note| note.wrapped((width - 24.0) / (LABEL - 1.0))).collect();
@@ -114,134 +99,102 @@ impl<'a> Page<'a> {
         let top = 12.0 + title.len() as f64 * 20.0 + notes.len() as f64 * 18.0 + headings;
         let bottom = top + figure.size.1 + AXES.1;
         let height = bottom + if legend.height() > 0.0 { legend.height() + 10.0 } else { 6.0 };
-        Page { figure, legend, title, notes, width, height, wide, before, top, bottom }
+        Page { figure, legend, title, notes, width, height, rooms, top, bottom }
     }
 
-    fn draw(&self, canvas: &mut dyn Canvas) {
-        let Page { figure, width, height, wide, .. } = *self;
+    fn draw(&self, svg: &mut Svg) {
+        let Page { figure, width, height, .. } = *self;
         let middle = width / 2.0;
-        canvas.rectangle((0.0, 0.0), (width, height), PAPER);
+        svg.rectangle((0.0, 0.0), (width, height), PAPER);
         let mut y = 20.0;
         for line in &self.title {
-            canvas.label(line, (middle, y), TITLE, Anchor::Middle, TEXT);
+            svg.label(line, (middle, y), TITLE, Anchor::Middle, TEXT);
             y += 20.0;
         }
         for line in &self.notes {
-            canvas.label(line, (middle, y - 1.0), LABEL - 1.0, Anchor::Middle, TEXT);
+            svg.label(line, (middle, y - 1.0), LABEL - 1.0, Anchor::Middle, TEXT);
             y += 18.0;
         }
-        let left = (width - figure.charts.len().max(1) as f64 * wide) / 2.0 + self.before;
-        for (index, chart) in figure.charts.iter().enumerate() {
-            let from: Place = (left + index as f64 * wide, self.top);
+        let mut left = (width - charts_width(&self.rooms, figure.size.0)) / 2.0;
+        for (index, (chart, (before, beside))) in figure.charts.iter().zip(&self.rooms).enumerate() {
+            left += before;
             if let Some(heading) = figure.heading(index) {
-                canvas.label(&heading, (from.0, from.1 - 12.0), LABEL, Anchor::Left, TEXT);
+                svg.label(&heading, (left, self.top - 12.0), LABEL, Anchor::Left, TEXT);
             }
-            draw_chart(canvas, chart, from, figure.size);
+            draw_chart(svg, chart, (left, self.top), figure.size);
+            left += figure.size.0 + beside;
         }
-        self.legend.draw(canvas, middle, self.bottom + 12.0);
+        self.legend.draw(svg, middle, self.bottom + 12.0);
     }
+}
+
+/// Width of charts with frames of this width, px.
+fn charts_width(rooms: &[(f64, f64)], frame: f64) -> f64 {
+    rooms.iter().map(|(before, beside)| before + frame + beside).sum()
 }
 
 fn frame_of<'a>(chart: &'a Chart, y: &'a Axis, from: Place, size: (f64, f64)) -> Frame<'a> {
     Frame { from, to: (from.0 + size.0, from.1 + size.1), x: &chart.x, y, size: NUMBER }
 }
 
-/// Room on the left and on the right of a chart, the same for all.
-fn rooms(figure: &Figure) -> (f64, f64) {
-    figure.charts.iter().fold((AXES.0, BESIDE), |(left, right), chart| {
-        let frame = frame_of(chart, &chart.y, (0.0, 0.0), figure.size);
-        let scale = chart.map().map_or(0.0, |map| {
-            let bar = Frame { y: &map.key, ..frame };
-            (FROM_MAP + BAR + bar.room(Side::Right) + MARGIN).max(SCALE)
-        });
-        (left.max(frame.room(Side::Left) + MARGIN), right.max(scale))
-    })
+/// Room on the left and on the right of a chart.
+fn rooms(chart: &Chart, size: (f64, f64)) -> (f64, f64) {
+    let frame = frame_of(chart, &chart.y, (0.0, 0.0), size);
+    let scale = chart
+        .map()
+        .map_or(0.0, |map| FROM_MAP + BAR + Frame { y: &map.key, ..frame }.room(Side::Right) + MARGIN);
+    (AXES.0.max(frame.room(Side::Left) + MARGIN), BESIDE.max(scale))
 }
 
-fn draw_chart(canvas: &mut dyn Canvas, chart: &Chart, from: Place, size: (f64, f64)) {
+fn draw_chart(svg: &mut Svg, chart: &Chart, from: Place, size: (f64, f64)) {
     let frame = frame_of(chart, &chart.y, from, size);
     let y = if chart.inset.is_some() { inset::axis_with_room(chart, &frame) } else { chart.y.clone() };
     let frame = Frame { y: &y, ..frame };
-    layers::draw(canvas, &frame, &chart.layers);
-    canvas.frame(frame.from, frame.to, Pen::solid(TEXT, 1.0));
-    frame.axis(canvas, Side::Below, TEXT, true);
-    frame.axis(canvas, Side::Left, TEXT, true);
+    layers::draw(svg, &frame, &chart.layers);
+    svg.frame(frame.from, frame.to, Pen::solid(TEXT, 1.0));
+    frame.axis(svg, Side::Below, true);
+    frame.axis(svg, Side::Left, true);
     if let Some(map) = chart.map() {
-        scale_of_colours(canvas, map, &frame);
+        scale_of_colours(svg, map, &frame);
     }
     if let Some(inner) = &chart.inset {
         let (from, to) = inset::place(chart, &frame);
         let paper = ((from.0 - inset::AXES.0, from.1 - 3.0), (to.0 + 6.0, to.1 + inset::AXES.1));
-        canvas.rectangle(paper.0, paper.1, PAPER);
+        svg.rectangle(paper.0, paper.1, PAPER);
         let frame = Frame { from, to, x: &inner.x, y: &inner.y, size: 0.8 * NUMBER };
-        layers::draw(canvas, &frame, &inner.layers);
-        canvas.frame(from, to, Pen::solid(TEXT, 0.8));
-        frame.axis(canvas, Side::Left, TEXT, false);
-        frame.axis(canvas, Side::Below, TEXT, false);
+        layers::draw(svg, &frame, &inner.layers);
+        svg.frame(from, to, Pen::solid(TEXT, 0.8));
+        frame.axis(svg, Side::Left, false);
+        frame.axis(svg, Side::Below, false);
     }
 }
 
-fn scale_of_colours(canvas: &mut dyn Canvas, map: &HeatMap, beside: &Frame<'_>) {
+fn scale_of_colours(svg: &mut Svg, map: &HeatMap, beside: &Frame<'_>) {
     let left = beside.to.0 + FROM_MAP;
-    let across = Axis::new(AxisScale::Linear, Span { low: 0.0, high: 1.0 }, "", "", "");
     let (from, to) = ((left, beside.from.1), (left + BAR, beside.to.1));
-    let bar = Frame { from, to, x: &across, y: &map.key, size: NUMBER };
-    for stripe in 0..STRIPES {
-        let share = |stripe: u32| f64::from(stripe) / f64::from(STRIPES);
-        let height = |share: f64| to.1 - bar.height() * share;
-        let top = (height(share(stripe + 1)) - 0.5).max(from.1);
-        let colour = shade(f64::midpoint(share(stripe), share(stripe + 1)));
-        canvas.rectangle((from.0, top), (to.0, height(share(stripe))), colour);
-    }
-    canvas.frame(from, to, Pen::solid(TEXT, 1.0));
-    bar.axis(canvas, Side::Right, TEXT, true);
+    svg.shaded(from, to, map.shades);
+    svg.frame(from, to, Pen::solid(TEXT, 1.0));
+    let across = Axis::new(AxisScale::Linear, Span { low: 0.0, high: 1.0 }, "", "", "");
+    Frame { from, to, x: &across, y: &map.key, size: NUMBER }.axis(svg, Side::Right, true);
 }
 
 #[cfg(test)]
-pub(crate) mod tests {
+mod tests {
     use super::*;
     use crate::draw::chart::{Layer, Shape, Sign, Stroke};
-    use crate::draw::colour::{Ink, hex};
+    use crate::draw::colour::Ink;
+    use roxmltree::Document;
 
-    /// Elements of a document, names with attributes, and its text. Panics if the document is not well-formed.
+    /// Tags of a document with their attributes, and its text. Panics if the document is not well-formed.
     pub(crate) fn parsed(svg: &str) -> (Vec<String>, String) {
-        let (mut elements, mut open, mut text) = (Vec::new(), Vec::new(), String::new());
-        let mut rest = svg;
-        while let Some((before, behind)) = rest.split_once('<') {
-            assert!(!before.contains('>'), "{before}");
-            text += &unescaped(before);
-            let (tag, behind) = behind.split_once('>').expect("a tag ends");
-            rest = behind;
-            if let Some(name) = tag.strip_prefix('/') {
-                assert_eq!(open.pop(), Some(name), "{tag}");
-                continue;
-            }
-            let (tag, empty) = tag.strip_suffix('/').map_or((tag, false), |tag| (tag, true));
-            let (name, attributes) = tag.split_once(' ').unwrap_or((tag, ""));
-            assert!(name.chars().all(char::is_alphabetic), "{tag}");
-            // Names and values alternate; values are in quotes.
-            let mut pieces = attributes.split('"');
-            while let Some(name) = pieces.next().filter(|name| !name.is_empty()) {
-                let name = name.trim_start().strip_suffix('=').expect(tag);
-                assert!(name.chars().all(|one| one.is_ascii_alphabetic() || "-:".contains(one)), "{tag}");
-                let _ = unescaped(pieces.next().expect("a value"));
-            }
-            elements.push(tag.to_owned());
-            if !empty {
-                open.push(name);
-            }
-        }
-        assert!(open.is_empty() && rest.trim().is_empty(), "{open:?} {rest}");
-        (elements, text)
-    }
-
-    fn unescaped(text: &str) -> String {
-        assert!(!text.chars().any(|one| one.is_control() && one != '\n'), "{text:?}");
-        for entity in text.split('&').skip(1) {
-            let known = ["amp;", "lt;", "gt;", "quot;"];
-            assert!(known.iter().any(|name| entity.starts_with(name)), "{text}");
-        }
-        text.replace("&lt;", "<").replace("&gt;", ">").replace("&quot;", "\"").replace("&amp;", "&")
+        let document = Document::parse(svg).unwrap();
+        let tag = |element: roxmltree::Node<'_, '_>| {
+            let tag = svg[element.range()].split('>').next().unwrap_or_default();
+            tag.trim_start_matches('<').trim_end_matches('/').to_owned()
+        };
+        let elements = document.descendants().filter(roxmltree::Node::is_element).map(tag).collect();
+        let text = document.descendants().filter(roxmltree::Node::is_text).filter_map(|node| node.text());
+        (elements, text.collect())
     }
 
     /// Elements of a kind.
@@ -261,7 +214,7 @@ pub(crate) mod tests {
     }
 
     /// A chart over d from 0 to 10 nm and F from 1 µN to 1 mN.
-    pub(crate) fn small(layers: Vec<Layer>) -> Figure {
+    fn small(layers: Vec<Layer>) -> Figure {
         let (d, force) = (
             axis(AxisScale::Linear, 0.0, 1e-8, "d", "m"),
             axis(AxisScale::Logarithmic, -6.0, -3.0, "F_n", "N"),

@@ -1,0 +1,139 @@
+//! SVG documents as PNG, drawn with embedded fonts: equal documents have equal pixels on every machine.
+
+use super::chart::Figure;
+use png::{BitDepth, ColorType, Encoder, PixelDimensions, Unit};
+use resvg::tiny_skia::{Color, Pixmap, Transform};
+use resvg::usvg::fontdb::Database;
+use resvg::usvg::{self, Options, Tree};
+use std::sync::Arc;
+use thiserror::Error;
+
+/// Upright and oblique letters with the same Latin, Greek, Cyrillic and mathematical characters; see LICENSE beside the
+/// files.
+const FONTS: [&[u8]; 2] = [include_bytes!("font/sans.ttf"), include_bytes!("font/sans-oblique.ttf")];
+/// Pixels for each px of a document.
+const SCALE: f32 = 2.0;
+/// Most pixels of a picture.
+const MOST_PIXELS: f64 = (1_u32 << 26) as f64;
+/// Pixels per metre of a print on which a px is 1/96 inch.
+const PER_METRE: u32 = 7559;
+
+/// Format of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PictureFormat {
+    /// Vector picture, SVG.
+    Svg,
+    /// Raster picture, two pixels for each px of the SVG.
+    Png,
+}
+
+/// Error of a raster picture.
+#[derive(Debug, Error)]
+pub enum PngError {
+    /// Too many pixels.
+    #[error(
+        "a picture of {width} × {height} pixels; allowed: at most {MOST_PIXELS} in all; SVG has no limit"
+    )]
+    TooLarge {
+        /// Pixels across.
+        width: f64,
+        /// Pixels down.
+        height: f64,
+    },
+    /// The drawing could not be read.
+    #[error("the picture could not be drawn: {0}")]
+    Drawing(#[from] usvg::Error),
+    /// The pixels could not be encoded.
+    #[error("the picture could not be encoded: {0}")]
+    Encoding(#[from] png::EncodingError),
+}
+
+impl Figure {
+    /// The figure as the content of a picture file.
+    ///
+    /// # Errors
+    /// A picture with more pixels than allowed.
+    pub fn picture(&self, format: PictureFormat) -> Result<Vec<u8>, PngError> {
+        match format {
+            PictureFormat::Svg => Ok(self.svg().into_bytes()),
+            PictureFormat::Png => png(&self.svg()),
+        }
+    }
+}
+
+/// An SVG document on white as the content of a PNG file.
+fn png(svg: &str) -> Result<Vec<u8>, PngError> {
+    let mut fonts = Database::new();
+    FONTS.iter().for_each(|font| fonts.load_font_data(font.to_vec()));
+    let tree = Tree::from_str(svg, &Options { fontdb: Arc::new(fonts), ..Options::default() })?;
+    let [width, height] = [tree.size().width(), tree.size().height()].map(|side| (SCALE * side).ceil());
+    let (across, down) = (f64::from(width), f64::from(height));
+    let too_large = PngError::TooLarge { width: across, height: down };
+    if across * down > MOST_PIXELS {
+        return Err(too_large);
+    }
+    let mut pixmap = Pixmap::new(width as u32, height as u32).ok_or(too_large)?;
+    // The last pixels may be covered in part.
+    pixmap.fill(Color::WHITE);
+    resvg::render(&tree, Transform::from_scale(SCALE, SCALE), &mut pixmap.as_mut());
+    let mut file = Vec::new();
+    let mut encoder = Encoder::new(&mut file, width as u32, height as u32);
+    encoder.set_color(ColorType::Rgb);
+    encoder.set_depth(BitDepth::Eight);
+    encoder.set_pixel_dims(Some(PixelDimensions { xppu: PER_METRE, yppu: PER_METRE, unit: Unit::Meter }));
+    let pixels: Vec<u8> =
+        pixmap.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+    encoder.write_header()?.write_image_data(&pixels)?;
+    Ok(file)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A document of 40 × 30.5 px.
+    fn document(elements: &str) -> String {
+        format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"40\" height=\"30.5\">{elements}</svg>")
+    }
+
+    fn pixels(elements: &str) -> (usize, Vec<[u8; 3]>) {
+        let file = png(&document(elements)).unwrap();
+        let mut reader = png::Decoder::new(std::io::Cursor::new(file)).read_info().unwrap();
+        assert_eq!(reader.info().pixel_dims.map(|dims| dims.xppu), Some(PER_METRE));
+        let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+        let frame = reader.next_frame(&mut bytes).unwrap();
+        assert_eq!((frame.width, frame.height, frame.color_type), (80, 61, ColorType::Rgb));
+        (frame.width as usize, bytes.as_chunks::<3>().0.to_vec())
+    }
+
+    #[test]
+    fn shapes_are_at_their_places_on_white() {
+        let (width, pixels) = pixels("<rect x=\"2\" y=\"2\" width=\"4\" height=\"3\" fill=\"#c81e0a\"/>");
+        for (index, colour) in pixels.iter().enumerate() {
+            let (x, y) = (index % width, index / width);
+            let inside = (4..12).contains(&x) && (4..10).contains(&y);
+            assert_eq!(*colour, if inside { [0xc8, 0x1e, 0x0a] } else { [255; 3] }, "{x} {y}");
+        }
+    }
+
+    #[test]
+    fn the_fonts_have_the_characters_of_figures() {
+        let drawn = |character: char, style: &str| {
+            let style =
+                format!("x=\"9\" y=\"20\" font-family=\"sans-serif, DejaVu Sans\" font-style=\"{style}\"");
+            pixels(&format!("<text {style}>{character}</text>")).1
+        };
+        let missing = drawn('汉', "normal");
+        for character in "Az09 µγκδπ−·×±≤∇√°⁻¹²³…–“”éßЖ".chars() {
+            let both = ["normal", "italic"].map(|style| drawn(character, style));
+            assert!(both.iter().all(|drawn| *drawn != missing), "{character}");
+            assert!(!character.is_ascii_alphanumeric() || both[0] != both[1], "{character}");
+        }
+    }
+
+    #[test]
+    fn too_many_pixels_are_refused() {
+        let error = png(&document("").replace("40", "1e6").replace("30.5", "1e6")).unwrap_err();
+        assert!(error.to_string().contains("2000000 × 2000000 pixels; allowed: at most 67108864"), "{error}");
+    }
+}
