@@ -32,7 +32,7 @@ pub(super) fn rows(sheet: &mut Sheet, outcome: &Outcome) {
     share(sheet, "  F_a(0)/F_a", zero_load, adhesion, INSENSITIVE_SHARE, says);
     let says = ["there at first touch", "vanished at first touch"];
     share(sheet, "  F_a(0)/F_smooth", zero_load, smooth, VANISHING_SHARE, says);
-    if preload.is_some_and(|preload| preload <= 0.0) {
+    if preload.is_some_and(|preload| preload <= 0.0) && zero_load != adhesion {
         let says = ["there without a preload", "vanished without a preload"];
         share(sheet, "  F_a/F_smooth", adhesion, smooth, VANISHING_SHARE, says);
     }

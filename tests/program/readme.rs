@@ -230,7 +230,7 @@ fn the_regimes_are_those_of_the_program() {
             "| pressure-insensitive | F_a(0) ≥ {INSENSITIVE_SHARE} F_a and F_a(0) ≥ {VANISHING_SHARE} F_smooth |"
         ),
         format!(
-            "| non-adhesive | F_a ≤ {NEGLIGIBLE_COEFFICIENT} F_n; without a preload: F_a(0) < {VANISHING_SHARE} F_smooth |"
+            "| non-adhesive | F_a ≤ {NEGLIGIBLE_COEFFICIENT} F_n; without a preload: F_a < {VANISHING_SHARE} F_smooth |"
         ),
     ] {
         assert!(model.contains(&row), "docs/model.md lacks: {row}");
