@@ -40,7 +40,7 @@ impl SceneArguments {
     pub(super) fn open(&self) -> Result<Document, CliError> {
         let document = self.overrides.apply(open_argument(&self.scene)?)?;
         if let Some(warning) = document.scene().warning() {
-            // A closed standard error is no reason to stop.
+            // The command continues even if standard error is closed.
             let _ = writeln!(io::stderr(), "warning: {}: {warning}", printable(document.name()));
         }
         Ok(document)

@@ -20,7 +20,7 @@ const MOST_REPEATED: usize = 60;
 const NO_SCENE: &str = "a scene in ( ) is expected here; a measured surface is read by `asperity surface FILE`, and \
                         is the roughness of a scene by --set roughness=FILE";
 
-/// Reason why text is no scene, at a byte of the text.
+/// Reason why a text cannot be read as a scene, with the byte at which reading failed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Unread {
     pub(super) offset: usize,

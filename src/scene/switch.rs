@@ -76,7 +76,7 @@ impl Document {
     /// This document with an effect; unchanged if the effect is on.
     ///
     /// Restores the text that was removed when the effect was switched off; other changes since are kept. If there is no
-    /// such text, or it is no longer valid, the effect is set to suit the scene.
+    /// such text, or if that text is no longer valid, the effect takes values that suit the scene.
     ///
     /// # Errors
     /// The effect is impossible in the scene, such as roughness on a single spring.
@@ -183,7 +183,7 @@ impl Document {
         refused.map_or(Ok(None), Err)
     }
 
-    /// The same adhesion specified otherwise; the next choice itself if the value is not known.
+    /// Converts the adhesion to the next way of specifying it; returns its usual value if the conversion is unknown.
     fn converted(&self, next: &str, computed: &Computed) -> Result<Document, SceneErrors> {
         // A typed value comes back from a conversion to another one without digits of rounding.
         let typed = |value| if rounded(value, 10) == rounded(value, 14) { rounded(value, 10) } else { value };
@@ -322,7 +322,7 @@ mod tests {
         let held = off(&document(), Effect::Unloading).set("loading.0", "ToForce(3.0e-5)").unwrap();
         let pulled = held.with(Effect::Unloading).unwrap();
         assert_eq!(pulled.scene().loading, [ToForce(3e-5), ToSeparation]);
-        // What is no longer valid is set anew.
+        // A removed text that is no longer valid is replaced by values that suit the scene.
         let coarse = back(&smooth.set("numerics.points", "64").unwrap());
         assert_eq!(coarse.value("roughness.modes"), Some("(1, 8)"));
     }

@@ -149,7 +149,7 @@ fn stages(scene: &Scene, points: u64, springs: u64) -> Vec<PlannedStage> {
     let exact = scene.numerics.solver == Solver::Exact;
     let (measured, random) =
         (matches!(scene.roughness, Some(Roughness::Measured { .. })), scene.seed().is_some());
-    // The field that requires a stage, or the reason why it is skipped; passes over so many springs; bytes.
+    // Field that requires the stage or reason for skipping it, number of passes, springs of each pass, bytes.
     let row = |stage, because: Result<_, _>, (passes, springs): (Option<u64>, u64), bytes| {
         let runs = because.is_ok();
         let (passes, bytes) = if runs { (passes, bytes) } else { (Some(0), 0) };

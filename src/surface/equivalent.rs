@@ -72,7 +72,7 @@ impl MeasuredRoughness {
         }
     }
 
-    /// Checks that a line of a length (m) can be made on so many springs; the error is the reason, in one line.
+    /// Checks that a line of this length (m) can be made on this number of springs; the error is the reason, in one line.
     pub fn check(&self, length: f64, points: usize) -> Result<(), String> {
         match self {
             MeasuredRoughness::Profile(profile) => profile.sample(length, 1, 0.0).map(drop),
@@ -91,7 +91,7 @@ impl EquivalentLine {
     /// Analyses the surfaces in the files of all faces.
     ///
     /// # Errors
-    /// [`SurfaceError::Measured`] for a face without a file, or if a file is no surface, or has no spectrum.
+    /// [`SurfaceError::Measured`] for a face without a file, and for a file that holds no surface or has no spectrum.
     pub fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         let spectra = faces.iter().map(|face| Ok(options.analyse(face)?.isotropic));
         Ok(EquivalentLine { faces: spectra.collect::<Result<_, SurfaceError>>()? })
