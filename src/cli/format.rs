@@ -20,8 +20,6 @@ pub enum Format {
     Csv,
     /// Array of NumPy.
     Npy,
-    /// Tables for a document.
-    Markdown,
     /// Picture of lines.
     Svg,
     /// Picture of pixels.
@@ -29,12 +27,11 @@ pub enum Format {
 }
 
 /// Formats with their names and the extensions of their files.
-const FORMATS: [(Format, &str, &str); 7] = [
+const FORMATS: [(Format, &str, &str); 6] = [
     (Format::Text, "text", "txt"),
     (Format::Json, "json", "json"),
     (Format::Csv, "csv", "csv"),
     (Format::Npy, "npy", "npy"),
-    (Format::Markdown, "markdown", "md"),
     (Format::Svg, "svg", "svg"),
     (Format::Png, "png", "png"),
 ];

@@ -85,7 +85,7 @@ pub enum Content {
     Figure(PictureFormat),
     /// The panes as plain text.
     Text,
-    /// The cells of the map, or of its sections, as comma-separated values.
+    /// The cells of the map as comma-separated values.
     MapCells,
 }
 

@@ -1,26 +1,21 @@
 //! State of the shown map, over H and κ or e_el/γ or over the axes of a study, and its part still to be computed.
 
 use crate::scene::{RoughnessParameter, Scene};
-use crate::study::map::{
-    Charted, LiveMap, MapAxis, MapModel, NoMap, StudyMap, Template, hursts, parameter_values,
-};
+use crate::study::map::{LiveMap, NoMap, StudyMap, Template};
+use crate::study::{Axis, Grid, Quantity};
 use std::sync::Arc;
 
 /// State of the pane of the map.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
     /// Quantity of the glyphs, where the map has it.
-    pub quantity: Charted,
-    /// True if the sections through the mark replace the map.
-    pub sections: bool,
-    /// True if columns and rows are exchanged: κ or e_el/γ across.
-    transposed: bool,
+    pub quantity: Quantity,
     /// Parameter of the live map, beside H.
     parameter: RoughnessParameter,
     /// The live map so far, shown or not. Kept while its parameter and H change.
     pub map: Option<Arc<LiveMap>>,
     /// The live map as shown.
-    live: Option<Arc<MapModel>>,
+    live: Option<Arc<Grid>>,
     /// A finished study, kept until another one is opened.
     pub study: Option<OpenStudy>,
     /// True if the map of the study replaces the live map.
@@ -36,7 +31,21 @@ pub struct OpenStudy {
     pub study_map: Arc<StudyMap>,
     /// Number of the shown map.
     pub slice: u64,
-    map_model: Arc<MapModel>,
+    grid: Arc<Grid>,
+}
+
+impl Default for Chart {
+    fn default() -> Self {
+        Chart {
+            quantity: Quantity::Regime,
+            parameter: RoughnessParameter::default(),
+            map: None,
+            live: None,
+            study: None,
+            of_study: false,
+            moving: false,
+        }
+    }
 }
 
 impl OpenStudy {
@@ -51,9 +60,9 @@ impl OpenStudy {
 impl Chart {
     /// The shown map, if any.
     #[must_use]
-    pub fn map_model(&self) -> Option<&MapModel> {
+    pub fn grid(&self) -> Option<&Grid> {
         match self.shown_study() {
-            Some(study) => Some(&study.map_model),
+            Some(study) => Some(&study.grid),
             None => self.live.as_deref(),
         }
     }
@@ -66,17 +75,8 @@ impl Chart {
 
     /// Opens one map of a study.
     pub fn open_study(&mut self, study_map: Arc<StudyMap>, slice: u64) {
-        let map_model = self.placed(study_map.model(slice));
-        self.study = Some(OpenStudy { study_map, slice, map_model });
-    }
-
-    /// Exchanges columns and rows.
-    pub fn transpose(&mut self) {
-        self.transposed = !self.transposed;
-        let study = self.study.as_mut().map(|study| &mut study.map_model);
-        for map_model in self.live.as_mut().into_iter().chain(study) {
-            *map_model = Arc::new(map_model.transposed());
-        }
+        let grid = Arc::new(study_map.grid(slice));
+        self.study = Some(OpenStudy { study_map, slice, grid });
     }
 
     /// Parameter of the live map, beside H.
@@ -94,33 +94,28 @@ impl Chart {
         (self.map, self.live, self.moving) = (None, None, false);
     }
 
-    fn placed(&self, map_model: MapModel) -> Arc<MapModel> {
-        Arc::new(if self.transposed { map_model.transposed() } else { map_model })
-    }
-
-    /// Axes of the shown map or, before there is one, of the live map of a scene with H or without.
+    /// Axes across and up of the shown map or, before there is one, of the live map of a scene.
     #[must_use]
-    pub fn axes(&self, has_hurst: bool) -> (MapAxis, Option<MapAxis>) {
-        match (self.map_model(), has_hurst, self.transposed) {
-            (Some(map_model), ..) => (map_model.across().clone(), map_model.up().cloned()),
-            (None, true, false) => (hursts(), Some(parameter_values(self.parameter))),
-            (None, true, true) => (parameter_values(self.parameter), Some(hursts())),
-            (None, false, _) => (parameter_values(self.parameter), None),
+    pub fn axes(&self, scene: &Scene) -> Option<(Axis, Option<Axis>)> {
+        if let Some(grid) = self.grid() {
+            return Some((grid.across.clone(), grid.up.clone()));
         }
+        let mut axes = Template::of(scene).ok()?.over(self.parameter).axes().into_iter();
+        Some((axes.next()?, axes.next()))
     }
 
     /// Quantity of the glyphs: the chosen one, where the map has it.
     #[must_use]
-    pub fn charted(&self) -> Charted {
-        let all = self.map_model().map(MapModel::charted).unwrap_or_default();
+    pub fn charted(&self) -> Quantity {
+        let all = self.grid().map(Grid::quantities).unwrap_or_default();
         let chosen = all.iter().find(|one| **one == self.quantity);
         *chosen.or(all.first()).unwrap_or(&self.quantity)
     }
 
     /// Next quantity of the glyphs.
     #[must_use]
-    pub fn next_charted(&self) -> Charted {
-        let all = self.map_model().map(MapModel::charted).unwrap_or_default();
+    pub fn next_charted(&self) -> Quantity {
+        let all = self.grid().map(Grid::quantities).unwrap_or_default();
         let now = self.charted();
         let place = all.iter().position(|one| *one == now).map_or(0, |place| place + 1);
         all.get(place).or(all.first()).copied().unwrap_or(now)
@@ -128,15 +123,14 @@ impl Chart {
 
     /// Stores the live map computed so far.
     pub fn take_in(&mut self, map: Arc<LiveMap>) {
-        self.live = Some(self.placed(map.model()));
+        self.live = Some(Arc::new(map.grid()));
         self.map = Some(map);
     }
 
     /// Drops the live map unless a changed scene has the same.
     pub fn renew(&mut self, scene: &Scene) {
         self.moving = false;
-        let template = Template::of(scene).ok().map(|template| template.over(self.parameter));
-        self.map = self.map.take().filter(|map| Some(map.template().as_ref()) == template.as_ref());
+        self.map = self.map.take().filter(|map| map.is_of(scene, self.parameter));
         self.live = self.live.take().filter(|_| self.map.is_some());
     }
 
@@ -146,10 +140,8 @@ impl Chart {
     /// When the scene has none.
     pub fn wanted(&self, scene: &Scene) -> Result<Option<Arc<LiveMap>>, NoMap> {
         let template = Template::of(scene)?.over(self.parameter);
-        let map = match &self.map {
-            Some(map) if **map.template() == template => Arc::clone(map),
-            _ => Arc::new(LiveMap::new(Arc::new(template))),
-        };
-        Ok(Some(map).filter(|map| !map.is_whole()))
+        let known = self.map.as_ref().filter(|map| map.is_of(scene, self.parameter)).cloned();
+        let map = known.or_else(|| LiveMap::new(template).ok().map(Arc::new));
+        Ok(map.filter(|map| !map.is_whole()))
     }
 }

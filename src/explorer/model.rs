@@ -21,8 +21,7 @@ use crate::contact::{CurvePoint, LegRecord};
 use crate::draw::AxisScale;
 use crate::scene::{Document, Observer, Scene, ron_float};
 use crate::simulation::Outcome;
-pub use crate::study::map::Charted;
-use crate::study::map::{MapAxis, Place, Template};
+use crate::study::{Axis, Place};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -384,13 +383,9 @@ impl Model {
     #[must_use]
     pub fn place(&self) -> Option<Place> {
         let scene = self.document.scene();
-        let template = Template::of(scene);
-        if template.is_err() && self.chart.shown_study().is_none() {
-            return None;
-        }
-        let (across, up) = self.chart.axes(template.is_ok_and(|template| template.has_hurst()));
+        let (across, up) = self.chart.axes(scene)?;
         let governing = self.governing();
-        let value = |axis: &MapAxis| axis.value(scene, governing.as_ref());
+        let value = |axis: &Axis| axis.value_in(scene, governing.as_ref());
         let place = value(&across)?;
         up.map_or(Some((place, None)), |up| Some((place, Some(value(&up)?))))
     }

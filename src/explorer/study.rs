@@ -7,7 +7,7 @@ use super::snapshot::SolvedScene;
 use crate::accuracy::{Choice, ChoiceError, Estimate, choose, estimate};
 use crate::scene::Scene;
 use crate::simulation::RunError;
-use crate::study::map::{LiveMap, compute};
+use crate::study::map::LiveMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
@@ -54,7 +54,7 @@ impl PaneData {
         Ok(match self {
             PaneData::Map(mut map) => {
                 let mut report = |map: &LiveMap| report(PaneData::Map(Arc::new(map.clone())));
-                compute(Arc::make_mut(&mut map), folder, stop, &mut report);
+                Arc::make_mut(&mut map).compute(folder, stop, &mut report);
                 PaneData::Map(map)
             }
             PaneData::Preloads(mut curve) => {

@@ -2,7 +2,6 @@
 
 use super::action::{Content, WriteFailure, Written};
 use super::model::{Mode, Model, Notice};
-use super::panes;
 use super::picture::{svg, text};
 use super::theme::Theme;
 use super::view;
@@ -70,10 +69,7 @@ fn write_content(file: &mut dyn Write, model: &Model, path: &Path, content: Cont
             let figure = model.figure().ok_or_else(|| io::Error::other("the pane is empty"))?;
             file.write_all(&figure.picture(format).map_err(io::Error::other)?)
         }
-        Content::MapCells => {
-            let map_model = model.chart.map_model().ok_or_else(no_map)?;
-            write_map(file, map_model, model.chart.sections.then(|| panes::section_cell(model, map_model)))
-        }
+        Content::MapCells => write_map(file, model.chart.grid().ok_or_else(no_map)?),
         Content::Text => file.write_all(text(&picture_of(model)).as_bytes()),
     }
 }

@@ -40,7 +40,7 @@ pub(crate) use scene_figure::mark_name;
 pub use scene_figure::{ContactSets, force_figure, sign};
 pub use scene_tables::{write_curve, write_line};
 pub use spectrum_figure::{Spectra, SpectrumPoint};
-pub use study_figure::study_figure;
+pub use study_figure::{study_curves, study_figure, study_map};
 pub use summary::{brief_summary, summary};
 pub use surface::{
     MeasuredFace, SurfaceAdhesion, SurfaceContact, SurfaceFile, SurfaceReport, measured_adhesion_text,

@@ -1,17 +1,20 @@
-//! Figures of studies: a map over two axes, or sections along one.
+//! Figures of studies: a map over two axes, or curves along one.
 
-use crate::analysis::Regime;
+use crate::analysis::{Regime, VANISHING_SHARE};
 use crate::draw::{
     Axis, AxisScale, Chart, Class, Contour, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Sign, Span,
     Stroke, value_label,
 };
-use crate::study::figure::{Estimate, Figure as Study, FigureAxis, Panel};
+use crate::study::{self, Estimate, Grid, Quantity};
 
 /// Fewest decades of a quantity with a logarithmic inset.
 const DECADES_FOR_INSET: f64 = 1.5;
 /// Most decades of a logarithmic axis, and of the colour scale of a map.
 const MOST_DECADES: f64 = 12.0;
 const MOST_DECADES_OF_MAP: f64 = 6.0;
+
+/// Least share of the range of one sign in that of the other for colours of both signs.
+const LEAST_OF_A_SIGN: f64 = 0.25;
 
 /// Regimes of a map: sign, letter, ink.
 const REGIMES: [(Regime, Sign, char, Ink); 3] = [
@@ -20,103 +23,134 @@ const REGIMES: [(Regime, Sign, char, Ink); 3] = [
     (Regime::NonAdhesive, Sign::Cross, 'n', Ink::Quiet),
 ];
 
-/// A figure of a study.
+/// A figure of charts, with the values of fixed axes below its title.
 #[must_use]
-pub fn study_figure(study: &Study) -> Figure {
-    let statements = study.fixed.iter().map(|fixed| Label::statement(fixed));
+pub fn study_figure(title: &str, fixed: &[String], charts: Vec<Chart>) -> Figure {
+    let statements = fixed.iter().map(|fixed| Label::statement(fixed));
     let fixed = statements.reduce(|line, statement| line.then(", ").join(&statement));
-    let chart = |panel: &Panel| match &study.up {
-        Some(up) => map(study, up, panel),
-        None => sections(study, panel),
+    Figure { title: title.into(), notes: fixed.into_iter().collect(), charts, size: Figure::SMALL }
+}
+
+/// A map of a quantity over the two axes of a grid, with the regimes and the line on which adhesion without a load
+/// vanishes; `whole` adds substitutes for cells that have not been computed yet. `None` for a grid along one axis.
+#[must_use]
+pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> {
+    let (across, up) = (&grid.across, grid.up.as_ref()?);
+    let values = means(&grid.estimates(quantity, whole));
+    let layer = grid.layer(quantity);
+    let scale = layer.map_or(AxisScale::Linear, |layer| layer.scale);
+    let ends = layer.map_or(Some((0.0, 1.0)), |layer| layer.range);
+    let ends = ends.map_or_else(Vec::new, |(low, high)| vec![low, high]);
+    // Both signs of a quantity have colours of their own, unless one of them is rare.
+    let (shades, range) = match ends.as_slice() {
+        [low, high] if -low > LEAST_OF_A_SIGN * high && *high > -LEAST_OF_A_SIGN * low => {
+            (Shades::Diverging, Span::around([-low, *low, *high, -high].into_iter(), 0.0))
+        }
+        _ => (Shades::Sequential, Span::of_values(scale, ends.into_iter(), MOST_DECADES_OF_MAP)),
     };
-    Figure {
-        title: study.title.clone(),
-        notes: fixed.into_iter().collect(),
-        charts: study.panels.iter().map(chart).collect(),
-        size: Figure::SMALL,
-    }
-}
-
-fn axis_over(axis: &FigureAxis, span: Span) -> Axis {
-    Axis::new(axis.scale, span, &axis.name, &axis.symbol, &axis.unit)
-}
-
-/// Name and symbol of the quantity of a panel.
-fn heading(panel: &Panel) -> Label {
-    Label::quantity(&panel.quantity.name, &panel.quantity.symbol)
-}
-
-/// Axis of a quantity: its symbol, or its name if it has none.
-fn axis_of(panel: &Panel, scale: AxisScale, span: Span) -> Axis {
-    let quantity = &panel.quantity;
-    let name = if quantity.symbol.is_empty() { quantity.name.as_str() } else { "" };
-    Axis::new(scale, span, name, &quantity.symbol, &quantity.unit)
-}
-
-fn map(study: &Study, up: &FigureAxis, panel: &Panel) -> Chart {
-    let across = &study.across;
-    let means = panel.estimates.iter().map(|estimate| estimate.map(|estimate| estimate.mean));
-    let values: Vec<Option<f64>> = means.collect();
-    let ends = panel.range.map(|(low, high)| vec![low, high]);
-    let ends = ends.unwrap_or_else(|| values.iter().flatten().copied().collect());
-    let range = Span::of_values(panel.scale, ends.into_iter(), MOST_DECADES_OF_MAP);
     let class = |regime: &Option<Regime>| REGIMES.iter().position(|(one, ..)| Some(*one) == *regime);
+    let class_names = REGIMES.map(|(regime, sign, letter, ink)| Class {
+        sign,
+        letter: Some(letter),
+        name: regime.name().to_owned(),
+        ink,
+    });
     let map = HeatMap {
         columns: across.values.clone(),
         rows: up.values.clone(),
         values,
-        key: axis_of(panel, panel.scale, range),
-        shades: Shades::Sequential,
-        classes: study.regimes.iter().map(class).collect(),
-        class_names: REGIMES
-            .map(|(regime, sign, letter, ink)| Class {
-                sign,
-                letter: Some(letter),
-                name: regime.name().to_owned(),
-                ink,
-            })
-            .to_vec(),
-        contour: study.boundary_of(panel).map(|boundary| Contour {
-            name: Label::symbol(&boundary.label),
-            field: boundary.values,
-            level: boundary.level,
+        key: axis_of(quantity, scale, range),
+        shades,
+        classes: grid.regimes(whole).iter().map(class).collect(),
+        class_names: class_names.to_vec(),
+        contour: vanishing(grid, quantity, whole).map(|field| Contour {
+            name: vanishing_label(),
+            field,
+            level: VANISHING_SHARE,
         }),
     };
-    Chart {
-        heading: heading(panel),
-        x: axis_over(across, HeatMap::span(across.scale, &across.values)),
-        y: axis_over(up, HeatMap::span(up.scale, &up.values)),
+    Some(Chart {
+        heading: heading(quantity),
+        x: axis_over(across, HeatMap::span(across.scale(), &across.values)),
+        y: axis_over(up, HeatMap::span(up.scale(), &up.values)),
         layers: vec![Layer::unnamed(Ink::Text, Shape::Map(Box::new(map)))],
         inset: None,
-    }
+    })
 }
 
-fn sections(study: &Study, panel: &Panel) -> Chart {
-    let across = &study.across;
+/// Curves of a quantity over the axis across, one for each row of a grid, with an inset on a logarithmic scale for small
+/// values.
+#[must_use]
+pub fn study_curves(grid: &Grid, quantity: Quantity) -> Chart {
+    let across = &grid.across;
+    let scale = grid.layer(quantity).map_or(AxisScale::Linear, |layer| layer.scale);
+    let estimates = grid.estimates(quantity, false);
+    let places = across.values.iter().map(|value| across.scale().coordinate(*value));
+    let places: Vec<f64> = places.collect();
     let axes = |scale: AxisScale| {
-        let x = axis_over(across, Span::around(across.coordinates().into_iter(), 0.03));
-        (x, axis_of(panel, scale, range(panel, scale)))
+        let x = axis_over(across, Span::around(places.iter().copied(), 0.03));
+        (x, axis_of(quantity, scale, range(quantity, &estimates, scale)))
     };
-    let layers = layers(study, panel);
-    let inset = (panel.scale == AxisScale::Linear && spans_decades(panel)).then(|| {
+    let layers = layers(grid, quantity, &estimates);
+    let inset = (scale == AxisScale::Linear && spans_decades(&estimates)).then(|| {
         let (x, y) = axes(AxisScale::Logarithmic);
         let layers = layers.iter().filter(|layer| !matches!(layer.shape, Shape::Upright(_))).cloned();
         Box::new(Chart::new(x, y, layers.collect()))
     });
-    let (x, y) = axes(panel.scale);
-    Chart { heading: heading(panel), x, y, layers, inset }
+    let (x, y) = axes(scale);
+    Chart { heading: heading(quantity), x, y, layers, inset }
 }
 
-/// Range of the vertical axis of sections.
-fn range(panel: &Panel, scale: AxisScale) -> Span {
-    let estimates = || panel.estimates.iter().flatten();
-    let means = || estimates().map(|estimate| estimate.mean);
-    let from = Span::of_values(scale, means(), MOST_DECADES);
-    let ends = estimates().flat_map(|estimate| [estimate.mean, estimate.low, estimate.high]);
+fn means(estimates: &[Option<Estimate>]) -> Vec<Option<f64>> {
+    estimates.iter().map(|estimate| Some((*estimate)?.mean)).collect()
+}
+
+fn axis_over(axis: &study::Axis, span: Span) -> Axis {
+    Axis::new(axis.scale(), span, &axis.name, axis.symbol, axis.unit)
+}
+
+/// Name of a quantity in words.
+fn name(quantity: Quantity) -> String {
+    let hyphenated = [("zero load", "zero-load"), ("zero force", "zero-force"), ("pull off", "pull-off")];
+    let name = quantity.name().replace('_', " ");
+    hyphenated.iter().fold(name, |name, (words, word)| name.replace(words, word))
+}
+
+/// Name and symbol of a quantity.
+fn heading(quantity: Quantity) -> Label {
+    Label::quantity(&name(quantity), quantity.symbol())
+}
+
+/// Axis of a quantity: its symbol, or its name if it has none.
+fn axis_of(quantity: Quantity, scale: AxisScale, span: Span) -> Axis {
+    let name = if quantity.symbol().is_empty() { name(quantity) } else { String::new() };
+    Axis::new(scale, span, &name, quantity.symbol(), quantity.unit())
+}
+
+/// F_a(0)/F_a,max in all cells, whose boundary a figure of a quantity shows: the quantity itself, or the first recorded
+/// one.
+fn vanishing(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Vec<Option<f64>>> {
+    let shares = Quantity::ADHESION_SHARES;
+    let own = shares.contains(&quantity).then_some(quantity);
+    let share = own.or_else(|| shares.into_iter().find(|share| grid.layer(*share).is_some()))?;
+    Some(means(&grid.estimates(share, whole)))
+}
+
+fn vanishing_label() -> Label {
+    Label::symbol(&format!("F_a(0) = {VANISHING_SHARE} F_a,max"))
+}
+
+/// Range of the vertical axis of curves.
+fn range(quantity: Quantity, estimates: &[Option<Estimate>], scale: AxisScale) -> Span {
+    let known = || estimates.iter().flatten();
+    let from = Span::of_values(scale, known().map(|estimate| estimate.mean), MOST_DECADES);
+    let ends = known().flat_map(|one| {
+        let (low, high) = one.interval.unwrap_or((one.mean, one.mean));
+        [one.mean, low, high]
+    });
     let all = Span::around(ends.map(|end| scale.coordinate(end)), 0.0);
     match scale {
-        // A confidence interval below zero has no meaning for a quantity that is never negative.
-        AxisScale::Linear if !panel.quantity.signed && from.low == 0.0 => {
+        AxisScale::Linear if quantity.bounds().0 == 0.0 && from.low == 0.0 => {
             Span { low: -0.03 * all.high, high: 1.05 * all.high }
         }
         AxisScale::Linear => all.widened(0.05),
@@ -125,8 +159,8 @@ fn range(panel: &Panel, scale: AxisScale) -> Span {
 }
 
 /// Returns true if a quantity falls too far for a linear scale.
-fn spans_decades(panel: &Panel) -> bool {
-    let means = || panel.estimates.iter().flatten().map(|estimate| estimate.mean);
+fn spans_decades(estimates: &[Option<Estimate>]) -> bool {
+    let means = || estimates.iter().flatten().map(|estimate| estimate.mean);
     let above = means().filter(|mean| *mean > 0.0);
     let lowest = above.clone().fold(f64::INFINITY, f64::min);
     let highest = above.fold(0.0, f64::max);
@@ -134,41 +168,32 @@ fn spans_decades(panel: &Panel) -> bool {
 }
 
 /// Curves with their confidence, and upright lines where F_a(0) vanishes.
-fn layers(study: &Study, panel: &Panel) -> Vec<Layer> {
-    let places = &study.across.values;
-    let curves: Vec<_> = panel.estimates.chunks(places.len().max(1)).collect();
+fn layers(grid: &Grid, quantity: Quantity, estimates: &[Option<Estimate>]) -> Vec<Layer> {
+    let places = &grid.across.values;
+    let curves: Vec<_> = estimates.chunks(places.len().max(1)).collect();
     let mut layers = Vec::new();
     let mut add = |name: Label, ink: Ink, sign: Sign, estimates: &[Option<Estimate>]| {
-        let known = || places.iter().zip(estimates);
-        let of = |figure: fn(&Estimate) -> f64, estimate: &Option<Estimate>| {
-            estimate.as_ref().map_or(f64::NAN, figure)
-        };
-        // A quantity that is never negative has no confidence below zero.
-        let least = if panel.quantity.signed { f64::NEG_INFINITY } else { 0.0 };
-        let band: Vec<_> = known()
-            .map(|(x, estimate)| {
-                (*x, of(|one| one.low, estimate).clamp(least, f64::INFINITY), of(|one| one.high, estimate))
-            })
-            .collect();
-        if band.iter().any(|(_, low, high)| high > low) {
+        let known = || places.iter().copied().zip(estimates.iter().copied());
+        let nothing = (f64::NAN, f64::NAN);
+        if estimates.iter().flatten().any(|one| one.interval.is_some_and(|(low, high)| high > low)) {
+            let interval = |one: Estimate| one.interval.unwrap_or((one.mean, one.mean));
+            let ends = known().map(|(x, one)| (x, one.map_or(nothing, interval)));
+            let band = ends.map(|(x, (low, high))| (x, low, high)).collect();
             layers.push(Layer::new("95 % confidence of the mean".into(), ink, Shape::Band(band)));
         }
-        let points = known().map(|(x, estimate)| (*x, of(|one| one.mean, estimate))).collect();
-        layers.push(Layer::new(
-            name,
-            ink,
-            Shape::Curve { points, stroke: Some(Stroke::Solid), sign: Some(sign) },
-        ));
+        let points = known().map(|(x, one)| (x, one.map_or(f64::NAN, |one| one.mean))).collect();
+        let shape = Shape::Curve { points, stroke: Some(Stroke::Solid), sign: Some(sign) };
+        layers.push(Layer::new(name, ink, shape));
     };
-    match (&study.series, curves.first()) {
-        // Curves that are equal to the last bit do not depend on the axis of the series.
-        (Some(series), Some(first)) if curves.iter().all(|curve| curve == first) => {
-            let symbol = Label::symbol_or_name(&series.symbol, &series.name);
+    match (&grid.up, curves.first()) {
+        // Curves that are equal to the last bit do not depend on the axis up.
+        (Some(up), Some(first)) if curves.iter().all(|curve| curve == first) => {
+            let symbol = Label::symbol_or_name(up.symbol, &up.name);
             add(Label::plain("any ").join(&symbol), Ink::Quiet, Sign::Dot, first);
         }
-        (Some(FigureAxis { name, symbol, unit, values, .. }), _) => {
-            for (number, (curve, value)) in curves.iter().zip(values).enumerate() {
-                let name = value_label(name, symbol, unit, *value);
+        (Some(up), _) => {
+            for (number, (curve, value)) in curves.iter().zip(&up.values).enumerate() {
+                let name = value_label(&up.name, up.symbol, up.unit, *value);
                 add(name, Ink::Series(number), Sign::of_series(number), curve);
             }
         }
@@ -176,36 +201,56 @@ fn layers(study: &Study, panel: &Panel) -> Vec<Layer> {
             first.into_iter().for_each(|curve| add("mean".into(), Ink::Series(0), Sign::Dot, curve));
         }
     }
-    if let Some(boundary) = &study.boundary {
-        let name = Label::symbol(&boundary.label);
-        layers.extend(study.crossings(panel).into_iter().map(|crossing| {
-            Layer::new(name.clone(), Ink::Quiet, Shape::Upright(study.across.scale.number(crossing)))
-        }));
-    }
+    layers.extend(crossings(grid, quantity).into_iter().map(|crossing| {
+        Layer::new(vanishing_label(), Ink::Quiet, Shape::Upright(grid.across.scale().number(crossing)))
+    }));
     layers
+}
+
+/// Coordinates on the axis across at which F_a(0) vanishes.
+fn crossings(grid: &Grid, quantity: Quantity) -> Vec<f64> {
+    let Some(shares) = vanishing(grid, quantity, false) else { return Vec::new() };
+    let places: Vec<f64> =
+        grid.across.values.iter().map(|value| grid.across.scale().coordinate(*value)).collect();
+    // At zero load all curves are equal; curves that differ have no single crossing.
+    let mut curves = shares.chunks(places.len().max(1));
+    let first = curves.next();
+    if curves.any(|curve| Some(curve) != first) {
+        return Vec::new();
+    }
+    let ends = places.windows(2).zip(first.unwrap_or_default().windows(2));
+    ends.filter_map(|(x, value)| {
+        let (first, second) = (value[0]? - VANISHING_SHARE, value[1]? - VANISHING_SHARE);
+        let crosses = (first < 0.0) != (second < 0.0);
+        crosses.then(|| x[0] + (x[1] - x[0]) * first / (first - second))
+    })
+    .collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analysis::CellRegime;
     use crate::draw::{attribute, elements, parsed};
-    use crate::study::figure::{Boundary, FigureQuantity};
+    use crate::scene::open;
+    use crate::study::{Axis as StudyAxis, Cell, Layer as Quantities, Spacing};
 
-    fn axis(name: &str, symbol: &str, scale: AxisScale, values: Vec<f64>) -> FigureAxis {
-        FigureAxis { name: name.into(), symbol: symbol.into(), unit: "1".into(), scale, values }
+    const SHARE: Quantity = Quantity::ZeroLoadAdhesionShare;
+    const COEFFICIENT: Quantity = Quantity::AdhesionCoefficient;
+
+    struct Study {
+        title: String,
+        fixed: Vec<String>,
+        grid: Grid,
     }
 
-    /// An axis of preloads without values.
-    fn preloads() -> FigureAxis {
-        FigureAxis { unit: "N".into(), ..axis("preload", "F_n", AxisScale::Logarithmic, Vec::new()) }
+    fn axis(path: &str, spacing: Spacing, values: Vec<f64>) -> StudyAxis {
+        StudyAxis::new(path, spacing, values, open("pressure-sensitive").unwrap().scene()).unwrap()
     }
 
-    fn quantity(name: &str, symbol: &str) -> FigureQuantity {
-        FigureQuantity { name: name.into(), symbol: symbol.into(), unit: "1".into(), signed: false }
-    }
-
-    fn kappas() -> Vec<f64> {
-        (0..17).map(|index| 0.25 * 10_f64.powf(f64::from(index) / 10.0)).collect()
+    fn kappas() -> StudyAxis {
+        let values = (0..17).map(|index| 0.25 * 10_f64.powf(f64::from(index) / 10.0)).collect();
+        axis("kappa", Spacing::Logarithmic, values)
     }
 
     fn share(kappa: f64, hurst: f64) -> f64 {
@@ -213,83 +258,77 @@ mod tests {
     }
 
     fn coefficient(kappa: f64, hurst: f64) -> f64 {
-        let held = 1.0 - share(kappa, hurst);
-        0.9 * held * (-(kappa - 2.0) / 1.1).exp()
+        0.9 * (1.0 - share(kappa, hurst)) * (-(kappa - 2.0) / 1.1).exp()
     }
 
-    fn estimate(mean: f64) -> Option<Estimate> {
-        Some(Estimate { mean, low: mean * 0.85 - 0.004, high: mean * 1.15 + 0.004 })
+    fn estimate(mean: f64) -> Estimate {
+        let (low, high) = (mean * 0.85 - 0.004, mean * 1.15 + 0.004);
+        Estimate { mean, interval: Some((low.max(0.0), high)), range: (mean, mean) }
     }
 
-    /// Two quantities in cells (κ, H) with their boundary, without axes; some cells have no value.
-    fn study(title: &str, fixed: &[&str], cells: &[(f64, f64)], missing: &[usize]) -> Study {
-        let panel = |name: &str, symbol: &str, value: fn(f64, f64) -> f64| {
-            let of = |(index, (kappa, hurst)): (usize, &(f64, f64))| {
-                estimate(value(*kappa, *hurst)).filter(|_| !missing.contains(&index))
-            };
-            Panel {
-                quantity: quantity(name, symbol),
-                estimates: cells.iter().enumerate().map(of).collect(),
-                scale: AxisScale::Linear,
-                range: None,
-                vanishes: name == "zero-load adhesion share",
-            }
+    /// A cell of two quantities with a regime.
+    fn cell(kappa: f64, hurst: f64) -> Cell {
+        let values = [share(kappa, hurst), coefficient(kappa, hurst)];
+        let regime = match values {
+            [share, _] if share > 0.5 => Regime::PressureInsensitive,
+            [_, coefficient] if coefficient > 0.01 => Regime::PressureSensitive,
+            _ => Regime::NonAdhesive,
         };
-        Study {
-            title: title.into(),
-            fixed: fixed.iter().map(ToString::to_string).collect(),
-            across: axis("governing parameter", "κ", AxisScale::Logarithmic, kappas()),
-            up: None,
-            series: None,
-            panels: vec![
-                panel("zero-load adhesion share", "F_a(0)/F_a,max", share),
-                panel("adhesion coefficient", "F_a/F_n", coefficient),
-            ],
-            boundary: Some(Boundary {
-                values: cells.iter().map(|(kappa, hurst)| Some(share(*kappa, *hurst))).collect(),
-                level: 0.05,
-                label: "F_a(0) = 0.05 F_a,max".into(),
-            }),
-            regimes: Vec::new(),
-        }
+        let regime = Some(CellRegime { regime, share: 1.0, split: None });
+        Cell { estimates: values.map(|value| Some(estimate(value))).to_vec(), regime, lines: 4 }
+    }
+
+    fn study(
+        title: &str,
+        fixed: &[&str],
+        (across, up): (StudyAxis, Option<StudyAxis>),
+        cells: Vec<Option<Cell>>,
+    ) -> Study {
+        let layer = |quantity| Quantities { quantity, scale: AxisScale::Linear, range: Some((0.0, 1.0)) };
+        let cells = cells.into_iter().map(|cell| cell.map(Ok)).collect();
+        let grid = Grid::new(across, up, [SHARE, COEFFICIENT].map(layer).to_vec(), cells);
+        Study { title: title.into(), fixed: fixed.iter().map(ToString::to_string).collect(), grid }
     }
 
     /// A map of two quantities over H and κ, with gaps.
     fn phase_map() -> Study {
         let hursts: Vec<f64> = (0..9).map(|index| f64::from(index + 1) / 10.0).collect();
-        let cells: Vec<(f64, f64)> =
-            kappas().into_iter().flat_map(|kappa| hursts.iter().map(move |hurst| (kappa, *hurst))).collect();
-        let regime = |&(kappa, hurst): &(f64, f64)| {
-            Some(match (share(kappa, hurst), coefficient(kappa, hurst)) {
-                (share, _) if share > 0.5 => Regime::PressureInsensitive,
-                (_, coefficient) if coefficient > 0.01 => Regime::PressureSensitive,
-                _ => Regime::NonAdhesive,
-            })
-        };
-        let study = study("Phase diagram of adhesion", &["F_n/(E* h L) = 0.5"], &cells, &[3, 40, 41]);
-        Study {
-            regimes: cells.iter().map(regime).collect(),
-            up: Some(study.across.clone()),
-            across: axis("Hurst exponent", "H", AxisScale::Linear, hursts),
-            ..study
-        }
+        let places = kappas().values;
+        let places = places.iter().flat_map(|kappa| hursts.iter().map(|hurst| (*kappa, *hurst)));
+        let cells = places.map(|(kappa, hurst)| Some(cell(kappa, hurst))).enumerate();
+        let cells = cells.map(|(index, cell)| cell.filter(|_| ![3, 40, 41].contains(&index))).collect();
+        let axes = (axis("roughness.hurst", Spacing::Linear, hursts), Some(kappas()));
+        study("Phase diagram of adhesion", &["F_n/(E* h L) = 0.5"], axes, cells)
     }
 
-    /// Sections of both quantities at H = 0.3, with a gap.
+    /// Curves of both quantities at H = 0.3, with a gap.
     fn sections() -> Study {
-        let cells: Vec<(f64, f64)> = kappas().into_iter().map(|kappa| (kappa, 0.3)).collect();
-        study("Sections at H = 0.3", &["H = 0.3", "F_n/(E* h L) = 0.5"], &cells, &[4])
+        let places = kappas().values;
+        let cells = places.iter().map(|kappa| Some(cell(*kappa, 0.3))).enumerate();
+        let cells = cells.map(|(index, cell)| cell.filter(|_| index != 4)).collect();
+        study("Sections at H = 0.3", &["H = 0.3", "F_n/(E* h L) = 0.5"], (kappas(), None), cells)
+    }
+
+    fn figure(Study { title, fixed, grid }: &Study) -> Figure {
+        let chart =
+            |quantity| study_map(grid, quantity, false).unwrap_or_else(|| study_curves(grid, quantity));
+        study_figure(title, fixed, [SHARE, COEFFICIENT].map(chart).to_vec())
     }
 
     fn drawn(study: &Study) -> String {
-        study_figure(study).svg()
+        figure(study).svg()
+    }
+
+    /// Estimates of a quantity in all cells.
+    fn estimates(study: &mut Study, layer: usize) -> impl Iterator<Item = &mut Option<Estimate>> {
+        study.grid.cells.iter_mut().flatten().flatten().map(move |cell| &mut cell.estimates[layer])
     }
 
     #[test]
     fn figures_name_what_they_show() {
         for (study, words) in [
             (phase_map(), vec!["pressure-sensitive", "non-adhesive", "no value", "Hurst exponent"]),
-            (sections(), vec!["95 % confidence of the mean", "mean", "governing parameter"]),
+            (sections(), vec!["95 % confidence of the mean", "mean", "roughness–adhesion parameter"]),
         ] {
             let svg = drawn(&study);
             let text = parsed(&svg).1;
@@ -305,7 +344,6 @@ mod tests {
         let mut study = phase_map();
         study.title = "\u{1b}]52;c;eA==\u{7}<&> \u{ffff} a\u{202e}b \u{9b}2J".into();
         study.fixed = vec!["\u{1b}[2J = <&>".into()];
-        study.across.name = "\u{1b}[2J<&>".into();
         let svg = drawn(&study);
         parsed(&svg);
         assert!(svg.chars().all(|c| c == '\n' || !(crate::text::is_control(c) || c == '\u{ffff}')), "{svg}");
@@ -315,15 +353,13 @@ mod tests {
     #[test]
     fn each_cell_with_a_value_is_coloured_and_the_others_are_not() {
         let study = phase_map();
-        let all: usize = study.panels.iter().map(|panel| panel.estimates.len()).sum();
-        let missing: usize =
-            study.panels.iter().map(|panel| panel.estimates.iter().filter(|one| one.is_none()).count()).sum();
+        let (columns, rows) = study.grid.size();
         let rects = elements(&drawn(&study), "rect");
         let hatched = rects.iter().filter(|rect| rect.contains("#hatched"));
         let area: f64 = hatched.map(|rect| attribute(rect, "width") * attribute(rect, "height")).sum();
-        // The cells, all of one size, and a sample of 12 × 12 px in the legend.
-        let cell = study.panels.len() as f64 * 330.0 * 270.0 / all as f64;
-        assert!((area - 144.0 - missing as f64 * cell).abs() < 5.0, "{area} {missing} {cell}");
+        // Three cells of either map, all of one size, and a sample of 12 × 12 px in the legend.
+        let cell = 330.0 * 270.0 / (columns * rows) as f64;
+        assert!((area - 144.0 - 6.0 * cell).abs() < 5.0, "{area} {cell}");
     }
 
     #[test]
@@ -332,8 +368,12 @@ mod tests {
         large.title = "A title that is a good deal longer than the figure is wide ".repeat(4);
         // Numbers that differ only in late digits.
         let mut long = [phase_map(), sections()];
-        for estimate in long.iter_mut().flat_map(|study| study.panels[0].estimates.iter_mut().flatten()) {
-            *estimate = Estimate { mean: 1e5 + estimate.mean, low: 1e5, high: 1e5 + 1.0 };
+        for study in &mut long {
+            study.grid.layers[0].range = Some((1e5, 1e5 + 1.0));
+            for one in estimates(study, 0).flatten() {
+                let mean = 1e5 + one.mean;
+                *one = Estimate { mean, interval: Some((1e5, 1e5 + 1.0)), range: (mean, mean) };
+            }
         }
         let [long_map, long_sections] = long;
         for study in [large, sections(), phase_map(), long_map, long_sections] {
@@ -375,61 +415,71 @@ mod tests {
 
     #[test]
     fn each_protocol_vanishes_at_its_own_place() {
-        let mut study = sections();
         let upright = |study: &Study, index: usize| -> Vec<f64> {
-            let layers = study_figure(study).charts[index].layers.clone();
+            let layers = figure(study).charts[index].layers.clone();
             let x = |layer: Layer| if let Shape::Upright(x) = layer.shape { Some(x) } else { None };
             layers.into_iter().filter_map(x).collect()
         };
+        let mut study = sections();
         let own = upright(&study, 0);
         assert_eq!(own.len(), 1, "{own:?}");
         // A quantity other than a share of F_a(0) shows where F_a(0) vanishes.
         assert_eq!(upright(&study, 1), own);
-        let shares = study.panels[0].estimates.clone();
-        let twice = |estimate: Option<Estimate>| {
-            estimate.map(|estimate| Estimate { mean: 2.0 * estimate.mean, ..estimate })
-        };
-        study.panels[1].estimates = shares.into_iter().map(twice).collect();
-        study.panels[1].vanishes = true;
-        let later = upright(&study, 1);
-        assert!(later.len() == 1 && later[0] > own[0], "{later:?} {own:?}");
+        study.grid.layers[1].quantity = Quantity::ZeroForceAdhesionShare;
+        let shares: Vec<_> = estimates(&mut study, 0).map(|one| *one).collect();
+        for (estimate, share) in estimates(&mut study, 1).zip(shares) {
+            *estimate = share.map(|one| Estimate { mean: 2.0 * one.mean, ..one });
+        }
+        let later = study_curves(&study.grid, Quantity::ZeroForceAdhesionShare).layers;
+        let later = later.into_iter().find_map(|layer| match layer.shape {
+            Shape::Upright(x) => Some(x),
+            _ => None,
+        });
+        assert!(later > Some(own[0]), "{later:?} {own:?}");
     }
 
     #[test]
-    fn curves_that_are_the_same_are_drawn_once() {
-        let mut study = sections();
-        study.boundary = None;
-        study.series = Some(FigureAxis { values: vec![1e-3, 2e-3], ..preloads() });
-        let [share, coefficient] = &mut study.panels[..] else { panic!() };
-        let same = share.estimates.clone();
-        share.estimates.extend(same);
-        let half = coefficient.estimates.iter().map(|one| {
-            one.map(|one| Estimate { mean: 0.5 * one.mean, low: 0.5 * one.mean, high: 0.5 * one.mean })
-        });
-        let half: Vec<_> = half.collect();
-        coefficient.estimates.extend(half);
-        let names: Vec<String> =
-            study_figure(&study).legend().iter().map(|entry| entry.name.to_string()).collect();
-        assert_eq!(names, ["any F_n", "F_n = 1 mN", "F_n = 2 mN", "95 % confidence of the mean"]);
+    fn equal_curves_are_drawn_once() {
+        let one = sections();
+        let mut cells = one.grid.cells.clone();
+        cells.extend(one.grid.cells.iter().cloned().map(|cell| {
+            cell.map(|cell| {
+                cell.map(|mut cell| {
+                    cell.estimates[1] = cell.estimates[1].map(|one| estimate(0.5 * one.mean));
+                    cell
+                })
+            })
+        }));
+        let up = axis("loading.0.0", Spacing::List, vec![1e-3, 2e-3]);
+        let grid = Grid::new(kappas(), Some(up), one.grid.layers.clone(), cells);
+        let charts = [SHARE, COEFFICIENT].map(|quantity| study_curves(&grid, quantity));
+        let legend = study_figure("", &[], charts.to_vec()).legend();
+        let names: Vec<String> = legend.iter().map(|entry| entry.name.to_string()).collect();
+        let stage = "force of stage 1";
+        let [one, two] = ["1 mN", "2 mN"].map(|force| format!("{stage} {force}"));
+        let vanishing = "F_a(0) = 0.05 F_a,max".to_owned();
+        assert_eq!(
+            names,
+            [format!("any {stage}"), vanishing, one, two, "95 % confidence of the mean".into()]
+        );
     }
 
     #[test]
     fn figures_of_one_value_or_none_are_drawn() {
         for mut study in [phase_map(), sections()] {
-            study.panels.iter_mut().for_each(|panel| panel.estimates.fill(None));
+            study.grid.cells.fill(None);
             assert!(!drawn(&study).contains("NaN"));
-            study.across.values.truncate(1);
-            study.boundary = None;
-            study.regimes.clear();
             for value in [0.0, -2.0, 1e-300] {
                 for scale in [AxisScale::Linear, AxisScale::Logarithmic] {
-                    for panel in &mut study.panels {
-                        let estimate = Estimate { mean: value, low: value, high: value };
-                        panel.estimates =
-                            vec![Some(estimate); study.up.as_ref().map_or(1, |up| up.values.len())];
-                        panel.scale = scale;
-                    }
-                    let svg = drawn(&study);
+                    let across = axis(&study.grid.across.path, study.grid.across.spacing, vec![0.5]);
+                    let one = Estimate { mean: value, interval: None, range: (value, value) };
+                    let cell = Cell { estimates: vec![Some(one); 2], regime: None, lines: 1 };
+                    let rows = study.grid.size().1;
+                    let range = Some((value, value));
+                    let layers = study.grid.layers.iter().map(|layer| Quantities { scale, range, ..*layer });
+                    let cells = vec![Some(Ok(cell)); rows];
+                    let grid = Grid::new(across, study.grid.up.clone(), layers.collect(), cells);
+                    let svg = drawn(&Study { title: String::new(), fixed: Vec::new(), grid });
                     assert!(!svg.contains("NaN") && !svg.contains("inf"), "{value} {scale:?}");
                 }
             }
@@ -437,31 +487,22 @@ mod tests {
     }
 
     #[cfg(feature = "tui")]
-    mod text {
-        use super::*;
+    #[test]
+    fn figures_as_text_stay_as_they_are() {
         use crate::draw::{Colours, figure_text};
-
-        #[test]
-        fn text_fits_its_columns_and_has_colours_only_where_it_may() {
-            let mut foreign = phase_map();
-            foreign.title = "\u{1b}]52;c;eA==\u{7} a\u{202e}b \u{9b}2J".into();
-            for study in [phase_map(), sections(), foreign] {
-                for columns in [40, 80, 200] {
-                    let text = figure_text(&study_figure(&study), columns, Colours::None);
-                    let widest = text.lines().map(|line| line.chars().count()).max();
-                    assert!(widest <= Some(columns), "{columns}: {widest:?}\n{text}");
-                    assert!(text.chars().all(|c| c == '\n' || !crate::text::is_control(c)), "{text}");
-                }
+        let mut foreign = phase_map();
+        foreign.title = "\u{1b}]52;c;eA==\u{7} a\u{202e}b \u{9b}2J".into();
+        for study in [phase_map(), sections(), foreign] {
+            for columns in [40, 80, 200] {
+                let text = figure_text(&figure(&study), columns, Colours::None);
+                let widest = text.lines().map(|line| line.chars().count()).max();
+                assert!(widest <= Some(columns), "{columns}: {widest:?}\n{text}");
+                assert!(text.chars().all(|c| c == '\n' || !crate::text::is_control(c)), "{text}");
             }
-            let coloured = figure_text(&study_figure(&phase_map()), 80, Colours::All);
-            assert!(coloured.contains("\x1b[38;2;"));
         }
-
-        #[test]
-        fn figures_as_text_stay_as_they_are() {
-            let text = |study: &Study| figure_text(&study_figure(study), 80, Colours::None);
-            insta::assert_snapshot!("study_map", text(&phase_map()));
-            insta::assert_snapshot!("study_sections", text(&sections()));
-        }
+        assert!(figure_text(&figure(&phase_map()), 80, Colours::All).contains("\x1b[38;2;"));
+        let text = |study: &Study| figure_text(&figure(study), 80, Colours::None);
+        insta::assert_snapshot!("study_map", text(&phase_map()));
+        insta::assert_snapshot!("study_sections", text(&sections()));
     }
 }

@@ -56,7 +56,7 @@ pub use field::{Field, LEG_FORCE, LEG_INDENTATION, Step};
 pub use fields::{FIELDS, MOST_POINTS, SCENE_VERSIONS, field};
 pub use library::{Entry, Library, MOST_FILES, Source, typed_path};
 pub use model::*;
-pub(crate) use open::{is_file_name, read_file};
+pub(crate) use open::is_file_name;
 pub use open::{open, open_argument};
 pub use presets::{DEFAULT, Preset, find, presets};
 pub(crate) use quantity::format_rounded;

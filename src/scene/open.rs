@@ -9,7 +9,7 @@ use super::errors::{Origin, SceneError, SceneErrors};
 use super::library::{Library, describe};
 use super::presets::{find, presets};
 use super::suggest::did_you_mean;
-use crate::io::{PROVENANCE, ReadError, into_text, npy, open_regular, read_limited, read_regular_text};
+use crate::io::{PROVENANCE, ReadError, into_text, npy, open_regular, read_limited};
 use crate::text::printable;
 
 /// Opens a scene: a file if one of that name exists or the name looks like a path (ends in `.ron` or has a path
@@ -75,11 +75,6 @@ pub fn open_argument(argument: &str) -> Result<Document, SceneErrors> {
         }
         _ => open(argument),
     }
-}
-
-/// Text of a regular file, at most as long as a scene can be.
-pub(crate) fn read_file(path: &Path) -> Result<String, String> {
-    read_regular_text(path, LONGEST_TEXT).map_err(describe)
 }
 
 fn whole(name: &str, message: String) -> SceneErrors {

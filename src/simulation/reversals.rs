@@ -12,7 +12,7 @@ pub const TURNING_POINTS: RangeInclusive<usize> = 8..=512;
 /// Most points of a map below its first turning point, over the number of turning points.
 const MOST_BELOW: usize = 4;
 /// Samples of a loading stage whose curve is not used.
-const FEW_SAMPLES: u64 = 2;
+pub(crate) const FEW_SAMPLES: u64 = 2;
 
 /// Receiver of reversals and the numbers of their turning points.
 pub type SeeReversal<'a> = dyn FnMut(usize, Reversal) -> Result<(), ContactError> + 'a;

@@ -1,6 +1,8 @@
-//! Axes of a parameter study: the varied number of a scene and its values.
+//! Axes of a parameter study: the varied quantity of a scene and its values.
 
-use super::target::{Target, TargetError};
+use super::target::Target;
+use crate::draw::AxisScale;
+use crate::scene::Scene;
 use crate::text::printable;
 use serde::{Deserialize, Serialize};
 
@@ -10,205 +12,232 @@ pub const MOST_VALUES: u64 = 1_000_000;
 /// Significant digits of values between the ends of an axis: 0.15 rather than 0.15000000000000002.
 const DIGITS: usize = 12;
 
+/// Smallest ratio of the ends of a list of values that is shown on a logarithmic scale.
+const LOGARITHMIC_RATIO: f64 = 50.0;
+
 /// An axis in the form of a plan.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum Axis {
-    /// Values at equal distances, both ends included.
-    Linear {
-        /// Path of the varied field, or a derived quantity.
-        path: String,
-        /// First value.
-        from: f64,
-        /// Last value.
-        to: f64,
-        /// Number of values, at least 2.
-        count: u64,
-    },
-    /// Values at equal ratios, both ends included.
-    Logarithmic {
-        /// Path of the varied quantity.
-        path: String,
-        /// First value, above zero.
-        from: f64,
-        /// Last value.
-        to: f64,
-        /// Number of values, at least 2.
-        count: u64,
-    },
-    /// These values.
-    List {
-        /// Path of the varied quantity.
-        path: String,
-        /// Values, all different.
-        values: Vec<f64>,
-    },
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename = "Axis")]
+pub(super) enum AxisText {
+    Linear { path: String, from: f64, to: f64, count: u64 },
+    Logarithmic { path: String, from: f64, to: f64, count: u64 },
+    List { path: String, values: Vec<f64> },
+}
+
+/// Distances between the values of an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Spacing {
+    /// Equal differences.
+    Linear,
+    /// Equal ratios.
+    Logarithmic,
+    /// Any.
+    List,
+}
+
+/// An axis: a varied quantity and its values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// Path of the varied field, or name of a derived quantity.
+    pub path: String,
+    /// Technical name: `Hurst exponent`.
+    pub name: String,
+    /// Symbol, with `_` before an index: `F_n`. May be empty.
+    pub symbol: &'static str,
+    /// SI unit; `1` for numbers without one.
+    pub unit: &'static str,
+    /// Distances between the values.
+    pub spacing: Spacing,
+    /// Values in SI units, in the order of the plan; ascending on an axis of a grid.
+    pub values: Vec<f64>,
+    pub(super) target: Target,
 }
 
 impl Axis {
-    /// Path of the varied quantity.
-    #[must_use]
-    pub fn path(&self) -> &str {
-        match self {
-            Axis::Linear { path, .. } | Axis::Logarithmic { path, .. } | Axis::List { path, .. } => path,
-        }
+    /// An axis over a quantity of a scene.
+    ///
+    /// # Errors
+    /// The path of no number.
+    pub(crate) fn new(path: &str, spacing: Spacing, values: Vec<f64>, scene: &Scene) -> Result<Axis, String> {
+        let target = Target::of(path)?;
+        let (name, symbol, unit) = target.label(path, scene);
+        Ok(Axis { path: path.to_owned(), name, symbol, unit, spacing, values, target })
     }
 
-    /// Returns true for values at equal ratios, which have a logarithmic scale in figures.
-    #[must_use]
-    pub fn is_logarithmic(&self) -> bool {
-        matches!(self, Axis::Logarithmic { .. })
+    /// Reads and checks the axis of a plan.
+    ///
+    /// # Errors
+    /// What is wrong with the axis, and what is allowed.
+    pub(super) fn of(text: AxisText, scene: &Scene) -> Result<Axis, String> {
+        let (AxisText::Linear { path, .. }
+        | AxisText::Logarithmic { path, .. }
+        | AxisText::List { path, .. }) = &text;
+        let path = printable(path).into_owned();
+        let wrong = |what: String| format!("axis {path}: {what}");
+        let axis = |spacing| Axis::new(&path, spacing, Vec::new(), scene).map_err(wrong);
+        let axis = match text {
+            AxisText::List { values, .. } => {
+                let axis = axis(Spacing::List)?;
+                if values.is_empty() {
+                    return Err(wrong("no values; allowed: at least one".into()));
+                }
+                if values.len() as u64 > MOST_VALUES {
+                    return Err(wrong(format!("{} values; allowed: at most {MOST_VALUES}", values.len())));
+                }
+                if let Some(value) = values.iter().find(|value| !value.is_finite()) {
+                    return Err(wrong(format!("{value:?}: values must be finite")));
+                }
+                Axis { values, ..axis }
+            }
+            AxisText::Linear { from, to, count, .. } => {
+                let axis = axis(Spacing::Linear)?;
+                check_ends(from, to, count).map_err(wrong)?;
+                if !(to - from).is_finite() {
+                    return Err(wrong(format!(
+                        "from {from:?} to {to:?}: the range overflows a 64-bit float"
+                    )));
+                }
+                axis.between(from, to, count, |share| from * (1.0 - share) + to * share)
+            }
+            AxisText::Logarithmic { from, to, count, .. } => {
+                let axis = axis(Spacing::Logarithmic)?;
+                check_ends(from, to, count).map_err(wrong)?;
+                if from <= 0.0 {
+                    return Err(wrong(format!("from {from:?}: a logarithmic axis begins above 0")));
+                }
+                let (first, last) = (from.ln(), to.ln());
+                axis.between(from, to, count, |share| (first * (1.0 - share) + last * share).exp())
+            }
+        };
+        if axis.is_whole()
+            && let Some(value) = axis.values.iter().find(|value| **value < 0.0 || value.fract() != 0.0)
+        {
+            return Err(wrong(format!("{value:?}: allowed: whole numbers")));
+        }
+        let ascending = axis.ascending();
+        let twice = ascending.values.windows(2).find(|pair| pair[0] == pair[1]);
+        twice.map_or(Ok(axis), |pair| Err(wrong(format!("the value {:?} appears twice", pair[0]))))
+    }
+
+    /// The axis with `count` values from one end to the other. Those between the ends are rounded to 12 significant
+    /// digits, and where the field holds whole numbers, to the nearest of these.
+    fn between(self, from: f64, to: f64, count: u64, at: impl Fn(f64) -> f64) -> Axis {
+        let is_whole = self.is_whole();
+        let rounded = |value: f64| match is_whole {
+            true => value.round(),
+            false => format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value),
+        };
+        let last = count - 1;
+        let inner = (1..last).map(|index| rounded(at(index as f64 / last as f64)));
+        Axis { values: std::iter::once(from).chain(inner).chain([to]).collect(), ..self }
+    }
+
+    /// Returns true for an axis over whole numbers.
+    pub(super) fn is_whole(&self) -> bool {
+        self.target.is_whole()
     }
 
     /// Number of values.
     #[must_use]
     pub fn count(&self) -> u64 {
-        match self {
-            Axis::Linear { count, .. } | Axis::Logarithmic { count, .. } => *count,
-            Axis::List { values, .. } => values.len() as u64,
+        self.values.len() as u64
+    }
+
+    /// Scale of the values in figures.
+    #[must_use]
+    pub fn scale(&self) -> AxisScale {
+        let low = self.values.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        match self.spacing {
+            Spacing::Logarithmic => AxisScale::Logarithmic,
+            Spacing::List if low > 0.0 && high >= LOGARITHMIC_RATIO * low => AxisScale::Logarithmic,
+            _ => AxisScale::Linear,
         }
     }
 
-    /// The `index`-th value. Those between the ends are rounded to 12 significant digits, and where the field
-    /// holds whole numbers, to the nearest of these.
+    /// Symbol, or the name of a quantity without one.
     #[must_use]
-    pub fn value(&self, index: u64) -> f64 {
-        let rounded = |value: f64| match Target::of(self.path()) {
-            Ok(target) if target.is_whole() => value.round(),
-            _ => format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value),
-        };
-        match self {
-            Axis::List { values, .. } => values.get(index as usize).copied().unwrap_or(f64::NAN),
-            Axis::Linear { from, .. } | Axis::Logarithmic { from, .. } if index == 0 => *from,
-            Axis::Linear { to, count, .. } | Axis::Logarithmic { to, count, .. } if index + 1 >= *count => {
-                *to
-            }
-            Axis::Linear { from, to, count, .. } => {
-                let share = index as f64 / (count - 1) as f64;
-                rounded(from * (1.0 - share) + to * share)
-            }
-            Axis::Logarithmic { from, to, count, .. } => {
-                let share = index as f64 / (count - 1) as f64;
-                rounded((from.ln() * (1.0 - share) + to.ln() * share).exp())
-            }
-        }
+    pub fn symbol_or_name(&self) -> &str {
+        if self.symbol.is_empty() { &self.name } else { self.symbol }
     }
 
-    /// All values of the axis.
-    #[must_use]
-    pub fn values(&self) -> Vec<f64> {
-        (0..self.count()).map(|index| self.value(index)).collect()
-    }
-
-    /// Places of the values in the order of ascending values.
-    pub(super) fn ascending(&self) -> Vec<u64> {
-        let mut places: Vec<u64> = (0..self.count()).collect();
-        places.sort_by(|a, b| self.value(*a).total_cmp(&self.value(*b)));
+    /// Places of the values in ascending order.
+    pub(super) fn order(&self) -> Vec<usize> {
+        let mut places: Vec<usize> = (0..self.values.len()).collect();
+        places.sort_by(|a, b| self.values[*a].total_cmp(&self.values[*b]));
         places
     }
 
-    /// Error of this axis alone.
-    pub(super) fn wrong(&self) -> Option<String> {
-        let path = &*printable(self.path());
-        let target = match Target::of(path) {
-            Ok(target) => target,
-            Err(TargetError { near, .. }) => {
-                let near = near.map_or_else(String::new, |near| format!("; did you mean {near}?"));
-                return Some(format!(
-                    "axis {path}: no such number{near} (allowed: numbers of a scene by their paths, and {})",
-                    super::target::DERIVED.join(", ")
-                ));
-            }
-        };
-        let wrong = |what: String| Some(format!("axis {path}: {what}"));
-        match self {
-            Axis::Linear { count, .. } | Axis::Logarithmic { count, .. }
-                if !(2..=MOST_VALUES).contains(count) =>
-            {
-                return wrong(format!("count = {count}: allowed: from 2 to {MOST_VALUES}"));
-            }
-            Axis::Linear { from, to, .. } | Axis::Logarithmic { from, to, .. }
-                if !(from.is_finite() && to.is_finite()) =>
-            {
-                return wrong(format!("from {from:?} to {to:?}: both ends must be finite"));
-            }
-            Axis::Linear { from, to, .. } | Axis::Logarithmic { from, to, .. } if from >= to => {
-                return wrong(format!("from {from:?} to {to:?}: it must begin below its end"));
-            }
-            Axis::Linear { from, to, .. } if !(to - from).is_finite() => {
-                return wrong(format!("from {from:?} to {to:?}: this is too far for numbers"));
-            }
-            Axis::Logarithmic { from, .. } if *from <= 0.0 => {
-                return wrong(format!("from {from:?}: a logarithmic axis begins above 0"));
-            }
-            Axis::List { values, .. } if values.is_empty() => {
-                return wrong("no values; allowed: at least one".into());
-            }
-            Axis::List { values, .. } if values.len() as u64 > MOST_VALUES => {
-                return wrong(format!("{} values; allowed: at most {MOST_VALUES}", values.len()));
-            }
-            Axis::List { values, .. } => {
-                if let Some(value) = values.iter().find(|value| !value.is_finite()) {
-                    return wrong(format!("{value:?}: values must be finite"));
-                }
-            }
-            _ => {}
-        }
-        let mut values = self.values();
-        if target.is_whole()
-            && let Some(value) = values.iter().find(|value| **value < 0.0 || value.fract() != 0.0)
-        {
-            return wrong(format!("{value:?}: allowed: whole numbers"));
-        }
-        values.sort_by(f64::total_cmp);
-        let twice = values.windows(2).find(|pair| pair[0] == pair[1]);
-        twice.and_then(|pair| wrong(format!("the value {:?} appears twice", pair[0])))
+    /// The axis with its values in ascending order.
+    pub(super) fn ascending(&self) -> Axis {
+        let mut axis = self.clone();
+        axis.values.sort_by(f64::total_cmp);
+        axis
     }
+}
+
+/// Checks the ends and the number of values of an axis.
+fn check_ends(from: f64, to: f64, count: u64) -> Result<(), String> {
+    if !(2..=MOST_VALUES).contains(&count) {
+        return Err(format!("count = {count}: allowed: from 2 to {MOST_VALUES}"));
+    }
+    if !(from.is_finite() && to.is_finite()) {
+        return Err(format!("from {from:?} to {to:?}: both ends must be finite"));
+    }
+    if from >= to {
+        return Err(format!("from {from:?} to {to:?}: `from` must be less than `to`"));
+    }
+    Ok(())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::open;
 
-    fn linear(path: &str, from: f64, to: f64, count: u64) -> Axis {
-        Axis::Linear { path: path.into(), from, to, count }
+    fn axis(text: &str) -> Result<Axis, String> {
+        Axis::of(ron::from_str(text).unwrap(), open("rough-sphere").unwrap().scene())
     }
 
     #[test]
-    fn values_are_what_people_expect() {
-        assert_eq!(
-            linear("roughness.hurst", 0.1, 0.9, 17).values()[..4],
-            [0.1, 0.15, 0.2, 0.25],
-            "no digits of rounding"
-        );
-        let decades = Axis::Logarithmic { path: "adhesion.work".into(), from: 1e-3, to: 10.0, count: 5 };
-        assert_eq!(decades.values(), [1e-3, 1e-2, 0.1, 1.0, 10.0]);
-        let points = Axis::Logarithmic { path: "numerics.points".into(), from: 256.0, to: 4096.0, count: 9 };
-        assert_eq!(points.values()[..4], [256.0, 362.0, 512.0, 724.0], "whole numbers");
-    }
-
-    #[test]
-    fn errors_are_stated() {
-        let list = |values: &[f64]| Axis::List { path: "kappa".into(), values: values.to_vec() };
-        for (axis, said) in [
-            (linear("roughness.hurts", 0.1, 0.9, 3), "did you mean roughness.hurst?"),
-            (linear("kapa", 0.1, 0.9, 3), "did you mean kappa?"),
-            (linear("kappa", 2.0, 1.0, 3), "it must begin below its end"),
-            (linear("kappa", 1.0, 1.0, 3), "it must begin below its end"),
-            (linear("kappa", f64::NAN, 1.0, 3), "both ends must be finite"),
-            (linear("kappa", -1e308, 1.7e308, 3), "too far"),
-            (linear("kappa", 1.0, 2.0, 1), "count = 1: allowed: from 2 to 1000000"),
-            (linear("kappa", 1.0, 2.0, u64::MAX), "allowed: from 2 to 1000000"),
-            (Axis::Logarithmic { path: "kappa".into(), from: 0.0, to: 1.0, count: 3 }, "begins above 0"),
-            (list(&[]), "no values"),
-            (list(&[1.0, f64::INFINITY]), "values must be finite"),
-            (list(&[1.0, 2.0, 1.0]), "the value 1.0 appears twice"),
-            (linear("numerics.points", 2.0, 4.0, 9), "appears twice"),
-            (linear("numerics.points", 2.5, 4.0, 2), "2.5: allowed: whole numbers"),
+    fn values_between_the_ends_are_round() {
+        for (text, values) in [
+            ("Linear(path: \"roughness.hurst\", from: 0.1, to: 0.9, count: 17)", [0.1, 0.15, 0.2, 0.25]),
+            ("Logarithmic(path: \"adhesion.work\", from: 1e-3, to: 10.0, count: 5)", [1e-3, 0.01, 0.1, 1.0]),
+            (
+                "Logarithmic(path: \"numerics.points\", from: 256, to: 4096, count: 9)",
+                [256.0, 362.0, 512.0, 724.0],
+            ),
         ] {
-            let wrong = axis.wrong().unwrap_or_default();
-            assert!(wrong.contains(said), "{axis:?}: {wrong}");
+            assert_eq!(axis(text).unwrap().values[..4], values, "{text}");
         }
-        assert_eq!(list(&[3.0, 1.0]).wrong(), None);
+    }
+
+    #[test]
+    fn errors_state_what_is_allowed() {
+        for (text, said) in [
+            (
+                "Linear(path: \"roughness.hurts\", from: 0.1, to: 0.9, count: 3)",
+                "did you mean roughness.hurst?",
+            ),
+            ("Linear(path: \"kapa\", from: 0.1, to: 0.9, count: 3)", "did you mean kappa?"),
+            ("Linear(path: \"kappa\", from: 2.0, to: 1.0, count: 3)", "`from` must be less than `to`"),
+            ("Linear(path: \"kappa\", from: NaN, to: 1.0, count: 3)", "both ends must be finite"),
+            ("Linear(path: \"kappa\", from: -1e308, to: 1.7e308, count: 3)", "overflows"),
+            ("Linear(path: \"kappa\", from: 1.0, to: 2.0, count: 18446744073709551615)", "from 2 to 1000000"),
+            ("Logarithmic(path: \"kappa\", from: 0.0, to: 1.0, count: 3)", "begins above 0"),
+            ("List(path: \"kappa\", values: [])", "no values"),
+            ("List(path: \"kappa\", values: [1.0, inf])", "values must be finite"),
+            ("List(path: \"kappa\", values: [1.0, 2.0, 1.0])", "the value 1.0 appears twice"),
+            ("Linear(path: \"numerics.points\", from: 2.0, to: 4.0, count: 9)", "appears twice"),
+            (
+                "Linear(path: \"numerics.points\", from: 2.5, to: 4.0, count: 2)",
+                "2.5: allowed: whole numbers",
+            ),
+        ] {
+            let wrong = axis(text).unwrap_err();
+            assert!(wrong.contains(said), "{text}: {wrong}");
+        }
     }
 }

@@ -54,22 +54,9 @@ pub enum StudyError {
         /// Expected hash.
         expected: String,
     },
-    /// The study began without a hash of its measured file.
-    #[error(
-        "{}: this study does not say which content of {} it was computed from, as an earlier version began it; \
-         begin it anew in another folder",
-        path_name(folder),
-        path_name(file)
-    )]
-    MeasuredUnknown {
-        /// The folder.
-        folder: PathBuf,
-        /// The measured file.
-        file: PathBuf,
-    },
     /// A file could not be written.
     #[error(transparent)]
-    Write(WriteError),
+    Write(#[from] WriteError),
     /// A cell could not be computed.
     #[error("cell {cell} ({coordinates}), seed {seed}: {error}")]
     Run {
@@ -122,7 +109,7 @@ pub enum StudyError {
         records: u64,
     },
     /// The system starts no thread.
-    #[error("the system gives no thread to compute on: {0}")]
+    #[error("could not start a worker thread: {0}")]
     NoThread(io::Error),
 }
 
@@ -140,23 +127,5 @@ impl StudyError {
     /// Errors of writing a folder or file.
     pub(super) fn unwritable(path: &Path) -> impl Fn(io::Error) -> StudyError + '_ {
         move |reason| WriteError::Failed { path: path.to_path_buf(), reason }.into()
-    }
-}
-
-impl From<WriteError> for StudyError {
-    /// The study's own error if that ended the writing of a file.
-    fn from(error: WriteError) -> StudyError {
-        match error {
-            WriteError::Failed { path, reason } => reason
-                .downcast()
-                .unwrap_or_else(|reason| StudyError::Write(WriteError::Failed { path, reason })),
-            error => StudyError::Write(error),
-        }
-    }
-}
-
-impl From<StudyError> for io::Error {
-    fn from(error: StudyError) -> io::Error {
-        io::Error::other(error)
     }
 }

@@ -3,22 +3,26 @@
 //! Heights of a self-affine profile do not average out: a few long waves carry most of them, on any number of
 //! springs. So one profile is one sample, and a mean needs many.
 
-use super::cells::Cells;
 use super::height_shape::HeightShape;
 use super::plan::Plan;
 use super::quantity::Quantity;
 use super::recorder::Recorder;
-use super::solve::{Case, Next, SharedWork, Sink};
 use super::statistics::Statistics;
+use super::tables::regime_of;
+use super::target::strip;
 use crate::analysis::Regime;
 use crate::parallel::{begin_threads, on_this_thread};
 use crate::scene::Scene;
 use crate::simulation::{RunError, Simulation};
 use serde::Serialize;
-use std::ops::ControlFlow;
 use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 use thiserror::Error;
+
+/// Reason why a scene has a single profile.
+pub(super) const ONE_PROFILE: &str = "more than one profile needs random roughness (SelfAffine, or an equivalent \
+                                      line); the profile of this scene is fixed";
 
 /// Result of one profile, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -45,9 +49,7 @@ pub struct LineResult {
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum LinesError {
     /// The scene has a single profile.
-    #[error(
-        "several lines go with roughness: SelfAffine or an equivalent line, which have seeds; this scene has but one line"
-    )]
+    #[error("{ONE_PROFILE}")]
     OneLine,
     /// A profile could not be computed.
     #[error("seed {seed}: {error}")]
@@ -83,64 +85,62 @@ pub fn solve_lines(
     jobs: usize,
 ) -> Result<Vec<LineResult>, LinesError> {
     let plan = Plan::of_scene(scene, lines as u64, &RECORD);
-    let solved = solve_profiles(&plan, jobs, || {
+    let solved = on_profiles(scene, lines, jobs, || {
         let mut recorder = Recorder::new(&plan, Simulation::new(folder.to_path_buf()), &|| false);
-        move |scene: &mut Scene, seed| recorder.record(scene, seed)
+        move |mut scene| {
+            strip(&mut scene);
+            recorder.record(scene)
+        }
     })?;
     Ok(solved.into_iter().map(|(seed, records)| LineResult::new(seed, &records.concat())).collect())
 }
 
-/// Solves the only cell of a plan on all of its profiles: the seed of each with its result, in the order of the
-/// profiles. `jobs` threads share the profiles, each with its own solver.
+/// Solves a scene on `lines` random profiles: the seed of each with its result, in their order. `jobs` threads share the
+/// profiles, each with its own solver.
 ///
 /// # Errors
 /// [`LinesError`]; of several profiles that fail, the first.
-pub(super) fn solve_profiles<R, C>(
-    plan: &Plan,
+pub(super) fn on_profiles<R: Send, C>(
+    scene: &Scene,
+    lines: usize,
     jobs: usize,
-    of_case: impl Fn() -> C + Sync,
+    solver: impl Fn() -> C + Sync,
 ) -> Result<Vec<(u64, R)>, LinesError>
 where
-    R: Send,
-    C: FnMut(&mut Scene, u64) -> Result<R, RunError>,
+    C: FnMut(Scene) -> Result<R, RunError>,
 {
-    if plan.scene.seed().is_none() {
-        return Err(LinesError::OneLine);
-    }
-    let cells = Cells::of(plan);
-    let work = &SharedWork::new(plan, &cells, (0..cells.units()).map(|unit| cells.unit(unit)));
-    let solved: &Solved<R> = &Mutex::new(Vec::new());
-    let solve = || work.solve(of_case(), &mut &*solved);
-    let solve = &solve;
-    let threads = usize::try_from(plan.lines).map_or(jobs, |lines| jobs.min(lines));
+    let first = scene.seed().ok_or(LinesError::OneLine)?;
+    let (lines, next, solved) = (lines as u64, AtomicU64::new(0), Mutex::new(Vec::new()));
+    let work = || {
+        let mut solve = solver();
+        loop {
+            let line = next.fetch_add(1, Ordering::SeqCst);
+            if line >= lines {
+                return;
+            }
+            let (mut scene, seed) = (scene.clone(), first.wrapping_add(line));
+            scene.set_seed(seed);
+            let result = solve(scene);
+            if result.is_err() {
+                // The profiles that follow are not needed; those before are under way or done.
+                next.store(lines, Ordering::SeqCst);
+            }
+            solved.lock().unwrap_or_else(PoisonError::into_inner).push((line, seed, result));
+        }
+    };
+    let threads = jobs.min(lines as usize);
     std::thread::scope(|scope| {
         // Without further threads this one does all the work.
-        let _ = begin_threads(scope, threads.saturating_sub(1), solve);
-        on_this_thread(solve);
+        let _ = begin_threads(scope, threads.saturating_sub(1), &work);
+        on_this_thread(&work);
     });
-    let mut solved = std::mem::take(&mut *solved.lock().unwrap_or_else(PoisonError::into_inner));
-    solved.sort_by_key(|&(line, _)| line);
-    let result = |(line, record): (u64, Result<R, RunError>)| {
-        let seed = plan.seed_of(line);
-        record.map(|record| (seed, record)).map_err(|error| LinesError::Run { seed, error })
+    let mut solved = solved.into_inner().unwrap_or_else(PoisonError::into_inner);
+    solved.sort_by_key(|(line, ..)| *line);
+    let result = |(_, seed, result): (u64, u64, Result<R, RunError>)| match result {
+        Ok(result) => Ok((seed, result)),
+        Err(error) => Err(LinesError::Run { seed, error }),
     };
     solved.into_iter().map(result).collect()
-}
-
-/// Solved profiles, by their numbers.
-type Solved<R> = Mutex<Vec<(u64, Result<R, RunError>)>>;
-
-impl<R> Sink<R> for &Solved<R> {
-    fn next(&mut self, _: Case) -> Next {
-        Next::Solve
-    }
-
-    fn take(&mut self, case: Case, records: Result<R, RunError>) -> ControlFlow<()> {
-        // After a failure the profiles that follow are not needed; those before are under way or done.
-        let flow = if records.is_err() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-        self.lock().unwrap_or_else(PoisonError::into_inner).push((case.line, records));
-        flow
-    }
 }
 
 impl LineResult {
@@ -158,7 +158,7 @@ impl LineResult {
             dissipated_energy: value(Quantity::DissipatedEnergy),
             tabor_number: value(Quantity::TaborNumber),
             contact_fraction: value(Quantity::ContactFraction).unwrap_or(0.0),
-            regime: value(Quantity::Regime).and_then(|place| Regime::ALL.get(place as usize).copied()),
+            regime: value(Quantity::Regime).and_then(|place| regime_of(Quantity::Regime, place)),
             heights: shape.map(|(skewness, excess_kurtosis)| HeightShape { skewness, excess_kurtosis }),
         }
     }
@@ -228,8 +228,8 @@ impl LinesSummary {
     /// Statistics of these results.
     #[must_use]
     pub fn of(lines: &[LineResult]) -> Self {
-        let statistics = |figure: fn(&LineResult) -> Option<f64>| {
-            Statistics::of(&lines.iter().filter_map(figure).collect::<Vec<_>>())
+        let statistics = |quantity: Quantity, figure: fn(&LineResult) -> Option<f64>| {
+            Statistics::of(&lines.iter().filter_map(figure).collect::<Vec<_>>(), quantity.bounds())
         };
         let rms = |figure: fn(&HeightShape) -> f64| {
             let squares: Vec<_> =
@@ -237,10 +237,10 @@ impl LinesSummary {
             (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
         };
         LinesSummary {
-            adhesion_force: statistics(|line| line.adhesion_force),
-            preload_indentation: statistics(|line| line.preload_indentation),
-            dissipated_energy: statistics(|line| line.dissipated_energy),
-            contact_fraction: statistics(|line| Some(line.contact_fraction)),
+            adhesion_force: statistics(Quantity::AdhesionForce, |line| line.adhesion_force),
+            preload_indentation: statistics(Quantity::PreloadIndentation, |line| line.preload_indentation),
+            dissipated_energy: statistics(Quantity::DissipatedEnergy, |line| line.dissipated_energy),
+            contact_fraction: statistics(Quantity::ContactFraction, |line| Some(line.contact_fraction)),
             regimes: RegimeCounts::of(lines.iter().map(|line| line.regime)),
             rms_skewness: rms(|shape| shape.skewness),
             rms_excess_kurtosis: rms(|shape| shape.excess_kurtosis),
@@ -275,11 +275,7 @@ mod tests {
         assert_eq!(alone[3].dissipated_energy, outcome.figures.dissipated_energy);
         let summary = LinesSummary::of(&alone);
         assert_eq!(summary.adhesion_force.unwrap().count, 7);
-        let regimes = summary.regimes;
-        assert_eq!(
-            regimes.pressure_insensitive + regimes.pressure_sensitive + regimes.non_adhesive + regimes.none,
-            7
-        );
+        assert_eq!(summary.regimes.present().map(|(_, count)| count).sum::<usize>(), 7);
         let smooth = open("jkr-sphere").unwrap();
         assert_eq!(solve_lines(smooth.scene(), &smooth.resolve(""), 2, 1), Err(LinesError::OneLine));
     }

@@ -5,18 +5,16 @@
 //! direction drawn from the uncertainty of the fit. Forces on the fitted spectrum differ from profile to profile; the two
 //! forces of a profile differ by the spectrum alone.
 
-use super::lines::{LinesError, RegimeCounts, solve_profiles};
-use super::plan::Plan;
+use super::lines::{LinesError, RegimeCounts, on_profiles};
+use super::quantity::Quantity;
 use super::statistics::Statistics;
+use super::target::strip;
 use crate::analysis::Regime;
 use crate::scene::Scene;
 use crate::simulation::{RunError, Simulation};
 use crate::surface::{EquivalentLine, MeasuredRoughness};
 use serde::Serialize;
 use std::sync::Arc;
-
-/// Curve samples on a loading stage: the figures are exact extremes.
-const SAMPLES: u64 = 2;
 
 /// Share of a drawn step by which a spectrum is moved. Errors of the fit are stated to first order; its longest
 /// waves are nearly unknown, and whole steps of their logarithms would be powers of ten.
@@ -48,8 +46,7 @@ impl ProfileAdhesion {
     ) -> Result<Self, RunError> {
         let mut scene = scene.clone();
         scene.set_seed(seed);
-        scene.observe.clear();
-        scene.numerics.samples = scene.numerics.samples.min(SAMPLES);
+        strip(&mut scene);
         let on = |scene: &Scene, line: EquivalentLine| {
             let measured = Arc::new(MeasuredRoughness::Equivalent(line));
             Simulation::default().with_measured(measured).run(scene, stop, &mut |_, _, _| Ok(()))
@@ -84,9 +81,8 @@ impl MeasuredAdhesion {
     /// # Errors
     /// [`LinesError`]; of several profiles that fail, the first.
     pub fn solve(scene: &Scene, line: &EquivalentLine, count: u32, jobs: usize) -> Result<Self, LinesError> {
-        let plan = Plan::of_scene(scene, u64::from(count), &[]);
-        let solved = solve_profiles(&plan, jobs, || {
-            |scene: &mut Scene, seed| ProfileAdhesion::solve(scene, line, seed, &|| false)
+        let solved = on_profiles(scene, count as usize, jobs, || {
+            |scene: Scene| ProfileAdhesion::solve(&scene, line, scene.seed().unwrap_or(0), &|| false)
         })?;
         Ok(MeasuredAdhesion { profiles: solved.into_iter().map(|(_, one)| one).collect() })
     }
@@ -100,7 +96,7 @@ impl MeasuredAdhesion {
     /// Statistics of the adhesion force over the profiles of the fitted spectrum, N.
     #[must_use]
     pub fn adhesion_force(&self) -> Option<Statistics> {
-        Statistics::of(&self.forces())
+        Statistics::of(&self.forces(), Quantity::AdhesionForce.bounds())
     }
 
     /// Standard deviation of the adhesion force due to the uncertainty of the spectrum, N: root mean square of the
@@ -163,7 +159,7 @@ mod tests {
             fitted.push(one);
             square += change.powi(2) / 6.0;
         }
-        assert_eq!(found.adhesion_force(), Statistics::of(&fitted));
+        assert_eq!(found.adhesion_force(), Statistics::of(&fitted, (0.0, f64::INFINITY)));
         let deviation = found.fit_deviation().unwrap();
         assert!((deviation / square.sqrt() - 1.0).abs() < 1e-12 && deviation > 0.0, "{deviation}");
         assert_eq!(found.regimes().present().map(|(_, count)| count).sum::<usize>(), 6);

@@ -2,13 +2,13 @@
 //!
 //! A [`Plan`] names a scene, the [`Axis`]es along which its numbers vary, a number of random profiles, and the
 //! recorded quantities. [`run()`] computes the missing records in a [`Folder`], by any number of threads and
-//! processes; [`merge()`] publishes the tables, and [`Finished`] reads them.
+//! processes; [`merge()`] writes the tables, and [`Results`] reads them.
 //!
 //! Profiles have the same seeds in all cells, so a curve over an axis is as smooth as that of a single profile.
 //! Shared data of cells are computed once: a profile and its tree serve every κ, γ and load.
 //!
 //! ```
-//! use asperity::study::{Changes, Finished, Folder, Options, Plan, Quantity, Shard, merge, run};
+//! use asperity::study::{Changes, Folder, Options, Plan, Quantity, Results, Shard, merge, run};
 //!
 //! let text = r#"(
 //!     version: 1,
@@ -25,8 +25,8 @@
 //! let folder = Folder::create(place.path(), &plan)?;
 //! run(&folder, Options { jobs: 2, shard: Shard::WHOLE }, &|| false, &mut |_| ())?;
 //! merge(&folder, false)?;
-//! let finished = Finished::open(place.path())?;
-//! assert!(finished.spread(5, Quantity::AdhesionForce).is_some_and(|force| force.mean > 0.0));
+//! let results = Results::open(place.path())?;
+//! assert!(results.estimate(5, Quantity::AdhesionForce).is_some_and(|force| force.mean > 0.0));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -34,19 +34,15 @@ mod axis;
 mod boundary;
 mod builtin;
 mod case_outcome;
-mod cell_summary;
 mod cells;
-mod done;
 mod error;
-pub mod figure;
-mod finished;
+mod grid;
 mod height_shape;
 mod lines;
 pub mod map;
 mod measured;
 mod measured_adhesion;
-mod merge;
-mod numbering;
+mod memory;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod plan;
@@ -56,6 +52,7 @@ mod preloads;
 mod quantity;
 mod record;
 mod recorder;
+mod results;
 mod run;
 mod select;
 mod shard;
@@ -67,18 +64,15 @@ mod store;
 mod tables;
 mod target;
 
-pub use axis::{Axis, MOST_VALUES};
-pub use boundary::{
-    Boundaries, Boundary, BoundarySpread, Crossing, DEFINITIONS, USUAL_LEVELS, boundaries, protocol_name,
-};
+pub use axis::{Axis, MOST_VALUES, Spacing};
+pub use boundary::{Boundaries, Boundary, Crossing, DEFINITIONS, USUAL_LEVELS, boundaries, protocol_name};
 pub use builtin::{BuiltInPlan, find, plans};
-pub use cell_summary::{CellSummary, Spread};
 pub use error::StudyError;
-pub use finished::{Finished, Row};
+pub use grid::{Cell, Estimate, Grid, Layer, Place};
 pub use height_shape::HeightShape;
 pub use lines::{LineResult, LinesError, LinesSummary, RegimeCounts, solve_lines};
 pub use measured_adhesion::{MeasuredAdhesion, ProfileAdhesion};
-pub use merge::merge;
+pub use memory::Memory;
 #[cfg(feature = "parquet")]
 pub use parquet::write_parquet;
 pub use plan::{Plan, StiffnessRange};
@@ -89,11 +83,12 @@ pub use preloads::{
 };
 pub use quantity::Quantity;
 pub use record::Key;
+pub use results::{Merged, Results};
 pub use run::{Ended, Options, Progress, run};
-pub use select::{FigureError, Selection};
+pub use select::{FigureError, Selected, Selection};
 pub use shard::Shard;
 pub use statistics::{Statistics, quartiles};
 pub use status::{Attempt, ShardStatus, Status};
 pub use store::{Folder, Header, STORE_VERSION, ShardFile};
-pub use tables::{Merged, PARQUET, RESULTS, RESULTS_VERSION, SIDECAR, SUMMARY};
-pub use target::{DERIVED, symbol_and_unit};
+pub use tables::{PARQUET, RESULTS, RESULTS_VERSION, SIDECAR, SUMMARY, merge};
+pub use target::DERIVED;

@@ -1,14 +1,15 @@
 //! The plan of a study: a scene, the axes along which numbers of the scene vary, profiles, and recorded quantities.
 
 use super::axis::Axis;
-use super::numbering::places_of;
 use super::quantity::{Needs, Quantity};
-use super::target::Target;
+use super::target::scene_with;
 use crate::scene::{Scene, ron_float};
 use serde::{Deserialize, Serialize};
 
 /// File name of the plan in the folder of a study.
 pub(super) const PLAN_FILE: &str = "plan.ron";
+/// Path of the axis of preloads.
+pub(super) const PRELOAD: &str = "preload";
 
 /// A checked plan.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,10 +20,9 @@ pub struct Plan {
     pub notice: String,
     /// The scene whose numbers vary; its files have absolute paths.
     pub scene: Scene,
-    /// Axes without the preload, the last one fastest.
+    /// Axes, the last one fastest. That of preloads, in units of E* h L, is the last; without preloads the loading is
+    /// that of the scene.
     pub axes: Vec<Axis>,
-    /// Preloads in units of E* h L, the fastest axis; `None`: the loading of the scene.
-    pub preloads: Option<Axis>,
     /// Random profiles of each cell.
     pub lines: u64,
     /// Seed of the first profile; the next ones follow consecutively, the same in all cells.
@@ -62,7 +62,6 @@ impl Plan {
             notice: String::new(),
             scene: scene.clone(),
             axes: Vec::new(),
-            preloads: None,
             lines,
             seed: scene.seed().unwrap_or(0),
             record: record.to_vec(),
@@ -71,21 +70,22 @@ impl Plan {
         }
     }
 
-    /// The scene without the texts, which no cell needs.
-    pub(super) fn prototype(&self) -> Scene {
-        Scene { title: String::new(), notice: String::new(), observe: Vec::new(), ..self.scene.clone() }
+    /// The axis of preloads.
+    #[must_use]
+    pub fn preloads(&self) -> Option<&Axis> {
+        self.axes.last().filter(|axis| axis.path == PRELOAD)
     }
 
-    /// All axes, the preload's last if there are preloads.
+    /// The axes of numbers of the scene: all but that of preloads.
     #[must_use]
-    pub fn all_axes(&self) -> Vec<&Axis> {
-        self.axes.iter().chain(&self.preloads).collect()
+    pub fn scene_axes(&self) -> &[Axis] {
+        &self.axes[..self.axes.len() - usize::from(self.preloads().is_some())]
     }
 
     /// Number of cells.
     #[must_use]
     pub fn cells(&self) -> u64 {
-        self.all_axes().into_iter().map(Axis::count).product()
+        self.axes.iter().map(Axis::count).product()
     }
 
     /// Number of records: cells times profiles.
@@ -94,20 +94,43 @@ impl Plan {
         self.cells() * self.lines
     }
 
-    /// Values of the axes in a cell, then its preload if there is one.
+    /// Places of a cell on the axes.
+    pub(super) fn places(&self, cell: u64) -> Vec<usize> {
+        let mut rest = cell;
+        let mut places = vec![0; self.axes.len()];
+        for (place, axis) in places.iter_mut().zip(&self.axes).rev() {
+            *place = (rest % axis.count()) as usize;
+            rest /= axis.count();
+        }
+        places
+    }
+
+    /// Number of the cell at places on the axes.
+    pub(super) fn cell_at(&self, places: &[usize]) -> u64 {
+        places.iter().zip(&self.axes).fold(0, |cell, (place, axis)| cell * axis.count() + *place as u64)
+    }
+
+    /// Values of the axes in a cell.
     #[must_use]
     pub fn values(&self, cell: u64) -> Vec<f64> {
-        let axes = self.all_axes();
-        let places = places_of(cell, axes.iter().map(|axis| axis.count()));
-        axes.iter().zip(places).map(|(axis, place)| axis.value(place)).collect()
+        self.places(cell).into_iter().zip(&self.axes).map(|(place, axis)| axis.values[place]).collect()
     }
 
     /// Coordinates of a cell for readers.
     #[must_use]
     pub fn coordinates(&self, cell: u64) -> String {
-        let one = |(axis, value): (&Axis, f64)| format!("{} = {}", axis.path(), ron_float(value));
-        let all: Vec<_> = self.all_axes().into_iter().zip(self.values(cell)).map(one).collect();
+        let one = |(axis, value): (&Axis, f64)| format!("{} = {}", axis.path, ron_float(value));
+        let all: Vec<_> = self.axes.iter().zip(self.values(cell)).map(one).collect();
         if all.is_empty() { "the scene itself".into() } else { all.join(", ") }
+    }
+
+    /// The scene of a cell; its loading is that of the plan's scene, whatever the preload.
+    ///
+    /// # Errors
+    /// The path of an axis over a number that the scene does not have.
+    pub fn scene_of(&self, cell: u64) -> Result<Scene, String> {
+        let values = self.axes.iter().zip(self.values(cell));
+        scene_with(&self.scene, values.map(|(axis, value)| (axis.path.as_str(), axis.target, value)))
     }
 
     /// Seed of a profile.
@@ -116,12 +139,13 @@ impl Plan {
         self.seed.wrapping_add(line)
     }
 
+    /// Place of a quantity among the recorded ones.
+    #[must_use]
+    pub fn column(&self, quantity: Quantity) -> Option<usize> {
+        self.record.iter().position(|one| *one == quantity)
+    }
+
     pub(super) fn records(&self, needs: Needs) -> bool {
         self.record.iter().any(|quantity| quantity.needs() == needs)
     }
-}
-
-/// Quantities that the axes of a plan vary.
-pub(super) fn targets(plan: &Plan) -> Vec<Target> {
-    plan.axes.iter().filter_map(|axis| Target::of(axis.path()).ok()).collect()
 }

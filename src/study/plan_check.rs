@@ -1,9 +1,9 @@
-//! All checks of a plan before a run.
+//! Checks of a plan. Those of the plan itself come first and are quick; the scene of every cell is checked when a plan is
+//! opened for a study, not when the folder of a study is opened again.
 
 use super::axis::Axis;
-use super::cells::Cells;
 use super::measured::is_hash;
-use super::plan::{Plan, StiffnessRange};
+use super::plan::{PRELOAD, Plan, StiffnessRange};
 use super::quantity::Needs;
 use crate::scene::{Roughness, Scene, SceneError, check, ron_string};
 
@@ -14,53 +14,40 @@ pub const MOST_LINES: u64 = 1_000_000;
 /// Most records of a plan: cells times profiles.
 pub const MOST_RECORDS: u64 = 100_000_000;
 /// Most axes of a plan.
-const MOST_AXES: usize = 16;
+pub(super) const MOST_AXES: usize = 16;
 /// Most cells with invalid scenes that are named; the rest is counted.
 const MOST_NAMED: usize = 8;
-
-/// Pairs of axes that set the same quantity.
-const SAME: [(&str, &str); 8] = [
-    ("springs_per_wave", "roughness.modes.1"),
-    ("kappa", "adhesion.kappa"),
-    ("kappa", "adhesion.work"),
-    ("kappa", "adhesion.elastic_energy_ratio"),
-    ("kappa", "elastic_energy_ratio"),
-    ("elastic_energy_ratio", "adhesion.elastic_energy_ratio"),
-    ("elastic_energy_ratio", "adhesion.work"),
-    ("elastic_energy_ratio", "adhesion.kappa"),
-];
 /// Most forces of a [`StiffnessRange`].
 const MOST_FORCES: u64 = 1000;
 
+/// Axes that set the same quantity, of which a plan may have one.
+const SAME: [&[&str]; 2] = [
+    &["springs_per_wave", "roughness.modes.1"],
+    &["kappa", "elastic_energy_ratio", "adhesion.kappa", "adhesion.work", "adhesion.elastic_energy_ratio"],
+];
+
 impl Plan {
-    /// Checks the plan before a run. Counts come first, so that no allocation is proportional to an excessive count.
-    pub(super) fn check(&self) -> Result<(), Vec<String>> {
-        let mut wrong: Vec<String> = Vec::new();
-        if self.axes.len() > MOST_AXES {
-            wrong.push(format!("{} axes; allowed: at most {MOST_AXES}", self.axes.len()));
-        }
-        wrong.extend(self.check_texts());
-        let all = || self.axes.iter().chain(&self.preloads);
-        wrong.extend(all().filter_map(Axis::wrong));
-        for (index, axis) in all().enumerate() {
-            if all().take(index).any(|other| other.path() == axis.path()) {
-                wrong.push(format!("axis {}: given twice", axis.path()));
+    /// Errors of the plan itself.
+    pub(super) fn errors(&self) -> Vec<String> {
+        let mut wrong = self.errors_of_texts();
+        let paths: Vec<&str> = self.axes.iter().map(|axis| axis.path.as_str()).collect();
+        for (index, path) in paths.iter().enumerate() {
+            let before = &paths[..index];
+            if before.contains(path) {
+                wrong.push(format!("axis {path}: given twice"));
             }
-        }
-        for (one, other) in SAME {
-            if [one, other].iter().all(|path| self.axes.iter().any(|axis| axis.path() == *path)) {
-                wrong.push(format!("axis {other}: {one} sets it as well; allowed: one of them"));
-            }
+            let same = SAME.iter().find(|same| same.contains(path));
+            let other =
+                before.iter().find(|other| same.is_some_and(|same| same.contains(other)) && *other != path);
+            wrong.extend(
+                other.map(|other| format!("axis {path}: {other} sets it as well; allowed: one of them")),
+            );
         }
         if !(1..=MOST_LINES).contains(&self.lines) {
             wrong.push(format!("lines = {}: allowed: from 1 to {MOST_LINES}", self.lines));
         }
-        let seeds = self.scene.seed().is_some();
-        if self.lines > 1 && !seeds {
-            wrong.push(format!(
-                "lines = {}: several lines go with roughness: SelfAffine or an equivalent line, which have seeds; this scene has but one",
-                self.lines
-            ));
+        if self.lines > 1 && self.scene.seed().is_none() {
+            wrong.push(format!("lines = {}: {}", self.lines, super::lines::ONE_PROFILE));
         }
         if self.record.is_empty() {
             wrong.push("record = []: allowed: at least one quantity".into());
@@ -70,9 +57,8 @@ impl Plan {
                 wrong.push(format!("record: {} is given twice", quantity.name()));
             }
         }
-        if let Some(preloads) = &self.preloads
-            && let Some(value) = least(preloads).filter(|value| *value <= 0.0)
-        {
+        let preloads = self.axes.iter().find(|axis| axis.path == PRELOAD);
+        if let Some(value) = preloads.and_then(|axis| axis.values.iter().find(|value| **value <= 0.0)) {
             wrong.push(format!("preload {value:?}: allowed: above 0, in units of E* h L"));
         }
         let StiffnessRange { from, to, count } = self.stiffness;
@@ -82,35 +68,29 @@ impl Plan {
                  to {MOST_FORCES}"
             ));
         }
-        let smooth = self.scene.roughness.is_none();
-        let needs_height = self.preloads.is_some() || self.records(Needs::Stiffness);
-        if smooth && needs_height {
+        if self.scene.roughness.is_none() && (preloads.is_some() || self.records(Needs::Stiffness)) {
             wrong.push(
                 "preloads and exponents count forces in units of E* h L, and this scene is smooth; \
                  allowed: an axis loading.0.0, in N"
                     .into(),
             );
         }
-        if !wrong.is_empty() {
-            return Err(wrong);
-        }
-        let cells = all().map(Axis::count).try_fold(1_u64, u64::checked_mul);
-        let counts = || all().map(|axis| axis.count().to_string()).collect::<Vec<_>>().join(" × ");
-        let Some(cells) = cells.filter(|cells| *cells <= MOST_CELLS) else {
-            return Err(vec![format!("{} cells; allowed: at most {MOST_CELLS}", counts())]);
-        };
-        if cells * self.lines > MOST_RECORDS {
-            return Err(vec![format!(
-                "{} cells on {} lines; allowed: at most {MOST_RECORDS} together",
+        let cells = self.axes.iter().map(Axis::count).try_fold(1_u64, u64::checked_mul);
+        let counts = || self.axes.iter().map(|axis| axis.count().to_string()).collect::<Vec<_>>().join(" × ");
+        match cells.filter(|cells| *cells <= MOST_CELLS) {
+            None => wrong.push(format!("{} cells; allowed: at most {MOST_CELLS}", counts())),
+            Some(cells) if cells.saturating_mul(self.lines) > MOST_RECORDS => wrong.push(format!(
+                "{} cells on {} profiles; allowed: at most {MOST_RECORDS} together",
                 counts(),
                 self.lines
-            )]);
+            )),
+            Some(_) => {}
         }
-        self.check_cells()
+        wrong
     }
 
     /// Errors of title and notice, by the rules of a scene, and of the hash.
-    fn check_texts(&self) -> Vec<String> {
+    fn errors_of_texts(&self) -> Vec<String> {
         let (title, notice) = (self.title.clone(), self.notice.clone());
         let texts = Scene { title, notice, ..self.scene.clone() };
         let is_text = |error: &&SceneError| ["title", "notice"].contains(&error.field.as_str());
@@ -118,14 +98,12 @@ impl Plan {
             check(&texts).iter().filter(is_text).map(SceneError::to_string).collect();
         if let Some(hash) = &self.measured_sha256 {
             if !is_hash(hash) {
-                wrong.push(format!(
-                    "measured_sha256 = {}: allowed: 64 digits from 0 to 9 and a to f",
-                    ron_string(hash)
-                ));
+                let hash = ron_string(hash);
+                wrong.push(format!("measured_sha256 = {hash}: allowed: 64 digits from 0 to 9 and a to f"));
             }
             if !matches!(self.scene.roughness, Some(Roughness::Measured { .. })) {
                 wrong.push(
-                    "measured_sha256: goes with roughness: Measured; this scene has no such file".into(),
+                    "measured_sha256: allowed with roughness: Measured; this scene has no such file".into(),
                 );
             }
         }
@@ -133,44 +111,26 @@ impl Plan {
     }
 
     /// Checks the scene of every cell.
-    fn check_cells(&self) -> Result<(), Vec<String>> {
-        let cells = Cells::of(self);
-        let (mut wrong, mut count) = (Vec::new(), 0_u64);
-        let mut scene = self.prototype();
-        for run in 0..cells.runs() {
-            let reason = match cells.shape(run, &self.scene, &mut scene) {
-                Err((axis, reason)) => Some(format!("axis {axis}: {reason}")),
-                Ok(()) => check(&scene).first().map(SceneError::to_string),
-            };
-            let Some(reason) = reason else { continue };
-            count += 1;
+    pub(super) fn check_cells(&self) -> Result<(), Vec<String>> {
+        let (mut wrong, mut more) = (Vec::new(), 0_u64);
+        for cell in self.loadings() {
+            let checked = self.scene_of(cell).map(|scene| check(&scene).first().map(SceneError::to_string));
+            let Some(reason) = checked.unwrap_or_else(Some) else { continue };
             if wrong.len() < MOST_NAMED {
-                let cell = cells.cells_of(run).start;
                 wrong.push(format!("cell {cell} ({}): {reason}", self.coordinates(cell)));
+            } else {
+                more += 1;
             }
         }
-        if count > wrong.len() as u64 {
-            wrong.push(format!("and {} more cells are not allowed", count - wrong.len() as u64));
+        if more > 0 {
+            wrong.push(format!("and {more} more cells are not allowed"));
         }
         if wrong.is_empty() { Ok(()) } else { Err(wrong) }
     }
 
-    /// Calls `each` with the scene of every run: one for all cells that differ only in the preload. Preloads depend
-    /// on the profile and are not set.
-    pub fn each_scene(&self, mut each: impl FnMut(&Scene)) {
-        let cells = Cells::of(self);
-        let mut scene = self.prototype();
-        for run in 0..cells.runs() {
-            if cells.shape(run, &self.scene, &mut scene).is_ok() {
-                each(&scene);
-            }
-        }
-    }
-}
-
-fn least(axis: &Axis) -> Option<f64> {
-    match axis {
-        Axis::Linear { from, .. } | Axis::Logarithmic { from, .. } => Some(*from),
-        Axis::List { values, .. } => values.iter().copied().min_by(f64::total_cmp),
+    /// The first of all cells that differ in the preload alone, for each combination of the other axes.
+    pub(super) fn loadings(&self) -> impl Iterator<Item = u64> + use<> {
+        let preloads = self.preloads().map_or(1, Axis::count);
+        (0..self.cells()).step_by(preloads as usize)
     }
 }

@@ -1,12 +1,13 @@
 //! The text of a plan: reading, including the named scene, and writing.
 
-use super::axis::Axis;
+use super::axis::{Axis, AxisText, Spacing};
 use super::builtin;
-use super::plan::{Plan, StiffnessRange};
+use super::plan::{PRELOAD, Plan, StiffnessRange};
 use super::quantity::Quantity;
+use crate::io::read_regular_text;
 use crate::scene::{
     Document, LONGEST_TEXT, Scene, SceneErrors, describe_error, is_file_name, line_column, nearest, open,
-    read_file, read_ron, ron_float, ron_string, to_ron,
+    read_ron, ron_float, ron_string, to_ron,
 };
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -53,7 +54,7 @@ struct PlanText {
     #[serde(default)]
     set: BTreeMap<String, String>,
     #[serde(default)]
-    axes: Vec<Axis>,
+    axes: Vec<AxisText>,
     #[serde(default)]
     preloads: Vec<f64>,
     #[serde(default)]
@@ -74,20 +75,18 @@ impl Plan {
     /// # Errors
     /// All errors, up to those of the scene of every single cell.
     pub fn open(name_or_path: &str, changes: &Changes) -> Result<Plan, PlanErrors> {
-        let path = Path::new(name_or_path);
         if is_file_name(name_or_path) {
-            let text = read_file(path).map_err(|error| {
-                PlanErrors(vec![format!("{name_or_path}: {}", error.replace("scene", "plan"))])
-            })?;
+            let text = read_regular_text(Path::new(name_or_path), LONGEST_TEXT);
+            let text = text.map_err(|error| PlanErrors(vec![format!("{name_or_path}: {error}")]))?;
             return Plan::parse(&text, name_or_path, changes);
         }
         if let Some(plan) = builtin::find(name_or_path) {
             return Plan::parse(plan.text, plan.name, changes);
         }
-        let names = || builtin::plans().iter().map(|plan| plan.name);
-        let near = nearest(name_or_path, names());
+        let names: Vec<_> = builtin::plans().iter().map(|plan| plan.name).collect();
+        let near = nearest(name_or_path, names.iter().copied());
         let near = near.map_or_else(String::new, |near| format!("; did you mean {near}?"));
-        let names = names().collect::<Vec<_>>().join(", ");
+        let names = names.join(", ");
         Err(PlanErrors(vec![format!(
             "{name_or_path}: there is no such file and no such built-in plan{near} (built-in: {names})"
         )]))
@@ -98,6 +97,14 @@ impl Plan {
     /// # Errors
     /// As [`Plan::open`].
     pub fn parse(text: &str, name: &str, changes: &Changes) -> Result<Plan, PlanErrors> {
+        let plan = Plan::read(text, name, changes)?;
+        plan.check_cells().map_err(|wrong| in_plan(wrong, name))?;
+        Ok(plan)
+    }
+
+    /// Reads a plan and checks all but the scenes of its cells, which no one computes: the plan in the folder of a
+    /// study, whose cells were checked when the study began.
+    pub(super) fn read(text: &str, name: &str, changes: &Changes) -> Result<Plan, PlanErrors> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let refused = |what: String| PlanErrors(vec![format!("{name}: {what}")]);
         if text.len() > LONGEST_TEXT {
@@ -115,25 +122,39 @@ impl Plan {
             )));
         }
         let scene = resolved_scene(&read, name, &changes.set)?;
-        let plan = Plan::of(read, scene, changes.lines).map_err(|wrong| in_plan(wrong, name))?;
-        plan.check().map_err(|wrong| in_plan(wrong, name))?;
-        Ok(plan)
+        Plan::of(read, scene, changes.lines).map_err(|wrong| in_plan(wrong, name))
     }
 
     fn of(read: PlanText, scene: Scene, lines: Option<u64>) -> Result<Plan, Vec<String>> {
-        let PlanText { title, notice, mut axes, preloads, record, stiffness, measured_sha256, .. } = read;
-        let by_axis = axes.iter().position(|axis| axis.path() == "preload");
-        let preloads = match (by_axis, preloads.is_empty()) {
-            (Some(_), false) => {
-                return Err(vec!["preloads are given twice: by `preloads` and by an axis".into()]);
+        let PlanText { title, notice, axes, preloads, record, stiffness, measured_sha256, .. } = read;
+        let most = super::plan_check::MOST_AXES;
+        if axes.len() > most {
+            return Err(vec![format!("{} axes; allowed: at most {most}", axes.len())]);
+        }
+        let preloads = Some(preloads).filter(|values| !values.is_empty());
+        let preloads = preloads.map(|values| AxisText::List { path: PRELOAD.into(), values });
+        let (mut wrong, mut read_axes) = (Vec::new(), Vec::new());
+        for axis in axes.into_iter().chain(preloads) {
+            match Axis::of(axis, &scene) {
+                Ok(axis) => read_axes.push(axis),
+                Err(error) => wrong.push(error),
             }
-            (Some(place), true) => Some(axes.remove(place)),
-            (None, false) => Some(Axis::List { path: "preload".into(), values: preloads }),
-            (None, true) => None,
+        }
+        // The preload is the fastest axis, wherever the plan has it.
+        read_axes.sort_by_key(|axis| axis.path == PRELOAD);
+        let plan = Plan {
+            title,
+            notice,
+            axes: read_axes,
+            lines: lines.or(read.lines).unwrap_or(1),
+            seed: read.seed.or(scene.seed()).unwrap_or(0),
+            record,
+            scene,
+            stiffness,
+            measured_sha256,
         };
-        let seed = read.seed.or(scene.seed()).unwrap_or(0);
-        let lines = lines.or(read.lines).unwrap_or(1);
-        Ok(Plan { title, notice, scene, axes, preloads, lines, seed, record, stiffness, measured_sha256 })
+        wrong.extend(plan.errors());
+        if wrong.is_empty() { Ok(plan) } else { Err(wrong) }
     }
 
     /// The plan as canonical text including its scene; parsing the text returns the same plan.
@@ -147,16 +168,7 @@ impl Plan {
             }
         }
         line("scene", to_ron(&self.scene).trim_end().replace('\n', "\n    "));
-        let list =
-            |values: &[f64]| values.iter().map(|value| ron_float(*value)).collect::<Vec<_>>().join(", ");
-        let axis = |axis: &Axis| match axis {
-            Axis::Linear { path, from, to, count } => ends("Linear", path, *from, *to, *count),
-            Axis::Logarithmic { path, from, to, count } => ends("Logarithmic", path, *from, *to, *count),
-            Axis::List { path, values } => {
-                format!("        List(path: {}, values: [{}]),\n", ron_string(path), list(values))
-            }
-        };
-        let axes: String = self.all_axes().into_iter().map(axis).collect();
+        let axes: String = self.axes.iter().map(|axis| format!("        {},\n", in_ron(axis))).collect();
         line("axes", format!("[\n{axes}    ]"));
         line("lines", self.lines.to_string());
         line("seed", self.seed.to_string());
@@ -171,9 +183,20 @@ impl Plan {
     }
 }
 
-fn ends(kind: &str, path: &str, from: f64, to: f64, count: u64) -> String {
-    let (path, from, to) = (ron_string(path), ron_float(from), ron_float(to));
-    format!("        {kind}(path: {path}, from: {from}, to: {to}, count: {count}),\n")
+/// An axis in the form of a plan.
+fn in_ron(axis: &Axis) -> String {
+    let path = ron_string(&axis.path);
+    let kind = match axis.spacing {
+        Spacing::List => {
+            let values: Vec<_> = axis.values.iter().map(|value| ron_float(*value)).collect();
+            return format!("List(path: {path}, values: [{}])", values.join(", "));
+        }
+        Spacing::Linear => "Linear",
+        Spacing::Logarithmic => "Logarithmic",
+    };
+    let [from, to] =
+        [axis.values.first(), axis.values.last()].map(|end| ron_float(*end.unwrap_or(&f64::NAN)));
+    format!("{kind}(path: {path}, from: {from}, to: {to}, count: {})", axis.count())
 }
 
 fn in_plan(wrong: Vec<String>, name: &str) -> PlanErrors {
@@ -182,21 +205,12 @@ fn in_plan(wrong: Vec<String>, name: &str) -> PlanErrors {
 
 /// The scene of a plan with all overrides; its paths are made absolute.
 fn resolved_scene(read: &PlanText, name: &str, set: &[(String, String)]) -> Result<Scene, PlanErrors> {
-    let in_scene = |errors: SceneErrors| {
-        let lines = errors.to_string();
-        in_plan(lines.lines().map(str::to_owned).collect(), name)
-    };
+    let in_scene =
+        |errors: SceneErrors| in_plan(errors.to_string().lines().map(str::to_owned).collect(), name);
+    let one_of = |given: &str| Err(in_plan(vec![format!("{given}; allowed: one of them")], name));
     let document = match (&read.base, &read.scene) {
-        (Some(_), Some(_)) => {
-            return Err(PlanErrors(vec![format!(
-                "{name}: `base` and `scene` are given; allowed: one of them"
-            )]));
-        }
-        (None, None) => {
-            return Err(PlanErrors(vec![format!(
-                "{name}: neither `base` nor `scene` is given; allowed: one of them"
-            )]));
-        }
+        (Some(_), Some(_)) => return one_of("`base` and `scene` are given"),
+        (None, None) => return one_of("neither `base` nor `scene` is given"),
         (None, Some(scene)) => Document::from_scene(scene, name).map_err(in_scene)?,
         (Some(base), None) => {
             let beside = Path::new(name).parent().unwrap_or(Path::new("")).join(base);
@@ -205,12 +219,7 @@ fn resolved_scene(read: &PlanText, name: &str, set: &[(String, String)]) -> Resu
             open(if is_file { &beside } else { base }).map_err(in_scene)?
         }
     };
-    let set: Vec<_> = read
-        .set
-        .iter()
-        .map(|(path, value)| (path.clone(), value.clone()))
-        .chain(set.iter().cloned())
-        .collect();
+    let set: Vec<_> = read.set.clone().into_iter().chain(set.iter().cloned()).collect();
     let document = document.set_all(&set).map_err(in_scene)?;
     let mut scene = document.scene().clone();
     scene.rename_measured_files(|file| {

@@ -1,7 +1,7 @@
 //! Adhesion against preload: the adhesion force of one profile for many preloads, and its mean over random profiles.
 
-use super::lines::{LinesError, solve_profiles};
-use super::plan::Plan;
+use super::lines::{LinesError, on_profiles};
+use super::quantity::Quantity;
 use super::statistics::{Statistics, StudentT};
 use crate::contact::Reversal;
 use crate::scene::{Move, Scene};
@@ -105,13 +105,11 @@ pub fn solve_preloads_on_lines(
     lines: usize,
     jobs: usize,
 ) -> Result<Vec<(u64, Vec<Preloaded>)>, LinesError> {
-    let plan = Plan::of_scene(scene, lines as u64, &[]);
-    solve_profiles(&plan, jobs, || {
+    on_profiles(scene, lines, jobs, || {
         let mut simulation = Simulation::new(folder.to_path_buf());
-        move |scene: &mut Scene, seed| {
-            scene.set_seed(seed);
+        move |scene| {
             let mut found = Vec::with_capacity(forces.len());
-            solve_preloads(&mut simulation, scene, forces, &|| false, &mut |one| found.push(one))?;
+            solve_preloads(&mut simulation, &scene, forces, &|| false, &mut |one| found.push(one))?;
             Ok(found)
         }
     })
@@ -128,7 +126,7 @@ pub fn preload_statistics(lines: &[Vec<Preloaded>]) -> Vec<Option<Statistics>> {
         .map(|index| {
             values.clear();
             values.extend(lines.iter().map(|line| line[index].adhesion_force.unwrap_or(0.0)));
-            Statistics::with(&values, &mut quantiles)
+            Statistics::with(&values, Quantity::AdhesionForce.bounds(), &mut quantiles)
         })
         .collect()
 }

@@ -9,12 +9,12 @@ struct Row {
     name: &'static str,
     /// Symbol; may be empty.
     symbol: &'static str,
-    /// SI unit; `1` for a number without one, empty for the regime, which is no number.
+    /// SI unit; `1` for a number without one, empty for the regime, which is not a number.
     unit: &'static str,
     /// Meaning in one line.
     meaning: &'static str,
-    /// Returns true for a quantity that may be negative.
-    signed: bool,
+    /// Smallest and largest possible value.
+    bounds: (f64, f64),
     /// Computation required by the quantity.
     needs: Needs,
     /// Value of a case, if any.
@@ -38,8 +38,19 @@ pub(super) enum Needs {
     Stiffness,
 }
 
-const ROW: Row =
-    Row { name: "", symbol: "", unit: "1", meaning: "", signed: false, needs: Needs::Loading, of: |_| None };
+const ROW: Row = Row {
+    name: "",
+    symbol: "",
+    unit: "1",
+    meaning: "",
+    bounds: (0.0, f64::INFINITY),
+    needs: Needs::Loading,
+    of: |_| None,
+};
+
+/// Bounds of a quantity that may be negative, and of a share.
+const ANY: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
+const SHARE: (f64, f64) = (0.0, 1.0);
 
 /// Makes the enum of the quantities and the table of their rows.
 macro_rules! quantities {
@@ -61,7 +72,7 @@ macro_rules! quantities {
 
 quantities! {
     Kappa {
-        name: "kappa", meaning: "governing parameter, eq. (11)",
+        name: "kappa", meaning: "roughness–adhesion parameter, eq. (11)",
         symbol: "κ", needs: Needs::Profile, of: |case| case.governing.kappa,
     }
     ElasticEnergy {
@@ -87,7 +98,7 @@ quantities! {
     ZeroLoadAdhesionShare {
         name: "zero_load_adhesion_share",
         meaning: "adhesion force after turning at first touch, over that of a flat face",
-        symbol: "F_a(0)/F_a,max", needs: Needs::Touch,
+        symbol: "F_a(0)/F_a,max", bounds: SHARE, needs: Needs::Touch,
         of: |case| case.share(case.zero_load),
     }
     ZeroForceAdhesionForce {
@@ -98,7 +109,7 @@ quantities! {
     ZeroForceAdhesionShare {
         name: "zero_force_adhesion_share",
         meaning: "adhesion force after turning where the force is back at zero, over that of a flat face",
-        symbol: "F_a(0)/F_a,max", needs: Needs::ZeroForce,
+        symbol: "F_a(0)/F_a,max", bounds: SHARE, needs: Needs::ZeroForce,
         of: |case| case.share(case.zero_force),
     }
     PreloadForce {
@@ -107,7 +118,7 @@ quantities! {
     }
     PreloadIndentation {
         name: "preload_indentation", meaning: "indentation at the preload",
-        symbol: "d", unit: "m", signed: true, of: |case| case.loading.figures.preload_indentation,
+        symbol: "d", unit: "m", bounds: ANY, of: |case| case.loading.figures.preload_indentation,
     }
     AdhesionForce {
         name: "adhesion_force", meaning: "adhesion force after the preload",
@@ -115,7 +126,7 @@ quantities! {
     }
     AdhesionShare {
         name: "adhesion_share", meaning: "adhesion force after the preload, over that of a flat face",
-        symbol: "F_a/F_a,max", of: |case| case.share(case.loading.figures.adhesion_force),
+        symbol: "F_a/F_a,max", bounds: SHARE, of: |case| case.share(case.loading.figures.adhesion_force),
     }
     AdhesionCoefficient {
         name: "adhesion_coefficient", meaning: "adhesion force over preload",
@@ -123,22 +134,22 @@ quantities! {
     }
     PullOffIndentation {
         name: "pull_off_indentation", meaning: "indentation at the smallest force",
-        symbol: "d", unit: "m", signed: true, of: |case| case.loading.figures.pull_off_indentation,
+        symbol: "d", unit: "m", bounds: ANY, of: |case| case.loading.figures.pull_off_indentation,
     }
     DissipatedEnergy {
         name: "dissipated_energy", meaning: "energy lost over the loop",
         symbol: "ΔW", unit: "J", of: |case| case.loading.figures.dissipated_energy,
     }
     TaborNumber {
-        name: "tabor_number", meaning: "Tabor number; energies are too large below 5",
+        name: "tabor_number", meaning: "Tabor number; below 5, energies come out too large",
         symbol: "μ", of: |case| case.tabor_number(),
     }
     ContactFraction {
         name: "contact_fraction", meaning: "largest length in contact over the length",
-        of: |case| case.contact_fraction(),
+        bounds: SHARE, of: |case| case.contact_fraction(),
     }
     Fragments {
-        name: "fragments", meaning: "contact fragments at the preload",
+        name: "fragments", meaning: "contact patches at the preload",
         of: |case| case.loading.preload.map(|point| point.fragments as f64),
     }
     Regime {
@@ -161,11 +172,11 @@ quantities! {
     }
     Skewness {
         name: "skewness", meaning: "skewness of the heights of the line",
-        signed: true, needs: Needs::Heights, of: |case| Some(case.profile.heights?.shape?.skewness),
+        bounds: ANY, needs: Needs::Heights, of: |case| Some(case.profile.heights?.shape?.skewness),
     }
     ExcessKurtosis {
         name: "excess_kurtosis", meaning: "excess kurtosis of the heights of the line",
-        signed: true, needs: Needs::Heights, of: |case| Some(case.profile.heights?.shape?.excess_kurtosis),
+        bounds: ANY, needs: Needs::Heights, of: |case| Some(case.profile.heights?.shape?.excess_kurtosis),
     }
     SummitHeight {
         name: "summit_height", meaning: "height of the summit over the rms height",
@@ -194,7 +205,7 @@ impl Quantity {
         self.row().symbol
     }
 
-    /// SI unit; `1` for a number without one, empty for the regime, which is no number.
+    /// SI unit; `1` for a number without one, empty for the regime, which is not a number.
     #[must_use]
     pub const fn unit(self) -> &'static str {
         self.row().unit
@@ -206,16 +217,10 @@ impl Quantity {
         self.row().meaning
     }
 
-    /// Returns true for a quantity that may be negative.
+    /// Smallest and largest possible value.
     #[must_use]
-    pub const fn is_signed(self) -> bool {
-        self.row().signed
-    }
-
-    /// Quantity of a name.
-    #[must_use]
-    pub fn named(name: &str) -> Option<Quantity> {
-        Quantity::ALL.into_iter().find(|quantity| quantity.name() == name)
+    pub const fn bounds(self) -> (f64, f64) {
+        self.row().bounds
     }
 
     pub(super) const fn needs(self) -> Needs {
@@ -226,19 +231,5 @@ impl Quantity {
     /// [`crate::analysis::Regime::ALL`].
     pub(super) fn of(self, case: &CaseOutcome<'_>) -> f64 {
         (self.row().of)(case).filter(|value| value.is_finite()).unwrap_or(f64::NAN)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_are_those_of_the_plan() {
-        for quantity in Quantity::ALL {
-            assert_eq!(ron::to_string(&quantity).unwrap(), quantity.name());
-            assert_eq!(Quantity::named(quantity.name()), Some(quantity));
-        }
-        assert_eq!(Quantity::named("force"), None);
     }
 }

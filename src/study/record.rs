@@ -1,6 +1,6 @@
 //! One record of a shard file: a line with its key, its values and a checksum.
 
-use std::fmt::Write;
+use std::fmt::{self, Write};
 
 /// Characters of the checksum and the comma behind it.
 const CHECKSUM: usize = 9;
@@ -12,6 +12,35 @@ pub struct Key {
     pub cell: u64,
     /// Seed of the profile.
     pub seed: u64,
+}
+
+impl fmt::Display for Key {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "cell {}, seed {}", self.cell, self.seed)
+    }
+}
+
+/// Set of the existing records of a study, one bit for each.
+#[derive(Clone)]
+pub(super) struct Done(Vec<u64>);
+
+impl Done {
+    pub fn none(count: u64) -> Done {
+        Done(vec![0; count.div_ceil(64) as usize])
+    }
+
+    pub fn add(&mut self, place: u64) {
+        self.0[place as usize / 64] |= 1 << (place % 64);
+    }
+
+    pub fn has(&self, place: u64) -> bool {
+        self.0[place as usize / 64] & (1 << (place % 64)) != 0
+    }
+
+    /// Number of records.
+    pub fn count(&self) -> u64 {
+        self.0.iter().map(|word| u64::from(word.count_ones())).sum()
+    }
 }
 
 /// Appends a line with its checksum in front; the payload holds no line break.

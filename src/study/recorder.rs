@@ -8,12 +8,9 @@ use crate::analysis::Governing;
 use crate::scene::{Move, Roughness, Scene, Solver};
 use crate::simulation::{Outcome, RunError, Simulation};
 
-/// Curve samples on a loading stage: all recorded quantities are at the ends of stages or exact extremes.
-const SAMPLES: u64 = 2;
-
 /// Values of the recorded quantities, in the order of the plan, for each preload; NaN for a quantity that the case
 /// does not have.
-pub(crate) type Records = Vec<Vec<f64>>;
+pub(super) type Records = Vec<Vec<f64>>;
 
 /// Recorder of the cases of a plan. Keeps the profile, its tree and the properties of the profile from case to case.
 pub(super) struct Recorder<'p> {
@@ -30,45 +27,45 @@ impl<'p> Recorder<'p> {
         Recorder { plan, simulation, profile: None, stop }
     }
 
-    /// Solves a scene of the plan on the profile of a seed.
+    /// The plan.
+    pub fn plan(&self) -> &'p Plan {
+        self.plan
+    }
+
+    /// Solves a scene of the plan with the seed of a profile.
     ///
     /// # Errors
     /// A failure of the profile or the contact, or a stop.
-    pub fn record(&mut self, scene: &mut Scene, seed: u64) -> Result<Records, RunError> {
+    pub fn record(&mut self, mut scene: Scene) -> Result<Records, RunError> {
         let plan = self.plan;
-        scene.set_seed(seed);
-        scene.numerics.samples = scene.numerics.samples.min(SAMPLES);
-        let profile = self.profile_record(scene)?;
-        let (_, _, governing) = self.simulation.make_line(scene)?;
-        let unit = governing.force_unit(scene.length);
-        let own = std::mem::take(&mut scene.loading);
+        let profile = self.profile_record(&scene)?;
+        let (_, _, governing) = self.simulation.make_line(&scene)?;
         let mut loops = Vec::new();
         if plan.records(Needs::Loading) {
-            match &plan.preloads {
-                Some(preloads) => loops.extend(preloads.values().into_iter().map(|preload| {
-                    vec![Move::ToForce(preload * unit.unwrap_or(f64::NAN)), Move::ToSeparation]
-                })),
-                None => loops.push(own.clone()),
+            match plan.preloads() {
+                Some(preloads) => {
+                    let unit = governing.force_unit(scene.length).unwrap_or(f64::NAN);
+                    let press = |preload| vec![Move::ToForce(preload * unit), Move::ToSeparation];
+                    loops.extend(preloads.values.iter().map(press));
+                }
+                None => loops.push(scene.loading.clone()),
             }
         }
         let count = loops.len();
-        let zero_force = plan.records(Needs::ZeroForce);
-        if zero_force {
+        let needs_zero_force = plan.records(Needs::ZeroForce);
+        if needs_zero_force {
             loops.push(vec![Move::ToZeroForce, Move::ToSeparation]);
         }
-        let mut zero_load = None;
-        let mut each = Vec::new();
+        let (mut each, mut zero_load) = (Vec::new(), None);
         if !loops.is_empty() || plan.records(Needs::Touch) {
-            (each, zero_load) = self.solve(scene, &governing, loops)?;
+            (each, zero_load) = self.solve(&mut scene, &governing, loops)?;
         }
-        scene.loading = own;
-        let zero_force = each.get(count).filter(|_| zero_force).and_then(|of| of.figures.adhesion_force);
-        let cells = plan.preloads.as_ref().map_or(1, |preloads| preloads.count() as usize);
+        let zero_force = each.get(count).filter(|_| needs_zero_force);
+        let zero_force = zero_force.and_then(|of| of.figures.adhesion_force);
         each.truncate(count);
-        each.resize(cells, LoadingOutcome::default());
-        let scene = &*scene;
+        each.resize(plan.preloads().map_or(1, |axis| axis.values.len()), LoadingOutcome::default());
         let values = |loading| {
-            let case = CaseOutcome { governing, profile, scene, zero_load, zero_force, loading };
+            let case = CaseOutcome { governing, profile, scene: &scene, zero_load, zero_force, loading };
             plan.record.iter().map(|quantity| quantity.of(&case)).collect()
         };
         Ok(each.into_iter().map(values).collect())

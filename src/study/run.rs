@@ -2,9 +2,8 @@
 
 use super::StudyError;
 use super::cells::Cells;
-use super::done::Done;
 use super::measured::profile;
-use super::record::{Key, encode};
+use super::record::{Done, Key, encode};
 use super::recorder::{Recorder, Records};
 use super::shard::Shard;
 use super::solve::{Case, Next, SharedWork, Sink};
@@ -82,7 +81,6 @@ pub struct Ended {
 /// Shared state of all threads of a run.
 struct Shared<'a> {
     folder: &'a Folder,
-    cells: &'a Cells,
     done: Done,
     /// Records on the disk so far, and their time since the file was made, ns.
     written: AtomicU64,
@@ -105,7 +103,7 @@ pub fn run(
 ) -> Result<Ended, StudyError> {
     let cells = Cells::of(folder.plan());
     let done = folder.done()?;
-    let (total, before) = count(folder.plan(), &cells, &done, options.shard);
+    let (total, before) = count(folder, &cells, &done, options.shard);
     let progress = |written: u64, elapsed: u64| Progress {
         done: before + written,
         before,
@@ -121,10 +119,10 @@ pub fn run(
     let clock = Instant::now();
     let (path, file) = folder.new_file(options.shard)?;
     let units = options.shard.units(cells.units()).map(|unit| cells.unit(unit));
-    let work = &SharedWork::new(folder.plan(), &cells, units);
+    let work = &SharedWork::new(&cells, units);
     let (written, elapsed) = (AtomicU64::new(0), AtomicU64::new(0));
     let (failed, error) = (AtomicBool::new(false), Mutex::new(None));
-    let shared = &Shared { folder, cells: &cells, done, written, elapsed, failed, error, stop };
+    let shared = &Shared { folder, done, written, elapsed, failed, error, stop };
     let now = || progress(shared.written.load(Ordering::SeqCst), shared.elapsed.load(Ordering::SeqCst));
     std::thread::scope(|scope| {
         let (sender, receiver) = sync_channel(WAITING);
@@ -134,8 +132,8 @@ pub fn run(
                 Some(profile) => simulation.with_measured(profile),
                 None => simulation,
             };
-            let mut recorder = Recorder::new(folder.plan(), simulation, &|| false);
-            work.solve(|scene, seed| recorder.record(scene, seed), &mut FolderSink { shared, sender });
+            let recorder = Recorder::new(folder.plan(), simulation, &|| false);
+            work.solve(recorder, &mut FolderSink { shared, sender });
         });
         // If the system starts fewer threads than requested, those do all the work.
         if let Err(error) = begun {
@@ -220,17 +218,14 @@ struct FolderSink<'a> {
 }
 
 impl FolderSink<'_> {
-    /// The cells of a case without a record.
-    fn missing(&self, case: Case) -> impl Fn(u64) -> bool + '_ {
-        let lines = self.shared.folder.plan().lines;
-        move |cell| !self.shared.done.has(cell * lines + case.line)
+    fn is_missing(&self, cell: u64, line: u64) -> bool {
+        !self.shared.done.has(cell * self.shared.folder.plan().lines + line)
     }
 }
 
 impl Sink for FolderSink<'_> {
-    fn next(&mut self, case: Case) -> Next {
-        let mut cells = self.shared.cells.cells_of(case.run);
-        match cells.any(self.missing(case)) {
+    fn next(&mut self, case: &Case) -> Next {
+        match case.cells.clone().any(|cell| self.is_missing(cell, case.line)) {
             false => Next::Skip,
             true if self.shared.ends() => Next::End,
             true => Next::Solve,
@@ -238,22 +233,19 @@ impl Sink for FolderSink<'_> {
     }
 
     fn take(&mut self, case: Case, records: Result<Records, RunError>) -> ControlFlow<()> {
-        let Shared { folder, cells, .. } = *self.shared;
-        let (plan, cells) = (folder.plan(), cells.cells_of(case.run));
+        let plan = self.shared.folder.plan();
         let seed = plan.seed_of(case.line);
         let records = match records {
             Ok(records) => records,
             Err(error) => {
-                let (cell, coordinates) = (cells.start, plan.coordinates(cells.start));
+                let (cell, coordinates) = (case.cells.start, plan.coordinates(case.cells.start));
                 self.shared.fail(StudyError::Run { cell, coordinates, seed, error });
                 return ControlFlow::Break(());
             }
         };
-        let (mut text, missing) = (String::new(), self.missing(case));
-        for (cell, values) in cells.zip(&records) {
-            if missing(cell) {
-                encode(Key { cell, seed }, values, &mut text);
-            }
+        let mut text = String::new();
+        for (cell, values) in case.cells.zip(&records).filter(|(cell, _)| self.is_missing(*cell, case.line)) {
+            encode(Key { cell, seed }, values, &mut text);
         }
         // The writer has ended if the text has no receiver.
         if self.sender.send(text).is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }

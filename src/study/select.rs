@@ -1,12 +1,11 @@
 //! Selection of a figure from a merged study: quantities, axes across and up, values of the other axes.
 
 use super::axis::Axis;
-use super::figure::{
-    AxisScale, Boundary, Estimate, Figure, FigureAxis, Panel, across_and_up, fixed, range_of, scale_of,
-};
-use super::finished::Finished;
+use super::grid::{Grid, Layer, across_and_up, fixed, scale_of};
 use super::plan::Plan;
 use super::quantity::Quantity;
+use super::results::Results;
+use crate::draw::AxisScale;
 use crate::scene::parse_quantity;
 use thiserror::Error;
 
@@ -93,24 +92,36 @@ pub enum FigureError {
     },
 }
 
-/// An axis of the study and its use.
+/// A selected part of a study.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Selected {
+    /// The cells.
+    pub grid: Grid,
+    /// The shown quantities.
+    pub quantities: Vec<Quantity>,
+    /// Fixed axes, as `H = 0.3`.
+    pub fixed: Vec<String>,
+    /// True if the rows of the grid are curves of a section.
+    pub curves: bool,
+}
+
+/// The axes of a study, and the places of those that are fixed.
 struct Chosen<'a> {
-    axis: &'a Axis,
-    /// The place at which the axis is fixed.
-    at: Option<u64>,
+    axes: &'a [Axis],
+    fixed: Vec<Option<usize>>,
 }
 
 impl Selection {
-    /// The figure of a study.
+    /// Selects a part of a study.
     ///
     /// # Errors
     /// Unknown quantity, axis or value, with those that the study has; more than two free axes.
-    pub fn figure(&self, study: &Finished) -> Result<Figure, FigureError> {
+    pub fn of(&self, study: &Results) -> Result<Selected, FigureError> {
         let plan = study.plan();
         let quantities = self.quantities(plan)?;
         let chosen = self.chosen(plan)?;
         let (across, second) = self.free(&chosen)?;
-        let few = |index: usize| chosen[index].axis.count() as usize <= MOST_CURVES;
+        let few = |index: usize| plan.axes[index].values.len() <= MOST_CURVES;
         // Curves lie along the longer axis, unless the axis across was given.
         let turned =
             |second: &usize| self.across.is_none() && self.up.is_none() && few(across) && !few(*second);
@@ -118,53 +129,29 @@ impl Selection {
             Some(second) => (second, Some(across)),
             None => (across, second),
         };
-        let series = second.filter(|&second| self.up.is_none() && few(second) && !few(across));
-        let places = chosen.iter().map(|one| one.at.unwrap_or(0)).collect();
-        let cells = study.grid(across, second, places);
-        let is_map = second.is_some() && series.is_none();
-        let estimates = |quantity: Quantity| -> Vec<Option<Estimate>> {
-            let column = study.column(quantity);
-            cells.iter().map(|cell| cell.as_ref()?.estimate(column?)).collect()
+        let curves = second.is_some_and(|second| self.up.is_none() && few(second) && !few(across));
+        let places = chosen.fixed.iter().map(|place| place.unwrap_or(0)).collect();
+        let mut grid = study.grid((across, second), places, study.layers());
+        let is_map = second.is_some() && !curves;
+        let layer = |quantity, scale: Option<AxisScale>| match is_map {
+            true => study.layer(quantity, scale),
+            false => section_layer(&grid, quantity, scale),
         };
-        let axis = |index: usize| FigureAxis::new(plan, chosen[index].axis);
-        let fixed = chosen.iter().filter_map(|one| Some(fixed(plan, one.axis, one.at?)));
-        let panel = |&quantity: &Quantity| {
-            let estimates = estimates(quantity);
-            if is_map {
-                // All maps of a study have one scale, whatever the values of the other axes.
-                let all = study.column(quantity).map(|column| study.estimates(column)).unwrap_or_default();
-                let scale = self.scale.unwrap_or_else(|| scale_of(&all));
-                return Panel { range: range_of(&all, scale), ..Panel::new(quantity, estimates, scale) };
-            }
-            // A single curve has an inset for its small values; of several the highest would hide the others.
-            let mut curves = estimates.chunks(chosen[across].axis.count().max(1) as usize);
-            let first = curves.next();
-            let several = curves.any(|curve| Some(curve) != first);
-            let by_itself = || if several { scale_of(&estimates) } else { AxisScale::Linear };
-            let scale = self.scale.unwrap_or_else(by_itself);
-            Panel::new(quantity, estimates, scale)
-        };
-        let mut panels: Vec<Panel> = quantities.iter().map(panel).collect();
+        let is_shown = |quantity| quantities.contains(&quantity);
+        let all = grid.layers.iter().map(|one| one.quantity);
+        let mut layers: Vec<Layer> = all.map(|quantity| layer(quantity, self.scale)).collect();
         // The same quantity by two protocols has one scale.
-        let shares = || quantities.iter().all(|quantity| SHARES.contains(quantity));
-        if shares() && panels.iter().any(|panel: &Panel| panel.scale == AxisScale::Logarithmic) {
-            panels.iter_mut().for_each(|panel| panel.scale = AxisScale::Logarithmic);
+        let shares = self.scale.is_none() && quantities.iter().all(|quantity| SHARES.contains(quantity));
+        let logarithmic = |one: &Layer| is_shown(one.quantity) && one.scale == AxisScale::Logarithmic;
+        if shares && layers.iter().any(logarithmic) {
+            for one in layers.iter_mut().filter(|one| is_shown(one.quantity)) {
+                *one = layer(one.quantity, Some(AxisScale::Logarithmic));
+            }
         }
-        let boundary = SHARES.into_iter().find(|quantity| plan.record.contains(quantity));
-        Ok(Figure {
-            title: plan.title.clone(),
-            fixed: fixed.collect(),
-            across: axis(across),
-            up: second.filter(|_| series.is_none()).map(axis),
-            series: series.map(axis),
-            panels,
-            boundary: boundary.map(|quantity| Boundary::new(&estimates(quantity))),
-            regimes: if series.is_some() || !plan.record.contains(&Quantity::Regime) {
-                Vec::new()
-            } else {
-                cells.iter().map(|cell| Some((*cell)?.regime()?.regime)).collect()
-            },
-        })
+        grid.layers = layers;
+        let fixed =
+            plan.axes.iter().zip(&chosen.fixed).filter_map(|(axis, place)| Some(fixed(axis, (*place)?)));
+        Ok(Selected { fixed: fixed.collect(), grid, quantities, curves })
     }
 
     fn quantities(&self, plan: &Plan) -> Result<Vec<Quantity>, FigureError> {
@@ -196,37 +183,34 @@ impl Selection {
     }
 
     /// The axes of the study, those with one value and those of `at` fixed.
-    fn chosen<'a>(&self, plan: &'a Plan) -> Result<Vec<Chosen<'a>>, FigureError> {
-        let only = |axis: &Axis| (axis.count() == 1).then_some(0);
-        let mut chosen: Vec<_> =
-            plan.all_axes().into_iter().map(|axis| Chosen { axis, at: only(axis) }).collect();
-        let mut named: Vec<&str> = Vec::new();
-        for (path, value) in &self.at {
-            let index = find(&chosen, path, "--at")?;
-            if named.contains(&path.as_str()) {
+    fn chosen<'a>(&self, plan: &'a Plan) -> Result<Chosen<'a>, FigureError> {
+        let axes = &plan.axes[..];
+        let mut fixed: Vec<_> = axes.iter().map(|axis| (axis.values.len() == 1).then_some(0)).collect();
+        for (number, (path, value)) in self.at.iter().enumerate() {
+            let index = find(axes, path, "--at")?;
+            if self.at[..number].iter().any(|(other, _)| other == path) {
                 return Err(FigureError::Twice { path: path.clone(), one: "--at", other: "--at" });
             }
-            named.push(path);
-            let axis = chosen[index].axis;
-            let unit = FigureAxis::new(plan, axis).unit;
-            let wanted = parse_quantity(value, &unit).ok();
+            let axis = &axes[index];
+            let wanted = parse_quantity(value, axis.unit).ok();
             // Values are written with 12 digits, and 0.3 is typed for them.
-            let same = |there: f64| wanted.is_some_and(|wanted| (there - wanted).abs() <= 1e-9 * there.abs());
-            let place = (0..axis.count()).find(|&place| same(axis.value(place)));
-            chosen[index].at = Some(place.ok_or_else(|| FigureError::NoValue {
+            let same =
+                |there: &f64| wanted.is_some_and(|wanted| (there - wanted).abs() <= 1e-9 * there.abs());
+            let none = || FigureError::NoValue {
                 path: path.clone(),
                 value: value.clone(),
                 allowed: values_of(axis),
-            })?);
+            };
+            fixed[index] = Some(axis.values.iter().position(same).ok_or_else(none)?);
         }
-        Ok(chosen)
+        Ok(Chosen { axes, fixed })
     }
 
     /// The axis across, and the second one if there is one.
-    fn free(&self, chosen: &[Chosen<'_>]) -> Result<(usize, Option<usize>), FigureError> {
+    fn free(&self, Chosen { axes, fixed }: &Chosen<'_>) -> Result<(usize, Option<usize>), FigureError> {
         let named = |path: &Option<String>, option: &'static str| {
             let Some(path) = path else { return Ok(None) };
-            let index = find(chosen, path, option)?;
+            let index = find(axes, path, option)?;
             if self.at.iter().any(|(fixed, _)| fixed == path) {
                 return Err(FigureError::Twice { path: path.clone(), one: option, other: "--at" });
             }
@@ -234,12 +218,12 @@ impl Selection {
         };
         let (across, up) = (named(&self.across, "--x")?, named(&self.up, "--y")?);
         if let (Some(across), true) = (across, across == up) {
-            let path = chosen[across].axis.path().to_owned();
+            let path = axes[across].path.clone();
             return Err(FigureError::Twice { path, one: "--x", other: "--y" });
         }
         let is_named = |index: &usize| Some(*index) == across || Some(*index) == up;
         let free: Vec<usize> =
-            (0..chosen.len()).filter(|index| chosen[*index].at.is_none() || is_named(index)).collect();
+            (0..axes.len()).filter(|index| fixed[*index].is_none() || is_named(index)).collect();
         let rest: Vec<usize> = free.iter().copied().filter(|index| !is_named(index)).collect();
         let result = match (across, up, rest.as_slice()) {
             (Some(across), up, []) => (across, up),
@@ -248,20 +232,14 @@ impl Selection {
             // Only one axis, and named to go up.
             (None, Some(only), []) => (only, None),
             (None, None, free @ ([] | [_] | [_, _])) => {
-                let axes: Vec<&Axis> = chosen.iter().map(|one| one.axis).collect();
                 let fixed = if self.at.is_empty() { "" } else { " left by --at" };
-                across_and_up(&axes, free).ok_or(FigureError::NoAxes { fixed })?
+                across_and_up(axes, free).ok_or(FigureError::NoAxes { fixed })?
             }
             _ => {
-                let shortest = rest.iter().min_by_key(|index| chosen[**index].axis.count());
-                let example = shortest.map_or_else(String::new, |&index| {
-                    let axis = chosen[index].axis;
-                    format!("--at {}={}", axis.path(), axis.value(0))
-                });
-                let said = |index: &usize| {
-                    let axis = chosen[*index].axis;
-                    format!("{} ({})", axis.path(), values_of(axis))
-                };
+                let shortest = rest.iter().map(|index| &axes[*index]).min_by_key(|axis| axis.values.len());
+                let example = |axis: &Axis| format!("--at {}={}", axis.path, axis.values[0]);
+                let example = shortest.map_or_else(String::new, example);
+                let said = |index: &usize| format!("{} ({})", axes[*index].path, values_of(&axes[*index]));
                 return Err(FigureError::TooManyAxes { free: free.iter().map(said).collect(), example });
             }
         };
@@ -269,19 +247,32 @@ impl Selection {
     }
 }
 
-fn find(chosen: &[Chosen<'_>], path: &str, option: &'static str) -> Result<usize, FigureError> {
-    chosen.iter().position(|one| one.axis.path() == path).ok_or_else(|| {
-        let all: Vec<_> = chosen.iter().map(|one| one.axis.path()).collect();
+/// A quantity of curves: a single one is linear, with an inset for small values; of several the highest would hide the
+/// others.
+fn section_layer(grid: &Grid, quantity: Quantity, scale: Option<AxisScale>) -> Layer {
+    let estimates = grid.estimates(quantity, false);
+    let mut curves = estimates.chunks(grid.size().0.max(1));
+    let first = curves.next();
+    let several = curves.any(|curve| Some(curve) != first);
+    let means: Vec<f64> = estimates.iter().flatten().map(|one| one.mean).collect();
+    let usual = || if several { scale_of(&means) } else { AxisScale::Linear };
+    Layer { quantity, scale: scale.unwrap_or_else(usual), range: None }
+}
+
+fn find(axes: &[Axis], path: &str, option: &'static str) -> Result<usize, FigureError> {
+    axes.iter().position(|axis| axis.path == path).ok_or_else(|| {
+        let all: Vec<_> = axes.iter().map(|axis| axis.path.as_str()).collect();
         let allowed = if all.is_empty() { "none, it has one cell".into() } else { all.join(", ") };
         FigureError::NoAxis { option, path: path.into(), allowed }
     })
 }
 
 fn values_of(axis: &Axis) -> String {
-    let values: Vec<_> = axis.values().into_iter().map(|value| value.to_string()).collect();
-    if values.len() <= MOST_NAMED {
-        return values.join(", ");
+    let shown = |values: &[f64]| values.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
+    match &axis.values[..] {
+        [first @ .., last] if first.len() >= MOST_NAMED => {
+            format!("{}, … {last}", shown(&first[..MOST_NAMED - 1]))
+        }
+        values => shown(values),
     }
-    let (first, last) = (&values[..MOST_NAMED - 1], &values[values.len() - 1]);
-    format!("{}, … {last}", first.join(", "))
 }

@@ -17,32 +17,35 @@ pub struct Statistics {
     pub standard_deviation: f64,
     /// Standard error of the mean.
     pub standard_error: f64,
-    /// Lower and upper end of the 95 % confidence interval of the mean, by Student's t.
+    /// Lower and upper end of the 95 % confidence interval of the mean, by Student's t, within the possible values of
+    /// the quantity.
     pub confidence_interval: (f64, f64),
 }
 
 impl Statistics {
-    /// Statistics of these values; `None` for fewer than two.
+    /// Statistics of values of a quantity between these bounds; `None` for fewer than two.
+    ///
+    /// The confidence interval is cut at the bounds: the true mean cannot lie beyond them, so the interval contains the
+    /// mean as often as before.
     #[must_use]
-    pub fn of(values: &[f64]) -> Option<Self> {
-        Statistics::with(values, &mut StudentT::default())
+    pub fn of(values: &[f64], bounds: (f64, f64)) -> Option<Self> {
+        Statistics::with(values, bounds, &mut StudentT::default())
     }
 
     /// The same for one of many samples of equal size, whose quantile is computed once.
-    pub(crate) fn with(values: &[f64], quantiles: &mut StudentT) -> Option<Self> {
+    pub(crate) fn with(values: &[f64], (least, most): (f64, f64), quantiles: &mut StudentT) -> Option<Self> {
         if values.len() < 2 {
             return None;
         }
         let count = values.len() as f64;
-        // In units of the largest value, so that no square overflows or underflows.
-        let scale = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-        let unit = if scale > 0.0 { scale } else { 1.0 };
-        let mean = values.iter().map(|value| value / unit).sum::<f64>() / count;
+        let unit = unit_of(values);
+        let mean = scaled_mean(values, unit);
         let squares = values.iter().map(|value| (value / unit - mean).powi(2)).sum::<f64>();
         let (mean, standard_deviation) = (mean * unit, (squares / (count - 1.0)).sqrt() * unit);
         let standard_error = standard_deviation / count.sqrt();
         let half = quantiles.of(values.len() as u32 - 1) * standard_error;
-        let confidence_interval = (mean - half, mean + half);
+        // Rounding may have carried the mean itself across a bound.
+        let confidence_interval = ((mean - half).max(least.min(mean)), (mean + half).min(most.max(mean)));
         Some(Statistics {
             count: values.len(),
             mean,
@@ -51,6 +54,22 @@ impl Statistics {
             confidence_interval,
         })
     }
+}
+
+/// The largest of the values, by which they are divided so that no square overflows or underflows.
+fn unit_of(values: &[f64]) -> f64 {
+    let scale = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    if scale > 0.0 { scale } else { 1.0 }
+}
+
+fn scaled_mean(values: &[f64], unit: f64) -> f64 {
+    values.iter().map(|value| value / unit).sum::<f64>() / values.len() as f64
+}
+
+/// Mean of these values, the same bits as in [`Statistics`]; a single value is its own mean.
+pub(super) fn mean(values: &[f64]) -> f64 {
+    let unit = unit_of(values);
+    if let [only] = values { *only } else { scaled_mean(values, unit) * unit }
 }
 
 /// Lower quartile, median and upper quartile of these values, interpolated between neighbours; `None` without values.
@@ -141,13 +160,15 @@ mod tests {
 
     #[test]
     fn a_small_sample() {
-        let of = Statistics::of(&[1e-200, 3e-200, 5e-200]).unwrap();
+        let of = Statistics::of(&[1e-200, 3e-200, 5e-200], (f64::NEG_INFINITY, f64::INFINITY)).unwrap();
         let near = |value: f64, expected: f64| (value / expected - 1.0).abs() < 1e-9;
         assert!(near(of.mean, 3e-200) && near(of.standard_deviation, 2e-200), "{of:?}");
         assert!(near(of.standard_error, 2e-200 / 3.0_f64.sqrt()));
         assert!(near(of.confidence_interval.1, 3e-200 + 4.302_652_730 * 2e-200 / 3.0_f64.sqrt()));
-        assert_eq!(Statistics::of(&[1.0]), None);
-        let zeros = Statistics::of(&[0.0; 4]).unwrap();
+        assert_eq!(Statistics::of(&[1.0], (0.0, 1.0)), None);
+        let zeros = Statistics::of(&[0.0; 4], (0.0, 1.0)).unwrap();
         assert_eq!((zeros.mean, zeros.confidence_interval), (0.0, (0.0, 0.0)));
+        let shares = Statistics::of(&[0.0, 1.0], (0.0, 1.0)).unwrap();
+        assert_eq!(shares.confidence_interval, (0.0, 1.0), "a share is never below 0 or above 1");
     }
 }

@@ -2,8 +2,7 @@
 
 use super::StudyError;
 use super::cells::Cells;
-use super::done::Done;
-use super::plan::Plan;
+use super::record::Done;
 use super::shard::Shard;
 use super::store::Folder;
 use crate::text::{path_name, printable};
@@ -64,38 +63,35 @@ impl Status {
     /// # Errors
     /// A folder that cannot be read.
     pub fn of(folder: &Folder) -> Result<Status, StudyError> {
-        let plan = folder.plan();
-        let mut damaged = 0;
-        let mut done = Done::none(plan.records_in_all());
+        let total = folder.plan().records_in_all();
+        let (mut done, mut damaged) = (Done::none(total), 0);
         let mut attempts: BTreeMap<Shard, Vec<Attempt>> = BTreeMap::new();
         for file in folder.files()? {
             let mut records = 0;
-            damaged += folder.records(&file, &mut |found| {
+            damaged += folder.records(&file, &mut |key, _| {
                 records += 1;
-                if let Some(place) = folder.place(found.key) {
-                    done.add(place);
-                }
+                done.add(folder.place(key));
                 Ok(())
             })?;
             let Some(header) = file.header else { continue };
-            let seconds = file.written - header.begun.unwrap_or(header.started as f64);
+            let seconds = file.written - header.begun;
             attempts.entry(header.shard).or_default().push(Attempt {
                 file: file.path.file_name().map_or_else(String::new, |name| path_name(Path::new(name))),
                 host: printable(&header.host).into_owned(),
                 process: header.process,
-                started: header.started,
+                started: header.begun as u64,
                 written: file.written,
                 records,
                 rate: rate(records, seconds),
             });
         }
-        let cells = Cells::of(plan);
+        let cells = Cells::of(folder.plan());
         let of_shard = |(shard, attempts): (Shard, Vec<Attempt>)| {
-            let (total, there) = count(plan, &cells, &done, shard);
+            let (total, there) = count(folder, &cells, &done, shard);
             ShardStatus { shard: shard.to_string(), total, done: there, attempts }
         };
         let shards = attempts.into_iter().map(of_shard).collect();
-        let (total, found) = (plan.records_in_all(), done.count());
+        let found = done.count();
         Ok(Status { done: found, total, missing: total - found, damaged, shards })
     }
 }
@@ -105,16 +101,15 @@ pub(super) fn rate(records: u64, seconds: f64) -> Option<f64> {
     (seconds > 0.0).then(|| records as f64 / seconds)
 }
 
-/// All records of a part of a plan, and the existing ones. All parts of a division together take as long as the
-/// whole plan.
-pub(super) fn count(plan: &Plan, cells: &Cells, done: &Done, shard: Shard) -> (u64, u64) {
+/// Number of all records of a part of a study, and of the existing ones. Counting all parts of a division takes as long
+/// as counting the whole study.
+pub(super) fn count(folder: &Folder, cells: &Cells<'_>, done: &Done, shard: Shard) -> (u64, u64) {
     let (mut total, mut there) = (0, 0);
     for unit in shard.units(cells.units()) {
         let unit = cells.unit(unit);
-        total += cells.length_of(&unit) * cells.preloads();
-        for run in cells.runs_of(&unit) {
-            let places = cells.cells_of(run).map(|cell| cell * plan.lines + unit.line);
-            there += places.filter(|&place| done.has(place)).count() as u64;
+        total += cells.records_of(&unit);
+        for cell in cells.runs_of(&unit).flatten() {
+            there += u64::from(done.has(cell * folder.plan().lines + unit.line));
         }
     }
     (total, there)

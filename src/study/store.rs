@@ -5,14 +5,13 @@
 //! records not yet on the disk, those of a moment, are lost and computed again.
 
 use super::StudyError;
-use super::done::Done;
 use super::measured::{file_of, with_hash};
 use super::plan::{PLAN_FILE, Plan};
 use super::plan_text::Changes;
-use super::record::{Key, key_of, seal, unseal, values_into};
+use super::record::{Done, Key, key_of, seal, unseal, values_into};
 use super::shard::Shard;
-use crate::io::{WriteError, open_regular, sync_folder, write_new};
-use crate::scene::read_file;
+use crate::io::{WriteError, open_regular, read_regular_text, sync_folder, write_new};
+use crate::scene::LONGEST_TEXT;
 use crate::text::{path_name, printable};
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File, OpenOptions};
@@ -51,10 +50,7 @@ pub struct Header {
     /// Process id on that machine.
     pub process: u32,
     /// Time of the beginning, s since 1970.
-    pub started: u64,
-    /// `started` with fractions of a second; files of earlier versions do not have it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub begun: Option<f64>,
+    pub begun: f64,
     /// Version of the program.
     pub program: String,
     /// SHA-256 of the content of the study's measured file, if any.
@@ -79,13 +75,6 @@ pub struct ShardFile {
     pub written: f64,
 }
 
-/// A record of a file.
-pub(super) struct Found<'l> {
-    pub key: Key,
-    /// One value for each quantity of the plan, NaN for missing ones.
-    pub values: &'l [f64],
-}
-
 impl Folder {
     /// Makes the folder of a plan, or opens one that holds the same plan.
     ///
@@ -107,7 +96,7 @@ impl Folder {
                 Err(error) => return Err(error.into()),
             }
         }
-        let there = read_file(&file).map_err(|reason| StudyError::folder(&file, reason))?;
+        let there = text_of(&file)?;
         if there != text {
             return Err(refusal(path, &there, &plan));
         }
@@ -123,7 +112,7 @@ impl Folder {
         path.join(PLAN_FILE).is_file()
     }
 
-    /// Opens the folder of a study.
+    /// Opens the folder of a study, whose plan was checked when the study began.
     ///
     /// # Errors
     /// No study, or an unreadable plan.
@@ -133,8 +122,7 @@ impl Folder {
             let reason = format!("this is not the folder of a study: there is no {PLAN_FILE} in it");
             return Err(StudyError::folder(path, reason));
         }
-        let text = read_file(&file).map_err(|reason| StudyError::folder(&file, reason))?;
-        let plan = Plan::parse(&text, &file.display().to_string(), &Changes::default())?;
+        let plan = Plan::read(&text_of(&file)?, &file.display().to_string(), &Changes::default())?;
         Ok(Folder { path: path.to_path_buf(), plan })
     }
 
@@ -166,8 +154,7 @@ impl Folder {
             shard,
             host: host.clone(),
             process,
-            started,
-            begun: Some(begun.as_secs_f64()),
+            begun: begun.as_secs_f64(),
             program: env!("CARGO_PKG_VERSION").into(),
             measured_sha256: self.plan.measured_sha256.clone(),
         };
@@ -214,7 +201,7 @@ impl Folder {
         let written = written.duration_since(UNIX_EPOCH).unwrap_or_default().as_secs_f64();
         // Of thousands of files, only the first lines are read here.
         let mut lines = Lines::new(file, 1 << 10);
-        let first = lines.next().map_err(&failed)?.and_then(|(_, payload)| payload);
+        let first = lines.next().map_err(&failed)?.flatten();
         let header = first.map(|payload| self.header(payload, checksum)).transpose();
         let header = header.map_err(|reason| StudyError::folder(path, reason))?;
         Ok(ShardFile { path: path.to_path_buf(), header, written })
@@ -224,7 +211,7 @@ impl Folder {
     fn header(&self, payload: &str, checksum: &str) -> Result<Header, String> {
         let unknown = |error: serde_json::Error| {
             format!(
-                "its first line is no header of a shard file ({error}); remove the file or bring back another"
+                "its first line is not the header of a shard file ({error}); remove the file or bring back another"
             )
         };
         let AnyHeader { format } = serde_json::from_str(payload).map_err(unknown)?;
@@ -245,12 +232,13 @@ impl Folder {
         Ok(header)
     }
 
-    /// Calls `each` with every whole record of a file, in the order of writing, and returns the number of damaged
-    /// lines: torn, changed since, or no records of this plan.
+    /// Calls `each` with every whole record of a file, in the order of writing: its key, and one value for each quantity
+    /// of the plan, NaN for missing ones. Returns the number of damaged lines: torn, changed since, or no records of
+    /// this plan.
     pub(super) fn records(
         &self,
         file: &ShardFile,
-        each: &mut dyn FnMut(&Found<'_>) -> Result<(), StudyError>,
+        each: &mut dyn FnMut(Key, &[f64]) -> Result<(), StudyError>,
     ) -> Result<u64, StudyError> {
         if file.header.is_none() {
             return Ok(0);
@@ -261,32 +249,25 @@ impl Folder {
         let size = opened.metadata().map_err(&failed)?.len().clamp(1 << 10, 1 << 18) as usize;
         let (mut lines, mut values, mut damaged) = (Lines::new(opened, size), Vec::new(), 0);
         let (cells, count) = (self.plan.cells(), self.plan.record.len());
-        while let Some((offset, payload)) = lines.next().map_err(&failed)? {
+        let mut is_header = true;
+        while let Some(payload) = lines.next().map_err(&failed)? {
             let key = payload.and_then(|payload| {
                 let (key, text) = key_of(payload)?;
-                values_into(text, count, &mut values).then_some(key)
+                let is_of_plan = key.cell < cells && key.seed.wrapping_sub(self.plan.seed) < self.plan.lines;
+                (is_of_plan && values_into(text, count, &mut values)).then_some(key)
             });
             match key {
-                Some(key) if key.cell < cells && self.line_of(key.seed).is_some() => {
-                    each(&Found { key, values: &values })?;
-                }
-                // The header.
-                _ if offset == 0 => {}
-                _ => damaged += 1,
+                Some(key) => each(key, &values)?,
+                None => damaged += u64::from(!is_header),
             }
+            is_header = false;
         }
         Ok(damaged)
     }
 
-    /// Index of the profile of a seed.
-    pub(super) fn line_of(&self, seed: u64) -> Option<u64> {
-        let line = seed.wrapping_sub(self.plan.seed);
-        (line < self.plan.lines).then_some(line)
-    }
-
-    /// Place of a record among all records of the plan, by cell, then by seed.
-    pub(super) fn place(&self, key: Key) -> Option<u64> {
-        Some(key.cell * self.plan.lines + self.line_of(key.seed)?)
+    /// Place of a record of the plan among all of them, by cell, then by seed.
+    pub(super) fn place(&self, key: Key) -> u64 {
+        key.cell * self.plan.lines + key.seed.wrapping_sub(self.plan.seed)
     }
 
     /// The records that exist and survive a power cut: records that a killed process left unsynced would be counted
@@ -294,10 +275,8 @@ impl Folder {
     pub(super) fn done(&self) -> Result<Done, StudyError> {
         let mut done = Done::none(self.plan.records_in_all());
         for file in self.files()? {
-            self.records(&file, &mut |found| {
-                if let Some(place) = self.place(found.key) {
-                    done.add(place);
-                }
+            self.records(&file, &mut |key, _| {
+                done.add(self.place(key));
                 Ok(())
             })?;
             // Windows requires write access.
@@ -310,20 +289,22 @@ impl Folder {
     }
 }
 
+/// Text of the plan in a folder.
+fn text_of(file: &Path) -> Result<String, StudyError> {
+    read_regular_text(file, LONGEST_TEXT).map_err(|error| StudyError::folder(file, error))
+}
+
 /// Error for a folder that holds the text `there` of another plan than `plan`.
 fn refusal(path: &Path, there: &str, plan: &Plan) -> StudyError {
     let file = path.join(PLAN_FILE);
     // If only the content of the measured file differs, the error is specific.
-    if let (Ok(of_folder), Some(measured)) =
-        (Plan::parse(there, PLAN_FILE, &Changes::default()), file_of(plan))
-        && (Plan { measured_sha256: plan.measured_sha256.clone(), ..of_folder.clone() }) == *plan
+    let of_folder = Plan::read(there, PLAN_FILE, &Changes::default());
+    if let (Ok(of_folder), Some(measured), Some(found)) = (of_folder, file_of(plan), &plan.measured_sha256)
+        && let Some(expected) = of_folder.measured_sha256.clone()
+        && (Plan { measured_sha256: plan.measured_sha256.clone(), ..of_folder }) == *plan
     {
-        return match (of_folder.measured_sha256, plan.measured_sha256.clone()) {
-            (Some(expected), Some(found)) => {
-                StudyError::MeasuredChanged { file: measured, found, plan: path_name(&file), expected }
-            }
-            _ => StudyError::MeasuredUnknown { folder: path.to_path_buf(), file: measured },
-        };
+        let (found, plan) = (found.clone(), path_name(&file));
+        return StudyError::MeasuredChanged { file: measured, found, plan, expected };
     }
     StudyError::OtherPlan { path: path.to_path_buf(), difference: difference(there, &plan.to_ron()) }
 }
@@ -342,23 +323,20 @@ fn difference(there: &str, asked: &str) -> String {
 /// Reader of the sealed lines of a shard file.
 struct Lines {
     reader: BufReader<File>,
-    here: u64,
     line: Vec<u8>,
 }
 
 impl Lines {
     /// Lines of a file, read in blocks of so many bytes.
     fn new(file: File, bytes: usize) -> Lines {
-        Lines { reader: BufReader::with_capacity(bytes, file), here: 0, line: Vec::new() }
+        Lines { reader: BufReader::with_capacity(bytes, file), line: Vec::new() }
     }
 
-    /// Next line: its offset and, if it is whole, its payload; `None` at the end.
-    fn next(&mut self) -> io::Result<Option<(u64, Option<&str>)>> {
-        let offset = self.here;
+    /// Next line: its payload if the line is whole; `None` at the end.
+    fn next(&mut self) -> io::Result<Option<Option<&str>>> {
         self.line.clear();
-        self.here += self.reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut self.line)? as u64;
-        let payload = self.line.strip_suffix(b"\n").and_then(unseal);
-        Ok((self.here > offset).then_some((offset, payload)))
+        let read = self.reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut self.line)?;
+        Ok((read > 0).then(|| self.line.strip_suffix(b"\n").and_then(unseal)))
     }
 }
 

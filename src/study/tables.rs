@@ -1,14 +1,18 @@
-//! Tables of a study: columns, rows, and the sidecar with the meanings of the columns.
+//! Tables of a merged study: the records, their statistics over the profiles, and the meanings of the columns.
 
+use super::StudyError;
 use super::axis::Axis;
-use super::cell_summary::CellSummary;
 use super::plan::Plan;
 use super::quantity::Quantity;
-use super::statistics::CONFIDENCE;
-use super::target::{Target, symbol_and_unit};
+use super::results::{Merged, Results};
+use super::statistics::{CONFIDENCE, Statistics, StudentT};
+use super::store::{Folder, LONGEST_LINE};
 use crate::analysis::Regime;
-use crate::io::object;
+use crate::io::{ReadError, object, open_regular, write_json_value, write_new_file};
 use serde::Serialize;
+use std::fmt::Write as _;
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::path::Path;
 
 /// Version of the merged files.
 pub const RESULTS_VERSION: u32 = 1;
@@ -21,119 +25,139 @@ pub const PARQUET: &str = "results.parquet";
 /// Name of the file with the meanings of the columns.
 pub const SIDECAR: &str = "results.json";
 
-/// A number in the shortest form that is read back bit for bit; empty for `None`.
-pub(super) fn number(value: Option<f64>) -> String {
-    value.filter(|value| !value.is_nan()).map_or_else(String::new, |value| format!("{value:?}"))
+/// Columns of the summary for the share of profiles in each regime.
+const REGIME_COLUMNS: [&str; 3] =
+    ["regime_pressure_insensitive", "regime_pressure_sensitive", "regime_non_adhesive"];
+
+/// Merges the shard files of a study and writes its tables, each whole. With `partial`, tables of the existing records.
+/// Removes [`PARQUET`] of an earlier merge.
+///
+/// # Errors
+/// [`StudyError::Missing`] if records are missing and `partial` is not set; [`StudyError::Disagree`] if two records
+/// of one cell and profile differ.
+pub fn merge(folder: &Folder, partial: bool) -> Result<Merged, StudyError> {
+    let (results, merged) = Results::of_shards(folder)?;
+    let plan = results.plan();
+    if merged.records < merged.total && !partial {
+        let cells = merged.first_missing.iter();
+        return Err(StudyError::Missing {
+            records: merged.total - merged.records,
+            total: merged.total,
+            cells: merged.missing_cells,
+            named: cells.map(|&cell| format!("cell {cell} ({})", plan.coordinates(cell))).collect(),
+        });
+    }
+    let path = |name| folder.path().join(name);
+    let parquet = path(PARQUET);
+    if parquet.exists() {
+        std::fs::remove_file(&parquet).map_err(StudyError::unwritable(&parquet))?;
+    }
+    write_new_file(&path(RESULTS), true, |out| write_results(&results, out))?;
+    write_new_file(&path(SUMMARY), true, |out| write_summary(&results, out))?;
+    write_new_file(&path(SIDECAR), true, |out| write_json_value(out, &sidecar(plan, &merged)))?;
+    Ok(merged)
 }
 
-/// A value of an axis, as an integer if it is one.
-fn coordinate(path: &str, value: f64) -> String {
-    match Target::of(path) {
-        Ok(target) if target.is_whole() => format!("{}", value as u64),
-        _ => format!("{value:?}"),
-    }
+/// A number in the shortest form that is read back bit for bit; empty for NaN and `None`.
+fn number(value: impl Into<Option<f64>>) -> String {
+    value.into().filter(|value| !value.is_nan()).map_or_else(String::new, |value| format!("{value:?}"))
 }
 
 /// Start of a row: cell, axes and preload.
-pub(super) fn row_start(plan: &Plan, cell: u64) -> String {
+fn row_start(plan: &Plan, cell: u64) -> String {
     let mut row = cell.to_string();
-    let values = plan.values(cell);
-    for (axis, value) in plan.axes.iter().zip(&values) {
-        row.push(',');
-        row.push_str(&coordinate(axis.path(), *value));
+    for (axis, value) in plan.axes.iter().zip(plan.values(cell)) {
+        let value = if axis.is_whole() { format!("{}", value as u64) } else { format!("{value:?}") };
+        row.extend([",", &value]);
     }
-    row.push(',');
-    if plan.preloads.is_some() {
-        row.push_str(&number(values.last().copied()));
+    if plan.preloads().is_none() {
+        row.push(',');
     }
     row
 }
 
-pub(super) fn header(plan: &Plan, single: bool) -> String {
-    let mut columns = vec!["cell".to_string()];
-    columns.extend(plan.axes.iter().map(|axis| axis.path().to_string()));
-    columns.push("preload".into());
-    columns.push(if single { "seed" } else { "lines" }.into());
-    for quantity in &plan.record {
-        let name = quantity.name();
-        match (single, quantity) {
-            (true, _) => columns.push(name.into()),
-            (false, Quantity::Regime) => columns.extend(REGIME_COLUMNS.map(String::from)),
-            (false, _) => {
-                columns.extend(["mean", "sd", "low", "high"].map(|of| format!("{name}_{of}")));
+/// Names of the columns before the quantities; `profiles` is the last of them.
+fn leading_columns(plan: &Plan, profiles: &str) -> Vec<String> {
+    let axes = plan.scene_axes().iter().map(|axis| axis.path.as_str());
+    ["cell"].into_iter().chain(axes).chain(["preload", profiles]).map(String::from).collect()
+}
+
+/// Names of the columns of the results.
+pub(super) fn columns(plan: &Plan) -> Vec<String> {
+    let quantities = plan.record.iter().map(|quantity| quantity.name().to_owned());
+    leading_columns(plan, "seed").into_iter().chain(quantities).collect()
+}
+
+fn write_results(results: &Results, out: &mut dyn Write) -> io::Result<()> {
+    let plan = results.plan();
+    writeln!(out, "{}", columns(plan).join(","))?;
+    for cell in 0..plan.cells() {
+        let start = row_start(plan, cell);
+        for (line, values) in results.records_of(cell) {
+            write!(out, "{start},{}", plan.seed_of(line))?;
+            for (quantity, value) in plan.record.iter().zip(values) {
+                match regime_of(*quantity, *value) {
+                    Some(regime) => write!(out, ",{}", regime.name())?,
+                    None => write!(out, ",{}", number(*value))?,
+                }
             }
+            writeln!(out)?;
         }
     }
-    columns.join(",")
+    Ok(())
 }
 
-/// Columns of the summary for the share of profiles in each regime.
-pub(super) const REGIME_COLUMNS: [&str; 3] =
-    ["regime_pressure_insensitive", "regime_pressure_sensitive", "regime_non_adhesive"];
-
-pub(super) fn regime_name(quantity: Quantity, value: f64) -> Option<&'static str> {
-    let regime =
-        Regime::ALL.get(value as usize).filter(|_| quantity == Quantity::Regime && !value.is_nan())?;
-    Some(regime.name())
+/// The regime of a recorded value, if the quantity is the regime and known.
+pub(super) fn regime_of(quantity: Quantity, value: f64) -> Option<Regime> {
+    let place = Some(value as usize).filter(|_| quantity == Quantity::Regime && !value.is_nan());
+    Regime::ALL.get(place?).copied()
 }
 
-/// Number of profiles and, for each quantity, mean, standard deviation and confidence interval.
-pub(super) fn summary_row(plan: &Plan, summary: &CellSummary) -> String {
-    let mut row = summary.lines.to_string();
-    let mut add = |value: Option<f64>| {
-        row.push(',');
-        row.push_str(&number(value));
-    };
-    for (quantity, spread) in plan.record.iter().zip(&summary.quantities) {
-        if *quantity == Quantity::Regime {
-            (0..Regime::ALL.len()).for_each(|place| add(summary.regimes.map(|shares| shares[place])));
+/// Writes the number of profiles of each cell and, for each quantity, mean, standard deviation and confidence interval.
+fn write_summary(results: &Results, out: &mut dyn Write) -> io::Result<()> {
+    let plan = results.plan();
+    let mut header = leading_columns(plan, "lines");
+    for quantity in &plan.record {
+        let of = |of| format!("{}_{of}", quantity.name());
+        match quantity {
+            Quantity::Regime => header.extend(REGIME_COLUMNS.map(String::from)),
+            _ => header.extend(["mean", "sd", "low", "high"].map(of)),
+        }
+    }
+    writeln!(out, "{}", header.join(","))?;
+    let mut quantiles = StudentT::default();
+    for cell in 0..plan.cells() {
+        let lines = results.records_of(cell).count();
+        if lines == 0 {
             continue;
         }
-        let interval = spread.and_then(|spread| spread.confidence_interval);
-        add(spread.map(|spread| spread.mean));
-        add(spread.and_then(|spread| spread.standard_deviation));
-        add(interval.map(|(low, _)| low));
-        add(interval.map(|(_, high)| high));
+        let mut row = format!("{},{lines}", row_start(plan, cell));
+        for (column, quantity) in plan.record.iter().enumerate() {
+            if *quantity == Quantity::Regime {
+                let shares = results.regimes(cell).map_or([None; 3], |shares| shares.map(Some));
+                shares.into_iter().for_each(|share| row.extend([",", &number(share)]));
+                continue;
+            }
+            let values = results.values_of(cell, column);
+            let all = Statistics::with(&values, quantity.bounds(), &mut quantiles);
+            let mean = all.map(|all| all.mean).or(values.first().copied());
+            let interval = all.map(|all| all.confidence_interval);
+            let (low, high) = (interval.map(|ends| ends.0), interval.map(|ends| ends.1));
+            for value in [mean, all.map(|all| all.standard_deviation), low, high] {
+                let _ = write!(row, ",{}", number(value));
+            }
+        }
+        writeln!(out, "{row}")?;
     }
-    row
+    Ok(())
 }
 
-/// Contents found by a merge.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Merged {
-    /// Existing records, each counted once.
-    pub records: u64,
-    /// All records of the study.
-    pub total: u64,
-    /// Records that occurred more than once, bit for bit the same.
-    pub duplicates: u64,
-    /// Torn or damaged lines of shard files, left out.
-    pub damaged: u64,
-    /// Number of cells with missing profiles.
-    pub missing_cells: u64,
-    /// The first of these cells.
-    pub first_missing: Vec<u64>,
-    /// Number of files with records.
-    pub files: usize,
-    /// Versions of the program that wrote the records.
-    pub programs: Vec<String>,
-}
-
-/// The sidecar of a plan with the contents found by a merge and the SHA-256 of the summary.
-pub(super) fn sidecar<'a>(
-    plan: &'a Plan,
-    merged: &'a Merged,
-    summary_sha256: &'a str,
-) -> impl Serialize + 'a {
+/// The meanings of the columns, with the plan and the contents found by a merge.
+fn sidecar<'a>(plan: &'a Plan, merged: &'a Merged) -> impl Serialize + 'a {
     let axis = |axis: &'a Axis| {
-        let (symbol, unit) = symbol_and_unit(axis.path());
-        let scale = match axis {
-            Axis::Linear { .. } => "linear",
-            Axis::Logarithmic { .. } => "logarithmic",
-            Axis::List { .. } => "list",
-        };
         object! {
-            "path": axis.path(), "symbol": symbol, "unit": unit, "scale": scale, "values": axis.values(),
+            "path": &axis.path, "symbol": axis.symbol, "unit": axis.unit, "scale": axis.spacing,
+            "values": &axis.values,
         }
     };
     let quantity = |quantity: &Quantity| {
@@ -150,8 +174,8 @@ pub(super) fn sidecar<'a>(
         "plan": object! {
             "title": &plan.title, "notice": &plan.notice, "scene": &plan.scene, "text": plan.to_ron(),
         },
-        "axes": plan.axes.iter().map(axis).collect::<Vec<_>>(),
-        "preloads": plan.preloads.as_ref().map(Axis::values),
+        "axes": plan.scene_axes().iter().map(axis).collect::<Vec<_>>(),
+        "preloads": plan.preloads().map(|axis| &axis.values),
         "quantities": plan.record.iter().map(quantity).collect::<Vec<_>>(),
         "cells": plan.cells(),
         "lines": plan.lines,
@@ -165,17 +189,71 @@ pub(super) fn sidecar<'a>(
         "first_missing": &merged.first_missing,
         "files": merged.files,
         "programs": &merged.programs,
-        "summary_sha256": summary_sha256,
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+impl Results {
+    /// Reads the results of a merged study.
+    ///
+    /// # Errors
+    /// The folder of no study, or a table that is missing, was changed or belongs to another plan.
+    pub fn open(folder: &Path) -> Result<Results, StudyError> {
+        let mut results = Results::empty(Folder::open(folder)?.plan().clone())?;
+        let path = folder.join(RESULTS);
+        let wrong = |reason: String| StudyError::folder(&path, reason);
+        let file = open_regular(&path).map_err(|error| match error {
+            ReadError::Failed(error) if error.kind() == io::ErrorKind::NotFound => {
+                let merge = crate::scene::quoted(folder.display().to_string());
+                let reason =
+                    format!("the study has not been merged yet; asperity sweep merge {merge} does it");
+                StudyError::folder(folder, reason)
+            }
+            error => wrong(error.to_string()),
+        })?;
+        let mut reader = BufReader::new(file);
+        let (mut line, mut start) = (Vec::new(), (u64::MAX, String::new()));
+        for number in 1.. {
+            line.clear();
+            let read = reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line);
+            if read.map_err(StudyError::unreadable(&path))? == 0 {
+                break;
+            }
+            // A line that is too long, torn or not text is not a row.
+            let text = line.strip_suffix(b"\n").and_then(|line| std::str::from_utf8(line).ok());
+            let text = text.unwrap_or_default().trim_end_matches('\r');
+            if number == 1 {
+                if text != columns(&results.plan).join(",") {
+                    return Err(wrong("its columns are not those of the plan".into()));
+                }
+            } else if results.add_row(text, &mut start).is_none() {
+                return Err(wrong(format!("line {number} is not a row of this study")));
+            }
+        }
+        Ok(results)
+    }
 
-    #[test]
-    fn whole_coordinates_are_written_so() {
-        assert_eq!(coordinate("numerics.points", 1024.0), "1024");
-        assert_eq!(coordinate("roughness.hurst", 1.0), "1.0");
+    /// Adds a row of the results; `start` is the cell of the row before and the start of its rows.
+    fn add_row(&mut self, row: &str, start: &mut (u64, String)) -> Option<()> {
+        let cell = row.split(',').next()?.parse().ok().filter(|cell| *cell < self.plan.cells())?;
+        if start.0 != cell {
+            *start = (cell, row_start(&self.plan, cell) + ",");
+        }
+        // The values of the axes are those of the plan.
+        let mut columns = row.strip_prefix(start.1.as_str())?.split(',');
+        let line = columns.next()?.parse::<u64>().ok()?.wrapping_sub(self.plan.seed);
+        let value = |(quantity, text): (&Quantity, &str)| match quantity {
+            _ if text.is_empty() => Some(f64::NAN),
+            Quantity::Regime => {
+                Regime::ALL.iter().position(|one| one.name() == text).map(|place| place as f64)
+            }
+            _ => text.parse().ok(),
+        };
+        let values: Option<Vec<f64>> = self.plan.record.iter().zip(&mut columns).map(value).collect();
+        let values = values.filter(|values| values.len() == self.plan.record.len())?;
+        if columns.next().is_some() || line >= self.plan.lines {
+            return None;
+        }
+        self.set(cell * self.plan.lines + line, &values);
+        Some(())
     }
 }

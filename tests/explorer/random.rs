@@ -14,7 +14,7 @@ use asperity::explorer::update::{Effect, update};
 use asperity::explorer::worker::Report;
 use asperity::explorer::{Opening, view};
 use asperity::scene::{Document, Solver, check};
-use asperity::study::map::Charted;
+use asperity::study::Quantity;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use ratatui::Terminal;
@@ -277,12 +277,11 @@ impl Explorer {
         assert!(model.indentation().is_finite());
         if let Some(study) = model.chart.shown_study() {
             assert!(study.slice < study.study_map.slices());
+        }
+        if let Some(grid) = model.chart.grid() {
             let charted = model.chart.charted();
-            assert!(model.chart.map_model().is_some_and(|map_model| map_model.charted().contains(&charted)));
-        } else {
-            assert!(
-                !matches!(model.chart.charted(), Charted::Quantity(one) if model.chart.map_model().is_some_and(|map_model| map_model.layer(one).is_none()))
-            );
+            let any = grid.quantities();
+            assert!(any.contains(&charted) || any.is_empty() && charted == Quantity::Regime, "{charted:?}");
         }
         if model.computed.as_ref().is_some_and(|computed| computed.generation == model.generation) {
             assert!(model.player.leg < model.legs().len(), "{:?}", model.player);

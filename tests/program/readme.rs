@@ -84,8 +84,7 @@ fn tables_of_studies_are_those_of_the_program() {
     let mut plans = String::from("| plan | cells | random profiles | title |\n| --- | --- | --- | --- |\n");
     for plan in asperity::study::plans() {
         let read = Plan::open(plan.name, &Changes::default()).unwrap();
-        let cells: u64 = read.axes.iter().chain(&read.preloads).map(asperity::study::Axis::count).product();
-        writeln!(plans, "| `{}` | {cells} | {} | {} |", plan.name, read.lines, read.title).unwrap();
+        writeln!(plans, "| `{}` | {} | {} | {} |", plan.name, read.cells(), read.lines, read.title).unwrap();
     }
     check("docs/studies.md", "plans", &plans);
     let mut quantities = String::from("| quantity | symbol | unit | meaning |\n| --- | --- | --- | --- |\n");
@@ -205,8 +204,45 @@ fn boundaries_are_those_of_the_program() {
     let study = folder.path().join("edge");
     let study = study.to_str().unwrap();
     asperity(&["sweep", "equation-15", "-o", study]);
-    let levels = ["--level", "0.5", "--level", "0.1", "--format", "markdown"];
-    check("docs/studies.md", "boundaries", &asperity(&[&["sweep", "boundary", study], &levels[..]].concat()));
+    let tables = ["0.5", "0.1"].map(|level| boundaries_of(study, level));
+    check("docs/studies.md", "boundaries", &tables.join("\n"));
+}
+
+/// Rows of `sweep boundary` for a level, without their heading.
+fn boundary_rows(study: &str, level: &str, over: &str) -> Vec<Vec<String>> {
+    let arguments = ["sweep", "boundary", study, "--level", level, "--over", over, "--format", "csv"];
+    let csv = asperity(&arguments);
+    csv.lines().skip(1).map(|line| line.split(',').map(String::from).collect()).collect()
+}
+
+/// The boundaries over H and k_max for a level, H down, protocols and k_max across.
+fn boundaries_of(study: &str, level: &str) -> String {
+    let rows = boundary_rows(study, level, "kappa");
+    let different = |column: usize| {
+        let mut values: Vec<&String> = Vec::new();
+        rows.iter().map(|row| &row[column]).for_each(|value| {
+            if !values.contains(&value) {
+                values.push(value);
+            }
+        });
+        values
+    };
+    let [hursts, modes, protocols] = [0, 1, 2].map(different);
+    let places: Vec<_> =
+        protocols.iter().flat_map(|one| modes.iter().map(move |mode| (*one, *mode))).collect();
+    let mut table = format!("κ\\* at which F_a(0) falls below {level} F_a,max:\n\n| H |");
+    places.iter().for_each(|(protocol, mode)| write!(table, " {protocol}, k_max = {mode} |").unwrap());
+    writeln!(table, "\n| --- |{}", " --- |".repeat(places.len())).unwrap();
+    for hurst in hursts {
+        write!(table, "| {hurst} |").unwrap();
+        for (protocol, mode) in &places {
+            let row = rows.iter().find(|row| [&row[0], &row[1], &row[2]] == [hurst, mode, protocol]).unwrap();
+            let [kappa, low, high] = [4, 7, 8].map(|column| row[column].parse::<f64>().unwrap());
+            write!(table, " {kappa:.2} ({low:.2}–{high:.2}) |").unwrap();
+        }
+        table.push('\n');
+    }
+    table
 }
 
 #[test]
@@ -216,9 +252,42 @@ fn spreads_of_boundaries_are_those_of_the_program() {
     let study = folder.path().join("energy");
     let study = study.to_str().unwrap();
     asperity(&["sweep", "elastic-energy", "-o", study]);
-    let arguments =
-        ["sweep", "boundary", study, "--spread", "--level", "0.5", "--level", "0.1", "--format", "markdown"];
-    check("docs/studies.md", "spreads", &asperity(&arguments));
+    let mut table =
+        "| protocol | level | boundary | smallest | largest | ratio | over H | over k_min | over k_max |\n\
+                     | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n"
+            .to_owned();
+    for protocol in ["touch", "zero force"] {
+        for level in ["0.5", "0.1"] {
+            for (over, symbol) in [("kappa", "κ"), ("elastic_energy_ratio", "(e_el/γ)")] {
+                let mut rows = boundary_rows(study, level, over);
+                rows.retain(|row| row[3] == protocol);
+                let values: Vec<f64> = rows.iter().map(|row| row[5].parse().unwrap()).collect();
+                assert_eq!(values.len(), 27);
+                let (low, high) =
+                    values.iter().fold((f64::MAX, 0.0_f64), |(a, b), one| (a.min(*one), b.max(*one)));
+                write!(
+                    table,
+                    "| {protocol} | {level} | {symbol}\\* | {low:.2} | {high:.2} | {:.2} |",
+                    high / low
+                )
+                .unwrap();
+                // The largest ratio of two boundaries that differ in one axis alone.
+                for axis in 0..3 {
+                    let differs = |a: &[String], b: &[String]| {
+                        (0..3).all(|other| other == axis || a[other] == b[other])
+                    };
+                    let pairs = rows
+                        .iter()
+                        .zip(&values)
+                        .flat_map(|one| rows.iter().zip(&values).map(move |other| (one, other)));
+                    let ratios = pairs.filter(|(a, b)| differs(a.0, b.0)).map(|(a, b)| a.1 / b.1);
+                    write!(table, " {:.2} |", ratios.fold(1.0, f64::max)).unwrap();
+                }
+                table.push('\n');
+            }
+        }
+    }
+    check("docs/studies.md", "spreads", &table);
 }
 
 #[test]

@@ -5,8 +5,8 @@ use asperity::analysis::Regime;
 use asperity::scene::{Adhesion, Move, Roughness, Scene};
 use asperity::simulation::{Outcome, Simulation};
 use asperity::study::{
-    Changes, Finished, Folder, Options, Plan, Quantity, RESULTS, SUMMARY, Shard, Status, StudyError, merge,
-    run,
+    Changes, Folder, Options, Plan, Quantity, RESULTS, Results, SUMMARY, Shard, Statistics, Status,
+    StudyError, merge, run,
 };
 use proptest::prelude::*;
 use std::fs;
@@ -63,20 +63,6 @@ fn compute(folder: &Folder, jobs: usize, shard: Shard) {
     assert!(ended.complete);
 }
 
-#[test]
-fn progress_and_status_state_the_same_rate() {
-    let plan = plan(SMALL);
-    let (_place, folder) = study(&plan);
-    let mut last = None;
-    let options = Options { jobs: 1, shard: Shard::WHOLE };
-    run(&folder, options, &|| false, &mut |progress| last = progress.rate()).unwrap();
-    let reported = last.unwrap();
-    let there = Status::of(&folder).unwrap().shards[0].attempts[0].rate.unwrap();
-    // Times of files have the resolution of the system's ticks.
-    let seconds = plan.records_in_all() as f64 / reported;
-    assert!((reported / there - 1.0).abs() <= 0.02 + 0.02 / seconds, "{reported} and {there} per second");
-}
-
 fn tables(folder: &Folder) -> [String; 2] {
     [RESULTS, SUMMARY].map(|name| fs::read_to_string(folder.path().join(name)).unwrap())
 }
@@ -108,38 +94,37 @@ fn cells_are_what_single_runs_give() {
         let (_place, folder) = study(&plan);
         compute(&folder, 2, Shard::WHOLE);
         merge(&folder, false).unwrap();
-        let mut rows = Vec::new();
-        Finished::rows(folder.path(), |row| rows.push(row)).unwrap();
-        assert_eq!(rows.len(), 4 * 2 * 2 * 2 * 3);
-        assert!(rows.windows(2).all(|pair| pair[0].cell <= pair[1].cell));
-        for row in rows {
-            let values = plan.values(row.cell);
-            let mut scene = plan.scene.clone();
-            scene.adhesion = Some(Adhesion::default().with_kappa(values[0]));
-            scene.material.effective_modulus = Some(values[2]);
-            let Some(Roughness::SelfAffine { hurst, rms_height, seed, .. }) = &mut scene.roughness else {
-                panic!("rough")
-            };
-            (*hurst, *seed) = (values[1], row.seed);
-            let unit = values[2] * rms_height.unwrap() * scene.length;
-            let pressed = alone(&scene, [Move::ToForce(values[3] * unit), Move::ToSeparation]);
-            let touched = alone(&scene, [Move::ToTouch, Move::ToSeparation]);
-            let balanced = alone(&scene, [Move::ToZeroForce, Move::ToSeparation]);
-            let figures = pressed.figures;
-            let of =
-                |quantity: Quantity| row.values[plan.record.iter().position(|one| *one == quantity).unwrap()];
-            for (quantity, expected) in [
-                (Quantity::ZeroLoadAdhesionForce, touched.figures.adhesion_force),
-                (Quantity::ZeroForceAdhesionForce, balanced.figures.adhesion_force),
-                (Quantity::PreloadForce, figures.preload),
-                (Quantity::AdhesionForce, figures.adhesion_force),
-                (Quantity::AdhesionCoefficient, figures.adhesion_coefficient),
-                (Quantity::DissipatedEnergy, figures.dissipated_energy),
-            ] {
-                let bits = |value: Option<f64>| value.map(f64::to_bits);
-                assert_eq!(bits(of(quantity)), bits(expected), "{quantity:?} in cell {}", row.cell);
+        let results = Results::open(folder.path()).unwrap();
+        for cell in 0..plan.cells() {
+            for (line, recorded) in results.records_of(cell) {
+                let values = plan.values(cell);
+                let mut scene = plan.scene.clone();
+                scene.adhesion = Some(Adhesion::default().with_kappa(values[0]));
+                scene.material.effective_modulus = Some(values[2]);
+                let Some(Roughness::SelfAffine { hurst, rms_height, seed, .. }) = &mut scene.roughness else {
+                    panic!("rough")
+                };
+                (*hurst, *seed) = (values[1], plan.seed_of(line));
+                let unit = values[2] * rms_height.unwrap() * scene.length;
+                let pressed = alone(&scene, [Move::ToForce(values[3] * unit), Move::ToSeparation]);
+                let touched = alone(&scene, [Move::ToTouch, Move::ToSeparation]);
+                let balanced = alone(&scene, [Move::ToZeroForce, Move::ToSeparation]);
+                let figures = pressed.figures;
+                for (quantity, expected) in [
+                    (Quantity::ZeroLoadAdhesionForce, touched.figures.adhesion_force),
+                    (Quantity::ZeroForceAdhesionForce, balanced.figures.adhesion_force),
+                    (Quantity::PreloadForce, figures.preload),
+                    (Quantity::AdhesionForce, figures.adhesion_force),
+                    (Quantity::AdhesionCoefficient, figures.adhesion_coefficient),
+                    (Quantity::DissipatedEnergy, figures.dissipated_energy),
+                    (Quantity::Regime, pressed.regime.map(|regime| f64::from(regime as u8))),
+                ] {
+                    let found =
+                        Some(recorded[plan.column(quantity).unwrap()]).filter(|value| !value.is_nan());
+                    let bits = |value: Option<f64>| value.map(f64::to_bits);
+                    assert_eq!(bits(found), bits(expected), "{quantity:?} in cell {cell}");
+                }
             }
-            assert_eq!(row.regime, pressed.regime);
         }
     }
 }
@@ -165,28 +150,6 @@ fn no_bit_depends_on_who_computes() {
     let merged = merge(&folder, false).unwrap();
     assert_eq!((merged.records, merged.duplicates, merged.files), (96, 0, 3));
     assert_eq!(tables(&folder), expected, "three shards");
-}
-
-#[test]
-fn the_same_shard_twice_is_one() {
-    let plan = plan(SMALL);
-    let (_place, folder) = study(&plan);
-    // Both begin before the first write of the other.
-    let barrier = std::sync::Barrier::new(2);
-    std::thread::scope(|scope| {
-        for _ in 0..2 {
-            scope.spawn(|| {
-                barrier.wait();
-                compute(&folder, 1, Shard::WHOLE);
-            });
-        }
-    });
-    // In any order of writes, the same file twice is certainly a duplicate.
-    let first = shard_files(&folder).remove(0);
-    fs::copy(&first, first.with_file_name("again.shard")).unwrap();
-    let merged = merge(&folder, false).unwrap();
-    assert!(merged.duplicates > 0);
-    assert_eq!(tables(&folder), undisturbed(&plan));
 }
 
 #[test]
@@ -220,7 +183,7 @@ fn what_is_missing_is_named() {
     assert!(error.starts_with("48 of 96 records are missing, in 32 cells: cell 0 (kappa = 0.5, "), "{error}");
     assert!(error.contains("preload = 0.01)") && error.ends_with("--partial"), "{error}");
     assert!(!folder.path().join(RESULTS).exists());
-    assert!(matches!(Finished::open(folder.path()), Err(StudyError::Folder { .. })));
+    assert!(matches!(Results::open(folder.path()), Err(StudyError::Folder { .. })));
     let merged = merge(&folder, true).unwrap();
     assert_eq!((merged.records, merged.missing_cells), (48, 32));
     let [results, summary] = tables(&folder);
@@ -239,33 +202,34 @@ fn summaries_are_the_statistics_of_the_rows() {
     let (_place, folder) = study(&plan);
     compute(&folder, 2, Shard::WHOLE);
     merge(&folder, false).unwrap();
-    let finished = Finished::open(folder.path()).unwrap();
-    assert_eq!(finished.plan(), &plan);
-    let mut rows = Vec::new();
-    Finished::rows(folder.path(), |row| rows.push(row)).unwrap();
-    for cell in 0..plan.cells() {
-        let lines: Vec<_> = rows.iter().filter(|row| row.cell == cell).collect();
-        let summary = finished.cell(cell).unwrap();
-        assert_eq!(summary.lines, 3);
-        for (column, quantity) in plan.record.iter().enumerate().filter(|(_, one)| **one != Quantity::Regime)
-        {
-            let values: Vec<f64> = lines.iter().map(|row| row.values[column].unwrap()).collect();
-            let expected = asperity::study::Statistics::of(&values).unwrap();
-            let spread = finished.spread(cell, *quantity).unwrap();
-            assert_eq!(spread.mean, expected.mean);
-            assert_eq!(spread.standard_deviation, Some(expected.standard_deviation));
-            assert_eq!(spread.confidence_interval, Some(expected.confidence_interval));
-        }
-        let shares = summary.regimes.unwrap();
-        for (share, regime) in shares.into_iter().zip(Regime::ALL) {
-            let count = lines.iter().filter(|row| row.regime == Some(regime)).count();
-            assert_eq!(share, count as f64 / 3.0);
+    let results = Results::open(folder.path()).unwrap();
+    assert_eq!(results.plan(), &plan);
+    let [_, summary] = tables(&folder);
+    let mut rows = summary.lines().map(|row| row.split(',').collect::<Vec<_>>());
+    let header = rows.next().unwrap();
+    for (cell, row) in (0..plan.cells()).zip(rows) {
+        let column = |name: &str| row[header.iter().position(|one| *one == name).unwrap()];
+        let number = |name: &str| column(name).parse::<f64>().unwrap();
+        assert_eq!((column("cell"), column("lines")), (cell.to_string().as_str(), "3"));
+        for (place, quantity) in plan.record.iter().enumerate() {
+            let values: Vec<f64> = results.records_of(cell).map(|(_, values)| values[place]).collect();
+            let name = quantity.name();
+            if *quantity == Quantity::Regime {
+                let shares =
+                    Regime::ALL.map(|regime| number(&format!("regime_{}", regime.name().replace('-', "_"))));
+                assert_eq!(results.regimes(cell), Some(shares));
+                continue;
+            }
+            let expected = Statistics::of(&values, quantity.bounds()).unwrap();
+            let found = ["mean", "sd", "low", "high"].map(|of| number(&format!("{name}_{of}")));
+            let (low, high) = expected.confidence_interval;
+            assert_eq!(found, [expected.mean, expected.standard_deviation, low, high], "{name}");
+            assert_eq!(results.estimate(cell, *quantity).unwrap().interval, Some((low, high)));
+            assert!(low >= quantity.bounds().0 && high <= quantity.bounds().1, "{name}: {low} to {high}");
         }
     }
     // The preload varies fastest, then the last axis.
-    assert_eq!(finished.at(&[3, 1, 0, 1]).unwrap().cell, ((3 * 2 + 1) * 2) * 2 + 1);
     assert_eq!(plan.values(29), [5.0, 0.3, 1.0e6, 0.3]);
-    assert_eq!(finished.at(&[4, 0, 0, 0]), None);
 }
 
 #[test]
@@ -351,27 +315,6 @@ proptest! {
 }
 
 #[test]
-fn stopping_leaves_whole_records() {
-    use std::sync::atomic::{AtomicU32, Ordering};
-    let plan = plan(SMALL);
-    let (_place, folder) = study(&plan);
-    let mut rounds = 0;
-    loop {
-        let asked = AtomicU32::new(0);
-        let stop = || asked.fetch_add(1, Ordering::SeqCst) > 5;
-        let ended = run(&folder, Options { jobs: 2, shard: Shard::WHOLE }, &stop, &mut |_| ()).unwrap();
-        rounds += 1;
-        assert_eq!(Status::of(&folder).unwrap().done, ended.progress.done);
-        if ended.complete {
-            break;
-        }
-    }
-    assert!(rounds > 3, "{rounds}");
-    merge(&folder, false).unwrap();
-    assert_eq!(tables(&folder), undisturbed(&plan));
-}
-
-#[test]
 fn a_scene_may_be_varied_alone() {
     // Its own loading, without preloads and seeds.
     let text = r#"(
@@ -385,43 +328,11 @@ fn a_scene_may_be_varied_alone() {
     let (_place, folder) = study(&plan);
     compute(&folder, 2, Shard::WHOLE);
     merge(&folder, false).unwrap();
-    let finished = Finished::open(folder.path()).unwrap();
+    let results = Results::open(folder.path()).unwrap();
     let forces: Vec<_> =
-        (0..3).map(|cell| finished.spread(cell, Quantity::AdhesionForce).unwrap().mean).collect();
+        (0..3).map(|cell| results.estimate(cell, Quantity::AdhesionForce).unwrap().mean).collect();
     assert!(forces.windows(2).all(|pair| pair[0] < pair[1]), "{forces:?}");
     let [results, _] = tables(&folder);
     assert!(results.starts_with("cell,adhesion.work,loading.0.0,preload,seed,adhesion_force,"), "{results}");
     assert!(results.contains("\n0,0.01,1e-5,,0,"), "{results}");
-}
-
-#[test]
-fn a_study_is_a_folder_with_a_plan_and_shards() {
-    let (place, folder) = study(&plan(SMALL));
-    assert!(Folder::is_at(folder.path()) && !Folder::is_at(place.path()));
-    let shards = folder.path().join("shards");
-    fs::remove_dir(&shards).unwrap();
-    assert!(folder.files().unwrap().is_empty());
-    fs::write(&shards, "a file").unwrap();
-    let error = folder.files().unwrap_err().to_string();
-    assert!(error.contains("shards: cannot be read: "), "{error}");
-}
-
-#[test]
-fn records_of_no_cell_or_line_of_the_plan_count_as_damaged() {
-    let plan = plan(SMALL);
-    let (_place, folder) = study(&plan);
-    compute(&folder, 1, Shard::WHOLE);
-    let expected = undisturbed(&plan);
-    let file = shard_files(&folder).remove(0);
-    let text = fs::read_to_string(&file).unwrap();
-    let payload = text.lines().nth(1).unwrap().split_once(',').unwrap().1;
-    let [cell, seed, values] = payload.splitn(3, ',').collect::<Vec<_>>().try_into().unwrap();
-    let beyond = plan.seed.wrapping_add(plan.lines);
-    let foreign = [format!("{},{seed},{values}", plan.cells()), format!("{cell},{beyond},{values}")];
-    let sealed = foreign.map(|payload| format!("{:08x},{payload}\n", crc32fast::hash(payload.as_bytes())));
-    fs::write(&file, text + &sealed.concat()).unwrap();
-    let status = Status::of(&folder).unwrap();
-    assert_eq!((status.done, status.damaged), (plan.records_in_all(), 2));
-    assert_eq!(merge(&folder, false).unwrap().damaged, 2);
-    assert_eq!(tables(&folder), expected);
 }

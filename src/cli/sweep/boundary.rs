@@ -1,13 +1,10 @@
 //! `asperity sweep boundary`: the boundary of vanishing zero-load adhesion.
 
-use super::spread;
 use crate::cli::{CliError, Format};
 use crate::export::sheet::{self, Sheet};
 use crate::io::write_json_value;
 use crate::scene::RoughnessParameter;
-use crate::study::{
-    Boundaries, Boundary, Crossing, DEFINITIONS, Quantity, USUAL_LEVELS, boundaries, protocol_name,
-};
+use crate::study::{Boundaries, Boundary, Crossing, DEFINITIONS, USUAL_LEVELS, boundaries, protocol_name};
 use clap::Args;
 use serde_json::{Map, Value, json};
 use std::io::Write;
@@ -17,12 +14,11 @@ const EXAMPLES: &str = "\
 Examples:
   asperity sweep equation-15 -o edge && asperity sweep boundary edge
   asperity sweep boundary edge --level 0.05 --format csv
-  asperity sweep boundary edge --level 0.5 --level 0.1 --format markdown
   asperity sweep boundary edge --over elastic_energy_ratio
-  asperity sweep boundary edge --spread --level 0.1
 
 F_a(0) never quite vanishes: it falls about exponentially with κ. So κ* is where its mean over the
-lines falls below a share of F_a,max for good; intervals hold 95 % of 1000 resamplings of the lines.
+profiles falls below a share of F_a,max for good; intervals contain 95 % of 1000 resamplings of
+the profiles.
 With wave numbers in 1/m instead of rad/m the same κ* is √(2π) times smaller (kappa_cycles), with
 amplitudes instead of root mean squares √2 times larger (kappa_amplitude).
 A boundary in κ is one in e_el/γ as well, elastic energy of conformity over work of adhesion.";
@@ -34,22 +30,19 @@ pub struct BoundaryArguments {
     /// Folder of a merged study with an axis `kappa` or `elastic_energy_ratio`
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
-    /// Share of F_a,max below which adhesion has vanished, as often as needed
+    /// Threshold, as a share of F_a,max (repeatable)
     #[arg(long = "level", value_name = "SHARE", value_parser = level)]
     pub levels: Vec<f64>,
     /// Parameter of boundaries: kappa or elastic_energy_ratio
     #[arg(long, value_name = "PARAMETER", value_parser = over, default_value = "kappa")]
     pub over: RoughnessParameter,
-    /// Print the spread of the boundaries, in κ and in e_el/γ
-    #[arg(long, conflicts_with = "over")]
-    pub spread: bool,
-    /// text, json, csv or markdown
+    /// text, json or csv
     #[arg(long, value_parser = Format::parser(FORMATS), hide_possible_values = true, default_value = "text")]
     pub format: Format,
 }
 
-/// Formats of boundaries: a table, one object, one row for each boundary, tables for a document.
-const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Markdown];
+/// Formats of boundaries: a table, one object, one row for each boundary.
+const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv];
 
 fn level(text: &str) -> Result<f64, String> {
     let level = text.trim().parse::<f64>().ok().filter(|level| *level > 0.0 && *level < 1.0);
@@ -57,7 +50,7 @@ fn level(text: &str) -> Result<f64, String> {
 }
 
 fn over(text: &str) -> Result<RoughnessParameter, String> {
-    let parameter = RoughnessParameter::ALL.into_iter().find(|parameter| parameter.name() == text.trim());
+    let parameter = RoughnessParameter::named(text.trim()).filter(|one| one.name() == text.trim());
     parameter.ok_or_else(|| {
         let names = RoughnessParameter::ALL.map(RoughnessParameter::name);
         format!("allowed: {}", names.join(", "))
@@ -67,17 +60,11 @@ fn over(text: &str) -> Result<RoughnessParameter, String> {
 /// Finds the boundaries of a study and prints them.
 pub(super) fn boundary(arguments: &BoundaryArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let levels = if arguments.levels.is_empty() { USUAL_LEVELS.to_vec() } else { arguments.levels.clone() };
-    if arguments.spread {
-        let found = RoughnessParameter::ALL.map(|over| boundaries(&arguments.folder, over, &levels));
-        let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
-        return spread::write(stdout, &found, arguments.format);
-    }
     let boundaries = boundaries(&arguments.folder, arguments.over, &levels)?;
     match arguments.format {
-        Format::Text => stdout.write_all(text(&boundaries).as_bytes())?,
         Format::Json => write_json_value(stdout, &object(&boundaries))?,
         Format::Csv => stdout.write_all(csv(&boundaries).as_bytes())?,
-        _ => stdout.write_all(markdown(&boundaries, &levels).as_bytes())?,
+        _ => stdout.write_all(text(&boundaries).as_bytes())?,
     }
     Ok(())
 }
@@ -122,7 +109,7 @@ fn text(boundaries: &Boundaries) -> String {
     let mut sheet = Sheet::default();
     sheet.table(&rows);
     let paper = if is_kappa { "; the paper gives 0.6" } else { "" };
-    sheet.paragraph(&format!("{} over {} random lines{paper}.", boundaries.symbol(), boundaries.lines));
+    sheet.paragraph(&format!("{} over {} random profiles{paper}.", boundaries.symbol(), boundaries.lines));
     sheet.into_text()
 }
 
@@ -152,51 +139,6 @@ fn object(boundaries: &Boundaries) -> Value {
         Value::Object(object)
     });
     json!({ "lines": boundaries.lines, "boundaries": found.collect::<Vec<_>>() })
-}
-
-/// One table for each share: the first axis down, protocols and other axes across.
-fn markdown(boundaries: &Boundaries, levels: &[f64]) -> String {
-    let Boundaries { others, found, .. } = boundaries;
-    let down = |boundary: &Boundary| boundary.others.first().copied();
-    let (mut rows, mut columns) = (Vec::new(), Vec::new());
-    for protocol in Quantity::ADHESION_SHARES {
-        for boundary in found.iter().filter(|boundary| boundary.protocol == protocol) {
-            let column = (protocol, boundary.others.get(1..).unwrap_or_default());
-            if !columns.contains(&column) {
-                columns.push(column);
-            }
-            if !rows.contains(&down(boundary)) {
-                rows.push(down(boundary));
-            }
-        }
-    }
-    let heading = |(one, values): &(Quantity, &[f64])| {
-        let values = others.iter().skip(1).zip(*values).map(|(name, value)| format!(", {name} = {value}"));
-        format!("{}{}", protocol_name(*one), values.collect::<String>())
-    };
-    let name = others.first().cloned().unwrap_or_default();
-    let headings: Vec<String> = std::iter::once(name).chain(columns.iter().map(heading)).collect();
-    let mut tables = Vec::new();
-    for level in levels {
-        let boundary = boundaries.symbol();
-        let mut table = vec![headings.clone()];
-        for row in &rows {
-            let mut cells = vec![row.map_or_else(|| boundary.to_string(), |value| value.to_string())];
-            for (protocol, values) in &columns {
-                let here = found.iter().find(|boundary| {
-                    let place = (down(boundary), boundary.others.get(1..).unwrap_or_default());
-                    boundary.protocol == *protocol && boundary.level == *level && place == (*row, values)
-                });
-                let (value, interval) = here.map(|boundary| shown(boundary.crossing)).unwrap_or_default();
-                let interval = interval.replace(" to ", "–");
-                cells.push(if interval.is_empty() { value } else { format!("{value} ({interval})") });
-            }
-            table.push(cells);
-        }
-        let table = sheet::markdown(&table);
-        tables.push(format!("{boundary} at which F_a(0) falls below {level} F_a,max:\n\n{table}"));
-    }
-    tables.join("\n").replace('*', "\\*")
 }
 
 fn csv(boundaries: &Boundaries) -> String {

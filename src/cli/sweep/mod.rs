@@ -6,7 +6,6 @@ mod plans;
 mod plot;
 mod progress;
 mod run;
-mod spread;
 mod status;
 mod submit;
 
@@ -24,19 +23,19 @@ use std::io::Write;
 
 const EXAMPLES: &str = "\
 Examples:
-  asperity sweep plans                              What comes with the program
-  asperity sweep figure-5b -o study                 Compute it, all cores; again: go on
-  asperity sweep my-plan.ron -o study --shard 3/8   One of eight parts, wherever the folder is seen
-  asperity sweep status study                       How far it is
+  asperity sweep plans                              List the built-in plans
+  asperity sweep figure-5b -o study                 Compute it on all cores; run again to resume
+  asperity sweep my-plan.ron -o study --shard 3/8   Shard 3 of 8, on any machine that mounts the folder
+  asperity sweep status study                       Show progress
   asperity sweep merge study                        results.csv, summary.csv and results.json
   asperity sweep boundary study                     κ at which F_a(0) vanishes, for each H
-  asperity sweep plot study -o map.svg              A phase map, or a section
+  asperity sweep plot study -o map.svg              A phase map, or curves
   asperity sweep submit my-plan.ron -o study --shards 100
                                                     The same on a Slurm cluster
 
 A run that computes everything merges by itself. Ctrl-C stops after the present cells; nothing is
-lost, and the same command goes on. A killed program loses the cells it was at, a power cut those
-of about the last 50 ms as well; they are computed again.";
+lost, and the same command resumes. Killing the program loses the cells in progress; a power failure
+may also lose the last 50 ms. Lost cells are computed again.";
 
 /// Arguments of `sweep`.
 #[derive(Args, Debug)]
@@ -59,9 +58,9 @@ pub enum SweepCommand {
     Status(StatusArguments),
     /// Find the κ at which adhesion without a preload vanishes
     Boundary(BoundaryArguments),
-    /// Draw a merged study: a map over two axes, or a section along one
+    /// Draw a merged study: a map over two axes, or curves over one
     Plot(PlotArguments),
-    /// Let a Slurm cluster compute a plan: an array of tasks, the last of which merges
+    /// Submit a plan to Slurm as a job array, whose last task merges
     Submit(SubmitArguments),
     /// List the built-in plans, or print one of them
     Plans(PlansArguments),

@@ -16,7 +16,7 @@ Examples:
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, mut_arg("format", |format| format.conflicts_with("name")))]
 pub struct PlansArguments {
-    /// Print the text of this plan, to start one's own from
+    /// Print this plan, as a template for your own
     pub name: Option<String>,
     /// Name, size and title in columns, or objects.
     #[command(flatten)]
@@ -38,7 +38,7 @@ pub(super) fn plans(arguments: &PlansArguments, stdout: &mut dyn Write) -> Resul
     };
     let plans = built_in().iter().map(|plan| open(plan.name)).collect::<Result<Vec<_>, _>>()?;
     let row = |(name, plan): &(&str, Plan)| {
-        let size = format!("{} cells × {} lines", plan.cells(), plan.lines);
+        let size = format!("{} cells × {} profiles", plan.cells(), plan.lines);
         [(*name).to_owned(), size, plan.title.clone()]
     };
     let text = || Sheet::of_table(&plans.iter().map(row).collect::<Vec<_>>());

@@ -1,9 +1,9 @@
 //! `asperity sweep plot`: figures of a merged study.
 
 use crate::cli::{CliError, Format, OutputArguments};
-use crate::export::study_figure;
-use crate::study::figure::AxisScale;
-use crate::study::{Finished, Selection};
+use crate::draw::AxisScale;
+use crate::export::{study_curves, study_figure, study_map};
+use crate::study::{Results, Selected, Selection};
 use clap::{Args, ValueEnum};
 use std::io::Write;
 use std::path::PathBuf;
@@ -12,11 +12,11 @@ const EXAMPLES: &str = "\
 Examples:
   asperity sweep plot study                          A figure for the terminal
   asperity sweep plot study -o map.svg               ... and one for a paper
-  asperity sweep plot study --at roughness.hurst=0.3 A section along the axis that is left
+  asperity sweep plot study --at roughness.hurst=0.3 A curve over the axis that is left
   asperity sweep plot study --quantity adhesion_force --x kappa --y roughness.hurst
 
 Two free axes make a map: colours are means, signs are regimes, and the line is where adhesion
-without a load vanishes. One free axis makes a section: the mean with its 95 % confidence, and in a
+without a load vanishes. One free axis makes a curve: the mean with its 95 % confidence, and in a
 corner on a logarithmic scale where it spans decades. A second axis of up to five values makes
 several curves, unless --y names it.";
 
@@ -78,7 +78,7 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
     let is_text = arguments.text || arguments.output.output.is_none();
     let usual = if is_text { Format::Text } else { Format::Svg };
     let format = arguments.output.format(arguments.text.then_some(Format::Text), FORMATS, usual)?;
-    let study = Finished::open(&arguments.folder)?;
+    let study = Results::open(&arguments.folder)?;
     let selection = Selection {
         quantities: arguments.quantities.clone(),
         across: arguments.across.clone(),
@@ -89,5 +89,9 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
             PlotScale::Logarithmic => AxisScale::Logarithmic,
         }),
     };
-    arguments.output.write_figure(stdout, &study_figure(&selection.figure(&study)?), format)
+    let Selected { grid, quantities, fixed, curves } = selection.of(&study)?;
+    let chart = |quantity| study_map(&grid, quantity, false).filter(|_| !curves);
+    let charts = quantities.into_iter().map(|one| chart(one).unwrap_or_else(|| study_curves(&grid, one)));
+    let figure = study_figure(&study.plan().title, &fixed, charts.collect());
+    arguments.output.write_figure(stdout, &figure, format)
 }

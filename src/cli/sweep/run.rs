@@ -4,9 +4,9 @@ use super::merge::write_merged;
 use super::progress::StudyProgress;
 use crate::cli::scene::threads;
 use crate::cli::{CliError, Overrides};
-use crate::scene::Scene;
-use crate::simulation;
-use crate::study::{Changes, Folder, Options, Plan, Shard, Status, StudyError, merge, run as compute};
+use crate::study::{
+    Changes, Folder, Memory, Options, Plan, Shard, Status, StudyError, merge, run as compute,
+};
 use crate::text::memory_size;
 use clap::Args;
 use std::io::{self, Write};
@@ -44,14 +44,6 @@ pub struct SweepRunArguments {
     pub overrides: Overrides,
 }
 
-/// Bytes in addition to those of a scene's arrays: code, stacks, files and the reserve of the allocator.
-const BESIDE: u64 = 16 << 20;
-/// Bytes per spring of a transform that is kept for the next profile, up to [`LONGEST_KEPT`] springs.
-const KEPT: u64 = 20;
-const LONGEST_KEPT: u64 = 1 << 22;
-/// Bytes per spring of the unloadings from several preloads, where nearly every spring is an event.
-const REVERSED: u64 = 192;
-
 /// Parses a number of bytes with its unit.
 pub(super) fn size(text: &str) -> Result<u64, String> {
     let allowed = || "allowed: a size such as 500M, 2G or 1.5GiB".to_owned();
@@ -70,36 +62,6 @@ pub(super) fn size(text: &str) -> Result<u64, String> {
     };
     let bytes = number.parse::<f64>().map_err(|_| allowed())? * 1024_f64.powi(power);
     if (1.0..=1e18).contains(&bytes) { Ok(bytes as u64) } else { Err(allowed()) }
-}
-
-/// Memory of a whole study: the largest memory of one thread, and the shared memory.
-struct Memory {
-    job: u64,
-    shared: u64,
-}
-
-impl Memory {
-    fn of(plan: &Plan) -> Memory {
-        let mut job = 0;
-        let mut spare = 0;
-        plan.each_scene(|scene: &Scene| {
-            let points = scene.numerics.points;
-            let kept = if points <= LONGEST_KEPT { KEPT * points } else { 0 };
-            // The contact without adhesion or at zero force may add to the memory of the scene itself.
-            let turns = plan.preloads.is_some() && scene.adhesion.is_some();
-            let reversed = if turns { REVERSED * points } else { 0 };
-            let peak = simulation::Plan::of(scene).peak_bytes + kept + reversed;
-            job = job.max(peak);
-            spare = spare.max(16 * scene.numerics.samples * scene.loading.len() as u64);
-        });
-        // One bit for each record, and all values of each axis in every thread.
-        let values: u64 = plan.axes.iter().map(crate::study::Axis::count).sum();
-        Memory { job: job + spare + 8 * values, shared: BESIDE + plan.records_in_all() / 8 }
-    }
-
-    fn of_jobs(&self, jobs: u64) -> u64 {
-        self.shared + jobs * self.job
-    }
 }
 
 /// Computes the missing records of a plan, and merges once the plan is complete.
@@ -123,12 +85,12 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
     let mut stderr = io::stderr();
     let threads = if jobs == 1 { "1 thread".into() } else { format!("{jobs} threads") };
     let fewer =
-        if jobs < wanted { format!(", fewer than {wanted} for want of memory") } else { String::new() };
+        if jobs < wanted { format!(", fewer than {wanted} to fit the memory") } else { String::new() };
     let text = format!(
         "{} cells on {} {}: {} records; {threads}{fewer}, at most {} of memory",
         plan.cells(),
         plan.lines,
-        if plan.lines == 1 { "line" } else { "lines" },
+        if plan.lines == 1 { "profile" } else { "profiles" },
         plan.records_in_all(),
         memory_size(memory.of_jobs(jobs))
     );
@@ -153,7 +115,7 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
         return Err(CliError::Stopped { signal: signal(), done, total });
     }
     if arguments.shard.is_some() {
-        let _ = writeln!(stderr, "{} records of shard {} are there", ended.progress.total, options.shard);
+        let _ = writeln!(stderr, "all {} records of shard {} exist", ended.progress.total, options.shard);
         // The process that completes the study merges it; of two at the same time both do.
         if Status::of(&folder)?.missing > 0 {
             return Ok(());

@@ -1,7 +1,8 @@
 //! The map in its pane: shades in the colours of the regimes, the mark of the scene, and the [words] of the map.
 
-use super::{PaneRow, chart_words as words, sections};
-use crate::draw::{CellPlot, Chart, Figure, Label};
+use super::curves::draw_chart;
+use super::{PaneRow, chart_words as words};
+use crate::draw::{CellPlot, Chart, Figure, Ink, Layer, Shape, Sign};
 use crate::explorer::layout::inside;
 use crate::explorer::mode::ModeKind;
 use crate::explorer::model::Model;
@@ -10,8 +11,8 @@ use crate::explorer::theme::{Meaning, Theme};
 use crate::explorer::update::{self, Effect, scene_of};
 use crate::explorer::view::lines::{draw_around, draw_reason};
 use crate::explorer::view::plot;
-use crate::export::study_figure;
-use crate::study::map::{Charted, MapModel, Place};
+use crate::export::{study_curves, study_figure, study_map};
+use crate::study::{Grid, Place, Quantity};
 use ratatui::Frame;
 use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span as Text};
@@ -21,7 +22,7 @@ use ratatui::widgets::Paragraph;
 pub static ROW: PaneRow = PaneRow {
     title: words::title,
     draw,
-    figure: |model| model.chart.map_model().map(|map_model| figure(model, map_model)),
+    figure: |model| model.chart.grid().map(|grid| figure(model, grid)),
     keys: Some(ModeKind::Chart),
     press: |model, area, here| {
         model.chart.moving = false;
@@ -55,47 +56,52 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Fewest rows of a useful map.
+/// Fewest rows of a useful map, and of curves with their legend.
 const FEWEST_ROWS: u16 = 4;
+const FEWEST_ROWS_OF_CURVES: u16 = 6;
 
 /// Chart of the regime or a quantity of a map over two axes.
-pub(super) fn chart(map_model: &MapModel, charted: Charted) -> Option<Chart> {
-    let mut figure = map_model.figure(&[charted], true);
-    if charted == Charted::Regime {
+fn chart(grid: &Grid, charted: Quantity) -> Option<Chart> {
+    let mut chart = study_map(grid, charted, true)?;
+    if let (Quantity::Regime, Some(map)) = (charted, chart.map_mut()) {
         // The shades show the regimes.
-        figure.boundary = None;
-    }
-    let mut chart = study_figure(&figure).charts.pop()?;
-    if let (Charted::Regime, Some(map)) = (charted, chart.map_mut()) {
+        map.contour = None;
         map.class_names.iter_mut().for_each(|class| class.letter = None);
     }
     Some(chart)
 }
 
-/// Figure of the pane: the map, with the quantities behind the regimes while these are mapped, or the sections.
-fn figure(model: &Model, map_model: &MapModel) -> Figure {
-    let mut figure = if model.chart.sections || map_model.up().is_none() {
-        Figure {
-            title: String::new(),
-            notes: Vec::new(),
-            charts: sections::charts(model),
-            size: Figure::SMALL,
+/// Curves over the only axis of a map, with the mark of the scene.
+fn curves(model: &Model, grid: &Grid) -> Vec<Chart> {
+    let quantities = words::shown_quantities(model.chart.charted(), grid);
+    let curves = quantities.into_iter().filter(|quantity| *quantity != Quantity::Regime);
+    let mark = model.place().map(|(across, _)| across);
+    let chart = |quantity| {
+        let mut chart = Chart { inset: None, ..study_curves(grid, quantity) };
+        if let Some(mark) = mark {
+            let top = chart.y.scale.number(chart.y.span.high);
+            chart.layers.push(Layer::unnamed(Ink::Cursor, Shape::Upright(mark)));
+            chart.layers.push(Layer::unnamed(Ink::Cursor, Shape::signs(vec![(mark, top)], Sign::Diamond)));
         }
-    } else {
-        let layers = words::shown_layers(model.chart.charted(), map_model);
-        let mut charted: Vec<_> = layers.into_iter().map(|layer| Charted::Quantity(layer.quantity)).collect();
-        if charted.is_empty() {
-            charted.push(Charted::Regime);
+        chart
+    };
+    curves.map(chart).collect()
+}
+
+/// Figure of the pane: the map, with the quantities behind the regimes while these are mapped, or curves over the only
+/// axis.
+fn figure(model: &Model, grid: &Grid) -> Figure {
+    let charts = match grid.up {
+        None => curves(model, grid),
+        Some(_) => {
+            let shown = words::shown_quantities(model.chart.charted(), grid).into_iter();
+            shown.filter_map(|quantity| study_map(grid, quantity, false)).collect()
         }
-        study_figure(&map_model.figure(&charted, false))
     };
     let study = model.chart.shown_study();
     let title = study.map_or(&model.document.scene().title, |study| &study.study_map.plan().title);
-    figure.title.clone_from(title);
     let fixed = study.map_or_else(Vec::new, |study| study.study_map.fixed_values(study.slice));
-    let fixed = fixed.iter().map(|fixed| Label::statement(fixed));
-    figure.notes = fixed.reduce(|line, fixed| line.then(", ").join(&fixed)).into_iter().collect();
-    figure
+    study_figure(title, &fixed, charts)
 }
 
 /// The parts of the pane.
@@ -106,8 +112,8 @@ struct Parts {
     below: Vec<Line<'static>>,
 }
 
-fn parts(model: &Model, map_model: &MapModel, area: Rect) -> Option<Parts> {
-    let chart = chart(map_model, model.chart.charted())?;
+fn parts(model: &Model, grid: &Grid, area: Rect) -> Option<Parts> {
+    let chart = chart(grid, model.chart.charted())?;
     let mut legend = words::legend(model, &chart, area.width);
     let mut below = words::below(model, area);
     // The map comes first, then the values at the mark, then the legend.
@@ -129,9 +135,7 @@ fn put(model: &mut Model, area: Rect, here: Position) -> Vec<Effect> {
 
 /// Place on the map under a place on the screen.
 fn place_at(model: &Model, area: Rect, here: Position) -> Option<Place> {
-    let map_model = model.chart.map_model().filter(|_| !model.chart.sections)?;
-    map_model.up()?;
-    let Parts { chart, plot, .. } = parts(model, map_model, area)?;
+    let Parts { chart, plot, .. } = parts(model, model.chart.grid()?, area)?;
     let (across, up) = plot.values_at(chart.map()?, here.into())?;
     Some((across, Some(up)))
 }
@@ -140,15 +144,23 @@ fn place_at(model: &Model, area: Rect, here: Position) -> Option<Place> {
 fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let area = inside(area);
     let theme = model.appearance.theme;
-    let Some(map_model) = model.chart.map_model() else {
+    let Some(grid) = model.chart.grid() else {
         return draw_reason(frame, area, &words::nothing_yet(model), theme);
     };
-    if model.chart.sections || map_model.up().is_none() {
-        let below = words::below(model, area);
-        let plots = draw_around(frame, area, (Vec::new(), below), FEWEST_ROWS);
-        return sections::draw(frame, plots, model);
+    if grid.up.is_none() {
+        let mut charts = curves(model, grid);
+        let mut rest = draw_around(frame, area, (Vec::new(), words::below(model, area)), FEWEST_ROWS);
+        if rest.height < 2 * FEWEST_ROWS_OF_CURVES {
+            charts.truncate(1);
+        }
+        for (number, chart) in charts.iter().enumerate() {
+            let height = rest.height.div_ceil((charts.len() - number) as u16);
+            draw_chart(frame, Rect { height, ..rest }, model, chart);
+            rest = Rect { y: rest.y + height, height: rest.height - height, ..rest };
+        }
+        return;
     }
-    let Some(Parts { chart, legend, plot, below }) = parts(model, map_model, area) else { return };
+    let Some(Parts { chart, legend, plot, below }) = parts(model, grid, area) else { return };
     draw_around(frame, area, (legend, below), 0);
     plot::in_theme(model.appearance, |style| plot.draw(frame.buffer_mut(), &chart, style));
     if let Some((across, Some(up))) = model.place() {

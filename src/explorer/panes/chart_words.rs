@@ -8,9 +8,8 @@ use crate::explorer::theme::Meaning;
 use crate::explorer::view::plot;
 use crate::explorer::view::wrap::{filled, wrapped};
 use crate::scene::{RoughnessParameter, format_rounded};
-use crate::study::Quantity;
-use crate::study::figure::Estimate;
-use crate::study::map::{Charted, Layer, Level, LiveMap, MapAxis, MapModel, Place, ShownCell, Template};
+use crate::study::map::{Level, LiveMap, Template};
+use crate::study::{Axis, Cell, Estimate, Grid, Place, Quantity};
 use crate::text::grouped;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span as Text};
@@ -21,14 +20,12 @@ const ROOMY: u16 = 24;
 /// Title of the pane: the mapped quantity, the axes, and the number of profiles of the mean.
 pub fn title(model: &Model) -> String {
     let template = Template::of(model.document.scene());
-    let has_hurst = template.as_ref().is_ok_and(Template::has_hurst);
-    let (across, up) = model.chart.axes(has_hurst);
-    let over =
-        up.map_or_else(|| across.symbol().to_owned(), |up| format!("{}, {}", across.symbol(), up.symbol()));
-    let quantity = model
-        .chart
-        .map_model()
-        .map_or_else(|| "regime".to_owned(), |map_model| charted_name(map_model, model.chart.charted()));
+    let Some((across, up)) = model.chart.axes(model.document.scene()) else { return " Map ".to_owned() };
+    let axes: Vec<&str> =
+        [Some(&across), up.as_ref()].into_iter().flatten().map(Axis::symbol_or_name).collect();
+    let over = axes.join(", ");
+    let charted = model.chart.grid().map(|grid| name_of(grid, model.chart.charted()));
+    let quantity = charted.unwrap_or_else(|| "regime".to_owned());
     let study = model.chart.shown_study().map(|study| (&study.study_map, study.study_map.plan().lines));
     match (study, template) {
         (Some((study_map, count)), _) => {
@@ -36,14 +33,6 @@ pub fn title(model: &Model) -> String {
         }
         (None, Ok(template)) => format!(" Map of {quantity} over {over}, {} ", profiles(template.lines())),
         (None, Err(_)) => " Map ".to_owned(),
-    }
-}
-
-/// The name of the regime or the charted quantity.
-fn charted_name(map_model: &MapModel, charted: Charted) -> String {
-    match charted {
-        Charted::Regime => "regime".to_owned(),
-        Charted::Quantity(quantity) => name_of(map_model, quantity),
     }
 }
 
@@ -68,9 +57,9 @@ pub fn nothing_yet(model: &Model) -> String {
 }
 
 /// The name of a quantity: its symbol, where unique on the map.
-pub fn name_of(map_model: &MapModel, quantity: Quantity) -> String {
+fn name_of(grid: &Grid, quantity: Quantity) -> String {
     let symbol = quantity.symbol();
-    let is_only = map_model.layers().iter().filter(|layer| layer.quantity.symbol() == symbol).count() == 1;
+    let is_only = grid.layers.iter().filter(|layer| layer.quantity.symbol() == symbol).count() == 1;
     if is_only && !symbol.is_empty() { symbol.to_owned() } else { quantity.name().replace('_', " ") }
 }
 
@@ -78,22 +67,22 @@ pub fn name_of(map_model: &MapModel, quantity: Quantity) -> String {
 pub fn legend(model: &Model, chart: &Chart, width: u16) -> Vec<Line<'static>> {
     let theme = model.appearance.theme;
     let width = usize::from(width);
-    let (Some(map_model), Some(map)) = (model.chart.map_model(), chart.map()) else { return Vec::new() };
+    let (Some(grid), Some(map)) = (model.chart.grid(), chart.map()) else { return Vec::new() };
     let up = format!("↑ {}", chart.y.label_with_unit());
     let mut parts = vec![vec![Text::styled(up, theme.style(Meaning::Title))]];
     match model.chart.charted() {
-        Charted::Regime => {
-            // From the densest: the regimes, and cells divided between one and the next.
+        Quantity::Regime => {
+            // From the densest: the regimes, and cells whose profiles are in one and the next.
             for (class, shade) in map.class_names.iter().zip(SHADES.iter().rev().step_by(2)) {
                 let shade =
                     Text::styled(*shade, plot::in_theme(model.appearance, |style| (style.ink)(class.ink)));
                 parts.push(vec![shade, Text::raw(format!(" {}", class.name))]);
             }
-            if map_model.is_split() {
-                parts.push(vec![Text::raw(format!("{} {} divided", SHADES[3], SHADES[1]))]);
+            if grid.is_split() {
+                parts.push(vec![Text::raw(format!("{} {} profiles disagree", SHADES[3], SHADES[1]))]);
             }
         }
-        Charted::Quantity(_) => {
+        _ => {
             let scale = key(map, width, Colours::None);
             let name = Text::styled(format!("{} ", map.key.label_with_unit()), theme.style(Meaning::Title));
             parts.push(
@@ -131,29 +120,29 @@ fn slice(model: &Model, study: &OpenStudy, width: usize) -> Vec<Line<'static>> {
 }
 
 /// A value of an axis with its symbol.
-pub fn on_axis(axis: &MapAxis, value: f64) -> String {
-    format!("{} {}", axis.symbol(), format_rounded(value, 3, &axis.figure.unit))
+fn on_axis(axis: &Axis, value: f64) -> String {
+    format!("{} {}", axis.symbol_or_name(), format_rounded(value, 3, axis.unit))
 }
 
 /// A place with the symbols of the axes.
-fn on_axes(map_model: &MapModel, (across, up): Place) -> String {
-    let up = map_model.up().zip(up).map(|(axis, value)| on_axis(axis, value));
-    let parts: Vec<String> = [on_axis(map_model.across(), across)].into_iter().chain(up).collect();
+fn on_axes(grid: &Grid, (across, up): Place) -> String {
+    let up = grid.up.as_ref().zip(up).map(|(axis, value)| on_axis(axis, value));
+    let parts: Vec<String> = [on_axis(&grid.across, across)].into_iter().chain(up).collect();
     parts.join(", ")
 }
 
 /// Lines below the map, the most important first.
 pub fn below(model: &Model, area: Rect) -> Vec<Line<'static>> {
-    let Some(map_model) = model.chart.map_model() else { return Vec::new() };
+    let Some(grid) = model.chart.grid() else { return Vec::new() };
     let theme = model.appearance.theme;
     let mut lines = Vec::new();
     let mut say = |line: Line<'static>| lines.extend(wrapped(&line, area.width));
     let study = model.chart.shown_study();
     match model.place() {
         Some(place) => {
-            say(here(model, map_model, place));
-            if let Some(shown) = map_model.nearest(place) {
-                say(Line::raw(there(model, map_model, place, &shown)));
+            say(here(model, grid, place));
+            if let Some((cell, column, row)) = grid.nearest(place) {
+                say(Line::raw(there(model, grid, place, (cell, column, row))));
             } else if study.is_some() {
                 say(Line::raw("the study was merged without this cell"));
             }
@@ -175,7 +164,7 @@ pub fn below(model: &Model, area: Rect) -> Vec<Line<'static>> {
         None => computed_so_far(model, &mut say),
     }
     if area.height >= ROOMY {
-        let note = study.map_or_else(|| note_of_computed(model), |study| note_of_study(study, map_model));
+        let note = study.map_or_else(|| note_of_computed(model), |study| note_of_study(study, grid));
         lines.extend(wrapped(&Line::styled(note, theme.style(Meaning::Quiet)), area.width));
     }
     lines
@@ -223,8 +212,8 @@ fn note_of_computed(model: &Model) -> String {
     )
 }
 
-fn note_of_study(study: &OpenStudy, map_model: &MapModel) -> String {
-    let regimes = if map_model.charted().contains(&Charted::Regime) {
+fn note_of_study(study: &OpenStudy, grid: &Grid) -> String {
+    let regimes = if grid.quantities().contains(&Quantity::Regime) {
         "Colours: regime of most profiles; ▓ and ░: fewer than three quarters agree. "
     } else {
         "One colour: no regimes were recorded. "
@@ -239,66 +228,69 @@ fn note_of_study(study: &OpenStudy, map_model: &MapModel) -> String {
 }
 
 /// The scene itself.
-fn here(model: &Model, map_model: &MapModel, place: Place) -> Line<'static> {
-    let outside = if map_model.contains(place) { "" } else { ", outside the map" };
+fn here(model: &Model, grid: &Grid, place: Place) -> Line<'static> {
+    let outside = if grid.contains(place) { "" } else { ", outside the map" };
     let regime = model.current();
     let regime = regime.and_then(|computed| computed.outcome.regime);
     let regime = regime.map_or_else(String::new, |regime| format!(": {}", regime.name()));
     Line::from(vec![
         Text::styled("◆ ", model.appearance.theme.style(Meaning::Cursor)),
-        Text::raw(format!("{}{outside}{regime}", on_axes(map_model, place))),
+        Text::raw(format!("{}{outside}{regime}", on_axes(grid, place))),
     ])
 }
 
 /// Quantities shown with the regime.
 const WITH_REGIME: [Quantity; 2] = [Quantity::ZeroLoadAdhesionShare, Quantity::AdhesionCoefficient];
 
-/// Layers shown together: with the regime those that decide the regime, if any; else the layer of the
-/// glyphs.
-pub fn shown_layers(charted: Charted, map_model: &MapModel) -> Vec<&Layer> {
-    match charted {
-        Charted::Quantity(quantity) => map_model.layer(quantity).into_iter().collect(),
-        Charted::Regime => {
-            let both: Vec<_> = WITH_REGIME.into_iter().filter_map(|one| map_model.layer(one)).collect();
-            if both.is_empty() { map_model.layers().first().into_iter().collect() } else { both }
-        }
+/// Quantities shown together: with the regime those that decide the regime, if any.
+pub fn shown_quantities(charted: Quantity, grid: &Grid) -> Vec<Quantity> {
+    if charted != Quantity::Regime {
+        return vec![charted];
     }
+    let both: Vec<_> = WITH_REGIME.into_iter().filter(|one| grid.layer(*one).is_some()).collect();
+    let first = || grid.quantities().into_iter().find(|one| *one != Quantity::Regime);
+    if both.is_empty() { vec![first().unwrap_or(charted)] } else { both }
 }
 
 /// Values of the map at a cell, with its place unless the cell is at the mark.
-fn there(model: &Model, map_model: &MapModel, mark: Place, place: &ShownCell<'_>) -> String {
+fn there(
+    model: &Model,
+    grid: &Grid,
+    mark: Place,
+    (cell, column, row): (&Result<Cell, String>, usize, usize),
+) -> String {
     let whose = if model.chart.shown_study().is_some() { "study" } else { "map" };
-    let on = |axis: &MapAxis, index: usize| axis.figure.values.get(index).copied();
-    let across = on(map_model.across(), place.column).unwrap_or(mark.0);
-    let at = on_axes(map_model, (across, map_model.up().and_then(|up| on(up, place.row))));
-    let at = if at == on_axes(map_model, mark) { whose.to_owned() } else { format!("{whose} at {at}") };
-    let map_cell = match place.cell {
-        Ok(map_cell) => map_cell,
+    let place = (grid.across.values[column], grid.up.as_ref().map(|up| up.values[row]));
+    let (at, marked) = (on_axes(grid, place), on_axes(grid, mark));
+    let at = if at == marked { whose.to_owned() } else { format!("{whose} at {at}") };
+    let cell = match cell {
+        Ok(cell) => cell,
         Err(why) => return format!("{at}: {why}"),
     };
-    let agree = if map_cell.lines == 1 {
+    let agree = if cell.lines == 1 {
         String::new()
     } else {
-        format!(" ({} of {} profiles)", grouped(map_cell.agreeing), grouped(map_cell.lines))
+        format!(" ({} of {} profiles)", grouped(cell.agreeing()), grouped(cell.lines))
     };
-    let regime = map_cell.regime.map(|regime| format!("{}{agree}", regime.name()));
+    let regime = cell.regime.map(|cell| format!("{}{agree}", cell.regime.name()));
     // Quantities of the regime are shown together, so that the map keeps its place.
-    let charted = match model.chart.charted() {
-        Charted::Quantity(one) if WITH_REGIME.contains(&one) => Charted::Regime,
-        other => other,
-    };
-    let values = shown_layers(charted, map_model).into_iter().filter_map(|layer| {
-        let estimate = map_model.estimate(layer, place.column, place.row)?;
-        let value = value(estimate, layer.quantity.unit());
-        Some(format!("{} {value}", name_of(map_model, layer.quantity)))
+    let charted = model.chart.charted();
+    let charted = if WITH_REGIME.contains(&charted) { Quantity::Regime } else { charted };
+    let shown = shown_quantities(charted, grid);
+    let known = grid.layers.iter().zip(&cell.estimates).filter(|(layer, _)| shown.contains(&layer.quantity));
+    let values = known.filter_map(|(layer, estimate)| {
+        let quantity = layer.quantity;
+        Some(format!("{} {}", name_of(grid, quantity), value((*estimate)?, quantity.unit())))
     });
     format!("{at}: {}", regime.into_iter().chain(values).collect::<Vec<_>>().join(", "))
 }
 
-/// A mean, with its confidence where known.
-fn value(Estimate { mean, low, high }: Estimate, unit: &str) -> String {
-    if low == high {
-        return format_rounded(mean, 2, unit);
-    }
-    format!("{} ± {}", format_rounded(mean, 2, unit), format_rounded((high - low) / 2.0, 2, unit))
+/// A mean, with its confidence where known and the range of the profiles.
+fn value(Estimate { mean, interval, range: (least, most) }: Estimate, unit: &str) -> String {
+    let shown = |value| format_rounded(value, 2, unit);
+    let confidence = interval.filter(|(low, high)| low < high);
+    let confidence =
+        confidence.map_or_else(String::new, |(low, high)| format!(" ± {}", shown((high - low) / 2.0)));
+    let range = if least < most { format!(" ({} to {})", shown(least), shown(most)) } else { String::new() };
+    format!("{}{confidence}{range}", shown(mean))
 }

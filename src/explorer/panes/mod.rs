@@ -6,6 +6,7 @@ mod chart;
 mod chart_words;
 mod close_up;
 mod costs;
+mod curves;
 mod force;
 mod histogram;
 mod lengths;
@@ -17,7 +18,6 @@ mod profile;
 mod row;
 mod scene_spectra;
 mod section;
-mod sections;
 mod spectrum;
 
 pub use costs::Costs;
@@ -27,7 +27,6 @@ pub use position::{position_at, share_at};
 pub use preload_curve::{PROFILES, PreloadCurve};
 pub use row::{PaneRow, Place};
 pub use scene_spectra::SceneSpectra;
-pub use sections::section_cell;
 
 /// The panes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,7 +1,7 @@
 //! Adhesion against preload: the curve of the profile, the mean over random profiles with its confidence, and the
 //! preload of the scene.
 
-use super::sections::section;
+use super::curves::draw_chart;
 use super::{Pane, PaneRow, PreloadCurve};
 use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Layer, Shape, Sign};
 use crate::explorer::layout::inside;
@@ -57,7 +57,7 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     };
     let chart = chart(model, curve);
     let heading = chart.y.label_with_unit().then(format!("  {}", progress(curve)).trim_end());
-    section(frame, area, model, &Chart { heading, ..chart });
+    draw_chart(frame, area, model, &Chart { heading, ..chart });
 }
 
 /// Progress, in words.

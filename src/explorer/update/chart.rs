@@ -6,7 +6,8 @@ use crate::explorer::model::Model;
 use crate::explorer::opening::Opening;
 use crate::explorer::panes::Pane;
 use crate::scene::{Document, SceneErrors};
-use crate::study::map::{MapAxis, Place, Template, moved, next_beyond};
+use crate::study::map::{Template, moved};
+use crate::study::{Axis, Place};
 use std::sync::Arc;
 
 /// Returns true for a move of the scene in the map: successive moves are one edit.
@@ -85,13 +86,13 @@ pub fn step(model: &mut Model, columns: i32, rows: i32) -> Vec<Effect> {
         model.set_error(why);
         return Vec::new();
     };
-    let (across, up) = axes(model);
+    let Some((across, up)) = model.chart.axes(model.document.scene()) else { return Vec::new() };
     if rows != 0 && up.is_none() {
-        model.set_error(format!("this map has one axis, {}", across.symbol()));
+        model.set_error(format!("this map has one axis, {}", across.symbol_or_name()));
         return Vec::new();
     }
-    let next = |at: f64, steps: i32, axis: &MapAxis| {
-        if steps == 0 { Some(at) } else { next_beyond(at, steps, &axis.figure.values) }
+    let next = |at: f64, steps: i32, axis: &Axis| {
+        if steps == 0 { Some(at) } else { axis.next_beyond(at, steps) }
     };
     let to_up = match (at_up, &up) {
         (Some(at), Some(axis)) => next(at, rows, axis).map(Some),
@@ -109,11 +110,6 @@ pub fn step(model: &mut Model, columns: i32, rows: i32) -> Vec<Effect> {
 /// Message for a scene that lacks a quantity of the axes.
 const NO_PLACE: &str = "the scene has no place on this map: it lacks a quantity of the axes";
 
-/// Axes of the map.
-fn axes(model: &Model) -> (MapAxis, Option<MapAxis>) {
-    model.chart.axes(Template::of(model.document.scene()).is_ok_and(|template| template.has_hurst()))
-}
-
 /// Sets the scene to the values of a place on the map. Successive moves are one edit.
 pub fn move_to(model: &mut Model, place: Place) -> Vec<Effect> {
     let goes_on = model.chart.moving;
@@ -127,9 +123,9 @@ pub fn move_to(model: &mut Model, place: Place) -> Vec<Effect> {
 
 /// The scene at a place on the map. A preload in units of E* h L may change with the place.
 fn moved_to(model: &Model, (to_across, to_up): Place) -> Result<Document, SceneErrors> {
-    let (across, up) = axes(model);
-    let up = up.as_ref().zip(to_up).map(|(axis, value)| (axis.path.as_str(), value));
-    let values: Vec<_> = [(across.path.as_str(), to_across)].into_iter().chain(up).collect();
+    let axes = model.chart.axes(model.document.scene());
+    let (across, up) = axes.as_ref().map_or((None, None), |(across, up)| (Some(across), up.as_ref()));
+    let values: Vec<(&Axis, f64)> = across.zip(Some(to_across)).into_iter().chain(up.zip(to_up)).collect();
     let moved = moved(&model.document, &values)?;
     match model.chart.shown_study() {
         Some(study)

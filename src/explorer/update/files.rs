@@ -86,9 +86,7 @@ fn content_for(model: &Model, path: &Path) -> Result<Content, String> {
         return Err(format!("{path}: the name must end in {endings}, to export {what}"));
     };
     match content {
-        Content::MapCells if model.chart.map_model().is_none() => {
-            Err("there is no map yet to export".to_owned())
-        }
+        Content::MapCells if model.chart.grid().is_none() => Err("there is no map yet to export".to_owned()),
         Content::Figure(_) if model.figure().is_none() => {
             Err("the selected pane is empty; there is no figure to export".to_owned())
         }

@@ -1,68 +1,76 @@
-//! The live map over H and κ or e_el/γ with the cells computed so far.
+//! The live map over H and κ or e_el/γ: a study in memory, computed from coarse to fine.
 
-use super::grid::{COLUMNS, HURSTS, Level, hursts, parameter_values};
-use super::model::{Layer, MapModel};
-use super::template::{RECORD, Template};
-use crate::study::cell_summary::CellSummary;
-use crate::study::quantity::Quantity;
-use std::sync::Arc;
+use super::levels::{COLUMNS, HURSTS, Level};
+use super::template::Template;
+use crate::scene::{RoughnessParameter, Scene};
+use crate::simulation::{RunError, Simulation};
+use crate::study::StudyError;
+use crate::study::cells::Cells;
+use crate::study::grid::{Cell, Grid};
+use crate::study::recorder::{Recorder, Records};
+use crate::study::results::Results;
+use crate::study::solve::{Case, Next, Sink, solve_unit};
+use crate::study::statistics::StudentT;
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use std::path::Path;
 
 /// A map with the cells computed so far.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveMap {
-    template: Arc<Template>,
-    /// Cells row by row; a cell that could not be computed holds the reason.
-    cells: Vec<Option<Result<CellSummary, String>>>,
+    template: Template,
+    results: Results,
+    /// Reasons for cells that could not be computed.
+    failed: BTreeMap<u64, String>,
 }
 
 impl LiveMap {
     /// A map without cells.
-    #[must_use]
-    pub fn new(template: Arc<Template>) -> Self {
-        let rows = if template.has_hurst() { HURSTS } else { 1 };
-        LiveMap { template, cells: vec![None; rows * COLUMNS] }
+    ///
+    /// # Errors
+    /// [`StudyError::OutOfMemory`].
+    pub fn new(template: Template) -> Result<Self, StudyError> {
+        Ok(LiveMap { results: Results::empty(template.plan())?, template, failed: BTreeMap::new() })
     }
 
     /// Template of the map.
     #[must_use]
-    pub fn template(&self) -> &Arc<Template> {
+    pub fn template(&self) -> &Template {
         &self.template
     }
 
-    /// Number of rows: one for a scene without H.
+    /// Returns true if a scene has this map.
     #[must_use]
-    pub fn rows(&self) -> usize {
-        self.cells.len() / COLUMNS
+    pub fn is_of(&self, scene: &Scene, parameter: RoughnessParameter) -> bool {
+        Template::of(scene).is_ok_and(|template| template.over(parameter) == self.template)
     }
 
-    /// The rows of a level on this map.
+    /// The rows of a level on this map: one for a scene without H.
     #[must_use]
     pub fn rows_of(&self, level: Level) -> &'static [usize] {
         if self.template.has_hurst() { level.rows() } else { &[0] }
     }
 
-    /// A computed cell, or the reason why it could not be computed.
-    #[must_use]
-    pub fn cell(&self, column: usize, row: usize) -> Option<&Result<CellSummary, String>> {
-        self.cells.get(row * COLUMNS + column).filter(|_| column < COLUMNS)?.as_ref()
-    }
-
-    /// The number of a cell in the plan of its template.
-    pub(super) fn index(&self, column: usize, row: usize) -> u64 {
+    /// Number of a cell, row by row.
+    fn number(column: usize, row: usize) -> u64 {
         (row * COLUMNS + column) as u64
     }
 
-    /// Sets a cell.
-    pub fn set(&mut self, column: usize, row: usize, cell: Result<CellSummary, String>) {
-        if let Some(place) = self.cells.get_mut(row * COLUMNS + column).filter(|_| column < COLUMNS) {
-            *place = Some(cell);
-        }
+    /// Returns true for a computed cell, or one that cannot be computed.
+    fn is_known(&self, cell: u64) -> bool {
+        self.failed.contains_key(&cell) || self.results.is_whole(cell)
+    }
+
+    /// Sets the values of a cell on a profile, in the order of [`super::RECORD`].
+    pub fn set(&mut self, column: usize, row: usize, line: u64, values: &[f64; super::RECORD.len()]) {
+        self.results.set(Self::number(column, row) * self.template.lines() + line, values);
     }
 
     /// Returns true if all cells of a level are known.
     #[must_use]
     pub fn has(&self, level: Level) -> bool {
-        self.rows_of(level).iter().all(|&row| level.columns().all(|column| self.cell(column, row).is_some()))
+        let rows = self.rows_of(level).iter();
+        rows.copied().all(|row| level.columns().all(|column| self.is_known(Self::number(column, row))))
     }
 
     /// The finest complete level.
@@ -77,32 +85,256 @@ impl LiveMap {
         self.has(self.template.finest())
     }
 
-    /// The computed cell shown for this cell: itself or, until it is computed, one of a coarser level.
-    fn stand_in(&self, column: usize, row: usize) -> Option<usize> {
+    /// Computes the missing cells, from coarse to fine and row by row: all κ of a row are on the same profiles. `report`
+    /// sees the map after each row. Files of the scene are looked up in `folder`. Stops as soon as `stop` returns true
+    /// and keeps the records so far. A cell that cannot be computed keeps the reason.
+    pub fn compute(&mut self, folder: &Path, stop: &dyn Fn() -> bool, report: &mut dyn FnMut(&LiveMap)) {
+        let plan = self.results.plan().clone();
+        let cells = Cells::of(&plan);
+        let mut recorder = Recorder::new(&plan, Simulation::new(folder.to_path_buf()), stop);
+        let finest = self.template.finest();
+        for level in Level::ALL.into_iter().take_while(|level| *level <= finest) {
+            for &row in self.rows_of(level) {
+                let wanted: Vec<u64> = level.columns().map(|column| Self::number(column, row)).collect();
+                if wanted.iter().all(|cell| self.is_known(*cell)) {
+                    continue;
+                }
+                for line in 0..plan.lines {
+                    let unit = cells.whole_unit(row as u64, line);
+                    let mut sink = RowSink { map: self, wanted: &wanted, stop };
+                    if solve_unit(&cells, &unit, &mut recorder, &mut sink).is_break() {
+                        return;
+                    }
+                }
+                report(self);
+            }
+        }
+    }
+
+    /// The map for display: H across, and κ or e_el/γ up as in the paper. Of too few profiles for a confidence, cells
+    /// have the range of the profiles alone.
+    #[must_use]
+    pub fn grid(&self) -> Grid {
+        let axes = &self.results.plan().axes;
+        let layers = self.results.layers();
+        let mut quantiles = StudentT::default();
+        let mut cell = |cell: u64| -> Option<Result<Cell, String>> {
+            if let Some(why) = self.failed.get(&cell) {
+                return Some(Err(why.clone()));
+            }
+            let mut computed = self.results.cell(cell, &layers, &mut quantiles)?;
+            computed.estimates.iter_mut().flatten().for_each(|estimate| estimate.interval = None);
+            self.results.is_whole(cell).then_some(Ok(computed))
+        };
+        let mut grid = match axes.as_slice() {
+            [hurst, parameter] => {
+                let places = (0..COLUMNS).flat_map(|up| (0..HURSTS).map(move |across| (up, across)));
+                let cells = places.map(|(column, row)| cell(Self::number(column, row))).collect();
+                Grid::new(hurst.clone(), Some(parameter.clone()), layers.clone(), cells)
+            }
+            axes => Grid::new(axes[0].clone(), None, layers.clone(), (0..COLUMNS as u64).map(cell).collect()),
+        };
+        for (index, stand_in) in grid.stand_ins.iter_mut().enumerate() {
+            let has_hurst = self.template.has_hurst();
+            let (column, row) = if has_hurst { (index / HURSTS, index % HURSTS) } else { (index, 0) };
+            let (column, row) = self.stand_in(column, row);
+            *stand_in = if has_hurst { column * HURSTS + row } else { column };
+        }
+        grid
+    }
+
+    /// The cell shown for this cell: itself or, until it is computed, one of a coarser level.
+    fn stand_in(&self, column: usize, row: usize) -> (usize, usize) {
         let near = |all: &mut dyn Iterator<Item = usize>, wanted: usize| {
             all.min_by_key(|one| one.abs_diff(wanted)).unwrap_or(wanted)
         };
-        Level::ALL.into_iter().rev().find_map(|level| {
+        let on_level = |level: Level| {
             let column = near(&mut level.columns(), column);
             let row = near(&mut self.rows_of(level).iter().copied(), row);
-            self.cell(column, row).map(|_| row * COLUMNS + column)
-        })
+            self.is_known(Self::number(column, row)).then_some((column, row))
+        };
+        Level::ALL.into_iter().rev().find_map(on_level).unwrap_or((column, row))
+    }
+}
+
+/// Sink of the missing cells of a row.
+struct RowSink<'a> {
+    map: &'a mut LiveMap,
+    wanted: &'a [u64],
+    stop: &'a dyn Fn() -> bool,
+}
+
+impl Sink for RowSink<'_> {
+    fn next(&mut self, case: &Case) -> Next {
+        let (cell, map) = (case.cells.start, &self.map);
+        let is_known = map.failed.contains_key(&cell) || map.results.record(cell, case.line).is_some();
+        match () {
+            () if is_known || !self.wanted.contains(&cell) => Next::Skip,
+            () if (self.stop)() => Next::End,
+            () => Next::Solve,
+        }
     }
 
-    /// The map for display.
-    #[must_use]
-    pub fn model(&self) -> MapModel {
-        let cells: Vec<_> = self.cells.iter().map(|cell| cell.as_ref().map(Result::as_ref)).collect();
-        let estimates = |column| cells.iter().map(|cell| (*cell)?.ok()?.estimate(column)).collect();
-        let record = RECORD.into_iter().enumerate();
-        let drawn = record.filter(|(_, quantity)| *quantity != Quantity::Regime);
-        let map_model = MapModel::new(
-            (parameter_values(self.template.parameter()), self.template.has_hurst().then(hursts)),
-            drawn.map(|(column, quantity)| Layer::new(quantity, estimates(column))).collect(),
-            &cells,
-            (0..cells.len()).map(|index| self.stand_in(index % COLUMNS, index / COLUMNS)).collect(),
+    fn take(&mut self, case: Case, records: Result<Records, RunError>) -> ControlFlow<()> {
+        let cell = case.cells.start;
+        match records {
+            Err(error) if error.is_interruption() => return ControlFlow::Break(()),
+            Err(error) => drop(self.map.failed.insert(cell, error.to_string())),
+            Ok(records) => {
+                let lines = self.map.template.lines();
+                self.map.results.set(cell * lines + case.line, &records.concat());
+            }
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{StudyMap, hurst, parameter_value};
+    use super::*;
+    use crate::analysis::Regime;
+    use crate::scene::{Roughness, open, to_ron};
+    use crate::study::{Changes, Folder, Options, Plan, Quantity, Shard, merge, run};
+    use std::cell::Cell;
+
+    fn kappa(column: usize) -> f64 {
+        parameter_value(RoughnessParameter::Kappa, column)
+    }
+
+    /// Map of a small scene over κ.
+    fn map() -> LiveMap {
+        map_over(RoughnessParameter::Kappa)
+    }
+
+    fn map_over(parameter: RoughnessParameter) -> LiveMap {
+        let document = open("pressure-sensitive").unwrap();
+        let small = [("numerics.points", "128"), ("roughness.modes", "(1, 32)")];
+        let small = small.map(|(path, value)| (path.to_owned(), value.to_owned()));
+        let document = document.set_all(&small).unwrap();
+        LiveMap::new(Template::of(document.scene()).unwrap().over(parameter)).unwrap()
+    }
+
+    #[test]
+    fn a_map_goes_from_coarse_to_fine_and_adhesion_falls_with_kappa() {
+        let (mut map, mut levels, mut rows) = (map(), Vec::new(), 0);
+        map.compute(Path::new(""), &|| false, &mut |map| {
+            rows += 1;
+            levels.extend(map.level());
+        });
+        levels.dedup();
+        assert_eq!(levels, Level::ALL);
+        assert_eq!(rows, 5 + 9 + 19 + 19);
+        let grid = map.grid();
+        assert_eq!(grid.size(), (HURSTS, COLUMNS), "H across");
+        let shares = grid.estimates(Quantity::ZeroLoadAdhesionShare, false);
+        for column in 0..HURSTS {
+            let cell = |row| grid.shown(column, row).unwrap().0.clone().unwrap();
+            let regime = |row| cell(row).regime.unwrap().regime;
+            assert_eq!(regime(0), Regime::PressureInsensitive);
+            assert_eq!(regime(COLUMNS - 1), Regime::NonAdhesive);
+            assert!((0..COLUMNS).all(|row| (1..=4).contains(&cell(row).agreeing()) && cell(row).lines == 4));
+            let mean = |row: usize| shares[row * HURSTS + column].unwrap().mean;
+            assert!(mean(0) > 0.5 && mean(COLUMNS - 1) < 0.01);
+        }
+        let (_, column, row) = grid.nearest((0.31, Some(1.02))).unwrap();
+        assert_eq!((kappa(row), hurst(column)), (1.0, 0.3));
+        // The cell is the mean over its scenes.
+        let values = (0..map.template.lines()).map(|line| {
+            let mut scene = map.template.plan().scene;
+            scene.adhesion.as_mut().unwrap().kappa = Some(1.0);
+            if let Some(Roughness::SelfAffine { hurst, seed, .. }) = &mut scene.roughness {
+                (*hurst, *seed) = (0.3, *seed + line);
+            }
+            let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+            outcome.zero_load_adhesion_force.unwrap() / outcome.ideal_adhesion_force.unwrap()
+        });
+        let values: Vec<f64> = values.collect();
+        let shown = shares[row * HURSTS + column].unwrap();
+        let (low, high) =
+            (values.iter().copied().fold(1.0, f64::min), values.iter().copied().fold(0.0, f64::max));
+        assert_eq!((shown.range, shown.interval), ((low, high), None));
+        assert!((4.0 * shown.mean / values.iter().sum::<f64>() - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn the_map_of_a_study_of_the_same_cells_is_the_same() {
+        for parameter in RoughnessParameter::ALL {
+            let (mut live, rows) = (map_over(parameter), Cell::new(0));
+            live.compute(Path::new(""), &|| rows.get() == 5, &mut |_| rows.set(rows.get() + 1));
+            let (columns, rows): (Vec<_>, Vec<_>) =
+                (Level::Coarse.columns().collect(), live.rows_of(Level::Coarse).to_vec());
+            let list = |values: Vec<f64>| {
+                values.iter().map(|value| format!("{value:?}")).collect::<Vec<_>>().join(", ")
+            };
+            let text = format!(
+                "(version: 1, title: \"Map\", scene: {}, lines: {}, record: [zero_load_adhesion_share, \
+                 adhesion_coefficient, regime], axes: [List(path: \"{}\", values: [{}]), \
+                 List(path: \"roughness.hurst\", values: [{}])])",
+                to_ron(&live.template.plan().scene),
+                live.template.lines(),
+                parameter.name(),
+                list(columns.iter().map(|&column| parameter_value(parameter, column)).collect()),
+                list(rows.iter().map(|&row| hurst(row)).collect()),
+            );
+            let plan = Plan::parse(&text, "map", &Changes::default()).unwrap();
+            let place = tempfile::tempdir().unwrap();
+            let folder = Folder::create(&place.path().join("study"), &plan).unwrap();
+            run(&folder, Options { jobs: 1, shard: Shard::WHOLE }, &|| false, &mut |_| ()).unwrap();
+            merge(&folder, false).unwrap();
+            let study = StudyMap::open(folder.path()).unwrap().grid(0);
+            let (live, mut disagreeing) = (live.grid(), 0);
+            for (up, &column) in columns.iter().enumerate() {
+                for (across, &row) in rows.iter().enumerate() {
+                    let [mut studied, shown] = [study.shown(across, up), live.shown(row, column)]
+                        .map(|place| place.unwrap().0.clone().unwrap());
+                    studied.estimates.iter_mut().flatten().for_each(|estimate| estimate.interval = None);
+                    assert_eq!(studied, shown, "{parameter:?}, {across} {up}");
+                    disagreeing += u64::from(studied.agreeing() < studied.lines);
+                }
+            }
+            assert!(disagreeing > 0, "no cell in which profiles differ");
+        }
+    }
+
+    #[test]
+    fn known_cells_are_not_computed_again() {
+        let mut once = map();
+        once.compute(Path::new(""), &|| false, &mut |_| ());
+        let (mut map, rows) = (map(), Cell::new(0));
+        map.compute(Path::new(""), &|| rows.get() == 7, &mut |_| rows.set(rows.get() + 1));
+        assert_eq!((rows.get(), map.level()), (7, Some(Level::Coarse)));
+        map.compute(Path::new(""), &|| false, &mut |_| rows.set(rows.get() + 1));
+        assert_eq!(rows.get(), 5 + 9 + 19 + 19);
+        assert_eq!(map, once);
+        map.compute(Path::new(""), &|| false, &mut |_| panic!("nothing is missing"));
+    }
+
+    #[test]
+    fn missing_cells_are_shown_by_the_nearest_of_a_coarser_level() {
+        let (mut map, rows) = (map(), Cell::new(0));
+        assert!(map.grid().shown(3, 3).is_none());
+        map.compute(Path::new(""), &|| rows.get() == 5, &mut |_| rows.set(rows.get() + 1));
+        let grid = map.grid();
+        for (asked, expected) in [((0, 0), (0, 0)), ((1, 3), (0, 0)), ((3, 5), (4, 8)), ((18, 32), (18, 32))]
+        {
+            let (_, column, row) = grid.shown(asked.0, asked.1).unwrap();
+            assert_eq!((column, row), expected, "{asked:?}");
+        }
+        let computed = grid.estimates(Quantity::ZeroLoadAdhesionShare, false);
+        assert_eq!(computed.iter().flatten().count(), 25);
+        assert!(grid.shown(HURSTS, 0).is_none() && grid.shown(0, COLUMNS).is_none());
+    }
+
+    #[test]
+    fn a_cell_that_cannot_be_computed_keeps_the_reason() {
+        let document = open("pressure-sensitive").unwrap();
+        let never = document.set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]").unwrap();
+        let mut map = LiveMap::new(Template::of(never.scene()).unwrap()).unwrap();
+        let reported = Cell::new(false);
+        map.compute(Path::new(""), &|| reported.get(), &mut |_| reported.set(true));
+        assert!(
+            map.grid().shown(0, 0).is_some_and(|(cell, ..)| cell.as_ref().is_err_and(|why| !why.is_empty()))
         );
-        // As in the paper: H across, κ up; e_el/γ likewise.
-        map_model.transposed()
     }
 }

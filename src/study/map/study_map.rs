@@ -1,22 +1,16 @@
 //! The maps of a finished study: over H and κ, or over other axes; one map for each value of the remaining axes.
 
-use super::axis::{MapAxis, force_unit, moved};
-use super::model::{Layer, MapModel};
+use super::place::{force_unit, moved};
 use super::template::Template;
-use crate::scene::{Adhesion, Document, Move, Numerics, Roughness, Scene, SceneErrors};
+use crate::scene::{Adhesion, Document, Move, RoughnessParameter, Scene, SceneErrors};
 use crate::study::axis::Axis;
 use crate::study::error::StudyError;
-use crate::study::figure::{FigureAxis, across_and_up, fixed};
-use crate::study::finished::Finished;
-use crate::study::numbering::places_of;
-use crate::study::plan::Plan;
-use crate::study::quantity::Quantity;
-use crate::study::target::Target;
+use crate::study::grid::{Grid, Layer, across_and_up, fixed};
+use crate::study::plan::{PRELOAD, Plan};
+use crate::study::results::Results;
+use crate::study::target::{scene_with, strip};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
-
-/// Paths of the axes of κ.
-const KAPPA: [&str; 2] = ["kappa", "adhesion.kappa"];
 
 /// Reason why a folder has no maps.
 #[derive(Debug, Error)]
@@ -26,7 +20,7 @@ pub enum StudyMapError {
     Study(#[from] StudyError),
     /// The study has one cell.
     #[error(
-        "{folder}: this study has neither map nor section: {axes}; a section needs an axis with two values at least"
+        "{folder}: this study has neither a map nor a curve: {axes}; a curve needs an axis with two values at least"
     )]
     OneCell {
         /// The folder.
@@ -43,45 +37,44 @@ pub enum StudyMapError {
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyMap {
     folder: PathBuf,
-    study: Finished,
-    /// Places among the axes: that across, that up, and the others, the preload's last.
+    study: Results,
+    /// Places among the axes: that across, that up, and the others.
     across: usize,
     up: Option<usize>,
     others: Vec<usize>,
-    /// Quantities beside the regime in all cells of the study, each with its place among the recorded quantities.
-    layers: Vec<(usize, Layer)>,
+    /// Quantities on scales for all maps.
+    layers: Vec<Layer>,
 }
 
 impl StudyMap {
     /// Opens the folder of a merged study.
     ///
     /// # Errors
-    /// A folder of no study, or of a study of one cell.
+    /// The folder of no study, or of a study of one cell.
     pub fn open(folder: &Path) -> Result<StudyMap, StudyMapError> {
-        StudyMap::of(Finished::open(folder)?, folder)
+        StudyMap::of(Results::open(folder)?, folder)
     }
 
     /// The maps of a study that was read from a folder.
     ///
     /// # Errors
     /// A study of one cell.
-    pub fn of(study: Finished, folder: &Path) -> Result<StudyMap, StudyMapError> {
-        let axes = study.plan().all_axes();
-        let free: Vec<usize> = (0..axes.len()).filter(|axis| axes[*axis].count() > 1).collect();
-        let Some((across, up)) = across_and_up(&axes, &free) else {
-            let said: Vec<String> = axes.iter().map(|axis| format!("{} (1 value)", axis.path())).collect();
-            let axes =
-                if said.is_empty() { "it has no axes".into() } else { format!("it has {}", said.join(", ")) };
+    pub fn of(study: Results, folder: &Path) -> Result<StudyMap, StudyMapError> {
+        let axes = &study.plan().axes;
+        let free: Vec<usize> = (0..axes.len()).filter(|axis| axes[*axis].values.len() > 1).collect();
+        let Some((across, up)) = across_and_up(axes, &free) else {
+            let named: Vec<String> = axes.iter().map(|axis| format!("{} (1 value)", axis.path)).collect();
+            let axes = if named.is_empty() {
+                "it has no axes".into()
+            } else {
+                format!("it has {}", named.join(", "))
+            };
             return Err(StudyMapError::OneCell { folder: folder.display().to_string(), axes });
         };
         let others = (0..axes.len()).filter(|axis| *axis != across && Some(*axis) != up).collect();
-        let record = study.plan().record.iter().enumerate();
-        let drawn = record.filter(|(_, quantity)| **quantity != Quantity::Regime);
-        let layers = drawn.map(|(column, quantity)| (column, Layer::new(*quantity, study.estimates(column))));
-        let layers = layers.collect();
         // Without a separator at its end.
         let folder = folder.components().collect();
-        Ok(StudyMap { folder, across, up, others, layers, study })
+        Ok(StudyMap { folder, across, up, others, layers: study.layers(), study })
     }
 
     /// The folder.
@@ -103,84 +96,70 @@ impl StudyMap {
         self.study.plan()
     }
 
-    fn axes(&self) -> Vec<&Axis> {
-        self.plan().all_axes()
-    }
-
     /// Number of maps.
     #[must_use]
     pub fn slices(&self) -> u64 {
-        let axes = self.axes();
-        self.others.iter().map(|&other| axes[other].count()).product()
+        self.others.iter().map(|&other| self.plan().axes[other].count()).product()
+    }
+
+    /// Places of a map on all axes, 0 on its own.
+    fn places(&self, slice: u64) -> Vec<usize> {
+        let (mut rest, mut places) = (slice, vec![0; self.plan().axes.len()]);
+        for &other in self.others.iter().rev() {
+            let count = self.plan().axes[other].count();
+            places[other] = (rest % count) as usize;
+            rest /= count;
+        }
+        places
     }
 
     /// The axes outside the maps, each with the place of a map on it.
-    fn at(&self, slice: u64) -> Vec<(&Axis, usize, u64)> {
-        let axes = self.axes();
-        let places = places_of(slice, self.others.iter().map(|&other| axes[other].count()));
-        self.others.iter().zip(places).map(|(&other, place)| (axes[other], other, place)).collect()
+    fn at(&self, slice: u64) -> impl Iterator<Item = (&Axis, usize)> {
+        let places = self.places(slice);
+        self.others.iter().map(move |&other| (&self.plan().axes[other], places[other]))
     }
 
     /// Place of a map on the axes outside it, in words: `F_n/(E* h L) = 0.1`.
     #[must_use]
     pub fn fixed_values(&self, slice: u64) -> Vec<String> {
-        self.at(slice).into_iter().map(|(axis, _, place)| fixed(self.plan(), axis, place)).collect()
+        self.at(slice).map(|(axis, place)| fixed(axis, place)).collect()
     }
 
     /// Map of this number.
     #[must_use]
-    pub fn model(&self, slice: u64) -> MapModel {
-        let (plan, axes) = (self.plan(), self.axes());
-        let mut places = vec![0; axes.len()];
-        for (_, other, place) in self.at(slice) {
-            places[other] = place;
-        }
-        let cells = self.study.grid(self.across, self.up, places);
-        let estimates = |column| cells.iter().map(|cell| (*cell)?.estimate(column)).collect();
-        let layers = self.layers.iter().map(|(column, layer)| layer.with(estimates(*column))).collect();
-        let cells: Vec<_> = cells.iter().map(|cell| cell.map(Ok)).collect();
-        let axis = |place: usize| MapAxis {
-            path: axes[place].path().to_owned(),
-            figure: FigureAxis::new(plan, axes[place]),
-        };
-        MapModel::new(
-            (axis(self.across), self.up.map(axis)),
-            layers,
-            &cells,
-            cells.iter().enumerate().map(|(index, cell)| cell.map(|_| index)).collect(),
-        )
+    pub fn grid(&self, slice: u64) -> Grid {
+        self.study.grid((self.across, self.up), self.places(slice), self.layers.clone())
     }
 
-    /// Paths of the axes of the maps.
-    fn over(&self) -> Vec<&Axis> {
-        let axes = self.axes();
-        [Some(self.across), self.up].into_iter().flatten().map(|axis| axes[axis]).collect()
+    /// Axes of the maps.
+    fn over(&self) -> impl Iterator<Item = &Axis> {
+        [Some(self.across), self.up].into_iter().flatten().map(|axis| &self.plan().axes[axis])
     }
 
     /// The scene of a map on the first profile of the study, with these values on the axes of the maps; axes
     /// without a value here keep that of the plan's scene.
-    fn scene(&self, slice: u64, over: &[(&str, f64)]) -> Scene {
+    fn scene(&self, slice: u64, over: &[(&Axis, f64)]) -> Scene {
         let plan = self.plan();
         let mut scene = plan.scene.clone();
         if scene.title.is_empty() {
             (scene.title, scene.notice) = (plan.title.clone(), plan.notice.clone());
         }
-        let kappa = self.over().into_iter().find(|axis| KAPPA.contains(&axis.path()));
-        if let (None, Some(kappa)) = (scene.adhesion, kappa) {
-            scene.adhesion = Some(Adhesion::default().with_kappa(kappa.value(kappa.count() / 2)));
+        if let (None, Some(axis)) =
+            (scene.adhesion, self.over().find(|axis| axis.target.parameter().is_some()))
+        {
+            let parameter = axis.target.parameter().unwrap_or(RoughnessParameter::Kappa);
+            let middle = axis.values[axis.values.len() / 2];
+            scene.adhesion = Some(Adhesion::default().with_parameter(parameter, middle));
         }
-        if let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness {
-            *seed = plan.seed;
-        }
-        let at = self.at(slice);
-        let at = at.iter().map(|(axis, _, place)| (axis.path(), axis.value(*place)));
-        let values: Vec<(&str, f64)> = at.chain(over.iter().copied()).collect();
-        let targets = values.iter().filter_map(|(path, value)| Some((Target::of(path).ok()?, *value)));
+        scene.set_seed(plan.seed);
+        let at = self.at(slice).map(|(axis, place)| (axis, axis.values[place]));
+        let values: Vec<(&Axis, f64)> = at.chain(over.iter().copied()).collect();
+        let numbers = values.iter().map(|(axis, value)| (axis.path.as_str(), axis.target, *value));
         // The plan has been checked with these values.
-        let _ = Target::set_all(targets, &mut scene);
-        let preload = values.iter().find(|(path, _)| *path == "preload").map(|(_, value)| *value);
-        let first = || self.plan().preloads.as_ref().map(|axis| axis.value(0));
-        if let Some((preload, unit)) = preload.or_else(first).zip(force_unit(&scene)) {
+        scene = scene_with(&scene, numbers).unwrap_or(scene);
+        let preload = values.iter().find(|(axis, _)| axis.path == PRELOAD).map(|(_, value)| *value);
+        let preload = preload.or_else(|| Some(plan.preloads()?.values[0]));
+        if let Some((preload, unit)) = preload.zip(force_unit(&scene)) {
             scene.loading = vec![Move::ToForce(preload * unit), Move::ToSeparation];
         }
         scene
@@ -192,24 +171,24 @@ impl StudyMap {
     /// An invalid scene.
     pub fn document(&self) -> Result<Document, SceneErrors> {
         // As typed, so that this name in a command opens the study again.
-        let name = self.folder.display().to_string();
-        Document::from_scene(&self.scene(0, &[]), &name)
+        Document::from_scene(&self.scene(0, &[]), &self.folder.display().to_string())
     }
 
     /// Returns true for the scene of a map, but for the axes that the map is over and the resolution of its curve.
     #[must_use]
     pub fn is_of(&self, slice: u64, scene: &Scene) -> bool {
-        let axes = self.over();
-        let known = axes.into_iter().filter_map(|axis| {
-            let (path, figure) = (axis.path().to_owned(), FigureAxis::new(self.plan(), axis));
-            Some((axis.path(), MapAxis { path, figure }.value(scene, None)?))
-        });
-        let of_map = self.scene(slice, &known.collect::<Vec<_>>());
-        match (Template::of(&of_map), Template::of(scene)) {
+        let known: Vec<_> =
+            self.over().filter_map(|axis| Some((axis, axis.value_in(scene, None)?))).collect();
+        let [mut of_map, mut scene] = [self.scene(slice, &known), scene.clone()];
+        match (Template::of(&of_map), Template::of(&scene)) {
             (Ok(one), Ok(other)) => {
-                one == other && is_close(Template::place(&of_map), Template::place(scene))
+                one == other && is_close(Template::place(&of_map), Template::place(&scene))
             }
-            _ => without_texts(&of_map) == without_texts(scene),
+            _ => {
+                strip(&mut of_map);
+                strip(&mut scene);
+                of_map == scene
+            }
         }
     }
 
@@ -218,8 +197,7 @@ impl StudyMap {
     /// # Errors
     /// Values that are invalid in the scene.
     pub fn follow(&self, slice: u64, document: &Document) -> Result<Document, SceneErrors> {
-        let at = self.at(slice);
-        let values: Vec<_> = at.iter().map(|(axis, _, place)| (axis.path(), axis.value(*place))).collect();
+        let values: Vec<_> = self.at(slice).map(|(axis, place)| (axis, axis.values[place])).collect();
         moved(document, &values)
     }
 }
@@ -230,26 +208,15 @@ fn is_close(one: Option<(f64, f64)>, other: Option<(f64, f64)>) -> bool {
     one.zip(other).is_none_or(|((a, b), (c, d))| is_close(a, c) && is_close(b, d))
 }
 
-/// A scene without the fields that change no result but the resolution of a curve.
-fn without_texts(scene: &Scene) -> Scene {
-    Scene {
-        title: String::new(),
-        notice: String::new(),
-        observe: Vec::new(),
-        numerics: Numerics { samples: 2, ..scene.numerics },
-        ..scene.clone()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::Regime;
-    use crate::study::figure::{AxisScale, Estimate};
-    use crate::study::map::{Charted, MapCell};
-    use crate::study::{Changes, Folder, SUMMARY};
+    use crate::analysis::{CellRegime, Regime};
+    use crate::draw::AxisScale;
+    use crate::scene::Roughness;
+    use crate::study::{Changes, Folder, Quantity};
 
-    /// κ not in the order of its values, two preloads, another axis, five profiles.
+    /// κ not in the order of its values and before H, two preloads, another axis, five profiles.
     const PLAN: &str = r#"(
         version: 1,
         title: "A study",
@@ -271,115 +238,66 @@ mod tests {
         record: [adhesion_coefficient, regime, preload_force],
     )"#;
 
-    /// Tables of the study: the coefficient of a cell is its number, and all but a fifth of its profiles are in the
-    /// regime of that number.
-    fn merged(plan: &str) -> tempfile::TempDir {
-        let folder = tempfile::tempdir().unwrap();
+    /// Maps of a plan: the coefficient of a cell is its number, the preload its number in µN, and the profiles are in the
+    /// regimes of `REGIMES`. Cell 5 is missing.
+    fn study_map(plan: &str) -> StudyMap {
         let plan = Plan::parse(plan, "plan", &Changes::default()).unwrap();
+        let folder = tempfile::tempdir().unwrap();
         Folder::create(folder.path(), &plan).unwrap();
-        let mut text = String::from("cell");
-        plan.axes.iter().for_each(|axis| text += &format!(",{}", axis.path()));
-        text += ",preload,lines,and so on,,,,,,,,,,\n";
-        for cell in (0..plan.cells()).filter(|cell| *cell != 5) {
-            let axes = ",".repeat(plan.axes.len());
-            let shares = [["0.8", "0.2", "0"], ["0.2", "0.8", "0"], ["0", "0.4", "0.6"]][cell as usize % 3];
-            let low = cell as f64 - 0.25;
-            text += &format!("{cell},{axes},5,{cell},0.1,{low},{}.5,{},", cell, shares.join(","));
-            text += &format!("{},,,\n", 1.0e-6 * cell as f64);
+        let mut study = Results::empty(plan.clone()).unwrap();
+        for place in (0..plan.records_in_all()).filter(|place| place / plan.lines != 5) {
+            let cell = place / plan.lines;
+            let regime = REGIMES[cell as usize % 3][place as usize % 5];
+            study.set(place, &[cell as f64, regime, 1e-6 * cell as f64][..plan.record.len()]);
         }
-        std::fs::write(folder.path().join(SUMMARY), text).unwrap();
-        folder
+        StudyMap::of(study, folder.path()).unwrap()
     }
 
-    fn study_map() -> StudyMap {
-        StudyMap::open(merged(PLAN).path()).unwrap()
-    }
-
-    /// The number of a cell by its places on the axes of the plan.
-    fn cell(kappa: u64, modes: u64, hurst: u64, preload: u64) -> f64 {
-        (((kappa * 2 + modes) * 2 + hurst) * 2 + preload) as f64
-    }
+    const REGIMES: [[f64; 5]; 3] =
+        [[0.0, 0.0, 0.0, 0.0, 1.0], [0.0, 1.0, 1.0, 1.0, 1.0], [1.0, 1.0, 2.0, 2.0, 2.0]];
 
     #[test]
     fn maps_have_the_cells_of_the_study() {
-        let study_map = study_map();
+        let study_map = study_map(PLAN);
         assert_eq!(study_map.slices(), 4);
         assert_eq!(study_map.fixed_values(0), ["k_max = 16", "F_n/(E* h L) = 0.5"]);
         assert_eq!(study_map.fixed_values(1), ["k_max = 16", "F_n/(E* h L) = 2"]);
         assert_eq!(study_map.fixed_values(2), ["k_max = 32", "F_n/(E* h L) = 0.5"]);
         for (slice, modes, preload) in [(0, 0, 0), (1, 0, 1), (2, 1, 0), (3, 1, 1)] {
-            let map_model = study_map.model(slice);
-            assert_eq!(map_model.across().figure.values, [0.25, 0.75], "H across");
-            assert_eq!(map_model.up().unwrap().figure.values, [1.0, 2.0, 4.0], "κ ascends");
-            let map_model = map_model.transposed();
-            assert_eq!(map_model.size(), (3, 2));
-            let layer = map_model.layer(Quantity::AdhesionCoefficient).unwrap();
-            for row in 0..2 {
-                for (column, kappa) in [1, 2, 0].into_iter().enumerate() {
-                    let number = cell(kappa, modes, row, preload);
-                    let estimate = map_model.estimate(layer, column, row as usize);
-                    if number == 5.0 {
-                        assert_eq!((estimate, map_model.shown(column, row as usize)), (None, None));
+            let grid = study_map.grid(slice);
+            assert_eq!(grid.across.values, [0.25, 0.75], "H across");
+            assert_eq!(grid.up.as_ref().unwrap().values, [1.0, 2.0, 4.0], "κ ascends");
+            let quantities = [Quantity::Regime, Quantity::AdhesionCoefficient, Quantity::PreloadForce];
+            assert_eq!(grid.quantities(), quantities);
+            // From 0 to 23 µN over all maps.
+            let force = grid.layer(Quantity::PreloadForce).unwrap();
+            assert_eq!((force.scale, force.range), (AxisScale::Linear, Some((0.0, 1e-6 * 23.0))));
+            for (row, kappa) in [1, 2, 0].into_iter().enumerate() {
+                for hurst in 0..2 {
+                    let number = ((kappa * 2 + modes) * 2 + hurst) * 2 + preload;
+                    let Some((cell, column, up)) = grid.shown(hurst, row) else {
+                        assert_eq!(number, 5);
                         continue;
-                    }
-                    let (mean, low, high) = (number, number - 0.25, number + 0.5);
-                    assert_eq!(estimate, Some(Estimate { mean, low, high }), "{slice} {row} {column}");
-                    let place = map_model.shown(column, row as usize).unwrap();
+                    };
+                    let cell = cell.as_ref().unwrap();
+                    let coefficient = cell.estimates[0].unwrap();
+                    assert_eq!((column, up, coefficient.mean), (hurst, row, number as f64));
                     let (regime, split, agreeing) = [
                         (Regime::PressureInsensitive, None, 4),
                         (Regime::PressureSensitive, None, 4),
                         (Regime::NonAdhesive, Some(Regime::PressureSensitive), 3),
-                    ][number as usize % 3];
-                    let map_cell = MapCell { regime: Some(regime), split, agreeing, lines: 5 };
-                    assert_eq!((place.column, place.row, place.cell), (column, row as usize, &Ok(map_cell)));
+                    ][number % 3];
+                    let share = agreeing as f64 / 5.0;
+                    assert_eq!(cell.regime, Some(CellRegime { regime, share, split }));
+                    assert_eq!((cell.agreeing(), cell.lines), (agreeing, 5));
                 }
             }
         }
     }
 
     #[test]
-    fn the_regime_and_all_that_was_recorded_are_charted() {
-        let map_model = study_map().model(0);
-        assert_eq!(
-            map_model.charted(),
-            [
-                Charted::Regime,
-                Charted::Quantity(Quantity::AdhesionCoefficient),
-                Charted::Quantity(Quantity::PreloadForce)
-            ]
-        );
-        // From 0 to 23 µN over all maps, independent of the shown one.
-        let force = map_model.layer(Quantity::PreloadForce).unwrap();
-        assert_eq!((force.scale, force.range), (AxisScale::Linear, Some((0.0, 2.3e-5))));
-        let transposed = map_model.transposed();
-        assert_eq!(transposed.size(), (map_model.size().1, map_model.size().0));
-        assert_eq!(
-            transposed.shown(2, 1).map(|shown| shown.cell),
-            map_model.shown(1, 2).map(|shown| shown.cell)
-        );
-        assert_eq!(transposed.transposed(), map_model);
-        // Without regimes, and without any quantity.
-        let map_model = |record: &str| {
-            let plan = PLAN.replace("record: [adhesion_coefficient, regime, preload_force]", record);
-            let plan = Plan::parse(&plan, "plan", &Changes::default()).unwrap();
-            let folder = tempfile::tempdir().unwrap();
-            Folder::create(folder.path(), &plan).unwrap();
-            let values = if record.contains("regime") { "0.5,0.5,0" } else { "1,,," };
-            let row = format!("0,4,16,0.25,0.5,5,{values}");
-            let columns = "cell,kappa,roughness.modes.1,roughness.hurst,preload,lines".to_owned();
-            let more = ",x".repeat(row.matches(',').count() - columns.matches(',').count());
-            std::fs::write(folder.path().join(SUMMARY), format!("{columns}{more}\n{row}\n")).unwrap();
-            StudyMap::open(folder.path()).unwrap().model(0)
-        };
-        assert_eq!(map_model("record: [regime]").charted(), [Charted::Regime]);
-        let map_model = map_model("record: [fragments]");
-        assert_eq!(map_model.charted(), [Charted::Quantity(Quantity::Fragments)]);
-        assert_eq!(map_model.layers()[0].range, Some((1.0, 1.0)), "one value");
-    }
-
-    #[test]
-    fn the_scene_is_that_of_a_cell_on_the_first_line() {
-        let study_map = study_map();
+    fn the_scene_is_that_of_a_cell_on_the_first_profile() {
+        let study_map = study_map(PLAN);
         let document = study_map.document().unwrap();
         let scene = document.scene();
         assert_eq!(scene.title, "A study");
@@ -389,52 +307,28 @@ mod tests {
         // 0.5 E* h L.
         let Move::ToForce(force) = scene.loading[0] else { panic!("{:?}", scene.loading) };
         assert!((force / (0.5 * 2.0e6 * 1.0e-7 * 1.0e-4) - 1.0).abs() < 1e-12, "{force}");
+        let axes: Vec<&Axis> = study_map.over().collect();
         for slice in 0..4 {
             assert_eq!(study_map.is_of(slice, scene), slice == 0);
-            let moved = moved(&document, &[("kappa", 3.0), ("roughness.hurst", 0.25)]).unwrap();
+            let moved = moved(&document, &[(axes[1], 3.0), (axes[0], 0.25)]).unwrap();
             assert_eq!(study_map.is_of(slice, moved.scene()), slice == 0, "κ and H are the mark's");
             let followed = study_map.follow(slice, &moved).unwrap();
             assert!(study_map.is_of(slice, followed.scene()), "{}", followed.text());
             assert_eq!(Template::place(followed.scene()), Some((3.0, 0.25)));
         }
-        let without = PLAN.replace("preloads: [0.5, 2.0],", "");
-        let unpressed = StudyMap::open(merged(&without).path()).unwrap();
+        let unpressed = self::study_map(&PLAN.replace("preloads: [0.5, 2.0],", ""));
         let legs = unpressed.document().unwrap().scene().loading.clone();
         assert_eq!(legs, unpressed.plan().scene.loading, "that of the plan");
-        assert_eq!(unpressed.fixed_values(0), ["k_max = 16"]);
         let other = document.set("material.effective_modulus", "3.0e6").unwrap();
         assert!(!study_map.is_of(0, other.scene()));
         assert!(!study_map.is_of(0, crate::scene::open("jkr-sphere").unwrap().scene()));
     }
 
     #[test]
-    fn studies_of_other_axes_have_maps_and_sections() {
+    fn studies_of_other_axes_have_maps_and_curves() {
         let kappa = "List(path: \"kappa\", values: [4.0, 1.0, 2.0])";
         let hurst = "Linear(path: \"roughness.hurst\", from: 0.25, to: 0.75, count: 2)";
         let length = "List(path: \"length\", values: [1.0e-4, 2.0e-4])";
-        let axes = |plan: &str| {
-            let plan =
-                plan.replace("numerics: (points: 128)", "numerics: (points: 128), adhesion: (kappa: 1.0)");
-            let study_map = StudyMap::open(merged(&plan).path())?;
-            let map_model = study_map.model(0);
-            // The first scene is that of the study, and remains so on the map.
-            let document = study_map.document()?;
-            let axes: Vec<&MapAxis> =
-                [Some(map_model.across()), map_model.up()].into_iter().flatten().collect();
-            let last = axes.iter().map(|axis| (axis.path.as_str(), *axis.figure.values.last().unwrap()));
-            // The unit of the preload changes with the length.
-            let moved = study_map.follow(0, &moved(&document, &last.collect::<Vec<_>>())?)?;
-            for document in [&document, &moved] {
-                assert!(study_map.is_of(0, document.scene()), "{}", document.text());
-            }
-            for axis in &axes {
-                let (value, last) =
-                    (axis.value(moved.scene(), None).unwrap(), axis.figure.values.last().unwrap());
-                assert!((value / last - 1.0).abs() < 1e-9, "{}: {value} {last}", axis.path);
-            }
-            let paths: Vec<String> = axes.iter().map(|axis| axis.path.clone()).collect();
-            Ok::<_, StudyMapError>(paths)
-        };
         let one_kappa = "List(path: \"kappa\", values: [4.0])";
         let one_mode = "List(path: \"roughness.modes.1\", values: [16.0])";
         let modes = "List(path: \"roughness.modes.1\", values: [16, 32])";
@@ -443,7 +337,6 @@ mod tests {
             (PLAN.replace(kappa, one_kappa), ["roughness.hurst", "roughness.modes.1"].as_slice()),
             (PLAN.replace(kappa, length), &["roughness.hurst", "length"]),
             (PLAN.replace(hurst, length), &["roughness.modes.1", "kappa"]),
-            (PLAN.replace(hurst, length).replace(kappa, one_kappa), &["roughness.modes.1", "length"]),
             (
                 unpressed.replace(hurst, length).replace(kappa, one_kappa).replace(modes, one_mode),
                 &["length"],
@@ -453,12 +346,28 @@ mod tests {
                 &["preload"],
             ),
         ] {
-            assert_eq!(axes(&plan).unwrap(), expected, "{plan}");
+            let plan =
+                plan.replace("numerics: (points: 128)", "numerics: (points: 128), adhesion: (kappa: 1.0)");
+            let study_map = study_map(&plan);
+            // The first scene is that of the study, and remains so on the map.
+            let document = study_map.document().unwrap();
+            let axes: Vec<&Axis> = study_map.over().collect();
+            assert_eq!(axes.iter().map(|axis| axis.path.as_str()).collect::<Vec<_>>(), expected);
+            let last: Vec<_> = axes.iter().map(|axis| (*axis, *axis.values.last().unwrap())).collect();
+            // The unit of the preload changes with the length.
+            let moved = study_map.follow(0, &moved(&document, &last).unwrap()).unwrap();
+            for document in [&document, &moved] {
+                assert!(study_map.is_of(0, document.scene()), "{}", document.text());
+            }
+            for (axis, last) in last {
+                let value = axis.value_in(moved.scene(), None).unwrap();
+                assert!((value / last - 1.0).abs() < 1e-9, "{}: {value} {last}", axis.path);
+            }
         }
         let one =
             unpressed.replace(kappa, one_kappa).replace(modes, one_mode).replace(&format!("{hurst},"), "");
-        let error = axes(&one).unwrap_err();
-        assert!(matches!(error, StudyMapError::OneCell { .. }), "{error}");
-        assert!(error.to_string().contains("a section needs an axis with two values at least"), "{error}");
+        let study = Results::empty(Plan::parse(&one, "plan", &Changes::default()).unwrap()).unwrap();
+        let error = StudyMap::of(study, Path::new("folder")).unwrap_err().to_string();
+        assert!(error.contains("needs an axis with two values at least"), "{error}");
     }
 }

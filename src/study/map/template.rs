@@ -1,14 +1,13 @@
 //! Template of a map: a scene without its κ or e_el/γ and H.
 
-use super::axis::MapAxis;
-use super::grid::{Level, hursts, parameter_values};
+use super::levels::{COLUMNS, HURSTS, Level, hurst, parameter_value};
 use crate::scene::{
     Adhesion, Edges, Numerics, Roughness, RoughnessParameter, SPRINGS_PER_WAVE, Scene, Solver,
 };
-use crate::study::axis::Axis;
+use crate::study::axis::{Axis, Spacing};
 use crate::study::plan::Plan;
 use crate::study::quantity::Quantity;
-use crate::study::target::governing;
+use crate::study::target::{governing, strip};
 use thiserror::Error;
 
 /// Random profiles of each cell.
@@ -71,12 +70,10 @@ impl Template {
                 SPRINGS.1
             }
         };
-        scene.title.clear();
-        scene.notice.clear();
-        scene.observe.clear();
+        strip(&mut scene);
         let points = points.min(scene.numerics.points);
         // Edges between springs: a map of few springs is then as accurate as one of very many.
-        scene.numerics = Numerics { points, solver: Solver::Exact, edges: Edges::SubCell, samples: 2 };
+        scene.numerics = Numerics { points, solver: Solver::Exact, edges: Edges::SubCell, ..scene.numerics };
         Ok(Template { scene, parameter: RoughnessParameter::Kappa })
     }
 
@@ -88,12 +85,6 @@ impl Template {
             .adhesion
             .map(|adhesion| Adhesion { work: adhesion.work, ..adhesion.with_parameter(parameter, ANY.0) });
         Template { parameter, ..self }
-    }
-
-    /// Parameter of the map beside H.
-    #[must_use]
-    pub fn parameter(&self) -> RoughnessParameter {
-        self.parameter
     }
 
     /// Springs of each profile.
@@ -127,20 +118,26 @@ impl Template {
         if self.has_hurst() { LINES } else { 1 }
     }
 
-    /// The study of all cells of the map: number row · [`super::COLUMNS`] + column.
+    /// Axes of the map: that of H, if the roughness has one, and that of κ or e_el/γ.
+    #[must_use]
+    pub fn axes(&self) -> Vec<Axis> {
+        let hursts = self.has_hurst().then(|| (0..HURSTS).map(hurst).collect());
+        let hursts = hursts.map(|values| ("roughness.hurst", Spacing::Linear, values));
+        let parameters = (0..COLUMNS).map(|column| parameter_value(self.parameter, column)).collect();
+        let parameters = (self.parameter.name(), Spacing::Logarithmic, parameters);
+        let axes = hursts.into_iter().chain([parameters]);
+        // Both are quantities of a scene.
+        axes.filter_map(|(path, spacing, values)| Axis::new(path, spacing, values, &self.scene).ok())
+            .collect()
+    }
+
+    /// The study of all cells of the map: number row · [`COLUMNS`] + column.
     pub(super) fn plan(&self) -> Plan {
-        let list = |axis: MapAxis| Axis::List { path: axis.path, values: axis.figure.values };
-        let mut plan = Plan::of_scene(&self.scene, self.lines(), &RECORD);
-        if self.has_hurst() {
-            plan.axes.push(list(hursts()));
-        }
-        plan.axes.push(list(parameter_values(self.parameter)));
-        plan
+        Plan { axes: self.axes(), ..Plan::of_scene(&self.scene, self.lines(), &RECORD) }
     }
 
     /// κ and H of a scene, if stated by the scene itself. Those of a measured profile follow only from its file.
-    #[must_use]
-    pub fn place(scene: &Scene) -> Option<(f64, f64)> {
+    pub(super) fn place(scene: &Scene) -> Option<(f64, f64)> {
         let Some(Roughness::SelfAffine { hurst, .. }) = scene.roughness else { return None };
         Some((governing(scene)?.kappa?, hurst))
     }
@@ -150,10 +147,6 @@ impl Template {
 mod tests {
     use super::*;
     use crate::scene::{Document, open};
-    use crate::simulation::Simulation;
-    use crate::study::cells::Cells;
-    use crate::study::map::axis::moved;
-    use crate::study::map::grid::{COLUMNS, HURSTS, hurst, parameter_value};
 
     fn document() -> Document {
         open("pressure-sensitive").unwrap().set("numerics.points", "2048").unwrap()
@@ -196,45 +189,17 @@ mod tests {
     }
 
     #[test]
-    fn the_scene_of_a_cell_is_a_sound_one() {
+    fn the_scenes_of_all_cells_are_sound() {
         for parameter in RoughnessParameter::ALL {
             let plan = Template::of(document().scene()).unwrap().over(parameter).plan();
-            let (cells, mut scene) = (Cells::of(&plan), plan.scene.clone());
-            let mut run = 0;
-            for row in 0..HURSTS {
-                for column in 0..COLUMNS {
-                    cells.shape(run, &plan.scene, &mut scene).unwrap();
-                    assert_eq!(crate::scene::check(&scene), []);
-                    let known = governing(&scene).unwrap().parameter(parameter);
-                    assert_eq!(known, Some(parameter_value(parameter, column)));
-                    assert_eq!(Template::place(&scene).unwrap().1, hurst(row));
-                    run += 1;
-                }
+            assert_eq!(plan.check_cells(), Ok(()));
+            for cell in 0..plan.cells() {
+                let scene = plan.scene_of(cell).unwrap();
+                let known = governing(&scene).unwrap().parameter(parameter);
+                assert_eq!(known, Some(parameter_value(parameter, cell as usize % COLUMNS)));
+                assert_eq!(Template::place(&scene).unwrap().1, hurst(cell as usize / COLUMNS));
             }
-            assert_eq!((plan.cells(), plan.lines, plan.seed_of(3)), (run, LINES, 8));
+            assert_eq!((plan.cells() as usize, plan.seed_of(3)), (HURSTS * COLUMNS, 8));
         }
-    }
-
-    #[test]
-    fn a_document_is_moved_in_its_own_terms() {
-        let by_kappa = document();
-        let both = by_kappa.set_all(&[
-            ("roughness".to_owned(), "SelfAffine(hurst: 0.7, modes: (1, 512), seed: 1)".to_owned()),
-            ("adhesion".to_owned(), "(work: 0.05, kappa: 2.0)".to_owned()),
-        ]);
-        let by_work = by_kappa.set("adhesion", "(work: 0.05)").unwrap();
-        for document in [by_kappa, both.unwrap(), by_work] {
-            let moved = moved(&document, &[("roughness.hurst", 0.4), ("kappa", 3.0)]).unwrap();
-            let (before, after) = (document.scene().adhesion.unwrap(), moved.scene().adhesion.unwrap());
-            assert_eq!(before.work.is_some(), after.work.is_some());
-            assert_eq!(before.kappa.is_some(), after.kappa.is_some());
-            let (kappa, hurst) = Template::place(moved.scene()).unwrap();
-            assert!((kappa / 3.0 - 1.0).abs() < 1e-12 && hurst == 0.4, "{kappa} {hurst}");
-            // The same stages run.
-            let (_, _, governing) =
-                Simulation::default().make_line(moved.scene()).map(|(a, b, c)| (a.first, b, c)).unwrap();
-            assert!((governing.kappa.unwrap() / 3.0 - 1.0).abs() < 1e-9, "{governing:?}");
-        }
-        assert!(moved(&document(), &[("kappa", f64::NAN)]).is_err());
     }
 }

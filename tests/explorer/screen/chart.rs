@@ -5,7 +5,6 @@ use super::common::driver::Driver;
 use super::common::scenes::{changed, rough, smooth, without_adhesion};
 use super::stand_in::{Reported, StandIn};
 use super::{is_up_to_date, keep};
-use asperity::analysis::Regime;
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::model::{ModeKind, Pane};
@@ -13,10 +12,8 @@ use asperity::explorer::study::{Finding, Found, PaneData, Study, Task};
 use asperity::explorer::theme::Marker;
 use asperity::explorer::update::{Effect, study_tasks};
 use asperity::scene::{Document, RoughnessParameter};
-use asperity::study::map::{
-    COLUMNS, Charted, HURSTS, Level, LiveMap, RECORD, Template, hurst, parameter_value,
-};
-use asperity::study::{CellSummary, Quantity, Spread};
+use asperity::study::Quantity;
+use asperity::study::map::{COLUMNS, HURSTS, LINES, Level, LiveMap, Template, hurst, parameter_value};
 use std::sync::Arc;
 use std::sync::mpsc::channel;
 use std::time::Duration;
@@ -25,24 +22,19 @@ fn kappa(column: usize) -> f64 {
     parameter_value(RoughnessParameter::Kappa, column)
 }
 
-/// Adhesion falls with κ, and with it the regime.
-fn cell(kappa: f64, hurst: f64) -> CellSummary {
-    let regime = match kappa * (0.5 + hurst) {
-        ..2.0 => Regime::PressureInsensitive,
-        2.0..12.0 => Regime::PressureSensitive,
-        _ => Regime::NonAdhesive,
+/// A map of a cell on each of four profiles: adhesion falls with κ, and with it the regime.
+fn set(map: &mut LiveMap, column: usize, row: usize) {
+    let kappa = kappa(column);
+    let regime = match kappa * (0.5 + hurst(row)) {
+        ..2.0 => 0,
+        2.0..12.0 => 1,
+        _ => 2,
     };
-    let spread = |mean| Some(Spread { mean, standard_deviation: None, confidence_interval: None });
-    // Of four profiles one is in another regime.
-    let mut regimes = [0.0; 3];
-    regimes[regime as usize] = 0.75;
-    regimes[(regime as usize + 1) % 3] = 0.25;
-    let values = RECORD.map(|quantity| match quantity {
-        Quantity::ZeroLoadAdhesionShare => spread((-kappa).exp()),
-        Quantity::AdhesionCoefficient => spread(2.0 * (-kappa / 2.0).exp()),
-        _ => None,
-    });
-    CellSummary { cell: 0, lines: 4, quantities: values.to_vec(), regimes: Some(regimes) }
+    for line in 0..LINES {
+        // Of four profiles one is in another regime.
+        let regime = if line == 3 { (regime + 1) % 3 } else { regime };
+        map.set(column, row, line, &[(-kappa).exp(), 2.0 * (-kappa / 2.0).exp(), f64::from(regime)]);
+    }
 }
 
 /// Fills levels of a map.
@@ -51,11 +43,15 @@ fn fill(levels: &[Level], data: PaneData, report: Reported<'_>) -> PaneData {
     let whole = Arc::make_mut(&mut map);
     for level in levels {
         for &row in whole.rows_of(*level) {
-            level.columns().for_each(|column| whole.set(column, row, Ok(cell(kappa(column), hurst(row)))));
+            level.columns().for_each(|column| set(whole, column, row));
             report(PaneData::Map(Arc::new(whole.clone())));
         }
     }
     PaneData::Map(map)
+}
+
+fn empty() -> Arc<LiveMap> {
+    Arc::new(LiveMap::new(Template::of(rough().scene()).unwrap()).unwrap())
 }
 
 fn driver_with(document: Document, levels: &[Level]) -> Driver {
@@ -109,9 +105,7 @@ fn e_maps_over_the_elastic_energy() {
 fn the_map_is_shown_beside_what_can_be_changed() {
     within(60, || {
         let mut screens = String::new();
-        for (keys, levels) in
-            [("", &Level::ALL[..]), ("", &[Level::Coarse]), ("V", &Level::ALL), ("X", &Level::ALL)]
-        {
+        for (keys, levels) in [("", &Level::ALL[..]), ("", &[Level::Coarse]), ("V", &Level::ALL)] {
             let mut driver = driver_with(rough(), levels);
             driver.press(keys);
             for size in [(120, 40), (80, 24)] {
@@ -160,38 +154,15 @@ fn the_map_says_without_colours_what_it_says_with_them() {
             (Quantity::AdhesionCoefficient, "F_a/F_n "),
         ] {
             driver.press("V");
-            assert_eq!(driver.model.chart.quantity, Charted::Quantity(quantity));
+            assert_eq!(driver.model.chart.quantity, quantity);
             for expected in [expected, "···", "███", "i pressure-insensitive", "▁▕ F_a(0) = 0.05 F_a,max"]
             {
                 assert!(driver.text().contains(expected), "{expected}\n{}", driver.text());
             }
         }
         driver.press("V");
-        assert_eq!(driver.model.chart.quantity, Charted::Regime);
+        assert_eq!(driver.model.chart.quantity, Quantity::Regime);
         assert!(driver.text().contains("█ pressure-insensitive"), "{}", driver.text());
-    });
-}
-
-#[test]
-fn a_key_exchanges_the_axes() {
-    within(60, || {
-        let mut driver = charted(rough());
-        let before = driver.text();
-        assert!(
-            before.contains("↑ governing parameter κ") && before.contains("Hurst exponent H"),
-            "{before}"
-        );
-        driver.press("t");
-        let text = driver.text();
-        assert!(text.contains("↑ Hurst exponent H") && text.contains("governing parameter κ"), "{text}");
-        assert!(text.contains("◆ κ 8, H 0.7"), "{text}");
-        driver.press("Right");
-        assert_eq!(driver.model.place(), Some((9.51, Some(0.7))));
-        // The map of another scene has the same axes across and up.
-        driver.press("Tab Tab R");
-        assert!(driver.text().contains("↑ Hurst exponent H"), "{}", driver.text());
-        driver.press("m t u u");
-        assert_eq!(driver.text(), before);
     });
 }
 
@@ -232,10 +203,6 @@ fn the_map_is_exported_as_it_is_seen() {
         let (_, message) = export("", "map.png");
         assert!(message.starts_with("exported to"), "{message}");
         assert!(std::fs::read(folder.path().join("map.png")).unwrap().starts_with(b"\x89PNG\r\n\x1a\n"));
-        let (figure, _) = export("X", "sections.svg");
-        assert!(figure.starts_with("<svg") && figure.contains("at κ 8"), "{figure}");
-        let (cells, _) = export("", "sections.csv");
-        assert_eq!(cells.lines().count(), 1 + COLUMNS + HURSTS - 1);
         let (nothing, message) = export("", "map.json");
         assert!(
             nothing.is_empty() && message.contains("the name must end in .csv, .svg, .png, .txt"),
@@ -350,7 +317,7 @@ fn other_edits_begin_the_map_anew_and_wait_for_quiet() {
         assert!(driver.text().contains("computing the map"), "{}", driver.text());
         // Late reports are dropped.
         let generation = driver.model.generation - 1;
-        let late = Arc::new(LiveMap::new(Arc::new(Template::of(rough().scene()).unwrap())));
+        let late = empty();
         driver.act(Action::Found(Found { generation, finding: Finding::Extended(PaneData::Map(late)) }));
         assert!(driver.model.chart.map.is_none());
         // The map is hidden.
@@ -374,24 +341,9 @@ fn a_scene_without_a_map_says_why() {
             let mut driver = charted(document);
             assert!(driver.text().contains(why), "{}", driver.text());
             let generation = driver.model.generation;
-            driver.press("Left Up X");
+            driver.press("Left Up");
             assert_eq!(driver.model.generation, generation);
         }
-        // A cell that cannot be computed.
-        let mut driver = charted(rough());
-        let mut map = LiveMap::clone(driver.model.chart.map.as_deref().unwrap());
-        for (column, row) in (0..COLUMNS).flat_map(|column| (0..HURSTS).map(move |row| (column, row))) {
-            map.set(column, row, Err("the force is never reached".to_owned()));
-        }
-        let generation = driver.model.generation;
-        driver.act(Action::Found(Found {
-            generation,
-            finding: Finding::Extended(PaneData::Map(Arc::new(map))),
-        }));
-        assert!(!driver.text().contains("▒▒▒▒"), "{}", driver.text());
-        assert!(driver.text().contains("the force is never"), "{}", driver.text());
-        driver.press("X");
-        driver.screen();
     });
 }
 
@@ -404,7 +356,7 @@ fn an_edit_ends_the_computing_of_the_map() {
         let (report, reports) = channel();
         let endless = StandIn::endless(sender, |data, report| fill(&[Level::Coarse], data, report));
         let study = Study::start(Box::new(endless), move |found| report.send(found).is_ok()).unwrap();
-        let map = Arc::new(LiveMap::new(Arc::new(Template::of(rough().scene()).unwrap())));
+        let map = empty();
         study.ask(1, vec![Task::Extend { data: PaneData::Map(map), waits: false }]);
         assert_eq!(events.recv_timeout(PATIENCE), Ok("begun"));
         study.stop();

@@ -79,9 +79,9 @@ fn a_command_is_found_by_letters_and_runs_as_its_key_does() {
         }
         // Commands of another pane select this pane first.
         let mut driver = pressed("");
-        query(&mut driver, "sections");
+        query(&mut driver, "elastic energy");
         driver.press("Enter");
-        assert!(driver.model.is_shown(Pane::Chart) && driver.model.chart.sections);
+        assert!(driver.model.is_shown(Pane::Chart));
         assert_eq!(driver.model.pane, Pane::Chart);
         let mut driver = mid_retraction(rough());
         query(&mut driver, "switch effect");

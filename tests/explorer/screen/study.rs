@@ -13,7 +13,6 @@ use asperity::explorer::study::Task;
 use asperity::explorer::update::{Effect, study_tasks};
 use asperity::scene::{Move, Roughness};
 use asperity::study::Quantity;
-use asperity::study::map::Charted;
 use tempfile::TempDir;
 
 /// The explorer on a study of this plan, in a folder of its own.
@@ -48,9 +47,7 @@ fn preload(driver: &Driver) -> f64 {
 fn a_study_is_shown_as_a_map() {
     within(60, || {
         let mut screens = String::new();
-        for keys in
-            ["", "P P", "V", "V V V", "t", "X", "X V V V", "Shift+Right Shift+Right Shift+Right Tab Tab g t"]
-        {
+        for keys in ["", "P P", "V", "V V V", "Shift+Right Shift+Right Shift+Right Tab Tab g t"] {
             let (_folder, mut driver) = opened();
             driver.press(keys);
             for size in [(120, 40), (80, 24)] {
@@ -68,14 +65,14 @@ fn glyphs_show_all_that_was_recorded() {
     within(60, || {
         let (_folder, mut driver) = opened();
         assert_eq!(driver.model.keys(), ModeKind::Chart);
-        assert_eq!(driver.model.chart.charted(), Charted::Regime);
+        assert_eq!(driver.model.chart.charted(), Quantity::Regime);
         for (quantity, text) in [
             (Quantity::ZeroLoadAdhesionShare, "F_a(0)/F_a,max over H, κ"),
             (Quantity::AdhesionCoefficient, "F_a/F_n over H, κ"),
             (Quantity::AdhesionForce, "F_a (mN) "),
         ] {
             driver.press("V");
-            assert_eq!(driver.model.chart.charted(), Charted::Quantity(quantity));
+            assert_eq!(driver.model.chart.charted(), quantity);
             assert!(driver.text().contains(text), "{text}\n{}", driver.text());
         }
         // The map computed here does not have this quantity, and shows its own.
@@ -84,8 +81,9 @@ fn glyphs_show_all_that_was_recorded() {
         driver.press("W");
         assert!(driver.text().contains("F_a (mN) "), "{}", driver.text());
         driver.press("V");
-        assert_eq!(driver.model.chart.charted(), Charted::Regime);
-        for text in ["█ pressure-insensitive", "· non-adhesive", "▓ ░ divided", "of 12 profiles"] {
+        assert_eq!(driver.model.chart.charted(), Quantity::Regime);
+        for text in ["█ pressure-insensitive", "· non-adhesive", "▓ ░ profiles disagree", "of 12 profiles"]
+        {
             assert!(driver.text().contains(text), "{text}\n{}", driver.text());
         }
     });
@@ -138,13 +136,13 @@ fn the_scene_follows_to_the_next_preload() {
         let (_folder, mut driver) = opened();
         let first = preload(&driver);
         assert!(driver.text().contains("F_n/(E* h L) = 0.01  1 of 3, P: the next"), "{}", driver.text());
-        let mut regimes = vec![driver.model.chart.map_model().cloned()];
+        let mut regimes = vec![driver.model.chart.grid().cloned()];
         for (times, share) in [(10.0, "0.1  2 of 3"), (100.0, "1  3 of 3"), (1.0, "0.01  1 of 3")] {
             driver.press("P");
             assert!((preload(&driver) / first / times - 1.0).abs() < 1e-9);
             assert!(driver.text().contains(&format!("F_n/(E* h L) = {share}")), "{}", driver.text());
             assert!(is_up_to_date(&driver.model));
-            regimes.push(driver.model.chart.map_model().cloned());
+            regimes.push(driver.model.chart.grid().cloned());
         }
         assert!(regimes[0] != regimes[1] && regimes[0] == regimes[3]);
         driver.press("PageUp");
@@ -207,29 +205,6 @@ fn the_computed_map_can_be_had_instead() {
 }
 
 #[test]
-fn sections_have_the_confidence_of_the_mean() {
-    within(60, || {
-        let (_folder, mut driver) = opened();
-        driver.press("X");
-        for text in
-            ["over H at κ 1", "over κ at H 0.5", "⠒⠒⠒ F_a(0)/F_a,max", "⠒ ⠒ F_a/F_n", "⠂ ⠂ 95 % confidence"]
-        {
-            assert!(driver.text().contains(text), "{text}\n{}", driver.text());
-        }
-        driver.press("V V V");
-        assert!(driver.text().contains("⠒⠒⠒ F_a  ⠂ ⠂ 95 % confidence"), "{}", driver.text());
-        // No spread for one profile.
-        let (_folder, mut driver) = opened_with(&PLAN.replace("lines: 12", "lines: 1"));
-        driver.press("X");
-        assert!(
-            !driver.text().contains("⠂ ⠂ 95 %") && driver.text().contains("1 profile "),
-            "{}",
-            driver.text()
-        );
-    });
-}
-
-#[test]
 fn the_mouse_puts_the_mark_on_a_cell() {
     within(60, || {
         let (_folder, mut driver) = opened();
@@ -263,13 +238,13 @@ fn cells_that_are_missing_are_blank() {
         asperity::study::merge(&study, true).unwrap();
         let mut driver = Driver::start(Opening::of(folder.path().to_str().unwrap()).unwrap());
         assert!(driver.text().contains("the study was merged without this cell"), "{}", driver.text());
-        driver.press("V V X Right");
+        driver.press("V V Right");
         driver.screen();
     });
 }
 
 #[test]
-fn studies_of_other_quantities_open_as_maps_and_sections() {
+fn studies_of_other_quantities_open_as_maps_and_curves() {
     within(60, || {
         let kappa = "Logarithmic(path: \"kappa\", from: 0.25, to: 16, count: 13)";
         let length = "List(path: \"length\", values: [5.0e-5, 1.0e-4, 2.0e-4])";
@@ -284,12 +259,13 @@ fn studies_of_other_quantities_open_as_maps_and_sections() {
         driver.press("Up");
         assert_eq!(driver.model.document.scene().length, 2.0e-4);
         assert!(!driver.text().contains("no longer"), "{}", driver.text());
-        // H alone: sections for each preload.
+        // H alone: curves with the confidence of the mean.
         let alone = PLAN.replace(&format!("{kappa},"), "");
         let (_folder, mut driver) =
             opened_with(&alone.replace("preloads: [0.01, 0.1, 1.0]", "preloads: [0.1]"));
         assert!(
-            driver.text().contains("over H, 12 profiles") && driver.text().contains("⠒⠒⠒ F_a(0)/F_a,max"),
+            driver.text().contains("over H, 12 profiles")
+                && driver.text().contains("95 % confidence of the mean"),
             "{}",
             driver.text()
         );

@@ -3,7 +3,7 @@
 use super::*;
 use asperity::scene::check;
 use asperity::study::{
-    Axis, Changes, DERIVED, Finished, Folder, MOST_CELLS, Options, Plan, Quantity, Shard, StudyError, merge,
+    Axis, Changes, DERIVED, Folder, MOST_CELLS, Options, Plan, Quantity, Results, Shard, StudyError, merge,
     run,
 };
 
@@ -113,30 +113,27 @@ fn assert_plan(text: &str) -> Result<Option<Plan>, TestCaseError> {
     let read = Plan::parse(&written, NAME, &Changes::default());
     prop_assert_eq!(read.as_ref(), Ok(&plan), "{}", written);
     prop_assert_eq!(read.map(|plan| plan.to_ron()), Ok(written));
-    let axes = || plan.axes.iter().chain(&plan.preloads);
-    prop_assert_eq!(plan.cells(), axes().map(Axis::count).product::<u64>());
+    prop_assert_eq!(plan.cells(), plan.axes.iter().map(Axis::count).product::<u64>());
     prop_assert!((1..=MOST_CELLS).contains(&plan.cells()));
     prop_assert_eq!(plan.records_in_all(), plan.cells() * plan.lines);
     for cell in [0, plan.cells() / 2, plan.cells() - 1] {
         let values = plan.values(cell);
-        prop_assert_eq!(values.len(), axes().count());
-        for (value, axis) in values.iter().zip(axes()) {
-            prop_assert!(axis.values().contains(value), "{} = {}", axis.path(), value);
+        prop_assert_eq!(values.len(), plan.axes.len());
+        for (value, axis) in values.iter().zip(&plan.axes) {
+            prop_assert!(axis.values.contains(value), "{} = {}", axis.path, value);
         }
     }
-    let mut wrong = Vec::new();
-    plan.each_scene(|scene| wrong.extend(check(scene)));
-    prop_assert_eq!(wrong, vec![]);
+    for scene in (0..plan.cells()).map(|cell| plan.scene_of(cell)) {
+        prop_assert_eq!(scene.map(|scene| check(&scene)), Ok(vec![]));
+    }
     Ok(Some(plan))
 }
 
 /// True if a study is done in tenths of a second.
 fn is_small(plan: &Plan) -> bool {
-    let mut small = plan.records_in_all() <= MOST_RECORDS;
-    plan.each_scene(|scene| {
-        small &= scene.numerics.points <= MOST_POINTS && scene.numerics.samples <= MOST_SAMPLES;
-    });
-    small
+    let mut scenes = (0..plan.cells()).filter_map(|cell| plan.scene_of(cell).ok());
+    plan.records_in_all() <= MOST_RECORDS
+        && scenes.all(|scene| scene.numerics.points <= MOST_POINTS && scene.numerics.samples <= MOST_SAMPLES)
 }
 
 /// The study is computed and merged, or one of its cells is named with the reason; the merged results read back.
@@ -158,25 +155,16 @@ fn assert_study(plan: &Plan) -> Result<(), TestCaseError> {
         Err(error) => return Err(fail(error)),
     }
     merge(&folder, false).map_err(fail)?;
-    let finished = Finished::open(folder.path()).map_err(fail)?;
-    prop_assert_eq!(finished.plan(), plan);
-    let mut rows = 0;
-    let mut unsound = Vec::new();
-    Finished::rows(folder.path(), |row| {
-        rows += 1;
-        if row.values.iter().flatten().any(|value| !value.is_finite()) {
-            unsound.push(row);
-        }
-    })
-    .map_err(fail)?;
-    prop_assert_eq!(unsound, vec![]);
-    prop_assert_eq!(rows, plan.records_in_all());
+    let results = Results::open(folder.path()).map_err(fail)?;
+    prop_assert_eq!(results.plan(), plan);
     for cell in 0..plan.cells() {
-        let Some(summary) = finished.cell(cell) else { return Err(TestCaseError::fail("a cell is missing")) };
-        prop_assert_eq!(summary.lines, plan.lines);
-        for spread in summary.quantities.iter().flatten() {
-            prop_assert!(spread.mean.is_finite(), "{:?}", spread);
-            prop_assert!(spread.standard_deviation.is_none_or(|deviation| deviation >= 0.0), "{:?}", spread);
+        prop_assert!(results.is_whole(cell));
+        for quantity in &plan.record {
+            let Some(estimate) = results.estimate(cell, *quantity) else { continue };
+            let (least, most) = estimate.range;
+            prop_assert!(least.is_finite() && most.is_finite(), "{:?}", estimate);
+            let (low, high) = estimate.interval.unwrap_or((estimate.mean, estimate.mean));
+            prop_assert!(low <= estimate.mean && estimate.mean <= high, "{:?}", estimate);
         }
     }
     Ok(())

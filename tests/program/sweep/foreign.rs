@@ -2,7 +2,7 @@
 //! text.
 
 use super::{SMALL, compute, plan, shard_files, study, tables};
-use asperity::study::{Changes, Finished, Folder, Plan, Shard, Status, StudyError, merge};
+use asperity::study::{Changes, Folder, Plan, Shard, Status, StudyError, merge};
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::Path;
@@ -62,7 +62,7 @@ fn a_header_that_no_program_wrote_is_an_error() {
         ("\"number\":1", "\"number\":3", "shard 3/2: allowed: K/N"),
         ("\"number\":1", "\"number\":0", "shard 0/2: allowed: K/N"),
         ("\"format\":1", "\"format\":2", "its format is 2; this program reads 1"),
-        ("\"format\":1,", "", "its first line is no header of a shard file"),
+        ("\"format\":1,", "", "its first line is not the header of a shard file"),
     ] {
         let other = header.replace(from, to);
         assert_ne!(other, header);
@@ -76,7 +76,7 @@ fn a_header_that_no_program_wrote_is_an_error() {
 }
 
 #[test]
-fn a_record_of_another_length_is_left_out_and_computed_again() {
+fn records_that_do_not_belong_to_the_plan_are_left_out_and_computed_again() {
     let plan = plan(SMALL);
     let (_place, folder) = study(&plan);
     compute(&folder, 1, Shard::WHOLE);
@@ -87,7 +87,11 @@ fn a_record_of_another_length_is_left_out_and_computed_again() {
     let payload = text.lines().nth(1).unwrap()[9..].to_owned();
     let (short, _) = payload.rsplit_once(',').unwrap();
     let word = format!("{short},x");
-    for other in [short.to_owned(), format!("{payload},1.0"), word, "0,0".into(), String::new()] {
+    let values = payload.splitn(3, ',').nth(2).unwrap();
+    let [no_cell, no_seed] = [format!("{},{},{values}", plan.cells(), plan.seed), format!("0,7,{values}")];
+    for other in
+        [short.to_owned(), format!("{payload},1.0"), word, "0,0".into(), String::new(), no_cell, no_seed]
+    {
         let changed = text.replacen(&sealed(&payload), &sealed(&other), 1);
         assert_ne!(changed, text);
         fs::write(file, changed).unwrap();
@@ -130,24 +134,18 @@ fn pipes_and_devices_are_refused_at_once() {
             fs::remove_file(&table).unwrap();
             make(&table);
             let expected = format!("{name}: this is not a regular file");
-            if name == "summary.csv" {
+            if name == "results.csv" {
                 refused(&["sweep", "plot", path], &expected);
-            } else {
-                let error = Finished::rows(folder.path(), |_| ()).unwrap_err();
-                assert!(error.to_string().contains(&expected), "{error}");
             }
+            refused(&["sweep", "merge", path], &expected);
         }
-        fs::remove_file(&table).unwrap();
-        fifo(&table);
-        refused(&["sweep", "merge", path], &format!("{name}: this is not a regular file"));
         fs::remove_file(&table).unwrap();
         merge(&folder, false).unwrap();
     }
     // A line without an end.
-    let table = fs::canonicalize(folder.path().join("summary.csv")).unwrap();
+    let table = fs::canonicalize(folder.path().join("results.csv")).unwrap();
     fs::OpenOptions::new().write(true).open(table).unwrap().set_len(1 << 40).unwrap();
-    let Err(error) = Finished::open(folder.path()) else { panic!("too long") };
-    assert!(error.to_string().contains("is no row of this table"), "{error}");
+    refused(&["sweep", "plot", path], "is not a row of this study");
 }
 
 #[test]

@@ -1,9 +1,8 @@
-//! Studies of many shards: few files are open at a time, and tables appear together.
+//! Studies of many shards: few files are open at a time, and each table is whole.
 
 use super::{SMALL, compute, plan, shard_files, study, tables};
-use asperity::study::{Finished, Folder, RESULTS, SIDECAR, SUMMARY, Shard, Status, merge};
+use asperity::study::{Folder, RESULTS, Results, SIDECAR, SUMMARY, Shard, Status, merge};
 use std::fs;
-use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
@@ -95,19 +94,6 @@ fn the_parts_of_a_study_are_the_whole() {
     }
 }
 
-/// Checks that each table is whole, of one of these merges, and returns true if all are of one merge; others are refused.
-fn are_of_one_merge(folder: &Path, known: &[[String; 3]; 2]) -> bool {
-    let found = [RESULTS, SUMMARY, SIDECAR].map(|name| fs::read_to_string(folder.join(name)).unwrap());
-    for (place, table) in found.iter().enumerate() {
-        assert!(known.iter().any(|tables| tables[place] == *table), "torn: {table}");
-    }
-    let refusal = Finished::open(folder).err().map(|error| error.to_string());
-    let of_one = |tables: &[String; 3]| tables[1..] == found[1..];
-    assert_eq!(refusal.is_none(), known.iter().any(of_one), "{refusal:?}");
-    assert!(refusal.is_none_or(|refusal| refusal.contains("are not of one merge")));
-    known.contains(&found)
-}
-
 #[test]
 #[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn killed_merges_leave_whole_tables() {
@@ -150,30 +136,38 @@ fn killed_merges_leave_whole_tables() {
         );
         child.kill().unwrap();
         kills += u32::from(!child.wait().unwrap().success());
-        are_of_one_merge(folder.path(), &known);
+        for (place, table) in all().iter().enumerate() {
+            assert!(known.iter().any(|tables| tables[place] == *table), "torn: {table}");
+        }
+        Results::open(folder.path()).unwrap();
     }
     assert!(kills >= 20, "{kills}");
     assert!(merge_once().status().unwrap().success());
-    assert!(are_of_one_merge(folder.path(), &known));
+    assert!(known.contains(&all()));
 }
 
 #[test]
-fn tables_of_two_merges_are_refused() {
-    let (place, folder) = study(&plan(SMALL));
+fn rows_that_no_merge_wrote_are_refused() {
+    let (_place, folder) = study(&plan(SMALL));
     compute(&folder, 2, Shard::WHOLE);
-    let refusal = || Finished::open(folder.path()).unwrap_err().to_string();
+    let refusal = || Results::open(folder.path()).unwrap_err().to_string();
     assert!(refusal().contains("has not been merged yet"), "{}", refusal());
     merge(&folder, false).unwrap();
-    let summary = folder.path().join(SUMMARY);
-    let text = fs::read_to_string(&summary).unwrap();
-    fs::write(&summary, text.lines().take(2).collect::<Vec<_>>().join("\n") + "\n").unwrap();
-    assert!(refusal().contains("summary.csv and results.json are not of one merge"), "{}", refusal());
-    merge(&folder, false).unwrap();
-    assert!(Finished::open(folder.path()).is_ok());
+    let [text, _] = tables(&folder);
+    let results = folder.path().join(RESULTS);
+    for (changed, expected) in [
+        (text.replacen("\n0,0.5,", "\n0,0.6,", 1), "line 2 is not a row of this study"),
+        (text.replacen("\n0,", "\n99,", 1), "line 2 is not a row of this study"),
+        (text.replacen(",fragments", ",skewness_again", 1), "its columns are not those of the plan"),
+        (text[..text.len() - 9].to_owned(), "line 97 is not a row of this study"),
+    ] {
+        assert_ne!(changed, text);
+        fs::write(&results, changed).unwrap();
+        assert!(refusal().contains(expected), "{expected}: {}", refusal());
+    }
     // A folder in place of a table is not removed.
-    fs::remove_file(folder.path().join(RESULTS)).unwrap();
-    fs::create_dir(folder.path().join(RESULTS)).unwrap();
+    fs::remove_file(&results).unwrap();
+    fs::create_dir(&results).unwrap();
     let message = merge(&folder, false).unwrap_err().to_string();
     assert!(message.contains("results.csv: this is not the name of a file"), "{message}");
-    drop(place);
 }

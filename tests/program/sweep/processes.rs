@@ -174,7 +174,7 @@ fn too_little_memory_is_refused_and_some_keeps_threads_down() {
     assert!(String::from_utf8_lossy(&refused.stderr).contains("with one thread"));
     let fewer = with("17M");
     let message = String::from_utf8_lossy(&fewer.stdout);
-    assert!(message.contains("fewer than 64 for want of memory"), "{message}");
+    assert!(message.contains("fewer than 64 to fit the memory"), "{message}");
     assert!(!place.path().join("study").exists());
 }
 

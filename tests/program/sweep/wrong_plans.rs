@@ -36,12 +36,16 @@ fn each_mistake_has_its_message() {
         ("\"roughness.hurst\"", "\"form.radius\"", "the scene has no form.radius"),
         ("\"roughness.hurst\"", "\"kappa\"", "axis kappa: given twice"),
         ("\"roughness.hurst\"", "\"adhesion.work\"", "axis adhesion.work: kappa sets it as well"),
-        ("\"roughness.hurst\"", "\"loading.7.0\"", "the scene has 2 legs, the first is 0"),
-        ("\"roughness.hurst\"", "\"preload\"", "preloads are given twice"),
+        (
+            "\"roughness.hurst\"",
+            "\"loading.7.0\"",
+            "the scene has no loading.7.0; its 2 loading stages are counted from 0",
+        ),
+        ("\"roughness.hurst\"", "\"preload\"", "axis preload: given twice"),
         ("[0.8, 0.3]", "[]", "no values; allowed: at least one"),
         ("[0.8, 0.3]", "[0.8, 1.3]", "cell 4 (kappa = 0.5, roughness.hurst = 1.3, "),
         ("[0.8, 0.3]", "[0.8, 1.3]", "roughness.hurst = 1.3: allowed: above 0 and below 1 (Hurst exponent)"),
-        ("from: 0.5, to: 5.0", "from: 5.0, to: 0.5", "from 5.0 to 0.5: it must begin below its end"),
+        ("from: 0.5, to: 5.0", "from: 5.0, to: 0.5", "from 5.0 to 0.5: `from` must be less than `to`"),
         ("count: 4", "count: 1", "count = 1: allowed: from 2 to 1000000"),
         ("scene: (", "base: \"jkr-sphere\", scene: (", "`base` and `scene` are given"),
         ("points: 256", "points: 16", "roughness.modes = (1, 64): allowed: last mode at most points/2 = 8"),
@@ -55,7 +59,10 @@ fn each_mistake_has_its_message() {
     let smooth = "(version: 1, base: \"jkr-sphere\", preloads: [0.1], lines: 2, record: [regime])";
     let message = wrong(smooth);
     assert!(message.contains("this scene is smooth; allowed: an axis loading.0.0, in N"), "{message}");
-    assert!(message.contains("lines = 2: several lines go with roughness: SelfAffine"), "{message}");
+    assert!(
+        message.contains("lines = 2: more than one profile needs random roughness (SelfAffine"),
+        "{message}"
+    );
     let message = wrong(&SMALL[..SMALL.len() / 2]);
     assert!(message.starts_with("p.ron:"), "{message}");
 }
@@ -67,7 +74,7 @@ fn too_many_cells_are_refused_at_once() {
     let message = wrong(&text.replace("values: [1.0e6, 2.0e6]", "values: [1.0e6, 2.0e6, 3.0e6]"));
     assert!(message.contains("1000000 × 2 × 3 × 2 cells; allowed: at most 10000000"), "{message}");
     let message = wrong(&text.replace("lines: 3", "lines: 1000000"));
-    assert!(message.contains("on 1000000 lines; allowed: at most 100000000 together"), "{message}");
+    assert!(message.contains("on 1000000 profiles; allowed: at most 100000000 together"), "{message}");
     let message = wrong(&SMALL.replace("count: 4", "count: 18446744073709551615"));
     assert!(message.contains("allowed: from 2 to 1000000"), "{message}");
     assert!(clock.elapsed().as_secs() < 20, "nothing is gone through");

@@ -1,8 +1,6 @@
 //! The values of κ or e_el/γ and of H on a map, and the order of their computation.
 
-use super::axis::MapAxis;
 use crate::scene::RoughnessParameter;
-use crate::study::figure::{AxisScale, FigureAxis};
 
 /// Values of κ: quarters of octaves from 1/8 to 32; of e_el/γ, which grows with κ²: half octaves from 1/64 to 1024.
 pub const COLUMNS: usize = 33;
@@ -24,51 +22,6 @@ pub fn parameter_value(parameter: RoughnessParameter, column: usize) -> f64 {
 #[must_use]
 pub fn hurst(row: usize) -> f64 {
     (row + 1) as f64 * 5.0 / 100.0
-}
-
-/// Smallest relative difference of two values of a grid; a smaller one is rounding.
-const APART: f64 = 1e-6;
-
-/// The κ or e_el/γ of all columns.
-#[must_use]
-pub fn parameter_values(parameter: RoughnessParameter) -> MapAxis {
-    let name = match parameter {
-        RoughnessParameter::Kappa => "governing parameter",
-        RoughnessParameter::ElasticEnergyRatio => "elastic energy ratio",
-    };
-    let values = (0..COLUMNS).map(|column| parameter_value(parameter, column)).collect();
-    axis(parameter.name(), name, parameter.symbol(), AxisScale::Logarithmic, values)
-}
-
-/// The H of all rows.
-#[must_use]
-pub fn hursts() -> MapAxis {
-    axis("roughness.hurst", "Hurst exponent", "H", AxisScale::Linear, (0..HURSTS).map(hurst).collect())
-}
-
-fn axis(path: &str, name: &str, symbol: &str, scale: AxisScale, values: Vec<f64>) -> MapAxis {
-    let (name, symbol, unit) = (name.into(), symbol.into(), "1".into());
-    MapAxis { path: path.into(), figure: FigureAxis { name, symbol, unit, scale, values } }
-}
-
-/// The value so many steps above `value`, or below, in an ascending list; the first or last value beyond the ends,
-/// and `None` where `value` is already there.
-#[must_use]
-pub fn next_beyond(value: f64, steps: i32, values: &[f64]) -> Option<f64> {
-    let apart = APART * value.abs();
-    let last = values.len().checked_sub(1)?;
-    let first_step = if steps > 0 {
-        values.iter().position(|one| *one > value + apart)
-    } else {
-        values.iter().rposition(|one| *one < value - apart)
-    }?;
-    let further = steps.unsigned_abs().saturating_sub(1) as usize;
-    let index = if steps > 0 {
-        (first_step.saturating_add(further)).min(last)
-    } else {
-        first_step.saturating_sub(further)
-    };
-    values.get(index).copied().filter(|_| steps != 0)
 }
 
 /// Resolution of a map. Every level contains the cells of the one before.
@@ -138,19 +91,5 @@ mod tests {
         assert_eq!(counts, [(5, 5), (9, 9), (17, 19), (COLUMNS, HURSTS)]);
         assert!(Level::ALL.iter().all(|level| level.columns().last() == Some(COLUMNS - 1)));
         assert!(Level::ALL.iter().all(|level| level.rows().last() == Some(&(HURSTS - 1))));
-    }
-
-    #[test]
-    fn steps_go_to_the_next_value_of_the_grid_and_end_with_it() {
-        let to = |value, steps| {
-            next_beyond(value, steps, &parameter_values(RoughnessParameter::Kappa).figure.values)
-        };
-        assert_eq!((to(6.0, 1), to(6.0, -1), to(6.0, 4)), (Some(6.73), Some(5.66), Some(11.3)));
-        // A value of the grid but for rounding.
-        assert_eq!((to(1.0 + 1e-12, 1), to(1.0 - 1e-12, -1)), (Some(1.19), Some(0.841)));
-        assert_eq!((to(31.0, 100), to(32.0, 1), to(0.125, -1)), (Some(32.0), None, None));
-        assert_eq!((to(100.0, -1), to(100.0, 1), to(1e-3, 1)), (Some(32.0), None, Some(0.125)));
-        assert_eq!((to(6.0, 0), to(6.0, i32::MIN), to(6.0, i32::MAX)), (None, Some(0.125), Some(32.0)));
-        assert_eq!(next_beyond(1.0, 1, &[]), None);
     }
 }

@@ -1,0 +1,224 @@
+//! A grid of cells over one axis or two: what maps, sections and tables of a study or of the live map show.
+
+use super::axis::Axis;
+use super::quantity::Quantity;
+use super::statistics::{Statistics, StudentT};
+use crate::analysis::{CellRegime, Regime};
+use crate::draw::AxisScale;
+use crate::scene::{RoughnessParameter, format_quantity};
+
+/// Smallest ratio of the values on a logarithmic scale.
+const LOGARITHMIC_RATIO: f64 = 50.0;
+
+/// A mean over random profiles, with its confidence and the range of the profiles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// The mean.
+    pub mean: f64,
+    /// 95 % confidence interval of the mean; `None` for one profile, or too few to state a confidence.
+    pub interval: Option<(f64, f64)>,
+    /// Smallest and largest value of a profile.
+    pub range: (f64, f64),
+}
+
+impl Estimate {
+    /// Estimate of a quantity from its values on profiles; `None` without values.
+    pub(super) fn of(quantity: Quantity, values: &[f64], quantiles: &mut StudentT) -> Option<Estimate> {
+        let range =
+            values.iter().map(|value| (*value, *value)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))?;
+        let all = Statistics::with(values, quantity.bounds(), quantiles);
+        let mean = all.map_or(range.0, |all| all.mean);
+        Some(Estimate { mean, interval: all.map(|all| all.confidence_interval), range })
+    }
+}
+
+/// A cell of a grid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cell {
+    /// The quantities of the layers, in their order; `None` where no profile has a value.
+    pub estimates: Vec<Option<Estimate>>,
+    /// Regime of the cell and of its profiles; `None` where unknown.
+    pub regime: Option<CellRegime>,
+    /// Number of profiles.
+    pub lines: u64,
+}
+
+impl Cell {
+    /// Number of profiles whose own regime is that of the cell.
+    #[must_use]
+    pub fn agreeing(&self) -> u64 {
+        self.regime.map_or(0, |regime| (regime.share * self.lines as f64).round() as u64)
+    }
+}
+
+/// A quantity of a grid with its scale.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Layer {
+    /// Quantity.
+    pub quantity: Quantity,
+    /// Scale of the quantity.
+    pub scale: AxisScale,
+    /// Smallest and largest mean on the scale, of all grids that share it.
+    pub range: Option<(f64, f64)>,
+}
+
+impl Layer {
+    /// A quantity with the range of these means, on this scale or by the range.
+    pub(super) fn new(quantity: Quantity, scale: Option<AxisScale>, means: &[f64]) -> Layer {
+        let scale = scale.unwrap_or_else(|| scale_of(means));
+        let shown = means.iter().filter(|mean| scale.coordinate(**mean).is_finite());
+        let range = shown.map(|mean| (*mean, *mean)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        Layer { quantity, scale, range }
+    }
+}
+
+/// Logarithmic scale where all means are above zero and half of them below a fiftieth of the largest.
+pub(super) fn scale_of(means: &[f64]) -> AxisScale {
+    let largest = means.iter().copied().fold(0.0, f64::max);
+    let small = means.iter().filter(|mean| **mean < largest / LOGARITHMIC_RATIO).count();
+    let wide = means.iter().all(|mean| *mean > 0.0) && 2 * small >= means.len().max(1);
+    if wide { AxisScale::Logarithmic } else { AxisScale::Linear }
+}
+
+/// A place in values of the axes of a grid: across and, if the grid has two axes, up.
+pub type Place = (f64, Option<f64>);
+
+/// Cells over one axis or two.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grid {
+    /// Axis of the columns, ascending.
+    pub across: Axis,
+    /// Axis of the rows, ascending; `None` for a grid along one axis.
+    pub up: Option<Axis>,
+    /// Quantities beside the regime.
+    pub layers: Vec<Layer>,
+    /// Cells row by row, the row of the lowest value first; an error is the reason why a cell was not computed.
+    pub cells: Vec<Option<Result<Cell, String>>>,
+    /// The cell shown for each: the cell itself, or a computed one of a coarser grid.
+    pub(super) stand_ins: Vec<usize>,
+}
+
+impl Grid {
+    pub(crate) fn new(
+        across: Axis,
+        up: Option<Axis>,
+        layers: Vec<Layer>,
+        cells: Vec<Option<Result<Cell, String>>>,
+    ) -> Grid {
+        let stand_ins = (0..cells.len()).collect();
+        Grid { across, up, layers, cells, stand_ins }
+    }
+
+    /// Numbers of columns and rows.
+    #[must_use]
+    pub fn size(&self) -> (usize, usize) {
+        (self.across.values.len(), self.up.as_ref().map_or(1, |up| up.values.len()))
+    }
+
+    /// The layer of a quantity.
+    #[must_use]
+    pub fn layer(&self, quantity: Quantity) -> Option<&Layer> {
+        self.layers.iter().find(|layer| layer.quantity == quantity)
+    }
+
+    /// The quantities of the grid, the regime first if known.
+    #[must_use]
+    pub fn quantities(&self) -> Vec<Quantity> {
+        let known = self.cells.iter().flatten().flatten();
+        let regime = known.into_iter().any(|cell| cell.regime.is_some()).then_some(Quantity::Regime);
+        regime.into_iter().chain(self.layers.iter().map(|layer| layer.quantity)).collect()
+    }
+
+    /// Returns true if too many profiles of a cell are in a second regime.
+    #[must_use]
+    pub fn is_split(&self) -> bool {
+        let known = self.cells.iter().flatten().flatten();
+        known.into_iter().any(|cell| cell.regime.is_some_and(|regime| regime.split.is_some()))
+    }
+
+    /// The cell shown at a column and a row, with the column and the row of the cell: the cell itself or, until it is
+    /// computed, one of a coarser grid.
+    #[must_use]
+    pub fn shown(&self, column: usize, row: usize) -> Option<(&Result<Cell, String>, usize, usize)> {
+        let columns = self.across.values.len();
+        let index = *self.stand_ins.get(row * columns + column).filter(|_| column < columns)?;
+        Some((self.cells[index].as_ref()?, index % columns, index / columns))
+    }
+
+    /// The cells, or those shown for them.
+    fn each(&self, whole: bool) -> impl Iterator<Item = Option<&Cell>> {
+        let index = move |index: usize| if whole { self.stand_ins[index] } else { index };
+        (0..self.cells.len()).map(move |number| self.cells[index(number)].as_ref()?.as_ref().ok())
+    }
+
+    /// A quantity in all cells, row by row; `whole` adds substitutes for cells that have not been computed yet. The regime
+    /// goes from 0, non-adhesive, to 1, pressure-insensitive, halfway if profiles disagree.
+    #[must_use]
+    pub fn estimates(&self, quantity: Quantity, whole: bool) -> Vec<Option<Estimate>> {
+        let layer = self.layers.iter().position(|layer| layer.quantity == quantity);
+        let rank = |regime: Regime| 1.0 - regime as u8 as f64 / 2.0;
+        let of = |cell: &Cell| match (quantity, layer) {
+            (Quantity::Regime, _) => {
+                let CellRegime { regime, split, .. } = cell.regime?;
+                let mean = split.map_or(rank(regime), |other| (rank(regime) + rank(other)) / 2.0);
+                Some(Estimate { mean, interval: None, range: (mean, mean) })
+            }
+            (_, layer) => cell.estimates[layer?],
+        };
+        self.each(whole).map(|cell| of(cell?)).collect()
+    }
+
+    /// The regime of most profiles of each cell, row by row; empty where no regime is known.
+    #[must_use]
+    pub fn regimes(&self, whole: bool) -> Vec<Option<Regime>> {
+        let regimes: Vec<_> = self.each(whole).map(|cell| Some(cell?.regime?.regime)).collect();
+        if regimes.iter().all(Option::is_none) { Vec::new() } else { regimes }
+    }
+
+    /// Returns true for a place on the grid, including half a cell beyond the outermost values.
+    #[must_use]
+    pub fn contains(&self, at: Place) -> bool {
+        let (column, row) = self.coordinates(at);
+        let within = |at: f64, count: usize| (-0.5..count as f64 - 0.5).contains(&at);
+        let (columns, rows) = self.size();
+        within(column, columns) && within(row, rows)
+    }
+
+    /// The column and the row of a place, fractional between cells.
+    fn coordinates(&self, (across, up): Place) -> (f64, f64) {
+        let place = |axis: &Axis, value| axis.scale().place(&axis.values, value);
+        (
+            place(&self.across, across),
+            self.up.as_ref().zip(up).map_or(0.0, |(axis, value)| place(axis, value)),
+        )
+    }
+
+    /// The cell shown for a place or, beyond the grid, the one at its edge, with its column and row.
+    #[must_use]
+    pub fn nearest(&self, at: Place) -> Option<(&Result<Cell, String>, usize, usize)> {
+        let (column, row) = self.coordinates(at);
+        let nearest = |at: f64, count: usize| at.round().clamp(0.0, count.saturating_sub(1) as f64) as usize;
+        let (columns, rows) = self.size();
+        self.shown(nearest(column, columns), nearest(row, rows))
+    }
+}
+
+/// An axis at one of its values, for readers: `H = 0.3`.
+pub(super) fn fixed(axis: &Axis, place: usize) -> String {
+    let value = format_quantity(axis.values[place], axis.unit);
+    if axis.symbol.is_empty() {
+        format!("{} {value}", axis.name)
+    } else {
+        format!("{} = {value}", axis.symbol)
+    }
+}
+
+/// Axes across and up, as places among the axes of a study: H goes across and κ or e_el/γ up; of other free axes the
+/// first goes across. `None` without a free axis.
+pub(super) fn across_and_up(axes: &[Axis], free: &[usize]) -> Option<(usize, Option<usize>)> {
+    let find = |wanted: &dyn Fn(&str) -> bool| free.iter().copied().find(|axis| wanted(&axes[*axis].path));
+    let other = |one: Option<usize>| free.iter().copied().find(|axis| Some(*axis) != one);
+    let up = find(&|path| RoughnessParameter::named(path).is_some());
+    let across = find(&|path| path == "roughness.hurst").or(other(up)).or(up)?;
+    Some((across, up.filter(|up| *up != across).or(other(Some(across)))))
+}

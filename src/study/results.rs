@@ -1,0 +1,256 @@
+//! All records of a study: from its shard files, from its merged table, or computed in memory.
+
+use super::StudyError;
+use super::grid::{Cell, Estimate, Grid, Layer};
+use super::plan::Plan;
+use super::quantity::Quantity;
+use super::record::{Done, Key};
+use super::statistics::{StudentT, mean};
+use super::store::{Folder, ShardFile};
+use crate::analysis::CellRegime;
+use crate::draw::AxisScale;
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+/// Most missing cells that are named.
+const MOST_NAMED: usize = 8;
+
+/// The records of a study.
+#[derive(Clone)]
+pub struct Results {
+    pub(super) plan: Plan,
+    /// Values of each record, by cell, then by profile; NaN where there are none.
+    values: Vec<f64>,
+    done: Done,
+}
+
+/// Contents of the shard files of a study.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Merged {
+    /// Existing records, each counted once.
+    pub records: u64,
+    /// All records of the study.
+    pub total: u64,
+    /// Records that occurred more than once, bit for bit the same.
+    pub duplicates: u64,
+    /// Torn or damaged lines of shard files, left out.
+    pub damaged: u64,
+    /// Number of cells with missing profiles.
+    pub missing_cells: u64,
+    /// The first of these cells.
+    pub first_missing: Vec<u64>,
+    /// Number of files with records.
+    pub files: usize,
+    /// Versions of the program that wrote the records.
+    pub programs: Vec<String>,
+}
+
+impl PartialEq for Results {
+    /// Equal plans and values bit by bit, so that missing values are equal.
+    fn eq(&self, other: &Self) -> bool {
+        self.plan == other.plan && same(&self.values, &other.values)
+    }
+}
+
+impl std::fmt::Debug for Results {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} of {} records", self.done.count(), self.plan.records_in_all())
+    }
+}
+
+/// Returns true for equal bits, but for the kind of NaN.
+fn same(one: &[f64], other: &[f64]) -> bool {
+    let equal = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
+    one.len() == other.len() && one.iter().zip(other).all(equal)
+}
+
+impl Results {
+    /// A study without records.
+    ///
+    /// # Errors
+    /// [`StudyError::OutOfMemory`].
+    pub(super) fn empty(plan: Plan) -> Result<Results, StudyError> {
+        let (records, mut values) = (plan.records_in_all(), Vec::new());
+        let count = records as usize * plan.record.len();
+        values.try_reserve_exact(count).map_err(|_| StudyError::OutOfMemory { records })?;
+        values.resize(count, f64::NAN);
+        Ok(Results { plan, values, done: Done::none(records) })
+    }
+
+    /// Reads all shard files of a study.
+    ///
+    /// # Errors
+    /// Files that cannot be read; [`StudyError::Disagree`] if two records of one cell and profile differ.
+    pub(super) fn of_shards(folder: &Folder) -> Result<(Results, Merged), StudyError> {
+        let mut results = Results::empty(folder.plan().clone())?;
+        let files = folder.files()?;
+        let (mut duplicates, mut damaged, mut with_records) = (0, 0, 0);
+        let mut programs = BTreeSet::new();
+        for file in &files {
+            let mut has_records = false;
+            damaged += folder.records(file, &mut |key, values| {
+                has_records = true;
+                match results.record(key.cell, folder.place(key) % results.plan.lines) {
+                    None => results.set(folder.place(key), values),
+                    Some(known) if same(known, values) => duplicates += 1,
+                    Some(_) => {
+                        let coordinates = results.plan.coordinates(key.cell);
+                        let (one, other) = (first_with(folder, &files, key)?, file.path.clone());
+                        return Err(StudyError::Disagree { key, coordinates, one, other });
+                    }
+                }
+                Ok(())
+            })?;
+            if has_records {
+                with_records += 1;
+                programs.extend(file.header.as_ref().map(|header| header.program.clone()));
+            }
+        }
+        let plan = &results.plan;
+        let missing: Vec<u64> = (0..plan.cells()).filter(|cell| !results.is_whole(*cell)).collect();
+        let merged = Merged {
+            records: results.done.count(),
+            total: plan.records_in_all(),
+            duplicates,
+            damaged,
+            missing_cells: missing.len() as u64,
+            first_missing: missing.into_iter().take(MOST_NAMED).collect(),
+            files: with_records,
+            programs: programs.into_iter().collect(),
+        };
+        Ok((results, merged))
+    }
+
+    /// Sets the record at a place, by cell, then by profile.
+    pub(super) fn set(&mut self, place: u64, values: &[f64]) {
+        let columns = self.plan.record.len();
+        self.values[place as usize * columns..][..columns].copy_from_slice(values);
+        self.done.add(place);
+    }
+
+    /// The plan of the study.
+    #[must_use]
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// Values of a cell on a profile, in the order of the recorded quantities, NaN for a quantity without a value. The
+    /// regime is its place in [`crate::analysis::Regime::ALL`]. `None` for a missing record.
+    #[must_use]
+    pub fn record(&self, cell: u64, line: u64) -> Option<&[f64]> {
+        let (place, columns) = (cell * self.plan.lines + line, self.plan.record.len());
+        let values = self.values.get(place as usize * columns..)?.get(..columns)?;
+        self.done.has(place).then_some(values)
+    }
+
+    /// Existing records of a cell: the number of the profile and the values.
+    pub fn records_of(&self, cell: u64) -> impl Iterator<Item = (u64, &[f64])> {
+        (0..self.plan.lines).filter_map(move |line| Some((line, self.record(cell, line)?)))
+    }
+
+    /// Returns true for a cell with all records.
+    #[must_use]
+    pub fn is_whole(&self, cell: u64) -> bool {
+        (0..self.plan.lines).all(|line| self.done.has(cell * self.plan.lines + line))
+    }
+
+    /// Values of a quantity, by its place among the recorded ones, on all profiles of a cell that have one.
+    pub(super) fn values_of(&self, cell: u64, column: usize) -> Vec<f64> {
+        self.records_of(cell).map(|(_, values)| values[column]).filter(|value| !value.is_nan()).collect()
+    }
+
+    /// A recorded quantity over the profiles of a cell; `None` without values.
+    #[must_use]
+    pub fn estimate(&self, cell: u64, quantity: Quantity) -> Option<Estimate> {
+        let column = self.plan.column(quantity)?;
+        Estimate::of(quantity, &self.values_of(cell, column), &mut StudentT::default())
+    }
+
+    /// Shares of the profiles of a cell in each regime, in the order of [`crate::analysis::Regime::ALL`]; `None` where no
+    /// regime is known.
+    #[must_use]
+    pub fn regimes(&self, cell: u64) -> Option<[f64; 3]> {
+        let places = self.values_of(cell, self.plan.column(Quantity::Regime)?);
+        let share = |regime: usize| places.iter().filter(|place| **place as usize == regime).count() as f64;
+        (!places.is_empty()).then(|| [0, 1, 2].map(|regime| share(regime) / places.len() as f64))
+    }
+
+    /// The recorded quantities but the regime, on scales for the whole study.
+    pub(super) fn layers(&self) -> Vec<Layer> {
+        let recorded = self.plan.record.iter().filter(|quantity| **quantity != Quantity::Regime);
+        recorded.map(|quantity| self.layer(*quantity, None)).collect()
+    }
+
+    /// A recorded quantity on one scale for the whole study: that one, or by the range of all its means.
+    pub(super) fn layer(&self, quantity: Quantity, scale: Option<AxisScale>) -> Layer {
+        let mean = |cell| {
+            let values = self.values_of(cell, self.plan.column(quantity)?);
+            (!values.is_empty()).then(|| mean(&values))
+        };
+        let means: Vec<f64> = (0..self.plan.cells()).filter_map(mean).collect();
+        Layer::new(quantity, scale, &means)
+    }
+
+    /// The cells over one axis or two, at these places on the others, with quantities on these scales.
+    pub(super) fn grid(
+        &self,
+        (across, up): (usize, Option<usize>),
+        mut places: Vec<usize>,
+        layers: Vec<Layer>,
+    ) -> Grid {
+        let axes = &self.plan.axes;
+        let mut quantiles = StudentT::default();
+        let mut cells = Vec::new();
+        for row in up.map_or(vec![0], |up| axes[up].order()) {
+            if let Some(up) = up {
+                places[up] = row;
+            }
+            for column in axes[across].order() {
+                places[across] = column;
+                cells.push(self.cell(self.plan.cell_at(&places), &layers, &mut quantiles).map(Ok));
+            }
+        }
+        Grid::new(axes[across].ascending(), up.map(|up| axes[up].ascending()), layers, cells)
+    }
+
+    /// A cell with these quantities; `None` without any record.
+    pub(super) fn cell(&self, cell: u64, layers: &[Layer], quantiles: &mut StudentT) -> Option<Cell> {
+        let lines = self.records_of(cell).count() as u64;
+        let estimates = layers.iter().map(|layer| {
+            let column = self.plan.column(layer.quantity)?;
+            Estimate::of(layer.quantity, &self.values_of(cell, column), quantiles)
+        });
+        let estimates = estimates.collect();
+        let regime = self.regimes(cell).and_then(CellRegime::from_shares);
+        (lines > 0).then_some(Cell { estimates, regime, lines })
+    }
+}
+
+/// The first file with a record of this key.
+fn first_with(folder: &Folder, files: &[ShardFile], key: Key) -> Result<PathBuf, StudyError> {
+    for file in files {
+        let mut has = false;
+        folder.records(file, &mut |found, _| {
+            has |= found == key;
+            Ok(())
+        })?;
+        if has {
+            return Ok(file.path.clone());
+        }
+    }
+    Ok(folder.path().to_path_buf())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn records_agree_bit_by_bit_but_for_the_kind_of_nan() {
+        let other_nan = f64::from_bits(f64::NAN.to_bits() | 1);
+        assert!(same(&[1.0, f64::NAN], &[1.0, other_nan]));
+        for (one, other) in [(1.0, 1.0_f64.next_up()), (0.0, -0.0), (f64::NAN, 1.0), (1.0, f64::NAN)] {
+            assert!(!same(&[2.0, one], &[2.0, other]), "{one} {other}");
+        }
+    }
+}
