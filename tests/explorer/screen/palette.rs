@@ -79,7 +79,7 @@ fn a_command_is_found_by_letters_and_runs_as_its_key_does() {
         }
         // Commands of another pane select this pane first.
         let mut driver = pressed("");
-        query(&mut driver, "elastic energy");
+        query(&mut driver, "another quantity");
         driver.press("Enter");
         assert!(driver.model.is_shown(Pane::Chart));
         assert_eq!(driver.model.pane, Pane::Chart);
