@@ -139,13 +139,11 @@ impl Axis {
     }
 
     /// Number of values.
-    #[must_use]
     pub fn count(&self) -> u64 {
         self.values.len() as u64
     }
 
     /// Scale of the values in figures.
-    #[must_use]
     pub fn scale(&self) -> AxisScale {
         let low = self.values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -157,7 +155,6 @@ impl Axis {
     }
 
     /// Symbol, or the name of a quantity without one.
-    #[must_use]
     pub fn symbol_or_name(&self) -> &str {
         if self.symbol.is_empty() { &self.name } else { self.symbol }
     }

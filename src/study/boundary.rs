@@ -174,14 +174,12 @@ fn conversion(
 }
 
 /// Name of the protocol of a recorded share of F_a(0).
-#[must_use]
 pub fn protocol_name(share: Quantity) -> &'static str {
     if share == Quantity::ZeroLoadAdhesionShare { "touch" } else { "zero force" }
 }
 
 impl Boundaries {
     /// Symbol of the boundary.
-    #[must_use]
     pub fn symbol(&self) -> &'static str {
         match self.over {
             RoughnessParameter::Kappa => "κ*",

@@ -29,13 +29,11 @@ const PLANS: &[BuiltInPlan] = plans![
 ];
 
 /// All built-in plans.
-#[must_use]
 pub fn plans() -> &'static [BuiltInPlan] {
     PLANS
 }
 
 /// Built-in plan of this name.
-#[must_use]
 pub fn find(name: &str) -> Option<&'static BuiltInPlan> {
     PLANS.iter().find(|plan| plan.name == name)
 }

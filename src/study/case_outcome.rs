@@ -52,33 +52,17 @@ impl LoadingOutcome {
     }
 }
 
-/// Properties that depend on the profile and the elasticity alone.
+/// Recorded properties that depend on the profile and the elasticity alone.
 #[derive(Clone, Copy, Default)]
 pub(super) struct ProfileRecord {
-    /// Statistics of the heights without the form.
-    pub heights: Option<HeightStatistics>,
-    /// Exponents of the contact without adhesion.
-    pub exponents: Option<Exponents>,
-}
-
-/// Statistics of the heights of a profile.
-#[derive(Clone, Copy)]
-pub(super) struct HeightStatistics {
-    /// Rms height about the mean, m.
-    pub rms: f64,
-    /// Skewness and kurtosis; `None` for a flat profile.
+    /// Rms height about the mean, m, without the form.
+    pub rms_height: Option<f64>,
+    /// Skewness and kurtosis of the heights; `None` for a flat profile.
     pub shape: Option<HeightShape>,
     /// Height of the summit above the mean over the rms height.
-    pub summit: f64,
-}
-
-/// Exponents of the contact without adhesion.
-#[derive(Clone, Copy)]
-pub(super) struct Exponents {
-    /// α of k ∝ F^α.
-    pub stiffness: f64,
-    /// n of F ∝ dⁿ.
-    pub force: f64,
+    pub summit: Option<f64>,
+    /// Exponents α of k ∝ F^α and n of F ∝ dⁿ of the contact without adhesion.
+    pub exponents: Option<(f64, f64)>,
 }
 
 impl CaseOutcome<'_> {

@@ -1,7 +1,6 @@
 //! Errors of studies.
 
 use super::plan_text::PlanErrors;
-use super::record::Key;
 use crate::io::WriteError;
 use crate::simulation::RunError;
 use crate::surface::SurfaceError;
@@ -16,7 +15,7 @@ pub enum StudyError {
     /// The plan is wrong.
     #[error(transparent)]
     Plan(#[from] PlanErrors),
-    /// A folder or file of the study cannot be read, or is not one.
+    /// A folder or file of the study cannot be used.
     #[error("{}: {reason}", path_name(path))]
     Folder {
         /// The folder or file.
@@ -24,36 +23,9 @@ pub enum StudyError {
         /// Reason.
         reason: String,
     },
-    /// The folder holds a study of another plan.
-    #[error(
-        "{}: this folder holds a study of another plan; choose another folder, or the plan it began with\n{difference}",
-        path_name(path)
-    )]
-    OtherPlan {
-        /// The folder.
-        path: PathBuf,
-        /// The first lines that differ.
-        difference: String,
-    },
     /// The measured file of the study cannot be read.
     #[error(transparent)]
     Measured(#[from] SurfaceError),
-    /// The content of the measured file differs from that at the beginning of the study.
-    #[error(
-        "{}: the content of this measured file has changed: its SHA-256 is {found}, {plan} has {expected}; bring \
-         back the file the study began with, or begin another study in another folder",
-        path_name(file)
-    )]
-    MeasuredChanged {
-        /// The measured file.
-        file: PathBuf,
-        /// Hash of its content now.
-        found: String,
-        /// Name of the plan that expects another hash.
-        plan: String,
-        /// Expected hash.
-        expected: String,
-    },
     /// A file could not be written.
     #[error(transparent)]
     Write(#[from] WriteError),
@@ -69,40 +41,10 @@ pub enum StudyError {
         /// Error of the run.
         error: RunError,
     },
-    /// Two processes computed different results for the same cell and profile.
-    #[error(
-        "{key} ({coordinates}): two records differ, in {} and {}; remove the one that is wrong",
-        path_name(one),
-        path_name(other)
-    )]
-    Disagree {
-        /// Cell and seed.
-        key: Key,
-        /// The cell's coordinates.
-        coordinates: String,
-        /// A file.
-        one: PathBuf,
-        /// The other.
-        other: PathBuf,
-    },
-    /// Records are missing.
-    #[error(
-        "{records} of {total} records are missing, in {cells} cells: {}{}; run the study to its end, or merge with \
-         --partial",
-        named.join(", "),
-        if *cells > named.len() as u64 { ", …" } else { "" }
-    )]
-    Missing {
-        /// Number of records.
-        records: u64,
-        /// Number of records of the study.
-        total: u64,
-        /// Number of cells with missing profiles.
-        cells: u64,
-        /// The first of these cells.
-        named: Vec<String>,
-    },
-    /// The memory does not hold the table of records.
+    /// Records are missing, or two records of one cell and profile differ.
+    #[error("{0}")]
+    Records(String),
+    /// The memory is too small for the table of records.
     #[error("there is not enough memory for {records} records")]
     OutOfMemory {
         /// Number of records.

@@ -45,7 +45,6 @@ pub struct Cell {
 
 impl Cell {
     /// Number of profiles whose own regime is that of the cell.
-    #[must_use]
     pub fn agreeing(&self) -> u64 {
         self.regime.map_or(0, |regime| (regime.share * self.lines as f64).round() as u64)
     }
@@ -110,19 +109,16 @@ impl Grid {
     }
 
     /// Numbers of columns and rows.
-    #[must_use]
     pub fn size(&self) -> (usize, usize) {
         (self.across.values.len(), self.up.as_ref().map_or(1, |up| up.values.len()))
     }
 
     /// The layer of a quantity.
-    #[must_use]
     pub fn layer(&self, quantity: Quantity) -> Option<&Layer> {
         self.layers.iter().find(|layer| layer.quantity == quantity)
     }
 
     /// The quantities of the grid, the regime first if known.
-    #[must_use]
     pub fn quantities(&self) -> Vec<Quantity> {
         let known = self.cells.iter().flatten().flatten();
         let regime = known.into_iter().any(|cell| cell.regime.is_some()).then_some(Quantity::Regime);
@@ -130,7 +126,6 @@ impl Grid {
     }
 
     /// Returns true if too many profiles of a cell are in a second regime.
-    #[must_use]
     pub fn is_split(&self) -> bool {
         let known = self.cells.iter().flatten().flatten();
         known.into_iter().any(|cell| cell.regime.is_some_and(|regime| regime.split.is_some()))
@@ -138,7 +133,6 @@ impl Grid {
 
     /// The cell shown at a column and a row, with the column and the row of the cell: the cell itself or, until it is
     /// computed, one of a coarser grid.
-    #[must_use]
     pub fn shown(&self, column: usize, row: usize) -> Option<(&Result<Cell, String>, usize, usize)> {
         let columns = self.across.values.len();
         let index = *self.stand_ins.get(row * columns + column).filter(|_| column < columns)?;
@@ -153,7 +147,6 @@ impl Grid {
 
     /// A quantity in all cells, row by row; `whole` adds substitutes for cells that have not been computed yet. The regime
     /// goes from 0, non-adhesive, to 1, pressure-insensitive, halfway if profiles disagree.
-    #[must_use]
     pub fn estimates(&self, quantity: Quantity, whole: bool) -> Vec<Option<Estimate>> {
         let layer = self.layers.iter().position(|layer| layer.quantity == quantity);
         let rank = |regime: Regime| 1.0 - regime as u8 as f64 / 2.0;
@@ -169,14 +162,12 @@ impl Grid {
     }
 
     /// The regime of most profiles of each cell, row by row; empty where no regime is known.
-    #[must_use]
     pub fn regimes(&self, whole: bool) -> Vec<Option<Regime>> {
         let regimes: Vec<_> = self.each(whole).map(|cell| Some(cell?.regime?.regime)).collect();
         if regimes.iter().all(Option::is_none) { Vec::new() } else { regimes }
     }
 
     /// Returns true for a place on the grid, including half a cell beyond the outermost values.
-    #[must_use]
     pub fn contains(&self, at: Place) -> bool {
         let (column, row) = self.coordinates(at);
         let within = |at: f64, count: usize| (-0.5..count as f64 - 0.5).contains(&at);
@@ -194,7 +185,6 @@ impl Grid {
     }
 
     /// The cell shown for a place or, beyond the grid, the one at its edge, with its column and row.
-    #[must_use]
     pub fn nearest(&self, at: Place) -> Option<(&Result<Cell, String>, usize, usize)> {
         let (column, row) = self.coordinates(at);
         let nearest = |at: f64, count: usize| at.round().clamp(0.0, count.saturating_sub(1) as f64) as usize;

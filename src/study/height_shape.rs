@@ -13,7 +13,6 @@ pub struct HeightShape {
 
 impl HeightShape {
     /// Shape of these heights; `None` where all are equal.
-    #[must_use]
     pub fn of(heights: impl Iterator<Item = f64> + Clone) -> Option<Self> {
         let (count, sum) =
             heights.clone().fold((0.0, 0.0), |(count, sum), height| (count + 1.0, sum + height));

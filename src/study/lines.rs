@@ -226,7 +226,6 @@ impl RegimeCounts {
 
 impl LinesSummary {
     /// Statistics of these results.
-    #[must_use]
     pub fn of(lines: &[LineResult]) -> Self {
         let statistics = |quantity: Quantity, figure: fn(&LineResult) -> Option<f64>| {
             Statistics::of(&lines.iter().filter_map(figure).collect::<Vec<_>>(), quantity.bounds())

@@ -47,14 +47,20 @@ pub(super) fn profile(plan: &Plan, folder: &Path) -> Result<Option<Arc<MeasuredR
     Ok(Some(Arc::new(profile)))
 }
 
+/// Error of a measured file whose content differs from that expected by a plan.
+pub(super) fn changed(file: &Path, found: &str, plan: &str, expected: &str) -> StudyError {
+    StudyError::folder(
+        file,
+        format!(
+            "the content of this measured file has changed: its SHA-256 is {found}, {plan} has {expected}; bring \
+             back the file the study began with, or begin another study in another folder"
+        ),
+    )
+}
+
 fn expect(plan: &Plan, file: &Path, found: &str, origin: impl Fn() -> String) -> Result<(), StudyError> {
     match &plan.measured_sha256 {
-        Some(expected) if expected != found => Err(StudyError::MeasuredChanged {
-            file: file.to_path_buf(),
-            found: found.to_owned(),
-            plan: origin(),
-            expected: expected.clone(),
-        }),
+        Some(expected) if expected != found => Err(changed(file, found, &origin(), expected)),
         _ => Ok(()),
     }
 }

@@ -88,20 +88,17 @@ impl MeasuredAdhesion {
     }
 
     /// Adhesion forces of the profiles of the fitted spectrum, N.
-    #[must_use]
     pub fn forces(&self) -> Vec<f64> {
         self.profiles.iter().filter_map(|profile| profile.adhesion_force).collect()
     }
 
     /// Statistics of the adhesion force over the profiles of the fitted spectrum, N.
-    #[must_use]
     pub fn adhesion_force(&self) -> Option<Statistics> {
         Statistics::of(&self.forces(), Quantity::AdhesionForce.bounds())
     }
 
     /// Standard deviation of the adhesion force due to the uncertainty of the spectrum, N: root mean square of the
     /// changes of the profiles. `None` for fewer than two.
-    #[must_use]
     pub fn fit_deviation(&self) -> Option<f64> {
         let changes: Vec<f64> = self.profiles.iter().filter_map(|profile| profile.fit_change).collect();
         let square = changes.iter().map(|change| change.powi(2)).sum::<f64>();
@@ -109,7 +106,6 @@ impl MeasuredAdhesion {
     }
 
     /// Number of profiles in each regime.
-    #[must_use]
     pub fn regimes(&self) -> RegimeCounts {
         RegimeCounts::of(self.profiles.iter().map(|profile| profile.regime))
     }

@@ -24,7 +24,6 @@ pub struct Memory {
 
 impl Memory {
     /// Memory of a study of this plan: that of its largest scene.
-    #[must_use]
     pub fn of(plan: &Plan) -> Memory {
         let of_cell = |cell| {
             let mut scene = plan.scene_of(cell).ok()?;
@@ -46,7 +45,6 @@ impl Memory {
     }
 
     /// Memory with so many threads.
-    #[must_use]
     pub fn of_jobs(&self, jobs: u64) -> u64 {
         self.shared + jobs * self.job
     }

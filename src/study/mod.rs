@@ -84,7 +84,7 @@ pub use preloads::{
 pub use quantity::Quantity;
 pub use record::Key;
 pub use results::{Merged, Results};
-pub use run::{Ended, Options, Progress, run};
+pub use run::{Options, Progress, run};
 pub use select::{FigureError, Selected, Selection};
 pub use shard::Shard;
 pub use statistics::{Statistics, quartiles};

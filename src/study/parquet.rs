@@ -4,6 +4,7 @@
 //! of the CSV. The metadata of the file hold the plan.
 
 use super::StudyError;
+use super::plan::Plan;
 use super::quantity::Quantity;
 use super::results::Results;
 use super::store::Folder;
@@ -24,25 +25,20 @@ const ROWS: usize = 1 << 17;
 /// Key of the plan in the metadata.
 const PLAN: &str = "asperity.plan";
 
+/// A record: its cell, its seed and its values.
+type Row<'r> = (u64, u64, &'r [f64]);
+
 /// Content of a column.
-enum Column {
-    /// Cell or seed, by its bits, as unsigned numbers are stored.
-    Whole(fn(Row<'_>) -> u64),
-    /// The axis at a place, of whole numbers or not; beyond the last axis null.
-    Axis(usize, bool),
-    /// The recorded quantity at a place.
-    Quantity(usize, Quantity),
+enum Column<'p> {
+    /// Whole numbers, by their bits, as unsigned numbers are stored.
+    Whole(Box<dyn Fn(&Row<'_>) -> u64 + 'p>),
+    /// Numbers, some of them missing.
+    Number(Box<dyn Fn(&Row<'_>) -> Option<f64> + 'p>),
+    /// Regimes, by the place of their column.
+    Regime(usize),
 }
 
-/// A record: the coordinates of its cell, its seed and its values.
-#[derive(Clone, Copy)]
-struct Row<'r> {
-    cell: u64,
-    seed: u64,
-    values: &'r [f64],
-}
-
-/// Publishes `results.parquet` from the results of a merged study, whole or not at all.
+/// Writes `results.parquet` from the results of a merged study, whole or not at all.
 ///
 /// # Errors
 /// A study that is not merged, or a file that cannot be written.
@@ -52,32 +48,44 @@ pub fn write_parquet(folder: &Folder) -> Result<(), StudyError> {
     Ok(())
 }
 
+/// The columns of a plan, in the order of their names.
+fn contents(plan: &Plan) -> Vec<Column<'_>> {
+    let value = |axis: usize| move |(cell, ..): &Row<'_>| plan.axes[axis].values[plan.places(*cell)[axis]];
+    let mut all = vec![Column::Whole(Box::new(|(cell, ..)| *cell))];
+    for (place, axis) in plan.scene_axes().iter().enumerate() {
+        let value = value(place);
+        all.push(match axis.is_whole() {
+            true => Column::Whole(Box::new(move |row| value(row) as u64)),
+            false => Column::Number(Box::new(move |row| Some(value(row)))),
+        });
+    }
+    let preload = plan.preloads().map(|_| value(plan.axes.len() - 1));
+    all.push(Column::Number(Box::new(move |row| preload.as_ref().map(|value| value(row)))));
+    all.push(Column::Whole(Box::new(|(_, seed, _)| *seed)));
+    all.extend(plan.record.iter().enumerate().map(|(place, quantity)| match quantity {
+        Quantity::Regime => Column::Regime(place),
+        _ => {
+            Column::Number(Box::new(move |(.., values)| Some(values[place]).filter(|value| !value.is_nan())))
+        }
+    }));
+    all
+}
+
 fn write(results: &Results, out: impl Write + Send) -> Result<(), ParquetError> {
     let plan = results.plan();
-    let axes = plan.scene_axes().iter().enumerate().map(|(place, axis)| Column::Axis(place, axis.is_whole()));
-    let quantities =
-        plan.record.iter().enumerate().map(|(place, quantity)| Column::Quantity(place, *quantity));
-    let content: Vec<Column> = std::iter::once(Column::Whole(|row| row.cell))
-        .chain(axes)
-        .chain([Column::Axis(plan.scene_axes().len(), false), Column::Whole(|row| row.seed)])
-        .chain(quantities)
-        .collect();
-    let field = |(name, column): (&String, &Column)| {
-        let builder = match column {
-            Column::Whole(_) | Column::Axis(_, true) => Type::primitive_type_builder(name, Physical::INT64)
-                .with_logical_type(Some(LogicalType::integer(64, false)))
-                .with_repetition(Repetition::REQUIRED),
-            Column::Quantity(_, Quantity::Regime) => Type::primitive_type_builder(name, Physical::BYTE_ARRAY)
-                .with_logical_type(Some(LogicalType::String))
-                .with_repetition(Repetition::OPTIONAL),
-            Column::Axis(..) | Column::Quantity(..) => {
-                Type::primitive_type_builder(name, Physical::DOUBLE).with_repetition(Repetition::OPTIONAL)
+    let contents = contents(plan);
+    let field = |(name, column): (&String, &Column<'_>)| {
+        let (kind, logical, repetition) = match column {
+            Column::Whole(_) => {
+                (Physical::INT64, Some(LogicalType::integer(64, false)), Repetition::REQUIRED)
             }
+            Column::Number(_) => (Physical::DOUBLE, None, Repetition::OPTIONAL),
+            Column::Regime(_) => (Physical::BYTE_ARRAY, Some(LogicalType::String), Repetition::OPTIONAL),
         };
-        builder.build().map(Arc::new)
+        let builder = Type::primitive_type_builder(name, kind);
+        builder.with_logical_type(logical).with_repetition(repetition).build().map(Arc::new)
     };
-    let names = columns(plan);
-    let fields = names.iter().zip(&content).map(field).collect::<Result<Vec<_>, _>>()?;
+    let fields = columns(plan).iter().zip(&contents).map(field).collect::<Result<Vec<_>, _>>()?;
     let schema = Type::group_type_builder("results").with_fields(fields).build()?;
     let properties = WriterProperties::builder()
         .set_compression(Compression::SNAPPY)
@@ -86,36 +94,22 @@ fn write(results: &Results, out: impl Write + Send) -> Result<(), ParquetError> 
     let mut writer = SerializedFileWriter::new(out, Arc::new(schema), Arc::new(properties.build()))?;
     let rows: Vec<Row<'_>> = (0..plan.cells())
         .flat_map(|cell| {
-            let row = move |(line, values)| Row { cell, seed: plan.seed_of(line), values };
-            results.records_of(cell).map(row)
+            results.records_of(cell).map(move |(line, values)| (cell, plan.seed_of(line), values))
         })
         .collect();
     for rows in rows.chunks(ROWS) {
         let mut group = writer.next_row_group()?;
-        for column in &content {
-            let on_axis = |row: &Row<'_>, axis: usize| {
-                plan.axes.get(axis).map(|one| one.values[plan.places(row.cell)[axis]])
-            };
+        for column in &contents {
             match column {
                 Column::Whole(of) => {
-                    let values: Vec<i64> = rows.iter().map(|row| of(*row).cast_signed()).collect();
+                    let values: Vec<i64> = rows.iter().map(|row| of(row).cast_signed()).collect();
                     write_column::<Int64Type>(&mut group, &values, None)?;
                 }
-                Column::Axis(axis, true) => {
-                    let value = |row| on_axis(row, *axis).map_or(0, |value| (value as u64).cast_signed());
-                    let values: Vec<i64> = rows.iter().map(value).collect();
-                    write_column::<Int64Type>(&mut group, &values, None)?;
-                }
-                Column::Axis(axis, false) => {
-                    write_optional::<DoubleType>(&mut group, rows.iter().map(|row| on_axis(row, *axis)))?;
-                }
-                Column::Quantity(place, quantity @ Quantity::Regime) => {
-                    let name = |row: &Row<'_>| Some(regime_of(*quantity, row.values[*place])?.name().into());
+                Column::Number(of) => write_optional::<DoubleType>(&mut group, rows.iter().map(of))?,
+                Column::Regime(place) => {
+                    let name =
+                        |row: &Row<'_>| Some(regime_of(Quantity::Regime, row.2[*place])?.name().into());
                     write_optional::<ByteArrayType>(&mut group, rows.iter().map(name))?;
-                }
-                Column::Quantity(place, _) => {
-                    let value = |row: &Row<'_>| Some(row.values[*place]).filter(|value| !value.is_nan());
-                    write_optional::<DoubleType>(&mut group, rows.iter().map(value))?;
                 }
             }
         }

@@ -71,25 +71,21 @@ impl Plan {
     }
 
     /// The axis of preloads.
-    #[must_use]
     pub fn preloads(&self) -> Option<&Axis> {
         self.axes.last().filter(|axis| axis.path == PRELOAD)
     }
 
     /// The axes of numbers of the scene: all but that of preloads.
-    #[must_use]
     pub fn scene_axes(&self) -> &[Axis] {
         &self.axes[..self.axes.len() - usize::from(self.preloads().is_some())]
     }
 
     /// Number of cells.
-    #[must_use]
     pub fn cells(&self) -> u64 {
         self.axes.iter().map(Axis::count).product()
     }
 
     /// Number of records: cells times profiles.
-    #[must_use]
     pub fn records_in_all(&self) -> u64 {
         self.cells() * self.lines
     }
@@ -111,13 +107,11 @@ impl Plan {
     }
 
     /// Values of the axes in a cell.
-    #[must_use]
     pub fn values(&self, cell: u64) -> Vec<f64> {
         self.places(cell).into_iter().zip(&self.axes).map(|(place, axis)| axis.values[place]).collect()
     }
 
     /// Coordinates of a cell for readers.
-    #[must_use]
     pub fn coordinates(&self, cell: u64) -> String {
         let one = |(axis, value): (&Axis, f64)| format!("{} = {}", axis.path, ron_float(value));
         let all: Vec<_> = self.axes.iter().zip(self.values(cell)).map(one).collect();
@@ -134,13 +128,11 @@ impl Plan {
     }
 
     /// Seed of a profile.
-    #[must_use]
     pub fn seed_of(&self, line: u64) -> u64 {
         self.seed.wrapping_add(line)
     }
 
     /// Place of a quantity among the recorded ones.
-    #[must_use]
     pub fn column(&self, quantity: Quantity) -> Option<usize> {
         self.record.iter().position(|one| *one == quantity)
     }

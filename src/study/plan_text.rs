@@ -158,7 +158,6 @@ impl Plan {
     }
 
     /// The plan as canonical text including its scene; parsing the text returns the same plan.
-    #[must_use]
     pub fn to_ron(&self) -> String {
         let mut lines = vec![format!("    version: {PLAN_VERSION},\n")];
         let mut line = |name: &str, value: String| lines.push(format!("    {name}: {value},\n"));

@@ -24,20 +24,17 @@ pub struct Preloads {
 impl Preloads {
     /// Preloads between two forces, N, the first at least 0 and below the second; `None` for other forces, or a
     /// number outside [`PRELOADS`].
-    #[must_use]
     pub fn new(from: f64, to: f64, count: usize) -> Option<Self> {
         let is_allowed = from >= 0.0 && to > from && to.is_finite() && PRELOADS.contains(&count);
         is_allowed.then_some(Preloads { from, to, count })
     }
 
     /// Smallest and largest preload, N.
-    #[must_use]
     pub fn ends(&self) -> (f64, f64) {
         (self.from, self.to)
     }
 
     /// The forces, N, in ascending order.
-    #[must_use]
     pub fn forces(&self) -> Vec<f64> {
         let last = (self.count - 1) as f64;
         let at = |index: usize| (self.from + (self.to - self.from) * (index as f64 / last)).min(self.to);
@@ -62,7 +59,6 @@ pub struct Preloaded {
 
 impl Preloaded {
     /// Figures of a reversal at this preload, N.
-    #[must_use]
     pub fn new(preload: f64, reversal: &Reversal) -> Self {
         Preloaded {
             preload,
@@ -117,7 +113,6 @@ pub fn solve_preloads_on_lines(
 
 /// Statistics of the adhesion force over profiles for each preload; a profile without a tensile force counts as 0
 /// N, so that the mean is the mean adhesion force. `None` for fewer than two profiles.
-#[must_use]
 pub fn preload_statistics(lines: &[Vec<Preloaded>]) -> Vec<Option<Statistics>> {
     let count = lines.iter().map(Vec::len).min().unwrap_or(0);
     let mut quantiles = StudentT::default();

@@ -159,28 +159,28 @@ quantities! {
     StiffnessExponent {
         name: "stiffness_exponent",
         meaning: "exponent of the stiffness over the force without adhesion, k ∝ F^α; 1/(1+H) is expected",
-        symbol: "α", needs: Needs::Stiffness, of: |case| Some(case.profile.exponents?.stiffness),
+        symbol: "α", needs: Needs::Stiffness, of: |case| Some(case.profile.exponents?.0),
     }
     ForceExponent {
         name: "force_exponent",
         meaning: "exponent of the force over the indentation without adhesion, F ∝ dⁿ",
-        symbol: "n", needs: Needs::Stiffness, of: |case| Some(case.profile.exponents?.force),
+        symbol: "n", needs: Needs::Stiffness, of: |case| Some(case.profile.exponents?.1),
     }
     RmsHeight {
         name: "rms_height", meaning: "rms height of the line",
-        symbol: "h", unit: "m", needs: Needs::Heights, of: |case| Some(case.profile.heights?.rms),
+        symbol: "h", unit: "m", needs: Needs::Heights, of: |case| case.profile.rms_height,
     }
     Skewness {
         name: "skewness", meaning: "skewness of the heights of the line",
-        bounds: ANY, needs: Needs::Heights, of: |case| Some(case.profile.heights?.shape?.skewness),
+        bounds: ANY, needs: Needs::Heights, of: |case| Some(case.profile.shape?.skewness),
     }
     ExcessKurtosis {
         name: "excess_kurtosis", meaning: "excess kurtosis of the heights of the line",
-        bounds: ANY, needs: Needs::Heights, of: |case| Some(case.profile.heights?.shape?.excess_kurtosis),
+        bounds: ANY, needs: Needs::Heights, of: |case| Some(case.profile.shape?.excess_kurtosis),
     }
     SummitHeight {
         name: "summit_height", meaning: "height of the summit over the rms height",
-        needs: Needs::Heights, of: |case| Some(case.profile.heights?.summit),
+        needs: Needs::Heights, of: |case| case.profile.summit,
     }
 }
 
@@ -194,31 +194,26 @@ impl Quantity {
     }
 
     /// Name in plans and of columns.
-    #[must_use]
     pub const fn name(self) -> &'static str {
         self.row().name
     }
 
     /// Symbol; empty where the quantity has none.
-    #[must_use]
     pub const fn symbol(self) -> &'static str {
         self.row().symbol
     }
 
     /// SI unit; `1` for a number without one, empty for the regime, which is not a number.
-    #[must_use]
     pub const fn unit(self) -> &'static str {
         self.row().unit
     }
 
     /// Meaning in one line.
-    #[must_use]
     pub const fn meaning(self) -> &'static str {
         self.row().meaning
     }
 
     /// Smallest and largest possible value.
-    #[must_use]
     pub const fn bounds(self) -> (f64, f64) {
         self.row().bounds
     }

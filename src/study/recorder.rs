@@ -1,6 +1,6 @@
 //! Recorder of a case: solves its loadings on one profile and reads the recorded quantities.
 
-use super::case_outcome::{CaseOutcome, Exponents, HeightStatistics, LoadingOutcome, ProfileRecord};
+use super::case_outcome::{CaseOutcome, LoadingOutcome, ProfileRecord};
 use super::height_shape::HeightShape;
 use super::plan::{Plan, StiffnessRange};
 use super::quantity::Needs;
@@ -137,16 +137,16 @@ impl<'p> Recorder<'p> {
         {
             return Ok(*record);
         }
-        let record = ProfileRecord {
-            heights: if heights { Some(self.heights(&nonadhesive)?) } else { None },
-            exponents: if stiffness { self.exponents(&nonadhesive)? } else { None },
-        };
+        let mut record = if heights { self.heights(&nonadhesive)? } else { ProfileRecord::default() };
+        if stiffness {
+            record.exponents = self.exponents(&nonadhesive)?;
+        }
         self.profile = Some((nonadhesive, record));
         Ok(record)
     }
 
     /// Statistics of the heights without the form, which is the same on all profiles.
-    fn heights(&mut self, scene: &Scene) -> Result<HeightStatistics, RunError> {
+    fn heights(&mut self, scene: &Scene) -> Result<ProfileRecord, RunError> {
         let flat = Scene { form: None, ..scene.clone() };
         let (line, ..) = self.simulation.make_line(&flat)?;
         let count = line.gaps.len() as f64;
@@ -156,12 +156,12 @@ impl<'p> Recorder<'p> {
         let square = line.gaps.iter().map(|gap| ((gap - mean) / deepest).powi(2)).sum::<f64>() / count;
         let rms = if deepest > 0.0 { square.sqrt() * deepest } else { 0.0 };
         let shape = HeightShape::of(line.gaps.iter().map(|gap| -gap));
-        Ok(HeightStatistics { rms, shape, summit: mean / rms })
+        Ok(ProfileRecord { rms_height: Some(rms), shape, summit: Some(mean / rms), exponents: None })
     }
 
     /// Exponents of the contact without adhesion, fitted in logarithms over the plan's range of forces. Without stretched
     /// springs the stiffness is E* times the length in contact.
-    fn exponents(&mut self, scene: &Scene) -> Result<Option<Exponents>, RunError> {
+    fn exponents(&mut self, scene: &Scene) -> Result<Option<(f64, f64)>, RunError> {
         let (_, _, governing) = self.simulation.make_line(scene)?;
         let Some(unit) = governing.force_unit(scene.length) else { return Ok(None) };
         let StiffnessRange { from, to, count } = self.plan.stiffness;
@@ -174,9 +174,7 @@ impl<'p> Recorder<'p> {
         let forces: Vec<f64> = points.iter().map(|point| point.force.ln()).collect();
         let lengths: Vec<f64> = points.iter().map(|point| point.contact_length.ln()).collect();
         let indentations: Vec<f64> = points.iter().map(|point| point.indentation.ln()).collect();
-        Ok(slope(&forces, &lengths)
-            .zip(slope(&indentations, &forces))
-            .map(|(stiffness, force)| Exponents { stiffness, force }))
+        Ok(slope(&forces, &lengths).zip(slope(&indentations, &forces)))
     }
 }
 

@@ -9,8 +9,8 @@ use super::statistics::{StudentT, mean};
 use super::store::{Folder, ShardFile};
 use crate::analysis::CellRegime;
 use crate::draw::AxisScale;
+use crate::text::path_name;
 use std::collections::BTreeSet;
-use std::path::PathBuf;
 
 /// Most missing cells that are named.
 const MOST_NAMED: usize = 8;
@@ -80,7 +80,7 @@ impl Results {
     /// Reads all shard files of a study.
     ///
     /// # Errors
-    /// Files that cannot be read; [`StudyError::Disagree`] if two records of one cell and profile differ.
+    /// Files that cannot be read, or two records of one cell and profile that differ.
     pub(super) fn of_shards(folder: &Folder) -> Result<(Results, Merged), StudyError> {
         let mut results = Results::empty(folder.plan().clone())?;
         let files = folder.files()?;
@@ -95,8 +95,11 @@ impl Results {
                     Some(known) if same(known, values) => duplicates += 1,
                     Some(_) => {
                         let coordinates = results.plan.coordinates(key.cell);
-                        let (one, other) = (first_with(folder, &files, key)?, file.path.clone());
-                        return Err(StudyError::Disagree { key, coordinates, one, other });
+                        let (one, other) = (first_with(folder, &files, key)?, path_name(&file.path));
+                        return Err(StudyError::Records(format!(
+                            "{key} ({coordinates}): two records differ, in {one} and {other}; remove the one \
+                             that is wrong"
+                        )));
                     }
                 }
                 Ok(())
@@ -129,14 +132,12 @@ impl Results {
     }
 
     /// The plan of the study.
-    #[must_use]
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
 
     /// Values of a cell on a profile, in the order of the recorded quantities, NaN for a quantity without a value. The
     /// regime is its place in [`crate::analysis::Regime::ALL`]. `None` for a missing record.
-    #[must_use]
     pub fn record(&self, cell: u64, line: u64) -> Option<&[f64]> {
         let (place, columns) = (cell * self.plan.lines + line, self.plan.record.len());
         let values = self.values.get(place as usize * columns..)?.get(..columns)?;
@@ -149,7 +150,6 @@ impl Results {
     }
 
     /// Returns true for a cell with all records.
-    #[must_use]
     pub fn is_whole(&self, cell: u64) -> bool {
         (0..self.plan.lines).all(|line| self.done.has(cell * self.plan.lines + line))
     }
@@ -160,7 +160,6 @@ impl Results {
     }
 
     /// A recorded quantity over the profiles of a cell; `None` without values.
-    #[must_use]
     pub fn estimate(&self, cell: u64, quantity: Quantity) -> Option<Estimate> {
         let column = self.plan.column(quantity)?;
         Estimate::of(quantity, &self.values_of(cell, column), &mut StudentT::default())
@@ -168,7 +167,6 @@ impl Results {
 
     /// Shares of the profiles of a cell in each regime, in the order of [`crate::analysis::Regime::ALL`]; `None` where no
     /// regime is known.
-    #[must_use]
     pub fn regimes(&self, cell: u64) -> Option<[f64; 3]> {
         let places = self.values_of(cell, self.plan.column(Quantity::Regime)?);
         let share = |regime: usize| places.iter().filter(|place| **place as usize == regime).count() as f64;
@@ -227,7 +225,7 @@ impl Results {
 }
 
 /// The first file with a record of this key.
-fn first_with(folder: &Folder, files: &[ShardFile], key: Key) -> Result<PathBuf, StudyError> {
+fn first_with(folder: &Folder, files: &[ShardFile], key: Key) -> Result<String, StudyError> {
     for file in files {
         let mut has = false;
         folder.records(file, &mut |found, _| {
@@ -235,10 +233,10 @@ fn first_with(folder: &Folder, files: &[ShardFile], key: Key) -> Result<PathBuf,
             Ok(())
         })?;
         if has {
-            return Ok(file.path.clone());
+            return Ok(path_name(&file.path));
         }
     }
-    Ok(folder.path().to_path_buf())
+    Ok(path_name(folder.path()))
 }
 
 #[cfg(test)]

@@ -55,27 +55,21 @@ pub struct Progress {
 }
 
 impl Progress {
+    /// Returns true if every record of this part of the plan exists.
+    pub fn is_complete(&self) -> bool {
+        self.done == self.total
+    }
+
     /// Records per second, as [`super::Attempt::rate`]; `None` before the first record.
-    #[must_use]
     pub fn rate(&self) -> Option<f64> {
         rate(self.done - self.before, self.elapsed.as_secs_f64())
     }
 
     /// Time left, at the rate so far; `None` before the first record.
-    #[must_use]
     pub fn left(&self) -> Option<Duration> {
         let seconds = (self.total - self.done) as f64 / self.rate()?;
         Duration::try_from_secs_f64(seconds).ok()
     }
-}
-
-/// End of a run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ended {
-    /// Progress at the end.
-    pub progress: Progress,
-    /// True if every record of this part of the plan exists.
-    pub complete: bool,
 }
 
 /// Shared state of all threads of a run.
@@ -100,7 +94,7 @@ pub fn run(
     options: Options,
     stop: &(dyn Fn() -> bool + Sync),
     report: &mut dyn FnMut(&Progress),
-) -> Result<Ended, StudyError> {
+) -> Result<Progress, StudyError> {
     let cells = Cells::of(folder.plan());
     let done = folder.done()?;
     let (total, before) = count(folder, &cells, &done, options.shard);
@@ -112,7 +106,7 @@ pub fn run(
     };
     report(&progress(0, 0));
     if before == total {
-        return Ok(Ended { progress: progress(0, 0), complete: true });
+        return Ok(progress(0, 0));
     }
     // Read once, so that all threads compute from the same bytes, even if the file changes meanwhile.
     let profile = profile(folder.plan(), folder.path())?;
@@ -147,7 +141,7 @@ pub fn run(
     }
     let progress = now();
     report(&progress);
-    Ok(Ended { progress, complete: progress.done == total })
+    Ok(progress)
 }
 
 impl Shared<'_> {

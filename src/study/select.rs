@@ -35,61 +35,16 @@ pub struct Selection {
 
 /// Reason why the figure cannot be made.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub enum FigureError {
-    /// The study has no such quantity.
-    #[error("--quantity {name}: this study has no such quantity; allowed: {allowed}")]
-    NoQuantity {
-        /// The given name.
-        name: String,
-        /// Quantities of the study.
-        allowed: String,
-    },
-    /// The study has no such axis.
-    #[error("{option} {path}: this study has no such axis; allowed: {allowed}")]
-    NoAxis {
-        /// Name of the option.
-        option: &'static str,
-        /// Path that was given.
-        path: String,
-        /// Axes of the study.
-        allowed: String,
-    },
-    /// The axis has no such value.
-    #[error("--at {path}={value}: the study has no such value; allowed: {allowed}")]
-    NoValue {
-        /// The axis.
-        path: String,
-        /// The value.
-        value: String,
-        /// Values of the axis.
-        allowed: String,
-    },
-    /// An axis is selected twice.
-    #[error("{path}: named by {one} and by {other}; allowed: one of them")]
-    Twice {
-        /// The axis.
-        path: String,
-        /// An option.
-        one: &'static str,
-        /// Another.
-        other: &'static str,
-    },
-    /// More free axes than a figure has.
-    #[error("{} axes are free: {}; a figure has two. Fix {}, such as {example}", free.len(), free.join(", "), if free.len() == 3 { "one of them" } else { "the others" })]
-    TooManyAxes {
-        /// The axes, each with its values.
-        free: Vec<String>,
-        /// Example of an option that fixes an axis.
-        example: String,
-    },
-    /// All axes are fixed or have one value.
-    #[error(
-        "no axis is free: the study has one cell{fixed}; a section needs an axis with two values at least"
-    )]
-    NoAxes {
-        /// Cause, in the wording of the message.
-        fixed: &'static str,
-    },
+#[error("{0}")]
+pub struct FigureError(pub String);
+
+/// An axis that two options name.
+fn twice<T>(path: &str, one: &str, other: &str) -> Result<T, FigureError> {
+    Err(FigureError(format!("{path}: named by {one} and by {other}; allowed: one of them")))
+}
+
+fn no_quantity(name: &str, allowed: &str) -> FigureError {
+    FigureError(format!("--quantity {name}: this study has no such quantity; allowed: {allowed}"))
 }
 
 /// A selected part of a study.
@@ -169,15 +124,12 @@ impl Selection {
             if all.is_empty() {
                 all.extend(plan.record.iter().copied().find(drawn));
             }
-            let none = || FigureError::NoQuantity {
-                name: "regime".into(),
-                allowed: "none, only regimes were recorded".into(),
-            };
+            let none = || no_quantity("regime", "none, only regimes were recorded");
             return if all.is_empty() { Err(none()) } else { Ok(all) };
         }
         let named = |name: &String| {
             let found = plan.record.iter().copied().filter(drawn).find(|one| one.name() == name);
-            found.ok_or_else(|| FigureError::NoQuantity { name: name.clone(), allowed: allowed() })
+            found.ok_or_else(|| no_quantity(name, &allowed()))
         };
         self.quantities.iter().map(named).collect()
     }
@@ -189,17 +141,16 @@ impl Selection {
         for (number, (path, value)) in self.at.iter().enumerate() {
             let index = find(axes, path, "--at")?;
             if self.at[..number].iter().any(|(other, _)| other == path) {
-                return Err(FigureError::Twice { path: path.clone(), one: "--at", other: "--at" });
+                return twice(path, "--at", "--at");
             }
             let axis = &axes[index];
             let wanted = parse_quantity(value, axis.unit).ok();
             // Values are written with 12 digits, and 0.3 is typed for them.
             let same =
                 |there: &f64| wanted.is_some_and(|wanted| (there - wanted).abs() <= 1e-9 * there.abs());
-            let none = || FigureError::NoValue {
-                path: path.clone(),
-                value: value.clone(),
-                allowed: values_of(axis),
+            let none = || {
+                let allowed = values_of(axis);
+                FigureError(format!("--at {path}={value}: the study has no such value; allowed: {allowed}"))
             };
             fixed[index] = Some(axis.values.iter().position(same).ok_or_else(none)?);
         }
@@ -212,14 +163,13 @@ impl Selection {
             let Some(path) = path else { return Ok(None) };
             let index = find(axes, path, option)?;
             if self.at.iter().any(|(fixed, _)| fixed == path) {
-                return Err(FigureError::Twice { path: path.clone(), one: option, other: "--at" });
+                return twice(path, option, "--at");
             }
             Ok(Some(index))
         };
         let (across, up) = (named(&self.across, "--x")?, named(&self.up, "--y")?);
         if let (Some(across), true) = (across, across == up) {
-            let path = axes[across].path.clone();
-            return Err(FigureError::Twice { path, one: "--x", other: "--y" });
+            return twice(&axes[across].path, "--x", "--y");
         }
         let is_named = |index: &usize| Some(*index) == across || Some(*index) == up;
         let free: Vec<usize> =
@@ -233,14 +183,24 @@ impl Selection {
             (None, Some(only), []) => (only, None),
             (None, None, free @ ([] | [_] | [_, _])) => {
                 let fixed = if self.at.is_empty() { "" } else { " left by --at" };
-                across_and_up(axes, free).ok_or(FigureError::NoAxes { fixed })?
+                across_and_up(axes, free).ok_or_else(|| {
+                    FigureError(format!(
+                        "no axis is free: the study has one cell{fixed}; a curve needs an axis with two values at least"
+                    ))
+                })?
             }
             _ => {
                 let shortest = rest.iter().map(|index| &axes[*index]).min_by_key(|axis| axis.values.len());
                 let example = |axis: &Axis| format!("--at {}={}", axis.path, axis.values[0]);
                 let example = shortest.map_or_else(String::new, example);
                 let said = |index: &usize| format!("{} ({})", axes[*index].path, values_of(&axes[*index]));
-                return Err(FigureError::TooManyAxes { free: free.iter().map(said).collect(), example });
+                let all: Vec<String> = free.iter().map(said).collect();
+                return Err(FigureError(format!(
+                    "{} axes are free: {}; a figure has two. Fix {}, such as {example}",
+                    free.len(),
+                    all.join(", "),
+                    if free.len() == 3 { "one of them" } else { "the others" }
+                )));
             }
         };
         Ok(result)
@@ -263,7 +223,7 @@ fn find(axes: &[Axis], path: &str, option: &'static str) -> Result<usize, Figure
     axes.iter().position(|axis| axis.path == path).ok_or_else(|| {
         let all: Vec<_> = axes.iter().map(|axis| axis.path.as_str()).collect();
         let allowed = if all.is_empty() { "none, it has one cell".into() } else { all.join(", ") };
-        FigureError::NoAxis { option, path: path.into(), allowed }
+        FigureError(format!("{option} {path}: this study has no such axis; allowed: {allowed}"))
     })
 }
 

@@ -32,51 +32,28 @@ pub struct Submission {
 }
 
 /// Reason for not submitting a study.
-#[derive(Debug, Error)]
-pub enum SlurmError {
-    /// A path cannot be written into a script of Slurm.
-    #[error(
-        "{}: a script of Slurm cannot contain this path; allowed: UTF-8 without backslashes, double quotes and \
-         control characters",
-        path_name(path)
-    )]
-    Path {
-        /// The path.
-        path: PathBuf,
-    },
-    /// Slurm is not installed.
-    #[error(
-        "sbatch was not found; run this command on a login node of a Slurm cluster. Without a scheduler: {instead}"
-    )]
-    NoSlurm {
-        /// Alternative command.
-        instead: String,
-    },
-    /// sbatch cannot be run.
-    #[error("sbatch could not be run: {0}")]
-    NotRun(io::Error),
-    /// sbatch refused the job.
-    #[error("sbatch failed ({status}): {reason}")]
-    Refused {
-        /// Exit status.
-        status: String,
-        /// Message of sbatch.
-        reason: String,
-    },
-}
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{0}")]
+pub struct SlurmError(pub String);
 
 impl Submission {
     /// Returns the script of the array. Its directives are defaults: variables `SBATCH_…` and options of sbatch override
     /// them.
     ///
     /// # Errors
-    /// [`SlurmError::Path`].
+    /// A path that a script of Slurm cannot contain.
     pub fn script(&self) -> Result<String, SlurmError> {
         let [program, folder] = [&self.program, &self.folder].map(|path| {
             // Slurm ends directives at a backslash and reads double quotes.
             let text =
                 path.to_str().filter(|text| !text.contains(|c| c == '\\' || c == '"' || is_control(c)));
-            text.ok_or_else(|| SlurmError::Path { path: path.clone() })
+            text.ok_or_else(|| {
+                SlurmError(format!(
+                    "{}: a script of Slurm cannot contain this path; allowed: UTF-8 without backslashes, double \
+                     quotes and control characters",
+                    path_name(path)
+                ))
+            })
         });
         let (program, folder) = (program?, folder?);
         let limit = self.at_once.map_or_else(String::new, |tasks| format!("%{tasks}"));
@@ -115,25 +92,29 @@ done
     /// # Errors
     /// [`SlurmError`].
     pub fn submit(&self, options: &[OsString]) -> Result<String, SlurmError> {
+        let not_run = |error: io::Error| SlurmError(format!("sbatch could not be run: {error}"));
         let script = self.script()?;
         let mut command = Command::new("sbatch");
         command.args(options).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut sbatch = command.spawn().map_err(|error| match error.kind() {
-            io::ErrorKind::NotFound => SlurmError::NoSlurm { instead: self.without_scheduler() },
-            _ => SlurmError::NotRun(error),
+            io::ErrorKind::NotFound => SlurmError(format!(
+                "sbatch was not found; run this command on a login node of a Slurm cluster. Without a scheduler: {}",
+                self.without_scheduler()
+            )),
+            _ => not_run(error),
         })?;
         if let Some(mut stdin) = sbatch.stdin.take() {
             // sbatch may refuse its options before it reads the script.
             let _ = stdin.write_all(script.as_bytes());
         }
-        let output = sbatch.wait_with_output().map_err(SlurmError::NotRun)?;
+        let output = sbatch.wait_with_output().map_err(not_run)?;
         let [answer, message] =
             [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
         if output.status.success() {
             return Ok(message + &answer);
         }
         let reason = if message.trim().is_empty() { "no error message" } else { message.trim() };
-        Err(SlurmError::Refused { status: output.status.to_string(), reason: reason.to_owned() })
+        Err(SlurmError(format!("sbatch failed ({}): {reason}", output.status)))
     }
 
     /// Command for hosts without a scheduler, with GNU parallel.

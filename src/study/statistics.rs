@@ -27,7 +27,6 @@ impl Statistics {
     ///
     /// The confidence interval is cut at the bounds: the true mean cannot lie beyond them, so the interval contains the
     /// mean as often as before.
-    #[must_use]
     pub fn of(values: &[f64], bounds: (f64, f64)) -> Option<Self> {
         Statistics::with(values, bounds, &mut StudentT::default())
     }
@@ -73,7 +72,6 @@ pub(super) fn mean(values: &[f64]) -> f64 {
 }
 
 /// Lower quartile, median and upper quartile of these values, interpolated between neighbours; `None` without values.
-#[must_use]
 pub fn quartiles(mut values: Vec<f64>) -> Option<[f64; 3]> {
     values.sort_by(f64::total_cmp);
     let last = values.len().checked_sub(1)?;

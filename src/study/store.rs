@@ -5,7 +5,7 @@
 //! records not yet on the disk, those of a moment, are lost and computed again.
 
 use super::StudyError;
-use super::measured::{file_of, with_hash};
+use super::measured::{changed, file_of, with_hash};
 use super::plan::{PLAN_FILE, Plan};
 use super::plan_text::Changes;
 use super::record::{Done, Key, key_of, seal, unseal, values_into};
@@ -107,7 +107,6 @@ impl Folder {
     }
 
     /// Returns true for the folder of a study, valid or not.
-    #[must_use]
     pub fn is_at(path: &Path) -> bool {
         path.join(PLAN_FILE).is_file()
     }
@@ -127,13 +126,11 @@ impl Folder {
     }
 
     /// Path.
-    #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
     /// Plan of the study.
-    #[must_use]
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
@@ -303,10 +300,11 @@ fn refusal(path: &Path, there: &str, plan: &Plan) -> StudyError {
         && let Some(expected) = of_folder.measured_sha256.clone()
         && (Plan { measured_sha256: plan.measured_sha256.clone(), ..of_folder }) == *plan
     {
-        let (found, plan) = (found.clone(), path_name(&file));
-        return StudyError::MeasuredChanged { file: measured, found, plan, expected };
+        return changed(&measured, found, &path_name(&file), &expected);
     }
-    StudyError::OtherPlan { path: path.to_path_buf(), difference: difference(there, &plan.to_ron()) }
+    let difference = difference(there, &plan.to_ron());
+    let other = "this folder holds a study of another plan; choose another folder, or the plan it began with";
+    StudyError::folder(path, format!("{other}\n{difference}"))
 }
 
 /// The first lines in which two plans differ.

@@ -33,19 +33,21 @@ const REGIME_COLUMNS: [&str; 3] =
 /// Removes [`PARQUET`] of an earlier merge.
 ///
 /// # Errors
-/// [`StudyError::Missing`] if records are missing and `partial` is not set; [`StudyError::Disagree`] if two records
-/// of one cell and profile differ.
+/// Missing records if `partial` is not set, or two records of one cell and profile that differ.
 pub fn merge(folder: &Folder, partial: bool) -> Result<Merged, StudyError> {
     let (results, merged) = Results::of_shards(folder)?;
     let plan = results.plan();
     if merged.records < merged.total && !partial {
-        let cells = merged.first_missing.iter();
-        return Err(StudyError::Missing {
-            records: merged.total - merged.records,
-            total: merged.total,
-            cells: merged.missing_cells,
-            named: cells.map(|&cell| format!("cell {cell} ({})", plan.coordinates(cell))).collect(),
-        });
+        let named = |&cell: &u64| format!("cell {cell} ({})", plan.coordinates(cell));
+        let named: Vec<String> = merged.first_missing.iter().map(named).collect();
+        let more = if merged.missing_cells > named.len() as u64 { ", …" } else { "" };
+        return Err(StudyError::Records(format!(
+            "{} of {} records are missing, in {} cells: {}{more}; run the study to its end, or merge with --partial",
+            merged.total - merged.records,
+            merged.total,
+            merged.missing_cells,
+            named.join(", ")
+        )));
     }
     let path = |name| folder.path().join(name);
     let parquet = path(PARQUET);

@@ -110,12 +110,12 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
     });
     shown.end();
     let ended = ended?;
-    if !ended.complete {
-        let (done, total) = (ended.progress.done, ended.progress.total);
+    if !ended.is_complete() {
+        let (done, total) = (ended.done, ended.total);
         return Err(CliError::Stopped { signal: signal(), done, total });
     }
     if arguments.shard.is_some() {
-        let _ = writeln!(stderr, "all {} records of shard {} exist", ended.progress.total, options.shard);
+        let _ = writeln!(stderr, "all {} records of shard {} exist", ended.total, options.shard);
         // The process that completes the study merges it; of two at the same time both do.
         if Status::of(&folder)?.missing > 0 {
             return Ok(());

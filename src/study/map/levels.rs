@@ -8,7 +8,6 @@ pub const COLUMNS: usize = 33;
 pub const HURSTS: usize = 19;
 
 /// The κ or e_el/γ of a column, to three digits, so that a scene set to a shown value is that of the cell.
-#[must_use]
 pub fn parameter_value(parameter: RoughnessParameter, column: usize) -> f64 {
     let per_octave = match parameter {
         RoughnessParameter::Kappa => 4.0,
@@ -19,7 +18,6 @@ pub fn parameter_value(parameter: RoughnessParameter, column: usize) -> f64 {
 }
 
 /// The H of a row.
-#[must_use]
 pub fn hurst(row: usize) -> f64 {
     (row + 1) as f64 * 5.0 / 100.0
 }
@@ -53,7 +51,6 @@ impl Level {
     }
 
     /// Rows of the level, the lowest H first.
-    #[must_use]
     pub fn rows(self) -> &'static [usize] {
         match self {
             Level::Coarse => &[0, 4, 9, 14, 18],

@@ -34,19 +34,16 @@ impl LiveMap {
     }
 
     /// Template of the map.
-    #[must_use]
     pub fn template(&self) -> &Template {
         &self.template
     }
 
     /// Returns true if a scene has this map.
-    #[must_use]
     pub fn is_of(&self, scene: &Scene, parameter: RoughnessParameter) -> bool {
         Template::of(scene).is_ok_and(|template| template.over(parameter) == self.template)
     }
 
     /// The rows of a level on this map: one for a scene without H.
-    #[must_use]
     pub fn rows_of(&self, level: Level) -> &'static [usize] {
         if self.template.has_hurst() { level.rows() } else { &[0] }
     }
@@ -67,20 +64,17 @@ impl LiveMap {
     }
 
     /// Returns true if all cells of a level are known.
-    #[must_use]
     pub fn has(&self, level: Level) -> bool {
         let rows = self.rows_of(level).iter();
         rows.copied().all(|row| level.columns().all(|column| self.is_known(Self::number(column, row))))
     }
 
     /// The finest complete level.
-    #[must_use]
     pub fn level(&self) -> Option<Level> {
         Level::ALL.into_iter().take_while(|level| self.has(*level)).last()
     }
 
     /// Returns true for a complete map.
-    #[must_use]
     pub fn is_whole(&self) -> bool {
         self.has(self.template.finest())
     }
@@ -113,7 +107,6 @@ impl LiveMap {
 
     /// The map for display: H across, and κ or e_el/γ up as in the paper. Of too few profiles for a confidence, cells
     /// have the range of the profiles alone.
-    #[must_use]
     pub fn grid(&self) -> Grid {
         let axes = &self.results.plan().axes;
         let layers = self.results.layers();

@@ -11,7 +11,6 @@ const APART: f64 = 1e-6;
 impl Axis {
     /// Value of the quantity in a scene; `None` where the scene has none. `computed` are the governing parameters
     /// of a scene whose file has to be read to obtain them.
-    #[must_use]
     pub fn value_in(&self, scene: &Scene, computed: Option<&Governing>) -> Option<f64> {
         if let Some(parameter) = self.target.parameter() {
             let known = governing(scene).or(computed.copied());
@@ -26,7 +25,6 @@ impl Axis {
 
     /// The value so many steps above `value`, or below, on an ascending axis; the first or last value beyond the ends,
     /// and `None` where `value` is already there.
-    #[must_use]
     pub fn next_beyond(&self, value: f64, steps: i32) -> Option<f64> {
         let (values, apart) = (&self.values, APART * value.abs());
         let further = steps.unsigned_abs().checked_sub(1)? as usize;

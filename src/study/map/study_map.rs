@@ -78,26 +78,22 @@ impl StudyMap {
     }
 
     /// The folder.
-    #[must_use]
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
     /// Name of the folder without its parents.
-    #[must_use]
     pub fn name(&self) -> String {
         let whole = std::path::absolute(&self.folder).unwrap_or_else(|_| self.folder.clone());
         whole.file_name().unwrap_or(self.folder.as_os_str()).to_string_lossy().into_owned()
     }
 
     /// The plan of the study.
-    #[must_use]
     pub fn plan(&self) -> &Plan {
         self.study.plan()
     }
 
     /// Number of maps.
-    #[must_use]
     pub fn slices(&self) -> u64 {
         self.others.iter().map(|&other| self.plan().axes[other].count()).product()
     }
@@ -120,13 +116,11 @@ impl StudyMap {
     }
 
     /// Place of a map on the axes outside it, in words: `F_n/(E* h L) = 0.1`.
-    #[must_use]
     pub fn fixed_values(&self, slice: u64) -> Vec<String> {
         self.at(slice).map(|(axis, place)| fixed(axis, place)).collect()
     }
 
     /// Map of this number.
-    #[must_use]
     pub fn grid(&self, slice: u64) -> Grid {
         self.study.grid((self.across, self.up), self.places(slice), self.layers.clone())
     }
@@ -175,7 +169,6 @@ impl StudyMap {
     }
 
     /// Returns true for the scene of a map, but for the axes that the map is over and the resolution of its curve.
-    #[must_use]
     pub fn is_of(&self, slice: u64, scene: &Scene) -> bool {
         let known: Vec<_> =
             self.over().filter_map(|axis| Some((axis, axis.value_in(scene, None)?))).collect();

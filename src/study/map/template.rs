@@ -78,7 +78,6 @@ impl Template {
     }
 
     /// The same template over this parameter.
-    #[must_use]
     pub fn over(mut self, parameter: RoughnessParameter) -> Self {
         self.scene.adhesion = self
             .scene
@@ -88,13 +87,11 @@ impl Template {
     }
 
     /// Springs of each profile.
-    #[must_use]
     pub fn springs(&self) -> u64 {
         self.scene.numerics.points
     }
 
     /// Finest level of the maps: waves that need very many springs have fewer cells.
-    #[must_use]
     pub fn finest(&self) -> Level {
         let springs = self.springs();
         if springs <= MANY {
@@ -107,19 +104,16 @@ impl Template {
     }
 
     /// Returns true for a roughness with an H; a measured one has none.
-    #[must_use]
     pub fn has_hurst(&self) -> bool {
         matches!(self.scene.roughness, Some(Roughness::SelfAffine { .. }))
     }
 
     /// Random profiles of each cell.
-    #[must_use]
     pub fn lines(&self) -> u64 {
         if self.has_hurst() { LINES } else { 1 }
     }
 
     /// Axes of the map: that of H, if the roughness has one, and that of κ or e_el/γ.
-    #[must_use]
     pub fn axes(&self) -> Vec<Axis> {
         let hursts = self.has_hurst().then(|| (0..HURSTS).map(hurst).collect());
         let hursts = hursts.map(|values| ("roughness.hurst", Spacing::Linear, values));

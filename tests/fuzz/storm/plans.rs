@@ -146,7 +146,7 @@ fn assert_study(plan: &Plan) -> Result<(), TestCaseError> {
         folder => folder.map_err(fail)?,
     };
     match run(&folder, Options { jobs: 1, shard: Shard::WHOLE }, &|| false, &mut |_| ()) {
-        Ok(ended) => prop_assert!(ended.complete),
+        Ok(ended) => prop_assert!(ended.is_complete()),
         Err(StudyError::Run { cell, coordinates, .. }) => {
             prop_assert!(cell < plan.cells());
             prop_assert_eq!(coordinates, plan.coordinates(cell));

@@ -90,7 +90,7 @@ fn a_file_that_has_changed_is_refused() {
     // A plan that requires other content is refused before it creates a folder.
     let other = Plan { measured_sha256: Some(found), ..plan };
     let refused = Folder::create(&place.path().join("new"), &other).unwrap_err();
-    assert!(matches!(refused, StudyError::MeasuredChanged { .. }), "{refused}");
+    assert!(refused.to_string().contains("has changed"), "{refused}");
     assert!(!place.path().join("new").exists());
 }
 
@@ -112,7 +112,7 @@ fn a_file_that_changes_while_a_study_runs_changes_nothing() {
         false
     };
     let ended = run(&other, Options { jobs: 1, shard: Shard::WHOLE }, &change, &mut |_| ()).unwrap();
-    assert!(ended.complete && asked.into_inner() > 2);
+    assert!(ended.is_complete() && asked.into_inner() > 2);
     merge(&other, false).unwrap();
     assert_eq!(tables(&other), whole);
 }
