@@ -12,12 +12,11 @@ use super::store::Folder;
 use crate::parallel::begin_threads;
 use crate::simulation::{RunError, Simulation};
 use std::fs::File;
-use std::io::Write;
+use std::io::{self, Write};
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Longest wait of written records for the disk; records lost by a power cut are computed again. One sync costs
@@ -76,12 +75,14 @@ impl Progress {
 struct Shared<'a> {
     folder: &'a Folder,
     done: Done,
-    /// Records on the disk so far, and their time since the file was made, ns.
-    written: AtomicU64,
-    elapsed: AtomicU64,
-    failed: AtomicBool,
     error: Mutex<Option<StudyError>>,
     stop: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl Shared<'_> {
+    fn error(&self) -> MutexGuard<'_, Option<StudyError>> {
+        self.error.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }
 
 /// Computes the missing records of a part of the plan. `stop` is polled after each run; `report` is called now and
@@ -98,27 +99,18 @@ pub fn run(
     let cells = Cells::of(folder.plan());
     let done = folder.done()?;
     let (total, before) = count(folder, &cells, &done, options.shard);
-    let progress = |written: u64, elapsed: u64| Progress {
-        done: before + written,
-        before,
-        total,
-        elapsed: Duration::from_nanos(elapsed),
-    };
-    report(&progress(0, 0));
-    if before == total {
-        return Ok(progress(0, 0));
+    let mut progress = Progress { done: before, before, total, elapsed: Duration::ZERO };
+    report(&progress);
+    if progress.is_complete() {
+        return Ok(progress);
     }
     // Read once, so that all threads compute from the same bytes, even if the file changes meanwhile.
     let profile = profile(folder.plan(), folder.path())?;
     let clock = Instant::now();
-    let (path, file) = folder.new_file(options.shard)?;
-    let units = options.shard.units(cells.units()).map(|unit| cells.unit(unit));
-    let work = &SharedWork::new(&cells, units);
-    let (written, elapsed) = (AtomicU64::new(0), AtomicU64::new(0));
-    let (failed, error) = (AtomicBool::new(false), Mutex::new(None));
-    let shared = &Shared { folder, done, written, elapsed, failed, error, stop };
-    let now = || progress(shared.written.load(Ordering::SeqCst), shared.elapsed.load(Ordering::SeqCst));
-    std::thread::scope(|scope| {
+    let (path, mut file) = folder.new_file(options.shard)?;
+    let work = &SharedWork::new(&cells, options.shard.units(cells.units()).map(|unit| cells.unit(unit)));
+    let shared = &Shared { folder, done, error: Mutex::new(None), stop };
+    let written = std::thread::scope(|scope| {
         let (sender, receiver) = sync_channel(WAITING);
         let begun = begin_threads(scope, options.jobs.max(1), move || {
             let simulation = Simulation::new(PathBuf::new());
@@ -130,77 +122,56 @@ pub fn run(
             work.solve(recorder, &mut FolderSink { shared, sender });
         });
         // If the system starts fewer threads than requested, those do all the work.
-        if let Err(error) = begun {
-            shared.fail(StudyError::NoThread(error));
-        }
-        shared.write((path.as_path(), file), clock, receiver, &mut || report(&now()));
+        begun.map_err(StudyError::NoThread)?;
+        write(&mut file, receiver, clock, &mut progress, report).map_err(StudyError::unwritable(&path))
     });
-    let error = shared.error.lock().unwrap_or_else(PoisonError::into_inner).take();
-    if let Some(error) = error {
+    if let Some(error) = shared.error().take() {
         return Err(error);
     }
-    let progress = now();
+    written?;
     report(&progress);
     Ok(progress)
 }
 
-impl Shared<'_> {
-    fn fail(&self, error: StudyError) {
-        self.failed.store(true, Ordering::SeqCst);
-        self.error.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
-    }
-
-    fn ends(&self) -> bool {
-        self.failed.load(Ordering::SeqCst) || (self.stop)()
-    }
-
-    /// Writes records as they arrive. Syncs with the disk after the longest wait and at the end. Counts only
-    /// records that have reached the disk.
-    fn write(
-        &self,
-        (path, mut file): (&Path, File),
-        clock: Instant,
-        receiver: Receiver<String>,
-        report: &mut dyn FnMut(),
-    ) {
-        let mut synced = Instant::now();
-        let mut reported = Instant::now();
-        let (mut pending, mut elapsed) = (0, Duration::ZERO);
-        let mut text = String::with_capacity(BUFFER);
-        let failed = StudyError::unwritable(path);
-        loop {
-            let wait = if pending > 0 { SYNC.saturating_sub(synced.elapsed()) } else { TICK };
-            let first = receiver.recv_timeout(wait.min(TICK));
-            let ended = matches!(first, Err(RecvTimeoutError::Disconnected));
-            text.clear();
-            if let Ok(first) = first {
-                text.push_str(&first);
-                while text.len() < BUFFER
-                    && let Ok(next) = receiver.try_recv()
-                {
-                    text.push_str(&next);
-                }
-                if let Err(reason) = file.write_all(text.as_bytes()) {
-                    return self.fail(failed(reason));
-                }
-                elapsed = clock.elapsed();
-                pending += text.bytes().filter(|&byte| byte == b'\n').count() as u64;
+/// Writes records as they arrive. Syncs with the disk after the longest wait and at the end; the progress counts only
+/// records that have reached the disk.
+fn write(
+    file: &mut File,
+    receiver: Receiver<String>,
+    clock: Instant,
+    progress: &mut Progress,
+    report: &mut dyn FnMut(&Progress),
+) -> io::Result<()> {
+    let (mut synced, mut reported) = (Instant::now(), Instant::now());
+    let (mut pending, mut elapsed) = (0, Duration::ZERO);
+    let mut text = String::with_capacity(BUFFER);
+    loop {
+        let wait = if pending > 0 { SYNC.saturating_sub(synced.elapsed()) } else { TICK };
+        let first = receiver.recv_timeout(wait.min(TICK));
+        let ended = matches!(first, Err(RecvTimeoutError::Disconnected));
+        text.clear();
+        if let Ok(first) = first {
+            text.push_str(&first);
+            while text.len() < BUFFER
+                && let Ok(next) = receiver.try_recv()
+            {
+                text.push_str(&next);
             }
-            if pending > 0 && (ended || synced.elapsed() >= SYNC) {
-                if let Err(reason) = file.sync_all() {
-                    return self.fail(failed(reason));
-                }
-                self.written.fetch_add(pending, Ordering::SeqCst);
-                self.elapsed.store(elapsed.as_nanos() as u64, Ordering::SeqCst);
-                (synced, pending) = (Instant::now(), 0);
-            }
-            if reported.elapsed() >= TICK {
-                report();
-                reported = Instant::now();
-            }
-            if ended {
-                return;
-            }
+            file.write_all(text.as_bytes())?;
+            elapsed = clock.elapsed();
+            pending += text.bytes().filter(|&byte| byte == b'\n').count() as u64;
+        }
+        if pending > 0 && (ended || synced.elapsed() >= SYNC) {
+            file.sync_all()?;
+            (progress.done, progress.elapsed) = (progress.done + pending, elapsed);
+            (synced, pending) = (Instant::now(), 0);
+        }
+        if reported.elapsed() >= TICK {
+            report(progress);
+            reported = Instant::now();
+        }
+        if ended {
+            return Ok(());
         }
     }
 }
@@ -221,7 +192,7 @@ impl Sink for FolderSink<'_> {
     fn next(&mut self, case: &Case) -> Next {
         match case.cells.clone().any(|cell| self.is_missing(cell, case.line)) {
             false => Next::Skip,
-            true if self.shared.ends() => Next::End,
+            true if (self.shared.stop)() || self.shared.error().is_some() => Next::End,
             true => Next::Solve,
         }
     }
@@ -233,7 +204,8 @@ impl Sink for FolderSink<'_> {
             Ok(records) => records,
             Err(error) => {
                 let (cell, coordinates) = (case.cells.start, plan.coordinates(case.cells.start));
-                self.shared.fail(StudyError::Run { cell, coordinates, seed, error });
+                let error = StudyError::Run { cell, coordinates, seed, error };
+                self.shared.error().get_or_insert(error);
                 return ControlFlow::Break(());
             }
         };

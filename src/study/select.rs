@@ -38,11 +38,6 @@ pub struct Selection {
 #[error("{0}")]
 pub struct FigureError(pub String);
 
-/// An axis that two options name.
-fn twice<T>(path: &str, one: &str, other: &str) -> Result<T, FigureError> {
-    Err(FigureError(format!("{path}: named by {one} and by {other}; allowed: one of them")))
-}
-
 fn no_quantity(name: &str, allowed: &str) -> FigureError {
     FigureError(format!("--quantity {name}: this study has no such quantity; allowed: {allowed}"))
 }
@@ -60,12 +55,6 @@ pub struct Selected {
     pub curves: bool,
 }
 
-/// The axes of a study, and the places of those that are fixed.
-struct Chosen<'a> {
-    axes: &'a [Axis],
-    fixed: Vec<Option<usize>>,
-}
-
 impl Selection {
     /// Selects a part of a study.
     ///
@@ -74,8 +63,8 @@ impl Selection {
     pub fn of(&self, study: &Results) -> Result<Selected, FigureError> {
         let plan = study.plan();
         let quantities = self.quantities(plan)?;
-        let chosen = self.chosen(plan)?;
-        let (across, second) = self.free(&chosen)?;
+        let (named, at) = self.axes(&plan.axes)?;
+        let (across, second) = self.free(&plan.axes, named, &at)?;
         let few = |index: usize| plan.axes[index].values.len() <= MOST_CURVES;
         // Curves lie along the longer axis, unless the axis across was given.
         let turned =
@@ -85,7 +74,7 @@ impl Selection {
             None => (across, second),
         };
         let curves = second.is_some_and(|second| self.up.is_none() && few(second) && !few(across));
-        let places = chosen.fixed.iter().map(|place| place.unwrap_or(0)).collect();
+        let places = at.iter().map(|place| place.unwrap_or(0)).collect();
         let mut grid = study.grid((across, second), places, study.layers());
         let is_map = second.is_some() && !curves;
         let layer = |quantity, scale: Option<AxisScale>| match is_map {
@@ -104,8 +93,7 @@ impl Selection {
             }
         }
         grid.layers = layers;
-        let fixed =
-            plan.axes.iter().zip(&chosen.fixed).filter_map(|(axis, place)| Some(fixed(axis, (*place)?)));
+        let fixed = plan.axes.iter().zip(&at).filter_map(|(axis, place)| Some(fixed(axis, (*place)?)));
         Ok(Selected { fixed: fixed.collect(), grid, quantities, curves })
     }
 
@@ -134,15 +122,25 @@ impl Selection {
         self.quantities.iter().map(named).collect()
     }
 
-    /// The axes of the study, those with one value and those of `at` fixed.
-    fn chosen<'a>(&self, plan: &'a Plan) -> Result<Chosen<'a>, FigureError> {
-        let axes = &plan.axes[..];
-        let mut fixed: Vec<_> = axes.iter().map(|axis| (axis.values.len() == 1).then_some(0)).collect();
-        for (number, (path, value)) in self.at.iter().enumerate() {
-            let index = find(axes, path, "--at")?;
-            if self.at[..number].iter().any(|(other, _)| other == path) {
-                return twice(path, "--at", "--at");
+    /// The axes that are named to go across and up, and for each axis of a study the place at which it is fixed, by one of
+    /// its values or as it has no other.
+    fn axes(&self, axes: &[Axis]) -> Result<([Option<usize>; 2], Vec<Option<usize>>), FigureError> {
+        let mut named: Vec<(usize, &str)> = Vec::new();
+        let mut name = |path: &str, option| {
+            let index = find(axes, path, option)?;
+            if let Some((_, other)) = named.iter().find(|(known, _)| *known == index) {
+                return Err(FigureError(format!(
+                    "{path}: named by {other} and by {option}; allowed: one of them"
+                )));
             }
+            named.push((index, option));
+            Ok(index)
+        };
+        let across = self.across.as_ref().map(|path| name(path, "--x")).transpose()?;
+        let up = self.up.as_ref().map(|path| name(path, "--y")).transpose()?;
+        let mut fixed: Vec<_> = axes.iter().map(|axis| (axis.values.len() == 1).then_some(0)).collect();
+        for (path, value) in &self.at {
+            let index = name(path, "--at")?;
             let axis = &axes[index];
             let wanted = parse_quantity(value, axis.unit).ok();
             // Values are written with 12 digits, and 0.3 is typed for them.
@@ -154,28 +152,21 @@ impl Selection {
             };
             fixed[index] = Some(axis.values.iter().position(same).ok_or_else(none)?);
         }
-        Ok(Chosen { axes, fixed })
+        Ok(([across, up], fixed))
     }
 
     /// The axis across, and the second one if there is one.
-    fn free(&self, Chosen { axes, fixed }: &Chosen<'_>) -> Result<(usize, Option<usize>), FigureError> {
-        let named = |path: &Option<String>, option: &'static str| {
-            let Some(path) = path else { return Ok(None) };
-            let index = find(axes, path, option)?;
-            if self.at.iter().any(|(fixed, _)| fixed == path) {
-                return twice(path, option, "--at");
-            }
-            Ok(Some(index))
-        };
-        let (across, up) = (named(&self.across, "--x")?, named(&self.up, "--y")?);
-        if let (Some(across), true) = (across, across == up) {
-            return twice(&axes[across].path, "--x", "--y");
-        }
+    fn free(
+        &self,
+        axes: &[Axis],
+        [across, up]: [Option<usize>; 2],
+        fixed: &[Option<usize>],
+    ) -> Result<(usize, Option<usize>), FigureError> {
         let is_named = |index: &usize| Some(*index) == across || Some(*index) == up;
         let free: Vec<usize> =
             (0..axes.len()).filter(|index| fixed[*index].is_none() || is_named(index)).collect();
         let rest: Vec<usize> = free.iter().copied().filter(|index| !is_named(index)).collect();
-        let result = match (across, up, rest.as_slice()) {
+        Ok(match (across, up, rest.as_slice()) {
             (Some(across), up, []) => (across, up),
             (Some(across), None, [second]) => (across, Some(*second)),
             (None, Some(up), [across]) => (*across, Some(up)),
@@ -202,8 +193,7 @@ impl Selection {
                     if free.len() == 3 { "one of them" } else { "the others" }
                 )));
             }
-        };
-        Ok(result)
+        })
     }
 }
 

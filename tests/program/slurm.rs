@@ -293,37 +293,6 @@ fn lost_nodes_and_twins_change_no_byte() {
     });
 }
 
-#[test]
-#[ignore = "Slurm waits two minutes and more for lost nodes"]
-fn a_node_that_dies_with_its_task_is_replaced() {
-    within(900, || {
-        let Some(cluster) = Cluster::start() else { return };
-        let plan = cluster.plan(1 << 20);
-        cluster.serial(&plan, "serial");
-        let started = Instant::now();
-        let array = cluster.submit(&plan, "dead", &["--shards", "2"]);
-        cluster.wait_until("both shards run", 30, || {
-            ["1/2", "2/2"].iter().all(|shard| !cluster.processes("dead", shard).is_empty())
-                && cluster.records("dead") > 1
-        });
-        let queue = cluster.queue(&array);
-        let node = queue.lines().find(|line| line.starts_with("1 ")).unwrap().split(' ').nth(2).unwrap();
-        let daemon = fs::read_to_string(cluster.path(&format!("cluster/{node}.pid"))).unwrap();
-        // The keeper of the task and its shell die with the node; otherwise they would start the program again.
-        let task = cluster.processes("dead", "1/2");
-        let parent = |process: u32| -> Option<u32> {
-            let status = fs::read_to_string(format!("/proc/{process}/status")).ok()?;
-            status.lines().find_map(|line| line.strip_prefix("PPid:")?.trim().parse().ok())
-        };
-        let shell = parent(task[0]).unwrap();
-        let keeper = parent(shell).unwrap();
-        kill("-9", &[daemon.trim().parse().unwrap(), keeper, shell, task[0]]);
-        cluster.wait_for(&array, 400);
-        println!("done after {:.0} s", started.elapsed().as_secs_f64());
-        assert_eq!(cluster.tables("dead"), cluster.tables("serial"));
-    });
-}
-
 /// A folder with stand-ins for the programs of Slurm, and nothing else on the path.
 fn stand_ins(scripts: &[(&str, &str)]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
