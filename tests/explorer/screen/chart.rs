@@ -8,6 +8,7 @@ use super::{is_up_to_date, keep};
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::model::{ModeKind, Pane};
+use asperity::explorer::runtime::Studies;
 use asperity::explorer::study::{Finding, Found, PaneData, Study, Task};
 use asperity::explorer::theme::Marker;
 use asperity::explorer::update::{Effect, study_tasks};
@@ -57,7 +58,8 @@ fn empty() -> Arc<LiveMap> {
 fn driver_with(document: Document, levels: &[Level]) -> Driver {
     let mut driver = Driver::open(document);
     let levels = levels.to_vec();
-    driver.appraiser = Some(Box::new(StandIn::new(move |data, _, report| Ok(fill(&levels, data, report)))));
+    driver.studies =
+        Studies::Inline(Box::new(StandIn::new(move |data, _, report| Ok(fill(&levels, data, report)))));
     driver.perform(vec![Effect::Compute]);
     driver.press("Space m");
     driver
@@ -209,7 +211,7 @@ fn the_map_is_exported_as_it_is_seen() {
             "{message}"
         );
         // The curve, with another pane selected.
-        driver.press("Tab Tab E");
+        driver.press("Esc Tab Tab E");
         assert!(driver.status().contains("Export to"), "{}", driver.status());
     });
 }
@@ -311,7 +313,7 @@ fn other_edits_begin_the_map_anew_and_wait_for_quiet() {
             })
         };
         assert_eq!(chart(&driver), None, "it is whole");
-        driver.appraiser = None;
+        driver.studies = Studies::None;
         driver.press("Tab Tab R");
         assert_eq!(chart(&driver), Some((None, true)));
         assert!(driver.text().contains("computing the map"), "{}", driver.text());
