@@ -111,7 +111,7 @@ where
 {
     let first = scene.seed().ok_or(LinesError::OneLine)?;
     let (lines, next, solved) = (lines as u64, AtomicU64::new(0), Mutex::new(Vec::new()));
-    let work = || {
+    let work = &|| {
         let mut solve = solver();
         loop {
             let line = next.fetch_add(1, Ordering::SeqCst);
@@ -131,8 +131,8 @@ where
     let threads = jobs.min(lines as usize);
     std::thread::scope(|scope| {
         // Without further threads this one does all the work.
-        let _ = begin_threads(scope, threads.saturating_sub(1), &work);
-        on_this_thread(&work);
+        let _ = begin_threads(scope, threads.saturating_sub(1), work);
+        on_this_thread(work);
     });
     let mut solved = solved.into_inner().unwrap_or_else(PoisonError::into_inner);
     solved.sort_by_key(|(line, ..)| *line);

@@ -28,12 +28,15 @@ const PLAN: &str = "asperity.plan";
 /// A record: its cell, its seed and its values.
 type Row<'r> = (u64, u64, &'r [f64]);
 
+/// Value of a column in a record.
+type Of<'p, T> = Box<dyn Fn(&Row<'_>) -> T + 'p>;
+
 /// Content of a column.
 enum Column<'p> {
     /// Whole numbers, by their bits, as unsigned numbers are stored.
-    Whole(Box<dyn Fn(&Row<'_>) -> u64 + 'p>),
+    Whole(Of<'p, u64>),
     /// Numbers, some of them missing.
-    Number(Box<dyn Fn(&Row<'_>) -> Option<f64> + 'p>),
+    Number(Of<'p, Option<f64>>),
     /// Regimes, by the place of their column.
     Regime(usize),
 }

@@ -88,7 +88,7 @@ impl Results {
         let mut programs = BTreeSet::new();
         for file in &files {
             let mut has_records = false;
-            damaged += folder.records(file, &mut |key, values| {
+            damaged += folder.records(file, |key, values| {
                 has_records = true;
                 match results.record(key.cell, folder.place(key) % results.plan.lines) {
                     None => results.set(folder.place(key), values),
@@ -228,7 +228,7 @@ impl Results {
 fn first_with(folder: &Folder, files: &[ShardFile], key: Key) -> Result<String, StudyError> {
     for file in files {
         let mut has = false;
-        folder.records(file, &mut |found, _| {
+        folder.records(file, |found, _| {
             has |= found == key;
             Ok(())
         })?;

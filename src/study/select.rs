@@ -55,6 +55,9 @@ pub struct Selected {
     pub curves: bool,
 }
 
+/// The axes that are named to go across and up, and for each axis of a study the place at which it is fixed.
+type Chosen = ([Option<usize>; 2], Vec<Option<usize>>);
+
 impl Selection {
     /// Selects a part of a study.
     ///
@@ -122,9 +125,8 @@ impl Selection {
         self.quantities.iter().map(named).collect()
     }
 
-    /// The axes that are named to go across and up, and for each axis of a study the place at which it is fixed, by one of
-    /// its values or as it has no other.
-    fn axes(&self, axes: &[Axis]) -> Result<([Option<usize>; 2], Vec<Option<usize>>), FigureError> {
+    /// The named axes, which exist and are named once; an axis with one value is fixed.
+    fn axes(&self, axes: &[Axis]) -> Result<Chosen, FigureError> {
         let mut named: Vec<(usize, &str)> = Vec::new();
         let mut name = |path: &str, option| {
             let index = find(axes, path, option)?;

@@ -68,7 +68,7 @@ impl Status {
         let mut attempts: BTreeMap<Shard, Vec<Attempt>> = BTreeMap::new();
         for file in folder.files()? {
             let mut records = 0;
-            damaged += folder.records(&file, &mut |key, _| {
+            damaged += folder.records(&file, |key, _| {
                 records += 1;
                 done.add(folder.place(key));
                 Ok(())

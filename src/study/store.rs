@@ -235,7 +235,7 @@ impl Folder {
     pub(super) fn records(
         &self,
         file: &ShardFile,
-        each: &mut dyn FnMut(Key, &[f64]) -> Result<(), StudyError>,
+        mut each: impl FnMut(Key, &[f64]) -> Result<(), StudyError>,
     ) -> Result<u64, StudyError> {
         if file.header.is_none() {
             return Ok(0);
@@ -272,7 +272,7 @@ impl Folder {
     pub(super) fn done(&self) -> Result<Done, StudyError> {
         let mut done = Done::none(self.plan.records_in_all());
         for file in self.files()? {
-            self.records(&file, &mut |key, _| {
+            self.records(&file, |key, _| {
                 done.add(self.place(key));
                 Ok(())
             })?;
