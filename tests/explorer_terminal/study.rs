@@ -98,7 +98,7 @@ fn a_folder_without_a_map_says_why() {
             ),
             (
                 "one cell",
-                "one cell: this study has neither map nor section: it has no axes; a section needs an axis",
+                "one cell: this study has neither a map nor a curve: it has no axes; a curve needs an axis",
             ),
             ("whole", "the explorer needs a terminal; asperity sweep plot whole draws the study without one"),
             (

@@ -295,7 +295,7 @@ fn lines_are_those_of_their_seeds() {
 
 #[test]
 fn lines_that_mean_nothing_are_refused() {
-    assert!(failed(1, &["run", "jkr-sphere", "--lines", "4"]).contains("but one line"));
+    assert!(failed(1, &["run", "jkr-sphere", "--lines", "4"]).contains("needs random roughness"));
     failed(2, &["run", "pressure-sensitive", "--lines", "1"]);
     failed(2, &["run", "pressure-sensitive", "--lines", "many"]);
     failed(2, &["run", "pressure-sensitive", "--jobs", "2"]);

@@ -25,7 +25,7 @@ const EXAMPLES: &str = "\
 Examples:
   asperity sweep plans                              List the built-in plans
   asperity sweep figure-5b -o study                 Compute it on all cores; run again to resume
-  asperity sweep my-plan.ron -o study --shard 3/8   Shard 3 of 8, on any machine that mounts the folder
+  asperity sweep my-plan.ron -o study --shard 3/8   Shard 3 of 8, wherever the folder is mounted
   asperity sweep status study                       Show progress
   asperity sweep merge study                        results.csv, summary.csv and results.json
   asperity sweep boundary study                     κ at which F_a(0) vanishes, for each H
