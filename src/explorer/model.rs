@@ -19,7 +19,6 @@ use super::text_line::TextLine;
 use super::theme::Appearance;
 use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
-use crate::draw::AxisScale;
 use crate::scene::{Document, Observer, Scene, ron_float};
 use crate::simulation::Outcome;
 pub use crate::study::map::Charted;
@@ -67,8 +66,6 @@ pub struct CurveLook {
     pub normalised: bool,
     /// True if the dissipated energy is shaded.
     pub loss: bool,
-    /// Scale of both axes; a logarithmic one shows the numbers above zero.
-    pub scale: AxisScale,
 }
 
 /// Two quantities, one over the other.

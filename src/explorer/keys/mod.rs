@@ -145,7 +145,6 @@ pub const BINDINGS: &[Binding] = &[
 
     row(&[char('v')], EXPLORE, "next-curve", View(|model| model.curve.quantities = model.curve.quantities.next()), "", "plot force, contact length or number of contact patches", LOOK),
     row(&[char('N')], EXPLORE, "toggle-normalised", View(|model| model.curve.normalised ^= true), "", "plot in units of F_a,max and h, or in SI units", LOOK),
-    row(&[char('O')], EXPLORE, "toggle-logarithmic", View(look::toggle_logarithmic), "", "plot the curve with logarithmic axes, for numbers above zero, or with linear ones", LOOK),
     row(&[char('a')], EXPLORE, "toggle-loss", View(|model| model.curve.loss ^= true), "", "shade the area of the loop: the dissipated energy", LOOK),
     row(&[char('n')], EXPLORE, "fragment next", View(|model| look::go_to_fragment(model, Focus::After)), "fragment", "show the next contact patch", LOOK),
     row(&[char('p')], EXPLORE, "fragment previous", View(|model| look::go_to_fragment(model, Focus::Before)), "", "show the previous contact patch", LOOK),

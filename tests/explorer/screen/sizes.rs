@@ -305,7 +305,7 @@ fn axes_have_numbers_quantities_and_units_in_every_pane() {
 fn the_force_axis_has_its_unit_wherever_it_is_drawn() {
     within(60, || {
         for size in SIZES {
-            for keys in ["", "z", "N", "v", "v v", "O"] {
+            for keys in ["", "z", "N", "v", "v v"] {
                 let mut driver = pressed(keys);
                 driver.model.pane = Pane::Force;
                 driver.resize(size);
