@@ -129,7 +129,7 @@ fn way_of_changing(parameter: &Parameter) -> String {
         (Setting::Switch(_), _) => "a switch: t changes it",
         (Setting::Heading, _) => "a group: Enter folds it",
         (_, Step::Choice) => "a choice: ← → change it",
-        _ => "no number: Enter types it",
+        _ => "not a number: Enter types it",
     };
     format!("{} is {way}", parameter.name())
 }
@@ -154,6 +154,9 @@ fn stepped(model: &mut Model, steps: i32, coarse: bool) -> Vec<Effect> {
         Setting::Heading => {
             fold(model, steps < 0);
             return Vec::new();
+        }
+        Setting::Field if matches!(parameter.field.range, Range::Text { .. }) => {
+            return refuse(model, way_of_changing(parameter));
         }
         Setting::Field | Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion => {}
     }
