@@ -3,7 +3,7 @@
 mod command;
 mod generate;
 
-use super::readme::scenes;
+use super::generated::check;
 use asperity::spectrum::{Analysis, End, Moment, Options, PowerLaw, analyse};
 use asperity::topography::Topography;
 use generate::{Normal, Profiles, Spectrum, cut, map, topography};
@@ -113,7 +113,7 @@ fn the_equivalent_line_of_generated_surfaces_is_theirs() {
             }
         }
     }
-    scenes::check("docs/surfaces.md", "biases", &table);
+    check("docs/surfaces.md", "biases", &table);
 }
 
 /// Spectra that end before the last resolved wave.
@@ -135,7 +135,7 @@ fn the_equivalent_line_ends_where_the_spectrum_ends() {
             writeln!(table, "| {last} | {kind} | {cells} |").unwrap();
         }
     }
-    scenes::check("docs/surfaces.md", "cutoffs", &table);
+    check("docs/surfaces.md", "cutoffs", &table);
 }
 
 /// Mean of w⁴ of a Hann window w with a mean of w² of 1: factor by which the window reduces the independent waves.
@@ -186,7 +186,7 @@ fn the_spread_of_an_estimate_is_that_of_the_waves_in_its_profiles() {
             writeln!(table, "| {hurst} | {name} | {waves:.0} | {} | {cells} |", per_cent(least)).unwrap();
         }
     }
-    scenes::check("docs/surfaces.md", "profiles", &table);
+    check("docs/surfaces.md", "profiles", &table);
 }
 
 /// Waves of a rough surface beyond the distance between points.
@@ -211,7 +211,7 @@ fn a_spectrum_that_continues_keeps_the_gradient_of_point_samples() {
         assert!(ends.bias < -0.1 && continues.bias.abs() < 0.4 * ends.bias.abs(), "{ends:?} {continues:?}");
         writeln!(table, "| {hurst} | {} | {} |", ends.text(), continues.text()).unwrap();
     }
-    scenes::check("docs/surfaces.md", "ends", &table);
+    check("docs/surfaces.md", "ends", &table);
 }
 
 /// Moments of the equivalent line: h, ⟨∇z⟩, e_el.
