@@ -40,7 +40,7 @@ pub fn block(page: &str, language: &str) -> String {
 }
 
 /// A table in Markdown, from its header and the cells of its rows.
-fn markdown<const N: usize>(header: [&str; N], rows: impl Iterator<Item = [String; N]>) -> String {
+pub fn markdown<const N: usize>(header: [&str; N], rows: impl Iterator<Item = [String; N]>) -> String {
     let head = format!("| {} |\n|{}\n", header.join(" | "), " --- |".repeat(N));
     head + &rows.map(|cells| format!("| {} |\n", cells.join(" | "))).collect::<String>()
 }
