@@ -5,9 +5,7 @@
 use super::generated::{check, compare, pages_in, read, root};
 use super::program::{asperity_in, json, table};
 use asperity::analysis::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
-use asperity::explorer::demo::{Demo, ONE_SCENE};
-use asperity::explorer::theme::{Appearance, Marker, Theme};
-use asperity::explorer::{keys, screenshot};
+use asperity::explorer::keys;
 use asperity::scene::{Document, FIELDS, LEG_FORCE, LEG_INDENTATION, Range, presets};
 use asperity::simulation::Simulation;
 use asperity::study::{Axis, Changes, Plan, Quantity};
@@ -129,12 +127,18 @@ fn errors_of_a_sphere_are_those_of_the_program() {
 }
 
 #[test]
-fn the_picture_is_that_of_the_program() {
-    let document = asperity::scene::open("pressure-sensitive").unwrap();
-    let appearance = Appearance { theme: Theme::Dark, marker: Marker::Braille };
-    let mut demo = Demo::new(document, ONE_SCENE, (120, 36), appearance, 12.0);
-    while demo.advance().is_some_and(|seconds| seconds + 1e-9 < 9.0) {}
-    compare("docs/explorer.svg", &screenshot(demo.model()));
+fn pictures_are_those_of_their_commands() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("docs")).unwrap();
+    for (page, command) in [
+        ("README.md", "asperity demo pressure-sensitive --at 9 --size 120x36 --picture docs/explorer.svg"),
+        ("docs/reversals.md", "asperity reversals pressure-sensitive --count 64 -o docs/reversals.svg"),
+    ] {
+        assert!(read(page).contains(command), "{page} lacks: {command}");
+        succeeded(folder.path(), command);
+        let file = command.rsplit(' ').next().unwrap();
+        compare(file, &std::fs::read_to_string(folder.path().join(file)).unwrap());
+    }
 }
 
 /// Runs a command in a folder.
