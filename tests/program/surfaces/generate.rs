@@ -135,11 +135,8 @@ pub fn cut(spectrum: &Spectrum, k: f64) -> f64 {
 /// interpolated.
 pub fn topography(heights: &[f64], columns: usize) -> Topography {
     let points = if columns == 0 { heights.len() } else { columns };
-    let shape = if columns == 0 {
-        format!("({points},)")
-    } else {
-        format!("({}, {columns})", heights.len() / columns)
-    };
+    let rows = heights.len().checked_div(columns);
+    let shape = rows.map_or(format!("({points},)"), |rows| format!("({rows}, {columns})"));
     let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}\n");
     let length = (header.len() as u16).to_le_bytes();
     let mut bytes = [b"\x93NUMPY\x01\x00", &length[..], header.as_bytes()].concat();
