@@ -137,11 +137,11 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('u')], EXPLORE, "undo", Act(|model| edit::undo(model, true)), "undo", "undo the last edit", PARAMETERS),
     row(&[char('U'), control('r')], EXPLORE, "redo", Act(|model| edit::undo(model, false)), "", "redo the edit", PARAMETERS),
 
-    row(&[char('c')], EXPLORE, "pin", Act(|model| compare::change(model, compare::pin)), "compare", "keep this loop as a ghost for comparison", COMPARE),
-    row(&[char('x')], EXPLORE, "swap", Act(|model| compare::change(model, compare::swap)), "", "swap the scene with the newest ghost", COMPARE),
+    row(&[char('c')], EXPLORE, "pin", Act(compare::pin), "compare", "keep this loop as a ghost for comparison", COMPARE),
+    row(&[char('x')], EXPLORE, "swap", Act(compare::swap), "", "swap the scene with the newest ghost", COMPARE),
     row(&[char('&')], EXPLORE, "toggle-side-by-side", Act(compare::toggle_side_by_side), "", "show the newest ghost beside the scene: profiles above each other, differences, F_a of both", COMPARE),
-    row(&[char('|')], EXPLORE, "pin-other-use", Act(|model| compare::change(model, compare::pin_other_use)), "", "keep the loop of the measured profile itself, or of its equivalent line, as a ghost", COMPARE),
-    row(&[char('C')], EXPLORE, "clear-ghosts", Act(|model| compare::change(model, compare::clear)), "", "remove all ghosts", COMPARE),
+    row(&[char('|')], EXPLORE, "pin-other-use", Act(compare::pin_other_use), "", "keep the loop of the measured profile itself, or of its equivalent line, as a ghost", COMPARE),
+    row(&[char('C')], EXPLORE, "clear-ghosts", Act(compare::clear), "", "remove all ghosts", COMPARE),
 
     row(&[char('v')], EXPLORE, "next-curve", View(|model| model.curve.quantities = model.curve.quantities.next()), "", "plot force, contact length or number of contact patches", LOOK),
     row(&[char('N')], EXPLORE, "toggle-normalised", View(|model| model.curve.normalised ^= true), "", "plot in units of F_a,max and h, or in SI units", LOOK),

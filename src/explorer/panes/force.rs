@@ -227,12 +227,12 @@ pub fn stage_at(model: &Model, area: Rect, here: Position) -> Option<(usize, f64
 /// Drags the body to the indentation under the mouse.
 fn drag(model: &mut Model, area: Rect, here: Position) -> Vec<Effect> {
     if indentation_at(model, area, here.x).is_none() {
-        return vec![Effect::Show];
+        return vec![Effect::Ask];
     }
     // Manual loading begins first: its axis may reach further than that of the loading, and the body is to be under
     // the mouse.
     let mut effects = if model.manual.is_none() { movement::take(model, None) } else { Vec::new() };
-    effects.retain(|effect| *effect != Effect::Show);
+    effects.retain(|effect| *effect != Effect::Ask);
     if let Some(indentation) = indentation_at(model, area, here.x) {
         effects.extend(movement::take(model, Some(ManualMove::To(indentation))));
     }
