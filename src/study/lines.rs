@@ -4,11 +4,10 @@
 //! springs. So one profile is one sample, and a mean needs many.
 
 use super::height_shape::HeightShape;
-use super::plan::Plan;
-use super::quantity::Quantity;
+use super::plan::{ONE_PROFILE, Plan};
+use super::quantity::{Quantity, regime_of};
 use super::recorder::Recorder;
 use super::statistics::Statistics;
-use super::tables::regime_of;
 use super::target::strip;
 use crate::analysis::Regime;
 use crate::parallel::{begin_threads, on_this_thread};
@@ -19,10 +18,6 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 use thiserror::Error;
-
-/// Reason why a scene has a single profile.
-pub(super) const ONE_PROFILE: &str = "more than one profile needs random roughness (SelfAffine, or an equivalent \
-                                      line); the profile of this scene is fixed";
 
 /// Result of one profile, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

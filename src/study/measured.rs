@@ -15,11 +15,6 @@ use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Returns true for a hash in the form of a plan.
-pub(super) fn is_hash(text: &str) -> bool {
-    text.len() == 64 && text.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f'))
-}
-
 /// The measured file of a plan, that of the first face, if its scene has one.
 pub(super) fn file_of(plan: &Plan) -> Option<PathBuf> {
     plan.scene.measured_files().first().map(PathBuf::from)
@@ -75,6 +70,7 @@ fn read(scene: &Scene) -> Result<(MeasuredRoughness, String), StudyError> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::plan_check::is_hash;
     use super::*;
 
     #[test]

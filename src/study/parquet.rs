@@ -5,10 +5,10 @@
 
 use super::StudyError;
 use super::plan::Plan;
-use super::quantity::Quantity;
+use super::quantity::{Quantity, regime_of};
 use super::results::Results;
 use super::store::Folder;
-use super::tables::{PARQUET, columns, regime_of};
+use super::tables::{PARQUET, columns};
 use crate::io::write_new;
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArrayType, DataType, DoubleType, Int64Type};

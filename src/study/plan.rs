@@ -11,6 +11,10 @@ pub(super) const PLAN_FILE: &str = "plan.ron";
 /// Path of the axis of preloads.
 pub(super) const PRELOAD: &str = "preload";
 
+/// Reason why a scene has a single profile.
+pub(super) const ONE_PROFILE: &str = "more than one profile needs random roughness (SelfAffine, or an equivalent \
+                                      line); the profile of this scene is fixed";
+
 /// A checked plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {

@@ -2,8 +2,7 @@
 //! opened for a study, not when the folder of a study is opened again.
 
 use super::axis::Axis;
-use super::measured::is_hash;
-use super::plan::{PRELOAD, Plan, StiffnessRange};
+use super::plan::{ONE_PROFILE, PRELOAD, Plan, StiffnessRange};
 use super::quantity::Needs;
 use crate::scene::{Roughness, Scene, SceneError, check, ron_string};
 
@@ -26,6 +25,11 @@ const SAME: [&[&str]; 2] = [
     &["kappa", "elastic_energy_ratio", "adhesion.kappa", "adhesion.work", "adhesion.elastic_energy_ratio"],
 ];
 
+/// Returns true for a hash in the form of a plan.
+pub(super) fn is_hash(text: &str) -> bool {
+    text.len() == 64 && text.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f'))
+}
+
 impl Plan {
     /// Errors of the plan itself.
     pub(super) fn errors(&self) -> Vec<String> {
@@ -47,7 +51,7 @@ impl Plan {
             wrong.push(format!("lines = {}: allowed: from 1 to {MOST_LINES}", self.lines));
         }
         if self.lines > 1 && self.scene.seed().is_none() {
-            wrong.push(format!("lines = {}: {}", self.lines, super::lines::ONE_PROFILE));
+            wrong.push(format!("lines = {}: {}", self.lines, ONE_PROFILE));
         }
         if self.record.is_empty() {
             wrong.push("record = []: allowed: at least one quantity".into());

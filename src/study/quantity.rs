@@ -1,6 +1,7 @@
 //! Quantities that a study records for each cell and profile: one row each.
 
 use super::case_outcome::CaseOutcome;
+use crate::analysis::Regime;
 use serde::{Deserialize, Serialize};
 
 /// All properties of a quantity.
@@ -227,4 +228,10 @@ impl Quantity {
     pub(super) fn of(self, case: &CaseOutcome<'_>) -> f64 {
         (self.row().of)(case).filter(|value| value.is_finite()).unwrap_or(f64::NAN)
     }
+}
+
+/// The regime of a recorded value, if the quantity is the regime and known.
+pub(super) fn regime_of(quantity: Quantity, value: f64) -> Option<Regime> {
+    let place = Some(value as usize).filter(|_| quantity == Quantity::Regime && !value.is_nan());
+    Regime::ALL.get(place?).copied()
 }

@@ -3,7 +3,7 @@
 use super::StudyError;
 use super::axis::Axis;
 use super::plan::Plan;
-use super::quantity::Quantity;
+use super::quantity::{Quantity, regime_of};
 use super::results::{Merged, Results};
 use super::statistics::{CONFIDENCE, Statistics, StudentT};
 use super::store::{Folder, LONGEST_LINE};
@@ -107,12 +107,6 @@ fn write_results(results: &Results, out: &mut dyn Write) -> io::Result<()> {
         }
     }
     Ok(())
-}
-
-/// The regime of a recorded value, if the quantity is the regime and known.
-pub(super) fn regime_of(quantity: Quantity, value: f64) -> Option<Regime> {
-    let place = Some(value as usize).filter(|_| quantity == Quantity::Regime && !value.is_nan());
-    Regime::ALL.get(place?).copied()
 }
 
 /// Writes the number of profiles of each cell and, for each quantity, mean, standard deviation and confidence interval.

@@ -184,7 +184,7 @@ fn refusal(refusal: &Refusal, typed: &str) -> String {
 fn rounded_up(value: f64) -> f64 {
     let rounded = |value: f64| format!("{value:.3e}").parse().unwrap_or(value);
     let nearest: f64 = rounded(value);
-    let last_digit = 10.0_f64.powi(value.abs().log10().floor() as i32 - 3);
+    let last_digit = 10.0_f64.powi((value.abs().log10().floor() as i32).saturating_sub(3));
     if nearest >= value { nearest } else { rounded(value + last_digit) }
 }
 
