@@ -6,10 +6,11 @@
 
 use serde_json::Value;
 
+use super::adhesion::Adhesion;
 use super::errors::SceneError;
 use super::field::{FILE_NAME, Field, LEG_INDENTATION};
 use super::fields::{FIELDS, field};
-use super::model::{Adhesion, Edges, Move, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
+use super::model::{Edges, Material, Move, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
 use super::range::Range;
 use super::text::{is_within, ron_float, ron_string};
 use super::tree::{Tree, in_ron, written};
@@ -135,27 +136,13 @@ impl Found<'_> {
     }
 
     fn check_material(&mut self) {
-        let material = self.scene.material;
-        let given = [material.effective_modulus, material.youngs_modulus, material.poisson_ratio];
-        let reason = match given.map(|value| value.is_some()) {
-            [true, false, false] => return,
-            [false, true, true] => {
-                let modulus = material.effective_modulus();
-                let field = field("material.effective_modulus", None).filter(|_| !self.has("material"));
-                if let Some(field) = field.filter(|field| !field.range.contains(modulus)) {
-                    let value = format!("E* = {}", ron_float(modulus));
-                    self.refuse_value("material", value, &field.allowed(), "effective modulus E/(1 − ν²)");
-                }
-                return;
-            }
-            [true, ..] => {
-                "effective_modulus replaces youngs_modulus and poisson_ratio: give one or the other"
-            }
-            [false, true, false] => "youngs_modulus goes with poisson_ratio, which is missing",
-            [false, false, true] => "poisson_ratio goes with youngs_modulus, which is missing",
-            [false, false, false] => "give youngs_modulus with poisson_ratio, or effective_modulus",
-        };
-        self.refuse("material", "", reason);
+        let Material::Isotropic { .. } = self.scene.material else { return };
+        let modulus = self.scene.material.effective_modulus();
+        let field = field("material.effective_modulus", None).filter(|_| !self.has("material"));
+        if let Some(field) = field.filter(|field| !field.range.contains(modulus)) {
+            let value = format!("E* = {}", ron_float(modulus));
+            self.refuse_value("material", value, &field.allowed(), "effective modulus E/(1 − ν²)");
+        }
     }
 
     fn check_form(&mut self) {
@@ -247,37 +234,20 @@ impl Found<'_> {
 
     /// A spring that attaches with more energy than it detaches with would detach at once.
     fn check_closing_work(&mut self) {
-        let Some(Adhesion { work, closing_work: Some(closing), .. }) = self.scene.adhesion else { return };
-        let (allowed, reason) = match work {
-            _ if self.has("adhesion") => return,
-            Some(work) if closing > work => {
-                (format!("0 to {} J/m²", ron_float(work)), "at most adhesion.work")
-            }
-            Some(_) => return,
-            None => (
-                String::new(),
-                "closing_work goes with adhesion.work, which is missing: κ and e_el/γ refer to one work of adhesion",
-            ),
-        };
-        self.refuse("adhesion.closing_work", &allowed, reason);
+        if let Some(Adhesion::Work { work, closing_work: Some(closing), .. }) = self.scene.adhesion
+            && closing > work
+            && !self.has("adhesion")
+        {
+            let allowed = format!("0 to {} J/m²", ron_float(work));
+            self.refuse("adhesion.closing_work", &allowed, "at most adhesion.work");
+        }
     }
 
     /// Amplitude of the roughness, work of adhesion and κ or e_el/γ: any two determine the third.
     fn check_amplitude(&mut self) {
-        let adhesion = self.scene.adhesion.unwrap_or_default();
-        let given =
-            [adhesion.work, adhesion.kappa, adhesion.elastic_energy_ratio].map(|value| value.is_some());
-        match given {
-            [false, false, false] if self.scene.adhesion.is_some() => {
-                return self.refuse("adhesion", "", "give work, kappa or elastic_energy_ratio");
-            }
-            [_, true, true] => {
-                let reason = "kappa and elastic_energy_ratio determine each other: give one of them";
-                return self.refuse("adhesion", "", reason);
-            }
-            _ => {}
-        }
-        let parameter = adhesion.parameter().map(|(parameter, _)| parameter);
+        let work = self.scene.adhesion.and_then(|adhesion| adhesion.work());
+        let parameter = self.scene.adhesion.and_then(|adhesion| adhesion.parameter());
+        let parameter = parameter.map(|(parameter, _)| parameter);
         let Some(roughness) = &self.scene.roughness else {
             if let Some(parameter) = parameter {
                 let reason = format!(
@@ -292,7 +262,7 @@ impl Found<'_> {
             let reason = "rms_height and rms_gradient determine each other: give one of them";
             return self.refuse("roughness", "", reason);
         }
-        let (path, reason) = match (roughness.has_amplitude(), adhesion.work, parameter) {
+        let (path, reason) = match (roughness.has_amplitude(), work, parameter) {
             (true, Some(_), Some(parameter)) => {
                 let name = parameter.name();
                 let end = "two determine the third, so leave one out or set it to None";
@@ -363,8 +333,8 @@ mod tests {
                 "material=(effective_modulus: 1e6, poisson_ratio: 0.5)",
                 "material: effective_modulus replaces ",
             ),
-            ("material=(youngs_modulus: 1e6)", "poisson_ratio, which is missing"),
-            ("material=(poisson_ratio: 0.5)", "youngs_modulus, which is missing"),
+            ("material=(youngs_modulus: 1e6)", "requires poisson_ratio, which is missing"),
+            ("material=(poisson_ratio: 0.5)", "requires youngs_modulus, which is missing"),
             ("material=()", "give youngs_modulus with poisson_ratio, or"),
             // Nearly −1: E* is enormous, though E and ν are in their ranges.
             ("material=(youngs_modulus: 1e6, poisson_ratio: -0.999999999)", "material = E* = 5.0"),
@@ -387,7 +357,7 @@ mod tests {
                 "adhesion.closing_work=0.0500001",
                 "closing_work = 0.0500001: allowed: 0 to 0.05 J/m² (at most adhesion.work)",
             ),
-            ("adhesion=(kappa: 2.0, closing_work: 0.0)", "closing_work goes with adhesion.work"),
+            ("adhesion=(kappa: 2.0, closing_work: 0.0)", "closing_work requires adhesion.work"),
             ("numerics.points=1024", ""),
             ("numerics.points=1023", "roughness.modes = (1, 512): allowed: last mode at most points/2 = 511"),
             ("roughness.modes=(5, 4)", "(5, 4): allowed: a pair"),

@@ -2,11 +2,10 @@
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use super::check::check;
 use super::edit::{field_at, set};
-use super::effects::Effect;
+use super::effects::{Effect, Removed};
 use super::errors::{Origin, SceneError, SceneErrors, origin_at, overrides_behind};
 use super::field::Field;
 use super::fields::{FIELDS, field};
@@ -29,19 +28,8 @@ pub struct Document {
     scene: Scene,
     overrides: Vec<(String, String)>,
     table_head: String,
-    /// Effects switched off, with their removed text.
-    pub(super) switched_off: Vec<SwitchedOff>,
-}
-
-/// An effect that was switched off.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct SwitchedOff {
-    pub(super) effect: Effect,
-    /// Paths of the changed values.
-    pub(super) paths: Vec<String>,
-    /// The documents with and without the effect.
-    pub(super) before: Arc<Document>,
-    pub(super) after: Arc<Document>,
+    /// Effects switched off, with their values.
+    pub(super) removed: Vec<(Effect, Vec<Removed>)>,
 }
 
 impl Scene {
@@ -76,7 +64,7 @@ impl Document {
         })?;
         let text = text.map_err(|unreadable| {
             let error = SceneError::whole(Origin::Scene, unreadable.reason);
-            located(Unread { offset: unreadable.offset, error })
+            error.at(origin_at(source, name, unreadable.offset))
         })?;
         SceneErrors::result(as_written(check(&scene), &text), |error| {
             origin_at(source, name, text.nearest_value(&error.field))
@@ -89,7 +77,7 @@ impl Document {
             scene,
             overrides: Vec::new(),
             table_head: String::new(),
-            switched_off: Vec::new(),
+            removed: Vec::new(),
         })
     }
 
@@ -122,53 +110,26 @@ impl Document {
         let mut new = self.clone();
         let mut errors = Vec::new();
         for (path, value) in overrides {
-            match new.splice(path, value) {
-                Ok(()) => remember(&mut new.overrides, path, value),
+            match spliced(&new.text, path, value) {
+                Ok(text) => {
+                    new.text = text;
+                    remember(&mut new.overrides, path, value);
+                }
                 Err(error) => errors.push(*error),
             }
         }
         SceneErrors::result(errors, |error| error.origin.clone())?;
+        new.scene = read(new.text.as_str()).map_err(|unread| {
+            let origin = overrides_behind(&unread.error, overrides);
+            unread.error.at(origin)
+        })?;
         SceneErrors::result(as_written(check(&new.scene), &new.text), |error| {
             overrides_behind(error, overrides)
         })?;
         if !new.is_changed() {
             new.overrides.clear();
         }
-        new.record_switches(self);
         Ok(new)
-    }
-
-    /// Records the effects that the change from an earlier document has switched off, and drops those that are on.
-    fn record_switches(&mut self, before: &Document) {
-        let scene = &self.scene;
-        self.switched_off.retain(|off| !off.effect.is_on(scene));
-        for effect in Effect::ALL {
-            if effect.is_on(before.scene()) && !effect.is_on(scene) {
-                let [before, after] = [before, self].map(|document| Arc::new(document.clone()));
-                let paths = vec![effect.path().to_owned()];
-                self.switched_off.push(SwitchedOff { effect, paths, before, after });
-            }
-        }
-    }
-
-    /// Changes text and scene; leaves both unchanged on failure.
-    fn splice(&mut self, path: &str, value: &str) -> Result<(), Box<SceneError>> {
-        let origin = || Origin::Overrides(vec![format!("{path}={value}")]);
-        let refused = |message: String| Box::new(SceneError::whole(origin(), message));
-        let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
-        let band = || field(parent, None).filter(|field| matches!(field.range, Range::Band(..)));
-        let typed = match field_at(&self.text, path).or_else(band) {
-            Some(known) => known.read_typed(value).map_err(|error| {
-                let (field, value, allowed) = (path.to_string(), value.to_string(), known.allowed());
-                Box::new(SceneError { field, value, allowed, ..*refused(error.to_string()) })
-            })?,
-            None => value.to_string(),
-        };
-        let text = set(&self.text, path, &typed).map_err(refused)?;
-        check_length(text.as_str()).map_err(refused)?;
-        self.scene = read(text.as_str()).map_err(|unread| Box::new(unread.error.at(origin())))?;
-        self.text = text;
-        Ok(())
     }
 
     /// The present text, with all comments.
@@ -254,6 +215,27 @@ impl Document {
     /// Path of a file named in the scene, relative to the scene's own file.
     pub fn resolve(&self, file: &str) -> PathBuf {
         Path::new(&self.name).parent().unwrap_or(Path::new("")).join(file)
+    }
+}
+
+/// The text with another value of a field. Fields may contradict each other until further overrides.
+fn spliced(text: &Text, path: &str, value: &str) -> Result<Text, Box<SceneError>> {
+    let origin = || Origin::Overrides(vec![format!("{path}={value}")]);
+    let refused = |message: String| Box::new(SceneError::whole(origin(), message));
+    let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
+    let band = || field(parent, None).filter(|field| matches!(field.range, Range::Band(..)));
+    let typed = match field_at(text, path).or_else(band) {
+        Some(known) => known.read_typed(value).map_err(|error| {
+            let (field, value, allowed) = (path.to_string(), value.to_string(), known.allowed());
+            Box::new(SceneError { field, value, allowed, ..*refused(error.to_string()) })
+        })?,
+        None => value.to_string(),
+    };
+    let text = set(text, path, &typed).map_err(refused)?;
+    check_length(text.as_str()).map_err(refused)?;
+    match read(text.as_str()) {
+        Err(unread) if !unread.is_conflict => Err(Box::new(unread.error.at(origin()))),
+        _ => Ok(text),
     }
 }
 

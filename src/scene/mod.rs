@@ -15,6 +15,7 @@
 //! # Ok::<(), scene::SceneErrors>(())
 //! ```
 
+mod adhesion;
 mod changes;
 mod check;
 mod command;
@@ -31,26 +32,25 @@ mod presets;
 mod quantity;
 mod range;
 mod read;
-mod roughness_parameter;
 mod step;
 #[cfg(test)]
 #[allow(dead_code, reason = "integration tests use the rest")]
 #[path = "../../tests/common/strategies.rs"]
 mod strategies;
 mod suggest;
-mod switch;
 mod text;
 mod tree;
 mod typed;
 
 pub use crate::surface::Form;
 pub use crate::text::is_control;
+pub use adhesion::{Adhesion, RoughnessParameter};
 pub use changes::Change;
 pub use check::check;
 pub use command::command_line;
 pub(crate) use command::quoted;
 pub use document::{Document, LONGEST_TEXT};
-pub use effects::Effect;
+pub use effects::{Computed, Effect};
 pub use errors::{Origin, SceneError, SceneErrors};
 pub use field::{Field, LEG_FORCE, LEG_INDENTATION, Step};
 pub use fields::{FIELDS, MOST_POINTS, SCENE_VERSIONS, field};
@@ -63,8 +63,7 @@ pub(crate) use quantity::format_rounded;
 pub use quantity::{QuantityError, exact_quantity, format_quantity, parse_quantity, quantity_as_typed};
 pub use range::{End, Range};
 pub(crate) use read::{describe_error, read_ron};
-pub use roughness_parameter::RoughnessParameter;
 pub(crate) use suggest::nearest;
-pub use switch::Computed;
+
 pub use text::{Span, Text, Unreadable, line_column, ron_float, ron_string};
 pub use tree::{Tree, to_ron};

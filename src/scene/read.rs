@@ -7,7 +7,7 @@ use serde::de::DeserializeOwned;
 
 use super::edit::field_at;
 use super::errors::{Origin, SceneError};
-use super::fields::SCENE_VERSIONS;
+use super::fields::{SCENE_VERSIONS, field};
 use super::model::Scene;
 use super::range::Range;
 use super::suggest::{did_you_mean, nearest};
@@ -26,6 +26,14 @@ pub(super) struct Unread {
     pub(super) offset: usize,
     /// The error, still without an origin.
     pub(super) error: SceneError,
+    /// True for fields that contradict each other.
+    pub(super) is_conflict: bool,
+}
+
+impl Unread {
+    fn new(offset: usize, error: SceneError) -> Unread {
+        Unread { offset, error, is_conflict: false }
+    }
 }
 
 /// Reads a scene; its values are not checked.
@@ -52,10 +60,7 @@ pub(super) fn wrong_version(text: &Text) -> Option<Unread> {
     };
     let allowed = format!("{} or {}", SCENE_VERSIONS.start(), SCENE_VERSIONS.end());
     let error = SceneError::whole(Origin::Scene, message);
-    Some(Unread {
-        offset,
-        error: SceneError { field: "version".into(), value: value.into(), allowed, ..error },
-    })
+    Some(Unread::new(offset, SceneError { field: "version".into(), value: value.into(), allowed, ..error }))
 }
 
 /// Place and reason of an error in text of any form.
@@ -86,7 +91,7 @@ fn place_of(text: &str, error: &SpannedError) -> (usize, usize) {
 
 fn explain(source: &str, error: &SpannedError) -> Unread {
     let (offset, end) = place_of(source, error);
-    let whole = |offset, message: String| Unread { offset, error: SceneError::whole(Origin::Scene, message) };
+    let whole = |offset, message: String| Unread::new(offset, SceneError::whole(Origin::Scene, message));
     if !source.trim().is_empty() && !source[..end].contains('(') {
         return whole(source.len() - source.trim_start().len(), NO_SCENE.into());
     }
@@ -102,6 +107,11 @@ fn explain(source: &str, error: &SpannedError) -> Unread {
 }
 
 fn explain_at(text: &Text, offset: usize, error: &Error) -> Unread {
+    if let Error::Message(message) = error
+        && let Some(conflict) = conflict(text, message)
+    {
+        return conflict;
+    }
     let path = text.path_at(offset).to_owned();
     let at = SceneError { field: path.clone(), message: plain(error), ..SceneError::default() };
     let error = match error {
@@ -116,9 +126,19 @@ fn explain_at(text: &Text, offset: usize, error: &Error) -> Unread {
             let message = near.map_or_else(String::new, |near| format!("did you mean {near}?"));
             SceneError { value: found.clone(), allowed: expected.join(", "), message, ..at }
         }
-        _ => return explain_value(text, Unread { offset, error: at }),
+        _ => return explain_value(text, Unread::new(offset, at)),
     };
-    Unread { offset, error }
+    Unread::new(offset, error)
+}
+
+/// Fields that contradict each other, by a message that starts with the path of their group.
+fn conflict(text: &Text, message: &str) -> Option<Unread> {
+    let (path, reason) = message.split_once(": ")?;
+    field(path, None)?;
+    let value = text.value(path).filter(|value| !value.contains('(')).unwrap_or_default();
+    let (field, value, message) = (path.to_owned(), value.to_owned(), reason.to_owned());
+    let error = SceneError { field, value, message, ..SceneError::default() };
+    Some(Unread { offset: text.nearest_value(path), error, is_conflict: true })
 }
 
 /// A single value is marked as a whole and repeated, with its allowed values.
@@ -134,9 +154,9 @@ fn explain_value(text: &Text, at: Unread) -> Unread {
         // Without quotes the content of a text is not the error.
         Some(field) if !matches!(field.range, Range::Text { .. }) => {
             let (allowed, message) = (field.allowed(), field.name.to_owned());
-            Unread { offset, error: SceneError { value, allowed, message, ..at.error } }
+            Unread::new(offset, SceneError { value, allowed, message, ..at.error })
         }
-        _ => Unread { offset, error: SceneError { value, ..at.error } },
+        _ => Unread::new(offset, SceneError { value, ..at.error }),
     }
 }
 
@@ -176,7 +196,7 @@ mod tests {
     use super::*;
 
     fn unread(text: &str) -> ((usize, usize), String, String, String, String) {
-        let Unread { offset, error } = *read(text).unwrap_err();
+        let Unread { offset, error, .. } = *read(text).unwrap_err();
         let SceneError { field, value, allowed, message, .. } = error;
         (line_column(text, offset), field, value, allowed, message)
     }

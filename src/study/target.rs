@@ -1,7 +1,9 @@
 //! Quantities that an axis may vary: the numbers of a scene by their paths, and others that are derived from several.
 
 use crate::analysis::Governing;
-use crate::scene::{FIELDS, Field, Move, Range, Roughness, RoughnessParameter, Scene, Tree, field, nearest};
+use crate::scene::{
+    Adhesion, FIELDS, Field, Move, Range, Roughness, RoughnessParameter, Scene, Tree, field, nearest,
+};
 use crate::surface::SelfAffine;
 
 /// Quantities that are not fields of a scene.
@@ -130,7 +132,7 @@ impl Target {
         scene: &mut Scene,
     ) -> Result<(), (usize, String)> {
         // Consecutive fields are set in one tree.
-        let mut fields = None;
+        let (mut fields, mut last) = (None, 0);
         for follows in [false, true] {
             for (place, (target, value)) in values.clone().enumerate() {
                 let failed = |reason: String| (place, reason);
@@ -138,15 +140,20 @@ impl Target {
                     continue;
                 }
                 if let Target::Field(field, part) = target {
+                    last = place;
                     let tree = fields.get_or_insert_with(|| Tree::of(scene));
                     set(tree, &part.path(field), value).map_err(failed)?;
                 } else {
-                    fields.take().and_then(Tree::scene).into_iter().for_each(|changed| *scene = changed);
+                    if let Some(tree) = fields.take() {
+                        *scene = tree.scene().map_err(|reason| (last, reason))?;
+                    }
                     target.set(scene, value).map_err(failed)?;
                 }
             }
         }
-        fields.and_then(Tree::scene).into_iter().for_each(|changed| *scene = changed);
+        if let Some(tree) = fields {
+            *scene = tree.scene().map_err(|reason| (last, reason))?;
+        }
         Ok(())
     }
 
@@ -174,7 +181,9 @@ impl Target {
         match self {
             Target::Preload => {}
             Target::RoughnessParameter(parameter) => {
-                scene.adhesion = Some(scene.adhesion.unwrap_or_default().with_parameter(parameter, value));
+                let by_parameter = Ok(Adhesion::by_parameter(parameter, value));
+                let changed = scene.adhesion.map_or(by_parameter, |one| one.with_parameter(parameter, value));
+                scene.adhesion = Some(changed?);
             }
             Target::SpringsPerWave => {
                 let last = (scene.numerics.points as f64 / value).round();
@@ -188,7 +197,7 @@ impl Target {
             Target::Field(field, part) => {
                 let mut tree = Tree::of(scene);
                 set(&mut tree, &part.path(field), value)?;
-                tree.scene().into_iter().for_each(|changed| *scene = changed);
+                *scene = tree.scene()?;
             }
         }
         Ok(())

@@ -2,7 +2,7 @@
 
 use super::common::effort::cases;
 use asperity::analysis::Regime;
-use asperity::scene::{Adhesion, Move, Roughness, Scene};
+use asperity::scene::{Adhesion, Material, Move, Roughness, RoughnessParameter, Scene};
 use asperity::simulation::{Outcome, Simulation};
 use asperity::study::{
     Changes, Finished, Folder, Options, Plan, Quantity, RESULTS, SUMMARY, Shard, Status, StudyError, merge,
@@ -115,8 +115,8 @@ fn cells_are_what_single_runs_give() {
         for row in rows {
             let values = plan.values(row.cell);
             let mut scene = plan.scene.clone();
-            scene.adhesion = Some(Adhesion::default().with_kappa(values[0]));
-            scene.material.effective_modulus = Some(values[2]);
+            scene.adhesion = Some(Adhesion::by_parameter(RoughnessParameter::Kappa, values[0]));
+            scene.material = Material::effective(values[2]);
             let Some(Roughness::SelfAffine { hurst, rms_height, seed, .. }) = &mut scene.roughness else {
                 panic!("rough")
             };

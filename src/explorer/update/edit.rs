@@ -9,7 +9,7 @@ use crate::explorer::panes::first_listed;
 use crate::explorer::parameters::{Parameter, Setting, parameters};
 use crate::explorer::request::{Focus, LineView};
 use crate::explorer::text_line::TextLine;
-use crate::scene::{Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, presets};
+use crate::scene::{Adhesion, Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, presets};
 
 /// Most edits that can be undone.
 const UNDO_DEPTH: usize = 1000;
@@ -218,16 +218,17 @@ fn with_selected(model: &Model, written: &str) -> Result<Document, String> {
         Setting::WorkOfAdhesion => document.with_work_of_adhesion(number()?),
         Setting::RoughnessParameter(parameter) => {
             let value = number()?;
-            let adhesion = document.scene().adhesion.unwrap_or_default();
-            match (adhesion.work.filter(|_| adhesion.parameter().is_none()), model.governing()) {
+            match (document.scene().adhesion, model.governing()) {
                 // The scene has γ alone, which follows from the parameter.
-                (Some(_), Some(governing)) => {
+                (Some(Adhesion::Work { amplitude: None, .. }), Some(governing)) => {
                     let undefined = || format!("{} is not defined without roughness", parameter.symbol());
                     let work = governing.work_for(parameter, value).ok_or_else(undefined)?;
                     document.with_work_of_adhesion(work)
                 }
-                (Some(_), None) => return Err("not before the scene is computed".to_owned()),
-                (None, _) => document.with_parameter(parameter, value),
+                (Some(Adhesion::Work { amplitude: None, .. }), None) => {
+                    return Err("not before the scene is computed".to_owned());
+                }
+                _ => document.with_parameter(parameter, value),
             }
         }
     };

@@ -81,10 +81,7 @@ pub fn moved(document: &Document, values: &[(&str, f64)]) -> Result<Document, Sc
         moved = moved.set("roughness.modes.1", &format!("{last:.0}"))?;
     }
     if let Some((parameter, value)) = parameter {
-        let by_work = matches!(
-            moved.scene().adhesion,
-            Some(Adhesion { work: Some(_), kappa: None, elastic_energy_ratio: None, .. })
-        );
+        let by_work = matches!(moved.scene().adhesion, Some(Adhesion::Work { amplitude: None, .. }));
         let work = governing(moved.scene()).and_then(|governing| governing.work_for(parameter, value));
         moved = match work.filter(|_| by_work) {
             Some(work) => moved.with_work_of_adhesion(work)?,

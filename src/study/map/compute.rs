@@ -109,7 +109,8 @@ mod tests {
     /// Scene of a cell on one of its profiles.
     fn scene(map: &LiveMap, kappa: f64, wanted: f64, line: u64) -> Scene {
         let mut scene = map.template().plan().scene;
-        scene.adhesion.as_mut().unwrap().kappa = Some(kappa);
+        scene.adhesion =
+            Some(scene.adhesion.unwrap().with_parameter(RoughnessParameter::Kappa, kappa).unwrap());
         if let Some(Roughness::SelfAffine { hurst, seed, .. }) = &mut scene.roughness {
             (*hurst, *seed) = (wanted, *seed + line);
         }

@@ -3,7 +3,7 @@
 use super::axis::{MapAxis, force_unit, moved};
 use super::model::{Layer, MapModel};
 use super::template::Template;
-use crate::scene::{Adhesion, Document, Move, Numerics, Roughness, Scene, SceneErrors};
+use crate::scene::{Adhesion, Document, Move, Numerics, Roughness, RoughnessParameter, Scene, SceneErrors};
 use crate::study::axis::Axis;
 use crate::study::error::StudyError;
 use crate::study::figure::{FigureAxis, across_and_up, fixed};
@@ -167,7 +167,8 @@ impl StudyMap {
         }
         let kappa = self.over().into_iter().find(|axis| KAPPA.contains(&axis.path()));
         if let (None, Some(kappa)) = (scene.adhesion, kappa) {
-            scene.adhesion = Some(Adhesion::default().with_kappa(kappa.value(kappa.count() / 2)));
+            scene.adhesion =
+                Some(Adhesion::by_parameter(RoughnessParameter::Kappa, kappa.value(kappa.count() / 2)));
         }
         if let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness {
             *seed = plan.seed;
@@ -383,7 +384,11 @@ mod tests {
         let document = study_map.document().unwrap();
         let scene = document.scene();
         assert_eq!(scene.title, "A study");
-        assert_eq!(scene.adhesion.unwrap().kappa, Some(1.0), "the plan's scene has none");
+        assert_eq!(
+            scene.adhesion,
+            Some(Adhesion::by_parameter(RoughnessParameter::Kappa, 1.0)),
+            "the plan's scene has none"
+        );
         let Some(Roughness::SelfAffine { seed, modes, hurst, .. }) = scene.roughness else { panic!() };
         assert_eq!((seed, modes, hurst), (7, (1, 16), 0.5));
         // 0.5 E* h L.

@@ -154,7 +154,7 @@ fn two_works_dissipate_more_at_the_same_pull_off_force() {
     assert_says(name, "Opening takes ten times the work that closing gives back");
     assert_says(name, "the pull-off force stays (3/2)πγR, and the loop dissipates 16 pJ instead of 12 pJ");
     let adhesion = scene(name).scene().adhesion.unwrap();
-    assert!((adhesion.work.unwrap() / adhesion.closing_work.unwrap() - 10.0).abs() < 1e-12);
+    assert!((adhesion.work().unwrap() / adhesion.closing_work().unwrap() - 10.0).abs() < 1e-12);
     let [two, one] = [run(&scene(name)), run(&scene(name).set("adhesion.closing_work", "None").unwrap())];
     let exact = 1.5 * std::f64::consts::PI * 0.05 * 1e-4;
     for outcome in [&two, &one] {
