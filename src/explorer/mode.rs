@@ -87,7 +87,10 @@ impl Library {
     /// Search words of an entry: name, and as prose title and notice.
     #[must_use]
     pub fn candidate(entry: &Entry) -> Candidate {
-        Candidate { names: vec![entry.name.clone()], prose: vec![entry.title.clone(), entry.notice.clone()] }
+        Candidate {
+            names: vec![entry.name.clone()],
+            prose: vec![entry.title().to_owned(), entry.notice().to_owned()],
+        }
     }
 }
 

@@ -223,8 +223,8 @@ impl Document {
     /// This document with the next choice of a field in this direction that the scene allows; `None` if there is no
     /// other.
     ///
-    /// Omitting an effect switches it off, and the next choice switches it on as before or as suits the scene.
-    /// Adhesion by work, by κ and by e_el/γ are the same adhesion: `computed` has the values for this scene.
+    /// Omitting an effect switches it off, and the next choice switches it on again. Adhesion by work, by κ and by
+    /// e_el/γ are the same adhesion: `computed` has the values for this scene.
     ///
     /// # Errors
     /// No other choice is allowed, or a converted value is not in `computed`.
@@ -235,8 +235,8 @@ impl Document {
         computed: &Computed,
     ) -> Result<Option<Document>, SceneErrors> {
         let effect = Effect::ALL.into_iter().find(|effect| effect.path() == field.path);
-        let effect = effect.map(|effect| (effect, effect.is_on(self.scene())));
-        if effect == Some((Effect::Adhesion, true)) && self.scene().roughness.is_some() {
+        let is_on = effect.is_some_and(|effect| effect.is_on(self.scene()));
+        if effect == Some(Effect::Adhesion) && is_on && self.scene().roughness.is_some() {
             self.known(computed.work_of_adhesion, "adhesion", "the same adhesion given the other way")?;
         }
         let Some(here) = Tree::of(self.scene()).written(field) else { return Ok(None) };
@@ -245,18 +245,9 @@ impl Document {
             let next = field.stepped(&here, if forwards { distance } else { -distance }, false);
             let Some(next) = next.filter(|next| choice_key(next) != choice_key(&here)) else { break };
             let chosen = match effect {
-                Some((effect, _)) if next == "None" => self.without(effect, computed),
-                Some((Effect::Adhesion, true)) => self.converted(&next, computed),
-                // Any specification of adhesion will do, since each follows from the other.
-                Some((Effect::Adhesion, false)) => self.with(Effect::Adhesion),
-                Some((effect, false)) => {
-                    let is_next = |new: &Document| {
-                        let written = Tree::of(new.scene()).written(field).unwrap_or_default();
-                        choice_key(&written) == choice_key(&next)
-                    };
-                    let with_effect = self.with(effect).ok().filter(is_next);
-                    with_effect.map_or_else(|| self.set(field.path, &next), Ok)
-                }
+                Some(effect) if !is_on => self.with(effect),
+                Some(effect) if next == "None" => self.without(effect, computed),
+                Some(Effect::Adhesion) => self.converted(&next, computed),
                 _ => self.set(field.path, &next),
             };
             match chosen {
@@ -269,24 +260,20 @@ impl Document {
         refused.map_or(Ok(None), Err)
     }
 
-    /// Converts the adhesion to the next way of specifying it; returns its usual value if the conversion is unknown.
+    /// The same adhesion by the next choice, or the usual value of that choice where there is no same one.
     fn converted(&self, next: &str, computed: &Computed) -> Result<Document, SceneErrors> {
         // A typed value comes back from a conversion to another one without digits of rounding.
         let typed =
             |value| if round_to(value, 10) == round_to(value, 14) { round_to(value, 10) } else { value };
-        let value = |value: Option<f64>| value.map(typed);
-        let is_next = |one: &RoughnessParameter| choice_key(next) == format!("({}", one.name());
-        let parameter = RoughnessParameter::ALL.into_iter().find(is_next);
-        let known = match parameter {
-            Some(RoughnessParameter::Kappa) => value(computed.kappa),
-            Some(RoughnessParameter::ElasticEnergyRatio) => value(computed.elastic_energy_ratio),
-            None => computed.work_of_adhesion,
+        let by = |parameter, value: Option<f64>| Some(self.with_parameter(parameter, typed(value?)));
+        let changed = match choice_key(next) {
+            "(kappa" => by(RoughnessParameter::Kappa, computed.kappa),
+            "(elastic_energy_ratio" => {
+                by(RoughnessParameter::ElasticEnergyRatio, computed.elastic_energy_ratio)
+            }
+            _ => computed.work_of_adhesion.map(|work| self.with_work_of_adhesion(work)),
         };
-        match (parameter, known) {
-            (Some(parameter), Some(value)) => self.with_parameter(parameter, value),
-            (None, Some(work)) => self.with_work_of_adhesion(work),
-            (_, None) => self.set("adhesion", next),
-        }
+        changed.unwrap_or_else(|| self.set("adhesion", next))
     }
 
     /// A value of the computed scene for a field.
@@ -356,7 +343,6 @@ mod tests {
 
     use super::super::strategies::{sound, sound_scenes};
     use super::*;
-    use crate::surface::Form;
     use Move::{ToForce, ToIndentation, ToSeparation, ToTouch, ToZeroForce};
 
     #[test]
@@ -453,18 +439,6 @@ mod tests {
     }
 
     #[test]
-    fn without_roughness_kappa_becomes_its_work() {
-        assert_eq!(adhesion(&off(&document(), Effect::Roughness)), (Some(0.0123), None));
-        let unknown = document().without(Effect::Roughness, &Computed::default()).unwrap_err();
-        assert_eq!(
-            unknown.to_string(),
-            "adhesion = (kappa: 6.0): κ requires roughness, and the work of adhesion is not known yet: \
-             compute the scene first"
-        );
-        assert_eq!(adhesion(&off(&both(), Effect::Roughness)), (Some(0.1), None));
-    }
-
-    #[test]
     fn without_adhesion_the_amplitude_it_set_stays() {
         let unknown = both().without(Effect::Adhesion, &Computed::default()).unwrap_err();
         assert!(unknown.to_string().contains("the rms height is not known yet"), "{unknown}");
@@ -512,17 +486,6 @@ mod tests {
         assert_eq!(next(&smooth, "adhesion", true).scene().adhesion, None);
         let ratio = next(&both(), "adhesion", true);
         assert_eq!(ratio.value("adhesion"), Some("(work: 0.1, elastic_energy_ratio: 0.9)"));
-    }
-
-    #[test]
-    fn choices_form_a_circle() {
-        let smooth = next(&document(), "roughness", true);
-        assert_eq!(smooth.scene().roughness, None);
-        assert_eq!(next(&smooth, "roughness", true).scene(), document().scene());
-        let sphere = next(&document(), "form", true);
-        assert_eq!(sphere.scene().form, Some(Form::Paraboloid { radius: 1e-4 }));
-        assert_eq!(next(&sphere, "form", false).scene(), document().scene());
-        assert_eq!(next(&document(), "form", false).value("form"), Some("Punch(radius: 2.0e-5)"));
     }
 
     proptest! {

@@ -28,7 +28,6 @@ mod fields;
 mod library;
 mod model;
 mod open;
-mod presets;
 mod quantity;
 mod range;
 mod read;
@@ -37,10 +36,8 @@ mod step;
 #[allow(dead_code, reason = "integration tests use the rest")]
 #[path = "../../tests/common/strategies.rs"]
 mod strategies;
-mod suggest;
 mod text;
 mod tree;
-mod typed;
 
 pub use crate::surface::Form;
 pub use crate::text::is_control;
@@ -51,19 +48,18 @@ pub use command::command_line;
 pub(crate) use command::quoted;
 pub use document::{Document, LONGEST_TEXT};
 pub use effects::{Computed, Effect};
+pub(crate) use errors::nearest;
 pub use errors::{Origin, SceneError, SceneErrors};
 pub use field::{Field, LEG_FORCE, LEG_INDENTATION, Step};
 pub use fields::{FIELDS, MOST_POINTS, SCENE_VERSIONS, field};
-pub use library::{Entry, Library, MOST_FILES, Source, typed_path};
+pub use library::{DEFAULT, Entry, Library, MOST_FILES, Preset, Source, find, presets, typed_path};
 pub use model::*;
 pub(crate) use open::{is_file_name, read_file};
 pub use open::{open, open_argument};
-pub use presets::{DEFAULT, Preset, find, presets};
 pub(crate) use quantity::format_rounded;
 pub use quantity::{QuantityError, exact_quantity, format_quantity, parse_quantity, quantity_as_typed};
-pub use range::{End, Range};
+pub use range::Range;
 pub(crate) use read::{describe_error, read_ron};
-pub(crate) use suggest::nearest;
 
 pub use text::{Span, Text, Unreadable, line_column, ron_float, ron_string};
 pub use tree::{Tree, to_ron};

@@ -12,8 +12,8 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use strum::IntoStaticStr;
 
-/// Fewest springs per wave of a form, of roughness and of the maps. The adhesion force of a rough sphere has an error of
-/// 6 % with two springs to the shortest wave, of 0.2 % with four (docs/accuracy.md).
+/// Fewest springs per wave of a form, of roughness and of the maps: the adhesion force of rough profiles then has an
+/// error of about one per cent with both edge models (docs/accuracy.md). Two springs per wave are the limit.
 pub const SPRINGS_PER_WAVE: u64 = 4;
 
 /// A scene: two bodies, their loading, and the resolution of the computation.
@@ -255,16 +255,11 @@ impl Scene {
 
     /// Paths of the files of each face, with names relative to `folder`.
     pub fn measured_paths(&self, folder: &Path) -> Vec<Vec<PathBuf>> {
-        let mut files: Vec<PathBuf> =
-            self.measured_files().into_iter().map(|file| folder.join(file)).collect();
-        match &self.roughness {
-            Some(Roughness::Measured { opposite: Some(_), .. }) => {
-                let opposite = files.pop();
-                vec![files, opposite.into_iter().collect()]
-            }
-            Some(Roughness::Measured { .. }) => vec![files],
-            _ => Vec::new(),
-        }
+        let Some(Roughness::Measured { file, further_files, opposite, .. }) = &self.roughness else {
+            return Vec::new();
+        };
+        let face = std::iter::once(file).chain(further_files).map(|file| folder.join(file)).collect();
+        std::iter::once(face).chain(opposite.iter().map(|file| vec![folder.join(file)])).collect()
     }
 
     /// Renames the files of the measured surfaces.

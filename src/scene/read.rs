@@ -7,10 +7,10 @@ use serde::de::DeserializeOwned;
 
 use super::edit::field_at;
 use super::errors::{Origin, SceneError};
+use super::errors::{did_you_mean, nearest};
 use super::fields::{SCENE_VERSIONS, field};
 use super::model::Scene;
 use super::range::Range;
-use super::suggest::{did_you_mean, nearest};
 use super::text::{Text, offset_of};
 
 /// Longest value that is repeated in messages.
@@ -245,51 +245,6 @@ mod tests {
         ] {
             let (at, path, _, _, message) = unread(text);
             assert!((at, path.as_str()) == (place, field) && message.contains(said), "{text}: {message}");
-        }
-    }
-
-    #[test]
-    fn the_version_is_stated_whatever_else_is_wrong() {
-        let wrong = |text: &str| wrong_version(&Text::new(text).unwrap());
-        assert_eq!(wrong("(version: 1, nonsense)"), None);
-        assert_eq!(wrong("(version: 3, nonsense)").unwrap().error.value, "3");
-        assert!(wrong("(length: 1)").unwrap().error.message.contains("missing"));
-    }
-
-    /// Of two mistakes the first is reported, even if a bracket or quote after it is not closed.
-    #[test]
-    fn what_stops_the_reader_first_is_said() {
-        let (at, .., message) = unread("(version: 1, nonsense: 2, title: \"a)");
-        assert_eq!(at, (1, 14));
-        assert!(message.starts_with("no such field"), "{message}");
-    }
-
-    #[test]
-    fn another_text_is_explained_by_its_own_fields() {
-        #[derive(Debug, serde::Deserialize)]
-        #[serde(deny_unknown_fields)]
-        #[allow(dead_code, reason = "only read")]
-        struct Other {
-            count: u8,
-            colour: Colour,
-        }
-        #[derive(Debug, serde::Deserialize)]
-        enum Colour {
-            Green,
-            Blue,
-        }
-        for (text, offset, said) in [
-            ("(count: 1, colour: Grren)", 19, "Grren: allowed: Green, Blue (did you mean Green?)"),
-            ("(count: 1, colour: X)", 19, "X: allowed: Green, Blue"),
-            ("(count: 1)", 9, "colour: missing"),
-            ("(count: 1, count: 2)", 11, "count: given twice"),
-            ("(count: 1, size: 2)", 11, "size: "),
-            ("(count: 1, colour: Blue) x", 25, "nothing may follow here"),
-        ] {
-            let error = ron::from_str::<Other>(text).unwrap_err();
-            let (at, message) = describe_error(text, &error);
-            assert!(message.starts_with(said), "{text}: {message}");
-            assert_eq!(at, offset, "{text}: {message}");
         }
     }
 }

@@ -271,15 +271,6 @@ mod tests {
         );
     }
 
-    #[test]
-    fn only_what_differs_from_the_defaults_is_written() {
-        let text = "(\n    version: 1,\n    material: (effective_modulus: 1.0e6),\n    length: 1.0e-4,\n";
-        let scene = Document::parse(&format!("{text})"), "scene").unwrap().scene().clone();
-        assert_eq!(to_ron(&scene), format!("{text})\n"));
-        let numerics = super::super::model::Numerics { points: 64, ..scene.numerics };
-        assert_eq!(to_ron(&Scene { numerics, ..scene }), format!("{text}    numerics: (points: 64),\n)\n"));
-    }
-
     proptest! {
         #[test]
         fn a_scene_is_its_tree_and_its_text(scene in sound_scenes()) {

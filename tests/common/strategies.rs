@@ -3,8 +3,8 @@
 //! The unit tests of the scene and the integration tests include the file.
 
 use super::{
-    DEFAULT, Document, End, FIELDS, Field, LEG_FORCE, LEG_INDENTATION, Range, Scene, find, is_control,
-    ron_float, ron_string,
+    DEFAULT, Document, FIELDS, Field, LEG_FORCE, LEG_INDENTATION, Range, Scene, find, is_control, ron_float,
+    ron_string,
 };
 use proptest::prelude::*;
 
@@ -72,7 +72,7 @@ impl Drawn {
             return value.clone();
         }
         let value = match field.range {
-            Range::Real(min, max) => self.number(field, min, max).prop_map(ron_float).boxed(),
+            Range::Real(..) => self.number(field).prop_map(ron_float).boxed(),
             Range::Whole(min, max) => whole(min, max).prop_map(|value| value.to_string()).boxed(),
             Range::Band(min, max) => (whole(min, max), whole(min, max))
                 .prop_map(|(one, other)| format!("({}, {})", one.min(other), one.max(other)))
@@ -153,9 +153,10 @@ impl Drawn {
 
     /// Numbers around the usual value of the field, and extreme ones: the ends of the range, and all its orders of
     /// magnitude alike.
-    fn number(&self, field: &'static Field, min: End, max: End) -> BoxedStrategy<f64> {
-        let least = if let End::Open(end) = min { end.next_up() } else { min.value() };
-        let most = if let End::Open(end) = max { end.next_down() } else { max.value() };
+    fn number(&self, field: &'static Field) -> BoxedStrategy<f64> {
+        let (least, most) = field.range.ends().unwrap_or_default();
+        let least = if field.range.contains(least) { least } else { least.next_up() };
+        let most = if field.range.contains(most) { most } else { most.next_down() };
         let size = least.abs().max(most.abs());
         let smallest = if least > 0.0 { least } else { 1e-300_f64.max(f64::MIN_POSITIVE / size) };
         let signed = |size: BoxedStrategy<f64>| {

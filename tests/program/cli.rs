@@ -225,7 +225,7 @@ fn errors_of_overrides_state_field_value_and_range() {
     }
     assert!(run("numerics.pionts=64").contains("numerics.points"));
     assert!(run("numerics.points=many").contains("many"));
-    let wrong = "length = 10 kg: allowed: from 1e-9 to 10 m (kg is no length: m, mm, µm, nm)";
+    let wrong = "length = 10 kg: allowed: from 1e-9 to 10 m (kg is not a unit of length: use m, mm, µm, nm)";
     assert!(run("length=10 kg").contains(wrong));
     // Several errors, each on a line of its own; the same on every command.
     for command in ["run", "plan", "line"] {

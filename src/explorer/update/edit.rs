@@ -9,7 +9,9 @@ use crate::explorer::panes::first_listed;
 use crate::explorer::parameters::{Parameter, Setting, parameters};
 use crate::explorer::request::{Focus, LineView};
 use crate::explorer::text_line::TextLine;
-use crate::scene::{Adhesion, Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, presets};
+use crate::scene::{
+    Adhesion, Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, parse_quantity, presets,
+};
 
 /// Most edits that can be undone.
 const UNDO_DEPTH: usize = 1000;
@@ -212,7 +214,7 @@ fn set_selected(model: &mut Model, written: &str) -> Vec<Effect> {
 fn with_selected(model: &Model, written: &str) -> Result<Document, String> {
     let parameter = model.parameter().ok_or("no parameter is selected")?;
     let document = &model.document;
-    let number = || written.parse::<f64>().map_err(|_| format!("{written} is no number"));
+    let number = || parse_quantity(written, parameter.field.unit).map_err(|error| error.to_string());
     let changed = match parameter.setting {
         Setting::Field | Setting::Switch(_) | Setting::Heading => document.set(&parameter.path, written),
         Setting::WorkOfAdhesion => document.with_work_of_adhesion(number()?),

@@ -48,7 +48,7 @@ pub fn accept(model: &mut Model, library: &Library) -> Vec<Effect> {
         return vec![Effect::Open(path.unwrap_or(typed))];
     };
     model.mode = Mode::Explore;
-    edit::open_read(model, entry.document())
+    edit::open_read(model, entry.document.clone())
 }
 
 /// Requests the curve of the selected scene.
@@ -58,7 +58,7 @@ pub fn preview(model: &mut Model) -> Vec<Effect> {
     if model.preview.as_ref().is_some_and(|preview| preview.text == entry.text) {
         return Vec::new();
     }
-    match entry.document() {
+    match entry.document.clone() {
         Ok(document) if edit::is_previewed(&document, MOST_SPRINGS_SEEN) => {
             vec![Effect::Preview(Box::new(document))]
         }

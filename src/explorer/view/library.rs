@@ -49,7 +49,7 @@ fn draw_list(frame: &mut Frame<'_>, area: Rect, model: &Model, library: &Library
             continue;
         };
         let selected = place == library.finder.selected;
-        let mark = match (&entry.error, selected) {
+        let mark = match (entry.error(), selected) {
             (Some(_), _) => "!",
             (None, true) => "›",
             (None, false) => " ",
@@ -83,10 +83,10 @@ fn draw_entry(frame: &mut Frame<'_>, area: Rect, model: &Model, entry: &Entry, q
     let theme = model.appearance.theme;
     let (candidate, query) = (Library::candidate(entry), query.text());
     let mark = |text: &str, meaning| Line::from(found(&candidate, text, &query, theme.style(meaning), theme));
-    let mut lines = wrapped(&mark(&entry.title, Meaning::Title), area.width);
-    let notice = entry.notice.split_whitespace().collect::<Vec<_>>().join(" ");
+    let mut lines = wrapped(&mark(entry.title(), Meaning::Title), area.width);
+    let notice = entry.notice().split_whitespace().collect::<Vec<_>>().join(" ");
     lines.extend(wrapped(&mark(&notice, Meaning::Text), area.width));
-    if let Some(error) = &entry.error {
+    if let Some(error) = &entry.error() {
         lines.extend(wrapped(&Line::styled(format!("! {error}"), theme.style(Meaning::Error)), area.width));
     }
     let rows = (lines.len() as u16).min(area.height);

@@ -53,7 +53,7 @@ fn pressure_sensitive_adhesion_grows_with_the_preload() {
     for (preload, force) in [(5e-6, 2.6e-6), (1e-5, 1.7e-5), (2e-5, 6.6e-5)] {
         assert_eq!(two_digits(adhesion_force(&pressed(name, preload))), force, "{preload}");
     }
-    assert_says(name, "At first touch almost nothing sticks");
+    assert_says(name, "At first touch almost nothing adheres");
     let outcome = run(&scene(name));
     assert_eq!(outcome.regime, Some(Regime::PressureSensitive));
     assert!(outcome.zero_load_adhesion_force.unwrap() < 1e-3 * adhesion_force(&outcome));
