@@ -274,10 +274,24 @@ impl Found<'_> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::super::document::Document;
-    use super::super::strategies::sound;
     use super::*;
+
+    /// A valid rough scene with adhesion.
+    pub fn sound() -> Scene {
+        const TEXT: &str = r#"(
+            version: 1,
+            title: "A line",
+            material: (youngs_modulus: 2.0e6, poisson_ratio: 0.5),
+            length: 1.0e-4,
+            roughness: SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1),
+            adhesion: (work: 0.05),
+            loading: [ToForce(1.0e-5), ToSeparation],
+            numerics: (points: 4096, edges: Grid),
+        )"#;
+        Document::parse(TEXT, "sound").unwrap().scene().clone()
+    }
 
     fn errors_with(sets: &str) -> Vec<String> {
         let sound = Document::from_scene(&sound(), "sound").unwrap();

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::check::check;
 use super::edit::{field_at, set};
-use super::effects::{Effect, Removed};
+use super::effects::Effect;
 use super::errors::{Origin, SceneError, SceneErrors, origin_at, overrides_behind};
 use super::field::Field;
 use super::fields::{FIELDS, field};
@@ -28,8 +28,8 @@ pub struct Document {
     scene: Scene,
     overrides: Vec<(String, String)>,
     table_head: String,
-    /// Effects switched off, with their values.
-    pub(super) removed: Vec<(Effect, Vec<Removed>)>,
+    /// Effects switched off, each with the paths of the changed values, their former and their present text.
+    pub(super) removed: Vec<(Effect, Vec<[String; 3]>)>,
 }
 
 impl Scene {

@@ -160,11 +160,8 @@ impl Document {
         };
         let overrides: Vec<_> = replaced.into_iter().chain([pair(effect.path(), value)]).collect();
         let mut new = self.set_all(&overrides)?;
-        let values = overrides.iter().map(|(path, _)| {
-            let [removed, present] =
-                [self, &new].map(|document| document.value(path).unwrap_or_default().to_owned());
-            Removed { path: path.clone(), removed, present }
-        });
+        let value = |document: &Document, path| document.value(path).unwrap_or_default().to_owned();
+        let values = overrides.iter().map(|(path, _)| [path.clone(), value(self, path), value(&new, path)]);
         let removed = (effect, values.collect());
         new.removed.retain(|(other, _)| *other != effect);
         new.removed.push(removed);
@@ -183,8 +180,8 @@ impl Document {
             return Ok(self.clone());
         }
         let restored = self.removed.iter().find(|(off, _)| *off == effect).and_then(|(_, values)| {
-            let unchanged = values.iter().filter(|value| self.value(&value.path) == Some(&value.present));
-            let back: Vec<_> = unchanged.map(|value| pair(&value.path, value.removed.as_str())).collect();
+            let unchanged = values.iter().filter(|[path, _, present]| self.value(path) == Some(present));
+            let back: Vec<_> = unchanged.map(|[path, removed, _]| pair(path, removed.as_str())).collect();
             self.set_all(&back).ok().filter(|new| effect.is_on(new.scene()))
         });
         restored.map_or_else(|| self.set(effect.path(), &effect.suited(self.scene())), Ok)
@@ -287,14 +284,6 @@ impl Document {
     }
 }
 
-/// A value that was replaced when an effect was switched off.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Removed {
-    path: String,
-    removed: String,
-    present: String,
-}
-
 /// The adhesion of a scene, by this work of adhesion, J/m².
 fn by_work(scene: &Scene, work: f64) -> Adhesion {
     scene.adhesion.map_or(Adhesion::by_work(work), |adhesion| adhesion.with_work(work))
@@ -339,23 +328,8 @@ pub(super) fn pressing(loading: &[Move]) -> Move {
 
 #[cfg(test)]
 mod tests {
-    use proptest::prelude::*;
-
-    use super::super::strategies::{sound, sound_scenes};
     use super::*;
     use Move::{ToForce, ToIndentation, ToSeparation, ToTouch, ToZeroForce};
-
-    #[test]
-    fn a_scene_calls_for_what_it_says() {
-        let mut scene = sound();
-        let on = |scene: &Scene| Effect::ALL.into_iter().filter(|e| e.is_on(scene)).collect::<Vec<_>>();
-        assert_eq!(on(&scene), [Effect::Roughness, Effect::Adhesion, Effect::Unloading]);
-        scene.adhesion = Some(Adhesion::by_work(0.0));
-        scene.roughness = None;
-        scene.observe = vec![Observer::HeightHistogram];
-        scene.loading = vec![ToForce(1e-5)];
-        assert_eq!(on(&scene), [Effect::HeightHistogram]);
-    }
 
     #[test]
     fn the_stage_that_presses_most_is_left() {
@@ -486,33 +460,5 @@ mod tests {
         assert_eq!(next(&smooth, "adhesion", true).scene().adhesion, None);
         let ratio = next(&both(), "adhesion", true);
         assert_eq!(ratio.value("adhesion"), Some("(work: 0.1, elastic_energy_ratio: 0.9)"));
-    }
-
-    proptest! {
-        #[test]
-        fn every_switch_of_every_scene_goes_both_ways(
-            scene in sound_scenes(),
-            work in 0.0..1e6,
-            rms_height in 1e-30..100.0,
-        ) {
-            let document = Document::from_scene(&scene, "scene").unwrap();
-            let computed =
-                Computed { work_of_adhesion: Some(work), rms_height: Some(rms_height), ..Computed::default() };
-            for effect in Effect::ALL {
-                let without = document.without(effect, &computed).unwrap();
-                prop_assert!(!effect.is_on(without.scene()));
-                for also in Effect::ALL.into_iter().filter(|also| *also != effect) {
-                    prop_assert!(also.is_on(without.scene()) == also.is_on(&scene) || work == 0.0);
-                }
-                match Document::parse(without.text(), "forgotten").unwrap().with(effect) {
-                    Ok(suited) => prop_assert!(effect.is_on(suited.scene())),
-                    Err(error) => prop_assert!(effect == Effect::Roughness && scene.numerics.points < 2, "{error}"),
-                }
-                if effect.is_on(&scene) {
-                    let back = without.with(effect).unwrap();
-                    prop_assert_eq!(back.scene(), &scene);
-                }
-            }
-        }
     }
 }

@@ -32,10 +32,6 @@ mod quantity;
 mod range;
 mod read;
 mod step;
-#[cfg(test)]
-#[allow(dead_code, reason = "integration tests use the rest")]
-#[path = "../../tests/common/strategies.rs"]
-mod strategies;
 mod text;
 mod tree;
 

@@ -191,12 +191,11 @@ fn contents_mut(value: &mut Value) -> &mut Value {
 #[cfg(test)]
 mod tests {
     use super::super::adhesion::{Adhesion, RoughnessParameter};
+    use super::super::check::tests::sound;
     use super::super::document::Document;
     use super::super::fields::field;
     use super::super::model::Move;
-    use super::super::strategies::{sound, sound_scenes};
     use super::*;
-    use proptest::prelude::*;
 
     /// A scene for every variant of every choice.
     fn scenes_of_all_variants() -> Vec<Scene> {
@@ -269,16 +268,5 @@ mod tests {
         assert!(
             bare.set("adhesion.work", 0.1) && bare.scene().unwrap().adhesion == Some(Adhesion::by_work(0.1))
         );
-    }
-
-    proptest! {
-        #[test]
-        fn a_scene_is_its_tree_and_its_text(scene in sound_scenes()) {
-            prop_assert_eq!(Tree::of(&scene).scene(), Ok(scene.clone()));
-            let text = to_ron(&scene);
-            let document = Document::parse(&text, "scene").unwrap();
-            prop_assert_eq!(document.scene(), &scene);
-            prop_assert_eq!(to_ron(document.scene()), text);
-        }
     }
 }

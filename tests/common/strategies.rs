@@ -1,6 +1,6 @@
-//! Scenes for tests: a sound one, and strategies for random ones, which draw every field of the table of fields.
+//! Strategies for random scenes, which draw every field of the table of fields.
 //!
-//! The unit tests of the scene and the integration tests include the file.
+//! The tests of the engine and those of random input include the file.
 
 use super::{
     DEFAULT, Document, FIELDS, Field, LEG_FORCE, LEG_INDENTATION, Range, Scene, find, is_control, ron_float,
@@ -240,19 +240,4 @@ fn usual(field: &Field) -> Option<f64> {
 /// Scenes without a violation.
 pub fn sound_scenes() -> impl Strategy<Value = Scene> {
     Drawn::default().documents().prop_map(|document| document.scene().clone())
-}
-
-/// A valid rough scene with adhesion.
-pub fn sound() -> Scene {
-    const TEXT: &str = r#"(
-        version: 1,
-        title: "A line",
-        material: (youngs_modulus: 2.0e6, poisson_ratio: 0.5),
-        length: 1.0e-4,
-        roughness: SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1),
-        adhesion: (work: 0.05),
-        loading: [ToForce(1.0e-5), ToSeparation],
-        numerics: (points: 4096, edges: Grid),
-    )"#;
-    Document::parse(TEXT, "sound").unwrap_or_else(|errors| panic!("{errors}")).scene().clone()
 }

@@ -14,8 +14,8 @@ mod texts;
 use super::{effort::cases, properties};
 // For the strategies, which use the names of the scene module.
 use asperity::scene::{
-    DEFAULT, Document, End, FIELDS, Field, LEG_FORCE, LEG_INDENTATION, Range, Scene, find, is_control,
-    ron_float, ron_string,
+    DEFAULT, Document, FIELDS, Field, LEG_FORCE, LEG_INDENTATION, Range, Scene, find, is_control, ron_float,
+    ron_string,
 };
 use proptest::prelude::*;
 use strategies::Drawn;

@@ -213,9 +213,9 @@ fn eight_files_name_an_effect() {
         "contact::foundation",
         "contact_cycle",
         "export::summary",
+        "scene::adhesion",
         "scene::check",
         "scene::fields",
-        "scene::model",
         "study::map::template",
     ];
     assert_eq!(files_that_name("closing_work"), files);
