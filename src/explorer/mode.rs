@@ -1,11 +1,10 @@
 //! Mode: the present meaning of the keys.
 
-use super::action::Content;
+use super::action::OutputFile;
 use super::finder::Finder;
 use super::fuzzy::Candidate;
 use super::text_line::TextLine;
 use crate::scene::Entry;
-use std::path::PathBuf;
 
 /// Mode: the present meaning of the keys.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,14 +28,7 @@ pub enum Mode {
     /// Typing the name of the file to export to.
     Export(TextLine),
     /// Asking whether to overwrite a file.
-    Overwrite {
-        /// The file.
-        path: PathBuf,
-        /// Content to be written.
-        content: Content,
-        /// True to leave afterwards.
-        then_quit: bool,
-    },
+    Overwrite(OutputFile),
     /// Reading the help.
     Help {
         /// Lines scrolled down.
@@ -172,7 +164,7 @@ impl Mode {
             Mode::Palette(_) => ModeKind::Palette,
             Mode::SaveAs(_) => ModeKind::SaveAs,
             Mode::Export(_) => ModeKind::Export,
-            Mode::Overwrite { .. } => ModeKind::Overwrite,
+            Mode::Overwrite(_) => ModeKind::Overwrite,
             Mode::Help { .. } => ModeKind::Help,
             Mode::Quit => ModeKind::Quit,
         }
@@ -186,7 +178,7 @@ impl Mode {
             Mode::Library(Library { finder, .. }) | Mode::Find(finder) | Mode::Palette(finder) => {
                 Some(&mut finder.query)
             }
-            Mode::Explore | Mode::Overwrite { .. } | Mode::Help { .. } | Mode::Quit => None,
+            Mode::Explore | Mode::Overwrite(_) | Mode::Help { .. } | Mode::Quit => None,
         }
     }
 }

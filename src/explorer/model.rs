@@ -123,17 +123,6 @@ pub enum Notice {
     Error(String),
 }
 
-/// A file being written.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Writing {
-    /// Its path.
-    pub path: std::path::PathBuf,
-    /// The scene when writing began.
-    pub text: String,
-    /// True to leave afterwards.
-    pub then_quit: bool,
-}
-
 /// The state of the explorer.
 #[derive(Clone, Debug)]
 pub struct Model {
@@ -233,8 +222,6 @@ pub struct Model {
     pub traffic: Option<Traffic>,
     /// True if times are shown: they differ from run to run.
     pub shows_times: bool,
-    /// The file being written.
-    pub writing: Option<Writing>,
     /// A line for the user.
     pub notice: Option<Notice>,
     /// Line in place of the keys, which have no effect while a script plays.
@@ -297,7 +284,6 @@ impl Model {
             config_path: None,
             traffic: None,
             shows_times: true,
-            writing: None,
             notice: None,
             demo: None,
             finished: false,

@@ -14,6 +14,7 @@ mod provenance;
 mod reversals;
 mod scene_figure;
 mod scene_tables;
+pub mod section;
 pub(crate) mod sheet;
 mod spectrum_figure;
 mod study_figure;

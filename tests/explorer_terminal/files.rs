@@ -56,7 +56,7 @@ fn what_is_saved_is_a_scene_and_is_overwritten_only_when_asked() {
         let mut names: Vec<_> =
             fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
         names.sort();
-        assert_eq!(names, ["mine.ron", "scene.ron"], "nothing else is left behind");
+        assert_eq!(names, [".local", "mine.ron", "scene.ron"], "beside the folder of unsaved changes");
     });
 }
 

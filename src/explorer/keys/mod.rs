@@ -247,7 +247,7 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('y')], ASK, "accept", Act(dialogue::accept), "overwrite", "overwrite the file", TEXT),
     row(&[char('n'), key(KeyCode::Esc), control('c')], ASK, "cancel", Act(dialogue::cancel), "keep it", "keep the existing file", TEXT),
     row(&[char('s')], LEAVE, "save-then-quit", Act(files::save_before_leaving), "save", "save, then quit", TEXT),
-    row(&[char('q'), char('y'), control('c')], LEAVE, "quit-anyway", Silent(files::quit), "quit", "quit without saving", TEXT),
+    row(&[char('q'), char('y'), control('c')], LEAVE, "quit-anyway", Silent(|model| model.finished = true), "quit", "quit without saving", TEXT),
     row(&[char('n'), key(KeyCode::Esc)], LEAVE, "cancel", Act(dialogue::cancel), "stay", "stay", TEXT),
 ];
 

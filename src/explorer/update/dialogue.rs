@@ -1,6 +1,7 @@
 //! Dialogues: typed lines, searched lists, questions, and the help.
 
 use super::{Effect, accuracy, edit, files, library, movement, run, show};
+use crate::explorer::action::OutputFile;
 use crate::explorer::finder::Finder;
 use crate::explorer::mode::{Mode, ModeKind};
 use crate::explorer::model::{Model, Pane};
@@ -103,7 +104,7 @@ pub fn accept(model: &mut Model) -> Vec<Effect> {
             let chosen = finder.choice().and_then(|index| entries(&model.bindings).into_iter().nth(index));
             chosen.map_or_else(Vec::new, |entry| run_entry(model, &entry))
         }
-        Mode::Overwrite { path, content, then_quit } => files::write(model, path, content, then_quit, true),
+        Mode::Overwrite(file) => files::write(model, OutputFile { overwrite: true, ..file }),
         Mode::Explore | Mode::Help { .. } | Mode::Quit => Vec::new(),
     }
 }

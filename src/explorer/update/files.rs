@@ -1,9 +1,9 @@
 //! Output of the explorer: the scene, exports, the command to open the scene.
 
 use super::{Effect, edit};
-use crate::explorer::action::{Content, WriteFailure, Written};
+use crate::explorer::action::{Content, OutputFile, WriteFailure};
 use crate::explorer::mode::{Mode, SaveForm};
-use crate::explorer::model::{Model, Writing};
+use crate::explorer::model::Model;
 use crate::explorer::text_line::TextLine;
 use crate::scene::{Document, command_line, ron_string, typed_path};
 use crate::text::is_control;
@@ -38,7 +38,8 @@ pub fn save(model: &mut Model, form: &SaveForm) -> Vec<Effect> {
             return effects;
         }
     }
-    effects.extend(write(model, path, Content::Scene, form.then_quit, false));
+    let file = OutputFile { path, content: Content::Scene, overwrite: false, then_quit: form.then_quit };
+    effects.extend(write(model, file));
     effects
 }
 
@@ -67,7 +68,7 @@ pub fn export(model: &mut Model, path: PathBuf) -> Vec<Effect> {
         return Vec::new();
     }
     match content_for(model, &path) {
-        Ok(content) => write(model, path, content, false, false),
+        Ok(content) => write(model, OutputFile { path, content, overwrite: false, then_quit: false }),
         Err(why) => {
             model.set_error(why);
             model.mode = Mode::Explore;
@@ -99,73 +100,37 @@ fn content_for(model: &Model, path: &Path) -> Result<Content, String> {
     }
 }
 
-/// Writes a file; `overwrite`: in place of an existing one.
-pub fn write(
-    model: &mut Model,
-    path: PathBuf,
-    content: Content,
-    then_quit: bool,
-    overwrite: bool,
-) -> Vec<Effect> {
+/// Writes a file.
+pub fn write(model: &mut Model, file: OutputFile) -> Vec<Effect> {
     model.mode = Mode::Explore;
-    if let Some(writing) = &model.writing {
-        let why = format!("{} is still being written; nothing else is until then", writing.path.display());
-        model.set_error(why);
-        return Vec::new();
-    }
-    model.writing = Some(Writing { path: path.clone(), text: model.document.text().to_owned(), then_quit });
-    vec![Effect::Write { path, content, overwrite }]
+    vec![Effect::Write(file)]
 }
 
-/// Handles the result of writing; the scene may have been changed meanwhile.
-pub fn written(model: &mut Model, result: Result<Written, WriteFailure>) {
-    let Some(writing) = model.writing.take() else { return };
-    let then_quit = writing.then_quit;
+/// Handles the result of writing.
+pub fn written(model: &mut Model, file: OutputFile, result: Result<(), WriteFailure>) {
+    let path = file.path.display();
     match result {
-        Ok(Written { path, content }) => {
-            let how = if content == Content::Scene {
-                if model.document.text() == writing.text {
-                    model.set_saved_as(&path);
-                }
-                "saved"
-            } else {
-                "exported"
-            };
-            model.set_done(format!("{how} to {}", path.display()));
-            if then_quit && !model.unsaved().is_empty() {
-                model.mode = Mode::Quit;
-            } else {
-                model.finished = then_quit;
+        Ok(()) => {
+            let how = if file.content == Content::Scene { "saved" } else { "exported" };
+            model.set_done(format!("{how} to {path}"));
+            if file.content == Content::Scene {
+                model.set_saved_as(&file.path);
+            }
+            if file.then_quit {
+                ask_quit(model);
             }
         }
-        Err(WriteFailure::Exists(path, content)) => {
-            model.mode = Mode::Overwrite { path, content, then_quit };
-        }
-        Err(WriteFailure::Refused(error)) => {
-            model.set_error(format!("not written: {error}"));
-        }
+        Err(WriteFailure::Exists) => model.mode = Mode::Overwrite(file),
+        Err(WriteFailure::Refused(error)) => model.set_error(format!("not written: {error}")),
     }
 }
 
 /// Leaves the explorer, or asks about unsaved changes first.
 pub fn ask_quit(model: &mut Model) {
     if model.unsaved().is_empty() {
-        quit(model);
+        model.finished = true;
     } else {
         model.mode = Mode::Quit;
-    }
-}
-
-/// Leaves the explorer once a file being written is complete; a second request leaves at once.
-pub fn quit(model: &mut Model) {
-    match &mut model.writing {
-        Some(writing) if !writing.then_quit => {
-            writing.then_quit = true;
-            let path = writing.path.display();
-            let text = format!("leaving as soon as {path} is written; once more leaves without");
-            model.set_done(text);
-        }
-        _ => model.finished = true,
     }
 }
 

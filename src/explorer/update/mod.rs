@@ -49,7 +49,7 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
         },
         Action::Report(report) => return reported(model, report),
         Action::Found(found) => return accuracy::found(model, found),
-        Action::Written(result) => files::written(model, result),
+        Action::Written(file, result) => files::written(model, file, result),
         Action::Listed(entries) => return library::listed(model, entries),
         Action::Completed { typed, paths } => return complete::completed(model, &typed, paths),
         Action::Opened(Ok(opening)) => return chart::open(model, *opening),
@@ -57,17 +57,6 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
         Action::Remembered(Ok(path)) => {
             model.set_done(format!("colours and markers are kept in {}", path.display()));
         }
-        Action::Offered(names) if model.mode == Mode::Explore && model.notice.is_none() => {
-            let of = names.join(", ");
-            model.set_done(format!(
-                "unsaved changes of {of} are kept from another session: asperity --restore opens them"
-            ));
-        }
-        Action::Offered(_) => {}
-        Action::NotKept(why) => {
-            model.set_error(format!("unsaved changes are not kept for another session: {why}"));
-        }
-        Action::Traffic(traffic) => model.traffic = Some(traffic),
         Action::Mouse(mouse) => return mouse::act(model, mouse),
     }
     Vec::new()

@@ -153,7 +153,7 @@ pub fn stay_on_legs(model: &mut Model, last: usize) {
 pub fn shown(model: &mut Model, snapshot: Arc<ContactSnapshot>) {
     // Another snapshot may have been on its way when the fragment was requested.
     if snapshot.focus == model.look.focus && model.look.focus.is_question() {
-        let middle = snapshot.close_up.fragment.map(|fragment| fragment.middle());
+        let middle = snapshot.close_up.fragment.map(|facts| facts.patch.middle());
         model.look.focus = middle.map_or(Focus::Summit, Focus::Spring);
     }
     if let Some((manual, travel)) = model.manual.as_mut().zip(snapshot.manual.as_ref()) {

@@ -67,7 +67,7 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         (Mode::Library(library), _) => prompted("Search: ", &library.finder.query),
         (Mode::Find(finder), _) => prompted("Find: ", &finder.query),
         (Mode::Palette(finder), _) => prompted(": ", &finder.query),
-        (Mode::Overwrite { path, .. }, _) => error(format!("{} exists. Overwrite it?", path.display())),
+        (Mode::Overwrite(file), _) => error(format!("{} exists. Overwrite it?", file.path.display())),
         (Mode::Quit, _) => error(match model.unsaved()[..] {
             [] | [_] => "The scene has unsaved changes. Leave?".to_owned(),
             ref several => {

@@ -257,7 +257,7 @@ fn a_value_that_is_typed_shows_its_curve_before_it_is_taken() {
             let tried = driver.model.tried_outcome().expect("a preview").figures;
             assert_ne!(tried.adhesion_force, computed.outcome.figures.adhesion_force);
             let alone = document.set("roughness.rms_height", "3.0e-7").unwrap();
-            let alone = Driver::start(alone).model.computed.unwrap();
+            let alone = Driver::start(alone).model.computed.clone().unwrap();
             assert_eq!(tried, alone.outcome.figures);
             let force = asperity::scene::format_quantity(tried.adhesion_force.unwrap(), "N");
             assert!(driver.status().starts_with(&format!("preview: F_a {force}")), "{}", driver.status());
