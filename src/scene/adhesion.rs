@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize, Serializer};
 
 use super::fields::field;
 
-/// Dimensionless roughness–adhesion parameter, which may replace the work of adhesion.
+/// Dimensionless roughness-adhesion parameter, which may replace the work of adhesion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RoughnessParameter {
     /// κ = √(h⟨∇z⟩E*/γ), eq. (11).

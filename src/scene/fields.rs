@@ -156,7 +156,7 @@ pub const FIELDS: &[Field] = &[
     row("adhesion.closing_work", Range::closed(0.0, 1e6)).quantity("work of adhesion on closing", "γ₁", "J/m²")
         .default("None")
         .meaning("energy per unit area gained where the interface closes, at most adhesion.work; default: the same"),
-    row("adhesion.kappa", Range::closed(1e-6, 1e6)).quantity("roughness parameter", "κ", "1").default("None")
+    row("adhesion.kappa", Range::closed(1e-6, 1e6)).quantity("roughness-adhesion parameter", "κ", "1").default("None")
         .meaning("roughness-adhesion parameter sqrt(h⟨∇z⟩E*/γ): adhesion is strong for small κ"),
     row("adhesion.elastic_energy_ratio", Range::closed(1e-12, 1e12)).quantity("elastic energy ratio", "e_el/γ", "1")
         .default("None")
