@@ -13,7 +13,7 @@ const DIMENSIONS: &[(&str, &str, &str)] = &[
     ("J", "unit of energy", "J, mJ, µJ, nJ"),
     ("Pa", "unit of pressure", "Pa, kPa, MPa, GPa"),
     ("J/m²", "unit of energy per area", "J/m², mJ/m², N/m, mN/m"),
-    ("rad", "unit of angles", "rad, mrad, °"),
+    ("rad", "unit of angle", "rad, mrad, °"),
     ("s", "unit of time", "s, ms, µs"),
     ("1", "prefix of a number", "k, M, G, Ki, Mi, Gi"),
 ];
