@@ -274,12 +274,12 @@ impl Found<'_> {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+mod tests {
     use super::super::document::Document;
     use super::*;
 
     /// A valid rough scene with adhesion.
-    pub fn sound() -> Scene {
+    fn sound() -> Scene {
         const TEXT: &str = r#"(
             version: 1,
             title: "A line",

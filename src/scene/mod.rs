@@ -32,6 +32,7 @@ mod quantity;
 mod range;
 mod read;
 mod step;
+mod switch;
 mod text;
 mod tree;
 
@@ -43,7 +44,7 @@ pub use check::check;
 pub use command::command_line;
 pub(crate) use command::quoted;
 pub use document::{Document, LONGEST_TEXT};
-pub use effects::{Computed, Effect};
+pub use effects::Effect;
 pub(crate) use errors::nearest;
 pub use errors::{Origin, SceneError, SceneErrors};
 pub use field::{Field, LEG_FORCE, LEG_INDENTATION, Step};
@@ -57,5 +58,6 @@ pub use quantity::{QuantityError, exact_quantity, format_quantity, parse_quantit
 pub use range::Range;
 pub(crate) use read::{describe_error, read_ron};
 
+pub use switch::Computed;
 pub use text::{Span, Text, Unreadable, line_column, ron_float, ron_string};
 pub use tree::{Tree, to_ron};

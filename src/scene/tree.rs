@@ -191,11 +191,16 @@ fn contents_mut(value: &mut Value) -> &mut Value {
 #[cfg(test)]
 mod tests {
     use super::super::adhesion::{Adhesion, RoughnessParameter};
-    use super::super::check::tests::sound;
     use super::super::document::Document;
     use super::super::fields::field;
     use super::super::model::Move;
+    use super::super::open::open;
     use super::*;
+
+    /// A rough scene with adhesion by work.
+    fn sound() -> Scene {
+        open("rough-sphere").unwrap().set("form", "None").unwrap().scene().clone()
+    }
 
     /// A scene for every variant of every choice.
     fn scenes_of_all_variants() -> Vec<Scene> {

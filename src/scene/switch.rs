@@ -1,0 +1,316 @@
+//! Effects of a document switched off, on and to the next choice.
+//!
+//! Amplitude of the roughness, work of adhesion and κ or e_el/γ determine each other, so that switching one of them
+//! off may require a replacement value. That value follows from the profile, which this module does not know: the
+//! caller passes it from the computed scene.
+
+use super::adhesion::{Adhesion, RoughnessParameter};
+use super::document::{Document, pair};
+use super::effects::{Effect, adhesion_text, by_work, pressing};
+use super::errors::{Origin, SceneError, SceneErrors};
+use super::field::Field;
+use super::model::Roughness;
+use super::range::choice_key;
+use super::text::ron_float;
+use super::tree::{Tree, in_ron};
+use crate::text::round_to;
+
+/// Values that a scene determines through its profile, known after the computation.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Computed {
+    /// Work of adhesion γ, J/m².
+    pub work_of_adhesion: Option<f64>,
+    /// Roughness–adhesion parameter κ.
+    pub kappa: Option<f64>,
+    /// Elastic energy of conformity over the work of adhesion, e_el/γ.
+    pub elastic_energy_ratio: Option<f64>,
+    /// Root mean square height h of the roughness, m.
+    pub rms_height: Option<f64>,
+}
+
+impl Document {
+    /// This document without an effect; unchanged if the effect is off.
+    ///
+    /// Without roughness, adhesion by κ or e_el/γ becomes adhesion by work. Without adhesion, roughness with
+    /// an amplitude set by adhesion keeps it as an rms height. `computed` has these values for this scene. Without
+    /// unloading, the stage that presses most remains.
+    ///
+    /// # Errors
+    /// A replacement value is not in `computed`, or is invalid.
+    pub fn without(&self, effect: Effect, computed: &Computed) -> Result<Document, SceneErrors> {
+        let scene = self.scene();
+        if !effect.is_on(scene) {
+            return Ok(self.clone());
+        }
+        let replaced = match (effect, scene.adhesion) {
+            (Effect::Roughness, Some(Adhesion::Work { amplitude: Some((parameter, _)), .. })) => {
+                Some(pair(parameter.path(), "None"))
+            }
+            (Effect::Roughness, Some(Adhesion::Parameter { parameter, .. })) => {
+                let what = format!("{} requires roughness, and the work of adhesion", parameter.symbol());
+                let work = self.known(computed.work_of_adhesion, "adhesion", &what)?;
+                Some(pair("adhesion", adhesion_text(scene, by_work(scene, work))))
+            }
+            (Effect::Adhesion, _) if !scene.roughness.as_ref().is_none_or(Roughness::has_amplitude) => {
+                let what = "adhesion sets its amplitude, and the rms height";
+                let height = self.known(computed.rms_height, "roughness", what)?;
+                Some(pair("roughness.rms_height", ron_float(height)))
+            }
+            _ => None,
+        };
+        let value = match (effect, effect.observer()) {
+            (Effect::Unloading, _) => in_ron(&[pressing(&scene.loading)]),
+            (_, None) => "None".to_owned(),
+            (_, observer) => {
+                in_ron(&scene.observe.iter().filter(|other| Some(**other) != observer).collect::<Vec<_>>())
+            }
+        };
+        let overrides: Vec<_> = replaced.into_iter().chain([pair(effect.path(), value)]).collect();
+        let mut new = self.set_all(&overrides)?;
+        let value = |document: &Document, path| document.value(path).unwrap_or_default().to_owned();
+        let values = overrides.iter().map(|(path, _)| [path.clone(), value(self, path), value(&new, path)]);
+        let removed = (effect, values.collect());
+        new.removed.retain(|(other, _)| *other != effect);
+        new.removed.push(removed);
+        Ok(new)
+    }
+
+    /// This document with an effect; unchanged if the effect is on.
+    ///
+    /// Restores the values that were removed when the effect was switched off; values changed since stay. If there are
+    /// none, or if they are no longer valid, the effect takes values that suit the scene.
+    ///
+    /// # Errors
+    /// The effect is impossible in the scene, such as roughness on a single spring.
+    pub fn with(&self, effect: Effect) -> Result<Document, SceneErrors> {
+        if effect.is_on(self.scene()) {
+            return Ok(self.clone());
+        }
+        let restored = self.removed.iter().find(|(off, _)| *off == effect).and_then(|(_, values)| {
+            let unchanged = values.iter().filter(|[path, _, present]| self.value(path) == Some(present));
+            let back: Vec<_> = unchanged.map(|[path, removed, _]| pair(path, removed.as_str())).collect();
+            self.set_all(&back).ok().filter(|new| effect.is_on(new.scene()))
+        });
+        restored.map_or_else(|| self.set(effect.path(), &effect.suited(self.scene())), Ok)
+    }
+
+    /// This document with adhesion of this work, J/m². Sets the field of adhesion by work; any other
+    /// adhesion, and none, becomes adhesion by work.
+    ///
+    /// # Errors
+    /// An invalid work of adhesion.
+    pub fn with_work_of_adhesion(&self, work: f64) -> Result<Document, SceneErrors> {
+        match self.scene().adhesion {
+            Some(Adhesion::Work { .. }) => self.set("adhesion.work", &ron_float(work)),
+            _ => self.set("adhesion", &adhesion_text(self.scene(), by_work(self.scene(), work))),
+        }
+    }
+
+    /// This document with adhesion of this κ or e_el/γ. Sets the field of adhesion by this parameter; any other
+    /// adhesion, and none, becomes adhesion by the parameter. A work of adhesion that sets the amplitude of the
+    /// roughness together with the other parameter is kept.
+    ///
+    /// # Errors
+    /// An invalid value, or a scene without roughness.
+    pub fn with_parameter(&self, parameter: RoughnessParameter, value: f64) -> Result<Document, SceneErrors> {
+        let present = self.scene().adhesion;
+        if present.and_then(|adhesion| adhesion.parameter()).is_some_and(|(given, _)| given == parameter) {
+            return self.set(parameter.path(), &ron_float(value));
+        }
+        let changed = present.map_or(Ok(Adhesion::by_parameter(parameter, value)), |adhesion| {
+            adhesion.with_parameter(parameter, value)
+        });
+        let changed = changed.map_err(|reason| SceneError::whole(Origin::Scene, reason))?;
+        self.set("adhesion", &adhesion_text(self.scene(), changed))
+    }
+
+    /// This document with the next choice of a field in this direction that the scene allows; `None` if there is no
+    /// other.
+    ///
+    /// Omitting an effect switches it off, and the next choice switches it on again. Adhesion by work, by κ and by
+    /// e_el/γ are the same adhesion: `computed` has the values for this scene.
+    ///
+    /// # Errors
+    /// No other choice is allowed, or a converted value is not in `computed`.
+    pub fn with_next_choice(
+        &self,
+        field: &Field,
+        forwards: bool,
+        computed: &Computed,
+    ) -> Result<Option<Document>, SceneErrors> {
+        let effect = Effect::ALL.into_iter().find(|effect| effect.path() == field.path);
+        let is_on = effect.is_some_and(|effect| effect.is_on(self.scene()));
+        if effect == Some(Effect::Adhesion) && is_on && self.scene().roughness.is_some() {
+            self.known(computed.work_of_adhesion, "adhesion", "the same adhesion given the other way")?;
+        }
+        let Some(here) = Tree::of(self.scene()).written(field) else { return Ok(None) };
+        let mut refused = None;
+        for distance in 1.. {
+            let next = field.stepped(&here, if forwards { distance } else { -distance }, false);
+            let Some(next) = next.filter(|next| choice_key(next) != choice_key(&here)) else { break };
+            let chosen = match effect {
+                Some(effect) if !is_on => self.with(effect),
+                Some(effect) if next == "None" => self.without(effect, computed),
+                Some(Effect::Adhesion) => self.converted(&next, computed),
+                _ => self.set(field.path, &next),
+            };
+            match chosen {
+                // Work and a parameter given together are two choices already.
+                Ok(document) if document.scene() == self.scene() => {}
+                Ok(document) => return Ok(Some(document)),
+                Err(errors) => refused = refused.or(Some(errors)),
+            }
+        }
+        refused.map_or(Ok(None), Err)
+    }
+
+    /// The same adhesion by the next choice, or the usual value of that choice where there is no same one.
+    fn converted(&self, next: &str, computed: &Computed) -> Result<Document, SceneErrors> {
+        // A typed value comes back from a conversion to another one without digits of rounding.
+        let typed =
+            |value| if round_to(value, 10) == round_to(value, 14) { round_to(value, 10) } else { value };
+        let by = |parameter, value: Option<f64>| Some(self.with_parameter(parameter, typed(value?)));
+        let changed = match choice_key(next) {
+            "(kappa" => by(RoughnessParameter::Kappa, computed.kappa),
+            "(elastic_energy_ratio" => {
+                by(RoughnessParameter::ElasticEnergyRatio, computed.elastic_energy_ratio)
+            }
+            _ => computed.work_of_adhesion.map(|work| self.with_work_of_adhesion(work)),
+        };
+        changed.unwrap_or_else(|| self.set("adhesion", next))
+    }
+
+    /// A value of the computed scene for a field.
+    fn known(&self, value: Option<f64>, field: &str, what: &str) -> Result<f64, SceneErrors> {
+        value.ok_or_else(|| {
+            let message = format!("{what} is not known yet: compute the scene first");
+            let value = self.value(field).unwrap_or_default().to_string();
+            let error = SceneError::whole(Origin::Scene, message);
+            SceneError { field: field.to_string(), value, ..error }.into()
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fields::field;
+    use super::super::model::Move::{ToForce, ToSeparation};
+    use super::*;
+
+    const SCENE: &str = "(
+    version: 1,
+    material: (effective_modulus: 1.0e6),
+    length: 1.0e-4,
+    roughness: SelfAffine(hurst: 0.70, rms_height: 2.0e-7, modes: (1, 512), seed: 1), // rough
+    adhesion: (kappa: 6.0), // as measured
+    loading: [ToForce(1.0e-5), /* slowly */ ToSeparation],
+)
+";
+
+    const COMPUTED: Computed = Computed {
+        work_of_adhesion: Some(0.0123),
+        kappa: Some(6.000_000_000_000_001),
+        elastic_energy_ratio: Some(0.9),
+        rms_height: Some(1.5e-7),
+    };
+
+    fn document() -> Document {
+        Document::parse(SCENE, "scene").unwrap()
+    }
+
+    /// Roughness whose amplitude follows from work of adhesion and κ.
+    fn both() -> Document {
+        let set = [pair("roughness.rms_height", "None"), pair("adhesion.work", "0.1")];
+        document().set_all(&set).unwrap()
+    }
+
+    fn off(document: &Document, effect: Effect) -> Document {
+        document.without(effect, &COMPUTED).unwrap()
+    }
+
+    fn adhesion(document: &Document) -> (Option<f64>, Option<f64>) {
+        document
+            .scene()
+            .adhesion
+            .map_or((None, None), |adhesion| (adhesion.work(), adhesion.parameter().map(|(_, value)| value)))
+    }
+
+    fn next(document: &Document, path: &str, forwards: bool) -> Document {
+        let field = field(path, None).unwrap();
+        document.with_next_choice(field, forwards, &COMPUTED).unwrap().unwrap()
+    }
+
+    #[test]
+    fn an_effect_that_was_never_on_suits_the_scene() {
+        let bare =
+            "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4, loading: [ToForce(1.0e-5)])";
+        let bare = Document::parse(bare, "scene").unwrap();
+        let rough = "SelfAffine(hurst: 0.7, rms_height: 2.0e-7, modes: (1, 512), seed: 1)";
+        for (effect, value) in [
+            (Effect::Form, "Paraboloid(radius: 1.0e-4)"),
+            (Effect::Roughness, rough),
+            (Effect::Adhesion, "(work: 0.05)"),
+            (Effect::Unloading, "[ToForce(1.0e-5), ToSeparation]"),
+            (Effect::Fragments, "[Fragments]"),
+        ] {
+            assert_eq!(bare.with(effect).unwrap().value(effect.path()), Some(value));
+        }
+        let observed = bare.with(Effect::HeightHistogram).unwrap().with(Effect::Fragments).unwrap();
+        assert_eq!(observed.value("observe"), Some("[Fragments, HeightHistogram]"));
+        let sticky = bare.set("roughness", rough).unwrap().with(Effect::Adhesion).unwrap();
+        assert_eq!(adhesion(&sticky), (None, Some(2.0)));
+        // One spring carries no wave at all.
+        let one = bare.set("numerics.points", "1").unwrap().with(Effect::Roughness).unwrap_err();
+        assert!(one.to_string().contains("points/2 = 0"), "{one}");
+    }
+
+    #[test]
+    fn without_adhesion_the_amplitude_it_set_stays() {
+        let unknown = both().without(Effect::Adhesion, &Computed::default()).unwrap_err();
+        assert!(unknown.to_string().contains("the rms height is not known yet"), "{unknown}");
+        let without = off(&both(), Effect::Adhesion);
+        assert_eq!(without.value("roughness.rms_height"), Some("1.5e-7"));
+        assert_eq!(without.with(Effect::Adhesion).unwrap().scene(), both().scene());
+    }
+
+    #[test]
+    fn what_was_changed_meanwhile_stays_changed() {
+        let back = |smooth: &Document| smooth.with(Effect::Roughness).unwrap();
+        let smooth = off(&document(), Effect::Roughness);
+        let stickier = back(&smooth.with_work_of_adhesion(0.2).unwrap());
+        assert_eq!(
+            (adhesion(&stickier), stickier.value("roughness.hurst")),
+            ((Some(0.2), None), Some("0.70"))
+        );
+        let longer = back(&smooth.set("length", "2.0e-4").unwrap());
+        assert_eq!((adhesion(&longer), longer.scene().length), ((None, Some(6.0)), 2e-4));
+        let held = off(&document(), Effect::Unloading).set("loading.0", "ToForce(3.0e-5)").unwrap();
+        let pulled = held.with(Effect::Unloading).unwrap();
+        assert_eq!(pulled.scene().loading, [ToForce(3e-5), ToSeparation]);
+        // A removed text that is no longer valid is replaced by values that suit the scene.
+        let coarse = back(&smooth.set("numerics.points", "64").unwrap());
+        assert_eq!(coarse.value("roughness.modes"), Some("(1, 8)"));
+    }
+
+    #[test]
+    fn the_next_choice_of_adhesion_is_the_same_adhesion() {
+        let work = next(&document(), "adhesion", false);
+        assert_eq!(adhesion(&work), (Some(0.0123), None));
+        assert_eq!(next(&work, "adhesion", true).text(), SCENE);
+        let none = next(&work, "adhesion", false);
+        assert_eq!(none.scene().adhesion, None);
+        assert_eq!(next(&none, "adhesion", true).text(), work.text());
+        let ratio = next(&document(), "adhesion", true);
+        assert_eq!(ratio.value("adhesion"), Some("(elastic_energy_ratio: 0.9)"));
+        assert_eq!(next(&ratio, "adhesion", true).scene().adhesion, None);
+        // Not before the value has been computed.
+        let field = field("adhesion", None).unwrap();
+        let unknown = document().with_next_choice(field, false, &Computed::default()).unwrap_err();
+        assert!(unknown.to_string().contains("compute the scene first"), "{unknown}");
+        // A smooth body has no κ.
+        let smooth = work.set("roughness", "None").unwrap();
+        assert_eq!(next(&smooth, "adhesion", true).scene().adhesion, None);
+        let ratio = next(&both(), "adhesion", true);
+        assert_eq!(ratio.value("adhesion"), Some("(work: 0.1, elastic_energy_ratio: 0.9)"));
+    }
+}
