@@ -33,15 +33,10 @@ pub enum Action {
     Written(OutputFile, Result<(), WriteFailure>),
     /// The scenes that can be opened.
     Listed(Vec<Entry>),
-    /// Paths that complete a typed one.
-    Completed {
-        /// The path as typed.
-        typed: String,
-        /// The whole paths, the best first.
-        paths: Vec<String>,
-    },
+    /// Paths that begin as the typed one.
+    Completed(Vec<String>),
     /// A scene or a study opened by its path, or the reason for none.
-    Opened(Result<Box<Opening>, String>),
+    Opened(String, Result<Box<Opening>, String>),
     /// Configuration file with the kept appearance, or an error.
     Remembered(Result<PathBuf, String>),
     /// Gesture of the mouse.

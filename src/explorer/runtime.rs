@@ -212,12 +212,10 @@ impl Runtime {
             }
             Effect::List if folder.as_os_str().is_empty() => Action::Listed(Library::of_environment().list()),
             Effect::List => Action::Listed(Library::of(None, folder.clone()).list()),
-            Effect::Complete(typed) => {
-                let paths = complete(&typed);
-                Action::Completed { typed, paths }
-            }
+            Effect::Complete(typed) => Action::Completed(complete(&typed)),
             Effect::Open(name) => {
-                Action::Opened(Opening::of(&name).map(Box::new).map_err(|error| error.to_string()))
+                let opened = Opening::of(&name).map(Box::new).map_err(|error| error.to_string());
+                Action::Opened(name, opened)
             }
             Effect::Copy(text) => {
                 console.copy(text)?;

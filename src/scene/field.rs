@@ -151,8 +151,8 @@ impl Move {
 const MOST_EXACT: f64 = 9.0e15;
 
 impl Field {
-    /// The value in RON: a number may have an SI prefix and the unit of the field, `50 mJ/m²` or `16k`. The name of
-    /// a file needs no quotes, and as a roughness becomes a measured surface with its equivalent line. Any other
+    /// The value in RON: a number may have an SI prefix and the unit of the field, `50 mJ/m²` or `16k`. A text
+    /// needs no quotes, and the name of a file as a roughness becomes a measured surface with its equivalent line. Any other
     /// text is unchanged but for surrounding blanks.
     ///
     /// # Errors
@@ -162,7 +162,9 @@ impl Field {
         if self.path == "roughness" && is_file_name(typed) {
             return Ok(format!("Measured(file: {}, as_line: false)", ron_string(typed)));
         }
-        if self.range == FILE_NAME && !(typed.is_empty() || typed == "None" || typed.starts_with('"')) {
+        let is_omitted = self.range == FILE_NAME && (typed.is_empty() || typed == "None");
+        let is_quoted = typed.starts_with('"') || ron::from_str::<String>(typed).is_ok();
+        if matches!(self.range, Range::Text { .. }) && !is_omitted && !is_quoted {
             return Ok(ron_string(typed));
         }
         if !typed.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.')) {

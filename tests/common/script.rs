@@ -61,6 +61,11 @@ impl Driver {
         self.press("Enter");
     }
 
+    /// Reason why the typed text was refused.
+    pub fn refusal(&self) -> Option<&str> {
+        self.model.mode.prompt()?.refused.as_deref()
+    }
+
     /// Selects the parameter of a field, by keys.
     pub fn select(&mut self, path: &str) {
         self.press("g");

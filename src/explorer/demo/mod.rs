@@ -90,9 +90,9 @@ impl Demo {
             if let Some(character) = self.typing.pop_front() {
                 self.act(Action::Type(character));
                 self.pause = TYPING;
-            } else if matches!(self.explorer.model.mode, Mode::Edit(_)) {
+            } else if let Mode::Prompt(prompt) = &self.explorer.model.mode {
                 // A refused value stays in the editor.
-                let is_refused = self.explorer.model.refused.is_some();
+                let is_refused = prompt.refused.is_some();
                 self.command(if is_refused { "cancel" } else { "accept" });
             } else {
                 let cue = self.cues.pop_front()?;

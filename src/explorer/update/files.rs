@@ -2,45 +2,37 @@
 
 use super::{Effect, edit};
 use crate::explorer::action::{Content, OutputFile, WriteFailure};
-use crate::explorer::mode::{Mode, SaveForm};
+use crate::explorer::mode::Mode;
 use crate::explorer::model::Model;
+use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::text_line::TextLine;
-use crate::scene::{Document, command_line, ron_string, typed_path};
+use crate::scene::{Document, command_line};
 use crate::text::is_control;
 use std::path::{Path, PathBuf};
 
-/// Asks for the file to save to, for title and notice.
+/// Asks for the file to save to.
 pub fn ask_save(model: &mut Model, then_quit: bool) {
-    let (name, scene) = (model.document.name(), model.document.scene());
+    let name = model.document.name();
     let is_file = Path::new(name).extension().is_some_and(|extension| extension == "ron");
     let file = if is_file { name.to_owned() } else { format!("{name}.ron") };
-    let lines = [&file, &scene.title, &scene.notice].map(|text| TextLine::new(text));
-    model.mode = Mode::SaveAs(SaveForm { lines, line: 0, then_quit });
+    model.ask(Purpose::Save { then_quit }, TextLine::new(&file));
 }
 
-/// Saves the scene with the typed title and notice, as an edit where these differ.
-pub fn save(model: &mut Model, form: &SaveForm) -> Vec<Effect> {
-    let [file, title, notice] = form.lines.each_ref().map(TextLine::text);
-    let path = typed_path(&file);
-    if path.as_os_str().is_empty() {
-        return Vec::new();
-    }
-    let scene = model.document.scene();
-    let texts = [("title", &scene.title, title), ("notice", &scene.notice, notice)];
-    // The lines have no line breaks; an untouched text keeps its own.
-    let changed = texts.into_iter().filter(|(_, before, now)| TextLine::new(before).text() != *now);
-    let changed: Vec<_> = changed.map(|(path, _, now)| (path.to_owned(), ron_string(&now))).collect();
-    let mut effects = Vec::new();
-    if !changed.is_empty() {
-        let document = model.document.set_all(&changed);
-        effects = edit::take_over(model, document);
-        if model.refused.is_some() {
-            return effects;
+/// Saves the scene.
+pub fn save(path: PathBuf, then_quit: bool) -> Result<Vec<Effect>, String> {
+    match path.extension() {
+        Some(extension) if extension != "ron" => {
+            Err(format!("unsupported file extension .{}; use .ron", extension.display()))
         }
+        _ => write(path, Content::Scene, then_quit),
     }
-    let file = OutputFile { path, content: Content::Scene, overwrite: false, then_quit: form.then_quit };
-    effects.extend(write(model, file));
-    effects
+}
+
+fn write(path: PathBuf, content: Content, then_quit: bool) -> Result<Vec<Effect>, String> {
+    if path.as_os_str().is_empty() {
+        return Err("type the name of a file".to_owned());
+    }
+    Ok(vec![Effect::Write(OutputFile { path, content, overwrite: false, then_quit })])
 }
 
 /// Asks for the file of the scene or, where that is saved, of one left with unsaved changes.
@@ -59,22 +51,13 @@ pub fn save_before_leaving(model: &mut Model) -> Vec<Effect> {
 pub fn ask_export(model: &mut Model) {
     let name = Path::new(model.document.name());
     let stem = name.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
-    model.mode = Mode::Export(TextLine::new(&format!("{stem}.csv")));
+    model.ask(Purpose::Export, TextLine::new(&format!("{stem}.csv")));
 }
 
 /// Exports to a file; the ending of its name selects the content.
-pub fn export(model: &mut Model, path: PathBuf) -> Vec<Effect> {
-    if path.as_os_str().is_empty() {
-        return Vec::new();
-    }
-    match content_for(model, &path) {
-        Ok(content) => write(model, OutputFile { path, content, overwrite: false, then_quit: false }),
-        Err(why) => {
-            model.set_error(why);
-            model.mode = Mode::Explore;
-            Vec::new()
-        }
-    }
+pub fn export(model: &Model, path: PathBuf) -> Result<Vec<Effect>, String> {
+    let content = content_for(model, &path)?;
+    write(path, content, false)
 }
 
 /// Content for an exported file; or why there is none.
@@ -100,12 +83,6 @@ fn content_for(model: &Model, path: &Path) -> Result<Content, String> {
     }
 }
 
-/// Writes a file.
-pub fn write(model: &mut Model, file: OutputFile) -> Vec<Effect> {
-    model.mode = Mode::Explore;
-    vec![Effect::Write(file)]
-}
-
 /// Handles the result of writing.
 pub fn written(model: &mut Model, file: OutputFile, result: Result<(), WriteFailure>) {
     let path = file.path.display();
@@ -121,7 +98,13 @@ pub fn written(model: &mut Model, file: OutputFile, result: Result<(), WriteFail
             }
         }
         Err(WriteFailure::Exists) => model.mode = Mode::Overwrite(file),
-        Err(WriteFailure::Refused(error)) => model.set_error(format!("not written: {error}")),
+        Err(WriteFailure::Refused(error)) => {
+            let is_scene = file.content == Content::Scene;
+            let purpose =
+                if is_scene { Purpose::Save { then_quit: file.then_quit } } else { Purpose::Export };
+            let prompt = Prompt::refused(purpose, &path.to_string(), &error, &model.parameters);
+            model.mode = Mode::Prompt(prompt);
+        }
     }
 }
 

@@ -244,7 +244,7 @@ fn the_map_is_exported_as_it_is_seen() {
             "{message}"
         );
         // The curve, with another pane selected.
-        driver.press("Tab Tab E");
+        driver.press("Esc Tab Tab E");
         assert!(driver.status().contains("Export to"), "{}", driver.status());
     });
 }
