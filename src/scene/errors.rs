@@ -111,12 +111,6 @@ impl SceneErrors {
         if errors.is_empty() { Ok(()) } else { Err(SceneErrors(errors)) }
     }
 
-    /// These errors and another one.
-    pub(super) fn and(mut self, error: SceneError) -> SceneErrors {
-        self.0.push(error);
-        self
-    }
-
     /// The first error.
     pub fn first(&self) -> &SceneError {
         &self.0[0]

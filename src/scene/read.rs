@@ -8,7 +8,7 @@ use serde::de::DeserializeOwned;
 use super::edit::field_at;
 use super::errors::{Origin, SceneError};
 use super::errors::{did_you_mean, nearest};
-use super::fields::{SCENE_VERSIONS, field};
+use super::fields::field;
 use super::model::Scene;
 use super::range::Range;
 use super::text::{Text, offset_of};
@@ -46,21 +46,15 @@ pub(crate) fn read_ron<T: DeserializeOwned>(text: &str) -> Result<T, SpannedErro
     ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME).from_str(text)
 }
 
-/// Error of the version in a text, even if the rest of the text cannot be read.
-pub(super) fn wrong_version(text: &Text) -> Option<Unread> {
-    let (offset, value, message) = match text.span("version") {
-        Some(entry) => {
-            let value = &text.as_str()[entry.value.clone()];
-            if value.parse().is_ok_and(|version| SCENE_VERSIONS.contains(&version)) {
-                return None;
-            }
-            (entry.value.start, value, "version of the scene file")
-        }
-        None => (text.opening()?, "", "version of the scene file, which is missing"),
-    };
-    let allowed = format!("{} or {}", SCENE_VERSIONS.start(), SCENE_VERSIONS.end());
-    let error = SceneError::whole(Origin::Scene, message);
-    Some(Unread::new(offset, SceneError { field: "version".into(), value: value.into(), allowed, ..error }))
+/// Error of an unsupported version, which may be why the rest of a text cannot be read.
+fn wrong_version(text: &Text) -> Option<Unread> {
+    let (field, value) = (field("version", None)?, text.written("version")?);
+    if value.parse().is_ok_and(|version| field.range.contains_whole(version)) {
+        return None;
+    }
+    let [path, value, message] = [field.path, value, field.name].map(str::to_owned);
+    let error = SceneError { field: path, value, allowed: field.allowed(), message, ..SceneError::default() };
+    Some(Unread::new(text.nearest_value("version"), error))
 }
 
 /// Place and reason of an error in text of any form.
@@ -97,7 +91,7 @@ fn explain(source: &str, error: &SpannedError) -> Unread {
     }
     let is_lost = matches!(error.code, Error::Eof | Error::ExpectedStringEnd | Error::UnclosedBlockComment);
     match Text::new(source) {
-        Ok(text) => explain_at(&text, offset, &error.code),
+        Ok(text) => wrong_version(&text).unwrap_or_else(|| explain_at(&text, offset, &error.code)),
         // If the reader reached the end of the text, the open bracket is the better place.
         Err(unreadable) if end >= source.trim_end().len() || is_lost => {
             whole(unreadable.offset, unreadable.reason.into())

@@ -88,12 +88,8 @@ impl Text {
     pub(in crate::scene) fn nearest_value(&self, path: &str) -> usize {
         let mut around = std::iter::successors(Some(path), |path| Some(path.rsplit_once('.')?.0));
         let found = around.find_map(|path| self.span(path).filter(|_| !path.is_empty()));
-        found.map(|span| span.value.start).or_else(|| self.opening()).unwrap_or(0)
-    }
-
-    /// Byte of the bracket that opens the whole; `None` for a value without brackets.
-    pub(in crate::scene) fn opening(&self) -> Option<usize> {
-        Some(self.spans.first()?.inside.as_ref()?.start - 1)
+        let opening = || Some(self.spans.first()?.inside.as_ref()?.start - 1);
+        found.map(|span| span.value.start).or_else(opening).unwrap_or(0)
     }
 
     /// The value at a path as written, with any `Some(…)` around it.
