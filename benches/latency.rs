@@ -53,7 +53,7 @@ mod measure {
     const CASES: [Case; 7] = [
         Case { what: "E, small step", row: "Young's modulus", keys: ["l", "h"], bar: EDIT },
         Case { what: "work of adhesion, small step", row: "work of adhesion", keys: ["l", "h"], bar: EDIT },
-        Case { what: "kappa, small step", row: "roughness parameter", keys: ["h", "l"], bar: EDIT },
+        Case { what: "kappa, small step", row: "roughness-adhesion parameter", keys: ["h", "l"], bar: EDIT },
         Case {
             what: "force of the first leg, small step",
             row: "force of a stage",

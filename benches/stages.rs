@@ -11,7 +11,7 @@ use asperity::analysis::ideal_adhesion_force;
 use asperity::contact::{
     Body, Contact, ContactTree, Foundation, HessRule, Leg, LegRecord, Solver, Springs, Work,
 };
-use asperity::scene::{Adhesion, Document, Edges, Move, Roughness, Scene};
+use asperity::scene::{Adhesion, Document, Edges, Move, Roughness, RoughnessParameter, Scene};
 use asperity::simulation::Simulation;
 use asperity::surface::{Line, SelfAffine, Synthesizer};
 use realfft::{RealFftPlanner, RealToComplex};
@@ -257,7 +257,7 @@ impl Edits {
     fn measure(&mut self, rough: &Rough, run: usize) {
         for (index, kappa) in rough.kappas.into_iter().enumerate() {
             let mut scene = rough.scene.clone();
-            scene.adhesion = Some(Adhesion::default().with_kappa(kappa));
+            scene.adhesion = Some(Adhesion::by_parameter(RoughnessParameter::Kappa, kappa));
             let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness else { return };
             *seed = 2 + (2 * run + index) as u64;
             self.seed[index] = self.seed[index].min(self.seconds(&scene));
@@ -265,7 +265,7 @@ impl Edits {
         // The line of the last seed is kept.
         for (index, kappa) in rough.kappas.into_iter().enumerate() {
             let mut scene = rough.scene.clone();
-            scene.adhesion = Some(Adhesion::default().with_kappa(kappa));
+            scene.adhesion = Some(Adhesion::by_parameter(RoughnessParameter::Kappa, kappa));
             let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness else { return };
             *seed = 3 + 2 * run as u64;
             self.kappa[index] = self.kappa[index].min(self.seconds(&scene));

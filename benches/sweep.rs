@@ -5,7 +5,7 @@
 //! `cargo bench --bench sweep` prints the figures and fails if a bar is missed. After `--`: `--quick` takes fewer lines
 //! and cells. Without `--bench`, as started by `cargo test --benches`, it only checks that it runs.
 
-use asperity::scene::{Adhesion, Move, Roughness, Scene};
+use asperity::scene::{Adhesion, Move, Roughness, RoughnessParameter, Scene};
 use asperity::simulation::Simulation;
 use asperity::study::{Changes, Folder, Options, Plan, Shard, merge, run};
 use realfft::RealFftPlanner;
@@ -190,7 +190,7 @@ fn one_by_one(plan: &Plan) {
         for cell in 0..plan.cells() {
             let values = plan.values(cell);
             let mut scene: Scene = plan.scene.clone();
-            scene.adhesion = Some(Adhesion::default().with_kappa(values[1]));
+            scene.adhesion = Some(Adhesion::by_parameter(RoughnessParameter::Kappa, values[1]));
             let Some(Roughness::SelfAffine { hurst, seed, rms_height, .. }) = &mut scene.roughness else {
                 continue;
             };

@@ -34,6 +34,11 @@ pub(crate) fn si_prefix(power: i32) -> Option<&'static str> {
     SI_PREFIXES.iter().find(|(_, of)| *of == power).map(|(prefix, _)| *prefix)
 }
 
+/// A number to some significant digits.
+pub(crate) fn round_to(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
+}
+
 /// Returns true for characters with an effect on their display: controls (C0, DEL, C1), bidirectional controls and
 /// marks, separators of lines and paragraphs, and signs that nobody sees, to which terminals give different widths.
 pub fn is_control(c: char) -> bool {
@@ -110,8 +115,8 @@ pub(crate) fn per_cent(error: f64) -> String {
     if per_cent < 1e-3 {
         return "< 0.001 %".to_owned();
     }
-    let two: f64 = format!("{per_cent:.1e}").parse().unwrap_or(per_cent);
-    let one: f64 = format!("{per_cent:.0e}").parse().unwrap_or(per_cent);
+    let two = round_to(per_cent, 2);
+    let one = round_to(per_cent, 1);
     let leads_with_one = format!("{two:e}").starts_with('1');
     format!("{} %", if leads_with_one { two } else { one })
 }

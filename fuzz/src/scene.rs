@@ -77,7 +77,7 @@ fn assert_effects(document: &Document) {
         let back = off.with(effect);
         sound(&back, effect, true);
         if let (true, Ok(back)) = (effect.is_on(document.scene()), back) {
-            assert_eq!(back.text(), document.text(), "{}", effect.name());
+            assert_eq!(back.scene(), document.scene(), "{}", effect.name());
         }
     }
 }

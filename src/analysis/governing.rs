@@ -30,16 +30,18 @@ impl Governing {
     #[must_use]
     pub fn of(scene: &Scene, unit: Option<Amplitude>, measured: Option<Amplitude>) -> Self {
         let effective_modulus = scene.material.effective_modulus();
-        let adhesion = scene.adhesion.unwrap_or_default();
         let amplitude = measured.or_else(|| {
             let unit = unit?;
             let Some(Roughness::SelfAffine { rms_height, rms_gradient, .. }) = scene.roughness else {
                 return None;
             };
             let by_adhesion = || {
-                let (parameter, value) = adhesion.parameter()?;
+                let Some(Adhesion::Work { work, amplitude: Some((parameter, value)), .. }) = scene.adhesion
+                else {
+                    return None;
+                };
                 let per_square = energy_of(parameter, unit, effective_modulus);
-                Some(parameter.energy_over_work(value).sqrt() * (adhesion.work? / per_square).sqrt())
+                Some(parameter.energy_over_work(value).sqrt() * (work / per_square).sqrt())
             };
             let rms_height = rms_height
                 .or_else(|| rms_gradient.map(|gradient| gradient / unit.rms_gradient))
@@ -61,17 +63,19 @@ impl Governing {
     /// The same profile with another adhesion.
     #[must_use]
     pub fn with_adhesion(self, adhesion: Option<Adhesion>) -> Self {
-        let adhesion = adhesion.unwrap_or_default();
-        let given = adhesion.parameter();
-        let work_of_adhesion =
-            adhesion.work.or_else(|| given.and_then(|(parameter, value)| self.work_for(parameter, value)));
+        let given = adhesion.and_then(|adhesion| adhesion.parameter());
+        let work_of_adhesion = match adhesion {
+            Some(Adhesion::Work { work, .. }) => Some(work),
+            Some(Adhesion::Parameter { parameter, value, .. }) => self.work_for(parameter, value),
+            None => None,
+        };
         let value = |parameter: RoughnessParameter| match given {
             Some((same, value)) if same == parameter => Some(value),
             _ => value_of(parameter, self.energy(parameter)?, work_of_adhesion?),
         };
         Governing {
             work_of_adhesion,
-            closing_work: adhesion.closing_work,
+            closing_work: adhesion.and_then(|adhesion| adhesion.closing_work()),
             kappa: value(RoughnessParameter::Kappa),
             elastic_energy_ratio: value(RoughnessParameter::ElasticEnergyRatio),
             ..self
@@ -204,13 +208,13 @@ mod tests {
     fn another_adhesion_on_the_same_line() {
         let base = governing(Some("rms_height: 3.0,"), "(work: 2.0)");
         let by = |parameter, value| {
-            let changed = base.with_adhesion(Some(Adhesion::default().with_parameter(parameter, value)));
+            let changed = base.with_adhesion(Some(Adhesion::by_parameter(parameter, value)));
             assert_eq!(changed.work_of_adhesion, base.work_for(parameter, value));
             (changed.work_of_adhesion, changed.kappa)
         };
         assert_eq!(by(RoughnessParameter::Kappa, 3.0), (Some(8.0), Some(3.0)));
         assert_eq!(by(RoughnessParameter::ElasticEnergyRatio, 0.5), (Some(9.0), Some(8.0_f64.sqrt())));
-        assert_eq!(base.with_adhesion(Some(Adhesion::default().with_work(8.0))).kappa, Some(3.0));
+        assert_eq!(base.with_adhesion(Some(Adhesion::by_work(8.0))).kappa, Some(3.0));
         assert_eq!(base.with_adhesion(None).kappa, None);
     }
 }

@@ -57,15 +57,15 @@ pub(super) fn presets(command: &PresetsCommand, stdout: &mut dyn Write) -> Resul
 
 fn list(format: AnswerFormat, stdout: &mut dyn Write) -> Result<(), CliError> {
     let entries = Library::of_environment().list();
-    let row = |entry: &Entry| [&entry.name, entry.error.as_ref().unwrap_or(&entry.title)].map(Clone::clone);
+    let row = |entry: &Entry| [entry.name.clone(), entry.error().unwrap_or_else(|| entry.title().to_owned())];
     let text = || Sheet::of_table(&entries.iter().map(row).collect::<Vec<_>>());
     let objects = entries.iter().map(|entry| {
         object! {
             "name": &entry.name,
-            "title": &entry.title,
-            "notice": &entry.notice,
+            "title": entry.title(),
+            "notice": entry.notice(),
             "path"?: entry.path.as_ref().map(|path| path.display().to_string()),
-            "error"?: entry.error.as_ref(),
+            "error"?: entry.error(),
         }
     });
     format.write(stdout, text, &objects.collect::<Vec<_>>())
@@ -76,7 +76,7 @@ fn show(name: &str, stdout: &mut dyn Write) -> Result<(), CliError> {
         return Ok(stdout.write_all(preset.text.as_bytes())?);
     }
     if let Some(entry) = Library::of_environment().list().into_iter().find(|entry| entry.name == name) {
-        return Ok(stdout.write_all(entry.document()?.text().as_bytes())?);
+        return Ok(stdout.write_all(entry.document?.text().as_bytes())?);
     }
     let names: Vec<_> = scene::presets().iter().map(|preset| preset.name).collect();
     Err(CliError::named(name, format!("there is no such built-in scene; allowed: {}", names.join(", "))))

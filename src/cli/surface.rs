@@ -391,7 +391,7 @@ fn scene(
         length,
         form: None,
         roughness: Some(arguments.roughness(path)),
-        adhesion: arguments.work.map(|work| Adhesion::default().with_work(work)),
+        adhesion: arguments.work.map(Adhesion::by_work),
         loading: vec![arguments.preload.map_or(Move::ToZeroForce, Move::ToForce), Move::ToSeparation],
         numerics: Numerics { points, ..Numerics::default() },
         observe: Vec::new(),

@@ -1,6 +1,6 @@
 //! Text of figures: italic symbols, indices and exponents, SI prefixes, numbers.
 
-use crate::text::{printable, si_prefix};
+use crate::text::{printable, round_to, si_prefix};
 use std::fmt;
 
 /// Powers of ten of the smallest and the largest prefix on an axis, femto and giga.
@@ -226,7 +226,7 @@ pub fn short(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".into() } else { value.to_string() };
     }
-    let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
+    let rounded = round_to(value, 3);
     let text =
         if (1e-3..1e5).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") };
     text.replace('-', "−")

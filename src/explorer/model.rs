@@ -19,7 +19,7 @@ use super::text_line::TextLine;
 use super::theme::Appearance;
 use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
-use crate::scene::{Document, Observer, Scene, ron_float};
+use crate::scene::{Adhesion, Document, Observer, Scene, ron_float};
 use crate::simulation::Outcome;
 use crate::study::{Axis, Place};
 use std::collections::{BTreeMap, BTreeSet};
@@ -321,8 +321,7 @@ impl Model {
             && before.form == now.form
             && before.material == now.material;
         // An rms height that follows from γ and κ or e_el/γ changes with them.
-        let both =
-            |scene: &Scene| scene.adhesion.is_some_and(|a| a.work.is_some() && a.parameter().is_some());
+        let both = |scene: &Scene| matches!(scene.adhesion, Some(Adhesion::Work { amplitude: Some(_), .. }));
         if !same_line || ((both(before) || both(now)) && before.adhesion != now.adhesion) {
             return None;
         }

@@ -112,5 +112,5 @@ impl Prompt {
 
 /// Name, title and notice.
 fn scene_texts(entry: &Entry) -> Vec<String> {
-    vec![entry.name.clone(), entry.title.clone(), entry.notice.clone()]
+    vec![entry.name.clone(), entry.title().to_owned(), entry.notice().to_owned()]
 }

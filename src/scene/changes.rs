@@ -35,11 +35,10 @@ impl Document {
     pub fn changes_to(&self, other: &Document) -> Vec<Change> {
         let scenes = [self, other].map(|document| with_stated_use(document.scene()));
         let trees = scenes.each_ref().map(Tree::of);
+        let fields = fields_inside("", None);
         let mut changes = Vec::new();
-        for field in
-            fields_inside("", None).filter(|field| !["title", "notice", "version"].contains(&field.path))
-        {
-            let stages = if field.path == "loading" { changed_stages(&scenes) } else { None };
+        for field in fields.filter(|field| !["title", "notice", "version"].contains(&field.path)) {
+            let stages = changed_stages(&scenes).filter(|_| field.path == "loading");
             match stages {
                 Some(stages) => changes.extend(stages),
                 None => add_changes(field, &trees, &mut changes),
@@ -52,8 +51,8 @@ impl Document {
 fn add_changes(field: &Field, trees: &[Tree; 2], changes: &mut Vec<Change>) {
     let values = trees.each_ref().map(|tree| tree.written(field).unwrap_or_default());
     // A field at its default in both is equal, though the default may depend on another field.
-    let is_default = |place: usize| values[place] == trees[place].default(field);
-    if values[0] == values[1] || is_default(0) && is_default(1) {
+    let are_defaults = values.iter().zip(trees).all(|(value, tree)| value == tree.default(field));
+    if values[0] == values[1] || are_defaults {
         return;
     }
     let [inside, others] = trees.each_ref().map(|tree| tree.inside(field));

@@ -6,10 +6,11 @@
 
 use serde_json::Value;
 
+use super::adhesion::Adhesion;
 use super::errors::SceneError;
 use super::field::{FILE_NAME, Field, LEG_INDENTATION};
 use super::fields::{FIELDS, field};
-use super::model::{Adhesion, Edges, Move, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
+use super::model::{Edges, Move, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
 use super::range::Range;
 use super::text::{is_within, ron_float, ron_string};
 use super::tree::{Tree, in_ron, written};
@@ -34,12 +35,9 @@ pub fn check(scene: &Scene) -> Vec<SceneError> {
     }
     found.check_material();
     found.check_form();
-    found.check_modes();
-    found.check_measured();
-    found.check_closing_work();
+    found.check_roughness();
     found.check_amplitude();
     found.check_loading();
-    found.check_edges();
     found.errors
 }
 
@@ -73,17 +71,19 @@ impl Found<'_> {
         self.errors.iter().any(|error| is_within(&error.field, path))
     }
 
-    /// Refuses the value of a field for a reason other than its range. `allowed` is empty if `message` contains the
-    /// allowed values; the value of a group is not repeated.
-    fn refuse(&mut self, path: &str, allowed: &str, message: &str) {
+    /// Refuses the value of a field, unless a condition is met or there are errors of these fields already. `allowed` is
+    /// empty if `message` contains the allowed values; the value of a group is not repeated.
+    fn require(&mut self, is_met: bool, of: &[&str], path: &str, allowed: &str, message: &str) {
+        if is_met || of.iter().any(|path| self.has(path)) {
+            return;
+        }
         let here = FIELDS.iter().find(|field| field.path == path && self.tree.has(field));
         let here = here.filter(|field| self.tree.inside(field).is_empty());
         let value = here.and_then(|field| self.tree.written(field)).unwrap_or_default();
-        self.refuse_value(path, value, allowed, message);
+        self.refuse(path, value, allowed, message);
     }
 
-    /// Refuses a value that is only part of a field.
-    fn refuse_value(&mut self, path: &str, value: String, allowed: &str, message: &str) {
+    fn refuse(&mut self, path: &str, value: String, allowed: &str, message: &str) {
         let [field, allowed, message] = [path, allowed, message].map(str::to_owned);
         self.errors.push(SceneError { field, value, allowed, message, ..SceneError::default() });
     }
@@ -118,7 +118,7 @@ impl Found<'_> {
         };
         let wrong_texts: Vec<_> = texts.iter().filter_map(|text| wrong_text(field, text.as_str()?)).collect();
         for (value, allowed) in wrong.map(|value| (value, field.allowed())).into_iter().chain(wrong_texts) {
-            self.refuse_value(field.path, value, &allowed, field.name);
+            self.refuse(field.path, value, &allowed, field.name);
         }
     }
 
@@ -129,186 +129,126 @@ impl Found<'_> {
                 && !field.range.contains(value)
             {
                 let path = format!("loading.{index}.0");
-                self.refuse_value(&path, ron_float(value), &field.allowed(), field.name);
+                self.refuse(&path, ron_float(value), &field.allowed(), field.name);
             }
         }
     }
 
     fn check_material(&mut self) {
-        let material = self.scene.material;
-        let given = [material.effective_modulus, material.youngs_modulus, material.poisson_ratio];
-        let reason = match given.map(|value| value.is_some()) {
-            [true, false, false] => return,
-            [false, true, true] => {
-                let modulus = material.effective_modulus();
-                let field = field("material.effective_modulus", None).filter(|_| !self.has("material"));
-                if let Some(field) = field.filter(|field| !field.range.contains(modulus)) {
-                    let value = format!("E* = {}", ron_float(modulus));
-                    self.refuse_value("material", value, &field.allowed(), "effective modulus E/(1 − ν²)");
-                }
-                return;
-            }
-            [true, ..] => {
-                "effective_modulus replaces youngs_modulus and poisson_ratio: give one or the other"
-            }
-            [false, true, false] => "youngs_modulus goes with poisson_ratio, which is missing",
-            [false, false, true] => "poisson_ratio goes with youngs_modulus, which is missing",
-            [false, false, false] => "give youngs_modulus with poisson_ratio, or effective_modulus",
-        };
-        self.refuse("material", "", reason);
+        let modulus = self.scene.material.effective_modulus();
+        let Some(field) = field("material.effective_modulus", None) else { return };
+        if !field.range.contains(modulus) && !self.has("material") {
+            let value = format!("E* = {}", ron_float(modulus));
+            self.refuse("material", value, &field.allowed(), "effective modulus E/(1 − ν²)");
+        }
     }
 
     fn check_form(&mut self) {
-        let scene = self.scene;
-        let Some(form) = scene.form.filter(|_| !self.has("form") && !self.has("length")) else { return };
+        let (scene, spacing) = (self.scene, self.scene.spacing());
+        let (Some(form), half) = (scene.form, scene.length / 2.0) else { return };
+        let (body, grid) = (["form", "length"], ["form", "length", "numerics.points"]);
         if let Some(radius) = form.flat_end() {
-            return self.check_flat_end(radius);
-        }
-        let shortest = SPRINGS_PER_WAVE as f64 * scene.spacing();
-        if let Form::WavySphere { wavelength, .. } = form
-            && !self.has("numerics.points")
-            && wavelength < shortest
-        {
-            let reason =
-                format!("a wave has at least {SPRINGS_PER_WAVE} springs: more points or longer waves");
-            let allowed = format!("at least {} m", ron_float(shortest));
-            return self.refuse("form.wavelength", &allowed, &reason);
-        }
-        let (depth, of_waves) = (form.depth(scene.length / 2.0), form.wave_depth(scene.length / 2.0));
-        if !LEG_INDENTATION.range.contains(MOST_GROWTH * depth) {
-            let most = LEG_INDENTATION.range.ends().map_or(0.0, |(_, most)| most);
-            let reason = format!(
-                "the body rises too steeply: at the ends of the line it is higher than the {most} m an indentation \
-                 can reach"
-            );
-            // The first number of a form is its size; waves may be higher than their sphere.
-            let is_size = |field: &&Field| match 2.0 * of_waves > depth {
-                true => field.path == "form.amplitude",
-                false => field.parent() == "form" && self.tree.has(field),
-            };
-            let size = FIELDS.iter().find(is_size).map_or("form", |field| field.path);
-            self.refuse(size, "", &reason);
-        }
-    }
-
-    fn check_flat_end(&mut self, radius: f64) {
-        let (half, spacing) = (self.scene.length / 2.0, self.scene.spacing());
-        if radius > half {
             let reason =
                 format!("a punch is not wider than the line: at most length/2 = {}", ron_float(half));
-            self.refuse("form.radius", "", &reason);
-        } else if !self.has("numerics.points") && self.scene.springs_under_body().is_empty() {
+            self.require(radius <= half, &body, "form.radius", "", &reason);
             let reason = format!(
                 "no spring lies under the punch: the springs are {} m apart; more points or a larger radius",
                 ron_float(spacing)
             );
-            self.refuse("form.radius", "", &reason);
+            let has_springs = !scene.springs_under_body().is_empty();
+            return self.require(has_springs, &grid, "form.radius", "", &reason);
         }
-    }
-
-    fn check_modes(&mut self) {
-        let points = self.scene.numerics.points;
-        if let Some(Roughness::SelfAffine { modes: (_, last), .. }) = self.scene.roughness
-            && last > points / 2
-            && !self.has("roughness.modes")
-            && !self.has("numerics.points")
-        {
-            let allowed = format!("last mode at most points/2 = {}", points / 2);
-            let reason = format!("{points} springs carry no shorter wave");
-            self.refuse("roughness.modes", &allowed, &reason);
+        if let Form::WavySphere { wavelength, .. } = form {
+            let shortest = SPRINGS_PER_WAVE as f64 * spacing;
+            let allowed = format!("at least {} m", ron_float(shortest));
+            let reason =
+                format!("a wave has at least {SPRINGS_PER_WAVE} springs: more points or longer waves");
+            self.require(wavelength >= shortest, &grid, "form.wavelength", &allowed, &reason);
         }
-    }
-
-    /// A profile is one row or one column; several files have a common spectrum and no profile.
-    fn check_measured(&mut self) {
-        let Some(Roughness::Measured { unit, height_unit, further_files, opposite, row, column, .. }) =
-            &self.scene.roughness
-        else {
-            return;
+        let depth = form.depth(half);
+        // The first number of a form is its size; waves may be higher than their sphere.
+        let is_size = |field: &&Field| match 2.0 * form.wave_depth(half) > depth {
+            true => field.path == "form.amplitude",
+            false => field.parent() == "form" && self.tree.has(field),
         };
-        for (path, unit) in [("roughness.unit", unit), ("roughness.height_unit", height_unit)] {
-            if !unit.is_empty() && !self.has(path) && unit.parse::<Unit>().is_err() {
-                self.refuse(path, UnitError::ALLOWED, "unit of the file");
+        let size = FIELDS.iter().find(is_size).map_or("form", |field| field.path);
+        let most = LEG_INDENTATION.range.ends().map_or(0.0, |(_, most)| most);
+        let reason = format!(
+            "the form is too steep: it exceeds the largest indentation ({most} m) within the length of the profile"
+        );
+        self.require(LEG_INDENTATION.range.contains(MOST_GROWTH * depth), &body, size, "", &reason);
+    }
+
+    fn check_roughness(&mut self) {
+        let (scene, points) = (self.scene, self.scene.numerics.points);
+        match &scene.roughness {
+            None => {}
+            Some(Roughness::SelfAffine { modes: (_, last), .. }) => {
+                let allowed = format!("last mode at most points/2 = {}", points / 2);
+                let (of, path) = (["roughness.modes", "numerics.points"], "roughness.modes");
+                let reason = format!("{points} springs carry no shorter wave");
+                self.require(*last <= points / 2, &of, path, &allowed, &reason);
+            }
+            // A profile is one row or one column; several files have a common spectrum and no profile.
+            Some(Roughness::Measured { unit, height_unit, further_files, opposite, row, column, .. }) => {
+                for (path, unit) in [("roughness.unit", unit), ("roughness.height_unit", height_unit)] {
+                    let is_unit = unit.is_empty() || unit.parse::<Unit>().is_ok();
+                    self.require(is_unit, &[path], path, UnitError::ALLOWED, "unit of the file");
+                }
+                let (has_both, as_line) = (row.is_some() && column.is_some(), scene.measured_as_line());
+                let reason = "a profile is a row or a column: give one of them";
+                self.require(!has_both, &[], "roughness.column", "", reason);
+                let reason = "spectra of two faces add, their profiles do not: give as_line: false";
+                self.require(!as_line || opposite.is_none(), &[], "roughness.opposite", "", reason);
+                let reason = "several files have one spectrum, and no profile: give as_line: false";
+                self.require(
+                    !as_line || further_files.is_empty(),
+                    &[],
+                    "roughness.further_files",
+                    "",
+                    reason,
+                );
             }
         }
-        if row.is_some() && column.is_some() {
-            let reason = "a profile is a row or a column: give one of them";
-            self.refuse("roughness.column", "", reason);
+        // A spring that attaches with more energy than it detaches with would detach at once.
+        if let Some(Adhesion::Work { work, closing_work: Some(closing), .. }) = scene.adhesion {
+            let allowed = format!("0 to {} J/m²", ron_float(work));
+            let path = "adhesion.closing_work";
+            self.require(closing <= work, &["adhesion"], path, &allowed, "at most adhesion.work");
         }
-        if opposite.is_some() && self.scene.measured_as_line() {
-            let reason = "spectra of two faces add, their profiles do not: give as_line: false";
-            self.refuse("roughness.opposite", "", reason);
-        }
-        if !further_files.is_empty() && self.scene.measured_as_line() {
-            let reason = "several files have one spectrum, and no profile: give as_line: false";
-            self.refuse("roughness.further_files", "", reason);
-        }
-    }
-
-    /// A spring that attaches with more energy than it detaches with would detach at once.
-    fn check_closing_work(&mut self) {
-        let Some(Adhesion { work, closing_work: Some(closing), .. }) = self.scene.adhesion else { return };
-        let (allowed, reason) = match work {
-            _ if self.has("adhesion") => return,
-            Some(work) if closing > work => {
-                (format!("0 to {} J/m²", ron_float(work)), "at most adhesion.work")
-            }
-            Some(_) => return,
-            None => (
-                String::new(),
-                "closing_work goes with adhesion.work, which is missing: κ and e_el/γ refer to one work of adhesion",
-            ),
-        };
-        self.refuse("adhesion.closing_work", &allowed, reason);
     }
 
     /// Amplitude of the roughness, work of adhesion and κ or e_el/γ: any two determine the third.
     fn check_amplitude(&mut self) {
-        let adhesion = self.scene.adhesion.unwrap_or_default();
-        let given =
-            [adhesion.work, adhesion.kappa, adhesion.elastic_energy_ratio].map(|value| value.is_some());
-        match given {
-            [false, false, false] if self.scene.adhesion.is_some() => {
-                return self.refuse("adhesion", "", "give work, kappa or elastic_energy_ratio");
+        let adhesion = self.scene.adhesion;
+        let work = adhesion.and_then(|adhesion| adhesion.work());
+        let parameter = adhesion.and_then(|adhesion| adhesion.parameter()).map(|(parameter, _)| parameter);
+        let symbol = parameter.map_or("", |parameter| parameter.symbol());
+        let (path, reason) = match (&self.scene.roughness, work, parameter) {
+            (None, _, Some(parameter)) => {
+                let end = "there is none: give roughness, or adhesion by work";
+                let reason = format!("{symbol} measures adhesion against roughness, and {end}");
+                return self.refuse(parameter.path(), String::new(), "", &reason);
             }
-            [_, true, true] => {
-                let reason = "kappa and elastic_energy_ratio determine each other: give one of them";
-                return self.refuse("adhesion", "", reason);
+            (Some(Roughness::SelfAffine { rms_height: Some(_), rms_gradient: Some(_), .. }), ..) => {
+                ("roughness", "rms_height and rms_gradient determine each other: give one of them".into())
             }
-            _ => {}
-        }
-        let parameter = adhesion.parameter().map(|(parameter, _)| parameter);
-        let Some(roughness) = &self.scene.roughness else {
-            if let Some(parameter) = parameter {
-                let reason = format!(
-                    "{} measures adhesion against roughness, and there is none: give roughness, or adhesion by work",
-                    parameter.symbol()
-                );
-                self.refuse_value(parameter.path(), String::new(), "", &reason);
-            }
-            return;
-        };
-        if let Roughness::SelfAffine { rms_height: Some(_), rms_gradient: Some(_), .. } = roughness {
-            let reason = "rms_height and rms_gradient determine each other: give one of them";
-            return self.refuse("roughness", "", reason);
-        }
-        let (path, reason) = match (roughness.has_amplitude(), adhesion.work, parameter) {
-            (true, Some(_), Some(parameter)) => {
-                let name = parameter.name();
+            (Some(roughness), Some(_), Some(parameter)) if roughness.has_amplitude() => {
                 let end = "two determine the third, so leave one out or set it to None";
-                ("adhesion", format!("roughness amplitude, work and {name}: {end}"))
+                ("adhesion", format!("roughness amplitude, work and {}: {end}", parameter.name()))
             }
-            (false, Some(0.0), Some(parameter)) => {
-                let (symbol, end) = (parameter.symbol(), "give rms_height or rms_gradient");
+            (Some(roughness), ..) if roughness.has_amplitude() => return,
+            (Some(_), Some(0.0), Some(_)) => {
+                let end = "give rms_height or rms_gradient";
                 ("roughness", format!("without work of adhesion {symbol} does not set an amplitude: {end}"))
             }
-            (false, Some(_), Some(_)) | (true, ..) => return,
-            (false, ..) => {
+            (None, ..) | (Some(_), Some(_), Some(_)) => return,
+            (Some(_), ..) => {
                 let end = "give rms_height or rms_gradient, or adhesion by work and kappa";
                 ("roughness", format!("the amplitude is missing: {end}"))
             }
         };
-        self.refuse(path, "", &reason);
+        self.require(false, &[], path, "", &reason);
     }
 
     fn check_loading(&mut self) {
@@ -316,35 +256,42 @@ impl Found<'_> {
         for (index, stage) in scene.loading.iter().enumerate() {
             let pulls = *stage == Move::ToSeparation || matches!(stage, Move::ToForce(force) if *force < 0.0);
             if is_separated && pulls {
-                let reason =
-                    "from separation nothing can pull: press first, with ToTouch, ToForce or ToIndentation";
-                self.refuse_value(&format!("loading.{index}"), in_ron(stage), "", reason);
+                let reason = "cannot pull before contact: start with ToTouch, ToForce or ToIndentation";
+                self.refuse(&format!("loading.{index}"), in_ron(stage), "", reason);
             }
             is_separated = *stage == Move::ToSeparation;
         }
-        let stages = scene.loading.len() as u64;
-        let is_too_fine = stages.saturating_mul(scene.numerics.samples) > MOST_SAMPLES;
-        if is_too_fine && !self.has("numerics.samples") && !self.has("loading") {
-            let allowed = format!("at most {}", MOST_SAMPLES / stages.max(1));
-            let reason = format!("{stages} legs have at most {MOST_SAMPLES} samples together");
-            self.refuse("numerics.samples", &allowed, &reason);
-        }
-    }
-
-    fn check_edges(&mut self) {
-        let numerics = self.scene.numerics;
-        if matches!(numerics.solver, Solver::Stepwise { .. }) && numerics.edges == Edges::SubCell {
-            let reason = "the stepwise solver moves whole springs: edges: Grid";
-            self.refuse("numerics.edges", "", reason);
-        }
+        let (stages, numerics) = (scene.loading.len() as u64, scene.numerics);
+        let allowed = format!("at most {}", MOST_SAMPLES / stages.max(1));
+        let reason =
+            format!("too many points: samples × loading stages ({stages}) must not exceed {MOST_SAMPLES}");
+        let (is_met, path) = (stages.saturating_mul(numerics.samples) <= MOST_SAMPLES, "numerics.samples");
+        self.require(is_met, &[path, "loading"], path, &allowed, &reason);
+        let is_met = numerics.solver == Solver::Exact || numerics.edges == Edges::Grid;
+        let reason = "the stepwise solver moves whole springs: edges: Grid";
+        self.require(is_met, &[], "numerics.edges", "", reason);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::document::Document;
-    use super::super::strategies::sound;
     use super::*;
+
+    /// A valid rough scene with adhesion.
+    fn sound() -> Scene {
+        const TEXT: &str = r#"(
+            version: 1,
+            title: "A line",
+            material: (youngs_modulus: 2.0e6, poisson_ratio: 0.5),
+            length: 1.0e-4,
+            roughness: SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1),
+            adhesion: (work: 0.05),
+            loading: [ToForce(1.0e-5), ToSeparation],
+            numerics: (points: 4096, edges: Grid),
+        )"#;
+        Document::parse(TEXT, "sound").unwrap().scene().clone()
+    }
 
     fn errors_with(sets: &str) -> Vec<String> {
         let sound = Document::from_scene(&sound(), "sound").unwrap();
@@ -363,8 +310,8 @@ mod tests {
                 "material=(effective_modulus: 1e6, poisson_ratio: 0.5)",
                 "material: effective_modulus replaces ",
             ),
-            ("material=(youngs_modulus: 1e6)", "poisson_ratio, which is missing"),
-            ("material=(poisson_ratio: 0.5)", "youngs_modulus, which is missing"),
+            ("material=(youngs_modulus: 1e6)", "requires poisson_ratio, which is missing"),
+            ("material=(poisson_ratio: 0.5)", "requires youngs_modulus, which is missing"),
             ("material=()", "give youngs_modulus with poisson_ratio, or"),
             // Nearly −1: E* is enormous, though E and ν are in their ranges.
             ("material=(youngs_modulus: 1e6, poisson_ratio: -0.999999999)", "material = E* = 5.0"),
@@ -387,7 +334,7 @@ mod tests {
                 "adhesion.closing_work=0.0500001",
                 "closing_work = 0.0500001: allowed: 0 to 0.05 J/m² (at most adhesion.work)",
             ),
-            ("adhesion=(kappa: 2.0, closing_work: 0.0)", "closing_work goes with adhesion.work"),
+            ("adhesion=(kappa: 2.0, closing_work: 0.0)", "closing_work requires adhesion.work"),
             ("numerics.points=1024", ""),
             ("numerics.points=1023", "roughness.modes = (1, 512): allowed: last mode at most points/2 = 511"),
             ("roughness.modes=(5, 4)", "(5, 4): allowed: a pair"),
@@ -400,13 +347,13 @@ mod tests {
                 "form=WavySphere(radius: 1.0, amplitude: 1e-9, wavelength: 9e-8)",
                 "a wave has at least 4 springs",
             ),
-            ("length=10; form=Cone(angle: 1.570796)", "form.angle = 1.570796: the body rises too steeply"),
+            ("length=10; form=Cone(angle: 1.570796)", "form.angle = 1.570796: the form is too steep"),
             (
                 "length=1; form=WavySphere(radius: 1.0, amplitude: 1e6, wavelength: 0.1)",
-                "form.amplitude = 1.0e6: the body",
+                "form.amplitude = 1.0e6: the form is too steep",
             ),
-            ("loading=[ToSeparation]", "loading.0 = ToSeparation: from separation nothing can pull"),
-            ("loading=[ToForce(-1e-6)]", "loading.0 = ToForce(-1.0e-6): from separation"),
+            ("loading=[ToSeparation]", "loading.0 = ToSeparation: cannot pull before contact"),
+            ("loading=[ToForce(-1e-6)]", "loading.0 = ToForce(-1.0e-6): cannot pull"),
             ("loading=[ToTouch, ToSeparation, ToForce(-1.0)]", "loading.2 = ToForce(-1.0): "),
             ("loading=[ToForce(1.0), ToForce(-1e-6), ToSeparation, ToForce(0.0), ToZeroForce]", ""),
             (
@@ -437,24 +384,6 @@ mod tests {
     }
 
     #[test]
-    fn all_errors_are_found_together() {
-        let sets = "version=3; length=-1.0; material.poisson_ratio=0.7; numerics.samples=1; loading=[]";
-        let errors = errors_with(sets);
-        let expected = [
-            "version = 3: ",
-            "material.poisson_ratio = 0.7: ",
-            "length = -1.0: ",
-            "loading = []: ",
-            "numerics.samples = 1: ",
-        ];
-        assert!(
-            errors.iter().map(String::as_str).zip(expected).all(|(error, start)| error.starts_with(start)),
-            "{errors:?}"
-        );
-        assert_eq!(errors.len(), expected.len());
-    }
-
-    #[test]
     fn samples_of_all_legs_are_bounded_together() {
         let mut scene = sound();
         scene.loading = vec![Move::ToTouch; 1 << 14];
@@ -462,30 +391,5 @@ mod tests {
         assert_eq!(check(&scene), vec![]);
         scene.numerics.samples += 1;
         assert_eq!(check(&scene)[0].field, "numerics.samples");
-    }
-
-    #[test]
-    fn nan_and_infinities_are_refused_everywhere() {
-        for value in ["NaN", "inf", "-inf", "1e999"] {
-            for (path, set) in [
-                ("length", format!("length={value}")),
-                ("material.effective_modulus", format!("material=(effective_modulus: {value})")),
-                ("adhesion.work", format!("adhesion.work={value}")),
-                ("adhesion.closing_work", format!("adhesion.closing_work={value}")),
-                ("loading.1.0", format!("loading=[ToForce(1.0), ToIndentation({value})]")),
-                (
-                    "numerics.solver.step",
-                    format!("numerics.solver=Stepwise(step: {value}); numerics.edges=Grid"),
-                ),
-                ("form.exponent", format!("form=Power(coefficient: 1.0, exponent: {value})")),
-                ("roughness.rms_height", format!("roughness.rms_height={value}")),
-            ] {
-                let errors = errors_with(&set);
-                let is_refused = |error: &String| {
-                    error.starts_with(&format!("{path} = ")) && error.contains(": allowed: ")
-                };
-                assert!(!errors.is_empty() && errors.iter().all(is_refused), "{set}: {errors:?}");
-            }
-        }
     }
 }

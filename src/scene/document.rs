@@ -2,7 +2,6 @@
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use super::check::check;
 use super::edit::{field_at, set};
@@ -12,7 +11,7 @@ use super::field::Field;
 use super::fields::{FIELDS, field};
 use super::model::Scene;
 use super::range::Range;
-use super::read::{Unread, read, wrong_version};
+use super::read::read;
 use super::text::{Text, is_within, line_column};
 use super::tree::{Tree, to_ron};
 
@@ -29,19 +28,8 @@ pub struct Document {
     scene: Scene,
     overrides: Vec<(String, String)>,
     table_head: String,
-    /// Effects switched off, with their removed text.
-    pub(super) switched_off: Vec<SwitchedOff>,
-}
-
-/// An effect that was switched off.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct SwitchedOff {
-    pub(super) effect: Effect,
-    /// Paths of the changed values.
-    pub(super) paths: Vec<String>,
-    /// The documents with and without the effect.
-    pub(super) before: Arc<Document>,
-    pub(super) after: Arc<Document>,
+    /// Effects switched off, each with the paths of the changed values, their former and their present text.
+    pub(super) removed: Vec<(Effect, Vec<[String; 3]>)>,
 }
 
 impl Scene {
@@ -58,28 +46,19 @@ impl Document {
     /// Reads and checks a scene. `name` is that of the file or of the built-in scene, for errors.
     ///
     /// # Errors
-    /// The first syntax error of the text, or all invalid values, each with line and column. A wrong
-    /// version comes first, before any other error.
+    /// The first syntax error of the text, or all invalid values, each with line and column. An unsupported version is
+    /// stated instead of a syntax error.
     pub fn parse(source: &str, name: &str) -> Result<Document, SceneErrors> {
         // Some editors put a byte order mark before the text.
         let source = source.strip_prefix('\u{feff}').unwrap_or(source);
         check_length(source)
             .map_err(|message| SceneError::whole(Origin::File { name: name.into() }, message))?;
-        let located = |unread: Unread| unread.error.at(origin_at(source, name, unread.offset));
-        let text = Text::new(source);
-        let scene = read(source).map_err(|unread| {
-            let version = text.as_ref().ok().and_then(wrong_version);
-            let is_same = version.as_ref().is_some_and(|version| version.error.field == unread.error.field);
-            let mut all = version.into_iter().chain(Some(*unread).filter(|_| !is_same)).map(located);
-            let first = all.next().unwrap_or_default();
-            all.fold(SceneErrors::from(first), SceneErrors::and)
-        })?;
-        let text = text.map_err(|unreadable| {
-            let error = SceneError::whole(Origin::Scene, unreadable.reason);
-            located(Unread { offset: unreadable.offset, error })
-        })?;
+        let place = |offset| origin_at(source, name, offset);
+        let scene = read(source).map_err(|unread| unread.error.at(place(unread.offset)))?;
+        let text = Text::new(source)
+            .map_err(|unreadable| SceneError::whole(place(unreadable.offset), unreadable.reason))?;
         SceneErrors::result(as_written(check(&scene), &text), |error| {
-            origin_at(source, name, text.nearest_value(&error.field))
+            place(text.nearest_value(&error.field))
         })?;
         let (name, opened) = (name.to_string(), source.to_string());
         Ok(Document {
@@ -89,7 +68,7 @@ impl Document {
             scene,
             overrides: Vec::new(),
             table_head: String::new(),
-            switched_off: Vec::new(),
+            removed: Vec::new(),
         })
     }
 
@@ -122,53 +101,26 @@ impl Document {
         let mut new = self.clone();
         let mut errors = Vec::new();
         for (path, value) in overrides {
-            match new.splice(path, value) {
-                Ok(()) => remember(&mut new.overrides, path, value),
+            match spliced(&new.text, path, value) {
+                Ok(text) => {
+                    new.text = text;
+                    remember(&mut new.overrides, path, value);
+                }
                 Err(error) => errors.push(*error),
             }
         }
         SceneErrors::result(errors, |error| error.origin.clone())?;
+        new.scene = read(new.text.as_str()).map_err(|unread| {
+            let origin = overrides_behind(&unread.error, overrides);
+            unread.error.at(origin)
+        })?;
         SceneErrors::result(as_written(check(&new.scene), &new.text), |error| {
             overrides_behind(error, overrides)
         })?;
         if !new.is_changed() {
             new.overrides.clear();
         }
-        new.record_switches(self);
         Ok(new)
-    }
-
-    /// Records the effects that the change from an earlier document has switched off, and drops those that are on.
-    fn record_switches(&mut self, before: &Document) {
-        let scene = &self.scene;
-        self.switched_off.retain(|off| !off.effect.is_on(scene));
-        for effect in Effect::ALL {
-            if effect.is_on(before.scene()) && !effect.is_on(scene) {
-                let [before, after] = [before, self].map(|document| Arc::new(document.clone()));
-                let paths = vec![effect.path().to_owned()];
-                self.switched_off.push(SwitchedOff { effect, paths, before, after });
-            }
-        }
-    }
-
-    /// Changes text and scene; leaves both unchanged on failure.
-    fn splice(&mut self, path: &str, value: &str) -> Result<(), Box<SceneError>> {
-        let origin = || Origin::Overrides(vec![format!("{path}={value}")]);
-        let refused = |message: String| Box::new(SceneError::whole(origin(), message));
-        let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
-        let band = || field(parent, None).filter(|field| matches!(field.range, Range::Band(..)));
-        let typed = match field_at(&self.text, path).or_else(band) {
-            Some(known) => known.read_typed(value).map_err(|error| {
-                let (field, value, allowed) = (path.to_string(), value.to_string(), known.allowed());
-                Box::new(SceneError { field, value, allowed, ..*refused(error.to_string()) })
-            })?,
-            None => value.to_string(),
-        };
-        let text = set(&self.text, path, &typed).map_err(refused)?;
-        check_length(text.as_str()).map_err(refused)?;
-        self.scene = read(text.as_str()).map_err(|unread| Box::new(unread.error.at(origin())))?;
-        self.text = text;
-        Ok(())
     }
 
     /// The present text, with all comments.
@@ -257,6 +209,27 @@ impl Document {
     }
 }
 
+/// The text with another value of a field. Fields may contradict each other until further overrides.
+fn spliced(text: &Text, path: &str, value: &str) -> Result<Text, Box<SceneError>> {
+    let origin = || Origin::Overrides(vec![format!("{path}={value}")]);
+    let refused = |message: String| Box::new(SceneError::whole(origin(), message));
+    let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
+    let band = || field(parent, None).filter(|field| matches!(field.range, Range::Band(..)));
+    let typed = match field_at(text, path).or_else(band) {
+        Some(known) => known.read_typed(value).map_err(|error| {
+            let (field, value, allowed) = (path.to_string(), value.to_string(), known.allowed());
+            Box::new(SceneError { field, value, allowed, ..*refused(error.to_string()) })
+        })?,
+        None => value.to_string(),
+    };
+    let text = set(text, path, &typed).map_err(refused)?;
+    check_length(text.as_str()).map_err(refused)?;
+    match read(text.as_str()) {
+        Err(unread) if !unread.is_conflict => Err(Box::new(unread.error.at(origin()))),
+        _ => Ok(text),
+    }
+}
+
 /// An override: a path and a value in RON.
 pub(super) fn pair(path: &str, value: impl Into<String>) -> (String, String) {
     (path.to_string(), value.into())
@@ -316,37 +289,24 @@ mod tests {
             [
                 "a/scene.ron:4:13: length = NaN: allowed: from 1e-9 to 10 m (apparent diameter)",
                 "a/scene.ron:5:34: roughness.hurst = 1.4: allowed: above 0 and below 1 (Hurst exponent)",
-                "a/scene.ron:6:15: loading.0 = ToSeparation: from separation nothing can pull: \
-                 press first, with ToTouch, ToForce or ToIndentation",
+                "a/scene.ron:6:15: loading.0 = ToSeparation: cannot pull before contact: start with \
+                 ToTouch, ToForce or ToIndentation",
             ]
         );
     }
 
     #[test]
     fn a_wrong_version_is_stated_first() {
-        let text = SCENE.replace("version: 1", "version: 3").replace("hurst", "hurts");
-        let errors = Document::parse(&text, "x").unwrap_err();
-        assert_eq!(
-            errors.iter().map(|error| error.field.as_str()).collect::<Vec<_>>(),
-            ["version", "roughness.hurts"]
-        );
-        assert_eq!(lines(&errors)[0], "x:2:14: version = 3: allowed: 1 or 2 (version of the scene file)");
-        for text in [SCENE.replace("version: 1,", ""), SCENE.replace("version: 1", "version: \"1\"")] {
+        let newer = SCENE.replace("version: 1", "version: 3");
+        for text in [newer.replace("hurst", "hurts"), newer] {
             let errors = Document::parse(&text, "x").unwrap_err();
-            assert_eq!(errors.iter().count(), 1, "{errors}");
-            assert_eq!(errors.first().field, "version");
+            assert_eq!(
+                lines(&errors),
+                ["x:2:14: version = 3: allowed: a whole number from 1 to 2 (version)"]
+            );
         }
-        let errors = Document::parse(&SCENE.replace("version: 1", "version: 3"), "x").unwrap_err();
-        assert_eq!(lines(&errors), ["x:2:14: version = 3: allowed: a whole number from 1 to 2 (version)"]);
-    }
-
-    #[test]
-    fn long_texts_are_refused_unread() {
-        let text = format!("{SCENE}{}", " ".repeat(LONGEST_TEXT));
-        let message = Document::parse(&text, "x").unwrap_err().to_string();
-        assert!(message.contains("at most 1048576"), "{message}");
-        let value = format!("\"{}\"", "x".repeat(LONGEST_TEXT));
-        assert!(document().set("title", &value).unwrap_err().to_string().contains("at most 1048576"));
+        let missing = Document::parse(&SCENE.replace("version: 1,", ""), "x").unwrap_err();
+        assert_eq!(missing.first().field, "version");
     }
 
     #[test]

@@ -1,9 +1,11 @@
 //! Optional effects of a scene beyond the nonadhesive contact of a flat body.
 
+use super::adhesion::{Adhesion, RoughnessParameter};
 use super::fields::field;
-use super::model::{Adhesion, Move, Observer, Scene};
+use super::model::{Move, Observer, Scene};
 use super::text::ron_float;
 use super::tree::{Tree, in_ron};
+use crate::text::round_to;
 
 /// Optional effect of a scene, switched by [`Document::with`](super::Document::with) and [`Document::without`](super::Document::without).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -65,7 +67,7 @@ impl Effect {
         match self {
             Effect::Form => scene.form.is_some(),
             Effect::Roughness => scene.roughness.is_some(),
-            Effect::Adhesion => scene.adhesion.is_some_and(|adhesion| adhesion.work != Some(0.0)),
+            Effect::Adhesion => scene.adhesion.is_some_and(|adhesion| adhesion.work() != Some(0.0)),
             Effect::Unloading => may_pull(&scene.loading),
             _ => self.observer().is_some_and(|observer| scene.observe.contains(&observer)),
         }
@@ -80,15 +82,15 @@ impl Effect {
                 // Smooth on the scale of a spring and, under a form, on that of the contact.
                 let last = (scene.numerics.points / 8).clamp(1, 512);
                 let first = if scene.form.is_some() { last.min(4) } else { 1 };
-                let height = ron_float(rounded(scene.length / 500.0, 2));
+                let height = ron_float(round_to(scene.length / 500.0, 2));
                 format!("SelfAffine(hurst: 0.7, rms_height: {height}, modes: ({first}, {last}), seed: 1)")
             }
-            // κ refers to one work of adhesion: two of them may be left from a scene without adhesion.
             Effect::Adhesion if scene.roughness.is_some() => {
-                let range = scene.adhesion.and_then(|adhesion| adhesion.range);
-                adhesion_text(scene, |_| Adhesion { range, ..Adhesion::default().with_kappa(2.0) })
+                let range = scene.adhesion.and_then(|adhesion| adhesion.range());
+                let (parameter, value) = (RoughnessParameter::Kappa, 2.0);
+                adhesion_text(scene, Adhesion::Parameter { parameter, value, range })
             }
-            Effect::Adhesion => adhesion_text(scene, |adhesion| adhesion.with_work(0.05)),
+            Effect::Adhesion => adhesion_text(scene, by_work(scene, 0.05)),
             Effect::Unloading => in_ron(&[&scene.loading[..], &[Move::ToSeparation]].concat()),
             Effect::Fragments | Effect::HeightHistogram => {
                 let all = Effect::ALL.into_iter().filter(|effect| *effect == self || effect.is_on(scene));
@@ -98,15 +100,15 @@ impl Effect {
     }
 }
 
-/// Adhesion of a scene with a change, in RON.
-pub(super) fn adhesion_text(scene: &Scene, change: impl Fn(Adhesion) -> Adhesion) -> String {
-    let changed = Scene { adhesion: Some(change(scene.adhesion.unwrap_or_default())), ..scene.clone() };
-    field("adhesion", None).and_then(|field| Tree::of(&changed).written(field)).unwrap_or_default()
+/// The adhesion of a scene, by this work of adhesion, J/m².
+pub(super) fn by_work(scene: &Scene, work: f64) -> Adhesion {
+    scene.adhesion.map_or(Adhesion::by_work(work), |adhesion| adhesion.with_work(work))
 }
 
-/// A number to some significant digits.
-pub(super) fn rounded(value: f64, digits: usize) -> f64 {
-    format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
+/// Adhesion in RON.
+pub(super) fn adhesion_text(scene: &Scene, adhesion: Adhesion) -> String {
+    let changed = Scene { adhesion: Some(adhesion), ..scene.clone() };
+    field("adhesion", None).and_then(|field| Tree::of(&changed).written(field)).unwrap_or_default()
 }
 
 /// Returns true for a stage that may pull. A first stage cannot, since it begins at separation.
@@ -142,21 +144,8 @@ pub(super) fn pressing(loading: &[Move]) -> Move {
 
 #[cfg(test)]
 mod tests {
-    use super::super::strategies::sound;
     use super::*;
     use Move::{ToForce, ToIndentation, ToSeparation, ToTouch, ToZeroForce};
-
-    #[test]
-    fn a_scene_calls_for_what_it_says() {
-        let mut scene = sound();
-        let on = |scene: &Scene| Effect::ALL.into_iter().filter(|e| e.is_on(scene)).collect::<Vec<_>>();
-        assert_eq!(on(&scene), [Effect::Roughness, Effect::Adhesion, Effect::Unloading]);
-        scene.adhesion = Some(Adhesion::default().with_work(0.0));
-        scene.roughness = None;
-        scene.observe = vec![Observer::HeightHistogram];
-        scene.loading = vec![ToForce(1e-5)];
-        assert_eq!(on(&scene), [Effect::HeightHistogram]);
-    }
 
     #[test]
     fn the_stage_that_presses_most_is_left() {

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use strsim::osa_distance;
+
 use super::text::{is_within, line_column};
 use crate::text::printable;
 
@@ -109,12 +111,6 @@ impl SceneErrors {
         if errors.is_empty() { Ok(()) } else { Err(SceneErrors(errors)) }
     }
 
-    /// These errors and another one.
-    pub(super) fn and(mut self, error: SceneError) -> SceneErrors {
-        self.0.push(error);
-        self
-    }
-
     /// The first error.
     pub fn first(&self) -> &SceneError {
         &self.0[0]
@@ -163,43 +159,58 @@ pub(super) fn shown(text: &str) -> String {
     format!("{}{end}", printable(&start))
 }
 
+/// Longest name that is compared; longer ones are not mistyped.
+const LONGEST: usize = 64;
+
+/// The nearest name, if it is near enough to be the intended one.
+///
+/// The last component of a name suffices: `hurst` means `roughness.hurst`.
+pub(crate) fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
+    let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_lowercase();
+    // At most a third of the name is wrong.
+    let near_enough = |name: &str, candidate: &str| {
+        Some(osa_distance(name, candidate)).filter(|far| *far <= (name.chars().count() / 3).max(1))
+    };
+    let near = |candidate: &'n str| {
+        let whole = near_enough(&name.to_lowercase(), &candidate.to_lowercase()).map(|far| 2 * far);
+        // A match of the last component alone counts slightly less than one of the whole.
+        let end = near_enough(&last(name), &last(candidate)).map(|far| 2 * far + 1);
+        Some((whole.into_iter().chain(end).min()?, candidate))
+    };
+    let names = names.into_iter().filter(|_| !name.is_empty() && name.len() <= LONGEST);
+    names.filter_map(near).min_by_key(|(far, _)| *far).map(|(_, candidate)| candidate)
+}
+
+/// The question for the nearest name, behind a message: `; did you mean length?`. Empty if no name is near.
+pub(crate) fn did_you_mean<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> String {
+    nearest(name, names).map_or_else(String::new, |near| format!("; did you mean {near}?"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn error() -> SceneError {
-        SceneError {
-            origin: Origin::Place { name: "presets/x.ron".into(), line: 7, column: 24 },
-            field: "roughness.hurst".into(),
-            value: "1.4".into(),
-            allowed: "above 0 and below 1".into(),
-            message: "Hurst exponent".into(),
-        }
-    }
-
-    #[test]
-    fn an_error_is_one_line() {
-        assert_eq!(
-            error().to_string(),
-            "presets/x.ron:7:24: roughness.hurst = 1.4: allowed: above 0 and below 1 (Hurst exponent)"
-        );
-        let origin = Origin::Overrides(vec!["roughness.hurst=1.4".into()]);
-        let error = SceneError { origin, allowed: String::new(), message: "no".into(), ..error() };
-        assert_eq!(error.to_string(), "--set roughness.hurst=1.4: roughness.hurst = 1.4: no");
-        assert_eq!(error.what(), "roughness.hurst = 1.4: no");
-    }
-
-    #[test]
-    fn errors_are_lines() {
-        let errors = SceneErrors::from(error()).and(error());
-        assert_eq!(errors.to_string().lines().count(), 2);
-        assert_eq!(SceneErrors::result(vec![], |_| Origin::Scene), Ok(()));
-    }
 
     #[test]
     fn foreign_text_neither_floods_nor_controls_the_terminal() {
         assert_eq!(shown("a\u{1b}[2J\nb"), "a\\u{1b}[2J b");
         assert_eq!(shown("a\u{202e}b"), "a\\u{202e}b");
         assert_eq!(shown(&"x".repeat(1000)).chars().count(), MOST_SHOWN + 1);
+    }
+
+    #[test]
+    fn near_names_are_suggested_and_far_ones_are_not() {
+        let names = ["roughness.hurst", "adhesion.work", "numerics.points", "length"];
+        for (name, expected) in [
+            ("roughness.hurts", Some("roughness.hurst")),
+            ("hurst", Some("roughness.hurst")),
+            ("adhesion.Work", Some("adhesion.work")),
+            ("lenght", Some("length")),
+            ("points", Some("numerics.points")),
+            ("nothing.like.it", None),
+            ("", None),
+        ] {
+            assert_eq!(nearest(name, names), expected, "{name}");
+        }
+        assert_eq!(nearest(&"x".repeat(1_000_000), names), None);
     }
 }

@@ -1,6 +1,8 @@
 //! One field of a scene: path, symbol, unit, range, step, default and meaning.
 
+use super::quantity::{QuantityError, parse_quantity};
 use super::range::Range;
+use super::text::{ron_float, ron_string};
 use crate::contact::Move;
 
 /// One field of a scene.
@@ -142,5 +144,79 @@ impl Move {
             Move::ToIndentation(indentation) => Some((&LEG_INDENTATION, indentation)),
             Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => None,
         }
+    }
+}
+
+/// Integers from here on are not all exact as floating-point numbers.
+const MOST_EXACT: f64 = 9.0e15;
+
+impl Field {
+    /// The value in RON: a number may have an SI prefix and the unit of the field, `50 mJ/m²` or `16k`. A text
+    /// needs no quotes, and the name of a file as a roughness becomes a measured surface with its equivalent line. Any other
+    /// text is unchanged but for surrounding blanks.
+    ///
+    /// # Errors
+    /// Text that begins as a number and continues as another unit, or a number that is too large.
+    pub fn read_typed(&self, typed: &str) -> Result<String, QuantityError> {
+        let typed = typed.trim();
+        if self.path == "roughness" && is_file_name(typed) {
+            return Ok(format!("Measured(file: {}, as_line: false)", ron_string(typed)));
+        }
+        let is_omitted = self.range == FILE_NAME && (typed.is_empty() || typed == "None");
+        let is_quoted = typed.starts_with('"') || ron::from_str::<String>(typed).is_ok();
+        if matches!(self.range, Range::Text { .. }) && !is_omitted && !is_quoted {
+            return Ok(ron_string(typed));
+        }
+        if !typed.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.')) {
+            return Ok(typed.to_string());
+        }
+        match self.range {
+            Range::Real(..) if ron::from_str::<f64>(typed).is_err() => {
+                parse_quantity(typed, self.unit).map(ron_float)
+            }
+            // A seed has more digits than a floating-point number keeps.
+            Range::Whole(..) | Range::Band(..) if ron::from_str::<u64>(typed).is_err() => {
+                let value = parse_quantity(typed, self.unit)?;
+                let is_whole = value.fract() == 0.0 && (0.0..MOST_EXACT).contains(&value);
+                Ok(if is_whole { format!("{}", value as u64) } else { typed.to_string() })
+            }
+            _ => Ok(typed.to_string()),
+        }
+    }
+}
+
+/// Returns true for a name with an ending or a folder, unlike any choice of a field.
+fn is_file_name(typed: &str) -> bool {
+    typed.contains(['.', '/', '\\']) && !typed.contains(['(', '"'])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fields::field;
+
+    #[test]
+    fn numbers_may_have_prefix_and_unit() {
+        for row in [
+            "adhesion.work|50mJ/m2|0.05",
+            "adhesion.work| 50 mN/m |0.05",
+            "adhesion.work|5.0e-2|5.0e-2",
+            "numerics.points|64Ki|65536",
+            "numerics.points|1_024|1_024",
+            "numerics.points|1.5|1.5",
+            "roughness.seed|18446744073709551616|18446744073709551616",
+            "length|-inf|-inf",
+            "form.angle|90°|1.5707963267948966",
+            "title|\"10 µm\"|\"10 µm\"",
+            "roughness|a b/1.txt|Measured(file: \"a b/1.txt\", as_line: false)",
+            "roughness|Measured(file: \"a.txt\")|Measured(file: \"a.txt\")",
+            "roughness|None|None",
+            "roughness.file|7.txt|\"7.txt\"",
+            "roughness.opposite|None|None",
+        ] {
+            let [path, typed, ron] = row.split('|').collect::<Vec<_>>()[..] else { panic!("{row}") };
+            assert_eq!(field(path, None).unwrap().read_typed(typed).as_deref(), Ok(ron), "{row}");
+        }
+        let wrong = field("length", None).unwrap().read_typed("10 kg").unwrap_err();
+        assert_eq!(wrong.to_string(), "kg is not a unit of length: use m, mm, µm, nm");
     }
 }

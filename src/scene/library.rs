@@ -8,16 +8,63 @@ use etcetera::{BaseStrategy, choose_base_strategy, home_dir};
 
 use super::document::{Document, LONGEST_TEXT};
 use super::errors::{Origin, SceneError, SceneErrors};
-use super::presets::presets;
 use super::text::Text;
 use crate::io::{ReadError, read_regular_text};
-use crate::text::printable;
+use crate::text::{path_name, printable};
 
 /// Most scene files read in one folder; the rest is counted.
 pub const MOST_FILES: usize = 500;
 
 /// Most entries of a folder that are examined.
 const MOST_LOOKED_AT: usize = 100_000;
+
+/// Name of the default scene.
+pub const DEFAULT: &str = "pressure-sensitive";
+
+/// A built-in scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Preset {
+    /// Name of the scene on the command line.
+    pub name: &'static str,
+    /// Text in RON.
+    pub text: &'static str,
+}
+
+macro_rules! presets {
+    ($($name:literal),* $(,)?) => {
+        &[$(Preset {
+            name: $name,
+            text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/presets/", $name, ".ron")),
+        }),*]
+    };
+}
+
+const PRESETS: &[Preset] = presets![
+    "ideal-adhesion",
+    "pressure-sensitive",
+    "non-adhesive",
+    "profile-hurst-025",
+    "profile-hurst-075",
+    "fragment-closeup",
+    "jkr-sphere",
+    "kendall-punch",
+    "rough-sphere",
+    "million-springs",
+    "two-works",
+    "wavy-sphere",
+    "elastic-energy-below",
+    "elastic-energy-above",
+];
+
+/// All built-in scenes, in the recommended order.
+pub fn presets() -> &'static [Preset] {
+    PRESETS
+}
+
+/// Built-in scene of this name.
+pub fn find(name: &str) -> Option<&'static Preset> {
+    PRESETS.iter().find(|preset| preset.name == name)
+}
 
 /// A typed path: a leading `~` becomes the home folder, if there is one.
 pub fn typed_path(text: &str) -> PathBuf {
@@ -49,14 +96,10 @@ pub struct Entry {
     pub origin: Source,
     /// File; `None` for a built-in scene.
     pub path: Option<PathBuf>,
-    /// Title of the scene; empty if it has none.
-    pub title: String,
-    /// Notice of the scene; empty if it has none.
-    pub notice: String,
-    /// Text of the scene; empty if it cannot be read.
+    /// Text of the file; empty if it cannot be read.
     pub text: String,
-    /// Reason why the file is no scene, on one line.
-    pub error: Option<String>,
+    /// The scene, with files relative to its own file, or its errors.
+    pub document: Result<Document, SceneErrors>,
 }
 
 /// Folders searched for scenes, in addition to the built-in ones.
@@ -125,51 +168,41 @@ impl Library {
 impl Entry {
     /// The entry of a text, or of the reason why there is none.
     fn new(name: String, origin: Source, path: Option<PathBuf>, text: Result<String, String>) -> Entry {
-        let (error, text) = text.map_or_else(|error| (Some(error), String::new()), |text| (None, text));
-        let (title, notice) = (String::new(), String::new());
-        let mut entry = Entry { name, origin, path, title, notice, text, error };
-        match entry.document() {
-            Ok(document) => {
-                (entry.title, entry.notice) =
-                    (document.scene().title.clone(), document.scene().notice.clone());
-            }
-            Err(errors) => entry.error = entry.error.or_else(|| Some(in_one_line(&errors))),
-        }
-        entry
+        let file = path.as_ref().map_or_else(|| name.clone(), |path| path.display().to_string());
+        let document = match &text {
+            Ok(text) => Document::parse(text, &file),
+            Err(error) => Err(SceneError::whole(Origin::File { name: file }, error.as_str()).into()),
+        };
+        Entry { name, origin, path, text: text.unwrap_or_default(), document }
     }
 
-    /// The scene as a document. Files of a scene are relative to its own file.
-    ///
-    /// # Errors
-    /// All errors of the scene.
-    pub fn document(&self) -> Result<Document, SceneErrors> {
-        let name = self.path.as_ref().map_or_else(|| self.name.clone(), |path| path.display().to_string());
-        match &self.error {
-            Some(error) if self.text.is_empty() => {
-                Err(SceneError::whole(Origin::File { name }, error.as_str()).into())
-            }
-            _ => Document::parse(&self.text, &name),
-        }
+    /// Title of the scene; empty if it has none.
+    pub fn title(&self) -> &str {
+        self.document.as_ref().map_or("", |document| &document.scene().title)
     }
-}
 
-/// The first error of a file with its place, and the number of further ones.
-fn in_one_line(errors: &SceneErrors) -> String {
-    let (first, more) = (errors.first(), errors.iter().count() - 1);
-    let place = match &first.origin {
-        Origin::Place { line, column, .. } => format!("line {line}, column {column}: "),
-        _ => String::new(),
-    };
-    let more = if more > 0 { format!(" (and {more} more)") } else { String::new() };
-    format!("{place}{}{more}", first.what())
+    /// Notice of the scene; empty if it has none.
+    pub fn notice(&self) -> &str {
+        self.document.as_ref().map_or("", |document| &document.scene().notice)
+    }
+
+    /// The first error of the file with its place, and the number of further ones, on one line.
+    pub fn error(&self) -> Option<String> {
+        let errors = self.document.as_ref().err()?;
+        let (first, more) = (errors.first(), errors.iter().count() - 1);
+        let place = match &first.origin {
+            Origin::Place { line, column, .. } => format!("line {line}, column {column}: "),
+            _ => String::new(),
+        };
+        let more = if more > 0 { format!(" (and {more} more)") } else { String::new() };
+        Some(format!("{place}{}{more}", first.what()))
+    }
 }
 
 /// The scene files of a folder by name; empty for a missing folder.
 fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
-    let about_folder = |error: String| {
-        let name = printable(&folder.display().to_string()).into_owned();
-        Entry::new(name, origin, Some(folder.to_path_buf()), Err(error))
-    };
+    let about_folder =
+        |error: String| Entry::new(path_name(folder), origin, Some(folder.to_path_buf()), Err(error));
     let mut paths = match scene_files(folder) {
         Ok(paths) => paths,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Vec::new(),
@@ -185,7 +218,7 @@ fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
     let mut entries: Vec<Entry> = paths.into_iter().map(read).collect();
     // A plan of a study contains a scene.
     let is_plan = |text: &str| Text::new(text).is_ok_and(|text| text.span("scene").is_some());
-    entries.retain(|entry| entry.error.is_none() || !is_plan(&entry.text));
+    entries.retain(|entry| entry.document.is_ok() || !is_plan(&entry.text));
     if left > 0 {
         entries
             .push(about_folder(format!("{left} more scene files are not listed: at most {MOST_FILES} are")));
@@ -234,16 +267,6 @@ mod tests {
         (root, library, own, working)
     }
 
-    #[test]
-    fn a_tilde_is_the_home_folder() {
-        let home = home_dir().unwrap();
-        assert_eq!(typed_path("~"), home);
-        assert_eq!(typed_path(" ~/scenes/one.ron "), home.join("scenes/one.ron"));
-        for other in ["~someone/one.ron", "a~/one.ron", "./~", "/one.ron", "one.ron"] {
-            assert_eq!(typed_path(other), PathBuf::from(other));
-        }
-    }
-
     fn listed(library: &Library) -> Vec<(String, Source)> {
         let entries = library.list();
         assert!(entries[..presets().len()].iter().all(|entry| entry.origin == Source::BuiltIn));
@@ -252,11 +275,10 @@ mod tests {
 
     fn error_of(library: &Library, name: &str) -> String {
         let entry = library.list().into_iter().find(|entry| entry.name == name).unwrap();
-        let error = entry.error.clone().unwrap();
+        let error = entry.error().unwrap();
         assert!(!error.contains('\n'), "{error}");
-        assert!(
-            entry.document().unwrap_err().to_string().contains(&entry.path.unwrap().display().to_string())
-        );
+        let errors = entry.document.unwrap_err().to_string();
+        assert!(errors.contains(&entry.path.unwrap().display().to_string()));
         error
     }
 
@@ -275,13 +297,9 @@ mod tests {
             [".hidden.ron", "a.ron", "b-c.ron", "b.ron"].map(|name| (name.to_string(), Source::Working));
         assert_eq!(listed(&library), [own_names, names].concat());
         let entry = &library.list()[presets().len() + 1];
-        assert_eq!(
-            (entry.title.as_str(), entry.notice.as_str(), entry.text.as_str()),
-            ("A title", "A notice", SCENE)
-        );
+        assert_eq!((entry.title(), entry.notice(), entry.text.as_str()), ("A title", "A notice", SCENE));
         assert_eq!(entry.path, Some(own.join("a.ron")));
-        let document = entry.document().unwrap();
-        assert_eq!(document.resolve("line.csv"), own.join("line.csv"));
+        assert_eq!(entry.document.as_ref().unwrap().resolve("line.csv"), own.join("line.csv"));
         // A folder in both roles is listed once; missing folders are empty.
         let both = Library { own: Some(own.clone()), working: own.join("../presets") };
         assert_eq!(listed(&both).len(), 4);
@@ -356,9 +374,9 @@ mod tests {
         let entries = library.list().split_off(presets().len());
         assert!(
             entries.len() == MOST_FILES + 1
-                && entries[..MOST_FILES].iter().all(|entry| entry.error.is_none())
+                && entries[..MOST_FILES].iter().all(|entry| entry.document.is_ok())
         );
-        let said = entries[MOST_FILES].error.as_deref().unwrap();
+        let said = entries[MOST_FILES].error().unwrap();
         assert!(said.starts_with("3 more scene files"), "{said}");
     }
 }

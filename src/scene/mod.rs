@@ -15,6 +15,7 @@
 //! # Ok::<(), scene::SceneErrors>(())
 //! ```
 
+mod adhesion;
 mod changes;
 mod check;
 mod command;
@@ -27,44 +28,36 @@ mod fields;
 mod library;
 mod model;
 mod open;
-mod presets;
 mod quantity;
 mod range;
 mod read;
-mod roughness_parameter;
 mod step;
-#[cfg(test)]
-#[allow(dead_code, reason = "integration tests use the rest")]
-#[path = "../../tests/common/strategies.rs"]
-mod strategies;
-mod suggest;
 mod switch;
 mod text;
 mod tree;
-mod typed;
 
 pub use crate::surface::Form;
 pub use crate::text::is_control;
+pub use adhesion::{Adhesion, RoughnessParameter};
 pub use changes::Change;
 pub use check::check;
 pub use command::command_line;
 pub(crate) use command::quoted;
 pub use document::{Document, LONGEST_TEXT};
 pub use effects::Effect;
+pub(crate) use errors::nearest;
 pub use errors::{Origin, SceneError, SceneErrors};
 pub use field::{Field, LEG_FORCE, LEG_INDENTATION, Step};
 pub use fields::{FIELDS, MOST_POINTS, SCENE_VERSIONS, field};
-pub use library::{Entry, Library, MOST_FILES, Source, typed_path};
+pub use library::{DEFAULT, Entry, Library, MOST_FILES, Preset, Source, find, presets, typed_path};
 pub use model::*;
 pub(crate) use open::is_file_name;
 pub use open::{open, open_argument};
-pub use presets::{DEFAULT, Preset, find, presets};
 pub(crate) use quantity::format_rounded;
 pub use quantity::{QuantityError, exact_quantity, format_quantity, parse_quantity, quantity_as_typed};
-pub use range::{End, Range};
+pub use range::Range;
 pub(crate) use read::{describe_error, read_ron};
-pub use roughness_parameter::RoughnessParameter;
-pub(crate) use suggest::nearest;
+
 pub use switch::Computed;
 pub use text::{Span, Text, Unreadable, line_column, ron_float, ron_string};
 pub use tree::{Tree, to_ron};

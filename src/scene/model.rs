@@ -2,6 +2,7 @@
 //!
 //! These types hold values as written; [`super::check()`] finds the invalid ones.
 
+use super::adhesion::Adhesion;
 use super::fields::default;
 pub use crate::contact::{Edges, Move};
 use crate::spectrum::Detrend;
@@ -11,8 +12,8 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use strum::IntoStaticStr;
 
-/// Fewest springs per wave of a form, of roughness and of the maps. The adhesion force of a rough sphere has an error of
-/// 6 % with two springs to the shortest wave, of 0.2 % with four (docs/accuracy.md).
+/// Fewest springs per wave of a form, of roughness and of the maps: the adhesion force of rough profiles then has an
+/// error of about one per cent with both edge models (docs/accuracy.md). Two springs per wave are the limit.
 pub const SPRINGS_PER_WAVE: u64 = 4;
 
 /// A scene: two bodies, their loading, and the resolution of the computation.
@@ -48,45 +49,70 @@ pub struct Scene {
     pub observe: Vec<Observer>,
 }
 
-/// Elastic constants: Young's modulus with Poisson's ratio, or the effective modulus E* of eq. (2).
+/// Elastic constants of the half-space.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Material {
-    /// Young's modulus E, Pa.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub youngs_modulus: Option<f64>,
-    /// Poisson's ratio ν.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub poisson_ratio: Option<f64>,
-    /// Effective modulus E*, Pa.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub effective_modulus: Option<f64>,
+#[serde(untagged, try_from = "MaterialText")]
+pub enum Material {
+    /// Elastic half-space under a rigid body.
+    Isotropic {
+        /// Young's modulus E, Pa.
+        youngs_modulus: f64,
+        /// Poisson's ratio ν.
+        poisson_ratio: f64,
+    },
+    /// Two elastic bodies.
+    Effective {
+        /// Effective modulus E* of eq. (2), Pa.
+        effective_modulus: f64,
+    },
 }
 
 impl Material {
-    /// Material given by its effective modulus E*, Pa.
-    pub fn effective(modulus: f64) -> Self {
-        Material { youngs_modulus: None, poisson_ratio: None, effective_modulus: Some(modulus) }
+    /// Material of this effective modulus E*, Pa.
+    pub fn effective(effective_modulus: f64) -> Self {
+        Material::Effective { effective_modulus }
     }
 
-    /// Isotropic material under a rigid body, given by Young's modulus E (Pa) and Poisson's ratio ν: E* = E/(1 − ν²).
+    /// Isotropic material under a rigid body, of Young's modulus E (Pa) and Poisson's ratio ν: E* = E/(1 − ν²).
     pub fn isotropic(youngs_modulus: f64, poisson_ratio: f64) -> Self {
-        Material {
-            youngs_modulus: Some(youngs_modulus),
-            poisson_ratio: Some(poisson_ratio),
-            effective_modulus: None,
-        }
+        Material::Isotropic { youngs_modulus, poisson_ratio }
     }
 
-    /// Effective modulus E* of eq. (2), Pa. NaN if the material is not determined, which
-    /// [`check`](super::check()) refuses.
+    /// Effective modulus E* of eq. (2), Pa.
     pub fn effective_modulus(&self) -> f64 {
-        match (self.effective_modulus, self.youngs_modulus, self.poisson_ratio) {
-            (Some(modulus), None, None) => modulus,
+        match *self {
+            Material::Effective { effective_modulus } => effective_modulus,
             // (1 − ν)(1 + ν) keeps its digits for ν close to −1; 1 − ν² does not.
-            (None, Some(modulus), Some(ratio)) => modulus / ((1.0 - ratio) * (1.0 + ratio)),
-            _ => f64::NAN,
+            Material::Isotropic { youngs_modulus, poisson_ratio } => {
+                youngs_modulus / ((1.0 - poisson_ratio) * (1.0 + poisson_ratio))
+            }
         }
+    }
+}
+
+/// Material as written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "Material")]
+struct MaterialText {
+    youngs_modulus: Option<f64>,
+    poisson_ratio: Option<f64>,
+    effective_modulus: Option<f64>,
+}
+
+impl TryFrom<MaterialText> for Material {
+    type Error = &'static str;
+
+    fn try_from(text: MaterialText) -> Result<Material, &'static str> {
+        Err(match (text.effective_modulus, text.youngs_modulus, text.poisson_ratio) {
+            (Some(modulus), None, None) => return Ok(Material::effective(modulus)),
+            (None, Some(modulus), Some(ratio)) => return Ok(Material::isotropic(modulus, ratio)),
+            (Some(_), ..) => {
+                "material: effective_modulus replaces youngs_modulus and poisson_ratio: give one or the other"
+            }
+            (None, Some(_), None) => "material: youngs_modulus requires poisson_ratio, which is missing",
+            (None, None, Some(_)) => "material: poisson_ratio requires youngs_modulus, which is missing",
+            (None, None, None) => "material: give youngs_modulus with poisson_ratio, or effective_modulus",
+        })
     }
 }
 
@@ -229,16 +255,11 @@ impl Scene {
 
     /// Paths of the files of each face, with names relative to `folder`.
     pub fn measured_paths(&self, folder: &Path) -> Vec<Vec<PathBuf>> {
-        let mut files: Vec<PathBuf> =
-            self.measured_files().into_iter().map(|file| folder.join(file)).collect();
-        match &self.roughness {
-            Some(Roughness::Measured { opposite: Some(_), .. }) => {
-                let opposite = files.pop();
-                vec![files, opposite.into_iter().collect()]
-            }
-            Some(Roughness::Measured { .. }) => vec![files],
-            _ => Vec::new(),
-        }
+        let Some(Roughness::Measured { file, further_files, opposite, .. }) = &self.roughness else {
+            return Vec::new();
+        };
+        let face = std::iter::once(file).chain(further_files).map(|file| folder.join(file)).collect();
+        std::iter::once(face).chain(opposite.iter().map(|file| vec![folder.join(file)])).collect()
     }
 
     /// Renames the files of the measured surfaces.
@@ -266,35 +287,6 @@ impl Scene {
         {
             *seed = wanted;
         }
-    }
-}
-
-/// Adhesion by the work of adhesion γ, by the governing parameter κ of eq. (11), or by e_el/γ.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Adhesion {
-    /// Work of adhesion γ, J/m².
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub work: Option<f64>,
-    /// Work of adhesion γ₁ on closing, J/m², at most `work`; `None`: equal to `work`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub closing_work: Option<f64>,
-    /// κ = sqrt(h⟨∇z⟩E*/γ).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub kappa: Option<f64>,
-    /// Elastic energy of conformity over the work of adhesion, e_el/γ.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub elastic_energy_ratio: Option<f64>,
-    /// Range z₀ of the attraction, m, for the Tabor number alone; `None`: 0.3 nm.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub range: Option<f64>,
-}
-
-impl Adhesion {
-    /// The same adhesion with this work of adhesion γ, J/m², in place of κ or e_el/γ.
-    pub fn with_work(mut self, work: f64) -> Self {
-        (self.work, self.kappa, self.elastic_energy_ratio) = (Some(work), None, None);
-        self
     }
 }
 

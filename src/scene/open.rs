@@ -5,10 +5,10 @@ use std::io::{self, BufRead, BufReader, Cursor, Read, Seek, SeekFrom};
 use std::path::Path;
 
 use super::document::{Document, LONGEST_TEXT};
+use super::errors::did_you_mean;
 use super::errors::{Origin, SceneError, SceneErrors};
 use super::library::{Library, describe};
-use super::presets::{find, presets};
-use super::suggest::did_you_mean;
+use super::library::{find, presets};
 use crate::io::{PROVENANCE, ReadError, into_text, npy, open_regular, read_limited};
 use crate::text::printable;
 
@@ -20,10 +20,7 @@ use crate::text::printable;
 /// # Errors
 /// No such scene, an unreadable file, or the errors of its scene.
 pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
-    open_in(name_or_path, &Library::of_environment())
-}
-
-fn open_in(name_or_path: &str, library: &Library) -> Result<Document, SceneErrors> {
+    let library = Library::of_environment();
     let path = Path::new(name_or_path);
     if is_file_name(name_or_path) {
         return document_of(text_of_file(path), name_or_path);
@@ -81,28 +78,26 @@ fn whole(name: &str, message: String) -> SceneErrors {
     SceneError::whole(Origin::File { name: name.into() }, message).into()
 }
 
-/// Text of a source: that of a scene, or the provenance of a table, which alone is read.
-enum Source {
-    Scene(String),
-    Table(String),
-}
+/// Start of the lines above the scene in a table of results, and the line between both.
+const TABLE: (&str, &str) = ("asperity ", "\nscene:\n");
 
-fn document_of(source: Result<Source, ReadError>, name: &str) -> Result<Document, SceneErrors> {
-    match source.map_err(|error| whole(name, describe(error)))? {
-        Source::Scene(text) => Document::parse(&text, name),
-        Source::Table(text) => match text.split_once("\nscene:\n") {
-            Some((head, scene)) if head.starts_with("asperity ") => {
-                Ok(Document::parse(scene, name)?.of_table(head))
-            }
-            _ => {
-                let reason = "a table without a scene; allowed: a scene, or a table that asperity has computed from one";
-                Err(whole(name, reason.into()))
-            }
-        },
+/// The document of a scene, or of a table of results, of which only the lines with its scene are read.
+fn document_of(text: Result<String, ReadError>, name: &str) -> Result<Document, SceneErrors> {
+    let text = text.map_err(|error| whole(name, describe(error)))?;
+    if !text.starts_with(TABLE.0) {
+        return Document::parse(&text, name);
+    }
+    match text.split_once(TABLE.1) {
+        Some((head, scene)) => Ok(Document::parse(scene, name)?.of_table(head)),
+        None => {
+            let reason =
+                "a table without a scene; allowed: a scene, or a table that asperity has computed from one";
+            Err(whole(name, reason.into()))
+        }
     }
 }
 
-fn text_of_file(path: &Path) -> Result<Source, ReadError> {
+fn text_of_file(path: &Path) -> Result<String, ReadError> {
     let mut file = open_regular(path)?;
     let mut start = Vec::new();
     file.by_ref().take(npy::SIGNATURE.len() as u64).read_to_end(&mut start)?;
@@ -113,78 +108,32 @@ fn text_of_file(path: &Path) -> Result<Source, ReadError> {
     let length = file.metadata()?.len();
     file.seek(SeekFrom::Start(length.saturating_sub(most)))?;
     let tail = read_limited(file, most as usize)?;
-    Ok(Source::Table(npy::appended_text(&tail).unwrap_or_default().to_owned()))
+    Ok(npy::appended_text(&tail).filter(|text| text.starts_with(TABLE.0)).unwrap_or(TABLE.0).to_owned())
 }
 
-fn text_of_stream(mut stream: impl Read) -> Result<Source, ReadError> {
+fn text_of_stream(mut stream: impl Read) -> Result<String, ReadError> {
     let mut start = Vec::new();
     stream.by_ref().take(PROVENANCE.len() as u64).read_to_end(&mut start)?;
     let is_table = start == PROVENANCE.as_bytes();
     let whole = Cursor::new(start).chain(stream);
     if !is_table {
-        return Ok(Source::Scene(into_text(read_limited(whole, LONGEST_TEXT)?)?));
+        return into_text(read_limited(whole, LONGEST_TEXT)?);
     }
     // Comments of a scene of the greatest length, with a line for each byte.
-    let most = 3 * LONGEST_TEXT as u64;
-    let mut lines = BufReader::new(whole.take(most));
+    let mut lines = BufReader::new(whole.take(3 * LONGEST_TEXT as u64));
     let (mut text, mut line) = (Vec::new(), Vec::new());
     while lines.read_until(b'\n', &mut line)? > 0 {
         let Some(content) = line.strip_prefix(b"#") else { break };
         text.extend_from_slice(content.strip_prefix(b" ").unwrap_or(content));
         line.clear();
     }
-    Ok(Source::Table(into_text(text)?.replace("\r\n", "\n")))
+    Ok(into_text(text)?.replace("\r\n", "\n"))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use std::fs;
-
-    #[test]
-    fn every_preset_is_a_scene_with_a_title_and_a_notice() {
-        for preset in presets() {
-            let document = open(preset.name).unwrap_or_else(|errors| panic!("{errors}"));
-            let scene = document.scene();
-            assert!(document.name() == preset.name && !scene.title.is_empty() && !scene.notice.is_empty());
-        }
-    }
-
-    #[test]
-    fn unknown_names_get_the_list_and_a_suggestion() {
-        let library = Library::of(None, "".into());
-        let message = open_in("jkr-spere", &library).unwrap_err().to_string();
-        let said = "jkr-spere: there is no such file and no such built-in scene; did you mean jkr-sphere? (";
-        assert!(message.starts_with(said) && message.contains("million-springs"), "{message}");
-    }
-
-    #[test]
-    fn own_scenes_open_by_their_names() {
-        let config = tempfile::tempdir().unwrap();
-        let library = Library::of(Some(config.path().to_path_buf()), "".into());
-        let folder = library.own_folder().unwrap();
-        let message = open_in("tape", &library).unwrap_err().to_string();
-        let said = format!(
-            "tape: there is no such file, no such built-in scene and none of this name in {}",
-            folder.display()
-        );
-        assert!(message.starts_with(&said), "{message}");
-        fs::create_dir_all(&folder).unwrap();
-        let path = folder.join("tape.ron");
-        fs::write(&path, presets()[0].text).unwrap();
-        fs::write(folder.join("jkr-sphere.ron"), presets()[0].text).unwrap();
-        let tape = open_in("tape", &library).unwrap();
-        assert_eq!((tape.text(), tape.name()), (presets()[0].text, path.to_str().unwrap()));
-        assert_eq!(tape.resolve("line.csv"), folder.join("line.csv"));
-        assert_eq!(
-            open_in("jkr-sphere", &library).unwrap().name(),
-            "jkr-sphere",
-            "built-in scenes come first"
-        );
-        assert!(open_in("tapes", &library).unwrap_err().to_string().contains("did you mean tape?"));
-        fs::write(&path, "(version: 3)").unwrap();
-        assert!(open_in("tape", &library).unwrap_err().to_string().contains("tape.ron:1:11: version = 3"));
-    }
 
     #[test]
     fn files_are_read_and_their_errors_describe() {

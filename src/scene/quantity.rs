@@ -6,15 +6,15 @@ use crate::text::{SI_PREFIXES, si_prefix};
 /// Digits of a written number.
 const DIGITS: usize = 4;
 
-/// Accepted units: the measured quantity, and units to choose from.
+/// Accepted units: their name, and units to choose from.
 const DIMENSIONS: &[(&str, &str, &str)] = &[
-    ("m", "length", "m, mm, µm, nm"),
-    ("N", "force", "N, mN, µN, nN"),
-    ("J", "energy", "J, mJ, µJ, nJ"),
-    ("Pa", "pressure", "Pa, kPa, MPa, GPa"),
-    ("J/m²", "energy per area", "J/m², mJ/m², N/m, mN/m"),
-    ("rad", "angle", "rad, mrad, °"),
-    ("s", "time", "s, ms, µs"),
+    ("m", "unit of length", "m, mm, µm, nm"),
+    ("N", "unit of force", "N, mN, µN, nN"),
+    ("J", "unit of energy", "J, mJ, µJ, nJ"),
+    ("Pa", "unit of pressure", "Pa, kPa, MPa, GPa"),
+    ("J/m²", "unit of energy per area", "J/m², mJ/m², N/m, mN/m"),
+    ("rad", "unit of angle", "rad, mrad, °"),
+    ("s", "unit of time", "s, ms, µs"),
     ("1", "prefix of a number", "k, M, G, Ki, Mi, Gi"),
 ];
 
@@ -30,13 +30,16 @@ impl QuantityError {
             unit if !has_prefixes(unit) => "0.7 or 1.0e-3".to_string(),
             unit => format!("1.0e-3, 2.5 m{unit} or 2.5k{unit}"),
         };
-        QuantityError(format!("{:?} is no number, such as {example}", shown(typed)))
+        QuantityError(match typed.trim() {
+            "" => format!("a value is missing, such as {example}"),
+            typed => format!("{:?} is not a number, such as {example}", shown(typed)),
+        })
     }
 
     fn wrong_unit(typed: &str, unit: &str) -> Self {
         let (typed, unit) = (shown(typed), if unit.is_empty() { "1" } else { unit });
         QuantityError(match DIMENSIONS.iter().find(|(known, ..)| *known == unit) {
-            Some((_, quantity, units)) => format!("{typed} is no {quantity}: {units}"),
+            Some((_, name, units)) => format!("{typed} is not a {name}: use {units}"),
             None => format!("{typed} is not the unit {unit}"),
         })
     }
@@ -50,7 +53,7 @@ impl QuantityError {
 /// lost to the prefix.
 ///
 /// # Errors
-/// A text that is no number, has another unit, or is not finite.
+/// A text that is not a number, has another unit, or is not finite.
 pub fn parse_quantity(text: &str, unit: &str) -> Result<f64, QuantityError> {
     let typed = text.trim();
     let (digits, exponent, suffix) =
@@ -138,7 +141,7 @@ pub fn format_quantity(value: f64, unit: &str) -> String {
     with_unit(value, &format!("{value:.*e}", DIGITS - 1), unit)
 }
 
-/// The same with fewer digits, for a value of less accuracy or a narrow place.
+/// Formats with fewer significant digits.
 pub(crate) fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
     with_unit(value, &format!("{value:.*e}", digits.clamp(1, DIGITS) - 1), unit)
 }
@@ -272,11 +275,11 @@ mod tests {
             assert!(texts.split('|').all(|text| parse_quantity(text, unit).is_err()), "{unit}");
         }
         for (text, unit, message) in [
-            ("2 kg", "m", "kg is no length: m, mm, µm, nm"),
-            ("1 N/m2", "J/m²", "N/m2 is no energy per area: J/m², mJ/m², N/m, mN/m"),
-            ("5 %", "1", "% is no prefix of a number: k, M, G, Ki, Mi, Gi"),
+            ("2 kg", "m", "kg is not a unit of length: use m, mm, µm, nm"),
+            ("1 N/m2", "J/m²", "N/m2 is not a unit of energy per area: use J/m², mJ/m², N/m, mN/m"),
+            ("5 %", "1", "% is not a prefix of a number: use k, M, G, Ki, Mi, Gi"),
             ("1k", "m^(1−n)", "k is not the unit m^(1−n)"),
-            ("ten", "N", "\"ten\" is no number, such as 1.0e-3, 2.5 mN or 2.5kN"),
+            ("ten", "N", "\"ten\" is not a number, such as 1.0e-3, 2.5 mN or 2.5kN"),
             ("1e400", "1", "1e400 is too large"),
         ] {
             assert_eq!(parse_quantity(text, unit).unwrap_err().to_string(), message);

@@ -1,29 +1,14 @@
 //! Allowed values of fields: checks of numbers, and readable text.
 
 use std::fmt;
-
-/// One end of an interval of real numbers.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum End {
-    /// The end itself belongs to the interval.
-    Closed(f64),
-    /// The end itself does not belong to the interval.
-    Open(f64),
-}
-
-impl End {
-    /// The number at this end.
-    pub fn value(self) -> f64 {
-        let (End::Closed(value) | End::Open(value)) = self;
-        value
-    }
-}
+use std::ops::Bound::{self, Excluded, Included};
+use std::ops::RangeBounds;
 
 /// Allowed values of a field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Range {
     /// A finite real number between two ends.
-    Real(End, End),
+    Real(Bound<f64>, Bound<f64>),
     /// A whole number, both ends included.
     Whole(u64, u64),
     /// A pair `(first, last)` of whole numbers, first ≤ last, both ends included.
@@ -55,25 +40,22 @@ pub enum Range {
 impl Range {
     /// From `min` to `max`, both included.
     pub(super) const fn closed(min: f64, max: f64) -> Range {
-        Range::Real(End::Closed(min), End::Closed(max))
+        Range::Real(Included(min), Included(max))
     }
 
     /// Above `min`, up to and including `max`.
     pub(super) const fn above(min: f64, max: f64) -> Range {
-        Range::Real(End::Open(min), End::Closed(max))
+        Range::Real(Excluded(min), Included(max))
     }
 
     /// Above `min` and below `max`.
     pub(super) const fn between(min: f64, max: f64) -> Range {
-        Range::Real(End::Open(min), End::Open(max))
+        Range::Real(Excluded(min), Excluded(max))
     }
 
     /// Returns true for an allowed real number; NaN and the infinities never are.
     pub fn contains(&self, value: f64) -> bool {
-        let Range::Real(min, max) = *self else { return false };
-        let is_above = if let End::Closed(end) = min { value >= end } else { value > min.value() };
-        let is_below = if let End::Closed(end) = max { value <= end } else { value < max.value() };
-        value.is_finite() && is_above && is_below
+        matches!(*self, Range::Real(min, max) if value.is_finite() && (min, max).contains(&value))
     }
 
     /// Returns true for an allowed integer.
@@ -84,7 +66,7 @@ impl Range {
     /// The smallest and the largest number, for a numeric field.
     pub fn ends(&self) -> Option<(f64, f64)> {
         match *self {
-            Range::Real(min, max) => Some((min.value(), max.value())),
+            Range::Real(Included(min) | Excluded(min), Included(max) | Excluded(max)) => Some((min, max)),
             Range::Whole(min, max) | Range::Band(min, max) => Some((min as f64, max as f64)),
             _ => None,
         }
@@ -105,16 +87,14 @@ pub(super) fn choice_key(choice: &str) -> &str {
 impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Range::Real(min, max) => {
-                let [least, most] = [Number(min.value()), Number(max.value())];
-                match (min, max) {
-                    (End::Closed(min), End::Closed(max)) if min == max => write!(f, "{least}"),
-                    (End::Closed(_), End::Closed(_)) => write!(f, "from {least} to {most}"),
-                    (End::Open(_), End::Open(_)) => write!(f, "above {least} and below {most}"),
-                    (End::Open(_), End::Closed(_)) => write!(f, "above {least}, at most {most}"),
-                    (End::Closed(_), End::Open(_)) => write!(f, "at least {least} and below {most}"),
-                }
-            }
+            Range::Real(min, max) => match (min.map(Number), max.map(Number)) {
+                (Included(min), Included(max)) if min.0 == max.0 => write!(f, "{min}"),
+                (Included(min), Included(max)) => write!(f, "from {min} to {max}"),
+                (Excluded(min), Excluded(max)) => write!(f, "above {min} and below {max}"),
+                (Excluded(min), Included(max)) => write!(f, "above {min}, at most {max}"),
+                (Included(min), Excluded(max)) => write!(f, "at least {min} and below {max}"),
+                _ => f.write_str("a number"),
+            },
             Range::Whole(min, max) if min == max => write!(f, "{min}"),
             Range::Whole(min, max) => write!(f, "a whole number from {min} to {max}"),
             Range::Band(min, max) => {
@@ -122,17 +102,19 @@ impl fmt::Display for Range {
             }
             Range::Text { least, most, lines } => {
                 let kind = if lines { "text of" } else { "one line of" };
-                let least = if least == 0 { "at most".to_string() } else { format!("{least} to") };
-                write!(f, "{kind} {least} {most} characters")
+                write!(f, "{kind} {} characters", counts(least, most))
             }
             Range::Choice(choices) => f.write_str(&listed(choices, "or")),
             Range::List { of, least, most } => {
-                let least = if least == 0 { "at most".to_string() } else { format!("{least} to") };
-                write!(f, "a list of {least} {most}, of {}", listed(of, "and"))
+                write!(f, "a list of {}, of {}", counts(least, most), listed(of, "and"))
             }
             Range::Group => f.write_str("a group of fields"),
         }
     }
+}
+
+fn counts(least: usize, most: usize) -> String {
+    if least == 0 { format!("at most {most}") } else { format!("{least} to {most}") }
 }
 
 /// Names of choices: `Cone, Punch or None`.

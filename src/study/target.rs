@@ -1,7 +1,9 @@
 //! Quantities that an axis may vary: the numbers of a scene by their paths, and others that follow from several.
 
 use crate::analysis::Governing;
-use crate::scene::{FIELDS, Field, Move, Range, Roughness, RoughnessParameter, Scene, Tree, field, nearest};
+use crate::scene::{
+    Adhesion, FIELDS, Field, Move, Range, Roughness, RoughnessParameter, Scene, Tree, field, nearest,
+};
 use crate::simulation::FEW_SAMPLES;
 use crate::surface::SelfAffine;
 
@@ -154,9 +156,11 @@ pub(super) fn scene_with<'a>(
         let points = tree.get("numerics.points").unwrap_or_default();
         set(&mut tree, "roughness.modes.1", path, (points / springs).round(), base)?;
     }
-    let mut scene = tree.scene().ok_or("a value is too large for its field")?;
+    let mut scene = tree.scene()?;
     if let Some((parameter, value)) = parameter {
-        scene.adhesion = Some(scene.adhesion.unwrap_or_default().with_parameter(parameter, value));
+        let by_parameter = Ok(Adhesion::by_parameter(parameter, value));
+        let changed = scene.adhesion.map_or(by_parameter, |one| one.with_parameter(parameter, value));
+        scene.adhesion = Some(changed?);
     }
     Ok(scene)
 }

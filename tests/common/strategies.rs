@@ -1,10 +1,10 @@
-//! Scenes for tests: a sound one, and strategies for random ones, which draw every field of the table of fields.
+//! Strategies for random scenes, which draw every field of the table of fields.
 //!
-//! The unit tests of the scene and the integration tests include the file.
+//! The tests of the engine and those of random input include the file.
 
 use super::{
-    DEFAULT, Document, End, FIELDS, Field, LEG_FORCE, LEG_INDENTATION, Range, Scene, find, is_control,
-    ron_float, ron_string,
+    DEFAULT, Document, FIELDS, Field, LEG_FORCE, LEG_INDENTATION, Range, Scene, find, is_control, ron_float,
+    ron_string,
 };
 use proptest::prelude::*;
 
@@ -72,7 +72,7 @@ impl Drawn {
             return value.clone();
         }
         let value = match field.range {
-            Range::Real(min, max) => self.number(field, min, max).prop_map(ron_float).boxed(),
+            Range::Real(..) => self.number(field).prop_map(ron_float).boxed(),
             Range::Whole(min, max) => whole(min, max).prop_map(|value| value.to_string()).boxed(),
             Range::Band(min, max) => (whole(min, max), whole(min, max))
                 .prop_map(|(one, other)| format!("({}, {})", one.min(other), one.max(other)))
@@ -153,9 +153,10 @@ impl Drawn {
 
     /// Numbers around the usual value of the field, and extreme ones: the ends of the range, and all its orders of
     /// magnitude alike.
-    fn number(&self, field: &'static Field, min: End, max: End) -> BoxedStrategy<f64> {
-        let least = if let End::Open(end) = min { end.next_up() } else { min.value() };
-        let most = if let End::Open(end) = max { end.next_down() } else { max.value() };
+    fn number(&self, field: &'static Field) -> BoxedStrategy<f64> {
+        let (least, most) = field.range.ends().unwrap_or_default();
+        let least = if field.range.contains(least) { least } else { least.next_up() };
+        let most = if field.range.contains(most) { most } else { most.next_down() };
         let size = least.abs().max(most.abs());
         let smallest = if least > 0.0 { least } else { 1e-300_f64.max(f64::MIN_POSITIVE / size) };
         let signed = |size: BoxedStrategy<f64>| {
@@ -239,19 +240,4 @@ fn usual(field: &Field) -> Option<f64> {
 /// Scenes without a violation.
 pub fn sound_scenes() -> impl Strategy<Value = Scene> {
     Drawn::default().documents().prop_map(|document| document.scene().clone())
-}
-
-/// A valid rough scene with adhesion.
-pub fn sound() -> Scene {
-    const TEXT: &str = r#"(
-        version: 1,
-        title: "A line",
-        material: (youngs_modulus: 2.0e6, poisson_ratio: 0.5),
-        length: 1.0e-4,
-        roughness: SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1),
-        adhesion: (work: 0.05),
-        loading: [ToForce(1.0e-5), ToSeparation],
-        numerics: (points: 4096, edges: Grid),
-    )"#;
-    Document::parse(TEXT, "sound").unwrap_or_else(|errors| panic!("{errors}")).scene().clone()
 }

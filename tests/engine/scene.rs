@@ -1,11 +1,17 @@
 //! Scenes from outside: any text gets an answer, and a change to one field changes that field alone.
 
 use asperity::scene::{
-    DEFAULT, Document, Effect, FIELDS, Form, LONGEST_TEXT, Move, Range, Scene, Span, Text, line_column, open,
-    presets, to_ron,
+    Computed, DEFAULT, Document, Effect, FIELDS, Field, Form, LEG_FORCE, LEG_INDENTATION, LONGEST_TEXT, Move,
+    Range, Scene, Span, Text, Tree, find, is_control, line_column, open, presets, ron_float, ron_string,
+    to_ron,
 };
 use asperity::simulation::{Plan, Stage};
 use proptest::prelude::*;
+use strategies::sound_scenes;
+
+#[allow(dead_code, reason = "the storm of random scenes uses the rest")]
+#[path = "../common/strategies.rs"]
+mod strategies;
 
 fn locate(text: &str, path: &str) -> Option<Span> {
     Text::new(text).ok()?.span(path).cloned()
@@ -425,6 +431,44 @@ proptest! {
         }
         let again = opened.set_all(document.overrides()).unwrap();
         prop_assert_eq!(again.scene(), document.scene());
+    }
+
+    #[test]
+    fn a_scene_is_its_tree_and_its_text(scene in sound_scenes()) {
+        prop_assert_eq!(Tree::of(&scene).scene(), Ok(scene.clone()));
+        let document = Document::from_scene(&scene, "scene").unwrap();
+        prop_assert_eq!(document.scene(), &scene);
+        for field in document.fields() {
+            if let Some(written) = document.value(field.path) {
+                prop_assert_eq!(field.read_typed(written), Ok(written.to_owned()), "{}", field.path);
+            }
+        }
+    }
+
+    #[test]
+    fn every_switch_of_every_scene_goes_both_ways(
+        scene in sound_scenes(),
+        work in 0.0..1e6,
+        rms_height in 1e-30..100.0,
+    ) {
+        let document = Document::from_scene(&scene, "scene").unwrap();
+        let computed =
+            Computed { work_of_adhesion: Some(work), rms_height: Some(rms_height), ..Computed::default() };
+        for effect in Effect::ALL {
+            let without = document.without(effect, &computed).unwrap();
+            prop_assert!(!effect.is_on(without.scene()));
+            for also in Effect::ALL.into_iter().filter(|also| *also != effect) {
+                prop_assert!(also.is_on(without.scene()) == also.is_on(&scene) || work == 0.0);
+            }
+            match Document::parse(without.text(), "forgotten").unwrap().with(effect) {
+                Ok(suited) => prop_assert!(effect.is_on(suited.scene())),
+                Err(error) => prop_assert!(effect == Effect::Roughness && scene.numerics.points < 2, "{error}"),
+            }
+            if effect.is_on(&scene) {
+                let back = without.with(effect).unwrap();
+                prop_assert_eq!(back.scene(), &scene);
+            }
+        }
     }
 }
 

@@ -42,7 +42,7 @@ fn a_loop_is_kept_compared_and_exchanged() {
         terminal.wait("first loop", |rows| headline(rows).as_ref() == Some(&before));
         terminal.send("uu");
         terminal.wait_without("[changed]");
-        assert!(row_with(&terminal, "roughness parameter κ").contains(" 8"), "{}", terminal.text());
+        assert!(row_with(&terminal, "roughness-adhesion parameter κ").contains(" 8"), "{}", terminal.text());
         quit(&mut terminal);
     });
 }

@@ -67,7 +67,7 @@ fn keys_typed_before_the_first_frame_are_not_lost() {
         terminal.wait_without("What you see");
         let rows = terminal.rows();
         let place = |text: &str| rows.iter().position(|row| row.contains(text)).expect("it is in the list");
-        assert_eq!(place("›"), place("roughness parameter κ") + 1, "{}", terminal.text());
+        assert_eq!(place("›"), place("roughness-adhesion parameter κ") + 1, "{}", terminal.text());
         // Keys typed before the terminal was taken are echoed; nothing else remains.
         terminal.send("q");
         assert!(terminal.wait_end().success());

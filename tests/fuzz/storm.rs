@@ -13,8 +13,8 @@ use super::effort::cases;
 use super::properties::{overrides, profile, scene};
 // For the strategies, which use the names of the scene module.
 use asperity::scene::{
-    DEFAULT, Document, End, FIELDS, Field, LEG_FORCE, LEG_INDENTATION, Range, Scene, find, is_control,
-    ron_float, ron_string,
+    DEFAULT, Document, FIELDS, Field, LEG_FORCE, LEG_INDENTATION, Range, Scene, find, is_control, ron_float,
+    ron_string,
 };
 use proptest::prelude::*;
 use proptest::strategy::{Union, ValueTree};

@@ -2,7 +2,7 @@
 
 use super::common::effort::cases;
 use asperity::analysis::Regime;
-use asperity::scene::{Adhesion, Move, Roughness, Scene};
+use asperity::scene::{Adhesion, Material, Move, Roughness, RoughnessParameter, Scene};
 use asperity::simulation::{Outcome, Simulation};
 use asperity::study::{
     Changes, Folder, Options, Plan, Quantity, RESULTS, Results, SUMMARY, Shard, Statistics, Status,
@@ -99,8 +99,8 @@ fn cells_are_what_single_runs_give() {
             for (line, recorded) in results.records_of(cell) {
                 let values = plan.values(cell);
                 let mut scene = plan.scene.clone();
-                scene.adhesion = Some(Adhesion::default().with_kappa(values[0]));
-                scene.material.effective_modulus = Some(values[2]);
+                scene.adhesion = Some(Adhesion::by_parameter(RoughnessParameter::Kappa, values[0]));
+                scene.material = Material::effective(values[2]);
                 let Some(Roughness::SelfAffine { hurst, rms_height, seed, .. }) = &mut scene.roughness else {
                     panic!("rough")
                 };

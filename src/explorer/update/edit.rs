@@ -10,7 +10,9 @@ use crate::explorer::parameters::{Parameter, Setting, parameters, text_of};
 use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::request::{Focus, LineView, Tried};
 use crate::explorer::text_line::TextLine;
-use crate::scene::{Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, presets};
+use crate::scene::{
+    Adhesion, Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, parse_quantity, presets,
+};
 
 /// Most edits that can be undone.
 const UNDO_DEPTH: usize = 1000;
@@ -212,22 +214,23 @@ fn set_selected(model: &mut Model, written: &str) -> Vec<Effect> {
 fn with_selected(model: &Model, written: &str) -> Result<Document, String> {
     let parameter = model.parameter().ok_or("no parameter is selected")?;
     let document = &model.document;
-    let number = || written.parse::<f64>().map_err(|_| format!("{written} is no number"));
+    let number = || parse_quantity(written, parameter.field.unit).map_err(|error| error.to_string());
     let changed = match parameter.setting {
         Setting::Field | Setting::Switch(_) | Setting::Heading => document.set(&parameter.path, written),
         Setting::WorkOfAdhesion => document.with_work_of_adhesion(number()?),
         Setting::RoughnessParameter(parameter) => {
             let value = number()?;
-            let adhesion = document.scene().adhesion.unwrap_or_default();
-            match (adhesion.work.filter(|_| adhesion.parameter().is_none()), model.governing()) {
+            match (document.scene().adhesion, model.governing()) {
                 // The scene has γ alone, which follows from the parameter.
-                (Some(_), Some(governing)) => {
+                (Some(Adhesion::Work { amplitude: None, .. }), Some(governing)) => {
                     let undefined = || format!("{} is not defined without roughness", parameter.symbol());
                     let work = governing.work_for(parameter, value).ok_or_else(undefined)?;
                     document.with_work_of_adhesion(work)
                 }
-                (Some(_), None) => return Err("not before the scene is computed".to_owned()),
-                (None, _) => document.with_parameter(parameter, value),
+                (Some(Adhesion::Work { amplitude: None, .. }), None) => {
+                    return Err("not before the scene is computed".to_owned());
+                }
+                _ => document.with_parameter(parameter, value),
             }
         }
     };

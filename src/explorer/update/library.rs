@@ -24,7 +24,7 @@ pub fn listed(model: &mut Model, entries: Vec<Entry>) {
 /// Opens the selected scene, or the typed path where no scene fits.
 pub fn accept(model: &mut Model, prompt: &Prompt) -> Result<Vec<Effect>, String> {
     if let Some(entry) = prompt.scene() {
-        return Ok(edit::open_read(model, entry.document()));
+        return Ok(edit::open_read(model, entry.document.clone()));
     }
     let typed = prompt.line.text().trim().to_owned();
     if typed.is_empty() {

@@ -9,6 +9,7 @@ use crate::explorer::request::{Focus, ManualMove};
 use crate::explorer::snapshot::{ContactSnapshot, Refusal};
 use crate::explorer::text_line::TextLine;
 use crate::scene::{parse_quantity, quantity_as_typed};
+use crate::text::round_to;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -182,7 +183,7 @@ fn refusal(refusal: &Refusal, typed: &str) -> String {
 
 /// The nearest number of four digits not below a value.
 fn rounded_up(value: f64) -> f64 {
-    let rounded = |value: f64| format!("{value:.3e}").parse().unwrap_or(value);
+    let rounded = |value: f64| round_to(value, 4);
     let nearest: f64 = rounded(value);
     let last_digit = 10.0_f64.powi((value.abs().log10().floor() as i32).saturating_sub(3));
     if nearest >= value { nearest } else { rounded(value + last_digit) }

@@ -38,7 +38,7 @@ fn draw_list(frame: &mut Frame<'_>, area: Rect, theme: Theme, prompt: &Prompt, e
     for (row, place) in (area.y..area.bottom()).zip(first..prompt.found.len()) {
         let Some(entry) = entries.get(prompt.found[place]) else { continue };
         let selected = place == prompt.selected;
-        let mark = match (&entry.error, selected) {
+        let mark = match (entry.error(), selected) {
             (Some(_), _) => "!",
             (None, true) => "›",
             (None, false) => " ",
@@ -63,10 +63,10 @@ fn place_of(source: Source) -> &'static str {
 /// Title, notice, and text of a scene.
 fn draw_entry(frame: &mut Frame<'_>, area: Rect, theme: Theme, entry: &Entry, query: &str) {
     let mark = |text: &str, meaning| Line::from(found(text, query, theme.style(meaning), theme));
-    let mut lines = wrapped(&mark(&entry.title, Meaning::Title), area.width);
-    let notice = entry.notice.split_whitespace().collect::<Vec<_>>().join(" ");
+    let mut lines = wrapped(&mark(entry.title(), Meaning::Title), area.width);
+    let notice = entry.notice().split_whitespace().collect::<Vec<_>>().join(" ");
     lines.extend(wrapped(&mark(&notice, Meaning::Text), area.width));
-    if let Some(error) = &entry.error {
+    if let Some(error) = entry.error() {
         lines.extend(wrapped(&Line::styled(format!("! {error}"), theme.style(Meaning::Error)), area.width));
     }
     let text = entry.text.lines().map(|line| Line::styled(line.to_owned(), theme.style(Meaning::Quiet)));

@@ -67,18 +67,9 @@ impl Text {
         let source = source.into();
         let Scan { tokens, comments } = scan(&source)?;
         let tokens = Tokens { source: &source, tokens };
-        let mut spans: Vec<Span> = Vec::new();
-        // Brackets of groups whose values are still to be added, by the path before the names of these.
-        let mut open = Vec::new();
+        let mut spans = Vec::new();
         if let Some(root) = tokens.root() {
-            open.extend(
-                tokens.add_span(String::new(), (root, root), &mut spans).map(|one| (String::new(), one)),
-            );
-        }
-        let mut next = 0;
-        while let Some((group, brackets)) = open.get(next).cloned() {
-            tokens.add_inside(&group, brackets, &mut spans, &mut open);
-            next += 1;
+            tokens.add(String::new(), (root, root), &mut spans);
         }
         Ok(Text { source, spans, comments })
     }
@@ -97,12 +88,8 @@ impl Text {
     pub(in crate::scene) fn nearest_value(&self, path: &str) -> usize {
         let mut around = std::iter::successors(Some(path), |path| Some(path.rsplit_once('.')?.0));
         let found = around.find_map(|path| self.span(path).filter(|_| !path.is_empty()));
-        found.map(|span| span.value.start).or_else(|| self.opening()).unwrap_or(0)
-    }
-
-    /// Byte of the bracket that opens the whole; `None` for a value without brackets.
-    pub(in crate::scene) fn opening(&self) -> Option<usize> {
-        Some(self.spans.first()?.inside.as_ref()?.start - 1)
+        let opening = || Some(self.spans.first()?.inside.as_ref()?.start - 1);
+        found.map(|span| span.value.start).or_else(opening).unwrap_or(0)
     }
 
     /// The value at a path as written, with any `Some(…)` around it.
@@ -145,9 +132,6 @@ impl Text {
     }
 }
 
-/// Indices of the tokens of two brackets.
-type Brackets = (usize, usize);
-
 /// Tokens of a text.
 struct Tokens<'t> {
     source: &'t str,
@@ -155,13 +139,9 @@ struct Tokens<'t> {
 }
 
 impl Tokens<'_> {
-    /// Adds the value that starts at the second token, in an entry that starts at the first. Returns its brackets.
-    fn add_span(
-        &self,
-        path: String,
-        (start, first): (usize, usize),
-        spans: &mut Vec<Span>,
-    ) -> Option<Brackets> {
+    /// Adds the value that starts at the second token, in an entry that starts at the first, and the values inside it.
+    /// Returns the token after it.
+    fn add(&self, path: String, (start, first): (usize, usize), spans: &mut Vec<Span>) -> Option<usize> {
         let (end, inner) = (self.value_end(first)?, self.inside_some(first));
         let bytes = |first: usize, end: usize| self.tokens[first].start..self.tokens[end - 1].end;
         let open = if self.is(inner, Kind::Word) { inner + 1 } else { inner };
@@ -170,37 +150,34 @@ impl Tokens<'_> {
             Some(Kind::Open('[', close)) if open == inner => Some((open, close)),
             _ => None,
         };
-        let inside = brackets.map(|(open, close)| self.tokens[open].end..self.tokens[close].start);
-        let comma = self.is(end, Kind::Comma).then(|| self.tokens[end].end);
-        let (entry, value, bare) =
-            (bytes(start, end), bytes(first, end), bytes(inner, self.value_end(inner)?));
-        spans.push(Span { path, entry, value, bare, inside, comma });
-        brackets
-    }
-
-    /// Adds the values between two brackets, up to the first unreadable one, and their own brackets.
-    fn add_inside(
-        &self,
-        group: &str,
-        (open, close): Brackets,
-        spans: &mut Vec<Span>,
-        all: &mut Vec<(String, Brackets)>,
-    ) {
-        let mut start = open + 1;
-        for index in 0.. {
-            let name = self.word(start).filter(|_| self.is(start + 1, Kind::Colon));
-            let first = if name.is_some() { start + 2 } else { start };
-            let Some(end) = self.value_end(first).filter(|end| *end <= close) else { return };
-            let path = name.map_or_else(|| format!("{group}{index}"), |name| format!("{group}{name}"));
-            let below = format!("{path}.");
-            let brackets = self.add_span(path, (start, first), spans).filter(|_| below.len() <= LONGEST_PATH);
-            all.extend(brackets.map(|brackets| (below, brackets)));
-            // Without a comma this is the last entry, regardless of the text after it.
-            if !self.is(end, Kind::Comma) {
-                return;
+        spans.push(Span {
+            path: path.clone(),
+            entry: bytes(start, end),
+            value: bytes(first, end),
+            bare: bytes(inner, self.value_end(inner)?),
+            inside: brackets.map(|(open, close)| self.tokens[open].end..self.tokens[close].start),
+            comma: self.is(end, Kind::Comma).then(|| self.tokens[end].end),
+        });
+        // Paths become longer from level to level, so that the levels are few.
+        if let Some((open, close)) = brackets.filter(|_| path.len() < LONGEST_PATH) {
+            let group = if path.is_empty() { path } else { path + "." };
+            let mut start = open + 1;
+            for index in 0.. {
+                let name = self.word(start).filter(|_| self.is(start + 1, Kind::Colon));
+                let first = if name.is_some() { start + 2 } else { start };
+                if self.value_end(first).is_none_or(|end| end > close) {
+                    break;
+                }
+                let path = name.map_or_else(|| format!("{group}{index}"), |name| format!("{group}{name}"));
+                let end = self.add(path, (start, first), spans)?;
+                // Without a comma this is the last entry, regardless of the text after it.
+                if !self.is(end, Kind::Comma) {
+                    break;
+                }
+                start = end + 1;
             }
-            start = end + 1;
         }
+        Some(end)
     }
 
     /// The token with which the whole value starts, after attributes such as `#![enable(…)]`.
@@ -297,18 +274,6 @@ Scene(
         ] {
             assert_eq!(text.written(path), expected, "{path}");
         }
-    }
-
-    #[test]
-    fn variants_are_read_through_some() {
-        let text = Text::new(SCENE).unwrap();
-        assert_eq!(&SCENE[text.span("roughness.seed").unwrap().entry.clone()], "seed: 7");
-        assert_eq!(text.variant("roughness"), Some("SelfAffine"));
-        assert_eq!(text.variant("loading.0"), Some("ToForce"));
-        assert_eq!(text.variant("material"), None);
-        assert_eq!(text.value("material.youngs_modulus"), Some("2.0e6"));
-        assert_eq!(text.value("adhesion"), Some("Some(work: 0.05)"));
-        assert_eq!(text.opening(), SCENE.find("Scene(").map(|start| start + "Scene".len()));
     }
 
     #[test]

@@ -2,13 +2,75 @@
 //!
 //! [`Text::span`] finds a value; [`Text::replace`] and [`Text::insert`] return a new text.
 
+use crate::text::is_control;
+
 mod edit;
 mod index;
-mod literal;
 mod scan;
 
 pub(super) use edit::one_value;
 pub use index::{Span, Text, line_column};
 pub(super) use index::{is_within, offset_of};
-pub use literal::{ron_float, ron_string};
 pub use scan::Unreadable;
+
+/// A number in RON: the shortest text that reads back as the same number, always with a decimal point,
+/// with an exponent if the number is much smaller or larger than one.
+pub fn ron_float(value: f64) -> String {
+    let size = value.abs();
+    if !value.is_finite() || size == 0.0 || (size > 1e-3 && size < 1e5) {
+        return format!("{value:?}");
+    }
+    let text = format!("{value:e}");
+    match text.split_once('e') {
+        Some((mantissa, exponent)) if !mantissa.contains('.') => format!("{mantissa}.0e{exponent}"),
+        _ => text,
+    }
+}
+
+/// Text as a RON string; only characters that RON cannot contain literally are escaped.
+pub fn ron_string(text: &str) -> String {
+    let mut string = String::with_capacity(text.len() + 2);
+    string.push('"');
+    for c in text.chars() {
+        match c {
+            '"' => string.push_str("\\\""),
+            '\\' => string.push_str("\\\\"),
+            '\n' => string.push_str("\\n"),
+            '\r' => string.push_str("\\r"),
+            '\t' => string.push_str("\\t"),
+            c if is_control(c) => string.push_str(&format!("\\u{{{:x}}}", u32::from(c))),
+            c => string.push(c),
+        }
+    }
+    string.push('"');
+    string
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_strings_escaped_only_where_they_must_be() {
+        let texts =
+            "2.0e6 1.0e-4 2.5e-7 0.5 -40.0 1.0e-3 0.0011 0.005 99999.0 -99999.5 1.0e5 0.0 -0.0 NaN -inf";
+        assert!(texts.split(' ').all(|text| ron_float(text.parse().unwrap()) == text));
+        assert_eq!(ron_string("κ \"a\" \\ \n\u{1b}"), r#""κ \"a\" \\ \n\u{1b}""#);
+    }
+
+    proptest! {
+        #[test]
+        fn all_numbers_survive(bits in any::<u64>()) {
+            let value = f64::from_bits(bits);
+            let read: f64 = ron::from_str(&ron_float(value)).unwrap();
+            prop_assert!(read.to_bits() == bits || value.is_nan() && read.is_nan());
+        }
+
+        #[test]
+        fn all_strings_survive(text in any::<String>()) {
+            prop_assert_eq!(ron::from_str::<String>(&ron_string(&text)), Ok(text));
+        }
+    }
+}

@@ -187,7 +187,7 @@ mod tests {
     use super::super::{StudyMap, hurst, parameter_value};
     use super::*;
     use crate::analysis::Regime;
-    use crate::scene::{Roughness, open, to_ron};
+    use crate::scene::{Adhesion, Roughness, open, to_ron};
     use crate::study::{Changes, Folder, Options, Plan, Quantity, Shard, merge, run};
     use std::cell::Cell;
 
@@ -235,7 +235,7 @@ mod tests {
         // The cell is the mean over its scenes.
         let values = (0..map.template.lines()).map(|line| {
             let mut scene = map.template.plan().scene;
-            scene.adhesion.as_mut().unwrap().kappa = Some(1.0);
+            scene.adhesion = Some(Adhesion::by_parameter(RoughnessParameter::Kappa, 1.0));
             if let Some(Roughness::SelfAffine { hurst, seed, .. }) = &mut scene.roughness {
                 (*hurst, *seed) = (0.3, *seed + line);
             }

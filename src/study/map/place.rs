@@ -67,10 +67,7 @@ pub fn moved(document: &Document, values: &[(&Axis, f64)]) -> Result<Document, S
         moved = moved.set("roughness.modes.1", &format!("{last:.0}"))?;
     }
     if let Some((parameter, value)) = parameter {
-        let by_work = matches!(
-            moved.scene().adhesion,
-            Some(Adhesion { work: Some(_), kappa: None, elastic_energy_ratio: None, .. })
-        );
+        let by_work = matches!(moved.scene().adhesion, Some(Adhesion::Work { amplitude: None, .. }));
         let work = governing(moved.scene()).and_then(|governing| governing.work_for(parameter, value));
         moved = match work.filter(|_| by_work) {
             Some(work) => moved.with_work_of_adhesion(work)?,
@@ -117,8 +114,8 @@ mod tests {
         for document in [by_kappa.clone(), both.unwrap(), by_work] {
             let moved = moved(&document, &[(&axes[0], 0.4), (&axes[1], 3.0)]).unwrap();
             let (before, after) = (document.scene().adhesion.unwrap(), moved.scene().adhesion.unwrap());
-            assert_eq!(before.work.is_some(), after.work.is_some());
-            assert_eq!(before.kappa.is_some(), after.kappa.is_some());
+            assert_eq!(before.work().is_some(), after.work().is_some());
+            assert_eq!(before.parameter().is_some(), after.parameter().is_some());
             let [hurst, kappa] = [0, 1].map(|axis| axes[axis].value_in(moved.scene(), None).unwrap());
             assert!((kappa / 3.0 - 1.0).abs() < 1e-12 && hurst == 0.4, "{kappa} {hurst}");
             let governing = Simulation::default().make_line(moved.scene()).map(|(_, _, governing)| governing);

@@ -142,8 +142,7 @@ impl StudyMap {
             (scene.adhesion, self.over().find(|axis| axis.target.parameter().is_some()))
         {
             let parameter = axis.target.parameter().unwrap_or(RoughnessParameter::Kappa);
-            let middle = axis.values[axis.values.len() / 2];
-            scene.adhesion = Some(Adhesion::default().with_parameter(parameter, middle));
+            scene.adhesion = Some(Adhesion::by_parameter(parameter, axis.values[axis.values.len() / 2]));
         }
         scene.set_seed(plan.seed);
         let at = self.at(slice).map(|(axis, place)| (axis, axis.values[place]));
@@ -294,7 +293,11 @@ mod tests {
         let document = study_map.document().unwrap();
         let scene = document.scene();
         assert_eq!(scene.title, "A study");
-        assert_eq!(scene.adhesion.unwrap().kappa, Some(1.0), "the plan's scene has none");
+        assert_eq!(
+            scene.adhesion,
+            Some(Adhesion::by_parameter(RoughnessParameter::Kappa, 1.0)),
+            "the plan's scene has none"
+        );
         let Some(Roughness::SelfAffine { seed, modes, hurst, .. }) = scene.roughness else { panic!() };
         assert_eq!((seed, modes, hurst), (7, (1, 16), 0.5));
         // 0.5 E* h L.

@@ -51,25 +51,26 @@ impl Template {
     /// When the scene has no κ.
     pub fn of(scene: &Scene) -> Result<Self, NoMap> {
         let adhesion = scene.adhesion.ok_or(NoMap::NoAdhesion)?;
-        if adhesion.closing_work.is_some() {
-            return Err(NoMap::TwoWorks);
-        }
+        let (parameter, value) = (RoughnessParameter::Kappa, ANY.0);
+        // Without a given amplitude the amplitude follows from γ and κ. The range of the attraction changes no map.
+        let adhesion = match adhesion.with_parameter(parameter, value).map_err(|_| NoMap::TwoWorks)? {
+            Adhesion::Work { work, closing_work: None, amplitude, .. } => {
+                Adhesion::Work { work, closing_work: None, amplitude, range: None }
+            }
+            Adhesion::Work { .. } => return Err(NoMap::TwoWorks),
+            Adhesion::Parameter { .. } => Adhesion::by_parameter(parameter, value),
+        };
         let mut scene = scene.clone();
         let points = match &mut scene.roughness {
             None => return Err(NoMap::Smooth),
-            Some(Roughness::SelfAffine { hurst, rms_height, rms_gradient, modes, .. }) => {
+            Some(Roughness::SelfAffine { hurst, modes, .. }) => {
                 *hurst = ANY.1;
                 let last = modes.1;
-                // Without a given amplitude the amplitude follows from γ and κ.
-                let work = adhesion.work.filter(|_| rms_height.is_none() && rms_gradient.is_none());
-                scene.adhesion = Some(Adhesion { work, ..Adhesion::default().with_kappa(ANY.0) });
                 last.saturating_mul(SPRINGS_PER_WAVE).clamp(SPRINGS.0, SPRINGS.1).max(last.saturating_mul(2))
             }
-            Some(Roughness::Measured { .. }) => {
-                scene.adhesion = Some(Adhesion::default().with_kappa(ANY.0));
-                SPRINGS.1
-            }
+            Some(Roughness::Measured { .. }) => SPRINGS.1,
         };
+        scene.adhesion = Some(adhesion);
         strip(&mut scene);
         let points = points.min(scene.numerics.points);
         // Edges between springs: a map of few springs is then as accurate as one of very many.
@@ -79,10 +80,8 @@ impl Template {
 
     /// The same template over this parameter.
     pub fn over(mut self, parameter: RoughnessParameter) -> Self {
-        self.scene.adhesion = self
-            .scene
-            .adhesion
-            .map(|adhesion| Adhesion { work: adhesion.work, ..adhesion.with_parameter(parameter, ANY.0) });
+        let over = |adhesion: Adhesion| adhesion.with_parameter(parameter, ANY.0).ok();
+        self.scene.adhesion = self.scene.adhesion.and_then(over);
         Template { parameter, ..self }
     }
 

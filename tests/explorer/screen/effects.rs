@@ -4,7 +4,7 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{changed, one_spring, rough, smooth};
 use super::{generation, is_up_to_date, pressed};
-use asperity::scene::Effect;
+use asperity::scene::{Adhesion, Effect, RoughnessParameter};
 
 /// Selects a row by its path.
 fn select(driver: &mut Driver, path: &str) {
@@ -110,7 +110,7 @@ fn adhesion_given_the_other_way_is_the_same() {
         select(&mut driver, "adhesion");
         driver.press("h");
         let adhesion = driver.model.document.scene().adhesion.unwrap();
-        assert_eq!((adhesion.work, adhesion.kappa), (Some(work), None));
+        assert_eq!(adhesion, Adhesion::by_work(work));
         assert!(near(governing(&driver).0, kappa) && near(force(&driver), before));
         driver.press("l");
         assert_eq!(driver.model.document.text(), text, "κ is the one that was typed");
@@ -118,7 +118,8 @@ fn adhesion_given_the_other_way_is_the_same() {
         // By e_el/γ the result is the same.
         driver.press("l");
         let adhesion = driver.model.document.scene().adhesion.unwrap();
-        assert!((adhesion.work, adhesion.kappa) == (None, None) && adhesion.elastic_energy_ratio.is_some());
+        let ratio = adhesion.parameter().filter(|_| adhesion.work().is_none());
+        assert!(ratio.is_some_and(|(parameter, _)| parameter == RoughnessParameter::ElasticEnergyRatio));
         assert!(near(governing(&driver).0, kappa) && near(force(&driver), before));
         driver.press("h");
         assert_eq!(driver.model.document.text(), text);
@@ -197,7 +198,7 @@ fn without_roughness_the_same_adhesion_is_left() {
         select(&mut driver, "roughness");
         driver.press("t");
         let left = driver.model.document.scene().adhesion.unwrap();
-        assert_eq!((left.kappa, left.work), (None, Some(work)));
+        assert_eq!(left, Adhesion::by_work(work));
     });
 }
 
@@ -228,7 +229,7 @@ fn kappa_is_solved_for_where_the_scene_gives_the_work() {
         assert!(near(kappa_now, 2.8) && near(work_now, expected), "{kappa_now} {work_now}");
         assert!(near(work_now, work * (kappa / 2.8).powi(2)));
         let adhesion = driver.model.document.scene().adhesion.unwrap();
-        assert_eq!((adhesion.work, adhesion.kappa), (Some(work_now), None), "the scene still gives γ");
+        assert_eq!(adhesion, Adhesion::by_work(work_now), "the scene still gives γ");
         // Steps start from the derived value.
         driver.press("l");
         assert!(near(governing(&driver).0, 3.15));
@@ -249,7 +250,7 @@ fn a_scene_that_gives_kappa_may_be_given_the_work() {
         let (kappa, work, expected) = governing(&driver);
         assert!(work == 0.02 && near(work, expected), "{kappa} {work} {expected}");
         let adhesion = driver.model.document.scene().adhesion.unwrap();
-        assert_eq!((adhesion.work, adhesion.kappa), (Some(0.02), None), "now the scene gives γ");
+        assert_eq!(adhesion, Adhesion::by_work(0.02), "now the scene gives γ");
         driver.press("u");
         assert_eq!(governing(&driver).0, 8.0);
         for (path, typed) in [("adhesion.work", "-1"), ("adhesion.kappa", "0"), ("adhesion.kappa", "much")] {

@@ -119,7 +119,7 @@ fn a_broken_file_is_listed_with_its_error_and_not_opened() {
         let before = driver.model.document.clone();
         driver.type_text("broken");
         let entry = library(&driver).scene().unwrap().clone();
-        let error = entry.error.expect("it is no scene");
+        let error = entry.error().expect("it is no scene");
         let text = driver.text();
         assert!(text.contains("! broken.ron"), "{text}");
         let start: String = error.chars().take(30).collect();

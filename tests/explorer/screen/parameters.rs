@@ -38,7 +38,8 @@ fn what_is_changed_first_comes_first() {
         let mut driver = mid_retraction(default_scene());
         driver.press("g");
         let shown = pane(&driver).join("\n");
-        for name in ["work of adhesion γ", "roughness parameter κ", "force of a stage 1 F", "rms height h"]
+        for name in
+            ["work of adhesion γ", "roughness-adhesion parameter κ", "force of a stage 1 F", "rms height h"]
         {
             assert!(shown.contains(name), "{name}\n{shown}");
         }

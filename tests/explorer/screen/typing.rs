@@ -61,12 +61,12 @@ fn the_editor_opens_with_the_value_selected_and_keeps_what_is_refused() {
         driver.type_text("10 kg");
         driver.press("Enter");
         assert_eq!((&driver.model.document, driver.model.mode.kind()), (&before, ModeKind::Prompt));
-        let refused = "kg is no length: m, mm, µm, nm";
+        let refused = "kg is not a unit of length: use m, mm, µm, nm";
         assert!(driver.status().contains(refused), "{}", driver.status());
         let line = driver.rows().into_iter().find(|row| row.contains("10 kg")).unwrap_or_default();
         assert!(line.contains('!'), "{line}");
         driver.press("Backspace");
-        assert!(!driver.text().contains("is no length"), "{}", driver.text());
+        assert!(!driver.text().contains("not a unit of length"), "{}", driver.text());
         driver.press("Backspace");
         driver.type_text("mm");
         driver.press("Enter");
