@@ -1,13 +1,13 @@
 //! `asperity demo`: automatic play of the explorer.
 
-use super::format::Format;
-use super::output::OutputArguments;
+use super::explore::failed;
+use super::output::check_file;
 use super::{CliError, Overrides};
 use crate::explorer::demo::{Demo, ONE_SCENE, TOUR, play};
 use crate::explorer::picture::{Cast, text};
 use crate::explorer::theme::{Appearance, Marker, Theme};
 use crate::explorer::{FrameBytes, Screen, picture_of, screenshot};
-use crate::io::{check_writable, write_new};
+use crate::io::write_new;
 use crate::scene::{open_argument, presets};
 use clap::Args;
 use std::io::{self, IsTerminal, Write, stdout};
@@ -65,7 +65,7 @@ pub struct DemoArguments {
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub at: Option<f64>,
     /// Write a picture of the screen to FILE, an SVG document
-    #[arg(long, alias = "svg", value_name = "FILE", requires = "at")]
+    #[arg(long, value_name = "FILE", requires = "at")]
     pub picture: Option<PathBuf>,
     /// Overwrite FILE if it exists
     #[arg(long)]
@@ -93,22 +93,13 @@ fn size(text: &str) -> Result<(u16, u16), String> {
     Ok((side(columns)?, side(rows)?))
 }
 
-/// File of a picture.
-fn picture_file(path: PathBuf, force: bool) -> Result<OutputArguments, CliError> {
-    let output = OutputArguments { output: Some(path), force };
-    output.format(None, &[Format::Svg], Format::Svg)?;
-    output.check()?;
-    Ok(output)
-}
-
 /// Plays the demo to its destination.
 pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result<(), CliError> {
     let first = presets().first().map_or("", |preset| preset.name);
     let document = arguments.overrides.apply(open_argument(arguments.scene.as_deref().unwrap_or(first))?)?;
-    if let Some(file) = &arguments.cast {
-        check_writable(file, arguments.force)?;
+    for (file, extension) in [(&arguments.cast, "cast"), (&arguments.picture, "svg")] {
+        file.as_ref().map_or(Ok(()), |file| check_file(file, extension, arguments.force))?;
     }
-    let picture = arguments.picture.clone().map(|path| picture_file(path, arguments.force)).transpose()?;
     let name = arguments.scene.clone().unwrap_or_else(|| "tour".to_owned());
     let script = if arguments.scene.is_some() { ONE_SCENE } else { TOUR };
     let watched = !arguments.frames
@@ -134,8 +125,10 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
     if let Some(at) = arguments.at {
         while demo.advance().is_some_and(|seconds| seconds + 1e-9 < at) {}
         let model = demo.model();
-        return match picture {
-            Some(output) => output.write(stdout_, |out| out.write_all(screenshot(model).as_bytes())),
+        return match &arguments.picture {
+            Some(file) => {
+                Ok(write_new(file, arguments.force, |out| out.write_all(screenshot(model).as_bytes()))?)
+            }
             None => Ok(stdout_.write_all(text(&picture_of(model)).as_bytes())?),
         };
     }
@@ -143,7 +136,7 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
         return Ok(write_new(file, arguments.force, |out| record(out, &mut demo, size, &name))?);
     }
     if watched {
-        return play(&mut demo, fps).map_err(|error| CliError::Explorer(error.to_string()));
+        return play(&mut demo, fps).map_err(failed);
     }
     while let Some(seconds) = demo.advance() {
         writeln!(stdout_, "== {seconds:.2} s ==")?;

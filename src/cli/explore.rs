@@ -6,8 +6,9 @@ use crate::explorer::drafts::{Restored, restore};
 use crate::explorer::theme::{Marker, Theme};
 use crate::explorer::{self, Opening, OpeningError, Options};
 use crate::export::brief_summary;
-use crate::scene::DEFAULT;
+use crate::scene::{DEFAULT, quoted};
 use clap::{Args, CommandFactory};
+use std::fmt::Display;
 use std::io::{IsTerminal, Write, stdin, stdout};
 use std::path::{Path, PathBuf};
 
@@ -76,21 +77,36 @@ pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Resu
     let scene = config.scene.as_deref();
     let opening = first.map_or_else(|| opening(arguments, scene), |document| Ok(document.into()))?;
     if !stdin().is_terminal() || !stdout().is_terminal() {
-        let name = opening.document.name().into();
-        return Err(match opening.study_map {
-            None => CliError::NoTerminal { scene: name },
-            Some(_) => CliError::NoTerminalForStudy { folder: name },
-        });
+        let name = quoted(opening.document.name());
+        return Err(CliError::Message(match opening.study_map {
+            None => {
+                format!("the explorer needs a terminal; asperity run {name} computes the scene without one")
+            }
+            Some(_) => {
+                format!(
+                    "the explorer needs a terminal; asperity sweep plot {name} draws the study without one"
+                )
+            }
+        }));
     }
     open(opening, Options { restored, config, drafts, ..arguments.look.options() }, out)
+}
+
+/// Error of the explorer itself.
+pub(super) fn failed(error: impl Display) -> CliError {
+    CliError::Message(format!("the explorer failed: {error}"))
 }
 
 /// Opens the explorer in the terminal; on leaving, prints a brief summary of the last scene.
 pub(super) fn open(opening: Opening, options: Options, out: &mut dyn Write) -> Result<(), CliError> {
     if std::env::var_os("TERM").is_some_and(|term| term == "dumb") {
-        return Err(CliError::DumbTerminal { scene: opening.document.name().into() });
+        return Err(CliError::Message(format!(
+            "TERM=dumb: the explorer places characters, this terminal does not; asperity run {} computes the scene \
+             without one",
+            quoted(opening.document.name())
+        )));
     }
-    let left = explorer::open(opening, options).map_err(|error| CliError::Explorer(error.to_string()))?;
+    let left = explorer::open(opening, options).map_err(failed)?;
     if let Some(signal) = left.signal {
         explorer::end_by(signal);
     }
@@ -102,8 +118,9 @@ pub(super) fn open(opening: Opening, options: Options, out: &mut dyn Write) -> R
 
 /// Unsaved changes of an interrupted session.
 fn restored(folder: Option<&Path>) -> Result<Restored, CliError> {
-    let none = || CliError::Restore("no unsaved changes are kept; asperity opens a scene".to_owned());
-    restore(folder.ok_or_else(none)?).map_err(CliError::Restore)?.ok_or_else(none)
+    let none = || CliError::named("--restore", "no unsaved changes are kept; asperity opens a scene");
+    let found = restore(folder.ok_or_else(none)?).map_err(|error| CliError::named("--restore", error))?;
+    found.ok_or_else(none)
 }
 
 /// The configuration file of the arguments, or that of the user.
@@ -125,12 +142,12 @@ fn opening(arguments: &ExploreArguments, default: Option<&str>) -> Result<Openin
                 let command = Arguments::command();
                 let commands: Vec<_> = command.get_subcommands().map(|command| command.get_name()).collect();
                 let commands = commands.join(", ");
-                CliError::NeitherSceneNorCommand { errors, commands }
+                CliError::Message(format!("{errors}\nCommands: {commands} (see asperity --help)"))
             } else {
                 CliError::Scene(errors)
             }
         }
-        error => CliError::Opening(error),
+        error => CliError::Message(error.to_string()),
     })?;
     opening.document = arguments.overrides.apply(opening.document)?;
     Ok(opening)

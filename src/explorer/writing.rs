@@ -7,7 +7,7 @@ use super::picture::{svg, text};
 use super::theme::Theme;
 use super::view;
 use crate::draw::Palette;
-use crate::export::{Provenance, write_curve, write_json, write_map};
+use crate::export::{self, Format, RunReport, check_extension, scene_provenance, write_map};
 use crate::io::{WriteError, check_file_name, write_new_file};
 use crate::scene::command_line;
 use ratatui::Terminal;
@@ -27,7 +27,7 @@ pub fn write(
     overwrite: bool,
 ) -> Result<Written, WriteFailure> {
     let named = if content == Content::Scene { scene_file(path) } else { Ok(path) };
-    let path = named.map_err(|error| WriteFailure::Refused(error.to_string()))?;
+    let path = named.map_err(WriteFailure::Refused)?;
     let written = write_new_file(&path, overwrite, |file| write_content(file, model, &path, content));
     match written {
         Ok(()) => Ok(Written { path, content }),
@@ -39,10 +39,10 @@ pub fn write(
 /// The file of a scene by its typed name. A name without an extension is checked before `.ron` makes it another name.
 ///
 /// # Errors
-/// When the name is that of a folder, a pipe or a device.
-pub fn scene_file(mut path: PathBuf) -> Result<PathBuf, WriteError> {
-    if path.extension().is_none() {
-        check_file_name(&path)?;
+/// When the name has another extension, or is that of a folder, a pipe or a device.
+pub fn scene_file(mut path: PathBuf) -> Result<PathBuf, String> {
+    if check_extension(&path, &["ron"]).map_err(|error| error.to_string())?.is_none() {
+        check_file_name(&path).map_err(|error| error.to_string())?;
         path.set_extension("ron");
     }
     Ok(path)
@@ -54,21 +54,22 @@ fn write_content(file: &mut dyn Write, model: &Model, path: &Path, content: Cont
     let computed = || model.current().ok_or_else(no_curve);
     match content {
         Content::Scene => file.write_all(model.document.text().as_bytes()),
-        Content::Curve(format) => {
+        Content::Outcome(format) => {
             let (document, destination) = (&model.document, path.parent().unwrap_or(Path::new("")));
             let (scene, folder) = (document.scene(), document.resolve(""));
             let command = command_line("asperity run", document.name(), document.overrides());
-            let provenance = Provenance::new(&command, scene, &folder, destination);
-            let provenance = provenance.map_err(io::Error::other)?;
-            write_curve(file, format, &provenance, &computed()?.outcome)
-        }
-        Content::Outcome => {
+            let provenance = match format {
+                Format::Json => String::new(),
+                _ => scene_provenance(&command, scene, &folder, destination).map_err(io::Error::other)?,
+            };
+            let (title, outcome) = (document.title(), &computed()?.outcome);
             let estimate = model.appraisal.estimate();
-            write_json(file, model.document.scene(), &computed()?.outcome, None, estimate)
+            let report = RunReport { title, scene, outcome, choice: None, estimate };
+            export::write(file, &report, format, &provenance)
         }
         Content::Figure(format) => {
             let figure = model.figure().ok_or_else(|| io::Error::other("the pane is empty"))?;
-            file.write_all(&figure.picture(format).map_err(io::Error::other)?)
+            export::write(file, &figure, format, "")
         }
         Content::MapCells => {
             let map_model = model.chart.map_model().ok_or_else(no_map)?;

@@ -1,14 +1,14 @@
 //! Adhesion against preload as text, JSON, tables and a figure.
 
-use super::Provenance;
+use super::report::{Json, Report};
 use super::sheet::{Sheet, thinned};
-use super::table::{Column, TableFormat, Value, write_table};
+use super::table::{Kind, Table};
+use crate::accuracy::Choice;
 use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Span, Stroke};
-use crate::io::{object, write_json_value};
+use crate::io::object;
 use crate::scene::{Scene, format_quantity};
 use crate::study::{Preloaded, Statistics, preload_statistics};
 use crate::text::grouped;
-use std::io::{self, Write};
 
 /// Most rows of the table.
 const MOST_ROWS: usize = 32;
@@ -16,28 +16,26 @@ const MOST_ROWS: usize = 32;
 /// Results for the same preloads on one or more profiles.
 #[derive(Clone, Debug)]
 pub struct PreloadReport<'a> {
+    title: &'a str,
+    choice: Option<&'a Choice>,
     scene: &'a Scene,
     seeds: Vec<Option<u64>>,
     lines: Vec<Vec<Preloaded>>,
     statistics: Vec<Option<Statistics>>,
 }
 
-/// Columns of a seed and the unloading from one preload.
-const COLUMNS: &[Column<(u64, Preloaded)>] = &[
-    Column("seed", Value::Whole(|(seed, _)| *seed)),
-    Column("preload", Value::Real(|(_, one)| one.preload)),
-    Column("preload_indentation", Value::Real(|(_, one)| one.preload_indentation)),
-    Column("adhesion_force", Value::Optional(|(_, one)| one.adhesion_force)),
-    Column("pull_off_indentation", Value::Real(|(_, one)| one.pull_off_indentation)),
-    Column("dissipated_energy", Value::Real(|(_, one)| one.dissipated_energy)),
-];
-
 impl<'a> PreloadReport<'a> {
-    /// The results of profiles, each with its seed if it has one.
+    /// The results of profiles, each with its seed if it has one, with the title of their figure and the choice of
+    /// springs for a tolerance if there is one.
     #[must_use]
-    pub fn new(scene: &'a Scene, results: Vec<(Option<u64>, Vec<Preloaded>)>) -> Self {
+    pub fn new(
+        title: &'a str,
+        scene: &'a Scene,
+        choice: Option<&'a Choice>,
+        results: Vec<(Option<u64>, Vec<Preloaded>)>,
+    ) -> Self {
         let (seeds, lines): (Vec<_>, Vec<_>) = results.into_iter().unzip();
-        PreloadReport { scene, seeds, statistics: preload_statistics(&lines), lines }
+        PreloadReport { title, choice, scene, seeds, statistics: preload_statistics(&lines), lines }
     }
 
     fn is_mean(&self) -> bool {
@@ -47,10 +45,10 @@ impl<'a> PreloadReport<'a> {
     fn first(&self) -> &[Preloaded] {
         self.lines.first().map_or(&[], Vec::as_slice)
     }
+}
 
-    /// Plain text of at most eighty columns.
-    #[must_use]
-    pub fn text(&self) -> String {
+impl Report for PreloadReport<'_> {
+    fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         sheet.paragraph(&self.scene.title);
         let profiles = match self.lines.len() {
@@ -73,49 +71,57 @@ impl<'a> PreloadReport<'a> {
         } else {
             unloadings(&mut sheet, ["preload F_n", "indentation"], shown.map(|(one, _)| *one));
         }
-        sheet.into_text()
+        if let Some(choice) = self.choice {
+            sheet.heading(&choice.sentence());
+        }
+        Some(sheet.into_text())
     }
 
-    /// Writes one JSON object in SI units.
-    ///
-    /// # Errors
-    /// Errors of `out`.
-    pub fn write_json(&self, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
+    fn json(&self) -> Option<Json<'_>> {
         let means = self.first().iter().zip(&self.statistics).map(|(one, statistics)| {
             object! { "preload": one.preload, "adhesion_force": statistics }
         });
         let lines = self.seeds.iter().zip(&self.lines).map(|(seed, preloads)| {
             object! { "seed": seed, "preloads": preloads }
         });
-        let json = object! {
+        Some(Json::of(object! {
             "scene": self.scene,
             "mean": self.is_mean().then(|| means.collect::<Vec<_>>()),
             "lines": lines.collect::<Vec<_>>(),
-        };
-        write_json_value(out, &json)
+        }))
     }
 
-    /// Writes one row for each preload of each profile, in SI units, beginning with the seed if profiles have one.
-    ///
-    /// # Errors
-    /// Errors of `out`.
-    pub fn write_table(
-        &self,
-        out: &mut (impl Write + ?Sized),
-        format: TableFormat,
-        provenance: &Provenance,
-    ) -> io::Result<()> {
-        let count = self.lines.iter().map(Vec::len).sum();
-        let columns = if self.seeds.contains(&None) { &COLUMNS[1..] } else { COLUMNS };
-        let lines = self.seeds.iter().zip(&self.lines);
-        let rows = lines.flat_map(|(seed, line)| line.iter().map(|one| (seed.unwrap_or(0), *one)));
-        write_table(out, format, provenance, columns, count, rows)
+    /// One row for each preload of each profile, beginning with the seed if profiles have one.
+    fn table(&self) -> Option<Table<'_>> {
+        let has_seeds = !self.seeds.contains(&None);
+        let columns = [
+            ("seed", Kind::Whole),
+            ("preload", Kind::Real),
+            ("preload_indentation", Kind::Real),
+            ("adhesion_force", Kind::Real),
+            ("pull_off_indentation", Kind::Real),
+            ("dissipated_energy", Kind::Real),
+        ];
+        Some(Table::new(columns.into_iter().skip(usize::from(!has_seeds)), || {
+            self.seeds.iter().zip(&self.lines).flat_map(|(seed, line)| {
+                line.iter().map(|one| {
+                    let values = [
+                        one.preload.into(),
+                        one.preload_indentation.into(),
+                        one.adhesion_force.into(),
+                        one.pull_off_indentation.into(),
+                        one.dissipated_energy.into(),
+                    ];
+                    seed.map(Into::into).into_iter().chain(values).collect()
+                })
+            })
+        }))
     }
 
     /// The adhesion force over the preload: of the first profile, and the mean with its 95 % confidence.
-    #[must_use]
-    pub fn figure(&self, title: &str) -> Figure {
-        Figure::of_chart(title, preload_axes(preload_layers(self.first(), &self.statistics)))
+    fn figure(&self) -> Option<Figure> {
+        let chart = preload_axes(preload_layers(self.first(), &self.statistics));
+        Some(Figure::of_chart(self.title, chart))
     }
 }
 

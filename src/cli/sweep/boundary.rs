@@ -1,8 +1,8 @@
 //! `asperity sweep boundary`: the boundary of vanishing zero-load adhesion.
 
 use super::spread;
-use crate::cli::{CliError, Format};
-use crate::export::sheet::{self, Sheet};
+use crate::cli::CliError;
+use crate::export::sheet::Sheet;
 use crate::io::write_json_value;
 use crate::scene::RoughnessParameter;
 use crate::study::{
@@ -44,12 +44,12 @@ pub struct BoundaryArguments {
     #[arg(long, conflicts_with = "over")]
     pub spread: bool,
     /// text, json, csv or markdown
-    #[arg(long, value_parser = Format::parser(FORMATS), hide_possible_values = true, default_value = "text")]
-    pub format: Format,
+    #[arg(long, value_parser = FORMATS, hide_possible_values = true, default_value = "text")]
+    pub format: String,
 }
 
 /// Formats of boundaries: a table, one object, one row for each boundary, tables for a document.
-const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Markdown];
+const FORMATS: [&str; 4] = ["text", "json", "csv", "markdown"];
 
 fn level(text: &str) -> Result<f64, String> {
     let level = text.trim().parse::<f64>().ok().filter(|level| *level > 0.0 && *level < 1.0);
@@ -70,14 +70,14 @@ pub(super) fn boundary(arguments: &BoundaryArguments, stdout: &mut dyn Write) ->
     if arguments.spread {
         let found = RoughnessParameter::ALL.map(|over| boundaries(&arguments.folder, over, &levels));
         let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
-        return spread::write(stdout, &found, arguments.format);
+        return spread::write(stdout, &found, &arguments.format);
     }
     let boundaries = boundaries(&arguments.folder, arguments.over, &levels)?;
-    match arguments.format {
-        Format::Text => stdout.write_all(text(&boundaries).as_bytes())?,
-        Format::Json => write_json_value(stdout, &object(&boundaries))?,
-        Format::Csv => stdout.write_all(csv(&boundaries).as_bytes())?,
-        _ => stdout.write_all(markdown(&boundaries, &levels).as_bytes())?,
+    match arguments.format.as_str() {
+        "text" => stdout.write_all(text(&boundaries).as_bytes())?,
+        "json" => write_json_value(stdout, &object(&boundaries))?,
+        "csv" => stdout.write_all(rows(&boundaries).as_bytes())?,
+        _ => stdout.write_all(tables(&boundaries, &levels).as_bytes())?,
     }
     Ok(())
 }
@@ -155,7 +155,7 @@ fn object(boundaries: &Boundaries) -> Value {
 }
 
 /// One table for each share: the first axis down, protocols and other axes across.
-fn markdown(boundaries: &Boundaries, levels: &[f64]) -> String {
+fn tables(boundaries: &Boundaries, levels: &[f64]) -> String {
     let Boundaries { others, found, .. } = boundaries;
     let down = |boundary: &Boundary| boundary.others.first().copied();
     let (mut rows, mut columns) = (Vec::new(), Vec::new());
@@ -193,13 +193,13 @@ fn markdown(boundaries: &Boundaries, levels: &[f64]) -> String {
             }
             table.push(cells);
         }
-        let table = sheet::markdown(&table);
+        let table = markdown(&table);
         tables.push(format!("{boundary} at which F_a(0) falls below {level} F_a,max:\n\n{table}"));
     }
     tables.join("\n").replace('*', "\\*")
 }
 
-fn csv(boundaries: &Boundaries) -> String {
+fn rows(boundaries: &Boundaries) -> String {
     let of_parameter = columns(boundaries.over);
     let mut heading = boundaries.others.clone();
     heading.extend(["protocol", "level"].map(String::from));
@@ -220,5 +220,18 @@ fn csv(boundaries: &Boundaries) -> String {
         row.extend(numbers.into_iter().map(|number| number.map_or_else(String::new, |n| n.to_string())));
         rows.push(row);
     }
-    sheet::csv(&rows)
+    csv(&rows)
+}
+
+/// Rows as comma-separated values.
+pub(super) fn csv<R: AsRef<[String]>>(rows: &[R]) -> String {
+    rows.iter().map(|row| row.as_ref().join(",") + "\n").collect()
+}
+
+/// Rows as a table of Markdown, the first one as its heading.
+pub(super) fn markdown<R: AsRef<[String]>>(rows: &[R]) -> String {
+    let mut lines: Vec<_> = rows.iter().map(|row| format!("| {} |\n", row.as_ref().join(" | "))).collect();
+    let columns = rows.first().map_or(0, |row| row.as_ref().len());
+    lines.insert(lines.len().min(1), format!("|{}\n", " --- |".repeat(columns)));
+    lines.concat()
 }

@@ -1,7 +1,7 @@
 //! `asperity sweep plot`: figures of a merged study.
 
-use crate::cli::{CliError, Format, OutputArguments};
-use crate::export::study_figure;
+use crate::cli::{CliError, OutputArguments};
+use crate::export::{Format, study_figure};
 use crate::study::figure::AxisScale;
 use crate::study::{Finished, Selection};
 use clap::{Args, ValueEnum};

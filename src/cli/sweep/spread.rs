@@ -1,17 +1,18 @@
 //! `asperity sweep boundary --spread`: the spread of the boundaries of a study.
 
-use crate::cli::{CliError, Format};
-use crate::export::sheet::{Sheet, csv, markdown};
+use super::boundary::{csv, markdown};
+use crate::cli::CliError;
+use crate::export::sheet::Sheet;
 use crate::io::write_json_value;
 use crate::study::{Boundaries, BoundarySpread, protocol_name};
 use serde_json::{Map, Value, json};
 use std::io::Write;
 
 /// Writes the spread of the same boundaries in several parameters.
-pub(super) fn write(stdout: &mut dyn Write, found: &[Boundaries], format: Format) -> Result<(), CliError> {
+pub(super) fn write(stdout: &mut dyn Write, found: &[Boundaries], format: &str) -> Result<(), CliError> {
     let lines = found.first().map_or(0, |boundaries| boundaries.lines);
     match format {
-        Format::Text => {
+        "text" => {
             let mut sheet = Sheet::default();
             sheet.table(&table(found));
             sheet.paragraph(&format!(
@@ -20,8 +21,8 @@ pub(super) fn write(stdout: &mut dyn Write, found: &[Boundaries], format: Format
             ));
             stdout.write_all(sheet.into_text().as_bytes())?;
         }
-        Format::Json => write_json_value(stdout, &objects(found))?,
-        Format::Csv => stdout.write_all(csv(&table(found)).as_bytes())?,
+        "json" => write_json_value(stdout, &objects(found))?,
+        "csv" => stdout.write_all(csv(&table(found)).as_bytes())?,
         _ => stdout.write_all(markdown(&table(found)).replace('*', "\\*").as_bytes())?,
     }
     Ok(())

@@ -5,6 +5,7 @@ use crate::explorer::action::{Content, WriteFailure, Written};
 use crate::explorer::mode::{Mode, SaveForm};
 use crate::explorer::model::{Model, Writing};
 use crate::explorer::text_line::TextLine;
+use crate::export::check_extension;
 use crate::scene::{Document, command_line, ron_string, typed_path};
 use crate::text::is_control;
 use std::path::{Path, PathBuf};
@@ -61,7 +62,7 @@ pub fn ask_export(model: &mut Model) {
     model.mode = Mode::Export(TextLine::new(&format!("{stem}.csv")));
 }
 
-/// Exports to a file; the ending of its name selects the content.
+/// Exports to a file; the extension of its name selects the content.
 pub fn export(model: &mut Model, path: PathBuf) -> Vec<Effect> {
     if path.as_os_str().is_empty() {
         return Vec::new();
@@ -78,12 +79,20 @@ pub fn export(model: &mut Model, path: PathBuf) -> Vec<Effect> {
 
 /// Content for an exported file; or why there is none.
 fn content_for(model: &Model, path: &Path) -> Result<Content, String> {
-    let (exports, is_map) = (model.exports(), model.exports() == Content::MAP_EXPORTS);
-    let Some(content) = Content::of_file(exports, path) else {
-        let what = if is_map { "the map" } else { "the curve" };
-        let endings: Vec<String> = exports.iter().map(|(ending, _)| format!(".{ending}")).collect();
-        let (path, endings) = (path.display(), endings.join(", "));
-        return Err(format!("{path}: the name must end in {endings}, to export {what}"));
+    let exports = model.exports();
+    let extensions: Vec<_> = exports.iter().map(|(format, _)| format.extension()).collect();
+    let content = match check_extension(path, &extensions) {
+        Ok(Some(place)) => exports[place].1,
+        Ok(None) => {
+            let extensions: Vec<String> =
+                extensions.iter().map(|extension| format!(".{extension}")).collect();
+            let path = path.display();
+            return Err(format!(
+                "{path}: the extension chooses the format; use one of {}",
+                extensions.join(", ")
+            ));
+        }
+        Err(error) => return Err(error.to_string()),
     };
     match content {
         Content::MapCells if model.chart.map_model().is_none() => {
@@ -92,9 +101,7 @@ fn content_for(model: &Model, path: &Path) -> Result<Content, String> {
         Content::Figure(_) if model.figure().is_none() => {
             Err("the selected pane is empty; there is no figure to export".to_owned())
         }
-        Content::Curve(_) | Content::Outcome if !model.is_current() => {
-            Err("the scene has no curve yet to export".to_owned())
-        }
+        Content::Outcome(_) if !model.is_current() => Err("the scene has no curve yet to export".to_owned()),
         content => Ok(content),
     }
 }

@@ -58,8 +58,9 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         (Mode::Export(line), _) => {
             let exports = model.exports();
             let what = if exports == Content::MAP_EXPORTS { "Export the map" } else { "Export" };
-            let endings: Vec<String> = exports.iter().map(|(ending, _)| format!(".{ending}")).collect();
-            prompted(&format!("{what} to ({}): ", endings.join(" ")), line)
+            let extensions: Vec<String> =
+                exports.iter().map(|(format, _)| format!(".{}", format.extension())).collect();
+            prompted(&format!("{what} to ({}): ", extensions.join(" ")), line)
         }
         (Mode::Force(line), _) => prompted("Go to the force: ", line),
         (Mode::Tolerance(line), _) if area.width < 60 => prompted("Tolerance: ", line),

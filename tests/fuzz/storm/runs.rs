@@ -2,7 +2,7 @@
 
 use super::*;
 use asperity::contact::{ContactError, CurvePoint, Direction, LegRecord};
-use asperity::export::{Provenance, TableFormat, write_curve};
+use asperity::export::{Report, RunReport};
 use asperity::scene::{Move, Roughness};
 use asperity::simulation::{Outcome, RunError, Simulation};
 use asperity::surface::SurfaceError;
@@ -30,7 +30,7 @@ fn compute(document: &Document, folder: &std::path::Path) -> Result<(), TestCase
                 assert_leg(leg, &before, &outcome)?;
             }
             assert_energy(&outcome)?;
-            assert_written(&outcome)
+            assert_written(scene, &outcome)
         }
         Err(error) => assert_refused(&error, scene),
     }
@@ -159,10 +159,12 @@ fn assert_energy(outcome: &Outcome) -> Result<(), TestCaseError> {
 }
 
 /// The written curve reads back bit for bit.
-fn assert_written(outcome: &Outcome) -> Result<(), TestCaseError> {
+fn assert_written(scene: &Scene, outcome: &Outcome) -> Result<(), TestCaseError> {
     let mut table = Vec::new();
-    let provenance = Provenance::of_files("asperity run drawn", &[]);
-    write_curve(&mut table, TableFormat::Csv, &provenance, outcome)
+    let report = RunReport { title: "", scene, outcome, choice: None, estimate: None };
+    let curve = report.table().ok_or_else(|| TestCaseError::fail("no table"))?;
+    curve
+        .write_csv(&mut table, "asperity run drawn")
         .map_err(|error| TestCaseError::fail(error.to_string()))?;
     let table = String::from_utf8_lossy(&table);
     let read = table.lines().filter(|row| !row.starts_with('#')).skip(1).map(|row| {
