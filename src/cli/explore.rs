@@ -73,7 +73,7 @@ pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Resu
     let drafts = explorer::drafts::folder();
     let restored = if arguments.restore { Some(restored(drafts.as_deref())?) } else { None };
     let first = restored.as_ref().and_then(|restored| restored.documents.first().cloned());
-    let config = config(arguments)?;
+    let (config, warning) = config(arguments)?;
     let scene = config.scene.as_deref();
     let opening = first.map_or_else(|| opening(arguments, scene), |document| Ok(document.into()))?;
     if !stdin().is_terminal() || !stdout().is_terminal() {
@@ -89,7 +89,7 @@ pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Resu
             }
         }));
     }
-    open(opening, Options { restored, config, drafts, ..arguments.look.options() }, out)
+    open(opening, Options { restored, config, warning, drafts, ..arguments.look.options() }, out)
 }
 
 /// Error of the explorer itself.
@@ -123,12 +123,16 @@ fn restored(folder: Option<&Path>) -> Result<Restored, CliError> {
     found.ok_or_else(none)
 }
 
-/// The configuration file of the arguments, or that of the user.
-fn config(arguments: &ExploreArguments) -> Result<Config, CliError> {
+/// The configuration file of the arguments, or that of the user: if that one is wrong, the explorer opens with the
+/// defaults and this warning.
+fn config(arguments: &ExploreArguments) -> Result<(Config, Option<String>), CliError> {
     match (&arguments.config, default_path()) {
-        (Some(path), _) => Ok(Config::read(path, true)?),
-        (None, Some(path)) if !arguments.no_config => Ok(Config::read(&path, false)?),
-        _ => Ok(Config::default()),
+        (Some(path), _) => Ok((Config::read(path, true)?, None)),
+        (None, Some(path)) if !arguments.no_config => Ok(match Config::read(&path, false) {
+            Ok(config) => (config, None),
+            Err(error) => (Config::default(), Some(format!("{error}; defaults are used"))),
+        }),
+        _ => Ok((Config::default(), None)),
     }
 }
 

@@ -8,7 +8,7 @@ use crate::io::write_new;
 use crate::scene::{
     Adhesion, Document, Material, Move, Numerics, Roughness, SCENE_VERSIONS, Scene, parse_quantity,
 };
-use crate::simulation::measured_roughness_options;
+use crate::simulation::{equivalent_springs, measured_roughness_options};
 use crate::spectrum::{Detrend, Options, analyse};
 use crate::study::MeasuredAdhesion;
 use crate::surface::{EquivalentLine, MeasuredOptions};
@@ -233,7 +233,7 @@ impl SurfaceArguments {
             roughness: Some(roughness),
             adhesion: self.work.map(|work| Adhesion::default().with_work(work)),
             loading: vec![self.preload.map_or(Move::ToZeroForce, Move::ToForce), Move::ToSeparation],
-            numerics: Numerics { points: line.springs(length), ..Numerics::default() },
+            numerics: Numerics { points: equivalent_springs(line, length), ..Numerics::default() },
             observe: Vec::new(),
         }
     }

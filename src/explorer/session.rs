@@ -61,6 +61,8 @@ pub struct Options {
     pub restored: Option<Restored>,
     /// Configuration; options here have precedence.
     pub config: Config,
+    /// Message that is shown at the start.
+    pub warning: Option<String>,
     /// Folder in which unsaved changes are kept; `None`: nowhere.
     pub drafts: Option<PathBuf>,
 }
@@ -164,6 +166,9 @@ pub fn open_with(
         model.show_study(study_map);
     }
     model.configure(options.config);
+    if let Some(warning) = options.warning {
+        model.set_error(warning);
+    }
     if let Some(restored) = &options.restored {
         model.restore(&restored.documents);
     }

@@ -2,7 +2,7 @@
 
 use super::report::{Json, Report};
 use super::sheet::Sheet;
-use super::table::{Kind, Table, Value};
+use super::table::{Kind, Table};
 use super::work_precision::work_precision;
 use crate::accuracy::{CostTable, ErrorFigure, Knob, QUANTITIES, Row};
 use crate::draw::Figure;
@@ -45,46 +45,35 @@ impl Report for CostReport<'_> {
 
     /// Times in s, errors relative.
     fn table(&self) -> Option<Table<'_>> {
-        let times = ["setting", "springs", "minimum_seconds", "median_seconds", "transforms"];
-        let mut columns = vec![("knob".to_owned(), Kind::Text("sub-cell-springs".len()))];
-        columns.extend(
-            times.map(|name| (name.to_owned(), if name == "springs" { Kind::Whole } else { Kind::Real })),
-        );
-        for name in QUANTITIES {
-            let parts =
-                [("error", Kind::Real), ("resolved", Kind::Text("false".len())), ("order", Kind::Real)];
-            columns.extend(parts.map(|(part, kind)| (format!("{name}_{part}"), kind)));
+        let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
+        let mut table = Table::of(|| self.table.rows.iter())
+            .with("knob", Kind::Text("sub-cell-springs".len()), |row| match row.knob {
+                Knob::SubCellSprings => "sub-cell-springs",
+                Knob::GridSprings => "grid-springs",
+                Knob::Step => "step",
+            })
+            .real("setting", |row| row.setting)
+            .whole("springs", |row| row.springs)
+            .real("minimum_seconds", move |row| finite(row.seconds.map(|time| time.minimum)))
+            .real("median_seconds", move |row| finite(row.seconds.map(|time| time.median)))
+            .real("transforms", move |row| finite(row.transforms));
+        for (index, name) in QUANTITIES.into_iter().enumerate() {
+            let error = move |row: &&Row| row.errors[index];
+            table = table
+                .with(format!("{name}_error"), Kind::Real, move |row| finite(error(row).map(|one| one.error)))
+                .with(format!("{name}_resolved"), Kind::Text("false".len()), move |row| {
+                    error(row).map_or("", |one| if one.resolved { "true" } else { "false" })
+                })
+                .with(format!("{name}_order"), Kind::Real, move |row| {
+                    finite(error(row).and_then(|one| one.order))
+                });
         }
-        Some(Table::new(columns, || self.table.rows.iter().map(values)))
+        Some(table.done())
     }
 
     fn figure(&self) -> Option<Figure> {
         Some(work_precision(self.title, self.table))
     }
-}
-
-/// A row of the table.
-fn values(row: &Row) -> Vec<Value<'_>> {
-    let finite = |value: Option<f64>| Value::from(value.filter(|value| value.is_finite()));
-    let knob = match row.knob {
-        Knob::SubCellSprings => "sub-cell-springs",
-        Knob::GridSprings => "grid-springs",
-        Knob::Step => "step",
-    };
-    let mut values = vec![
-        knob.into(),
-        row.setting.into(),
-        row.springs.into(),
-        finite(row.seconds.map(|time| time.minimum)),
-        finite(row.seconds.map(|time| time.median)),
-        finite(row.transforms),
-    ];
-    for figure in row.errors {
-        values.push(finite(figure.map(|figure| figure.error)));
-        values.push(figure.map_or("", |figure| if figure.resolved { "true" } else { "false" }).into());
-        values.push(finite(figure.and_then(|figure| figure.order)));
-    }
-    values
 }
 
 /// The answer first, omitted settings last.

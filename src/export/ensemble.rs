@@ -40,32 +40,19 @@ impl Report for LinesReport<'_> {
     }
 
     fn table(&self) -> Option<Table<'_>> {
-        let columns = [
-            ("seed", Kind::Whole),
-            ("adhesion_force", Kind::Real),
-            ("preload_indentation", Kind::Real),
-            ("dissipated_energy", Kind::Real),
-            ("contact_fraction", Kind::Real),
-            ("regime", Kind::Text("pressure-insensitive".len())),
-            ("skewness", Kind::Real),
-            ("excess_kurtosis", Kind::Real),
-            ("tabor_number", Kind::Real),
-        ];
-        Some(Table::new(columns, || {
-            self.lines.iter().map(|line| {
-                vec![
-                    line.seed.into(),
-                    line.adhesion_force.into(),
-                    line.preload_indentation.into(),
-                    line.dissipated_energy.into(),
-                    line.contact_fraction.into(),
-                    line.regime.map_or("", Regime::name).into(),
-                    line.heights.map(|shape| shape.skewness).into(),
-                    line.heights.map(|shape| shape.excess_kurtosis).into(),
-                    line.tabor_number.into(),
-                ]
+        let table = Table::of(|| self.lines.iter())
+            .whole("seed", |line| line.seed)
+            .real("adhesion_force", |line| line.adhesion_force)
+            .real("preload_indentation", |line| line.preload_indentation)
+            .real("dissipated_energy", |line| line.dissipated_energy)
+            .real("contact_fraction", |line| line.contact_fraction)
+            .with("regime", Kind::Text("pressure-insensitive".len()), |line| {
+                line.regime.map_or("", Regime::name)
             })
-        }))
+            .real("skewness", |line| line.heights.map(|shape| shape.skewness))
+            .real("excess_kurtosis", |line| line.heights.map(|shape| shape.excess_kurtosis))
+            .real("tabor_number", |line| line.tabor_number);
+        Some(table.done())
     }
 }
 

@@ -2,9 +2,9 @@
 
 use super::report::{Json, Report};
 use super::sheet::{Sheet, thinned};
-use super::table::{Kind, Table};
+use super::table::Table;
 use crate::accuracy::Choice;
-use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Span, Stroke};
+use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use crate::io::object;
 use crate::scene::{Scene, format_quantity};
 use crate::study::{Preloaded, Statistics, preload_statistics};
@@ -12,6 +12,8 @@ use crate::text::grouped;
 
 /// Most rows of the table.
 const MOST_ROWS: usize = 32;
+/// Most preloads that are drawn as single signs.
+const MOST_SIGNS: usize = 128;
 
 /// Results for the same preloads on one or more profiles.
 #[derive(Clone, Debug)]
@@ -93,29 +95,21 @@ impl Report for PreloadReport<'_> {
 
     /// One row for each preload of each profile, beginning with the seed if profiles have one.
     fn table(&self) -> Option<Table<'_>> {
-        let has_seeds = !self.seeds.contains(&None);
-        let columns = [
-            ("seed", Kind::Whole),
-            ("preload", Kind::Real),
-            ("preload_indentation", Kind::Real),
-            ("adhesion_force", Kind::Real),
-            ("pull_off_indentation", Kind::Real),
-            ("dissipated_energy", Kind::Real),
-        ];
-        Some(Table::new(columns.into_iter().skip(usize::from(!has_seeds)), || {
-            self.seeds.iter().zip(&self.lines).flat_map(|(seed, line)| {
-                line.iter().map(|one| {
-                    let values = [
-                        one.preload.into(),
-                        one.preload_indentation.into(),
-                        one.adhesion_force.into(),
-                        one.pull_off_indentation.into(),
-                        one.dissipated_energy.into(),
-                    ];
-                    seed.map(Into::into).into_iter().chain(values).collect()
-                })
-            })
-        }))
+        let rows = || {
+            let lines = self.seeds.iter().zip(&self.lines);
+            lines.flat_map(|(seed, line)| line.iter().map(|one| (seed.unwrap_or(0), one)))
+        };
+        let mut table = Table::of(rows);
+        if !self.seeds.contains(&None) {
+            table = table.whole("seed", |(seed, _)| *seed);
+        }
+        let table = table
+            .real("preload", |(_, one)| one.preload)
+            .real("preload_indentation", |(_, one)| one.preload_indentation)
+            .real("adhesion_force", |(_, one)| one.adhesion_force)
+            .real("pull_off_indentation", |(_, one)| one.pull_off_indentation)
+            .real("dissipated_energy", |(_, one)| one.dissipated_energy);
+        Some(table.done())
     }
 
     /// The adhesion force over the preload: of the first profile, and the mean with its 95 % confidence.
@@ -159,8 +153,13 @@ pub fn preload_layers(one: &[Preloaded], statistics: &[Option<Statistics>]) -> V
         let points = mean.iter().map(|&(preload, of)| (preload, of.mean)).collect();
         layers.push(Layer::new(name, Ink::Kept, Shape::line(points, Stroke::Dashed)));
     }
-    let points = one.iter().map(|one| (one.preload, one.adhesion_force.unwrap_or(0.0))).collect();
-    layers.push(Layer::new("this profile".into(), Ink::Unloading, Shape::line(points, Stroke::Solid)));
+    let points: Vec<_> = one.iter().map(|one| (one.preload, one.adhesion_force.unwrap_or(0.0))).collect();
+    // The force of one profile is a staircase, whose steps lie anywhere between two preloads.
+    let shape = match points.len() {
+        0..=MOST_SIGNS => Shape::signs(points, Sign::Dot),
+        _ => Shape::line(points, Stroke::Solid),
+    };
+    layers.push(Layer::new("this profile".into(), Ink::Unloading, shape));
     layers
 }
 

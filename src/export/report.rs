@@ -136,7 +136,7 @@ impl Format {
     /// The format of a file by its extension; without an extension, or a file, the chosen format or the usual one.
     ///
     /// # Errors
-    /// [`FormatError`] for a format that is not one of `formats`, or an extension that contradicts the chosen one.
+    /// For a format that is not one of `formats`, or an extension that contradicts the chosen one.
     pub fn of_file(
         file: Option<&Path>,
         chosen: Option<Format>,
@@ -144,18 +144,22 @@ impl Format {
         usual: Format,
     ) -> Result<Format, FormatError> {
         if let Some(format) = chosen.filter(|chosen| !formats.contains(chosen)) {
-            let allowed = alternatives(formats.iter().map(|format| format.name().to_owned()));
-            return Err(FormatError::Unsuited { format: format.name(), allowed });
+            let (format, allowed) =
+                (format.name(), alternatives("", formats.iter().map(|format| format.name())));
+            return Err(FormatError(format!(
+                "--format {format}: this result has no such format; use {allowed}"
+            )));
         }
         let extensions: Vec<_> = formats.iter().map(|format| format.extension()).collect();
         let place = file.map_or(Ok(None), |file| check_extension(file, &extensions))?;
         match (file, place.map(|place| formats[place]), chosen) {
             (Some(file), Some(of_extension), Some(chosen)) if of_extension != chosen => {
-                Err(FormatError::Contradiction {
-                    file: path_name(file),
-                    format: chosen.name(),
-                    extension: chosen.extension(),
-                })
+                Err(FormatError(format!(
+                    "{}: the extension contradicts --format {}; use .{}, or leave out --format",
+                    path_name(file),
+                    chosen.name(),
+                    chosen.extension()
+                )))
             }
             (_, of_extension, chosen) => Ok(of_extension.or(chosen).unwrap_or(usual)),
         }
@@ -165,60 +169,32 @@ impl Format {
 /// The place of a file's extension in a list; `None` for a name without an extension.
 ///
 /// # Errors
-/// [`FormatError::Extension`] for an extension that is not in the list.
+/// For an extension that is not in the list.
 pub fn check_extension(file: &Path, allowed: &[&str]) -> Result<Option<usize>, FormatError> {
     let Some(extension) = file.extension().map(|extension| extension.to_string_lossy()) else {
         return Ok(None);
     };
     let place = allowed.iter().position(|one| extension.eq_ignore_ascii_case(one));
-    place.map(Some).ok_or_else(|| FormatError::Extension {
-        file: path_name(file),
-        extension: printable(&extension).into_owned(),
-        allowed: alternatives(allowed.iter().map(|extension| format!(".{extension}"))),
+    place.map(Some).ok_or_else(|| {
+        let (file, extension) = (path_name(file), printable(&extension));
+        let allowed = alternatives(".", allowed.iter().copied());
+        FormatError(format!("{file}: unsupported file extension .{extension}; use {allowed}"))
     })
 }
 
 /// A list such as `.txt, .json or .csv`.
-fn alternatives(words: impl Iterator<Item = String>) -> String {
-    let words: Vec<String> = words.collect();
+fn alternatives<'a>(before: &str, words: impl Iterator<Item = &'a str>) -> String {
+    let words: Vec<String> = words.map(|word| format!("{before}{word}")).collect();
     match words.split_last() {
         Some((last, others)) if !others.is_empty() => format!("{} or {last}", others.join(", ")),
         _ => words.concat(),
     }
 }
 
-/// A format, or a file name, in which a result is not written.
+/// A format, or the extension of a file, in which a result is not written.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub enum FormatError {
-    /// The extension belongs to none of the formats.
-    #[error("{file}: unsupported file extension .{extension}; use {allowed}")]
-    Extension {
-        /// The file.
-        file: String,
-        /// Its extension.
-        extension: String,
-        /// The extensions of the formats.
-        allowed: String,
-    },
-    /// The extension belongs to another format than the chosen one.
-    #[error("{file}: the extension contradicts --format {format}; use .{extension}, or leave out --format")]
-    Contradiction {
-        /// The file.
-        file: String,
-        /// Name of the chosen format.
-        format: &'static str,
-        /// Extension of the chosen format.
-        extension: &'static str,
-    },
-    /// The chosen format is not one of this result.
-    #[error("--format {format}: this result has no such format; use {allowed}")]
-    Unsuited {
-        /// Name of the chosen format.
-        format: &'static str,
-        /// Names of the formats.
-        allowed: String,
-    },
-}
+#[error("{0}")]
+pub struct FormatError(String);
 
 #[cfg(test)]
 mod tests {

@@ -3,7 +3,7 @@
 use super::preloads::{preload_axes, preload_layers, unloadings};
 use super::report::{Json, Report};
 use super::sheet::{Sheet, thinned};
-use super::table::{Kind, Table};
+use super::table::Table;
 use crate::analysis::{MinorLoops, ReversalMap};
 use crate::draw::{Axis, AxisScale, Chart, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Span};
 use crate::io::object;
@@ -130,40 +130,29 @@ impl Report for ReversalReport<'_> {
 
 /// One row for each turning point.
 fn turning_points(map: &ReversalMap) -> Table<'_> {
-    let columns = [
-        "turning_indentation",
-        "turning_force",
-        "adhesion_force",
-        "pull_off_indentation",
-        "separation",
-        "dissipated_energy",
-    ];
-    Table::new(columns.map(|name| (name, Kind::Real)), || {
-        map.reversals.iter().map(|reversal| {
-            vec![
-                reversal.turn.indentation.into(),
-                reversal.turn.force.into(),
-                reversal.adhesion_force().into(),
-                reversal.smallest.indentation.into(),
-                reversal.separation.into(),
-                reversal.dissipated_energy.into(),
-            ]
-        })
-    })
+    Table::of(|| map.reversals.iter())
+        .real("turning_indentation", |one| one.turn.indentation)
+        .real("turning_force", |one| one.turn.force)
+        .real("adhesion_force", |one| one.adhesion_force())
+        .real("pull_off_indentation", |one| one.smallest.indentation)
+        .real("separation", |one| one.separation)
+        .real("dissipated_energy", |one| one.dissipated_energy)
+        .done()
 }
 
 /// One row for each turning point and each indentation up to that point.
 fn points(map: &ReversalMap, smoothing: usize) -> Table<'_> {
-    let columns = ["turning_indentation", "indentation", "force", "everett", "density"];
-    Table::new(columns.map(|name| (name, Kind::Real)), move || {
-        map.turns().iter().enumerate().flat_map(move |(turn, &at)| {
-            map.points[..=map.below + turn].iter().enumerate().map(move |(point, &indentation)| {
-                let density = map.density(turn, point, smoothing);
-                let (force, everett) = (map.force(turn, point), map.everett(turn, point));
-                vec![at.into(), indentation.into(), force.into(), everett.into(), density.into()]
-            })
-        })
-    })
+    let points = || {
+        let turns = 0..map.turns().len();
+        turns.flat_map(|turn| (0..=map.below + turn).map(move |point| (turn, point)))
+    };
+    Table::of(points)
+        .real("turning_indentation", |&(turn, _)| map.turns()[turn])
+        .real("indentation", |&(_, point)| map.points[point])
+        .real("force", |&(turn, point)| map.force(turn, point))
+        .real("everett", |&(turn, point)| map.everett(turn, point))
+        .real("density", move |&(turn, point)| map.density(turn, point, smoothing))
+        .done()
 }
 
 fn map_chart(

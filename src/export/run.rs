@@ -3,7 +3,7 @@
 use super::report::{Json, Report};
 use super::scene_figure::force_figure;
 use super::summary::summary;
-use super::table::{Kind, Table};
+use super::table::Table;
 use crate::accuracy::{Choice, Estimate};
 use crate::draw::Figure;
 use crate::io::object;
@@ -90,39 +90,24 @@ impl Report for RunReport<'_> {
 
 /// The force curve in SI units, with the numbers of the loading stages from 0.
 fn curve(outcome: &Outcome) -> Table<'_> {
-    let columns = [
-        ("leg", Kind::Whole),
-        ("indentation", Kind::Real),
-        ("force", Kind::Real),
-        ("contact_length", Kind::Real),
-        ("fragments", Kind::Whole),
-        ("stored_energy", Kind::Real),
-    ];
-    Table::new(columns, || {
+    let points = || {
         let legs = outcome.history.legs.iter().zip(0_u64..);
-        legs.flat_map(|(leg, number)| {
-            leg.curve.iter().map(move |point| {
-                let (d, force, length) = (point.indentation, point.force, point.contact_length);
-                let energy = point.stored_energy;
-                vec![
-                    number.into(),
-                    d.into(),
-                    force.into(),
-                    length.into(),
-                    point.fragments.into(),
-                    energy.into(),
-                ]
-            })
-        })
-    })
+        legs.flat_map(|(leg, number)| leg.curve.iter().map(move |point| (number, point)))
+    };
+    Table::of(points)
+        .whole("leg", |(number, _)| *number)
+        .real("indentation", |(_, point)| point.indentation)
+        .real("force", |(_, point)| point.force)
+        .real("contact_length", |(_, point)| point.contact_length)
+        .whole("fragments", |(_, point)| point.fragments)
+        .real("stored_energy", |(_, point)| point.stored_energy)
+        .done()
 }
 
 /// Position x and height z of every spring under the body, m.
 impl Report for Line {
     fn table(&self) -> Option<Table<'_>> {
-        let columns = [("x", Kind::Real), ("z", Kind::Real)];
-        Some(Table::new(columns, || {
-            self.heights().enumerate().map(|(index, height)| vec![self.position(index).into(), height.into()])
-        }))
+        let points = || self.heights().enumerate().map(|(index, height)| (self.position(index), height));
+        Some(Table::of(points).real("x", |point| point.0).real("z", |point| point.1).done())
     }
 }

@@ -4,7 +4,7 @@ use super::ensemble::profiles_text;
 use super::report::{Json, Report};
 use super::sheet::Sheet;
 use super::spectrum_figure::{Spectra, spectrum_name, wave_numbers};
-use super::table::{Kind, Table, Value};
+use super::table::{Kind, Table};
 use crate::draw::Figure;
 use crate::io::object;
 use crate::scene::{Move, Scene, format_quantity, format_rounded};
@@ -165,29 +165,21 @@ impl Report for SurfaceReport {
 
     /// Spectra: kind, wave number in rad/m, power in m³, waves averaged (if any).
     fn table(&self) -> Option<Table<'_>> {
-        let spectra = || {
+        let names = || {
             self.faces.iter().enumerate().flat_map(|(face, MeasuredFace { analysis, .. })| {
-                let named = move |(direction, bins)| (spectrum_name(face, direction), bins);
-                analysis.spectra.iter().map(|(direction, bins)| (*direction, bins)).map(named)
+                analysis.spectra.iter().map(move |(direction, bins)| (spectrum_name(face, *direction), bins))
             })
         };
-        let longest = spectra().map(|(name, _)| name.chars().count()).fold(LINE.len(), usize::max);
-        let columns = [
-            ("spectrum", Kind::Text(longest)),
-            ("wave_number", Kind::Real),
-            ("power", Kind::Real),
-            ("waves", Kind::Real),
-        ];
-        Some(Table::new(columns, move || {
-            let row = |(name, bin): (&'static str, &Bin)| {
-                vec![name.into(), bin.wave_number.into(), bin.power.into(), bin.waves.into()]
-            };
-            let measured =
-                spectra().flat_map(move |(name, bins)| bins.iter().map(move |bin| row((name, bin))));
+        let longest = names().map(|(name, _)| name.chars().count()).fold(LINE.len(), usize::max);
+        let rows = move || {
+            let row = |name, bin: &Bin| (name, bin.wave_number, bin.power, Some(bin.waves));
+            let measured = names().flat_map(move |(name, bins)| bins.iter().map(move |bin| row(name, bin)));
             let line = wave_numbers(self.line.range(), LINE_PER_DECADE);
-            measured
-                .chain(line.map(|q| vec![LINE.into(), q.into(), self.line.power(q).into(), Value::Missing]))
-        }))
+            measured.chain(line.map(|q| (LINE, q, self.line.power(q), None)))
+        };
+        let table = Table::of(rows).with("spectrum", Kind::Text(longest), |row| row.0);
+        let table = table.real("wave_number", |row| row.1).real("power", |row| row.2);
+        Some(table.real("waves", |row| row.3).done())
     }
 
     fn figure(&self) -> Option<Figure> {

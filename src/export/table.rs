@@ -7,6 +7,7 @@ use crate::io::npy;
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
 use std::borrow::Cow;
 use std::io::{self, Write};
+use std::rc::Rc;
 
 /// Values of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,26 +57,69 @@ impl<'a, T: Into<Value<'a>>> From<Option<T>> for Value<'a> {
     }
 }
 
-/// Values of one row, in the order of the columns.
-pub type Row<'a> = Vec<Value<'a>>;
+/// Value of a row in a column.
+type Of<'a, T> = Box<dyn Fn(&T) -> Value<'a> + 'a>;
+type Rows<'a, T> = Box<dyn Fn() -> Box<dyn Iterator<Item = T> + 'a> + 'a>;
 
 /// Named columns, and rows that are made one by one while they are written.
 pub struct Table<'a> {
     columns: Vec<(Cow<'static, str>, Kind)>,
-    rows: Box<dyn Fn() -> Box<dyn Iterator<Item = Row<'a>> + 'a> + 'a>,
+    rows: Rows<'a, Vec<Value<'a>>>,
+}
+
+/// A table in the making: the rows, and the columns so far with their values of a row.
+pub struct TableOf<'a, T> {
+    rows: Rows<'a, T>,
+    columns: Vec<(Cow<'static, str>, Kind)>,
+    values: Vec<Of<'a, T>>,
 }
 
 impl<'a> Table<'a> {
-    /// A table with these columns and rows.
-    pub fn new<N, I>(columns: impl IntoIterator<Item = (N, Kind)>, rows: impl Fn() -> I + 'a) -> Table<'a>
-    where
-        N: Into<Cow<'static, str>>,
-        I: Iterator<Item = Row<'a>> + 'a,
-    {
-        let columns = columns.into_iter().map(|(name, kind)| (name.into(), kind)).collect();
-        Table { columns, rows: Box::new(move || Box::new(rows())) }
+    /// Begins a table with its rows.
+    pub fn of<T, I: Iterator<Item = T> + 'a>(rows: impl Fn() -> I + 'a) -> TableOf<'a, T> {
+        TableOf { rows: Box::new(move || Box::new(rows())), columns: Vec::new(), values: Vec::new() }
+    }
+}
+
+impl<'a, T: 'a> TableOf<'a, T> {
+    /// Adds a column.
+    #[must_use]
+    pub fn with<V: Into<Value<'a>>>(
+        mut self,
+        name: impl Into<Cow<'static, str>>,
+        kind: Kind,
+        value: impl Fn(&T) -> V + 'a,
+    ) -> Self {
+        self.columns.push((name.into(), kind));
+        self.values.push(Box::new(move |row| value(row).into()));
+        self
     }
 
+    /// Adds a column of double precision.
+    #[must_use]
+    pub fn real<V: Into<Value<'a>>>(self, name: &'static str, value: impl Fn(&T) -> V + 'a) -> Self {
+        self.with(name, Kind::Real, value)
+    }
+
+    /// Adds a column of integers from 0.
+    #[must_use]
+    pub fn whole(self, name: &'static str, value: impl Fn(&T) -> u64 + 'a) -> Self {
+        self.with(name, Kind::Whole, value)
+    }
+
+    /// The table.
+    #[must_use]
+    pub fn done(self) -> Table<'a> {
+        let (rows, values) = (self.rows, Rc::new(self.values));
+        let rows = move || -> Box<dyn Iterator<Item = Vec<Value<'a>>> + 'a> {
+            let values = Rc::clone(&values);
+            Box::new(rows().map(move |row| values.iter().map(|value| value(&row)).collect()))
+        };
+        Table { columns: self.columns, rows: Box::new(rows) }
+    }
+}
+
+impl Table<'_> {
     /// Writes comma-separated values after the provenance.
     ///
     /// # Errors
@@ -152,7 +196,7 @@ impl Serialize for Table<'_> {
     }
 }
 
-struct Object<'a, 'b>(&'b [(Cow<'static, str>, Kind)], Row<'a>);
+struct Object<'a, 'b>(&'b [(Cow<'static, str>, Kind)], Vec<Value<'a>>);
 
 impl Serialize for Object<'_, '_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -175,10 +219,9 @@ mod tests {
 
     #[test]
     fn columns_have_their_types_in_every_format() {
-        let columns = [("a", Kind::Real), ("b", Kind::Whole), ("c", Kind::Text(2))];
         let rows = || [(Some(0.1), 7, "é"), (None, 8, "y,")].into_iter();
-        let row = |(a, b, c): (Option<f64>, u64, &'static str)| vec![a.into(), b.into(), c.into()];
-        let table = Table::new(columns, || rows().map(row));
+        let table = Table::of(rows).real("a", |row| row.0).whole("b", |row| row.1);
+        let table = table.with("c", Kind::Text(2), |row| row.2).done();
         let objects = serde_json::to_string(&table).unwrap();
         assert_eq!(objects, r#"[{"a":0.1,"b":7,"c":"é"},{"a":null,"b":8,"c":"y,"}]"#);
         let mut csv = Vec::new();
@@ -198,8 +241,8 @@ mod tests {
         }
         assert_eq!(array[header..header + expected.len()], expected);
         assert_eq!(npy::appended_text(&array), Some("one"));
-        let long = Table::new([("c", Kind::Text(2))], || [vec![Value::from("xyz")]].into_iter());
-        assert!(long.write_npy(&mut Vec::new(), "").is_err());
+        let long = Table::of(|| ["xyz"].into_iter()).with("c", Kind::Text(2), |word| *word);
+        assert!(long.done().write_npy(&mut Vec::new(), "").is_err());
         assert_eq!(quoted("a\"b"), "\"a\"\"b\"");
     }
 }

@@ -30,7 +30,7 @@ impl QuantityError {
             unit if !has_prefixes(unit) => "0.7 or 1.0e-3".to_string(),
             unit => format!("1.0e-3, 2.5 m{unit} or 2.5k{unit}"),
         };
-        QuantityError(format!("{:?} is no number, such as {example}", shown(typed)))
+        QuantityError(format!("{:?} is not a number, such as {example}", shown(typed)))
     }
 
     fn wrong_unit(typed: &str, unit: &str) -> Self {
@@ -276,7 +276,7 @@ mod tests {
             ("1 N/m2", "J/m²", "N/m2 is no energy per area: J/m², mJ/m², N/m, mN/m"),
             ("5 %", "1", "% is no prefix of a number: k, M, G, Ki, Mi, Gi"),
             ("1k", "m^(1−n)", "k is not the unit m^(1−n)"),
-            ("ten", "N", "\"ten\" is no number, such as 1.0e-3, 2.5 mN or 2.5kN"),
+            ("ten", "N", "\"ten\" is not a number, such as 1.0e-3, 2.5 mN or 2.5kN"),
             ("1e400", "1", "1e400 is too large"),
         ] {
             assert_eq!(parse_quantity(text, unit).unwrap_err().to_string(), message);

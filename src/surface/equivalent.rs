@@ -1,7 +1,6 @@
 //! Measured surfaces as roughness: the profile itself, or its equivalent line with its own spectrum and random phases.
 
 use super::{Amplitude, MeasuredProfile, SurfaceError};
-use crate::scene::{MOST_POINTS, SPRINGS_PER_WAVE};
 use crate::spectrum::{Analysis, Detrend, IsotropicSpectrum, LineMoments, Options, analyse, line_moments};
 use crate::topography::{ReadOptions, content, parse};
 use std::f64::consts::TAU;
@@ -123,13 +122,6 @@ impl EquivalentLine {
     pub(crate) fn range(&self) -> [f64; 2] {
         let ranges = self.faces.iter().map(IsotropicSpectrum::range);
         ranges.fold([0.0, 0.0], |[first, last], [low, high]| [first.max(low), last.max(high)])
-    }
-
-    /// Springs, a power of two, on which a line of a length (m) has twice the fewest springs per shortest wave, from where on
-    /// both edge models agree.
-    pub(crate) fn springs(&self, length: f64) -> u64 {
-        let waves = length * self.range()[1] / TAU;
-        (((2 * SPRINGS_PER_WAVE) as f64 * waves) as u64).next_power_of_two().clamp(1024, MOST_POINTS)
     }
 
     /// First and last mode k, q = 2πk/L, of a line of a length (m) on so many springs: the waves of the spectrum

@@ -77,7 +77,7 @@ fn a_force_that_is_none_or_out_of_reach_is_stated() {
         let mut terminal = paused(program);
         terminal.send("F");
         answer(&mut terminal, "Go to the force: ", "ten");
-        terminal.wait_for("! \"ten\" is no number, such as");
+        terminal.wait_for("! \"ten\" is not a number, such as");
         terminal.send("F");
         answer(&mut terminal, "Go to the force: ", "5u");
         terminal

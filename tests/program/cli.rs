@@ -771,17 +771,17 @@ fn one_moment_of_a_demo_is_printed_or_drawn() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("screen.svg");
         let path = file.to_str().unwrap();
-        assert_eq!(done(&["demo", "jkr-sphere", "--at", "3", "--svg", path]), "");
+        assert_eq!(done(&["demo", "jkr-sphere", "--at", "3", "--picture", path]), "");
         let first = fs::read_to_string(&file).unwrap();
         assert!(first.contains("<svg") && first.trim_end().ends_with("</svg>"));
         assert!(first.contains("Force F(d)") && first.contains("Asperity: jkr-sphere"));
-        let message = failed(1, &["demo", "jkr-sphere", "--at", "3", "--svg", path]);
+        let message = failed(1, &["demo", "jkr-sphere", "--at", "3", "--picture", path]);
         assert!(message.contains("--force overwrites it"), "{message}");
-        done(&["demo", "jkr-sphere", "--at", "9", "--svg", path, "--force"]);
+        done(&["demo", "jkr-sphere", "--at", "9", "--picture", path, "--force"]);
         assert_ne!(fs::read_to_string(&file).unwrap(), first);
         let other = folder.path().join("screen.png");
         let stated = failed(1, &["demo", "jkr-sphere", "--at", "3", "--picture", other.to_str().unwrap()]);
-        assert!(stated.contains("allowed: .svg") && !other.exists(), "{stated}");
+        assert!(stated.contains("use .svg") && !other.exists(), "{stated}");
     });
 }
 
@@ -832,7 +832,7 @@ fn wrong_words_for_a_demo_are_refused() {
             &["--fps", "many"],
             &["--at", "-1"],
             &["--at", "inf"],
-            &["--svg", "a.svg"],
+            &["--picture", "a.svg"],
             &["--ascii", "--marker", "octant"],
             &["--cast", "a.cast", "--at", "3"],
             &["--theme", "blue"],
@@ -965,24 +965,36 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
     for (command, expected) in [
         (
             run(&["jkr-sphere"], &["--format", "json", "-o", &picture]),
-            "not an ending of what is written; allowed: .json",
+            "the extension contradicts --format json; use .json",
         ),
-        (run(&["jkr-sphere"], &["-o", &path("a.gif")]), "allowed: .txt, .json, .csv, .npy, .svg, .png"),
-        (run(&["jkr-sphere"], &["--profile", "-o", &other]), "only a picture shows --profile"),
-        (run(&["jkr-sphere", "kendall-punch"], &["-o", &other]), "only a picture shows several scenes"),
-        (run(&["jkr-sphere"], &["--lines", "2", "-o", &picture]), "--lines: a picture shows one profile"),
-        (["line", "jkr-sphere", "-o", &picture].join("\0"), "allowed: .csv, .npy"),
-        (["check", "--quick", "-o", &picture].join("\0"), "allowed: .txt, .json"),
-        (["cost", "jkr-sphere", "-o", &path("a.gif")].join("\0"), "allowed: .txt, .json, .csv, .svg, .png"),
-        (["cost", "jkr-sphere", "--picture", &other].join("\0"), "allowed: .svg, .png"),
-        (["compare", "jkr-sphere", "cone", "-o", &path("a.pdf")].join("\0"), "allowed: .txt, .svg, .png"),
+        (run(&["jkr-sphere"], &["-o", &path("a.gif")]), "use .txt, .json, .csv, .npy, .svg or .png"),
+        (
+            run(&["jkr-sphere"], &["--profile", "-o", &other]),
+            "unsupported file extension .json; use .svg or .png",
+        ),
+        (
+            run(&["jkr-sphere", "kendall-punch"], &["-o", &other]),
+            "unsupported file extension .json; use .svg or .png",
+        ),
+        (
+            run(&["jkr-sphere"], &["--lines", "2", "-o", &picture]),
+            "unsupported file extension .svg; use .txt, .json, .csv or .npy",
+        ),
+        (["line", "jkr-sphere", "-o", &picture].join("\0"), "use .csv or .npy"),
+        (["check", "--quick", "-o", &picture].join("\0"), "use .txt or .json"),
+        (
+            ["cost", "jkr-sphere", "-o", &path("a.gif")].join("\0"),
+            "use .txt, .json, .csv, .npy, .svg or .png",
+        ),
+        (["cost", "jkr-sphere", "--picture", &other].join("\0"), "use .svg or .png"),
+        (["compare", "jkr-sphere", "cone", "-o", &path("a.pdf")].join("\0"), "use .txt, .svg or .png"),
         (
             ["reversals", "jkr-sphere", "-o", &path("a.gif")].join("\0"),
-            "allowed: .txt, .json, .csv, .npy, .svg, .png",
+            "use .txt, .json, .csv, .npy, .svg or .png",
         ),
         (
             ["surface", "missing.csv", "-o", &path("a.gif")].join("\0"),
-            "allowed: .txt, .json, .csv, .npy, .svg",
+            "use .txt, .json, .csv, .npy, .svg or .png",
         ),
     ] {
         with(&command, &|arguments| {
@@ -1144,7 +1156,7 @@ fn reversals_are_printed_in_all_formats() {
         (2, &["--preloads", "0..1uN:8"], "--count"),
         (2, &["--preloads", "1uN"], "allowed"),
         (2, &["--smoothing", "0"], "1..=16"),
-        (1, &["--map", "--format", "json"], "--map: only a table"),
+        (1, &["--map", "--format", "json"], "use csv or npy"),
         (1, &["--set", "loading=[ToIndentation(-1e-9)]"], "allowed: a stage that presses"),
         (1, &["--set", "numerics.solver=Stepwise(step: 1e-9)"], "allowed: numerics.solver = Exact"),
     ] {

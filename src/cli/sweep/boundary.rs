@@ -1,6 +1,6 @@
 //! `asperity sweep boundary`: the boundary of vanishing zero-load adhesion.
 
-use super::spread;
+use super::{csv, markdown, spread};
 use crate::cli::CliError;
 use crate::export::sheet::Sheet;
 use crate::io::write_json_value;
@@ -221,17 +221,4 @@ fn rows(boundaries: &Boundaries) -> String {
         rows.push(row);
     }
     csv(&rows)
-}
-
-/// Rows as comma-separated values.
-pub(super) fn csv<R: AsRef<[String]>>(rows: &[R]) -> String {
-    rows.iter().map(|row| row.as_ref().join(",") + "\n").collect()
-}
-
-/// Rows as a table of Markdown, the first one as its heading.
-pub(super) fn markdown<R: AsRef<[String]>>(rows: &[R]) -> String {
-    let mut lines: Vec<_> = rows.iter().map(|row| format!("| {} |\n", row.as_ref().join(" | "))).collect();
-    let columns = rows.first().map_or(0, |row| row.as_ref().len());
-    lines.insert(lines.len().min(1), format!("|{}\n", " --- |".repeat(columns)));
-    lines.concat()
 }

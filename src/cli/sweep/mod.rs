@@ -79,3 +79,16 @@ pub(super) fn sweep(arguments: &SweepArguments, stdout: &mut dyn Write) -> Resul
         None => run::run(&arguments.run, stdout),
     }
 }
+
+/// Rows as comma-separated values.
+fn csv<R: AsRef<[String]>>(rows: &[R]) -> String {
+    rows.iter().map(|row| row.as_ref().join(",") + "\n").collect()
+}
+
+/// Rows as a table of Markdown, the first one as its heading.
+fn markdown<R: AsRef<[String]>>(rows: &[R]) -> String {
+    let mut lines: Vec<_> = rows.iter().map(|row| format!("| {} |\n", row.as_ref().join(" | "))).collect();
+    let columns = rows.first().map_or(0, |row| row.as_ref().len());
+    lines.insert(lines.len().min(1), format!("|{}\n", " --- |".repeat(columns)));
+    lines.concat()
+}

@@ -1,6 +1,6 @@
 //! `asperity sweep boundary --spread`: the spread of the boundaries of a study.
 
-use super::boundary::{csv, markdown};
+use super::{csv, markdown};
 use crate::cli::CliError;
 use crate::export::sheet::Sheet;
 use crate::io::write_json_value;

@@ -128,7 +128,7 @@ fn way_of_changing(parameter: &Parameter) -> String {
         (Setting::Switch(_), _) => "a switch: t changes it",
         (Setting::Heading, _) => "a group: Enter folds it",
         (_, Step::Choice) => "a choice: ← → change it",
-        _ => "no number: Enter types it",
+        _ => "not a number: Enter types it",
     };
     format!("{} is {way}", parameter.name())
 }
@@ -212,7 +212,7 @@ fn set_selected(model: &mut Model, written: &str) -> Vec<Effect> {
 fn with_selected(model: &Model, written: &str) -> Result<Document, String> {
     let parameter = model.parameter().ok_or("no parameter is selected")?;
     let document = &model.document;
-    let number = || written.parse::<f64>().map_err(|_| format!("{written} is no number"));
+    let number = || written.parse::<f64>().map_err(|_| format!("{written:?} is not a number"));
     let changed = match parameter.setting {
         Setting::Field | Setting::Switch(_) | Setting::Heading => document.set(&parameter.path, written),
         Setting::WorkOfAdhesion => document.with_work_of_adhesion(number()?),

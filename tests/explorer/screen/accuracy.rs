@@ -254,7 +254,7 @@ fn a_tolerance_out_of_reach_changes_nothing() {
         let (text, generation) = (driver.model.document.text().to_owned(), driver.model.generation);
         ask(&mut driver, "1e-6");
         assert!(matches!(driver.model.notice, Some(Notice::Error(_))));
-        let stated = "1e-4 % is out of reach: 4.0e-4 with 2 048 springs, edges SubCell";
+        let stated = "1e-6 is out of reach: 4.0e-4 with 2 048 springs, edges SubCell";
         assert!(driver.status().contains(stated), "{}", driver.status());
         for wrong in ["", "0", "2", "much", "-1 %"] {
             ask(&mut driver, wrong);

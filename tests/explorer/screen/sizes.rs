@@ -479,8 +479,8 @@ fn a_digit_on_a_choice_says_how_choices_are_changed() {
             for (path, expected) in [
                 ("adhesion", "adhesion is a choice: ← → change it"),
                 ("numerics.edges", "edges is a choice: ← → change it"),
-                ("material", "material is no number: Enter types it"),
-                ("loading", "loading is no number: Enter types it"),
+                ("material", "material is not a number: Enter types it"),
+                ("loading", "loading is not a number: Enter types it"),
                 ("numerics", "numerics is a group: Enter folds it"),
                 (&switch, &says_of_switch),
             ] {

@@ -331,7 +331,7 @@ fn the_spectra_of_both_faces_add() {
     };
     let alone = done(folder, &["surface", "map.txt", "--format", "csv"]);
     for kind in ["1D PSD along x", "q/π × 2D PSD"] {
-        assert_eq!(power(&table, &format!("opposite, {kind}")), power(&alone, kind));
+        assert_eq!(power(&table, &format!("\"opposite, {kind}\"")), power(&alone, kind));
         assert!(!power(&alone, kind).is_empty());
     }
     // The line begins at the first wave contained in both scans.
@@ -448,7 +448,7 @@ fn the_adhesion_force_has_the_spread_over_lines_beside_that_of_the_fit() {
         "16 profiles: median ",
         "(quartiles ",
         "fit ± ",
-        " of 16 lines",
+        " of 16 profiles",
     ] {
         assert!(summary.contains(words), "{words}: {summary}");
     }
