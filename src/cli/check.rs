@@ -12,13 +12,12 @@ use std::io::Write;
 const EXAMPLES: &str = "\
 Examples:
   asperity check                            All cases
-  asperity check --quick                    All but those that take seconds and much memory
-  asperity check sphere memory              Those with one of these words in their names
+  asperity check --quick                    All but those that take seconds and hundreds of megabytes
+  asperity check sphere memory              Cases with one of these words in their names
   asperity check --format json -o check.json
-  asperity check --exhaustive               The engine on every line of up to 8 springs
+  asperity check --exhaustive               The engine on every profile of up to 8 springs
 
-Each case has one error, a bound stated beforehand, and the kinds of evidence that it gives.
-Exit code 1 when a case fails.";
+Each case has one error and a bound that was stated beforehand. The exit code is 1 if a case fails.";
 
 /// Most gaps of the lines that are judged exhaustively.
 const MOST_GAPS: usize = 8;
@@ -33,7 +32,7 @@ pub struct CheckArguments {
     /// Leave out cases that take seconds and hundreds of megabytes
     #[arg(long)]
     pub quick: bool,
-    /// Instead judge the engine on every line of up to 8 springs
+    /// Check the engine on every profile of up to 8 springs instead
     #[arg(long, conflicts_with_all = ["words", "quick", "format"])]
     pub exhaustive: bool,
     /// text or json; default: by the extension of FILE, else text

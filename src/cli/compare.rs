@@ -14,9 +14,9 @@ const EXAMPLES: &str = "\
 Examples:
   asperity compare ideal-adhesion pressure-sensitive
   asperity compare before.ron after.ron --set roughness.seed=7 | less
-  asperity compare measured.ron --as-line   ... the equivalent line with the profile itself
+  asperity compare measured.ron --as-line   Compare the equivalent line with the profile itself
   asperity compare before.ron after.ron -o loops.png
-                                            ... draws both force curves into one picture";
+                                            Draw both force curves in one picture";
 
 /// Formats of a comparison.
 const FORMATS: &[Format] = &[Format::Text, Format::Svg, Format::Png];
@@ -28,7 +28,7 @@ pub struct CompareArguments {
     /// Scene file or built-in scene
     #[arg(value_name = "SCENE")]
     pub first: String,
-    /// The scene it is compared with
+    /// Scene file or built-in scene to compare it with
     #[arg(value_name = "OTHER", required_unless_present = "as_line")]
     pub second: Option<String>,
     /// Compare with the measured profile itself as the line

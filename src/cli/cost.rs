@@ -17,8 +17,8 @@ Examples:
   asperity cost my-scene.ron --budget 30s --picture my-scene.svg
   asperity cost rough-sphere --set adhesion.work=0.1 --format csv -o rough.csv
 
-Errors are relative. They are counted from the closed form of the adhesion force where the scene has
-one, else from the finest solution within the budget, whose own error is estimated and shown.";
+Errors are relative to the closed form of the adhesion force if the scene has one, else to the
+finest solution within the budget, whose own error is estimated and stated.";
 
 /// Longest budget, s.
 const LONGEST: f64 = 86_400.0;
@@ -29,13 +29,13 @@ const LONGEST: f64 = 86_400.0;
 pub struct CostArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Time limit of the whole measurement: 500ms, 30s, 2min
+    /// Time limit of all measurements together: 500ms, 30s, 2min
     #[arg(long, value_name = "TIME", default_value = "10s", value_parser = budget)]
     pub budget: Duration,
     /// text, json, csv, npy, svg or png; default: by the extension of FILE
     #[arg(long, value_parser = format_of(FORMATS), hide_possible_values = true)]
     pub format: Option<Format>,
-    /// Draw errors over times to FILE as well, .svg or .png
+    /// Also draw errors over times into FILE, .svg or .png
     #[arg(long, value_name = "FILE")]
     pub picture: Option<PathBuf>,
     /// Destination; --force is for both files.

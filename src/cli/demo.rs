@@ -15,10 +15,10 @@ use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
-  asperity demo                             Watch the tour over the built-in scenes; any key ends it
-  asperity demo rough-sphere                Watch one scene, pressed and pulled off
-  asperity demo --frames --ascii | less     Read it, frame by frame
-  asperity demo --cast tour.cast            Record it; asciinema play tour.cast plays it
+  asperity demo                             Watch a tour of the built-in scenes; any key ends it
+  asperity demo rough-sphere                Watch one scene being pressed and pulled off
+  asperity demo --frames --ascii | less     Read the tour frame by frame
+  asperity demo --cast tour.cast            Record it for `asciinema play tour.cast`
   asperity demo my-scene.ron --at 8 --picture screen.svg
                                             Take a picture of the screen after 8 seconds
 
@@ -36,7 +36,7 @@ pub struct DemoArguments {
     pub scene: Option<String>,
     #[command(flatten)]
     pub overrides: Overrides,
-    /// Print plain frames, as into a pipe, also where there is a terminal
+    /// Print plain frames even on a terminal, as into a pipe
     #[arg(long)]
     pub frames: bool,
     /// Frames per second, 0.1 to 60; default: 12, and 1 for plain frames
@@ -45,12 +45,10 @@ pub struct DemoArguments {
     /// Size of the screen; default: that of the terminal, else 120x40
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = size)]
     pub size: Option<(u16, u16)>,
-    /// ASCII only: no Braille, no box drawing, no Greek
+    /// Use ASCII characters only
     #[arg(long, conflicts_with = "marker")]
     pub ascii: bool,
-    /// Markers
-    ///
-    /// Marker of plots; default: braille.
+    /// Marker of plots; default: braille
     #[arg(long, value_enum)]
     pub marker: Option<Marker>,
     /// Colours
@@ -61,7 +59,7 @@ pub struct DemoArguments {
     /// Record to FILE, an asciicast of version 2
     #[arg(long, value_name = "FILE", conflicts_with_all = ["frames", "at"])]
     pub cast: Option<PathBuf>,
-    /// Print only the frame at so many seconds
+    /// Print only the frame at this time
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub at: Option<f64>,
     /// Write a picture of the screen to FILE, an SVG document

@@ -28,7 +28,7 @@ pub struct ExploreArguments {
     /// Read this configuration file
     ///
     /// Default: asperity/config.ron in the configuration folder of the user (~/.config),
-    /// where it exists.
+    /// if it exists.
     #[arg(long, value_name = "FILE", verbatim_doc_comment)]
     pub config: Option<PathBuf>,
     /// Read no configuration file
@@ -50,9 +50,7 @@ pub struct LookArguments {
     /// Default: chosen from NO_COLOR and COLORFGBG.
     #[arg(long, value_enum)]
     pub theme: Option<Theme>,
-    /// Markers
-    ///
-    /// Marker of plots; default: braille.
+    /// Marker of plots; default: braille
     #[arg(long, value_enum)]
     pub marker: Option<Marker>,
     /// Leave the mouse to the terminal

@@ -9,11 +9,11 @@ use std::io::Write;
 
 const EXAMPLES: &str = "\
 Examples:
-  asperity line profile-hurst-025 > line.csv
+  asperity line profile-hurst-025 > profile.csv
   asperity line profile-hurst-025 --set numerics.points=65536 -o finer.csv
-  asperity line profile-hurst-025 -o line.npy
+  asperity line profile-hurst-025 -o profile.npy
 
-The finer line is the same line: a wave of a seed keeps its phase on every grid.";
+The finer profile is the same profile: a wave keeps its phase on every grid.";
 
 /// Arguments of `line`.
 #[derive(Args, Debug)]

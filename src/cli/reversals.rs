@@ -16,8 +16,8 @@ Examples:
   asperity reversals pressure-sensitive --preloads 1uN..20uN --count 128 -o reversals.svg
   asperity reversals rough-sphere --map -o map.csv
 
-Turning points are at equal indentations. The Everett function is half of what the force falls by
-from the turning point on; the density is -1/2 of the mixed second derivative of the force.";
+Turning points have equal distances of indentation. The Everett function is half the decrease of the
+force since the turning point; the density is -1/2 of the mixed second derivative of the force.";
 
 /// Most steps on either side of the fit of the density.
 const MOST_SMOOTHING: i64 = 16;
@@ -46,10 +46,10 @@ pub struct ReversalsArguments {
 /// Choice of the reversals of a scene.
 #[derive(Args, Debug)]
 pub struct ReversalOptions {
-    /// Turning points
+    /// Number of turning points
     #[arg(long, value_name = "COUNT", default_value_t = 64, value_parser = clap::value_parser!(u16).range(*TURNING_POINTS.start() as i64..=*TURNING_POINTS.end() as i64))]
     pub count: u16,
-    /// Turn between the indentations of two forces: 1uN..20uN
+    /// Turn between the indentations at two forces: 1uN..20uN
     ///
     /// Default: between first touch and the preload of the scene.
     #[arg(long, value_name = "FROM..TO", value_parser = forces)]
@@ -57,10 +57,10 @@ pub struct ReversalOptions {
     /// Steps on either side of the quadratic fit of the density
     #[arg(long, value_name = "STEPS", default_value_t = SMOOTHING, value_parser = clap::value_parser!(u8).range(1..=MOST_SMOOTHING))]
     pub smoothing: u8,
-    /// Upper, and lower, ends of the minor loops; 0: no loops
+    /// Number of upper and of lower ends of the minor loops; 0: no loops
     #[arg(long, value_name = "LEVELS", default_value_t = LOOPS, value_parser = clap::value_parser!(u8).range(0..=MOST_LEVELS))]
     pub loops: u8,
-    /// Table with a row for each point of the map, not each turning point
+    /// Write a table with a row for each point of the map instead of each turning point
     #[arg(long)]
     pub map: bool,
 }

@@ -29,8 +29,8 @@ Examples:
   asperity run pressure-sensitive --profile -o profile.svg
   asperity run ideal-adhesion pressure-sensitive non-adhesive -o loops.svg
 
-JSON, CSV and .npy are in SI units. Compression is positive, indentation counts from first touch.
-CSV and .npy hold version, command and scene: such a file is a scene, and opens as one.";
+JSON, CSV and .npy are in SI units. Compression is positive, indentation is zero at first touch.
+CSV and .npy contain version, command and scene, and open as that scene.";
 
 /// Arguments of `run`.
 #[derive(Args, Debug)]
@@ -38,7 +38,7 @@ CSV and .npy hold version, command and scene: such a file is a scene, and opens 
 pub struct RunArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// More scenes, whose force curves are drawn into the same picture
+    /// More scenes, with their force curves in the same picture
     #[arg(value_name = "SCENE")]
     pub more: Vec<String>,
     /// text, json, csv, npy, svg or png; default: by the extension of FILE
@@ -57,21 +57,22 @@ pub struct RunArguments {
     pub fragments: bool,
     /// Choose springs and edges for an adhesion force within T, as 1e-3 or 0.1%
     ///
-    /// Doubles the springs until the error is small enough: the error from the closed form of
-    /// the scene, else an estimate; without a pull-off, the error of the force curve. Replaces
-    /// numerics.points and numerics.edges of the scene.
+    /// Doubles the springs until the error is small enough. The error is that from the closed form
+    /// if there is one, else an estimate; without a pull-off it is that of the force curve.
+    /// Replaces numerics.points and numerics.edges of the scene.
     #[arg(long, value_name = "T", value_parser = parse_tolerance, verbatim_doc_comment)]
     pub tolerance: Option<f64>,
-    /// Compute random profiles from this seed on: mean and spread
+    /// Compute COUNT random profiles: mean and spread
     ///
-    /// CSV then has one row for each seed. A tolerance applies to the first profile.
+    /// Their seeds begin with that of the scene. CSV has one row for each seed. A tolerance
+    /// applies to the first profile.
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES), verbatim_doc_comment)]
     pub lines: Option<u32>,
-    /// Adhesion force for many preloads in place of the loading
+    /// Compute the adhesion force for many preloads instead of the loading
     ///
-    /// 64 preloads at equal distances, or as many as follow a colon: 0..20uN:128. One loading,
-    /// and one unloading from each preload. With --lines the mean over the profiles and its
-    /// 95 % confidence.
+    /// 64 preloads at equal distances, or the number after a colon: 0..20uN:128. One loading,
+    /// and one unloading from each preload; with --lines, the mean over the profiles and its
+    /// 95 % confidence interval.
     #[arg(long, value_name = "A..B", conflicts_with_all = ["more", "profile", "fragments"], value_parser = parse_preloads, verbatim_doc_comment)]
     pub preloads: Option<Preloads>,
     /// Threads that share the profiles; default: one for each core

@@ -29,9 +29,9 @@ Examples:
   asperity surface afm.gwy --tip-radius 10nm -o spectra.svg
   asperity surface profile.csv --unit um --modulus 2.7MPa --work 50mJ/m^2 --scene rough.ron
 
-Files are profiles or maps: text in columns or as a matrix, SDF, GSF, NumPy, X3P, GWY, SUR,
-NetCDF, and these in gzip. Several files are samples of the same roughness. A profile is a cut
-through the surface; the contact computation needs the equivalent line.";
+Files are profiles or maps: text in columns or as a matrix, SDF, GSF, NumPy, X3P, GWY, SUR or
+NetCDF, also compressed by gzip. Several files are samples of the same roughness. A profile is a cut
+through the surface; the contact is computed on its equivalent line.";
 
 /// Default number of random profiles for the adhesion force, and the largest number of springs for it: some seconds.
 const LINES: u32 = 16;
@@ -62,19 +62,19 @@ pub struct SurfaceArguments {
     pub format: Option<Format>,
     /// Write a scene with the equivalent line to FILE; needs --modulus
     ///
-    /// The scene names the files and holds all options of their reading and analysis.
+    /// The scene names the files and contains all options of their reading and analysis.
     #[arg(long, value_name = "FILE", requires = "modulus", verbatim_doc_comment)]
     pub scene: Option<PathBuf>,
-    /// Work of adhesion, as 50mJ/m^2: gives κ, e_el/γ, F_a; needs --modulus
+    /// Work of adhesion, such as 50mJ/m^2, for κ, e_el/γ and F_a; needs --modulus
     #[arg(long, value_name = "ENERGY", requires = "modulus", value_parser = energy)]
     pub work: Option<f64>,
-    /// Force that presses before the pull, as 1mN; default: touch alone
+    /// Preload, such as 1mN; default: touch without a force
     #[arg(long, value_name = "FORCE", requires = "modulus", value_parser = force)]
     pub preload: Option<f64>,
     /// Random profiles of the adhesion force; needs --work
     ///
-    /// Each is solved on the fitted spectrum and on one moved within its uncertainty: the spread
-    /// over lines beside that of the fit. Default: 16 up to 131 072 springs, else none.
+    /// Each is solved on the fitted spectrum and on one moved within its uncertainty, for the spread
+    /// over profiles and that of the fit. Default: 16 for up to 131 072 springs, else none.
     #[arg(long, value_name = "COUNT", requires = "work", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES), verbatim_doc_comment)]
     pub lines: Option<u32>,
     /// Output file.
@@ -94,9 +94,9 @@ pub struct ReadingArguments {
     /// Unit of heights where a file states none; default: as --unit
     #[arg(long, value_name = "UNIT")]
     pub height_unit: Option<Unit>,
-    /// Distance between points where a file states none, as 0.5um
+    /// Distance between points where a file states none, such as 0.5um
     ///
-    /// Lengths without a unit, here and below, are in --unit.
+    /// Lengths without a unit are in --unit, here and below.
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub spacing: Option<Length>,
     /// Fill missing points from their neighbours
@@ -105,13 +105,13 @@ pub struct ReadingArguments {
     /// Resample uneven profiles linearly at their mean distance
     #[arg(long)]
     pub resample: bool,
-    /// Number of the channel of files with several
+    /// Channel of files with several, by its number
     #[arg(long, value_name = "NUMBER")]
     pub channel: Option<u32>,
-    /// Row of maps that is the profile, from 1 on
+    /// Row of maps to use as the profile, from 1
     #[arg(long, value_name = "NUMBER", conflicts_with = "column", value_parser = clap::value_parser!(u64).range(1..))]
     pub row: Option<u64>,
-    /// Column of maps that is the profile, from 1 on
+    /// Column of maps to use as the profile, from 1
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u64).range(1..))]
     pub column: Option<u64>,
 }
@@ -119,23 +119,23 @@ pub struct ReadingArguments {
 /// Analysis of surfaces.
 #[derive(Args, Debug)]
 pub struct AnalysisArguments {
-    /// Part that is removed: none, mean, tilt or curvature
+    /// Part of the heights to remove: none, mean, tilt or curvature
     ///
     /// Default: tilt, or mean with --periodic.
     #[arg(long, value_enum, hide_possible_values = true)]
     pub detrend: Option<Detrend>,
-    /// The surface repeats itself at its borders: no window
+    /// Treat the surface as periodic, without a window
     #[arg(long)]
     pub periodic: bool,
-    /// Wavelength down to which the spectrum continues as a power law
+    /// Continue the spectrum as a power law down to this wavelength
     ///
     /// Default: the spectrum ends at the last resolved wave.
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub continue_to: Option<Length>,
-    /// Radius of the tip, as 10nm: gives the reliability cut-off
+    /// Radius of the tip, such as 10nm, for the reliability cut-off
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub tip_radius: Option<Length>,
-    /// Effective modulus E*, as 2.7MPa: gives the elastic energy
+    /// Effective modulus E*, such as 2.7MPa, for the elastic energy
     #[arg(long, value_name = "PRESSURE", value_parser = pressure)]
     pub modulus: Option<f64>,
 }
@@ -160,7 +160,7 @@ impl SurfaceArguments {
             (None, _) => Ok(None),
             (Some(_), None) => Err(CliError::named(
                 option,
-                "a length without a unit; allowed: a unit, as 0.5um, or --unit um",
+                "a length without a unit; allowed: a unit, such as 0.5um, or --unit um",
             )),
         }
     }

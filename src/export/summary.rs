@@ -217,7 +217,7 @@ fn contact(sheet: &mut Sheet, outcome: &Outcome) {
     let length = end.contact_length;
     let share = format_quantity(100.0 * length / outcome.line.length, "1");
     sheet.row("contact length", format!("{}, {share} % of L", format_quantity(length, "m")));
-    sheet.row("fragments", grouped(end.fragments));
+    sheet.row("contact patches", grouped(end.fragments));
 }
 
 fn cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {

@@ -378,7 +378,7 @@ fn refusals_name_file_place_and_what_is_allowed() {
         ),
         (
             &["surface", "line.txt", "--tip-radius", "5"],
-            "--tip-radius: a length without a unit; allowed: a unit, as 0.5um, or --unit um",
+            "--tip-radius: a length without a unit; allowed: a unit, such as 0.5um, or --unit um",
         ),
         (&["surface", "line.txt", "--opposite", "none.txt"], "none.txt: cannot be read: "),
         (
