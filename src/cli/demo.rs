@@ -40,7 +40,7 @@ pub struct DemoArguments {
     #[arg(long)]
     pub frames: bool,
     /// Frames per second, 0.1 to 60; default: 12, and 1 for plain frames
-    #[arg(long, value_name = "N", value_parser = frames_per_second)]
+    #[arg(long, value_name = "N", value_parser = |text: &str| number(text, 0.1, 60.0))]
     pub fps: Option<f64>,
     /// Size of the screen; default: that of the terminal, else 120x40
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = size)]
@@ -60,7 +60,7 @@ pub struct DemoArguments {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["frames", "at"])]
     pub cast: Option<PathBuf>,
     /// Print only the frame at this time
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = |text: &str| number(text, 0.0, 3600.0))]
     pub at: Option<f64>,
     /// Write a picture of the screen to FILE, an SVG document
     #[arg(long, value_name = "FILE", requires = "at")]
@@ -74,14 +74,6 @@ fn number(text: &str, low: f64, high: f64) -> Result<f64, String> {
     let allowed = || format!("allowed: a number from {low} to {high}");
     let value: f64 = text.parse().map_err(|_| allowed())?;
     if (low..=high).contains(&value) { Ok(value) } else { Err(allowed()) }
-}
-
-fn frames_per_second(text: &str) -> Result<f64, String> {
-    number(text, 0.1, 60.0)
-}
-
-fn seconds(text: &str) -> Result<f64, String> {
-    number(text, 0.0, 3600.0)
 }
 
 fn size(text: &str) -> Result<(u16, u16), String> {

@@ -8,7 +8,7 @@ use crate::accuracy::{Choice, choose, estimate, parse_tolerance};
 use crate::contact::{Leg, LegRecord};
 use crate::draw::Figure;
 use crate::export::{
-    ContactSets, Format, LinesReport, MeasuredFile, PreloadReport, Report, RunReport, force_figure,
+    ContactSets, Format, LinesReport, PreloadReport, Report, RunReport, check_measured_files, force_figure,
 };
 use crate::scene::{Document, Scene, open_argument};
 use crate::study::{self, Preloaded, Preloads};
@@ -122,7 +122,7 @@ impl RunArguments {
 pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.format()?;
     let document = arguments.scene.open()?;
-    MeasuredFile::check_all(&document)?;
+    check_measured_files(&document)?;
     if arguments.is_drawn() {
         return arguments.output.write_figure(stdout, &figure(arguments, document, format)?, format);
     }

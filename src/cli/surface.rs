@@ -47,12 +47,8 @@ pub struct SurfaceArguments {
     /// Measured surface of the opposite face: the spectra of both faces add
     #[arg(long, value_name = "FILE")]
     pub opposite: Option<PathBuf>,
-    /// Options of the readers.
     #[command(flatten)]
-    pub reading: ReadingArguments,
-    /// Options of the analysis.
-    #[command(flatten)]
-    pub analysis: AnalysisArguments,
+    pub options: SurfaceOptions,
     /// text, json, csv, npy, svg or png; default: by the extension of FILE
     ///
     /// Text is a summary for a person. JSON is one object with statistics, fit, spectra and
@@ -66,10 +62,10 @@ pub struct SurfaceArguments {
     #[arg(long, value_name = "FILE", requires = "modulus", verbatim_doc_comment)]
     pub scene: Option<PathBuf>,
     /// Work of adhesion, such as 50mJ/m^2, for κ, e_el/γ and F_a; needs --modulus
-    #[arg(long, value_name = "ENERGY", requires = "modulus", value_parser = energy)]
+    #[arg(long, value_name = "ENERGY", requires = "modulus", value_parser = |text: &str| positive(text, "J/m²"))]
     pub work: Option<f64>,
     /// Preload, such as 1mN; default: touch without a force
-    #[arg(long, value_name = "FORCE", requires = "modulus", value_parser = force)]
+    #[arg(long, value_name = "FORCE", requires = "modulus", value_parser = |text: &str| positive(text, "N"))]
     pub preload: Option<f64>,
     /// Random profiles of the adhesion force; needs --work
     ///
@@ -85,9 +81,9 @@ pub struct SurfaceArguments {
     pub force_scene: bool,
 }
 
-/// Reading of files that leave something open.
+/// Reading and analysis of the files.
 #[derive(Args, Debug)]
-pub struct ReadingArguments {
+pub struct SurfaceOptions {
     /// Unit of lengths where a file states none: m, cm, mm, um, nm, Å, pm
     #[arg(long)]
     pub unit: Option<Unit>,
@@ -114,11 +110,6 @@ pub struct ReadingArguments {
     /// Column of maps to use as the profile, from 1
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u64).range(1..))]
     pub column: Option<u64>,
-}
-
-/// Analysis of surfaces.
-#[derive(Args, Debug)]
-pub struct AnalysisArguments {
     /// Part of the heights to remove: none, mean, tilt or curvature
     ///
     /// Default: tilt, or mean with --periodic.
@@ -136,7 +127,7 @@ pub struct AnalysisArguments {
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub tip_radius: Option<Length>,
     /// Effective modulus E*, such as 2.7MPa, for the elastic energy
-    #[arg(long, value_name = "PRESSURE", value_parser = pressure)]
+    #[arg(long, value_name = "PRESSURE", value_parser = |text: &str| positive(text, "Pa"))]
     pub modulus: Option<f64>,
 }
 
@@ -154,7 +145,7 @@ pub struct Length {
 impl SurfaceArguments {
     /// The value of an option in m.
     fn in_metres(&self, option: &str, length: Option<Length>) -> Result<Option<f64>, CliError> {
-        match (length, self.reading.unit) {
+        match (length, self.options.unit) {
             (Some(Length { value, has_unit: true }), _) => Ok(Some(value)),
             (Some(Length { value, .. }), Some(unit)) => Ok(Some(unit.to_metres(value))),
             (None, _) => Ok(None),
@@ -167,8 +158,8 @@ impl SurfaceArguments {
 
     /// The surfaces with all options as the roughness of a scene; the files have the names of the command line.
     fn roughness(&self) -> Result<Roughness, CliError> {
-        let (reading, analysis) = (&self.reading, &self.analysis);
-        let continue_to = self.in_metres("--continue-to", analysis.continue_to)?;
+        let options = &self.options;
+        let continue_to = self.in_metres("--continue-to", options.continue_to)?;
         if let Some(length) = continue_to.filter(|length| !(1e-15..=10.0).contains(length)) {
             return Err(CliError::named(
                 format!("--continue-to: {length:e} m"),
@@ -183,16 +174,16 @@ impl SurfaceArguments {
             further_files: files.collect(),
             as_line: None,
             opposite: self.opposite.as_ref().map(name),
-            row: reading.row,
-            column: reading.column,
-            detrend: analysis.detrend,
-            periodic: analysis.periodic,
-            unit: unit(reading.unit),
-            height_unit: unit(reading.height_unit),
-            spacing: self.in_metres("--spacing", reading.spacing)?,
-            interpolate: reading.interpolate,
-            resample: reading.resample,
-            channel: reading.channel.map(u64::from),
+            row: options.row,
+            column: options.column,
+            detrend: options.detrend,
+            periodic: options.periodic,
+            unit: unit(options.unit),
+            height_unit: unit(options.height_unit),
+            spacing: self.in_metres("--spacing", options.spacing)?,
+            interpolate: options.interpolate,
+            resample: options.resample,
+            channel: options.channel.map(u64::from),
             continue_to,
             seed: 1,
         })
@@ -247,7 +238,7 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
         check_file(file, "ron", arguments.force_scene)?;
     }
     let roughness = arguments.roughness()?;
-    let tip_radius = arguments.in_metres("--tip-radius", arguments.analysis.tip_radius)?;
+    let tip_radius = arguments.in_metres("--tip-radius", arguments.options.tip_radius)?;
     let MeasuredOptions { reading, spectrum, .. } = measured_roughness_options(&roughness, false);
     let options = MeasuredOptions { as_line: None, reading, spectrum: Options { tip_radius, ..spectrum } };
     let mut faces = vec![face(&arguments.files, &options)?];
@@ -255,7 +246,7 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
         faces.push(face(std::slice::from_ref(opposite), &options)?);
     }
     let line = EquivalentLine { faces: faces.iter().map(|face| face.analysis.isotropic.clone()).collect() };
-    let modulus = arguments.analysis.modulus;
+    let modulus = arguments.options.modulus;
     let scene = modulus.map(|modulus| arguments.scene_of(roughness, modulus, &faces, &line));
     if let (Some(file), Some(scene)) = (&arguments.scene, &scene) {
         write_scene(file, scene.clone(), arguments.force_scene)?;
@@ -310,21 +301,7 @@ fn length(text: &str) -> Result<Length, String> {
     Ok(Length { value, has_unit: text.trim().parse::<f64>().is_err() })
 }
 
-/// Parses an energy per area above 0, J/m².
-fn energy(text: &str) -> Result<f64, String> {
-    positive(text, "J/m²")
-}
-
-/// Parses a force above 0, N.
-fn force(text: &str) -> Result<f64, String> {
-    positive(text, "N")
-}
-
-/// Parses a pressure above 0, Pa.
-fn pressure(text: &str) -> Result<f64, String> {
-    positive(text, "Pa")
-}
-
+/// Parses a value above 0 with its unit.
 fn positive(text: &str, unit: &str) -> Result<f64, String> {
     match parse_quantity(text, unit) {
         Ok(value) if value > 0.0 => Ok(value),

@@ -26,7 +26,9 @@ pub use cost::CostReport;
 pub use ensemble::LinesReport;
 pub use map::write_map;
 pub use preloads::{PreloadReport, preload_axes, preload_layers};
-pub use provenance::{MeasuredFile, MeasuredFileError, files_provenance, named_from, scene_provenance};
+pub use provenance::{
+    MeasuredFileError, check_measured_files, files_provenance, named_from, scene_provenance,
+};
 #[cfg(feature = "tui")]
 pub use report::write;
 pub use report::{Format, FormatError, Json, Report, check_extension};

@@ -127,12 +127,6 @@ impl Format {
         matches!(self, Format::Csv | Format::Npy)
     }
 
-    /// Returns true for the formats of a figure.
-    #[must_use]
-    pub fn is_picture(self) -> bool {
-        matches!(self, Format::Svg | Format::Png)
-    }
-
     /// The format of a file by its extension; without an extension, or a file, the chosen format or the usual one.
     ///
     /// # Errors
