@@ -15,7 +15,7 @@ Examples:
   asperity my-study                         ... on the map of a study, by its folder
   asperity run my-scene.ron                 Compute a scene and print a summary
   asperity run jkr-sphere -o jkr.csv        Write its force curve to a file
-  asperity cost my-scene.ron                Find how many springs an error of 1 % takes, and how long
+  asperity cost my-scene.ron                Springs and time for an error of 1 %
 
 Exit codes: 0 success, 1 failure of the input or the run, 2 wrong usage.";
 

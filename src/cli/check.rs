@@ -12,7 +12,7 @@ use std::io::Write;
 const EXAMPLES: &str = "\
 Examples:
   asperity check                            All cases
-  asperity check --quick                    All but those that take seconds and hundreds of megabytes
+  asperity check --quick                    All but the cases of seconds and much memory
   asperity check sphere memory              Cases with one of these words in their names
   asperity check --format json -o check.json
   asperity check --exhaustive               The engine on every profile of up to 8 springs

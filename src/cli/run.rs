@@ -57,8 +57,8 @@ pub struct RunArguments {
     pub fragments: bool,
     /// Choose springs and edges for an adhesion force within T, as 1e-3 or 0.1%
     ///
-    /// Doubles the springs until the error is small enough. The error is that from the closed form
-    /// if there is one, else an estimate; without a pull-off it is that of the force curve.
+    /// Doubles the springs until the error is small enough. The error is that from the closed
+    /// form if there is one, else an estimate; without a pull-off it is that of the force curve.
     /// Replaces numerics.points and numerics.edges of the scene.
     #[arg(long, value_name = "T", value_parser = parse_tolerance, verbatim_doc_comment)]
     pub tolerance: Option<f64>,

@@ -69,8 +69,8 @@ pub struct SurfaceArguments {
     pub preload: Option<f64>,
     /// Random profiles of the adhesion force; needs --work
     ///
-    /// Each is solved on the fitted spectrum and on one moved within its uncertainty, for the spread
-    /// over profiles and that of the fit. Default: 16 for up to 131 072 springs, else none.
+    /// Each is solved on the fitted spectrum and on one moved within its uncertainty, for the
+    /// spread over profiles and that of the fit. Default: 16 for up to 131 072 springs, else none.
     #[arg(long, value_name = "COUNT", requires = "work", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES), verbatim_doc_comment)]
     pub lines: Option<u32>,
     /// Output file.

@@ -62,12 +62,9 @@ impl Report for ReversalReport<'_> {
         unloadings(&mut sheet, ["force at turn", "turning at"], shown);
         sheet.heading("Map");
         sheet.quantity("step of indentations", map.step(), "m");
-        let largest = |value: fn(&ReversalMap, usize, usize) -> Option<f64>| {
-            let all =
-                (0..reversals.len()).flat_map(|turn| (0..map.points.len()).map(move |point| (turn, point)));
-            all.filter_map(|(turn, point)| value(map, turn, point)).reduce(f64::max)
-        };
-        let everett = largest(|map, turn, point| map.everett(turn, point));
+        let points = 0..map.points.len();
+        let all = (0..reversals.len()).flat_map(|turn| points.clone().map(move |point| (turn, point)));
+        let everett = all.filter_map(|(turn, point)| map.everett(turn, point)).reduce(f64::max);
         sheet.quantity("largest Everett value", everett, "N");
         sheet.row("density", format!("quadratic fit, {smoothing} steps on either side"));
         sheet.row_of("incongruent", loops.map(congruency));

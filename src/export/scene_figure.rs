@@ -283,14 +283,6 @@ mod tests {
     }
 
     #[test]
-    fn several_scenes_are_curves_of_one_figure() {
-        let ((one, ..), (other, ..)) = (computed(&[]), computed(&[("loading", "[ToForce(2e-5)]")]));
-        let figure = force_figure(&[("one", &one), ("<other>", &other)]);
-        assert_eq!(names(&figure), ["one", "<other>"]);
-        parsed(&figure.svg());
-    }
-
-    #[test]
     fn the_profile_shows_the_contact_at_the_largest_force() {
         let (outcome, sets, line) = computed(&[]);
         let figure = sets.profile_figure("", &outcome, &line);

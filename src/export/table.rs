@@ -64,6 +64,7 @@ type Rows<'a, T> = Box<dyn Fn() -> Box<dyn Iterator<Item = T> + 'a> + 'a>;
 /// Named columns, and rows that are made one by one while they are written.
 pub struct Table<'a> {
     columns: Vec<(Cow<'static, str>, Kind)>,
+    count: usize,
     rows: Rows<'a, Vec<Value<'a>>>,
 }
 
@@ -111,11 +112,13 @@ impl<'a, T: 'a> TableOf<'a, T> {
     #[must_use]
     pub fn done(self) -> Table<'a> {
         let (rows, values) = (self.rows, Rc::new(self.values));
+        // Without the values, which may take time.
+        let count = rows().count();
         let rows = move || -> Box<dyn Iterator<Item = Vec<Value<'a>>> + 'a> {
             let values = Rc::clone(&values);
             Box::new(rows().map(move |row| values.iter().map(|value| value(&row)).collect()))
         };
-        Table { columns: self.columns, rows: Box::new(rows) }
+        Table { columns: self.columns, count, rows: Box::new(rows) }
     }
 }
 
@@ -155,7 +158,7 @@ impl Table<'_> {
         };
         let fields: Vec<_> =
             self.columns.iter().map(|(name, kind)| format!("('{name}', '{}')", descr(*kind))).collect();
-        let shape = format!("{},", (self.rows)().count());
+        let shape = format!("{},", self.count);
         npy::write_header(out, &format!("[{}]", fields.join(", ")), &shape)?;
         for row in (self.rows)() {
             for (value, (_, kind)) in row.iter().zip(&self.columns) {

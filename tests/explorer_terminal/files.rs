@@ -229,7 +229,8 @@ fn curve_figures_and_panes_are_exported() {
         terminal.wait_without("Overwrite");
         terminal.send("E");
         answer(&mut terminal, "Export to (.csv .npy .json .svg .png .txt): ", "out.pdf");
-        terminal.wait_for("the name must end in .csv, .npy, .json, .svg, .png, .txt");
+        terminal
+            .wait_for("out.pdf: unsupported file extension .pdf; use .csv, .npy, .json, .svg, .png or .txt");
         quit(&mut terminal);
         assert!(!folder.path().join("out.pdf").exists());
     });

@@ -238,7 +238,8 @@ fn the_map_is_exported_as_it_is_seen() {
         assert_eq!(cells.lines().count(), 1 + COLUMNS + HURSTS - 1);
         let (nothing, message) = export("", "map.json");
         assert!(
-            nothing.is_empty() && message.contains("the name must end in .csv, .svg, .png, .txt"),
+            nothing.is_empty()
+                && message.contains("unsupported file extension .json; use .csv, .svg, .png or .txt"),
             "{message}"
         );
         // The curve, with another pane selected.

@@ -177,11 +177,13 @@ fn title_and_notice_are_edited_with_the_name_and_the_name_gets_its_extension() {
         assert_eq!(saved.comments(), rough().comments());
         assert!(!driver.model.is_unsaved() && driver.model.document.name() == "mine.ron");
         assert!(driver.rows()[0].starts_with("My \"own\" line"), "{}", driver.text());
-        // Another extension is kept.
+        // A scene is not written under the extension of another kind of file.
         driver.press("s Ctrl+u");
-        driver.type_text("mine.txt");
+        driver.type_text("mine.csv");
         driver.press("Enter");
-        assert!(driver.files.contains_key(Path::new("mine.txt")));
+        let refused = "mine.csv: unsupported file extension .csv; use .ron";
+        assert!(driver.status().contains(refused), "{}", driver.status());
+        assert!(!driver.files.contains_key(Path::new("mine.csv")));
         for size in [(80, 24), (40, 12), (20, 5)] {
             driver.resize(size);
             driver.press("s Down");
