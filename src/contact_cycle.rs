@@ -2,7 +2,7 @@
 
 use crate::analysis::Figures;
 use crate::contact::{
-    self, Body, ContactError, CurvePoint, Foundation, HessRule, History, LegRecord, Reversal, run,
+    self, Body, ContactError, CurvePoint, Foundation, HessRule, History, LegRecord, Patch, Reversal, run,
 };
 use crate::scene::{Edges, Material, Move};
 use crate::simulation::RunError;
@@ -178,9 +178,9 @@ impl Cycle {
         &self.history.legs
     }
 
-    /// First and last point of each contact patch at the end, from left to right.
+    /// Contact patches at the end, from left to right.
     #[must_use]
-    pub fn patches(&self) -> &[(usize, usize)] {
+    pub fn patches(&self) -> &[Patch] {
         &self.history.contacts
     }
 }

@@ -6,7 +6,7 @@ use super::cases::{
     SEED, WORK_OF_ADHESION,
 };
 use asperity::analysis::Figures;
-use asperity::contact::{Body, Contact, Foundation, HessRule, History, Leg, LegRecord, run};
+use asperity::contact::{Body, Contact, Foundation, HessRule, History, Leg, LegRecord, Patch, run};
 use asperity::scene::{Form, Move};
 use asperity::surface::{Histogram, Line, SelfAffine, Synthesizer};
 use std::sync::Arc;
@@ -24,7 +24,7 @@ pub struct Given {
     pub history: History,
     pub zero_load_adhesion_force: Option<f64>,
     pub histogram: Option<Histogram>,
-    pub fragments: Vec<Vec<(usize, usize)>>,
+    pub fragments: Vec<Vec<Patch>>,
 }
 
 /// Runs the kernel of a case.

@@ -1,7 +1,7 @@
 //! Complete small worlds: every order of few gaps, ties included, against the definitions of the thresholds, and every
 //! history of a few springs against the bare rules.
 
-use crate::contact::{Body, Contact, ContactError, Edges, Foundation, HessRule, Move};
+use crate::contact::{Body, Contact, ContactError, Edges, Foundation, HessRule, Move, Patch};
 use std::f64::consts::PI;
 
 const SPACING: f64 = 0.01;
@@ -55,9 +55,10 @@ fn compare(gaps: &[f64], range: f64, edges: Edges) -> Result<(), String> {
     let hess = HessRule::new(FOUNDATION, range);
     let mut body = Body::new(&Contact::new(gaps.to_vec(), edges, FOUNDATION, Some(hess)), 2);
     let definition = Definition { gaps, stretch: hess.largest_stretch(1), edges };
+    let whole = Patch { first: 0, last: gaps.len() - 1 };
     let deepest = gaps.iter().copied().fold(0.0, f64::max) + 0.1;
     let mut expected = vec![f64::INFINITY; gaps.len()];
-    definition.close((0, gaps.len() - 1), &mut expected);
+    definition.close(whole, &mut expected);
     let check = |body: &mut Body, to: f64, expected: &[f64]| {
         body.move_to(Move::ToIndentation(to)).map_err(|error: ContactError| error.to_string())?;
         let found = body.present_leg().thresholds();
@@ -69,7 +70,7 @@ fn compare(gaps: &[f64], range: f64, edges: Edges) -> Result<(), String> {
     if edges == Edges::SubCell {
         return Ok(());
     }
-    definition.open((0, gaps.len() - 1), deepest, &mut expected);
+    definition.open(whole, deepest, &mut expected);
     check(&mut body, deepest - 0.05, &expected)
 }
 
@@ -83,17 +84,21 @@ struct Definition<'a> {
 
 impl Definition<'_> {
     /// The largest of these gaps, the leftmost of equals, and the parts on its sides.
-    fn split(&self, (first, last): (usize, usize)) -> (usize, impl Iterator<Item = (usize, usize)>) {
+    fn split(&self, Patch { first, last }: Patch) -> (usize, impl Iterator<Item = Patch>) {
         let larger = |best: usize, next: usize| if self.gaps[next] > self.gaps[best] { next } else { best };
         let root = (first..=last).fold(first, larger);
-        let parts = [(root > first).then(|| (first, root - 1)), (root < last).then_some((root + 1, last))];
+        let parts = [
+            (root > first).then(|| Patch { first, last: root - 1 }),
+            (root < last).then_some(Patch { first: root + 1, last }),
+        ];
         (root, parts.into_iter().flatten())
     }
 
     /// Length of a patch over these springs, in cells, with its edges at the level of a spring next to it.
-    fn length(&self, (first, last): (usize, usize), level: f64) -> f64 {
+    fn length(&self, patch: Patch, level: f64) -> f64 {
+        let Patch { first, last } = patch;
         if self.edges == Edges::Grid {
-            return (last + 1 - first) as f64;
+            return patch.springs().len() as f64;
         }
         let gaps = self.gaps;
         let share = |inside: usize, outside: Option<usize>| match outside.and_then(|at| gaps.get(at)) {
@@ -105,23 +110,23 @@ impl Definition<'_> {
     }
 
     /// Indentation at which all of a subtree is one patch on loading, and the thresholds of its springs so far.
-    fn close(&self, springs: (usize, usize), thresholds: &mut [f64]) -> f64 {
-        let (root, parts) = self.split(springs);
+    fn close(&self, patch: Patch, thresholds: &mut [f64]) -> f64 {
+        let (root, parts) = self.split(patch);
         let gap = self.gaps[root];
         let taken = parts.map(|part| {
             let closes = self.close(part, thresholds);
             closes.max(gap - self.stretch * self.length(part, gap).sqrt())
         });
         let closes = taken.fold(gap, f64::min);
-        thresholds[springs.0..=springs.1].iter_mut().for_each(|one| *one = one.min(closes));
+        thresholds[patch.springs()].iter_mut().for_each(|one| *one = one.min(closes));
         closes
     }
 
     /// Thresholds of springs on the way back from full contact, under a subtree that opens at `opens`, m.
-    fn open(&self, springs: (usize, usize), opens: f64, thresholds: &mut [f64]) {
-        let (root, parts) = self.split(springs);
+    fn open(&self, patch: Patch, opens: f64, thresholds: &mut [f64]) {
+        let (root, parts) = self.split(patch);
         let gap = self.gaps[root];
-        let opens = opens.min(gap - self.stretch * ((springs.1 + 1 - springs.0) as f64).sqrt()).min(gap);
+        let opens = opens.min(gap - self.stretch * (patch.springs().len() as f64).sqrt()).min(gap);
         thresholds[root] = opens;
         parts.for_each(|part| self.open(part, opens, thresholds));
     }
@@ -148,8 +153,8 @@ pub fn every_history(step: usize) -> Result<u64, String> {
                     body.move_to(Move::ToIndentation(at)).map_err(|error| error.to_string())?;
                     relax(&gaps, &mut bare, at, works);
                     let mut found = vec![false; gaps.len()];
-                    for (first, last) in body.present_leg().patches(at) {
-                        found[first..=last].fill(true);
+                    for patch in body.present_leg().patches(at) {
+                        found[patch.springs()].fill(true);
                     }
                     if found != bare {
                         let history = format!("at {at} m of turns {turns:?} of {TURNS:?} m");

@@ -4,7 +4,7 @@
 use super::Subject::{Bodies, Scene as OfScene};
 use super::{Body, Case, INDEPENDENT, Measured, SELF_CONSISTENCY, both, ensure, largest, outcome, with};
 use crate::Cycle;
-use crate::contact::{CurvePoint, LegRecord};
+use crate::contact::{CurvePoint, LegRecord, Patch};
 use crate::scene::{Edges, Scene, Solver};
 
 const LAW: [&str; 2] = ["laws", SELF_CONSISTENCY];
@@ -89,7 +89,12 @@ fn mirror(body: &Body) -> Measured {
     let mirrored = Body { heights: body.heights.iter().rev().copied().collect(), ..body.clone() };
     let (last, turns) = (body.heights.len() - 1, body.turns::<6>(13));
     let (one, other) = (body.load(&turns, false, 17)?, mirrored.load(&turns, false, 17)?);
-    let turned: Vec<_> = other.patches().iter().rev().map(|(a, b)| (last - b, last - a)).collect();
+    let turned: Vec<_> = other
+        .patches()
+        .iter()
+        .rev()
+        .map(|one| Patch { first: last - one.last, last: last - one.first })
+        .collect();
     ensure(one.patches() == turned, || format!("after {turns:?} m another contact"))?;
     largest(one.curve().zip(other.curve()).map(|(a, b)| Ok((a.force - b.force).abs() / body.force_unit())))
 }

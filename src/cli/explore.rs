@@ -1,12 +1,12 @@
 //! `asperity [SCENE]`: opens the explorer on a scene or on a finished study.
 
 use super::{Arguments, CliError, Overrides};
+use crate::explorer::autosave;
 use crate::explorer::config::{Config, default_path};
-use crate::explorer::drafts::{Restored, restore};
 use crate::explorer::theme::{Marker, Theme};
 use crate::explorer::{self, Opening, OpeningError, Options};
 use crate::export::brief_summary;
-use crate::scene::{DEFAULT, quoted};
+use crate::scene::{DEFAULT, Document, quoted};
 use clap::{Args, CommandFactory};
 use std::fmt::Display;
 use std::io::{IsTerminal, Write, stdin, stdout};
@@ -68,9 +68,9 @@ impl LookArguments {
 ///
 /// On leaving, prints a brief summary of the last scene.
 pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Result<(), CliError> {
-    let drafts = explorer::drafts::folder();
-    let restored = if arguments.restore { Some(restored(drafts.as_deref())?) } else { None };
-    let first = restored.as_ref().and_then(|restored| restored.documents.first().cloned());
+    let unsaved = autosave::folder();
+    let restored = if arguments.restore { Some(restored(unsaved.as_deref())?) } else { None };
+    let first = restored.as_ref().and_then(|(_, documents)| documents.first().cloned());
     let (config, warning) = config(arguments)?;
     let scene = config.scene.as_deref();
     let opening = first.map_or_else(|| opening(arguments, scene), |document| Ok(document.into()))?;
@@ -87,7 +87,7 @@ pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Resu
             }
         }));
     }
-    open(opening, Options { restored, config, warning, drafts, ..arguments.look.options() }, out)
+    open(opening, Options { restored, config, warning, unsaved, ..arguments.look.options() }, out)
 }
 
 /// Error of the explorer itself.
@@ -114,11 +114,13 @@ pub(super) fn open(opening: Opening, options: Options, out: &mut dyn Write) -> R
     Ok(())
 }
 
-/// Unsaved changes of an interrupted session.
-fn restored(folder: Option<&Path>) -> Result<Restored, CliError> {
+/// Newest unsaved changes of an ended session: their file and scenes.
+fn restored(folder: Option<&Path>) -> Result<(PathBuf, Vec<Document>), CliError> {
+    let newest = folder.and_then(|folder| autosave::left_behind(folder).into_iter().next());
     let none = || CliError::named("--restore", "no unsaved changes are kept; asperity opens a scene");
-    let found = restore(folder.ok_or_else(none)?).map_err(|error| CliError::named("--restore", error))?;
-    found.ok_or_else(none)
+    let newest = newest.ok_or_else(none)?;
+    let documents = autosave::read(&newest).map_err(|error| CliError::named("--restore", error))?;
+    Ok((newest, documents))
 }
 
 /// The configuration file of the arguments, or that of the user: if that one is wrong, the explorer opens with the

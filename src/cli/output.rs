@@ -5,6 +5,7 @@ use crate::draw::{Colours, Figure, figure_text};
 use crate::export::{self, Format, Report, check_extension, files_provenance, scene_provenance};
 use crate::io::{check_writable, write_new};
 use crate::scene::{Document, Scene, quoted};
+use crate::text::path_name;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use serde::Serialize;
@@ -124,7 +125,7 @@ impl OutputArguments {
 
 /// Checks that a file of one kind has its extension or none, and that it can be written.
 pub(super) fn check_file(path: &Path, extension: &str, overwrite: bool) -> Result<(), CliError> {
-    check_extension(path, &[extension])?;
+    check_extension(path, &[extension]).map_err(|error| CliError::named(path_name(path), error))?;
     Ok(check_writable(path, overwrite)?)
 }
 

@@ -1,6 +1,6 @@
 //! Result of a loading history: its legs, their curves and the work counts.
 
-use super::Leg;
+use super::{Leg, Patch};
 use crate::contact::Move;
 use serde::Serialize;
 
@@ -127,8 +127,8 @@ impl LegRecord {
 pub struct History {
     /// Its legs, in order.
     pub legs: Vec<LegRecord>,
-    /// First and last spring of each fragment in contact after the last leg.
-    pub contacts: Vec<(usize, usize)>,
+    /// Patches in contact after the last leg, from left to right.
+    pub contacts: Vec<Patch>,
     /// Work counts.
     pub work: Work,
 }

@@ -13,7 +13,6 @@ mod label;
 #[cfg(feature = "tui")]
 mod png;
 mod scale;
-pub mod section;
 mod svg;
 mod ticks;
 

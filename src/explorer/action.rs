@@ -28,45 +28,38 @@ pub enum Action {
     Report(Report),
     /// A finding of the study.
     Found(Found),
-    /// A written file, or a failure.
-    Written(Result<Written, WriteFailure>),
+    /// A written file, or the reason why it was not written.
+    Written(OutputFile, Result<(), WriteFailure>),
     /// The scenes that can be opened.
     Listed(Vec<Entry>),
-    /// Paths that complete a typed one.
-    Completed {
-        /// The path as typed.
-        typed: String,
-        /// The whole paths, the best first.
-        paths: Vec<String>,
-    },
+    /// Paths that begin as the typed one.
+    Completed(Vec<String>),
     /// A scene or a study opened by its path, or the reason for none.
-    Opened(Result<Box<Opening>, String>),
+    Opened(String, Result<Box<Opening>, String>),
     /// Configuration file with the kept appearance, or an error.
     Remembered(Result<PathBuf, String>),
-    /// Names of scenes with unsaved changes of an interrupted session.
-    Offered(Vec<String>),
-    /// Reason why unsaved changes are not kept.
-    NotKept(String),
-    /// Traffic of the connection.
-    Traffic(Traffic),
     /// Gesture of the mouse.
     Mouse(Mouse),
 }
 
-/// A written file.
+/// A file to write.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Written {
+pub struct OutputFile {
     /// Path.
     pub path: PathBuf,
     /// Content.
     pub content: Content,
+    /// True to overwrite the file.
+    pub overwrite: bool,
+    /// True to leave afterwards.
+    pub then_quit: bool,
 }
 
 /// Reason for which a file was not written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum WriteFailure {
     /// A file of that name exists.
-    Exists(PathBuf, Content),
+    Exists,
     /// The system refused, or the content does not exist.
     Refused(String),
 }

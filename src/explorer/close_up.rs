@@ -2,10 +2,10 @@
 
 use super::request::{Focus, SnapshotRequest};
 use super::snapshot::{CloseUp, FragmentFacts};
-use crate::contact::{Leg, PatchState};
-use crate::draw::section::{Contact, LineColumns, Part};
+use crate::contact::{Leg, Patch, PatchState};
+use crate::export::section::{Contact, LineColumns, Part};
 
-/// The requested part of the line, and the fragment nearest to its middle.
+/// The requested part of the line, and the patch nearest to its middle.
 pub fn close_up(
     contact: &Contact<'_>,
     leg: &Leg,
@@ -19,32 +19,32 @@ pub fn close_up(
     let part = Part { first, springs, columns: request.close_up_columns };
     let section = contact.section(part, line);
     let shown = first..first + springs;
-    let begins = contact.fragments.partition_point(|&(_, last)| last < shown.start);
-    let boundaries = contact.fragments[begins..]
+    let begins = contact.patches.partition_point(|patch| patch.last < shown.start);
+    let boundaries = contact.patches[begins..]
         .iter()
-        .take_while(|(first, _)| *first < shown.end)
-        .flat_map(|&(start, end)| if start == end { vec![start] } else { vec![start, end] })
+        .take_while(|patch| patch.first < shown.end)
+        .flat_map(|patch| [Some(patch.first), Some(patch.last).filter(|last| *last > patch.first)])
+        .flatten()
         .filter(|spring| shown.contains(spring))
         .map(|spring| (spring, contact.height(spring)))
         .collect();
-    let fragment = nearest(contact.fragments, centre).and_then(|number| {
-        let springs = contact.fragments[number];
+    let fragment = nearest(contact.patches, centre).and_then(|number| {
+        let patch = contact.patches[number];
         let state = leg.patch_state(contact.indentation, number)?;
         let PatchState { length, force, largest_stretch, most_stretched } = state;
-        Some(FragmentFacts { number, springs, length, largest_stretch, most_stretched, force })
+        Some(FragmentFacts { number, patch, length, largest_stretch, most_stretched, force })
     });
     CloseUp { section, boundaries, fragment }
 }
 
 /// The spring in the middle of the close-up.
 fn centre(contact: &Contact<'_>, focus: Focus) -> usize {
-    let (count, fragments) = (contact.gaps.len(), contact.fragments);
+    let (count, patches) = (contact.gaps.len(), contact.patches);
     let summit = || (0..count).find(|&spring| contact.gaps[spring] == 0.0).unwrap_or(count / 2);
-    let middle = |(first, last): (usize, usize)| first + (last - first) / 2;
-    let best = |worth: &dyn Fn((usize, usize)) -> f64| {
-        // Of equal fragments the first.
-        let best = fragments.iter().rev().max_by(|a, b| worth(**a).total_cmp(&worth(**b)));
-        best.map_or_else(summit, |&fragment| middle(fragment))
+    let best = |worth: &dyn Fn(Patch) -> f64| {
+        // Of equal patches the first.
+        let best = patches.iter().rev().max_by(|a, b| worth(**a).total_cmp(&worth(**b)));
+        best.map_or_else(summit, |patch| patch.middle())
     };
     match focus {
         Focus::Summit => summit(),
@@ -52,28 +52,28 @@ fn centre(contact: &Contact<'_>, focus: Focus) -> usize {
         Focus::After(spring) | Focus::Before(spring) => {
             let from = spring.unwrap_or_else(summit);
             let forward = matches!(focus, Focus::After(_));
-            nearest(fragments, from).map_or(from, |number| {
-                let next = if forward { number + 1 } else { number + fragments.len() - 1 };
-                middle(fragments[next % fragments.len()])
+            nearest(patches, from).map_or(from, |number| {
+                let next = if forward { number + 1 } else { number + patches.len() - 1 };
+                patches[next % patches.len()].middle()
             })
         }
-        Focus::Largest => best(&|(first, last)| (last - first) as f64),
-        Focus::MostLoaded => best(&|fragment| compression(contact, fragment).abs()),
+        Focus::Largest => best(&|patch| patch.springs().len() as f64),
+        Focus::MostLoaded => best(&|patch| compression(contact, patch).abs()),
     }
 }
 
-/// Sum of the compressions of a fragment's springs, m.
-fn compression(contact: &Contact<'_>, (first, last): (usize, usize)) -> f64 {
-    contact.gaps[first..=last].iter().map(|gap| contact.indentation - gap).sum()
+/// Sum of the compressions of a patch's springs, m.
+fn compression(contact: &Contact<'_>, patch: Patch) -> f64 {
+    contact.gaps[patch.springs()].iter().map(|gap| contact.indentation - gap).sum()
 }
 
-/// The number of the fragment nearest to a spring.
-fn nearest(fragments: &[(usize, usize)], spring: usize) -> Option<usize> {
-    let after = fragments.partition_point(|&(_, last)| last < spring);
+/// The number of the patch nearest to a spring.
+fn nearest(patches: &[Patch], spring: usize) -> Option<usize> {
+    let after = patches.partition_point(|patch| patch.last < spring);
     let distance = |number: usize| {
-        let (first, last) = fragments[number];
+        let Patch { first, last } = patches[number];
         first.saturating_sub(spring).max(spring.saturating_sub(last))
     };
-    let near = after.saturating_sub(1)..(after + 1).min(fragments.len());
+    let near = after.saturating_sub(1)..(after + 1).min(patches.len());
     near.min_by_key(|&number| distance(number))
 }

@@ -1,6 +1,6 @@
 //! Effects of an update: work outside the model.
 
-use super::action::Content;
+use super::action::OutputFile;
 use super::request::ManualMove;
 use super::theme::Appearance;
 use crate::scene::Document;
@@ -22,14 +22,7 @@ pub enum Effect {
     /// Draw a random seed and return it as an action.
     DrawSeed,
     /// Write a file.
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// Content.
-        content: Content,
-        /// True to overwrite the file.
-        overwrite: bool,
-    },
+    Write(OutputFile),
     /// Keep colours and markers in the configuration file.
     Remember {
         /// The file.

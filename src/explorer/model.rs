@@ -4,17 +4,18 @@ use super::action::Traffic;
 use super::adhesion_spread::AdhesionSpread;
 pub use super::appraisal::{Appraisal, Estimated};
 pub use super::chart::{Chart, OpenStudy};
-use super::completion::Completion;
 use super::config::{Animation, Config};
 use super::keys::Bindings;
-pub use super::mode::{Library, Mode, ModeKind};
+pub use super::mode::{Mode, ModeKind};
 pub use super::panes::Pane;
 use super::panes::PreloadCurve;
 use super::parameters::{Parameter, Setting, parameters};
 pub use super::player::Player;
 use super::player::{indentations, start_of};
+use super::prompt::{Prompt, Purpose};
 use super::request::{Focus, LineView};
 use super::snapshot::{ContactSnapshot, Drive, Preview, SolvedScene};
+use super::text_line::TextLine;
 use super::theme::Appearance;
 use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
@@ -123,17 +124,6 @@ pub enum Notice {
     Error(String),
 }
 
-/// A file being written.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Writing {
-    /// Its path.
-    pub path: std::path::PathBuf,
-    /// The scene when writing began.
-    pub text: String,
-    /// True to leave afterwards.
-    pub then_quit: bool,
-}
-
 /// The state of the explorer.
 #[derive(Clone, Debug)]
 pub struct Model {
@@ -177,8 +167,6 @@ pub struct Model {
     pub typed_force: String,
     /// True if the status line has springs and times in place of mechanical quantities.
     pub shows_work: bool,
-    /// Paths that complete the typed one, while they are shown.
-    pub completion: Option<Completion>,
     /// Target of the close-up.
     pub look: CloseUpTarget,
     /// Pane in the place of profile and close-up; `None`: these.
@@ -217,8 +205,6 @@ pub struct Model {
     pub pane: Pane,
     /// True if the chosen pane has the whole screen.
     pub zoomed: bool,
-    /// The pane chosen before the search of a parameter.
-    pub pane_before: Pane,
     /// Columns and rows of the terminal.
     pub size: (u16, u16),
     /// Colours and markers.
@@ -233,8 +219,6 @@ pub struct Model {
     pub traffic: Option<Traffic>,
     /// True if times are shown: they differ from run to run.
     pub shows_times: bool,
-    /// The file being written.
-    pub writing: Option<Writing>,
     /// A line for the user.
     pub notice: Option<Notice>,
     /// Line in place of the keys, which have no effect while a script plays.
@@ -269,7 +253,6 @@ impl Model {
             manual: None,
             typed_force: String::new(),
             shows_work: false,
-            completion: None,
             look: CloseUpTarget { focus: Focus::Summit, springs },
             large: None,
             lower: Pane::CloseUp,
@@ -288,7 +271,6 @@ impl Model {
             preview: None,
             tried: None,
             pane: Pane::Force,
-            pane_before: Pane::Force,
             zoomed: false,
             size,
             appearance,
@@ -297,7 +279,6 @@ impl Model {
             config_path: None,
             traffic: None,
             shows_times: true,
-            writing: None,
             notice: None,
             demo: None,
             finished: false,
@@ -312,6 +293,11 @@ impl Model {
     /// Shows the reason of a failure.
     pub(super) fn set_error(&mut self, why: impl Into<String>) {
         self.notice = Some(Notice::Error(why.into()));
+    }
+
+    /// Opens a prompt.
+    pub(super) fn ask(&mut self, purpose: Purpose, line: TextLine) {
+        self.mode = Mode::Prompt(Prompt::new(purpose, line, &self.parameters));
     }
 
     /// Takes over keys and animation of a configuration; colours and markers depend on options as well.
@@ -366,7 +352,7 @@ impl Model {
     pub fn tried_outcome(&self) -> Option<&Outcome> {
         let preview = self.preview.as_ref()?;
         let is_shown = match self.mode {
-            Mode::Edit(_) => self.tried.is_some(),
+            Mode::Prompt(_) => self.mode.is_typing_value() && self.tried.is_some(),
             Mode::Explore => self.is_computing() && preview.text == self.document.text(),
             _ => false,
         };

@@ -1,7 +1,6 @@
 //! The list of all commands, each with its key: the table of keys, by description.
 
 use super::command::Command;
-use super::fuzzy::Candidate;
 use super::keys::{self, Binding, Bindings};
 use super::mode::ModeKind;
 use crate::scene::{Preset, presets};
@@ -47,10 +46,9 @@ fn of_row(row: &Binding) -> Vec<Entry> {
 }
 
 impl Entry {
-    /// Search words: keys, description, section.
+    /// Texts of a search: keys, description, section.
     #[must_use]
-    pub fn candidate(&self) -> Candidate {
-        let names = self.keys.iter().chain([&self.help]).cloned().collect();
-        Candidate { names, prose: vec![self.section.to_owned()] }
+    pub fn texts(&self) -> Vec<String> {
+        self.keys.iter().cloned().chain([self.help.clone(), self.section.to_owned()]).collect()
     }
 }

@@ -1,13 +1,13 @@
 //! The list of parameters: the fields of the present scene that can be changed, in groups, by use.
 
-use super::fuzzy::Candidate;
 use crate::scene::{
     Document, Effect, Field, Move, Range, RoughnessParameter, field, format_quantity, ron_float,
 };
 
 /// Groups in the order of the list. The parameters that are varied most come first: adhesion, load, roughness, and the
 /// number of springs that resolves the roughness. Form and material are chosen once for a scene.
-const GROUPS: [&str; 7] = ["adhesion", "loading", "roughness", "numerics", "form", "material", "observe"];
+const GROUPS: [&str; 8] =
+    ["adhesion", "loading", "roughness", "numerics", "form", "material", "observe", "title"];
 
 /// First fields of their group; the others follow in the order of the scene file.
 const FIRST: [&str; 4] =
@@ -49,9 +49,6 @@ pub enum Setting {
     WorkOfAdhesion,
 }
 
-/// Fields that describe the scene rather than the contact.
-const NOT_LISTED: &[&str] = &["version", "title", "notice"];
-
 impl Parameter {
     /// A field without a value of its own.
     fn new(field: &'static Field, path: &str) -> Self {
@@ -81,7 +78,7 @@ impl Parameter {
     #[must_use]
     pub fn takes_number(&self) -> bool {
         let has_value = !matches!(self.setting, Setting::Switch(_) | Setting::Heading);
-        has_value && !matches!(self.field.range, Range::Choice(_) | Range::List { .. })
+        has_value && !matches!(self.field.range, Range::Choice(_) | Range::List { .. } | Range::Text { .. })
     }
 
     /// Returns true for the first row of a group.
@@ -90,13 +87,12 @@ impl Parameter {
         self.path == self.group
     }
 
-    /// Search words: symbol, in Greek and spelled, name and path; its meaning as prose.
+    /// Texts of a search: symbol, in Greek and spelled, name, path and meaning.
     #[must_use]
-    pub fn candidate(&self) -> Candidate {
+    pub fn texts(&self) -> Vec<String> {
         let symbol = self.field.symbol;
         let words = self.path.replace(['.', '_'], " ");
-        let names = vec![symbol.to_owned(), spelled(symbol), self.name(), words];
-        Candidate { names, prose: vec![self.field.meaning.to_owned()] }
+        vec![symbol.to_owned(), spelled(symbol), self.name(), words, self.field.meaning.to_owned()]
     }
 }
 
@@ -109,9 +105,9 @@ pub(super) fn spelled(symbol: &str) -> String {
     GREEK.iter().fold(symbol.to_owned(), |text, (letter, name)| text.replace(*letter, name))
 }
 
-/// The group of a field: that of its path, and the form for the diameter of the body.
+/// The group of a field: that of its path, the form for the diameter of the body, and the title for the notice.
 fn group_of(path: &str) -> &'static str {
-    let first = path.split('.').next().unwrap_or(path);
+    let first = if path == "notice" { "title" } else { path.split('.').next().unwrap_or(path) };
     GROUPS.into_iter().find(|group| *group == first).unwrap_or("form")
 }
 
@@ -120,7 +116,7 @@ fn group_of(path: &str) -> &'static str {
 pub fn parameters(document: &Document) -> Vec<Parameter> {
     let mut parameters = Vec::new();
     for field in document.fields() {
-        if NOT_LISTED.contains(&field.path) {
+        if field.path == "version" {
             continue;
         }
         if field.range == Range::Group || field.path == "observe" {
@@ -247,8 +243,15 @@ fn shown(field: &Field, written: &str) -> String {
                 (name, _) => name.to_owned(),
             }
         }
+        (Range::Text { .. }, _) => text_of(written),
         _ => written.split_whitespace().collect::<Vec<_>>().join(" "),
     }
+}
+
+/// The text of a written string, on one line; any other value as it is written.
+pub(super) fn text_of(written: &str) -> String {
+    let text: String = ron::from_str(written).unwrap_or_else(|_| written.to_owned());
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// The first name in a group: `work` of `(work: 0.05)`, in words.

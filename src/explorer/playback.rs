@@ -6,8 +6,8 @@ use super::manual_body::ManualBody;
 use super::panes::{Pane, SceneSpectra};
 use super::request::{Drive, LineView, ManualMove, Newest, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Probe, Report, SolvedScene};
-use crate::contact::{ContactError, Leg, LegRecord};
-use crate::draw::section::{Contact, LineColumns, Part};
+use crate::contact::{ContactError, Leg, LegRecord, Patch};
+use crate::export::section::{Contact, LineColumns, Part};
 use crate::scene::{Observer, Scene, Solver};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -117,18 +117,17 @@ impl Playback {
             }
             Drive::Manual => self.held.as_ref().map(|held| (held.leg().clone(), held.point()))?,
         };
-        let fragments = leg.patches(point.indentation);
+        let patches = leg.patches(point.indentation);
         let line = engine.line()?;
         let SolvedScene { scene, outcome, .. } = self.computed.as_deref()?;
         let contact = Contact {
             gaps: &line.gaps,
             summit: line.summit,
             indentation: point.indentation,
-            fragments: &fragments,
+            patches: &patches,
         };
         // Gaps between patches are whole cells; the outermost edges may lie inside of theirs.
-        let outermost =
-            fragments.first().zip(fragments.last()).map(|((first, _), (_, last))| last - first + 1);
+        let outermost = patches.first().zip(patches.last()).map(|(one, other)| other.last - one.first + 1);
         let between = outermost.map_or(0, |springs| springs as u64 - point.springs);
         let radius = 0.5 * (point.contact_length + between as f64 * outcome.line.spacing);
         let close_up = close_up(&contact, &leg, request, &mut self.close_up);
@@ -149,7 +148,7 @@ impl Playback {
             close_up,
             strip: strip(&contact, request.strip_cells),
             probe: request.crosshair.and_then(|position| probe(&contact, position)),
-            lengths: (request.lower == Pane::Lengths).then(|| lengths(&fragments)),
+            lengths: (request.lower == Pane::Lengths).then(|| lengths(&patches)),
             spectra: self.spectra.clone().filter(|_| shows_spectra),
             manual: match request.drive {
                 Drive::Leg(_) => None,
@@ -210,10 +209,10 @@ fn strip(contact: &Contact<'_>, cells: usize) -> String {
 }
 
 /// Counts patches of n springs over ⌊log₂ n²⌋: lengths that grow by a factor √2.
-fn lengths(fragments: &[(usize, usize)]) -> BTreeMap<u32, u64> {
+fn lengths(patches: &[Patch]) -> BTreeMap<u32, u64> {
     let mut counts = BTreeMap::new();
-    for (first, last) in fragments {
-        *counts.entry(((last + 1 - first) as u64).pow(2).ilog2()).or_default() += 1;
+    for patch in patches {
+        *counts.entry((patch.springs().len() as u64).pow(2).ilog2()).or_default() += 1;
     }
     counts
 }
@@ -222,13 +221,12 @@ fn lengths(fragments: &[(usize, usize)]) -> BTreeMap<u32, u64> {
 fn probe(contact: &Contact<'_>, position: f64) -> Option<Probe> {
     let last = contact.gaps.len().checked_sub(1)?;
     let spring = ((position * contact.gaps.len() as f64) as usize).min(last);
-    let next = contact.fragments.partition_point(|&(_, last)| last < spring);
-    let holds = |&(first, _): &(usize, usize)| first <= spring;
+    let next = contact.patches.partition_point(|patch| patch.last < spring);
     Some(Probe {
         spring,
         height: contact.height(spring),
         level: contact.level(),
-        patch: contact.fragments.get(next).filter(|patch| holds(patch)).map(|_| next),
+        patch: contact.patches.get(next).filter(|patch| patch.first <= spring).map(|_| next),
     })
 }
 

@@ -1,18 +1,18 @@
 //! A session: input, worker and terminal around one model.
 
 use super::action::{Action, Traffic};
+use super::autosave::{self, Autosave};
 use super::config::Config;
-use super::drafts::{Drafts, Restored};
-use super::file_job::FileJob;
 use super::input;
-use super::model::{Model, Notice};
+use super::model::Model;
 use super::opening::Opening;
+use super::runtime::{Console, Runtime, Solver, Studies};
 use super::signals::{SystemSignal, watch_for_signals};
 use super::snapshot::SolvedScene;
 use super::study::{Accuracy, Study};
 use super::terminal::{self, FrameWriter, TerminalGuard};
 use super::theme::{Appearance, Marker, Theme};
-use super::update::{Effect, request, study_tasks, update};
+use super::update::Effect;
 use super::view;
 use super::worker::{self, Engine, Worker};
 use crate::scene::Document;
@@ -24,7 +24,6 @@ use ratatui::backend::CrosstermBackend;
 use ratatui::layout::{Position, Rect, Size};
 use ratatui::{Frame, Terminal};
 use std::cell::Cell;
-use std::collections::VecDeque;
 use std::io::{self, Write};
 use std::mem::ManuallyDrop;
 use std::path::PathBuf;
@@ -44,10 +43,6 @@ const MOST_CELLS: u32 = 4_000_000;
 /// Longest time of actions without a frame.
 const DRAINING: Duration = Duration::from_millis(100);
 
-/// Longest wait for a file job before anything else is done: keys typed after the job act on its result. Longer
-/// jobs continue in the background.
-const JOB: Duration = Duration::from_millis(50);
-
 /// Options of the explorer.
 #[derive(Default)]
 pub struct Options {
@@ -57,14 +52,14 @@ pub struct Options {
     pub marker: Option<Marker>,
     /// True to leave the mouse to the terminal.
     pub no_mouse: bool,
-    /// Unsaved changes of another session; the opened scene is the first.
-    pub restored: Option<Restored>,
+    /// File of unsaved changes of another session, and its scenes; the opened scene is the first.
+    pub restored: Option<(PathBuf, Vec<Document>)>,
     /// Configuration; options here have precedence.
     pub config: Config,
     /// Message that is shown at the start.
     pub warning: Option<String>,
     /// Folder in which unsaved changes are kept; `None`: nowhere.
-    pub drafts: Option<PathBuf>,
+    pub unsaved: Option<PathBuf>,
 }
 
 /// State at the end of the explorer.
@@ -92,22 +87,12 @@ enum Message {
     Resized,
     /// Report of another thread.
     Act(Box<Action>),
-    /// The file job of this number is done.
-    Done(u64, Box<Action>),
 }
 
 impl Message {
     fn act(action: Action) -> Self {
         Message::Act(Box::new(action))
     }
-}
-
-/// File job in the background.
-#[derive(Clone, Copy)]
-struct Beside {
-    number: u64,
-    /// Generation of the scene at the request.
-    generation: u64,
 }
 
 /// Opens the explorer on a scene or a finished study and returns its final state.
@@ -169,39 +154,39 @@ pub fn open_with(
     if let Some(warning) = options.warning {
         model.set_error(warning);
     }
-    if let Some(restored) = &options.restored {
-        model.restore(&restored.documents);
+    if let Some((_, documents)) = &options.restored {
+        model.restore(documents);
+    } else if let Some(folder) = &options.unsaved {
+        model.offer(&autosave::left_behind(folder));
     }
-    let send_action = sender(&messages, Message::act);
-    let keep = move |action| {
-        send_action(action);
-    };
-    let start = |folder| Drafts::start(folder, options.restored, keep);
-    let drafts = options.drafts.map(start).transpose()?;
-    let mut session = Session {
-        terminal: &mut terminal,
-        guard,
+    let restored = options.restored.map(|(path, _)| path);
+    let worker = Worker::new(requests, newest);
+    let runtime = Runtime {
         model,
-        worker: Worker::new(requests, newest),
-        study,
+        solver: Solver::Thread(worker),
+        studies: Studies::Thread(study),
+        folder: PathBuf::new(),
+        // Six digits are enough for another line and can be read out to a colleague.
+        draw_seed: Box::new(|| rand::random_range(0..1_000_000)),
+    };
+    let mut session = Session {
+        runtime,
+        console: Screen { terminal: &mut terminal, guard, redraw: false, own_stops: 0 },
         draw,
         remote: ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| std::env::var_os(name).is_some()),
         frame_rate,
-        redraw: false,
-        own_stops: 0,
         written,
         traffic: (Instant::now(), 0),
         inbox,
-        messages,
-        held: VecDeque::new(),
-        jobs: 0,
-        opening: None,
-        drafts,
+        autosave: options.unsaved.map(|folder| Autosave::new(&folder, restored)),
         kept: (0, 0),
     };
     let signal = session.run()?;
-    session.leave_drafts();
-    let model = session.model;
+    let model = session.runtime.model;
+    if let Some(autosave) = session.autosave.as_mut().filter(|_| model.finished) {
+        // The user was asked about the changes.
+        let _ = autosave.keep(&[]);
+    }
     let computed = model.current().cloned();
     Ok(SessionEnd { document: model.document, computed, signal })
 }
@@ -223,34 +208,53 @@ fn window<W: Write>(terminal: &Terminal<CrosstermBackend<FrameWriter<W>>>) -> io
     Ok(size)
 }
 
-struct Session<'a, W: Write> {
+/// The terminal of a session.
+struct Screen<'a, W: Write> {
     terminal: &'a mut Terminal<CrosstermBackend<FrameWriter<W>>>,
     guard: TerminalGuard,
-    model: Model,
-    worker: Worker,
-    study: Study,
-    draw: Draw,
-    remote: bool,
-    /// Frames per second of the animation.
-    frame_rate: u32,
     /// True if the content of the screen is unknown.
     redraw: bool,
     /// Own stops without a signal of continuation so far.
     own_stops: u32,
+}
+
+impl<W: Write> Screen<'_, W> {
+    /// Action for a window of another size.
+    fn resize(&self) -> io::Result<Action> {
+        let size = window(self.terminal)?;
+        Ok(Action::Resize(size.width, size.height))
+    }
+}
+
+impl<W: Write> Console for Screen<'_, W> {
+    fn copy(&mut self, text: String) -> io::Result<()> {
+        // Sent with the next frame; the terminal does not confirm a copy.
+        queue!(self.terminal.backend_mut(), CopyToClipboard::to_clipboard_from(text))
+    }
+
+    fn suspend(&mut self) -> io::Result<Option<Action>> {
+        self.own_stops += 1;
+        self.guard.suspend()?;
+        // The window may have another size by now.
+        self.redraw = true;
+        self.resize().map(Some)
+    }
+}
+
+struct Session<'a, W: Write> {
+    runtime: Runtime,
+    console: Screen<'a, W>,
+    draw: Draw,
+    remote: bool,
+    /// Frames per second of the animation.
+    frame_rate: u32,
     /// Bytes written so far.
     written: Rc<Cell<u64>>,
     /// Time of the last report of the traffic, and the bytes written by then.
     traffic: (Instant, u64),
     inbox: Receiver<Message>,
-    messages: Sender<Message>,
-    /// Messages that arrived during a file job.
-    held: VecDeque<Message>,
-    /// File jobs so far.
-    jobs: u64,
-    /// The newest background job that opens a scene or a study.
-    opening: Option<Beside>,
     /// Keeps unsaved changes.
-    drafts: Option<Drafts>,
+    autosave: Option<Autosave>,
     /// Generation and number of saves when changes were last kept.
     kept: (u64, u64),
 }
@@ -260,30 +264,30 @@ impl<W: Write> Session<'_, W> {
     fn run(&mut self) -> io::Result<Option<i32>> {
         let frames = if self.remote { self.frame_rate.min(REMOTE_FRAMES) } else { self.frame_rate };
         let frame_time = Duration::from_secs(1) / frames;
-        self.perform(vec![Effect::Compute])?;
+        self.runtime.perform(vec![Effect::Compute], &mut self.console)?;
         let mut moved = Instant::now();
         let mut changed = true;
         // Over SSH nothing is drawn before this time: a held key or a dragged mouse would fill the line
         // with frames that nobody sees in time.
         let mut due = moved;
-        while !self.model.finished {
+        while !self.runtime.model.finished {
             if changed && Instant::now() >= due {
-                if std::mem::take(&mut self.redraw) {
+                if std::mem::take(&mut self.console.redraw) {
                     // Unlike `clear` this does not query the position of the cursor on the input that
                     // the other thread reads.
-                    let size = self.terminal.size()?;
-                    self.terminal.resize(Rect::from((Position::ORIGIN, size)))?;
+                    let size = self.console.terminal.size()?;
+                    self.console.terminal.resize(Rect::from((Position::ORIGIN, size)))?;
                 }
                 if self.remote {
                     self.measure_traffic(frames);
                     due = Instant::now() + frame_time;
                 }
-                let Session { terminal, model, draw, .. } = self;
-                terminal.draw(|frame| draw(frame, model))?;
+                let Session { runtime, console, draw, .. } = self;
+                console.terminal.draw(|frame| draw(frame, &runtime.model))?;
                 changed = false;
             }
-            self.keep_drafts();
-            let playing = self.model.player.playing && self.model.is_current() && self.model.manual.is_none();
+            let model = &self.runtime.model;
+            let playing = model.player.playing && model.is_current() && model.manual.is_none();
             if !playing {
                 moved = Instant::now();
             }
@@ -297,27 +301,27 @@ impl<W: Write> Session<'_, W> {
                     Message::InputEnded => return Ok(None),
                     Message::Ended(signal) => return Ok(Some(signal)),
                     // The terminal has been taken again already.
-                    Message::Continued if self.own_stops > 0 => {
-                        self.own_stops -= 1;
+                    Message::Continued if self.console.own_stops > 0 => {
+                        self.console.own_stops -= 1;
                         None
                     }
                     Message::Continued => {
-                        self.guard.take_again()?;
-                        Some(self.resize()?)
+                        self.console.guard.take_again()?;
+                        Some(self.console.resize()?)
                     }
-                    Message::Resized => Some(self.resize()?),
+                    Message::Resized => Some(self.console.resize()?),
                     // In the present mode: the key before may have changed it.
                     Message::Input(event) => {
-                        input::action_of(&event, &self.model.bindings, self.model.keys())
+                        let model = &self.runtime.model;
+                        input::action_of(&event, &model.bindings, model.keys())
                     }
                     Message::Act(action) => Some(*action),
-                    Message::Done(number, action) => Some(self.late(number, *action)),
                 };
                 if let Some(action) = action {
                     changed = true;
                     // A window that shrank and grew back between two frames has lost its content,
                     // though its size is that of the last frame.
-                    self.redraw |= matches!(action, Action::Resize(..));
+                    self.console.redraw |= matches!(action, Action::Resize(..));
                     self.act(action)?;
                 }
                 // Keys faster than their effects would else be drawn after the last one.
@@ -334,138 +338,40 @@ impl<W: Write> Session<'_, W> {
         Ok(None)
     }
 
-    /// Action for a window of another size.
-    fn resize(&self) -> io::Result<Action> {
-        let size = window(self.terminal)?;
-        Ok(Action::Resize(size.width, size.height))
-    }
-
     /// The next message, after `wait` at most; `None` waits without limit.
-    fn wait_for_message(&mut self, wait: Option<Duration>) -> Option<Message> {
-        let received = |inbox: &Receiver<Message>| match wait {
-            Some(wait) => inbox.recv_timeout(wait).ok(),
-            None => inbox.recv().ok(),
-        };
-        self.held.pop_front().or_else(|| received(&self.inbox))
+    fn wait_for_message(&self, wait: Option<Duration>) -> Option<Message> {
+        match wait {
+            Some(wait) => self.inbox.recv_timeout(wait).ok(),
+            None => self.inbox.recv().ok(),
+        }
     }
 
-    /// Runs a file job, and performs its action here if that comes soon.
-    fn work_on_files(&mut self, job: FileJob) -> io::Result<()> {
-        self.jobs += 1;
-        let number = self.jobs;
-        let description = job.describe();
-        let opens = matches!(job, FileJob::Open(_));
-        let messages = self.messages.clone();
-        job.start(move |action| drop(messages.send(Message::Done(number, Box::new(action)))));
-        let until = Instant::now() + JOB;
-        while let Ok(message) = self.inbox.recv_timeout(until.saturating_duration_since(Instant::now())) {
-            match message {
-                Message::Done(done, action) if done == number => return self.act(*action),
-                other => self.held.push_back(other),
+    /// Applies an action and keeps unsaved changes before they are drawn.
+    fn act(&mut self, action: Action) -> io::Result<()> {
+        self.runtime.act(action, &mut self.console)?;
+        let model = &mut self.runtime.model;
+        let now = (model.generation, model.saves);
+        if let Some(autosave) = self.autosave.as_mut().filter(|_| now != self.kept) {
+            self.kept = now;
+            if let Err(error) = autosave.keep(&model.unsaved()) {
+                self.autosave = None;
+                model.set_error(format!("unsaved changes are not kept for another session: {error}"));
             }
         }
-        self.model.notice = Some(Notice::Done(description));
-        if opens {
-            self.opening = Some(Beside { number, generation: self.model.generation });
-        }
         Ok(())
-    }
-
-    /// Action that follows a background job. An opened scene does not replace one opened or changed
-    /// since.
-    fn late(&mut self, number: u64, action: Action) -> Action {
-        let Action::Opened(Ok(opening)) = &action else { return action };
-        let is_wanted =
-            |beside: Beside| beside.number == number && beside.generation == self.model.generation;
-        if self.opening.is_some_and(is_wanted) {
-            return action;
-        }
-        let name = opening.document.name();
-        Action::Opened(Err(format!("{name}: read too late, another scene is shown by now; open it again")))
-    }
-
-    /// Keeps unsaved changes after an edit or a save.
-    fn keep_drafts(&mut self) {
-        let now = (self.model.generation, self.model.saves);
-        if let Some(drafts) = self.drafts.as_ref().filter(|_| now != self.kept) {
-            drafts.keep(self.model.unsaved().into_iter().cloned().collect());
-            self.kept = now;
-        }
-    }
-
-    /// Keeps unsaved changes where the user was not asked about them, else none.
-    fn leave_drafts(&mut self) {
-        self.keep_drafts();
-        let Some(drafts) = &self.drafts else { return };
-        if self.model.finished {
-            drafts.keep(Vec::new());
-        }
-        drafts.flush();
-    }
-
-    fn act(&mut self, action: Action) -> io::Result<()> {
-        let effects = update(&mut self.model, action);
-        self.perform(effects)
     }
 
     /// Reports the number of bytes written, once in a second of drawing.
     fn measure_traffic(&mut self, frames: u32) {
         let (since, before) = self.traffic;
         let elapsed = since.elapsed();
-        if self.model.traffic.is_some() && elapsed < Duration::from_secs(1) {
+        let model = &mut self.runtime.model;
+        if model.traffic.is_some() && elapsed < Duration::from_secs(1) {
             return;
         }
         let written = self.written.get();
         let bytes = (written - before) as f64 / elapsed.as_secs_f64().max(1.0);
         self.traffic = (Instant::now(), written);
-        let traffic = Traffic { frames, bytes: bytes as u64 };
-        update(&mut self.model, Action::Traffic(traffic));
-    }
-
-    /// Performs the effects of an update.
-    fn perform(&mut self, effects: Vec<Effect>) -> io::Result<()> {
-        for effect in effects {
-            match effect {
-                Effect::Compute | Effect::Show | Effect::Beside | Effect::Manual(_) | Effect::Preview(_) => {
-                    if effect == Effect::Compute {
-                        // Estimates of the former scene are of no use, and take time from this one.
-                        self.study.stop();
-                    }
-                    if let Some(request) = request(&self.model, &effect) {
-                        self.worker.ask(request);
-                    }
-                }
-                Effect::Study => self.study.ask(self.model.generation, study_tasks(&self.model)),
-                Effect::DrawSeed => {
-                    // Six digits are enough for another line and can be read out to a colleague.
-                    let seed = rand::random_range(0..1_000_000);
-                    self.act(Action::SetSeed(seed))?;
-                }
-                Effect::Write { path, content, overwrite } => {
-                    let model = Box::new(self.model.clone());
-                    self.work_on_files(FileJob::Write { model, path, content, overwrite })?;
-                }
-                Effect::Remember { path, appearance } => {
-                    self.work_on_files(FileJob::Remember { path, appearance })?;
-                }
-                Effect::Complete(typed) => self.work_on_files(FileJob::Complete(typed))?,
-                Effect::List => self.work_on_files(FileJob::List)?,
-                Effect::Open(name) => self.work_on_files(FileJob::Open(name))?,
-                Effect::StopPreview => self.worker.stop_preview(),
-                Effect::Copy(text) => {
-                    // Sent with the next frame; the terminal does not confirm a copy.
-                    queue!(self.terminal.backend_mut(), CopyToClipboard::to_clipboard_from(text))?;
-                }
-                Effect::Suspend => {
-                    self.own_stops += 1;
-                    self.guard.suspend()?;
-                    // The window may have another size by now.
-                    self.redraw = true;
-                    let resize = self.resize()?;
-                    self.act(resize)?;
-                }
-            }
-        }
-        Ok(())
+        model.traffic = Some(Traffic { frames, bytes: bytes as u64 });
     }
 }

@@ -16,7 +16,7 @@ pub enum SystemSignal {
 /// Calls `report` when a signal ends or continues the process, or the size of its window changes; `report` returns false once nobody receives.
 ///
 /// If the explorer has not ended some time later, as while the terminal accepts no output,
-/// the process ends by the signal, and [`super::rescue::Rescue`] restores the terminal.
+/// the process ends by the signal, with the attributes of the terminal restored.
 ///
 /// # Errors
 /// When the system refuses.

@@ -4,8 +4,8 @@
 use super::panes::SceneSpectra;
 pub use super::request::Drive;
 use super::request::Focus;
-use crate::contact::{ContactError, CurvePoint};
-pub use crate::draw::section::{Column, Section};
+use crate::contact::{ContactError, CurvePoint, Patch};
+pub use crate::export::section::{Column, Section};
 use crate::scene::Scene;
 use crate::simulation::{LineFacts, Outcome};
 use std::collections::BTreeMap;
@@ -125,8 +125,8 @@ pub struct CloseUp {
 pub struct FragmentFacts {
     /// Its number along the line, from 0.
     pub number: usize,
-    /// Its first and last spring.
-    pub springs: (usize, usize),
+    /// Its springs.
+    pub patch: Patch,
     /// Its length δx, m.
     pub length: f64,
     /// Largest stretch by the rule of Hess, eq. (10), m; zero without adhesion.
@@ -135,15 +135,6 @@ pub struct FragmentFacts {
     pub most_stretched: f64,
     /// Force, N; compression positive.
     pub force: f64,
-}
-
-impl FragmentFacts {
-    /// The spring in its middle.
-    #[must_use]
-    pub fn middle(&self) -> usize {
-        let (first, last) = self.springs;
-        first + (last - first) / 2
-    }
 }
 
 /// Preview of a scene.

@@ -1,6 +1,5 @@
 //! The terminal: taken over when the explorer opens, restored at any end.
 
-use super::rescue::Rescue;
 use crossterm::cursor::Show;
 use crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
 use crossterm::style::Print;
@@ -18,10 +17,9 @@ use std::rc::Rc;
 const MOUSE_ON: &str = "\x1b[?1000h\x1b[?1002h\x1b[?1006h";
 const MOUSE_OFF: &str = "\x1b[?1006l\x1b[?1002l\x1b[?1000l";
 
-/// Terminal taken over by the explorer; restored on drop and at the end of the process.
+/// Terminal taken over by the explorer; restored on drop and by a panic.
 pub struct TerminalGuard {
     mouse: bool,
-    rescue: Option<Rescue>,
 }
 
 impl TerminalGuard {
@@ -32,7 +30,6 @@ impl TerminalGuard {
     pub fn take(mouse: bool) -> io::Result<Self> {
         // NO_COLOR is read by the theme; left to crossterm it would drop reverse and bold as well.
         crossterm::style::force_color_output(true);
-        let rescue = Rescue::start();
         let before = std::panic::take_hook();
         let drawing = std::thread::current().id();
         std::panic::set_hook(Box::new(move |panic| {
@@ -42,35 +39,22 @@ impl TerminalGuard {
                 before(panic);
             }
         }));
-        let mut guard = TerminalGuard { mouse, rescue };
+        let guard = TerminalGuard { mouse };
         guard.enter()?;
         Ok(guard)
     }
 
-    fn enter(&mut self) -> io::Result<()> {
-        self.note(true);
+    fn enter(&self) -> io::Result<()> {
         enable_raw_mode()?;
         let mouse = if self.mouse { MOUSE_ON } else { "" };
         execute!(io::stdout(), EnterAlternateScreen, EnableBracketedPaste, Print(mouse))
-    }
-
-    fn give_back(&mut self) -> io::Result<()> {
-        let given = give_back(self.mouse);
-        self.note(false);
-        given
-    }
-
-    fn note(&mut self, is_taken: bool) {
-        if let Some(rescue) = &mut self.rescue {
-            rescue.note(is_taken);
-        }
     }
 
     /// Takes the terminal once more, after another program may have had it.
     ///
     /// # Errors
     /// When the terminal refuses.
-    pub fn take_again(&mut self) -> io::Result<()> {
+    pub fn take_again(&self) -> io::Result<()> {
         // Only a restored terminal can be taken.
         disable_raw_mode()?;
         self.enter()
@@ -81,8 +65,8 @@ impl TerminalGuard {
     ///
     /// # Errors
     /// When the terminal refuses.
-    pub fn suspend(&mut self) -> io::Result<()> {
-        self.give_back()?;
+    pub fn suspend(&self) -> io::Result<()> {
+        give_back(self.mouse)?;
         stop_until_continued();
         self.enter()
     }
@@ -91,7 +75,7 @@ impl TerminalGuard {
 impl Drop for TerminalGuard {
     fn drop(&mut self) {
         // A lost terminal cannot be restored.
-        let _ = self.give_back();
+        let _ = give_back(self.mouse);
         // While a panic unwinds, the hook cannot be taken and is needed no more.
         if !std::thread::panicking() {
             let _ = std::panic::take_hook();

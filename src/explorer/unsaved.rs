@@ -1,7 +1,9 @@
 //! Scenes with unsaved changes: the explored one, and those left for another.
 
+use super::autosave;
 use super::model::Model;
 use crate::scene::Document;
+use std::path::{Path, PathBuf};
 
 impl Model {
     /// Returns true if the scene differs from its saved document.
@@ -41,8 +43,21 @@ impl Model {
         }
     }
 
+    /// Offers the unsaved changes in files of ended sessions, the newest first.
+    pub fn offer(&mut self, files: &[PathBuf]) {
+        let scenes = files.iter().filter_map(|path| autosave::read(path).ok()).flatten();
+        let name =
+            |document: Document| Some(Path::new(document.name()).file_name()?.to_string_lossy().into_owned());
+        let mut names: Vec<String> = scenes.filter_map(name).collect();
+        names.dedup();
+        if !names.is_empty() {
+            let of = names.join(", ");
+            self.set_done(format!("unsaved changes of {of} are kept: asperity --restore opens the newest"));
+        }
+    }
+
     /// Marks the present scene as saved to a file, which becomes the file of the scene.
-    pub fn set_saved_as(&mut self, path: &std::path::Path) {
+    pub fn set_saved_as(&mut self, path: &Path) {
         if let Ok(document) = Document::parse(self.document.text(), &path.to_string_lossy()) {
             self.document = document;
         }

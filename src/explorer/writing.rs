@@ -1,51 +1,38 @@
 //! Files of the explorer: scenes, curves, figures of its panes, pictures of its screen.
 
-use super::action::{Content, WriteFailure, Written};
+use super::action::{Action, Content, OutputFile, WriteFailure};
 use super::model::{Mode, Model, Notice};
 use super::panes;
 use super::picture::{svg, text};
 use super::theme::Theme;
 use super::view;
 use crate::draw::Palette;
-use crate::export::{self, Format, RunReport, check_extension, scene_provenance, write_map};
+use crate::export::{self, Format, RunReport, scene_provenance, write_map};
 use crate::io::{WriteError, check_file_name, write_new_file};
 use crate::scene::command_line;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-/// Writes a content to a regular file: a pipe would block. The name of a scene without an extension gets `.ron`.
-///
-/// # Errors
-/// When the file exists and is not to be overwritten, or the system refuses.
-pub fn write(
-    model: &Model,
-    path: PathBuf,
-    content: Content,
-    overwrite: bool,
-) -> Result<Written, WriteFailure> {
-    let named = if content == Content::Scene { scene_file(path) } else { Ok(path) };
-    let path = named.map_err(WriteFailure::Refused)?;
-    let written = write_new_file(&path, overwrite, |file| write_content(file, model, &path, content));
-    match written {
-        Ok(()) => Ok(Written { path, content }),
-        Err(WriteError::Exists { .. }) => Err(WriteFailure::Exists(path, content)),
-        Err(other) => Err(WriteFailure::Refused(other.to_string())),
-    }
-}
-
-/// The file of a scene by its typed name. A name without an extension is checked before `.ron` makes it another name.
-///
-/// # Errors
-/// When the name has another extension, or is that of a folder, a pipe or a device.
-pub fn scene_file(mut path: PathBuf) -> Result<PathBuf, String> {
-    if check_extension(&path, &["ron"]).map_err(|error| error.to_string())?.is_none() {
-        check_file_name(&path).map_err(|error| error.to_string())?;
-        path.set_extension("ron");
-    }
-    Ok(path)
+/// Writes a regular file, relative to a folder: a pipe would block. A name of a scene without an extension is checked
+/// before `.ron` makes it another name. Returns the file with its name, and the result.
+pub(super) fn write(model: &Model, folder: &Path, mut file: OutputFile) -> Action {
+    let mut written = || {
+        if file.content == Content::Scene && file.path.extension().is_none() {
+            check_file_name(&folder.join(&file.path))?;
+            file.path.set_extension("ron");
+        }
+        write_new_file(&folder.join(&file.path), file.overwrite, |out| {
+            write_content(out, model, &file.path, file.content)
+        })
+    };
+    let result = written().map_err(|error| match error {
+        WriteError::Exists { .. } => WriteFailure::Exists,
+        other => WriteFailure::Refused(other.to_string()),
+    });
+    Action::Written(file, result)
 }
 
 fn write_content(file: &mut dyn Write, model: &Model, path: &Path, content: Content) -> io::Result<()> {

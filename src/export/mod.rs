@@ -13,6 +13,7 @@ mod report;
 mod reversals;
 mod run;
 mod scene_figure;
+pub mod section;
 pub(crate) mod sheet;
 mod spectrum_figure;
 mod study_figure;

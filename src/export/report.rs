@@ -145,17 +145,18 @@ impl Format {
             )));
         }
         let extensions: Vec<_> = formats.iter().map(|format| format.extension()).collect();
-        let place = file.map_or(Ok(None), |file| check_extension(file, &extensions))?;
-        match (file, place.map(|place| formats[place]), chosen) {
-            (Some(file), Some(of_extension), Some(chosen)) if of_extension != chosen => {
-                Err(FormatError(format!(
-                    "{}: the extension contradicts --format {}; use .{}, or leave out --format",
-                    path_name(file),
-                    chosen.name(),
-                    chosen.extension()
-                )))
+        let file = file.unwrap_or(Path::new(""));
+        let refused = |error: FormatError| FormatError(format!("{}: {}", path_name(file), error.0));
+        let place = check_extension(file, &extensions).map_err(refused)?;
+        match (place.map(|place| formats[place]), chosen) {
+            (Some(of_extension), Some(chosen)) if of_extension != chosen => {
+                let (name, extension) = (chosen.name(), chosen.extension());
+                let fault = format!(
+                    "the extension contradicts --format {name}; use .{extension}, or leave out --format"
+                );
+                Err(refused(FormatError(fault)))
             }
-            (_, of_extension, chosen) => Ok(of_extension.or(chosen).unwrap_or(usual)),
+            (of_extension, chosen) => Ok(of_extension.or(chosen).unwrap_or(usual)),
         }
     }
 }
@@ -170,9 +171,8 @@ pub fn check_extension(file: &Path, allowed: &[&str]) -> Result<Option<usize>, F
     };
     let place = allowed.iter().position(|one| extension.eq_ignore_ascii_case(one));
     place.map(Some).ok_or_else(|| {
-        let (file, extension) = (path_name(file), printable(&extension));
-        let allowed = alternatives(".", allowed.iter().copied());
-        FormatError(format!("{file}: unsupported file extension .{extension}; use {allowed}"))
+        let (extension, allowed) = (printable(&extension), alternatives(".", allowed.iter().copied()));
+        FormatError(format!("unsupported file extension .{extension}; use {allowed}"))
     })
 }
 

@@ -1,11 +1,11 @@
 //! Figures of computed scenes: force curves, the profile with its contact, contact patches over the indentation.
 
 use crate::analysis::{Mark, marks, preload_point};
-use crate::contact::{ContactError, CurvePoint, Direction, Leg, LegRecord};
-use crate::draw::section::{Column, Contact, LineColumns, Part};
+use crate::contact::{ContactError, CurvePoint, Direction, Leg, LegRecord, Patch};
 use crate::draw::{
     Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label,
 };
+use crate::export::section::{Column, Contact, LineColumns, Part};
 use crate::simulation::Outcome;
 use crate::surface::Line;
 use std::slice;
@@ -92,10 +92,10 @@ pub(crate) fn mark_name(mark: Mark, force: f64) -> Label {
     Label::plain(mark.name()).then(" ").join(&value_label("", symbol, "N", value))
 }
 
-/// First and last springs of the contact patches at an indentation.
+/// Contact patches at an indentation, m.
 struct Patches {
     indentation: f64,
-    fragments: Vec<(usize, usize)>,
+    patches: Vec<Patch>,
 }
 
 /// Contact patches of a run, gathered stage by stage: at the largest force, and over the indentation.
@@ -121,7 +121,7 @@ impl ContactSets {
     /// # Errors
     /// None; the type is that of an observer of a run.
     pub fn observe(&mut self, record: &LegRecord, leg: &Leg) -> Result<(), ContactError> {
-        let at = |indentation: f64| Patches { indentation, fragments: leg.patches(indentation) };
+        let at = |indentation: f64| Patches { indentation, patches: leg.patches(indentation) };
         let larger = |point: &CurvePoint| self.preload.as_ref().is_none_or(|(force, _)| point.force > *force);
         let preload = preload_point(slice::from_ref(record)).map(|(_, point)| point);
         if let Some(point) = preload.filter(larger) {
@@ -146,10 +146,10 @@ impl ContactSets {
     /// The rigid profile, the elastic surface and the contact at the largest force.
     #[must_use]
     pub fn profile_figure(&self, title: &str, outcome: &Outcome, line: &Line) -> Figure {
-        let separated = (0.0, Patches { indentation: 0.0, fragments: Vec::new() });
-        let (force, Patches { indentation, fragments }) = self.preload.as_ref().unwrap_or(&separated);
+        let separated = (0.0, Patches { indentation: 0.0, patches: Vec::new() });
+        let (force, Patches { indentation, patches }) = self.preload.as_ref().unwrap_or(&separated);
         let (force, indentation) = (*force, *indentation);
-        let contact = Contact { gaps: &line.gaps, summit: line.summit, indentation, fragments };
+        let contact = Contact { gaps: &line.gaps, summit: line.summit, indentation, patches };
         let springs = line.gaps.len();
         let part = Part { first: 0, springs, columns: COLUMNS.min(springs) };
         let section = contact.section(part, &mut LineColumns::default());
@@ -183,11 +183,11 @@ impl ContactSets {
         let chart = |(direction, rows): &(Direction, Vec<Patches>)| {
             let half = rows.get(..2).map_or(0.0, |pair| 0.5 * (pair[1].indentation - pair[0].indentation));
             let mut boxes = Vec::new();
-            for Patches { indentation, fragments } in rows {
+            for Patches { indentation, patches } in rows {
                 let mut open: Option<(f64, f64)> = None;
-                for &(first, last) in fragments {
-                    let [from, to] =
-                        [first, last + 1].map(|spring| (facts.first + spring) as f64 * facts.spacing);
+                for patch in patches {
+                    let [from, to] = [patch.first, patch.last + 1]
+                        .map(|spring| (facts.first + spring) as f64 * facts.spacing);
                     match &mut open {
                         Some((_, end)) if from - *end < least => *end = to.max(*end),
                         _ => boxes.extend(open.replace((from, to)).map(|ends| (ends, *indentation))),
@@ -306,7 +306,7 @@ mod tests {
             let Shape::Boxes(boxes) = &chart.layers[0].shape else { panic!() };
             let drawn: f64 = boxes.iter().map(|((from, to), _)| to - from).sum();
             let springs: usize =
-                rows.iter().flat_map(|row| &row.fragments).map(|(first, last)| last - first + 1).sum();
+                rows.iter().flat_map(|row| &row.patches).map(|patch| patch.springs().len()).sum();
             // Gaps of one spring are wider than the merged ones.
             assert!((drawn / (springs as f64 * outcome.line.spacing) - 1.0).abs() < 1e-9);
             assert_eq!(rows.len(), ROWS);

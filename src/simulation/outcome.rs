@@ -1,7 +1,7 @@
 //! Outcome of a computed scene.
 
 use crate::analysis::{Figures, Governing, Regime, SteepWaves};
-use crate::contact::History;
+use crate::contact::{History, Patch};
 use crate::surface::Histogram;
 use serde::Serialize;
 
@@ -28,8 +28,8 @@ pub struct Outcome {
     pub figures: Figures,
     /// The loading history itself.
     pub history: History,
-    /// First and last spring of each fragment in contact after each loading stage, if observed.
-    pub fragments: Vec<Vec<(usize, usize)>>,
+    /// Patches in contact after each loading stage, if observed.
+    pub fragments: Vec<Vec<Patch>>,
     /// Histogram of the heights of the profile, if observed.
     pub histogram: Option<Histogram>,
     /// Times of the stages.

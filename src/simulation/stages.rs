@@ -5,7 +5,7 @@ use super::loading::load;
 use super::roughness::{Rough, RoughnessKey, RoughnessMaker, spectrum};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
 use crate::analysis::{Figures, Governing, Regime, SteepWaves, ideal_adhesion_force, scene_tabor_number};
-use crate::contact::{Contact, ContactError, ContactTree, Foundation, Leg, LegRecord, Springs, Work};
+use crate::contact::{Contact, ContactError, ContactTree, Foundation, Leg, LegRecord, Patch, Springs, Work};
 use crate::memory::check_room;
 use crate::parallel::in_parallel;
 use crate::reference::smooth_adhesion_force;
@@ -263,7 +263,8 @@ impl Simulation {
         let plan = Plan::of(scene);
         let made = self.prepare(&plan, scene, stop)?;
         let Prepared { contact, facts, governing, random_phases, heights_binned, mut timings } = made;
-        let on_foundation = |(first, last): (usize, usize)| (first + facts.first, last + facts.first);
+        let on_foundation =
+            |patch: Patch| Patch { first: patch.first + facts.first, last: patch.last + facts.first };
 
         let (clock, mut stage, mut fragments) = (Instant::now(), 0, Vec::new());
         let mut see = |record: &LegRecord, leg: &Leg| {

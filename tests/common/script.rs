@@ -34,15 +34,6 @@ impl Driver {
         update(&mut self.model, Action::Command(command))
     }
 
-    /// Performs the effects of an action.
-    pub fn perform(&mut self, effects: Vec<Effect>) {
-        for effect in effects {
-            for action in self.answer(effect) {
-                self.act(action);
-            }
-        }
-    }
-
     /// Presses keys, their names separated by blanks: `j`, `Ctrl+c`, `Enter`, `Shift+Left`. Returns the effects of the
     /// last one.
     pub fn press(&mut self, names: &str) -> Vec<Effect> {
@@ -68,6 +59,11 @@ impl Driver {
         self.press("e Ctrl+u");
         self.type_text(value);
         self.press("Enter");
+    }
+
+    /// Reason why the typed text was refused.
+    pub fn refusal(&self) -> Option<&str> {
+        self.model.mode.prompt()?.refused.as_deref()
     }
 
     /// Selects the parameter of a field, by keys.

@@ -1,7 +1,7 @@
 //! Springs under random lines of many kinds, and the engine over them.
 
 use asperity::contact::{
-    self, Contact, CurvePoint, Edges, Foundation, HessRule, History, LegRecord, Move, run,
+    self, Contact, CurvePoint, Edges, Foundation, HessRule, History, LegRecord, Move, Patch, run,
 };
 use asperity::surface::SelfAffine;
 use proptest::prelude::*;
@@ -230,8 +230,8 @@ pub fn curve_bits(record: &LegRecord) -> Vec<[u64; 6]> {
 }
 
 /// Springs of patches.
-pub fn indices(patches: &[(usize, usize)]) -> Vec<usize> {
-    patches.iter().flat_map(|&(first, last)| first..=last).collect()
+pub fn indices(patches: &[Patch]) -> Vec<usize> {
+    patches.iter().flat_map(|patch| patch.springs()).collect()
 }
 
 pub fn to_indentations(indentations: &[f64]) -> Vec<Move> {

@@ -1,7 +1,7 @@
 //! Whole springs against blind relaxation of the rules, independent of the library, after any history.
 
 use super::body::*;
-use asperity::contact::{self, ContactError, Edges, Foundation, HessRule, Move, Solver};
+use asperity::contact::{self, ContactError, Edges, Foundation, HessRule, Move, Patch, Solver};
 use proptest::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -99,15 +99,8 @@ impl<'a> Blind<'a> {
         there
     }
 
-    fn fragments(&self) -> Vec<(usize, usize)> {
-        let mut fragments: Vec<(usize, usize)> = Vec::new();
-        for index in (0..self.contact.len()).filter(|&index| self.contact[index]) {
-            match fragments.last_mut() {
-                Some((_, last)) if *last + 1 == index => *last = index,
-                _ => fragments.push((index, index)),
-            }
-        }
-        fragments
+    fn patches(&self) -> Vec<Patch> {
+        Patch::of_springs(self.contact.iter().copied())
     }
 }
 
@@ -132,7 +125,7 @@ fn count(index: usize, number: usize) {
 fn compare(body: &Body, order: Order, drawn: &[((Move, bool), Vec<f64>)]) -> Result<(), TestCaseError> {
     let (mut solver, mut blind) = (body.on(2), Blind::new(body, order));
     let agree = |solver: &contact::Body, blind: &Blind, d: f64| {
-        prop_assert_eq!(solver.leg().patches(d), blind.fragments(), "at {}", d);
+        prop_assert_eq!(solver.leg().patches(d), blind.patches(), "at {}", d);
         count(0, 1);
         count(1, body.gaps.len());
         Ok(())
@@ -174,7 +167,7 @@ fn compare(body: &Body, order: Order, drawn: &[((Move, bool), Vec<f64>)]) -> Res
             blind.relax(to);
             agree(&solver, &blind, to)?;
         }
-        let patches = blind.fragments();
+        let patches = blind.patches();
         let counts = (indices(&patches).len() as u64, patches.len() as u64);
         prop_assert_eq!((end.springs, end.fragments), counts, "at the end of {:?}", target);
     }

@@ -3,7 +3,7 @@
 
 use super::common::deadline::within;
 use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
-use asperity::contact::{ContactError, CurvePoint};
+use asperity::contact::{ContactError, CurvePoint, Patch};
 use asperity::explorer::panes::Pane;
 use asperity::explorer::snapshot::{ContactSnapshot, Drive, SolvedScene};
 use asperity::explorer::worker::{
@@ -484,18 +484,9 @@ fn above_the_foundation_nothing_touches() {
     });
 }
 
-/// First and last spring of each fragment, from one column for each spring.
-fn fragments(snapshot: &ContactSnapshot) -> Vec<(usize, usize)> {
-    let mut fragments: Vec<(usize, usize)> = Vec::new();
-    for (spring, _) in
-        snapshot.profile.columns.iter().enumerate().filter(|(_, column)| column.contact.is_some())
-    {
-        match fragments.last_mut() {
-            Some((_, last)) if *last + 1 == spring => *last = spring,
-            _ => fragments.push((spring, spring)),
-        }
-    }
-    fragments
+/// Contact patches, from one column for each spring.
+fn fragments(snapshot: &ContactSnapshot) -> Vec<Patch> {
+    Patch::of_springs(snapshot.profile.columns.iter().map(|column| column.contact.is_some()))
 }
 
 #[test]
@@ -517,13 +508,15 @@ fn picture_counts_and_boundaries_say_the_same() {
                     };
                     let shown = served.shown(request);
                     let found = fragments(&shown);
-                    let held: usize = found.iter().map(|(first, last)| last + 1 - first).sum();
+                    let held: usize = found.iter().map(|patch| patch.springs().len()).sum();
                     assert_eq!(shown.point.fragments, found.len() as u64, "{name}");
                     assert_eq!(shown.point.springs, held as u64, "{name}");
                     let ends: Vec<usize> = found
                         .iter()
                         .flat_map(
-                            |&(first, last)| if first == last { vec![first] } else { vec![first, last] },
+                            |&Patch { first, last }| {
+                                if first == last { vec![first] } else { vec![first, last] }
+                            },
                         )
                         .collect();
                     let boundaries = &shown.close_up.boundaries;
@@ -535,7 +528,7 @@ fn picture_counts_and_boundaries_say_the_same() {
                     for &(spring, height) in boundaries {
                         assert_eq!(shown.profile.columns[spring].line, (height, height), "{name}");
                     }
-                    let fragment = shown.close_up.fragment.map(|facts| (facts.number, facts.springs));
+                    let fragment = shown.close_up.fragment.map(|facts| (facts.number, facts.patch));
                     assert_eq!(fragment.is_some(), !found.is_empty(), "{name}");
                     if let Some((number, springs)) = fragment {
                         assert_eq!(found[number], springs, "{name}");
@@ -581,7 +574,7 @@ fn next_and_previous_fragment_go_round() {
             let facts = shown.close_up.fragment.expect("something touches");
             let section = &shown.close_up.section;
             let seen = section.first..section.first + section.springs;
-            let middle = (facts.springs.0 + facts.springs.1) / 2;
+            let middle = facts.patch.middle();
             let centred = matches!(focus, Focus::After(_) | Focus::Before(_));
             assert!(!centred || seen.contains(&middle), "{facts:?} not in {seen:?}");
             (facts.number, middle)
@@ -652,7 +645,7 @@ fn a_fragment_bears_what_the_rule_of_hess_allows() {
         let range = governing.work_of_adhesion.unwrap() / governing.effective_modulus;
         for sample in some(&computed.outcome.history.legs[1].curve).filter(|sample| sample.springs > 0) {
             let facts = served.shown(snapshot(1, sample.indentation)).close_up.fragment.unwrap();
-            let springs = facts.springs.1 + 1 - facts.springs.0;
+            let springs = facts.patch.springs().len();
             // The edges of the patch lie within a cell of its outermost springs.
             assert!((facts.length / spacing - springs as f64).abs() <= 1.0 + 1e-9, "{facts:?}");
             // Eq. (10), written anew.

@@ -3,8 +3,8 @@
 use crate::common::deadline::within;
 use crate::common::terminal::{Program, Terminal};
 use crate::driving::{
-    ASPERITY, CLEAR_LINE, ENTER, SCENE, answer, explorer, headline, last_place, paused, quit, row_with,
-    select, wait_for_another,
+    ASPERITY, CLEAR_LINE, ENTER, ESCAPE, SCENE, answer, explorer, headline, last_place, paused, quit,
+    row_with, select, wait_for_another,
 };
 use asperity::scene::Document;
 use std::fs;
@@ -51,12 +51,14 @@ fn what_is_saved_is_a_scene_and_is_overwritten_only_when_asked() {
         assert!(check(&path).0);
 
         save_as(&mut terminal, "no/folder/mine.ron");
-        terminal.wait_for("not written");
+        terminal.wait_for("! there is no folder no/folder: no/folder/mine.ron");
+        terminal.send(ESCAPE);
+        terminal.wait_without("no folder");
         quit(&mut terminal);
         let mut names: Vec<_> =
             fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
         names.sort();
-        assert_eq!(names, ["mine.ron", "scene.ron"], "nothing else is left behind");
+        assert_eq!(names, [".local", "mine.ron", "scene.ron"], "beside the folder of unsaved changes");
     });
 }
 
@@ -229,8 +231,9 @@ fn curve_figures_and_panes_are_exported() {
         terminal.wait_without("Overwrite");
         terminal.send("E");
         answer(&mut terminal, "Export to (.csv .npy .json .svg .png .txt): ", "out.pdf");
-        terminal
-            .wait_for("out.pdf: unsupported file extension .pdf; use .csv, .npy, .json, .svg, .png or .txt");
+        terminal.wait_for("unsupported file extension .pdf; use .csv, .npy, .json, .svg, .png or .txt");
+        terminal.send(ESCAPE);
+        terminal.wait_without("unsupported");
         quit(&mut terminal);
         assert!(!folder.path().join("out.pdf").exists());
     });

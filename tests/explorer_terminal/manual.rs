@@ -2,7 +2,7 @@
 
 use crate::common::deadline::within;
 use crate::common::terminal::Terminal;
-use crate::driving::{CLEAR_LINE, ENTER, ESCAPE, answer, explorer, paused, quantity, quit, select};
+use crate::driving::{CLEAR_LINE, ESCAPE, answer, explorer, paused, quantity, quit, select};
 
 /// Indentation and force of manual loading, m and N.
 fn body_at(rows: &[String]) -> Option<(f64, f64)> {
@@ -119,7 +119,7 @@ fn an_edit_puts_the_body_back_on_the_loading() {
         terminal.wait("body given back", |rows| body_at(rows).is_none());
         terminal.send("F");
         terminal.wait_for("Go to the force:");
-        terminal.send(ENTER);
+        terminal.send(ESCAPE);
         terminal.wait_without("Go to the force:");
         quit(&mut terminal);
     });

@@ -4,9 +4,8 @@ use super::adhesive::{
     Closing, EdgeCells, EdgeModel, GridEdges, Ground, Held, Run, Runs, Slider, Span, SubCellEdges,
 };
 use super::contact_state::ContactState;
-use super::fragments::runs;
 use super::totals::ContactTotals;
-use super::{Contact, ContactError, ContactTree, Direction};
+use super::{Contact, ContactError, ContactTree, Direction, Patch};
 use crate::contact::Edges;
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -191,15 +190,16 @@ impl Leg {
         }
     }
 
-    /// Returns first and last spring of each patch in contact at an indentation, m, from left to right.
+    /// Returns the patches in contact at an indentation, m, from left to right.
     #[must_use]
-    pub fn patches(&self, indentation: f64) -> Vec<(usize, usize)> {
+    pub fn patches(&self, indentation: f64) -> Vec<Patch> {
         match &self.patches {
             Patches::Springs(thresholds) => {
-                runs(thresholds.iter().map(|&threshold| threshold <= indentation))
+                Patch::of_springs(thresholds.iter().map(|&threshold| threshold <= indentation))
             }
             Patches::Runs(tree, runs) => along_runs!(self, tree, runs, along => {
-                along.held_at(indentation, false).map(|held| (held.first as usize, held.last as usize)).collect()
+                let patch = |held: Held| Patch { first: held.first as usize, last: held.last as usize };
+                along.held_at(indentation, false).map(patch).collect()
             }),
         }
     }
@@ -220,18 +220,19 @@ impl Leg {
     #[must_use]
     pub fn patch_state(&self, indentation: f64, number: usize) -> Option<PatchState> {
         let Contact { springs, foundation, edges, .. } = &self.contact;
-        let (first, last) = *self.patches(indentation).get(number)?;
+        let patch = *self.patches(indentation).get(number)?;
         let (rule, gaps, scale) = (self.contact.rule(), springs.gaps(), springs.scale());
         let slides = *edges == Edges::SubCell;
         let stretch = rule.stretch(self.direction);
-        let span = Span { gap: gaps[first..=last].iter().copied().fold(0.0, f64::max), first, last };
+        let Patch { first, last } = patch;
+        let span = Span { gap: gaps[patch.springs()].iter().copied().fold(0.0, f64::max), first, last };
         let pin = match &self.patches {
             Patches::Runs(tree, runs) => along_runs!(self, tree, runs, along => {
                 along.held_at(indentation, self.pins()).nth(number)?.pin
             }),
             _ => None,
         };
-        let totals = ContactTotals::of_patch(&gaps[first..=last], slides, scale);
+        let totals = ContactTotals::of_patch(&gaps[patch.springs()], slides, scale);
         let cells = || Slider::new(gaps, &span, stretch, pin).edge_cells(indentation);
         let cells = if slides { cells() } else { EdgeCells::default() };
         let state = ContactState::new(slides, indentation, totals, cells, &scale);

@@ -7,13 +7,16 @@ pub use script::{Cue, ONE_SCENE, TOUR};
 pub use watch::play;
 
 use super::action::Action;
-use super::headless::Headless;
 use super::mode::Mode;
 use super::model::Model;
+use super::runtime::{Runtime, Solver, Studies};
 use super::theme::Appearance;
+use super::update::Effect;
 use crate::scene::Document;
 use crate::simulation::Simulation;
 use std::collections::VecDeque;
+use std::io;
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// Seconds between typed characters.
@@ -21,7 +24,7 @@ const TYPING: f64 = 0.15;
 
 /// A demo played frame by frame.
 pub struct Demo {
-    explorer: Headless,
+    explorer: Runtime,
     cues: VecDeque<Cue>,
     /// Characters still to be typed.
     typing: VecDeque<char>,
@@ -43,9 +46,15 @@ impl Demo {
         appearance: Appearance,
         frames_per_second: f64,
     ) -> Self {
-        let mut explorer = Headless::open(document, size, appearance, Box::new(Simulation::default()));
-        explorer.model.demo = Some("");
-        Demo {
+        let mut model = Model::new(document, size, appearance);
+        // Times differ from run to run.
+        model.shows_times = false;
+        model.demo = Some("");
+        let solver = Solver::inline(Box::new(Simulation::default()));
+        let mut seeds = 1..;
+        let draw_seed = Box::new(move || seeds.next().unwrap_or_default());
+        let explorer = Runtime { model, solver, studies: Studies::Demo, folder: PathBuf::new(), draw_seed };
+        let mut demo = Demo {
             explorer,
             cues: script.iter().copied().collect(),
             typing: VecDeque::new(),
@@ -53,7 +62,22 @@ impl Demo {
             seconds: 0.0,
             frame: frames_per_second.recip(),
             begun: false,
-        }
+        };
+        demo.perform(|explorer| explorer.perform(vec![Effect::Compute], &mut ()));
+        demo
+    }
+
+    fn perform(&mut self, step: impl FnOnce(&mut Runtime) -> io::Result<()>) {
+        // Without a terminal nothing fails.
+        drop(step(&mut self.explorer));
+    }
+
+    fn act(&mut self, action: Action) {
+        self.perform(|explorer| explorer.act(action, &mut ()));
+    }
+
+    fn command(&mut self, name: &str) {
+        self.perform(|explorer| explorer.command(name, &mut ()));
     }
 
     /// Advances to the next frame and returns its time in seconds; `None` when the demo is over.
@@ -64,12 +88,12 @@ impl Demo {
             self.play(self.pause);
             self.pause = 0.0;
             if let Some(character) = self.typing.pop_front() {
-                self.explorer.act(Action::Type(character));
+                self.act(Action::Type(character));
                 self.pause = TYPING;
-            } else if matches!(self.explorer.model.mode, Mode::Edit(_)) {
+            } else if let Mode::Prompt(prompt) = &self.explorer.model.mode {
                 // A refused value stays in the editor.
-                let is_refused = self.explorer.model.refused.is_some();
-                self.explorer.command(if is_refused { "cancel" } else { "accept" });
+                let is_refused = prompt.refused.is_some();
+                self.command(if is_refused { "cancel" } else { "accept" });
             } else {
                 let cue = self.cues.pop_front()?;
                 self.follow(cue);
@@ -89,7 +113,7 @@ impl Demo {
 
     /// Resizes the window.
     pub fn resize(&mut self, columns: u16, rows: u16) {
-        self.explorer.act(Action::Resize(columns, rows));
+        self.act(Action::Resize(columns, rows));
     }
 
     /// Shows a line in place of the keys.
@@ -101,28 +125,28 @@ impl Demo {
     fn play(&mut self, seconds: f64) {
         self.seconds += seconds;
         if seconds > 0.0 && self.explorer.model.manual.is_none() {
-            self.explorer.act(Action::Elapse(Duration::from_secs_f64(seconds)));
+            self.act(Action::Elapse(Duration::from_secs_f64(seconds)));
         }
     }
 
     fn follow(&mut self, cue: Cue) {
         match cue {
             Cue::Wait(seconds) => self.pause = seconds,
-            Cue::Do(command) => self.explorer.command(command),
+            Cue::Do(command) => self.command(command),
             Cue::Repeat(0, ..) => {}
             Cue::Repeat(times, seconds, command) => {
-                self.explorer.command(command);
+                self.command(command);
                 self.pause = seconds;
                 self.cues.push_front(Cue::Repeat(times - 1, seconds, command));
             }
             Cue::Select(path) => {
-                self.explorer.command("select-end false");
+                self.command("select-end false");
                 let place = self.explorer.model.parameters.iter().position(|one| one.path == path);
-                (0..place.unwrap_or(0)).for_each(|_| self.explorer.command("select 1"));
+                (0..place.unwrap_or(0)).for_each(|_| self.command("select 1"));
             }
             Cue::Enter(value) => {
-                self.explorer.command("edit-value");
-                self.explorer.command("clear");
+                self.command("edit-value");
+                self.command("clear");
                 self.typing = value.chars().collect();
                 self.pause = TYPING;
             }

@@ -15,7 +15,7 @@ use super::panes::Pane;
 use super::request::Focus;
 use super::text_line::{Motion, TextLine};
 use super::update::{
-    accuracy, chart, compare, complete, crosshair, dialogue, edit, files, library, look, movement, show,
+    accuracy, chart, compare, crosshair, dialogue, edit, files, library, look, movement, show,
 };
 use crossterm::event::KeyCode;
 use key::{char, control, key, shift};
@@ -48,26 +48,9 @@ const VALUES: &[ModeKind] = &[ModeKind::Parameters];
 const CHART: &[ModeKind] = &[ModeKind::Chart];
 const CROSSHAIR: &[ModeKind] = &[ModeKind::Crosshair];
 const HELP: &[ModeKind] = &[ModeKind::Help];
-const LINE: &[ModeKind] =
-    &[ModeKind::Edit, ModeKind::Force, ModeKind::Tolerance, ModeKind::SaveAs, ModeKind::Export];
-const TYPED: &[ModeKind] = &[
-    ModeKind::Edit,
-    ModeKind::Force,
-    ModeKind::Tolerance,
-    ModeKind::SaveAs,
-    ModeKind::Export,
-    ModeKind::Library,
-    ModeKind::Find,
-    ModeKind::Palette,
-];
-const LIBRARY: &[ModeKind] = &[ModeKind::Library];
-const FIND: &[ModeKind] = &[ModeKind::Find];
-const PALETTE: &[ModeKind] = &[ModeKind::Palette];
-const SEARCHED: &[ModeKind] = &[ModeKind::Library, ModeKind::Find, ModeKind::Palette];
-/// Lines with a path in them.
-const PATH: &[ModeKind] = &[ModeKind::Edit, ModeKind::SaveAs, ModeKind::Export, ModeKind::Library];
+const TYPED: &[ModeKind] = &[ModeKind::Prompt, ModeKind::List];
+const SEARCHED: &[ModeKind] = &[ModeKind::List];
 const ASK: &[ModeKind] = &[ModeKind::Overwrite];
-const SAVE: &[ModeKind] = &[ModeKind::SaveAs];
 const LEAVE: &[ModeKind] = &[ModeKind::Quit];
 const ANY: &[ModeKind] = &ModeKind::ALL;
 
@@ -146,7 +129,7 @@ pub const BINDINGS: &[Binding] = &[
     row(&[shift(KeyCode::Right), char('L')], LIST, "step-value 1 coarse", Act(|model| edit::step_value(model, 1, true)), "", "increase the value by a large step", PARAMETERS),
     row(&[key(KeyCode::Enter), char('e')], LIST, "edit-value", Act(|model| edit::edit_value(model, None)), "type", "type a value, with an optional prefix and unit: 2.5 MPa, 10 µm, 50m", PARAMETERS),
     row(&VALUE_STARTS, VALUES, "start-value", Character(|model, first| edit::edit_value(model, Some(first))), "type", "type a number, while the pane of parameters is selected; not for a choice, a switch or a group", PARAMETERS),
-    row(&[char('/')], EXPLORE, "find-parameter", Act(dialogue::find_parameter), "find", "find a parameter by letters of its name or symbol", PARAMETERS),
+    row(&[char('/')], EXPLORE, "find-parameter", Act(dialogue::find_parameter), "find", "find a parameter by words of its name, symbol or meaning", PARAMETERS),
     row(&[char('Z')], LIST, "toggle-fold", Act(edit::toggle_fold), "", "fold the group of the selected parameter, or unfold it", PARAMETERS),
     row(&[char('t')], LIST, "toggle-effect", Act(edit::toggle_effect), "on/off", "switch the effect of the selected row on or off", PARAMETERS),
     row(&[char('R')], EXPLORE, "reseed", Act(|_| vec![Effect::DrawSeed]), "reseed", "draw another random profile", PARAMETERS),
@@ -219,21 +202,18 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('s')], EXPLORE, "save", Silent(|model| files::ask_save(model, false)), "save", "save the scene to a file", SCENE),
     row(&[char('E')], EXPLORE, "export", Silent(files::ask_export), "export", "export curve (.csv, .npy), figures (.json), selected pane (.svg, .png) or screen (.txt)", SCENE),
     row(&[char('y')], EXPLORE, "copy-command", Act(files::copy_command), "copy", "copy the command that opens the present scene", SCENE),
-    row(&[char(':'), control('p')], EXPLORE, "open-palette", Silent(dialogue::open_palette), "commands", "find a command by letters of its description, and run it", SCENE),
+    row(&[char(':'), control('p')], EXPLORE, "open-palette", Silent(dialogue::open_palette), "commands", "find a command by words of its description, and run it", SCENE),
     row(&[char('?'), key(KeyCode::F(1))], EXPLORE, "help", Silent(|model| model.mode = Mode::Help { scroll: 0 }), "help", "show this help", SCENE),
     row(&[char('q'), control('c')], EXPLORE, "quit", Silent(files::ask_quit), "quit", "quit", SCENE),
     row(&[control('z')], ANY, "suspend", Act(|_| vec![Effect::Suspend]), "", "suspend to the shell; fg resumes", SCENE),
 
-    row(&[key(KeyCode::Down), char('j'), char(' ')], HELP, "select-row 1", Act(|model| dialogue::select(model, 1)), "scroll", "scroll down", TEXT),
-    row(&[key(KeyCode::Up), char('k')], HELP, "select-row -1", Act(|model| dialogue::select(model, -1)), "", "scroll up", TEXT),
+    row(&[key(KeyCode::Down), char('j'), char(' ')], HELP, "select-row 1", Silent(|model| dialogue::select(model, 1)), "scroll", "scroll down", TEXT),
+    row(&[key(KeyCode::Up), char('k')], HELP, "select-row -1", Silent(|model| dialogue::select(model, -1)), "", "scroll up", TEXT),
     row(&[key(KeyCode::Esc), char('?'), char('q'), key(KeyCode::F(1)), control('c')], HELP, "close-help", Act(dialogue::cancel), "back", "close the help", TEXT),
-    row(&[key(KeyCode::Down), control('n')], SEARCHED, "select-row 1", Act(|model| dialogue::select(model, 1)), "select", "select the row below", TEXT),
-    row(&[key(KeyCode::Up), control('p')], SEARCHED, "select-row -1", Act(|model| dialogue::select(model, -1)), "", "select the row above", TEXT),
-    row(&[key(KeyCode::Enter)], FIND, "accept", Act(dialogue::accept), "go", "go to the selected parameter", TEXT),
-    row(&[key(KeyCode::Enter)], LIBRARY, "accept", Act(dialogue::accept), "open", "open the selected scene, or the typed path", TEXT),
-    row(&[key(KeyCode::Enter)], PALETTE, "accept", Act(dialogue::accept), "run", "run the selected command", TEXT),
-    row(&[key(KeyCode::Tab)], PATH, "complete", Act(complete::next), "complete", "complete the typed path, in a value the one between quotes; again for the next", TEXT),
-    row(&[key(KeyCode::Enter)], LINE, "accept", Act(dialogue::accept), "accept", "accept the typed text", TEXT),
+    row(&[key(KeyCode::Down), control('n')], SEARCHED, "select-row 1", Silent(|model| dialogue::select(model, 1)), "select", "select the row below", TEXT),
+    row(&[key(KeyCode::Up), control('p')], SEARCHED, "select-row -1", Silent(|model| dialogue::select(model, -1)), "", "select the row above", TEXT),
+    row(&[key(KeyCode::Enter)], TYPED, "accept", Act(dialogue::accept), "accept", "accept the typed text, or the selected row", TEXT),
+    row(&[key(KeyCode::Tab)], TYPED, "complete", Act(dialogue::complete), "complete", "complete the typed path, in a value the one between quotes", TEXT),
     row(&[key(KeyCode::Esc), control('c')], TYPED, "cancel", Act(dialogue::cancel), "cancel", "cancel: keep the previous value", TEXT),
     row(&[key(KeyCode::Left), control('b')], TYPED, "move left", Silent(|model| dialogue::move_cursor(model, Motion::Left)), "", "move the cursor left", TEXT),
     row(&[key(KeyCode::Right), control('f')], TYPED, "move right", Silent(|model| dialogue::move_cursor(model, Motion::Right)), "", "move the cursor right", TEXT),
@@ -242,12 +222,10 @@ pub const BINDINGS: &[Binding] = &[
     row(&[key(KeyCode::Backspace), control('h')], TYPED, "delete-backwards", Act(|model| dialogue::edit_line(model, |line| line.delete(true))), "", "delete the character before the cursor", TEXT),
     row(&[key(KeyCode::Delete), control('d')], TYPED, "delete-forwards", Act(|model| dialogue::edit_line(model, |line| line.delete(false))), "", "delete the character under the cursor", TEXT),
     row(&[control('u')], TYPED, "clear", Act(|model| dialogue::edit_line(model, TextLine::clear)), "clear", "clear the typed text", TEXT),
-    row(&[key(KeyCode::Down)], SAVE, "next-line 1", Silent(|model| dialogue::go_to_line(model, 1)), "title, notice", "edit the title, the notice, or the name of the file", TEXT),
-    row(&[key(KeyCode::Up)], SAVE, "next-line -1", Silent(|model| dialogue::go_to_line(model, -1)), "", "edit the line before", TEXT),
     row(&[char('y')], ASK, "accept", Act(dialogue::accept), "overwrite", "overwrite the file", TEXT),
     row(&[char('n'), key(KeyCode::Esc), control('c')], ASK, "cancel", Act(dialogue::cancel), "keep it", "keep the existing file", TEXT),
     row(&[char('s')], LEAVE, "save-then-quit", Act(files::save_before_leaving), "save", "save, then quit", TEXT),
-    row(&[char('q'), char('y'), control('c')], LEAVE, "quit-anyway", Silent(files::quit), "quit", "quit without saving", TEXT),
+    row(&[char('q'), char('y'), control('c')], LEAVE, "quit-anyway", Silent(|model| model.finished = true), "quit", "quit without saving", TEXT),
     row(&[char('n'), key(KeyCode::Esc)], LEAVE, "cancel", Act(dialogue::cancel), "stay", "stay", TEXT),
 ];
 

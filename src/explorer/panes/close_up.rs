@@ -148,7 +148,7 @@ const ROUNDING: f64 = 1e-13;
 fn describe(fragment: Option<FragmentFacts>, fragments: u64, width: u16) -> [Line<'static>; 2] {
     let Some(facts) = fragment else { return [Line::raw("○ nothing is in contact"), Line::default()] };
     let length = format_quantity(facts.length, "m");
-    let springs = facts.springs.1 + 1 - facts.springs.0;
+    let springs = facts.patch.springs().len();
     let plural = if springs == 1 { "" } else { "s" };
     let mut first =
         format!("○ fragment {} of {fragments}: {springs} spring{plural}, δx {length}", facts.number + 1);

@@ -1,15 +1,16 @@
 //! The list of parameters and the meaning of the selected one.
 
 use super::{PaneRow, Place};
-use crate::explorer::fuzzy::letters_found;
 use crate::explorer::layout::{Layout, inside};
 use crate::explorer::mode::ModeKind;
 use crate::explorer::model::{Mode, Model, Pane};
 use crate::explorer::parameters::{Parameter, Setting, spelled};
+use crate::explorer::prompt::{Prompt, Purpose};
+use crate::explorer::search::letters_found;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
 use crate::explorer::update::{Effect, begin, edit};
-use crate::explorer::view::found::marked;
+use crate::explorer::view::lines::marked;
 use crate::explorer::view::typed::typed;
 use crate::explorer::view::wrap::{clipped, filled, wrapped_within};
 use crate::scene::format_quantity;
@@ -58,7 +59,9 @@ impl Places {
         let derived_rows = if area.height >= 12 { derived(model, area.width).len() as u16 } else { 0 };
         let list = Rect { height: area.height - help_rows - derived_rows, ..area };
         let (rows, selected, first) = match &model.mode {
-            Mode::Find(finder) => (finder.found.clone(), finder.selected, 0),
+            Mode::Prompt(Prompt { purpose: Purpose::Parameter { .. }, found, selected, .. }) => {
+                (found.clone(), *selected, 0)
+            }
             _ => {
                 let rows = model.listed();
                 let selected = rows.iter().position(|index| *index == model.selected).unwrap_or(0);
@@ -142,15 +145,17 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
 fn parameter_line(model: &Model, index: usize, selected: bool, width: usize) -> Line<'static> {
     let theme = model.appearance.theme;
     let parameter = &model.parameters[index];
-    let refused = model.refused.as_ref().is_some_and(|(row, _)| *row == index);
+    let typed = model.mode.prompt().filter(|prompt| selected && prompt.purpose == Purpose::Value);
+    let refused = model.refused.as_ref().is_some_and(|(row, _)| *row == index)
+        || typed.is_some_and(|prompt| prompt.refused.is_some());
     let mark = match (refused, selected) {
         (true, _) => "!",
         (false, true) => "›",
         (false, false) => " ",
     };
     let lead = format!("{mark}{}", lead(model, parameter));
-    if let (true, Mode::Edit(line)) = (selected, &model.mode) {
-        return editor(model, parameter, line, &lead, width);
+    if let Some(prompt) = typed {
+        return editor(model, parameter, &prompt.line, &lead, width);
     }
     // The name makes room for the value, which matters more.
     let value = value(model, parameter);
@@ -173,18 +178,20 @@ fn parameter_line(model: &Model, index: usize, selected: bool, width: usize) -> 
 
 /// Indices of the characters of the shown name and symbol found by the search; `lead` characters come before.
 fn found_in(model: &Model, parameter: &Parameter, shown: &str, lead: usize) -> Vec<usize> {
-    let Mode::Find(finder) = &model.mode else { return Vec::new() };
-    let (query, candidate, name) = (finder.query.text(), parameter.candidate(), parameter.name());
+    let Mode::Prompt(Prompt { purpose: Purpose::Parameter { .. }, line, .. }) = &model.mode else {
+        return Vec::new();
+    };
+    let (query, name) = (line.text(), parameter.name());
     // The name may be cut.
     let kept = shown.chars().skip(lead).zip(name.chars()).take_while(|(one, other)| one == other).count();
-    let in_name = letters_found(&candidate, &name, &query).into_iter().filter(|index| *index < kept);
+    let in_name = letters_found(&name, &query).into_iter().filter(|index| *index < kept);
     let mut letters: Vec<usize> = in_name.map(|index| index + lead).collect();
     let symbol = parameter.field.symbol;
     if shown.ends_with(symbol) {
         let (all, end) = (symbol.chars().count(), shown.chars().count());
         // A Greek letter is found by its name as a whole.
-        let is_spelled = !letters_found(&candidate, &spelled(symbol), &query).is_empty();
-        let in_symbol = letters_found(&candidate, symbol, &query);
+        let is_spelled = !letters_found(&spelled(symbol), &query).is_empty();
+        let in_symbol = letters_found(symbol, &query);
         let in_symbol = if in_symbol.is_empty() && is_spelled { (0..all).collect() } else { in_symbol };
         letters.extend(in_symbol.into_iter().map(|index| index + end - all));
     }
@@ -303,7 +310,9 @@ fn derived_values(model: &Model) -> Vec<(&'static str, String)> {
 
 /// Error of a value, or its meaning and allowed range.
 fn explanation(model: &Model, index: usize) -> Line<'static> {
-    if let Some((_, error)) = &model.refused {
+    let typed = model.mode.prompt().filter(|prompt| prompt.purpose == Purpose::Value);
+    let typed = typed.and_then(|prompt| prompt.refused.as_ref());
+    if let Some(error) = typed.or(model.refused.as_ref().map(|(_, error)| error)) {
         return Line::styled(format!("! {error}"), model.appearance.theme.style(Meaning::Error));
     }
     let Some(parameter) = model.parameters.get(index) else { return Line::default() };

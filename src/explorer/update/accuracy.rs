@@ -2,8 +2,8 @@
 
 use super::{Effect, edit};
 use crate::accuracy::{Choice, ChoiceError, Target, parse_tolerance};
-use crate::explorer::mode::Mode;
 use crate::explorer::model::{Estimated, Model};
+use crate::explorer::prompt::Purpose;
 use crate::explorer::study::{Finding, Found, Task};
 use crate::explorer::text_line::TextLine;
 use crate::scene::format_quantity;
@@ -29,26 +29,23 @@ const NOT_COMPUTED: &str = "not before the scene is computed";
 /// Asks for a tolerance.
 pub fn type_tolerance(model: &mut Model) {
     if model.is_current() {
-        model.mode = Mode::Tolerance(TextLine::new(""));
+        model.ask(Purpose::Tolerance, TextLine::default());
     } else {
         model.set_error(NOT_COMPUTED);
     }
 }
 
 /// Searches springs for a typed tolerance.
-pub fn accept_tolerance(model: &mut Model, typed: &str) -> Vec<Effect> {
-    match parse_tolerance(typed) {
-        Ok(tolerance) if model.is_current() => {
-            model.appraisal.choosing = Some((tolerance, None));
-            model.appraisal.answer = None;
-            // The search ends a measurement.
-            model.appraisal.costs.trying = None;
-            return vec![Effect::Study];
-        }
-        Ok(_) => model.set_error(NOT_COMPUTED),
-        Err(error) => model.set_error(error),
+pub fn accept_tolerance(model: &mut Model, typed: &str) -> Result<Vec<Effect>, String> {
+    let tolerance = parse_tolerance(typed)?;
+    if !model.is_current() {
+        return Err(NOT_COMPUTED.to_owned());
     }
-    Vec::new()
+    model.appraisal.choosing = Some((tolerance, None));
+    model.appraisal.answer = None;
+    // The search ends a measurement.
+    model.appraisal.costs.trying = None;
+    Ok(vec![Effect::Study])
 }
 
 /// Stores a finding.

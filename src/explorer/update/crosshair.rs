@@ -63,7 +63,7 @@ pub fn toggle(model: &mut Model) {
     model.crosshair = Some(Crosshair { position: 0.5 });
     if let Some(close_up) = model.snapshot.as_ref().map(|snapshot| snapshot.close_up.clone()) {
         let middle = close_up.section.first + close_up.section.springs / 2;
-        look_at(model, close_up.fragment.map_or(middle, |patch| patch.middle()));
+        look_at(model, close_up.fragment.map_or(middle, |facts| facts.patch.middle()));
     }
     if model.pane.row().keys != Some(ModeKind::Crosshair) {
         model.pane = Pane::Force;

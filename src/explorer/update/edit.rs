@@ -6,7 +6,8 @@ use crate::explorer::layout::Layout;
 use crate::explorer::mode::Mode;
 use crate::explorer::model::{Appraisal, CloseUpTarget, Model, Pane, Player};
 use crate::explorer::panes::first_listed;
-use crate::explorer::parameters::{Parameter, Setting, parameters};
+use crate::explorer::parameters::{Parameter, Setting, parameters, text_of};
+use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::request::{Focus, LineView};
 use crate::explorer::text_line::TextLine;
 use crate::scene::{Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, presets};
@@ -110,7 +111,7 @@ pub fn edit_value(model: &mut Model, first: Option<char>) -> Vec<Effect> {
             Setting::Field | Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion => {
                 let mut line = TextLine::selected(&editable(model, parameter));
                 first.into_iter().for_each(|character| line.insert(&character.to_string()));
-                model.mode = Mode::Edit(line);
+                model.ask(Purpose::Value, line);
                 model.refused = None;
                 // No preview of an earlier edit.
                 (model.tried, model.preview) = (None, None);
@@ -178,26 +179,22 @@ fn editable(model: &Model, parameter: &Parameter) -> String {
     let written = model.written(parameter).unwrap_or_default();
     match (parameter.field.range, written.parse()) {
         (Range::Real { .. }, Ok(value)) => exact_quantity(value, parameter.field.unit),
+        (Range::Text { .. }, _) => text_of(&written),
         _ => written,
     }
 }
 
-/// Sets the selected parameter to the typed value and closes the editor. A refused value stays in the editor.
-pub fn accept_value(model: &mut Model, typed: &str) -> Vec<Effect> {
-    model.refused = None;
-    let Some(parameter) = model.parameter() else { return Vec::new() };
-    let effects = if typed == editable(model, parameter) {
-        Vec::new()
-    } else {
-        match parameter.field.read_typed(typed) {
-            Ok(written) => set_selected(model, &written),
-            Err(error) => refuse(model, format!("{error}; allowed: {}", parameter.field.allowed())),
-        }
-    };
-    if model.refused.is_none() {
-        model.mode = Mode::Explore;
+/// Sets the selected parameter to the typed value.
+pub fn accept_value(model: &mut Model, typed: &str) -> Result<Vec<Effect>, String> {
+    let Some(parameter) = model.parameter() else { return Ok(Vec::new()) };
+    if typed == editable(model, parameter) {
+        return Ok(Vec::new());
     }
-    effects
+    let allowed = parameter.field.allowed();
+    let written =
+        parameter.field.read_typed(typed).map_err(|error| format!("{error}; allowed: {allowed}"))?;
+    let document = with_selected(model, &written)?;
+    Ok(take_over(model, Ok(document)))
 }
 
 /// Sets the selected parameter to a value in the notation of the scene.
@@ -242,24 +239,22 @@ fn reasons(errors: &SceneErrors) -> String {
 /// Most springs for a preview while a value is typed: the next character stops the computation.
 const MOST_SPRINGS_TRIED: u64 = 1 << 20;
 
-/// Returns true if a scene is small enough for a preview: at most so many springs, and not the stepwise solver, whose
-/// number of steps has no limit.
-pub fn is_previewed(document: &Document, most_springs: u64) -> bool {
+/// Returns true if a scene is small enough for a preview; the number of steps of the stepwise solver has no limit.
+fn is_previewed(document: &Document) -> bool {
     let numerics = document.scene().numerics;
-    numerics.points <= most_springs && numerics.solver == Solver::Exact
+    numerics.points <= MOST_SPRINGS_TRIED && numerics.solver == Solver::Exact
 }
 
 /// Requests the curve with the value typed so far, or none where that is not an allowed value.
 pub fn preview(model: &mut Model) -> Vec<Effect> {
     let tried = match &model.mode {
-        Mode::Edit(line) => {
+        Mode::Prompt(Prompt { purpose: Purpose::Value, line, .. }) => {
             let written = model.parameter().and_then(|one| one.field.read_typed(&line.text()).ok());
             written.and_then(|written| with_selected(model, &written).ok())
         }
         _ => None,
     };
-    let tried = tried
-        .filter(|tried| tried.text() != model.document.text() && is_previewed(tried, MOST_SPRINGS_TRIED));
+    let tried = tried.filter(|tried| tried.text() != model.document.text() && is_previewed(tried));
     let text = tried.as_ref().map(|tried| tried.text().to_owned());
     if text == model.tried {
         return Vec::new();

@@ -1,67 +1,42 @@
-//! Looking through the library.
+//! Opening scenes and studies.
 
 use super::{Effect, edit};
-use crate::explorer::finder::Finder;
-use crate::explorer::mode::{Library, Mode};
+use crate::explorer::mode::Mode;
 use crate::explorer::model::Model;
+use crate::explorer::prompt::{Prompt, Purpose};
+use crate::explorer::text_line::TextLine;
 use crate::scene::{Entry, typed_path};
 
-/// Most springs for a preview in the list: its curve is complete before the next row.
-const MOST_SPRINGS_SEEN: u64 = 1 << 17;
-
-/// Opens the library.
+/// Opens the list of scenes.
 pub fn open(model: &mut Model) -> Vec<Effect> {
-    model.mode = Mode::Library(Library { entries: None, finder: Finder::default() });
+    model.ask(Purpose::Scene(Vec::new()), TextLine::default());
     vec![Effect::List]
 }
 
-/// Stores the entries of the library.
-pub fn listed(model: &mut Model, entries: Vec<Entry>) -> Vec<Effect> {
-    if let Mode::Library(library) = &mut model.mode {
-        library.entries = Some(entries);
+/// Stores the scenes that can be opened.
+pub fn listed(model: &mut Model, entries: Vec<Entry>) {
+    if let Mode::Prompt(prompt) = &mut model.mode {
+        prompt.purpose = Purpose::Scene(entries);
+        prompt.search(&model.parameters);
     }
-    search(model)
-}
-
-/// Searches the library again.
-pub fn search(model: &mut Model) -> Vec<Effect> {
-    let Mode::Library(library) = &mut model.mode else { return Vec::new() };
-    let Some(entries) = &library.entries else { return Vec::new() };
-    // A text with a separator is a path, not a name to search for.
-    if library.finder.query.text().contains(std::path::is_separator) {
-        library.finder.search([]);
-    } else {
-        library.finder.search(entries.iter().map(Library::candidate));
-    }
-    preview(model)
 }
 
 /// Opens the selected scene, or the typed path where no scene fits.
-pub fn accept(model: &mut Model, library: &Library) -> Vec<Effect> {
-    let Some(entry) = library.entry() else {
-        let typed = library.finder.query.text().trim().to_owned();
-        if typed.is_empty() {
-            return Vec::new();
-        }
-        model.mode = Mode::Explore;
-        let path = typed_path(&typed).into_os_string().into_string();
-        return vec![Effect::Open(path.unwrap_or(typed))];
-    };
-    model.mode = Mode::Explore;
-    edit::open_read(model, entry.document())
+pub fn accept(model: &mut Model, prompt: &Prompt) -> Result<Vec<Effect>, String> {
+    if let Some(entry) = prompt.scene() {
+        return Ok(edit::open_read(model, entry.document()));
+    }
+    let typed = prompt.line.text().trim().to_owned();
+    if typed.is_empty() {
+        return Err("type a name or a path".to_owned());
+    }
+    let path = typed_path(&typed).into_os_string().into_string();
+    Ok(vec![Effect::Open(path.unwrap_or(typed))])
 }
 
-/// Requests the curve of the selected scene.
-pub fn preview(model: &mut Model) -> Vec<Effect> {
-    let Mode::Library(library) = &model.mode else { return Vec::new() };
-    let Some(entry) = library.entry() else { return Vec::new() };
-    if model.preview.as_ref().is_some_and(|preview| preview.text == entry.text) {
-        return Vec::new();
-    }
-    match entry.document() {
-        Ok(document) if edit::is_previewed(&document, MOST_SPRINGS_SEEN) => {
-            vec![Effect::Preview(Box::new(document))]
-        }
-        _ => Vec::new(),
-    }
+/// Asks again for a path that could not be opened.
+pub fn refused(model: &mut Model, path: &str, why: &str) -> Vec<Effect> {
+    let purpose = Purpose::Scene(Vec::new());
+    model.mode = Mode::Prompt(Prompt::refused(purpose, path, why, &model.parameters));
+    vec![Effect::List]
 }

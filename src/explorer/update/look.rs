@@ -12,7 +12,7 @@ const FEWEST_SPRINGS: usize = 8;
 /// Shows the fragment of a question, starting from the shown one.
 pub fn go_to_fragment(model: &mut Model, question: fn(Option<usize>) -> Focus) {
     let fragment = model.snapshot.as_ref().and_then(|snapshot| snapshot.close_up.fragment);
-    model.look.focus = question(fragment.map(|fragment| fragment.middle()));
+    model.look.focus = question(fragment.map(|facts| facts.patch.middle()));
 }
 
 /// Shows the whole profile, and the close-up in its initial size.

@@ -4,7 +4,6 @@
 pub(super) mod accuracy;
 pub(super) mod chart;
 pub(super) mod compare;
-pub(super) mod complete;
 pub(super) mod crosshair;
 pub(super) mod dialogue;
 pub(super) mod edit;
@@ -18,7 +17,7 @@ pub(super) mod show;
 
 pub use super::effect::Effect;
 pub use accuracy::study_tasks;
-pub use complete::can_complete;
+pub use dialogue::can_complete;
 
 use super::action::Action;
 use super::command::Command;
@@ -49,25 +48,15 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
         },
         Action::Report(report) => return reported(model, report),
         Action::Found(found) => return accuracy::found(model, found),
-        Action::Written(result) => files::written(model, result),
-        Action::Listed(entries) => return library::listed(model, entries),
-        Action::Completed { typed, paths } => return complete::completed(model, &typed, paths),
-        Action::Opened(Ok(opening)) => return chart::open(model, *opening),
-        Action::Opened(Err(why)) | Action::Remembered(Err(why)) => model.set_error(why),
+        Action::Written(file, result) => files::written(model, file, result),
+        Action::Listed(entries) => library::listed(model, entries),
+        Action::Completed(paths) => return dialogue::completed(model, paths),
+        Action::Opened(_, Ok(opening)) => return chart::open(model, *opening),
+        Action::Opened(path, Err(why)) => return library::refused(model, &path, &why),
+        Action::Remembered(Err(why)) => model.set_error(why),
         Action::Remembered(Ok(path)) => {
             model.set_done(format!("colours and markers are kept in {}", path.display()));
         }
-        Action::Offered(names) if model.mode == Mode::Explore && model.notice.is_none() => {
-            let of = names.join(", ");
-            model.set_done(format!(
-                "unsaved changes of {of} are kept from another session: asperity --restore opens them"
-            ));
-        }
-        Action::Offered(_) => {}
-        Action::NotKept(why) => {
-            model.set_error(format!("unsaved changes are not kept for another session: {why}"));
-        }
-        Action::Traffic(traffic) => model.traffic = Some(traffic),
         Action::Mouse(mouse) => return mouse::act(model, mouse),
     }
     Vec::new()
@@ -75,9 +64,6 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
 
 /// Runs a command.
 pub(super) fn run(model: &mut Model, command: Command) -> Vec<Effect> {
-    if command.name != "complete" {
-        model.completion = None;
-    }
     if model.mode == Mode::Explore {
         let moving = model.chart.moving && chart::is_move(command);
         begin(model);
@@ -123,7 +109,7 @@ fn reported(model: &mut Model, report: Report) -> Vec<Effect> {
         }
         Report::Computed(_) | Report::Shown(_) | Report::Progress { .. } | Report::Failed { .. } => {}
         Report::Previewed(preview)
-            if matches!(model.mode, Mode::Edit(_))
+            if model.mode.is_typing_value()
                 && model.tried.as_ref() != Some(&preview.text)
                 && model.next_ghost.is_none() => {}
         Report::Previewed(preview) => return compare::previewed(model, preview),

@@ -11,9 +11,9 @@ use ratatui::layout::Position;
 pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
     match (&model.mode, mouse.gesture) {
         (Mode::Explore, _) => {}
-        (Mode::Help { .. } | Mode::Library(_) | Mode::Find(_) | Mode::Palette(_), Gesture::Wheel(turns)) => {
-            model.completion = None;
-            return dialogue::select(model, -turns);
+        (Mode::Help { .. } | Mode::Prompt(_), Gesture::Wheel(turns)) => {
+            dialogue::select(model, -turns);
+            return Vec::new();
         }
         _ => return Vec::new(),
     }

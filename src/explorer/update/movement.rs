@@ -3,8 +3,8 @@
 use super::Effect;
 use crate::analysis::pull_off_point;
 use crate::explorer::config::Animation;
-use crate::explorer::mode::Mode;
 use crate::explorer::model::{ManualState, Model, Player};
+use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{Focus, ManualMove};
 use crate::explorer::snapshot::{ContactSnapshot, Refusal};
 use crate::explorer::text_line::TextLine;
@@ -40,7 +40,7 @@ pub fn separate(model: &mut Model) -> Vec<Effect> {
 
 /// Asks for a target force.
 pub fn type_force(model: &mut Model) {
-    model.mode = Mode::Force(TextLine::new(""));
+    model.ask(Purpose::Force, TextLine::default());
 }
 
 /// Plays or pauses the animation; at its end it begins again.
@@ -152,7 +152,7 @@ pub fn stay_on_legs(model: &mut Model, last: usize) {
 pub fn shown(model: &mut Model, snapshot: Arc<ContactSnapshot>) {
     // Another snapshot may have been on its way when the fragment was requested.
     if snapshot.focus == model.look.focus && model.look.focus.is_question() {
-        let middle = snapshot.close_up.fragment.map(|fragment| fragment.middle());
+        let middle = snapshot.close_up.fragment.map(|facts| facts.patch.middle());
         model.look.focus = middle.map_or(Focus::Summit, Focus::Spring);
     }
     if let Some((manual, travel)) = model.manual.as_mut().zip(snapshot.manual.as_ref()) {
@@ -213,15 +213,9 @@ pub fn take(model: &mut Model, order: Option<ManualMove>) -> Vec<Effect> {
 }
 
 /// Moves the body to a typed force.
-pub fn accept_force(model: &mut Model, typed: &str) -> Vec<Effect> {
-    match parse_quantity(typed.trim(), "N") {
-        Ok(force) => {
-            model.typed_force = typed.trim().to_owned();
-            take(model, Some(ManualMove::ToForce(force)))
-        }
-        Err(error) => {
-            model.set_error(format!("{error}; for example 10 µN, or -2e-6 to pull"));
-            Vec::new()
-        }
-    }
+pub fn accept_force(model: &mut Model, typed: &str) -> Result<Vec<Effect>, String> {
+    let force = parse_quantity(typed.trim(), "N");
+    let force = force.map_err(|error| format!("{error}; for example 10 µN, or -2e-6 to pull"))?;
+    model.typed_force = typed.trim().to_owned();
+    Ok(take(model, Some(ManualMove::ToForce(force))))
 }

@@ -1,20 +1,18 @@
 //! The lines around the panes: title, status, footer.
 
-use super::found::marked;
 use super::stages;
 use super::typed::typed;
 use super::wrap::{fitted, fitting, wrapped_within};
 use crate::analysis::SteepWaves;
 use crate::contact::CurvePoint;
 use crate::explorer::action::{Content, Traffic};
-use crate::explorer::completion::Completion;
 use crate::explorer::keys::{self, Binding};
-use crate::explorer::mode::SaveForm;
 use crate::explorer::model::{Estimated, ManualState, Mode, ModeKind, Model, Notice};
 use crate::explorer::parameters::Parameter;
+use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::text_line::TextLine;
-use crate::explorer::theme::Meaning;
+use crate::explorer::theme::{Meaning, Theme};
 use crate::explorer::update::can_complete;
 use crate::scene::{format_quantity, format_rounded};
 use crate::text::grouped;
@@ -23,6 +21,7 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Paragraph;
 use std::f64::consts::PI;
+use std::path::is_separator;
 
 /// Name of the scene, a sign of unsaved changes, and the notice.
 pub fn title(frame: &mut Frame<'_>, area: Rect, model: &Model) {
@@ -42,33 +41,26 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let theme = model.appearance.theme;
     let stated = |line: Line<'static>| fitted(line, area.width);
     let error = |text: String| stated(Line::styled(text, theme.style(Meaning::Error)));
-    let prompted = |prompt: &str, line: &TextLine| {
-        let left_out = line.left_out().map(|what| format!("({what}) ")).unwrap_or_default();
-        let prompt = [Span::raw(prompt.to_owned()), Span::styled(left_out, theme.style(Meaning::Error))];
-        let room = usize::from(area.width).saturating_sub(prompt.iter().map(Span::width).sum());
-        Line::from_iter(prompt.into_iter().chain(typed(line, room, theme)))
-    };
     let line = match (&model.mode, &model.notice) {
-        (Mode::SaveAs(form), _) => {
-            let name = SaveForm::PROMPTS.get(form.line).copied().unwrap_or_default();
-            form.lines.get(form.line).map_or_else(Line::default, |line| prompted(name, line))
+        (Mode::Prompt(prompt), _) if prompt.refused.is_some() || prompt.line.left_out().is_some() => {
+            let why = prompt.refused.as_deref().or(prompt.line.left_out()).unwrap_or_default();
+            let why = why.replace('\n', " · ");
+            if prompt.purpose == Purpose::Value {
+                // The line is in its row.
+                error(format!("! {why}"))
+            } else {
+                let least = LEAST_TYPED.min(Span::raw(prompt.line.text()).width() as u16 + 1);
+                let style = theme.style(Meaning::Error);
+                let mut why =
+                    fitted(Line::styled(format!("! {why}"), style), area.width.saturating_sub(least + 2));
+                why.push_span(Span::styled(": ", style));
+                prompted(why, &prompt.line, area.width, theme)
+            }
         }
-        // The typed text is visible in the smallest window too.
-        (Mode::Export(line), _) if area.width < 60 => prompted("Export to: ", line),
-        (Mode::Export(line), _) => {
-            let exports = model.exports();
-            let what = if exports == Content::MAP_EXPORTS { "Export the map" } else { "Export" };
-            let extensions: Vec<String> =
-                exports.iter().map(|(format, _)| format!(".{}", format.extension())).collect();
-            prompted(&format!("{what} to ({}): ", extensions.join(" ")), line)
+        (Mode::Prompt(prompt), _) if prompt.purpose != Purpose::Value => {
+            prompted(Line::raw(label(prompt, model, area.width)), &prompt.line, area.width, theme)
         }
-        (Mode::Force(line), _) => prompted("Go to the force: ", line),
-        (Mode::Tolerance(line), _) if area.width < 60 => prompted("Tolerance: ", line),
-        (Mode::Tolerance(line), _) => prompted("Relative error allowed (0.1 % or 1e-3): ", line),
-        (Mode::Library(library), _) => prompted("Search: ", &library.finder.query),
-        (Mode::Find(finder), _) => prompted("Find: ", &finder.query),
-        (Mode::Palette(finder), _) => prompted(": ", &finder.query),
-        (Mode::Overwrite { path, .. }, _) => error(format!("{} exists. Overwrite it?", path.display())),
+        (Mode::Overwrite(file), _) => error(format!("{} exists. Overwrite it?", file.path.display())),
         (Mode::Quit, _) => error(match model.unsaved()[..] {
             [] | [_] => "The scene has unsaved changes. Leave?".to_owned(),
             ref several => {
@@ -76,11 +68,8 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
                 format!("{} scenes have unsaved changes: {}. Leave?", several.len(), names.join(", "))
             }
         }),
-        (Mode::Edit(line), _) if line.left_out().is_some() => {
-            error(format!("! {}", line.left_out().unwrap_or_default()))
-        }
         (_, Some(Notice::Error(text))) => error(format!("! {}", text.replace('\n', " · "))),
-        (Mode::Explore | Mode::Edit(_), None) if model.refused.is_some() => {
+        (Mode::Explore, None) if model.refused.is_some() => {
             let text = model.refused.as_ref().map_or("", |(_, text)| text);
             error(format!("! {text}"))
         }
@@ -89,6 +78,38 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         _ => headline(model, area.width),
     };
     frame.render_widget(Paragraph::new(line), area);
+}
+
+/// Least columns of a typed line behind the reason of its refusal.
+const LEAST_TYPED: u16 = 16;
+
+/// A line being typed, behind a label.
+fn prompted(label: Line<'static>, line: &TextLine, width: u16, theme: Theme) -> Line<'static> {
+    let room = usize::from(width).saturating_sub(label.width());
+    Line::from_iter(label.spans.into_iter().chain(typed(line, room, theme)))
+}
+
+/// Label of a prompt; a short one where the typed text would be out of sight.
+fn label(prompt: &Prompt, model: &Model, width: u16) -> String {
+    let is_narrow = width < 60;
+    match &prompt.purpose {
+        Purpose::Value => String::new(),
+        Purpose::Force => "Go to the force: ".to_owned(),
+        Purpose::Tolerance if is_narrow => "Tolerance: ".to_owned(),
+        Purpose::Tolerance => "Relative error allowed (0.1 % or 1e-3): ".to_owned(),
+        Purpose::Save { .. } => "Save as: ".to_owned(),
+        Purpose::Export if is_narrow => "Export to: ".to_owned(),
+        Purpose::Export => {
+            let exports = model.exports();
+            let what = if exports == Content::MAP_EXPORTS { "Export the map" } else { "Export" };
+            let extensions: Vec<String> =
+                exports.iter().map(|(format, _)| format!(".{}", format.extension())).collect();
+            format!("{what} to ({}): ", extensions.join(" "))
+        }
+        Purpose::Scene(_) => "Search: ".to_owned(),
+        Purpose::Parameter { .. } => "Find: ".to_owned(),
+        Purpose::Command(_) => ": ".to_owned(),
+    }
 }
 
 /// Least columns of a status line with the error of F_a, beside which d and F have room.
@@ -104,7 +125,7 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
         let apart = if parts.is_empty() { "" } else { apart };
         parts.push(vec![Span::raw(apart), Span::styled(text, theme.style(meaning))]);
     };
-    if let (Mode::Edit(_), Some(tried)) = (&model.mode, model.tried_outcome()) {
+    if let Some(tried) = model.tried_outcome().filter(|_| model.mode.is_typing_value()) {
         let force =
             tried.figures.adhesion_force.map_or("none".to_owned(), |force| format_quantity(force, "N"));
         let shown = if model.is_tried() { format!("F_a {force}") } else { "computing…".to_owned() };
@@ -280,8 +301,10 @@ pub fn footer(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         return frame
             .render_widget(Paragraph::new(note).style(model.appearance.theme.style(Meaning::Quiet)), area);
     }
-    if let Some(completion) = &model.completion {
-        return frame.render_widget(Paragraph::new(candidates(completion, area.width, model)), area);
+    if let Mode::Prompt(prompt) = &model.mode
+        && !prompt.paths.is_empty()
+    {
+        return frame.render_widget(candidates(&prompt.paths, area.width, model.appearance.theme), area);
     }
     let mut spans = Vec::new();
     // Two columns apart.
@@ -303,19 +326,13 @@ pub fn footer(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     }
 }
 
-/// Names that complete a typed path, starting with the one in its place.
-fn candidates(completion: &Completion, width: u16, model: &Model) -> Line<'static> {
-    let theme = model.appearance.theme;
-    let names = completion.names().into_iter();
-    let parts = names.map(|(name, taken)| {
-        let style = theme.style(if taken { Meaning::Selected } else { Meaning::Quiet });
-        marked(&name, &completion.letters_found(&name), style, theme)
-    });
-    let parts: Vec<_> = parts.collect();
-    if parts.is_empty() {
-        return Line::styled("no file or folder begins so", theme.style(Meaning::Quiet));
-    }
-    fitting(parts, "  ", usize::from(width))
+/// Names of paths, without their folders.
+fn candidates(paths: &[String], width: u16, theme: Theme) -> Line<'static> {
+    let name = |path: &String| {
+        let from = path.trim_end_matches(is_separator).rfind(is_separator).map_or(0, |at| at + 1);
+        vec![Span::styled(path[from..].to_owned(), theme.style(Meaning::Quiet))]
+    };
+    fitting(paths.iter().map(name).collect(), "  ", usize::from(width))
 }
 
 /// Valid keys with their labels, the most important first; adjacent rows with the same label are one item.

@@ -1,10 +1,12 @@
 //! Lines of text in panes: alone, around a plot, and in place of a missing plot.
 
 use super::wrap::{fitted, wrapped};
+use crate::explorer::search::letters_found;
 use crate::explorer::theme::{Meaning, Theme};
 use ratatui::Frame;
 use ratatui::layout::Rect;
-use ratatui::text::Line;
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
 use ratatui::widgets::Paragraph;
 
 /// Draws lines from the top of an area on, as far as there is room; too wide a line ends in `…`.
@@ -29,6 +31,22 @@ pub fn draw_around(
     draw_lines(frame, Rect { height: rows_above, ..area }, above);
     draw_lines(frame, Rect { y: plot.bottom(), height: rows_below, ..area }, below);
     plot
+}
+
+/// A text with the letters found by a query marked.
+pub fn found(text: &str, query: &str, style: Style, theme: Theme) -> Vec<Span<'static>> {
+    marked(text, &letters_found(text, query), style, theme)
+}
+
+/// A text with these of its characters marked; the indices ascend.
+pub fn marked(text: &str, letters: &[usize], style: Style, theme: Theme) -> Vec<Span<'static>> {
+    let is_found = |(index, character)| (letters.binary_search(&index).is_ok(), character);
+    let characters: Vec<(bool, char)> = text.chars().enumerate().map(is_found).collect();
+    let spans = characters.chunk_by(|(one, _), (next, _)| one == next).map(|run| {
+        let style = if run[0].0 { theme.found(style) } else { style };
+        Span::styled(run.iter().map(|(_, character)| character).collect::<String>(), style)
+    });
+    spans.collect()
 }
 
 /// Draws the reason for a missing plot.

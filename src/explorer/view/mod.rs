@@ -1,7 +1,6 @@
 //! Draws the model. Nothing here changes the model or computes anything.
 
 mod chrome;
-pub mod found;
 mod help;
 mod library;
 pub mod lines;
@@ -16,6 +15,7 @@ use super::layout::{Layout, is_framed};
 use super::model::{Mode, Model};
 use super::panes::Pane;
 use super::picture::to_ascii;
+use super::prompt::Purpose;
 use super::theme::{Marker, Meaning, Theme};
 use ratatui::Frame;
 use ratatui::layout::Rect;
@@ -31,17 +31,15 @@ pub fn draw(frame: &mut Frame<'_>, model: &Model) {
     if let Some(area) = layout.title {
         chrome::title(frame, area, model);
     }
-    match &model.mode {
-        Mode::Help { scroll } => help::draw(frame, body(&layout), model, *scroll),
-        Mode::Library(library) => library::draw(frame, body(&layout), model, library),
-        _ => {
-            for &(pane, area) in &layout.panes {
-                draw_pane(frame, area, model, pane);
-            }
-        }
+    let (panes, theme) = (body(&layout), model.appearance.theme);
+    let list = model.mode.prompt().map(|prompt| (prompt, &prompt.purpose));
+    match (&model.mode, list) {
+        (Mode::Help { scroll }, _) => help::draw(frame, panes, model, *scroll),
+        (_, Some((prompt, Purpose::Scene(entries)))) => library::draw(frame, panes, theme, prompt, entries),
+        _ => layout.panes.iter().for_each(|&(pane, area)| draw_pane(frame, area, model, pane)),
     }
-    if let Mode::Palette(finder) = &model.mode {
-        palette::draw(frame, body(&layout), model.appearance.theme, &model.bindings, finder);
+    if let Some((prompt, Purpose::Command(entries))) = list {
+        palette::draw(frame, panes, theme, prompt, entries);
     }
     crate::draw::dry(frame.buffer_mut());
     chrome::status(frame, layout.status, model);

@@ -157,7 +157,7 @@ proptest! {
             prop_assert!((one.released_energy - other.released_energy).abs() <= energy_scale);
             for probe in probes.iter().chain(&[0.0, 1.0]) {
                 let d = one.start() + probe * (one.end() - one.start());
-                let turned = |&(first, end): &(usize, usize)| (last - end, last - first);
+                let turned = |patch: &Patch| Patch { first: last - patch.last, last: last - patch.first };
                 let turned: Vec<_> = mirrored.leg().patches(d).iter().rev().map(turned).collect();
                 prop_assert_eq!(solver.leg().patches(d), turned, "at {} of {:?}", d, target);
             }

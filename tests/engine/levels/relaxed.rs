@@ -2,7 +2,7 @@
 //! threshold, no formula of the solver.
 
 use crate::body::Body;
-use asperity::contact::Foundation;
+use asperity::contact::{Foundation, Patch};
 
 /// Points of a stretch of levels at which the rule is evaluated before bisection.
 const POINTS: usize = 24;
@@ -211,8 +211,9 @@ impl<'a> Relaxed<'a> {
     }
 
     /// First and last spring of each fragment.
-    pub fn contacts(&self) -> Vec<(usize, usize)> {
-        let mut contacts: Vec<_> = self.parts().map(|(_, part)| (part.first, part.last)).collect();
+    pub fn contacts(&self) -> Vec<Patch> {
+        let mut contacts: Vec<_> =
+            self.parts().map(|(_, part)| Patch { first: part.first, last: part.last }).collect();
         contacts.sort_unstable();
         contacts
     }

@@ -12,6 +12,7 @@ use asperity::accuracy::{
 use asperity::explorer::action::Action;
 use asperity::explorer::model::{Estimated, Notice, Pane};
 use asperity::explorer::panes::Costs;
+use asperity::explorer::runtime::Studies;
 use asperity::explorer::study::{Finding, Found, PaneData, Study, Task};
 use asperity::explorer::update::Effect;
 use asperity::scene::{Document, Edges, Scene};
@@ -93,7 +94,7 @@ fn driver_with(
     table: Result<CostTable, CostError>,
 ) -> Driver {
     let mut driver = Driver::open(document);
-    driver.appraiser = Some(Box::new(StandIn { estimate, choose, ..measuring(table) }));
+    driver.studies = Studies::Inline(Box::new(StandIn { estimate, choose, ..measuring(table) }));
     driver.perform(vec![Effect::Compute]);
     driver.press("Space");
     driver
@@ -156,7 +157,7 @@ fn an_edit_forgets_what_was_found_out() {
         let mut driver = measured(rough());
         let before = driver.model.generation;
         // No answers any more.
-        driver.appraiser = None;
+        driver.studies = Studies::None;
         driver.select("roughness.hurst");
         assert_eq!(driver.press("l"), [Effect::Compute]);
         assert!(driver.model.is_shown(Pane::Accuracy));

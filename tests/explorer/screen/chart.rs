@@ -9,6 +9,7 @@ use asperity::analysis::Regime;
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::model::{ModeKind, Pane};
+use asperity::explorer::runtime::Studies;
 use asperity::explorer::study::{Finding, Found, PaneData, Study, Task};
 use asperity::explorer::theme::Marker;
 use asperity::explorer::update::{Effect, study_tasks};
@@ -61,7 +62,8 @@ fn fill(levels: &[Level], data: PaneData, report: Reported<'_>) -> PaneData {
 fn driver_with(document: Document, levels: &[Level]) -> Driver {
     let mut driver = Driver::open(document);
     let levels = levels.to_vec();
-    driver.appraiser = Some(Box::new(StandIn::new(move |data, _, report| Ok(fill(&levels, data, report)))));
+    driver.studies =
+        Studies::Inline(Box::new(StandIn::new(move |data, _, report| Ok(fill(&levels, data, report)))));
     driver.perform(vec![Effect::Compute]);
     driver.press("Space m");
     driver
@@ -243,7 +245,7 @@ fn the_map_is_exported_as_it_is_seen() {
             "{message}"
         );
         // The curve, with another pane selected.
-        driver.press("Tab Tab E");
+        driver.press("Esc Tab Tab E");
         assert!(driver.status().contains("Export to"), "{}", driver.status());
     });
 }
@@ -345,7 +347,7 @@ fn other_edits_begin_the_map_anew_and_wait_for_quiet() {
             })
         };
         assert_eq!(chart(&driver), None, "it is whole");
-        driver.appraiser = None;
+        driver.studies = Studies::None;
         driver.press("Tab Tab R");
         assert_eq!(chart(&driver), Some((None, true)));
         assert!(driver.text().contains("computing the map"), "{}", driver.text());

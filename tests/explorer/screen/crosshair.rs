@@ -201,7 +201,7 @@ fn crosshairs_of_profile_and_close_up_are_at_one_position() {
     within(30, || {
         let mut driver = pressed("b *");
         let patch = snapshot(&driver).close_up.fragment.unwrap();
-        assert_eq!(probe(&driver).spring, patch.middle(), "it begins in the middle of the patch");
+        assert_eq!(probe(&driver).spring, patch.patch.middle(), "it begins in the middle of the patch");
         assert_eq!(probe(&driver).patch, Some(patch.number));
         let [profile, close_up] = [Pane::Profile, Pane::CloseUp].map(|pane| edge(&driver, pane));
         let reading =

@@ -4,7 +4,7 @@ use super::common::deadline::within;
 use super::common::driver::APPEARANCE;
 use super::common::scenes::rough;
 use asperity::explorer::demo::{Cue, Demo, ONE_SCENE, TOUR};
-use asperity::explorer::model::{Mode, Pane};
+use asperity::explorer::model::Pane;
 use asperity::explorer::theme::{Appearance, Theme};
 use asperity::explorer::{FrameBytes, Screen, picture, picture_of};
 use asperity::scene::{Document, open, presets};
@@ -91,7 +91,7 @@ fn the_tour_shows_what_it_is_to_show() {
                 !model.ghosts.is_empty(),
                 model.curve.loss,
                 model.lower == Pane::Lengths,
-                matches!(model.mode, Mode::Edit(_)),
+                model.mode.is_typing_value(),
                 model.is_unsaved() && model.document.scene().roughness.is_none(),
             ];
             seen.iter_mut().zip(shown).for_each(|(seen, shown)| *seen |= shown);

@@ -136,7 +136,7 @@ fn reseeding_gives_another_line_that_is_stated() {
     within(30, || {
         let mut driver = pressed("");
         let before = driver.model.computed.clone().unwrap();
-        driver.seed = 123_456;
+        driver.draw_seed = Box::new(|| 123_456);
         driver.select("roughness.seed");
         assert_eq!(driver.press("R"), [Effect::DrawSeed]);
         assert!(driver.model.document.text().contains("seed: 123456"));

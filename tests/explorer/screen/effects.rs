@@ -255,7 +255,7 @@ fn a_scene_that_gives_kappa_may_be_given_the_work() {
         for (path, typed) in [("adhesion.work", "-1"), ("adhesion.kappa", "0"), ("adhesion.kappa", "much")] {
             select(&mut driver, path);
             driver.enter(typed);
-            assert!(driver.model.refused.is_some(), "{path} {typed}");
+            assert!(driver.refusal().is_some(), "{path} {typed}");
             driver.press("Esc");
             assert_eq!(governing(&driver).0, 8.0);
         }

@@ -4,7 +4,7 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::pressed;
-use asperity::explorer::action::Content;
+use asperity::explorer::action::{Content, OutputFile};
 use asperity::explorer::model::Mode;
 use asperity::explorer::panes::Pane;
 use asperity::explorer::theme::{Marker, Theme};
@@ -44,7 +44,15 @@ fn the_ending_of_a_name_shows_what_is_exported() {
         ] {
             let mut driver = pressed("");
             let effects = export(&mut driver, Path::new(name));
-            assert_eq!(effects, [Effect::Write { path: PathBuf::from(name), content, overwrite: false }]);
+            assert_eq!(
+                effects,
+                [Effect::Write(OutputFile {
+                    path: PathBuf::from(name),
+                    content,
+                    overwrite: false,
+                    then_quit: false
+                })]
+            );
             assert_eq!(driver.model.mode, Mode::Explore);
             assert!(driver.status().contains(&format!("exported to {name}")), "{}", driver.status());
             assert!(!driver.model.is_unsaved() && !driver.model.finished);
@@ -62,15 +70,14 @@ fn the_ending_of_a_name_shows_what_is_exported() {
         ] {
             let mut driver = pressed("");
             assert!(export(&mut driver, Path::new(name)).is_empty(), "{name}");
-            assert!(driver.files.is_empty());
-            let expected = format!("{name}: {why}");
-            assert!(driver.status().contains(&expected), "{}", driver.status());
+            assert!(driver.files().is_empty());
+            assert!(driver.status().contains(&why), "{}", driver.status());
         }
         // The proposed name is that of the scene.
         let mut driver = pressed("");
         driver.press("E Enter");
-        assert_eq!(driver.files.keys().collect::<Vec<_>>(), [Path::new("rough-line.csv")]);
-        assert!(pressed("E Ctrl+u Enter").files.is_empty(), "no name is no file");
+        assert_eq!(driver.files().into_keys().collect::<Vec<_>>(), [Path::new("rough-line.csv")]);
+        assert!(pressed("E Ctrl+u Enter").files().is_empty(), "no name is no file");
     });
 }
 
@@ -91,7 +98,11 @@ fn a_file_that_is_there_is_asked_about() {
         assert_eq!(driver.model.mode, Mode::Explore);
         // An error of the system is shown.
         export(&mut driver, &folder.path().join("no/such/folder/a.csv"));
-        assert!(driver.status().starts_with("! not written"), "{}", driver.status());
+        assert!(
+            driver.refusal().is_some_and(|why| why.contains("there is no folder")),
+            "{}",
+            driver.status()
+        );
     });
 }
 
@@ -280,7 +291,7 @@ fn the_copied_command_opens_the_scene_as_it_is() {
                     driver.press("j");
                 }
                 driver.press("t y");
-                let command = driver.copied.last().unwrap();
+                let command = driver.console.copied.last().unwrap();
                 assert_eq!(opened(command).scene(), driver.model.document.scene(), "{command}");
                 assert!(driver.status().starts_with("copy: asperity "), "{}", driver.status());
             }
@@ -288,7 +299,7 @@ fn the_copied_command_opens_the_scene_as_it_is() {
             driver.enter("[ToForce(1.0e-6), ToIndentation(-1.0e-9), ToSeparation]");
             driver.select("length");
             driver.press("L y");
-            let command = driver.copied.last().unwrap();
+            let command = driver.console.copied.last().unwrap();
             assert_eq!(opened(command).scene(), driver.model.document.scene(), "{command}");
         }
     });
@@ -315,11 +326,11 @@ fn a_saved_scene_goes_on_under_its_new_name() {
         assert!(!driver.model.is_unsaved());
         // The command opens the file, without options for the saved changes.
         driver.press("y");
-        let command = driver.copied.last().unwrap().clone();
+        let command = driver.console.copied.last().unwrap().clone();
         assert_eq!(words(&command), ["asperity".to_owned(), path.display().to_string()]);
         assert_eq!(opened(&command).scene(), driver.model.document.scene());
         driver.press("l y");
-        let command = driver.copied.last().unwrap().clone();
+        let command = driver.console.copied.last().unwrap().clone();
         assert_eq!(opened(&command).scene(), driver.model.document.scene(), "{command}");
         // At the next save the name is proposed, with a question.
         driver.press("s Enter");

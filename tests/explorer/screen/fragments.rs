@@ -4,6 +4,7 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::pressed;
+use asperity::contact::Patch;
 use asperity::explorer::action::Action;
 use asperity::explorer::model::Pane;
 use asperity::explorer::snapshot::FragmentFacts;
@@ -76,8 +77,8 @@ fn the_close_up_is_looked_at_from_near_and_from_far() {
     });
 }
 
-/// First and last spring of each fragment, from a picture with a column for each spring.
-fn fragments(driver: &mut Driver) -> Vec<(usize, usize)> {
+/// Contact patches, from a picture with a column for each spring.
+fn fragments(driver: &mut Driver) -> Vec<Patch> {
     let (size, pane) = (driver.model.size, driver.model.pane);
     driver.model.pane = Pane::Profile;
     driver.press("z");
@@ -87,20 +88,10 @@ fn fragments(driver: &mut Driver) -> Vec<(usize, usize)> {
     driver.press("z");
     driver.model.pane = pane;
     driver.resize(size);
-    let touches: Vec<bool> = (0..section.springs)
-        .map(|spring| {
-            let column = (spring * section.columns.len()).div_ceil(section.springs);
-            section.columns[column].contact.is_some()
-        })
-        .collect();
-    let mut runs: Vec<(usize, usize)> = Vec::new();
-    for spring in (0..touches.len()).filter(|spring| touches[*spring]) {
-        match runs.last_mut() {
-            Some((_, last)) if *last + 1 == spring => *last = spring,
-            _ => runs.push((spring, spring)),
-        }
-    }
-    runs
+    Patch::of_springs((0..section.springs).map(|spring| {
+        let column = (spring * section.columns.len()).div_ceil(section.springs);
+        section.columns[column].contact.is_some()
+    }))
 }
 
 fn facts(driver: &Driver) -> FragmentFacts {
@@ -114,11 +105,10 @@ fn the_close_up_goes_to_the_longest_and_the_most_loaded() {
             let mut driver = pressed(keys);
             let all = fragments(&mut driver);
             assert!(all.len() > 3, "{all:?}");
-            let length = |(first, last): (usize, usize)| last + 1 - first;
-            let longest = all.iter().copied().map(length).max().unwrap();
+            let longest = all.iter().map(|patch| patch.springs().len()).max();
             driver.press("b");
-            assert!(all.contains(&facts(&driver).springs), "{:?} of {all:?}", facts(&driver));
-            assert_eq!(length(facts(&driver).springs), longest);
+            assert!(all.contains(&facts(&driver).patch), "{:?} of {all:?}", facts(&driver));
+            assert_eq!(Some(facts(&driver).patch.springs().len()), longest);
             // The selected fragment is shown with its force.
             let mut forces = Vec::new();
             for _ in 0..all.len() {
@@ -154,8 +144,7 @@ fn the_distribution_of_lengths_counts_every_fragment() {
             assert_eq!((counted, all.len() as u64), (snapshot.point.fragments, snapshot.point.fragments));
             for (&square, &count) in &bins {
                 let range = 2_f64.powi(square as i32)..2_f64.powi(square as i32 + 1);
-                let inside =
-                    |(first, last): &&(usize, usize)| range.contains(&((last + 1 - first) as f64).powi(2));
+                let inside = |patch: &&Patch| range.contains(&(patch.springs().len() as f64).powi(2));
                 assert_eq!(all.iter().filter(inside).count() as u64, count, "{square}, {all:?}");
             }
             let text = driver.text();

@@ -155,7 +155,7 @@ fn the_wheel_looks_closer_and_scrolls() {
         assert_eq!(driver.model.mode, Mode::Help { scroll: 1 }, "a press does nothing there");
         driver.press("Esc o");
         mouse(&mut driver, 3, 3, Gesture::Wheel(-1));
-        assert!(matches!(&driver.model.mode, Mode::Library(library) if library.finder.selected == 1));
+        assert!(driver.model.mode.prompt().is_some_and(|prompt| prompt.selected == 1));
     });
 }
 

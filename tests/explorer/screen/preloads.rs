@@ -7,6 +7,7 @@ use super::keep;
 use super::stand_in::StandIn;
 use asperity::explorer::model::Pane;
 use asperity::explorer::panes::PROFILES;
+use asperity::explorer::runtime::Studies;
 use asperity::explorer::study::{PaneData, Task};
 use asperity::explorer::update::{Effect, study_tasks};
 use asperity::scene::Document;
@@ -37,7 +38,7 @@ pub fn computed_preloads(document: Document) -> Driver {
 
 fn shown(document: Document, profiles: usize) -> Driver {
     let mut driver = Driver::open(document);
-    driver.appraiser = Some(Box::new(computing(profiles)));
+    driver.studies = Studies::Inline(Box::new(computing(profiles)));
     driver.perform(vec![Effect::Compute]);
     driver.press("Space i");
     driver
@@ -70,7 +71,7 @@ fn the_pane_takes_the_place_of_map_and_accuracy_and_gives_it_back() {
         let mut driver = shown(rough(), 1);
         assert_eq!(driver.model.panes(), [Pane::Force, Pane::Preloads, Pane::Parameters]);
         // No map and no table is computed.
-        driver.appraiser = None;
+        driver.studies = Studies::None;
         for (keys, pane) in
             [("m", Some(Pane::Chart)), ("i", Some(Pane::Preloads)), ("A", Some(Pane::Accuracy))]
         {
@@ -96,7 +97,7 @@ fn an_edit_begins_a_new_curve_and_a_scene_without_one_says_why() {
             })
         };
         assert_eq!(goes_on(&driver), Some((2, false)));
-        driver.appraiser = None;
+        driver.studies = Studies::None;
         driver.select("roughness.hurst");
         driver.press("l");
         assert_eq!(driver.model.preloads, None);

@@ -215,7 +215,7 @@ fn keys_of_the_footer_are_apart_from_what_the_connection_carries() {
 fn completion_is_offered_only_where_a_path_is_typed() {
     within(60, || {
         for size in &SIZES[..4] {
-            for (keys, is_path) in [("e", false), ("s", true), ("s Down", false), ("E", true), ("o", true)] {
+            for (keys, is_path) in [("e", false), ("s", true), ("E", true), ("o", true)] {
                 let mut driver = pressed(keys);
                 driver.resize(*size);
                 let area = Layout::of(&driver.model).footer.unwrap();
@@ -362,7 +362,11 @@ fn scenes_are_saved_under_an_extension_and_kept_when_others_are_opened() {
             driver.type_text("mine");
             assert!(driver.status().contains("mine"), "{size:?}: {}", driver.status());
             driver.press("Enter");
-            assert!(driver.files.contains_key(Path::new("mine.ron")), "{size:?}: {:?}", driver.files.keys());
+            assert!(
+                driver.files().contains_key(Path::new("mine.ron")),
+                "{size:?}: {:?}",
+                driver.files().keys()
+            );
             driver.select("roughness.hurst");
             driver.press("l");
             let changed = driver.model.document.text().to_owned();
@@ -406,7 +410,7 @@ fn the_map_has_hurst_exponents_across_and_is_transposed_and_exported() {
             driver.press("Ctrl+u");
             driver.type_text("map.csv");
             driver.press("Enter");
-            assert_eq!(driver.files[Path::new("map.csv")], "MapCells", "{size:?}");
+            assert!(driver.file("map.csv").lines().count() > 9, "{size:?}");
         }
     });
 }

@@ -5,7 +5,8 @@ use super::common::driver::Driver;
 use super::common::scenes::{changed, rough};
 use super::pressed;
 use asperity::explorer::adhesion_spread::PROFILES;
-use asperity::explorer::model::{Mode, Notice, Pane};
+use asperity::explorer::model::{Notice, Pane};
+use asperity::explorer::runtime::Studies;
 use asperity::explorer::study::Accuracy;
 use asperity::explorer::update::{Effect, study_tasks};
 use asperity::scene::Document;
@@ -51,7 +52,7 @@ fn the_spread_over_lines_is_beside_that_of_the_fit() {
         let document = measured(&folder.path().join("stylus.txt"));
         let document = document.set("numerics.points", "1024").unwrap();
         let mut driver = Driver::open(document);
-        driver.appraiser = Some(Box::new(Accuracy));
+        driver.studies = Studies::Inline(Box::new(Accuracy));
         driver.perform(vec![Effect::Compute]);
         // Not before the pane is shown.
         assert_eq!(driver.model.adhesion_spread, None);
@@ -67,7 +68,7 @@ fn the_spread_over_lines_is_beside_that_of_the_fit() {
                 "{screen}"
             );
         }
-        driver.appraiser = None;
+        driver.studies = Studies::None;
         driver.press("R");
         assert_eq!(driver.model.adhesion_spread, None);
         assert!(driver.text().contains("0 of 16 profiles"), "{}", driver.text());
@@ -176,7 +177,7 @@ fn a_measured_surface_is_the_roughness_by_its_path_alone() {
             assert!(computed.outcome.figures.adhesion_force.is_some_and(|force| force > 0.0));
             let screen = driver.text();
             assert!(screen.contains("F_a"), "{screen}");
-            driver.appraiser = Some(Box::new(Accuracy));
+            driver.studies = Studies::Inline(Box::new(Accuracy));
             driver.press("Q");
             assert_eq!(driver.model.adhesion_spread.as_ref().unwrap().found.profiles.len(), PROFILES);
             driver.press("z");
@@ -198,17 +199,16 @@ fn the_path_of_a_measured_surface_is_completed_beside_the_scene() {
         let scene = rough();
         let name = folder.path().join("scene.ron");
         let mut driver = Driver::start(Document::parse(scene.text(), name.to_str().unwrap()).unwrap());
-        let typed = |driver: &Driver| match &driver.model.mode {
-            Mode::Edit(line) => line.text(),
-            other => panic!("not editing: {other:?}"),
-        };
+        let typed = |driver: &Driver| driver.model.mode.prompt().expect("a prompt").line.text();
+        let paths = |driver: &Driver| driver.model.mode.prompt().expect("a prompt").paths.len();
         driver.select("roughness");
         driver.press("Enter Ctrl+u");
         driver.type_text("Measured(file: \"st");
         driver.press("Tab");
         assert_eq!(typed(&driver), "Measured(file: \"stylus-");
-        assert!(driver.model.completion.is_some());
-        driver.press("Tab Tab");
+        assert_eq!(paths(&driver), 2);
+        driver.type_text("2");
+        driver.press("Tab");
         assert_eq!(typed(&driver), "Measured(file: \"stylus-2.txt");
         // From the root as well, and not outside of quotes.
         driver.press("Ctrl+u");
@@ -221,7 +221,7 @@ fn the_path_of_a_measured_surface_is_completed_beside_the_scene() {
             driver.press("Enter Ctrl+u");
             driver.type_text(text);
             driver.press("Tab");
-            assert_eq!((typed(&driver).as_str(), &driver.model.completion), (text, &None), "{field}");
+            assert_eq!((typed(&driver).as_str(), paths(&driver)), (text, 0), "{field}");
         }
     });
 }

@@ -60,7 +60,7 @@ fn the_editor_opens_with_the_value_selected_and_keeps_what_is_refused() {
         let before = driver.model.document.clone();
         driver.type_text("10 kg");
         driver.press("Enter");
-        assert_eq!((&driver.model.document, driver.model.mode.kind()), (&before, ModeKind::Edit));
+        assert_eq!((&driver.model.document, driver.model.mode.kind()), (&before, ModeKind::Prompt));
         let refused = "kg is no length: m, mm, µm, nm";
         assert!(driver.status().contains(refused), "{}", driver.status());
         let line = driver.rows().into_iter().find(|row| row.contains("10 kg")).unwrap_or_default();
@@ -100,7 +100,7 @@ fn what_is_typed_can_be_edited_pasted_and_left() {
         assert_eq!((&driver.model.document, driver.model.mode.kind()), (&before, ModeKind::Explore));
         // In a value, letters are typed.
         driver.press("e Ctrl+u q u");
-        assert_eq!(driver.model.mode.kind(), ModeKind::Edit);
+        assert_eq!(driver.model.mode.kind(), ModeKind::Prompt);
         assert!(driver.text().contains("qu"), "{}", driver.text());
         driver.press("Ctrl+c");
         assert_eq!((&driver.model.document, driver.model.mode.kind()), (&before, ModeKind::Explore));
@@ -210,8 +210,8 @@ fn wide_and_combining_characters_are_drawn_in_windows_of_any_width() {
             driver.screen();
             // The error is shown with the value.
             driver.press("Enter");
-            assert!(driver.model.refused.is_some());
             driver.screen();
+            driver.press("Esc");
         }
     });
 }
@@ -257,7 +257,7 @@ fn a_value_that_is_typed_shows_its_curve_before_it_is_taken() {
             let tried = driver.model.tried_outcome().expect("a preview").figures;
             assert_ne!(tried.adhesion_force, computed.outcome.figures.adhesion_force);
             let alone = document.set("roughness.rms_height", "3.0e-7").unwrap();
-            let alone = Driver::start(alone).model.computed.unwrap();
+            let alone = Driver::start(alone).model.computed.clone().unwrap();
             assert_eq!(tried, alone.outcome.figures);
             let force = asperity::scene::format_quantity(tried.adhesion_force.unwrap(), "N");
             assert!(driver.status().starts_with(&format!("preview: F_a {force}")), "{}", driver.status());

@@ -57,9 +57,9 @@ fn assert_numbers(outcome: &Outcome) -> Result<(), TestCaseError> {
     if let Some(histogram) = &outcome.histogram {
         prop_assert!(histogram.low <= histogram.high);
     }
-    for fragments in outcome.fragments.iter().chain([&outcome.history.contacts]) {
-        prop_assert!(fragments.iter().all(|(first, last)| first <= last && *last < outcome.line.points));
-        prop_assert!(fragments.windows(2).all(|pair| pair[0].1 < pair[1].0), "{:?}", fragments);
+    for patches in outcome.fragments.iter().chain([&outcome.history.contacts]) {
+        prop_assert!(patches.iter().all(|one| one.first <= one.last && one.last < outcome.line.points));
+        prop_assert!(patches.windows(2).all(|pair| pair[0].last < pair[1].first), "{:?}", patches);
     }
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! A profile and its contact, reduced to the columns of a chart.
 
+use crate::contact::Patch;
 use std::ops::Range;
 
 /// The rigid profile and its contact at one indentation.
@@ -11,8 +12,8 @@ pub struct Contact<'a> {
     pub summit: f64,
     /// Indentation, m.
     pub indentation: f64,
-    /// First and last spring of each contact patch, in ascending order.
-    pub fragments: &'a [(usize, usize)],
+    /// Patches in contact, from left to right.
+    pub patches: &'a [Patch],
 }
 
 /// Springs of a chart, at least one, and its number of columns.
@@ -86,9 +87,9 @@ impl Contact<'_> {
 
     /// Returns the parts of the contact patches within some springs.
     pub fn within(&self, springs: Range<usize>) -> impl Iterator<Item = Range<usize>> {
-        let begun = self.fragments.partition_point(|&(_, last)| last < springs.start);
-        let touching = self.fragments[begun..].iter().take_while(move |(first, _)| *first < springs.end);
-        touching.map(move |&(first, last)| first.max(springs.start)..(last + 1).min(springs.end))
+        let begun = self.patches.partition_point(|patch| patch.last < springs.start);
+        let touching = self.patches[begun..].iter().take_while(move |patch| patch.first < springs.end);
+        touching.map(move |patch| patch.first.max(springs.start)..patch.springs().end.min(springs.end))
     }
 
     /// Reduces a part of the profile to its columns.
@@ -146,7 +147,7 @@ mod tests {
             gaps: &[0.0, 1.0, 2.0, 3.0, 2.5, 0.5],
             summit: 10.0,
             indentation: 0.5,
-            fragments: &[(0, 1), (5, 5)],
+            patches: &[Patch { first: 0, last: 1 }, Patch { first: 5, last: 5 }],
         };
         let section = |part| contact.section(part, &mut LineColumns::default());
         let whole = section(Part { first: 0, springs: 6, columns: 3 });
@@ -173,14 +174,8 @@ mod tests {
             let gaps: Vec<f64> = (0..touching.len()).map(|i| ((i * 37) % 11) as f64).collect();
             let first = first % gaps.len();
             let part = Part { first, springs: springs.min(gaps.len() - first), columns };
-            let mut fragments: Vec<(usize, usize)> = Vec::new();
-            for spring in (0..touching.len()).filter(|&spring| touching[spring]) {
-                match fragments.last_mut() {
-                    Some((_, last)) if *last + 1 == spring => *last = spring,
-                    _ => fragments.push((spring, spring)),
-                }
-            }
-            let contact = Contact { gaps: &gaps, summit: 20.0, indentation: 3.0, fragments: &fragments };
+            let patches = Patch::of_springs(touching.iter().copied());
+            let contact = Contact { gaps: &gaps, summit: 20.0, indentation: 3.0, patches: &patches };
             let section = contact.section(part, &mut LineColumns::default());
             for (column, found) in section.columns.iter().enumerate() {
                 let heights = |springs: Vec<usize>| {
