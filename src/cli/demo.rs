@@ -48,7 +48,9 @@ pub struct DemoArguments {
     /// Use ASCII characters only
     #[arg(long, conflicts_with = "marker")]
     pub ascii: bool,
-    /// Marker of plots; default: braille
+    /// Marker of plots
+    ///
+    /// Default: braille.
     #[arg(long, value_enum)]
     pub marker: Option<Marker>,
     /// Colours

@@ -50,7 +50,9 @@ pub struct LookArguments {
     /// Default: chosen from NO_COLOR and COLORFGBG.
     #[arg(long, value_enum)]
     pub theme: Option<Theme>,
-    /// Marker of plots; default: braille
+    /// Marker of plots
+    ///
+    /// Default: braille.
     #[arg(long, value_enum)]
     pub marker: Option<Marker>,
     /// Leave the mouse to the terminal
@@ -76,16 +78,12 @@ pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Resu
     let opening = first.map_or_else(|| opening(arguments, scene), |document| Ok(document.into()))?;
     if !stdin().is_terminal() || !stdout().is_terminal() {
         let name = quoted(opening.document.name());
-        return Err(CliError::Message(match opening.study_map {
-            None => {
-                format!("the explorer needs a terminal; asperity run {name} computes the scene without one")
-            }
-            Some(_) => {
-                format!(
-                    "the explorer needs a terminal; asperity sweep plot {name} draws the study without one"
-                )
-            }
-        }));
+        let (command, does) = match opening.study_map {
+            None => ("run", "computes the scene"),
+            Some(_) => ("sweep plot", "draws the study"),
+        };
+        let without = format!("asperity {command} {name} {does} without one");
+        return Err(CliError::Message(format!("the explorer needs a terminal; {without}")));
     }
     open(opening, Options { restored, config, warning, unsaved, ..arguments.look.options() }, out)
 }

@@ -57,10 +57,10 @@ pub struct ReversalOptions {
     /// Steps on either side of the quadratic fit of the density
     #[arg(long, value_name = "STEPS", default_value_t = SMOOTHING, value_parser = clap::value_parser!(u8).range(1..=MOST_SMOOTHING))]
     pub smoothing: u8,
-    /// Number of upper and of lower ends of the minor loops; 0: no loops
+    /// Upper, and lower, ends of minor loops; 0: none
     #[arg(long, value_name = "LEVELS", default_value_t = LOOPS, value_parser = clap::value_parser!(u8).range(0..=MOST_LEVELS))]
     pub loops: u8,
-    /// Write a table with a row for each point of the map instead of each turning point
+    /// Write a table of the points of the map instead of turning points
     #[arg(long)]
     pub map: bool,
 }

@@ -61,7 +61,7 @@ pub struct SurfaceArguments {
     /// The scene names the files and contains all options of their reading and analysis.
     #[arg(long, value_name = "FILE", requires = "modulus", verbatim_doc_comment)]
     pub scene: Option<PathBuf>,
-    /// Work of adhesion, such as 50mJ/m^2, for κ, e_el/γ and F_a; needs --modulus
+    /// Work of adhesion, such as 50mJ/m^2, for κ and F_a; needs --modulus
     #[arg(long, value_name = "ENERGY", requires = "modulus", value_parser = |text: &str| positive(text, "J/m²"))]
     pub work: Option<f64>,
     /// Preload, such as 1mN; default: touch without a force
@@ -70,7 +70,7 @@ pub struct SurfaceArguments {
     /// Random profiles of the adhesion force; needs --work
     ///
     /// Each is solved on the fitted spectrum and on one moved within its uncertainty, for the
-    /// spread over profiles and that of the fit. Default: 16 for up to 131 072 springs, else none.
+    /// spread over profiles and that of the fit. Default: 16 up to 131 072 springs, else none.
     #[arg(long, value_name = "COUNT", requires = "work", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES), verbatim_doc_comment)]
     pub lines: Option<u32>,
     /// Output file.

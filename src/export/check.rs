@@ -10,7 +10,7 @@ impl Report for [Verdict] {
         Some(text(self))
     }
 
-    fn json(&self) -> Option<Json<'_>> {
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
         let row = |verdict: &Verdict| {
             let Check { case, edges, bound } = verdict.check;
             object! {
@@ -28,7 +28,7 @@ impl Report for [Verdict] {
             }
         };
         let passes = self.iter().all(Verdict::passes);
-        Some(Json::of(object! { "passes": passes, "checks": self.iter().map(row).collect::<Vec<_>>() }))
+        Some(Box::new(object! { "passes": passes, "checks": self.iter().map(row).collect::<Vec<_>>() }))
     }
 }
 

@@ -39,8 +39,8 @@ impl Report for CostReport<'_> {
         Some(text(self.table))
     }
 
-    fn json(&self) -> Option<Json<'_>> {
-        Some(Json::of(self))
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
+        Some(Box::new(self))
     }
 
     /// Times in s, errors relative.

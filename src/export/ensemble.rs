@@ -35,8 +35,8 @@ impl Report for LinesReport<'_> {
         Some(text(self))
     }
 
-    fn json(&self) -> Option<Json<'_>> {
-        Some(Json::of(self))
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
+        Some(Box::new(self))
     }
 
     fn table(&self) -> Option<Table<'_>> {

@@ -79,14 +79,14 @@ impl Report for PreloadReport<'_> {
         Some(sheet.into_text())
     }
 
-    fn json(&self) -> Option<Json<'_>> {
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
         let means = self.first().iter().zip(&self.statistics).map(|(one, statistics)| {
             object! { "preload": one.preload, "adhesion_force": statistics }
         });
         let lines = self.seeds.iter().zip(&self.lines).map(|(seed, preloads)| {
             object! { "seed": seed, "preloads": preloads }
         });
-        Some(Json::of(object! {
+        Some(Box::new(object! {
             "scene": self.scene,
             "mean": self.is_mean().then(|| means.collect::<Vec<_>>()),
             "lines": lines.collect::<Vec<_>>(),

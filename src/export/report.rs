@@ -17,7 +17,7 @@ pub trait Report {
     }
 
     /// One JSON value in SI units.
-    fn json(&self) -> Option<Json<'_>> {
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
         None
     }
 
@@ -33,22 +33,17 @@ pub trait Report {
 }
 
 /// A value that is written as JSON without an intermediate copy.
-pub struct Json<'a>(Box<dyn WriteJson + 'a>);
-
-trait WriteJson {
-    fn write(&self, out: &mut dyn Write) -> io::Result<()>;
+pub trait Json {
+    /// Writes the value.
+    ///
+    /// # Errors
+    /// Errors of `out`.
+    fn write_json(&self, out: &mut dyn Write) -> io::Result<()>;
 }
 
-impl<T: Serialize> WriteJson for T {
-    fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+impl<T: Serialize> Json for T {
+    fn write_json(&self, out: &mut dyn Write) -> io::Result<()> {
         write_json_value(out, self)
-    }
-}
-
-impl<'a> Json<'a> {
-    /// The JSON of a value.
-    pub fn of(value: impl Serialize + 'a) -> Json<'a> {
-        Json(Box::new(value))
     }
 }
 
@@ -72,7 +67,7 @@ pub fn write(
     let missing = || io::Error::other(format!("this result has no {} form", format.name()));
     match format {
         Format::Text => out.write_all(report.text().ok_or_else(missing)?.as_bytes()),
-        Format::Json => report.json().ok_or_else(missing)?.0.write(out),
+        Format::Json => report.json().ok_or_else(missing)?.write_json(out),
         Format::Csv => report.table().ok_or_else(missing)?.write_csv(out, provenance),
         Format::Npy => report.table().ok_or_else(missing)?.write_npy(out, provenance),
         Format::Svg => out.write_all(report.figure().ok_or_else(missing)?.svg().as_bytes()),

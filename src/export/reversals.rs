@@ -73,13 +73,13 @@ impl Report for ReversalReport<'_> {
 
     /// For each turning point the forces at the indentations of the columns up to that point, the Everett function and
     /// the density.
-    fn json(&self) -> Option<Json<'_>> {
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
         let ReversalReport { scene, map, preloads, loops, smoothing, .. } = *self;
         let rows = |value: &dyn Fn(usize, usize) -> Option<f64>| -> Vec<Vec<Option<f64>>> {
             let row = |turn: usize| (0..=map.below + turn).map(|point| value(turn, point)).collect();
             (0..map.reversals.len()).map(row).collect()
         };
-        Some(Json::of(object! {
+        Some(Box::new(object! {
             "scene": scene,
             "preloads": preloads,
             "reversals": turning_points(map),

@@ -28,14 +28,14 @@ pub struct RunReport<'a> {
 
 impl Report for RunReport<'_> {
     fn text(&self) -> Option<String> {
-        Some(summary(self))
+        Some(summary(self.scene, self.outcome, self.estimate, self.choice))
     }
 
-    fn json(&self) -> Option<Json<'_>> {
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
         let RunReport { scene, outcome, choice, estimate, .. } = *self;
         let Outcome { line, governing, figures, history, .. } = outcome;
         let fragments = scene.observe.contains(&Observer::Fragments).then_some(outcome.fragments.as_slice());
-        Some(Json::of(object! {
+        Some(Box::new(object! {
             "scene": scene,
             "choice"?: choice,
             "line": object! {

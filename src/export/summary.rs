@@ -1,7 +1,7 @@
 //! Summary of a computed scene for a reader.
 
-use super::run::RunReport;
 use super::sheet::Sheet;
+use crate::accuracy::{Choice, Estimate};
 use crate::analysis::{
     INSENSITIVE_SHARE, LEAST_TABOR_NUMBER, NEGLIGIBLE_COEFFICIENT, Regime, SteepWaves, VANISHING_SHARE,
 };
@@ -13,15 +13,20 @@ use crate::text::grouped;
 /// Largest number of loading stages that are listed; further ones are counted.
 const MOST_STAGES: usize = 8;
 
-/// Result of a scene in plain text of at most 80 columns.
-pub(super) fn summary(report: &RunReport<'_>) -> String {
-    let RunReport { scene, outcome, choice, .. } = *report;
+/// Result of a scene in plain text of at most 80 columns, with the estimated error of the adhesion force and the choice of
+/// springs for a tolerance if there are such.
+pub(super) fn summary(
+    scene: &Scene,
+    outcome: &Outcome,
+    estimate: Option<&Estimate>,
+    choice: Option<&Choice>,
+) -> String {
     let mut sheet = Sheet::default();
     sheet.paragraph(&scene.title);
     sheet.paragraph(&scene.notice);
     line(&mut sheet, outcome);
     bodies(&mut sheet, outcome);
-    adhesion(&mut sheet, report);
+    adhesion(&mut sheet, scene, outcome, estimate);
     contact(&mut sheet, outcome);
     cost(&mut sheet, &outcome.history.work, &outcome.timings);
     if let Some(choice) = choice {
@@ -86,8 +91,7 @@ fn bodies(sheet: &mut Sheet, outcome: &Outcome) {
     sheet.quantity("e_el/γ", governing.elastic_energy_ratio, "1");
 }
 
-fn adhesion(sheet: &mut Sheet, report: &RunReport<'_>) {
-    let RunReport { scene, outcome, estimate, .. } = *report;
+fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Option<&Estimate>) {
     let figures = &outcome.figures;
     sheet.heading("Adhesion");
     sheet.row("loading", loading(&scene.loading));
@@ -256,7 +260,6 @@ fn counts(work: &Work) -> [(&'static str, u64); 15] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::accuracy::Estimate;
     use crate::scene::Document;
     use crate::simulation::Simulation;
 
@@ -294,7 +297,7 @@ mod tests {
     }
 
     fn text(scene: &Scene, outcome: &Outcome, estimate: Option<&Estimate>) -> String {
-        summary(&RunReport { title: "", scene, outcome, choice: None, estimate })
+        summary(scene, outcome, estimate, None)
     }
 
     #[test]

@@ -136,7 +136,7 @@ impl Report for SurfaceReport {
     }
 
     /// The opposite face is an object inside, without equivalent line and adhesion.
-    fn json(&self) -> Option<Json<'_>> {
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
         let (first, others) = self.faces.split_first()?;
         let moments = self.line.moments();
         let line = object! {
@@ -160,7 +160,7 @@ impl Report for SurfaceReport {
             }
         });
         let opposite = others.first().map(|face| face_json(face, None::<()>, None::<()>, None::<()>));
-        Some(Json::of(face_json(first, Some(line), Some(adhesion), opposite)))
+        Some(Box::new(face_json(first, Some(line), Some(adhesion), opposite)))
     }
 
     /// Spectra: kind, wave number in rad/m, power in m³, waves averaged (if any).
