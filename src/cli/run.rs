@@ -165,7 +165,10 @@ fn figure(arguments: &RunArguments, document: Document, format: Format) -> Resul
         let failed = |error| CliError::named(document.name(), error);
         let mut simulation = simulation_of(document);
         let mut sets = ContactSets::new(arguments.fragments);
-        let mut observe = |_, record: &LegRecord, leg: &Leg| sets.observe(record, leg);
+        let mut observe = |_, record: &LegRecord, leg: &Leg| {
+            sets.observe(record, leg);
+            Ok(())
+        };
         let outcome = simulation.run(&scene, &|| false, &mut observe).map_err(failed)?;
         if arguments.fragments {
             return Ok(sets.patches_figure(document.title(), &outcome));

@@ -38,10 +38,14 @@ impl Comparison<'_> {
 }
 
 impl Report for Comparison<'_> {
-    #[cfg(feature = "tui")]
     fn text(&self) -> Option<String> {
-        let figure = crate::draw::figure_text(&self.drawn(), super::sheet::WIDTH, crate::draw::Colours::None);
-        Some(format!("{}\n{figure}", self.words()))
+        let text = self.words();
+        #[cfg(feature = "tui")]
+        let text = {
+            use crate::draw::{Colours, figure_text};
+            format!("{text}\n{}", figure_text(&self.drawn(), super::sheet::WIDTH, Colours::None))
+        };
+        Some(text)
     }
 
     fn figure(&self) -> Option<Figure> {

@@ -13,6 +13,5 @@ pub use error::RunError;
 pub use outcome::{LineFacts, Outcome, Timings};
 pub use plan::{Plan, PlannedStage, Stage};
 pub use reversals::{SeeReversal, TURNING_POINTS};
-pub(crate) use roughness::equivalent_springs;
-pub use roughness::{measured_options, measured_roughness_options};
+pub use roughness::{equivalent_springs, measured_options, measured_roughness_options};
 pub use stages::{AfterLeg, Simulation};
