@@ -52,7 +52,7 @@ impl Command {
             Handler::Silent(change) => change(model),
             Handler::View(change) => {
                 change(model);
-                return vec![Effect::Show];
+                return vec![Effect::Ask];
             }
             Handler::Act(act) => return act(model),
             Handler::Character(act) => {

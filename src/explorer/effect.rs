@@ -1,24 +1,16 @@
 //! Effects of an update: work outside the model.
 
 use super::action::OutputFile;
-use super::request::ManualMove;
 use super::theme::Appearance;
-use crate::scene::Document;
 use std::path::PathBuf;
 
 /// Work outside the model.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Effect {
-    /// Compute the scene.
-    Compute,
-    /// Show the present snapshot of the contact.
-    Show,
-    /// Compute the scene beside, or drop the last one.
-    Beside,
+    /// Ask the worker for the state that the screen waits for.
+    Ask,
     /// Perform the remaining studies of the scene, see [`super::update::study_tasks`], and no others.
     Study,
-    /// Move the body manually.
-    Manual(ManualMove),
     /// Draw a random seed and return it as an action.
     DrawSeed,
     /// Write a file.
@@ -36,10 +28,6 @@ pub enum Effect {
     Complete(String),
     /// Open a scene or a study by its path.
     Open(String),
-    /// Compute the preview of a scene.
-    Preview(Box<Document>),
-    /// Stop the preview.
-    StopPreview,
     /// Copy a text.
     Copy(String),
     /// Return the terminal to the shell for a while.

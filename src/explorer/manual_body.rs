@@ -57,7 +57,7 @@ impl ManualBody {
     pub fn obey(&mut self, order: ManualMove) {
         let from = self.body.point();
         let target = match order {
-            ManualMove::Take { .. } | ManualMove::Give => return,
+            ManualMove::Take { .. } => return,
             ManualMove::To(indentation) => Move::ToIndentation(indentation),
             ManualMove::By(way) => Move::ToIndentation(from.indentation + way),
             ManualMove::ToForce(force) => Move::ToForce(force),

@@ -13,13 +13,12 @@ use super::parameters::{Parameter, Setting, parameters};
 pub use super::player::Player;
 use super::player::{indentations, start_of};
 use super::prompt::{Prompt, Purpose};
-use super::request::{Focus, LineView};
+use super::request::{Focus, LineView, ManualMove, Tried};
 use super::snapshot::{ContactSnapshot, Drive, Preview, SolvedScene};
 use super::text_line::TextLine;
 use super::theme::Appearance;
 use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
-use crate::draw::AxisScale;
 use crate::scene::{Document, Observer, Scene, ron_float};
 use crate::simulation::Outcome;
 pub use crate::study::map::Charted;
@@ -67,8 +66,6 @@ pub struct CurveLook {
     pub normalised: bool,
     /// True if the dissipated energy is shaded.
     pub loss: bool,
-    /// Scale of both axes; a logarithmic one shows the numbers above zero.
-    pub scale: AxisScale,
 }
 
 /// Two quantities, one over the other.
@@ -109,6 +106,8 @@ pub struct Ghost {
     pub document: Document,
     /// Outcome.
     pub computed: Arc<SolvedScene>,
+    /// The contact when it was kept.
+    pub snapshot: Option<Arc<ContactSnapshot>>,
     /// Differences of its scene from the present one.
     pub differs: String,
     /// The same differences with the values of the ghost and of the present scene: `κ 4 → 8`.
@@ -199,8 +198,10 @@ pub struct Model {
     pub edited: bool,
     /// The newest preview: of the scene selected in the library, or of the value being typed.
     pub preview: Option<Arc<Preview>>,
-    /// Text of the scene with the value being typed, where that changes the scene.
-    pub tried: Option<String>,
+    /// Scene whose outcome is awaited: with the value being typed, or to be kept as a ghost.
+    pub tried: Option<Tried>,
+    /// Manual moves not yet requested.
+    pub moves: Vec<ManualMove>,
     /// The chosen pane.
     pub pane: Pane,
     /// True if the chosen pane has the whole screen.
@@ -270,6 +271,7 @@ impl Model {
             edited: false,
             preview: None,
             tried: None,
+            moves: Vec::new(),
             pane: Pane::Force,
             zoomed: false,
             size,
@@ -362,7 +364,8 @@ impl Model {
     /// Returns true once the typed value itself has an outcome.
     #[must_use]
     pub fn is_tried(&self) -> bool {
-        self.preview.as_ref().is_some_and(|preview| self.tried.as_ref() == Some(&preview.text))
+        let tried = self.tried.as_ref().map(|tried| &tried.text);
+        self.preview.as_ref().is_some_and(|preview| tried == Some(&preview.text))
     }
 
     /// Values of the scene on the axes of the map: its mark. `None` where the scene has no such quantity, or its value

@@ -4,7 +4,8 @@ use super::close_up::close_up;
 use super::engine::Engine;
 use super::manual_body::ManualBody;
 use super::panes::{Pane, SceneSpectra};
-use super::request::{Drive, LineView, ManualMove, Newest, SnapshotRequest};
+use super::player::Player;
+use super::request::{Drive, LineView, ManualMove, Newest, Place, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Probe, Report, SolvedScene};
 use crate::contact::{ContactError, Leg, LegRecord, Patch};
 use crate::export::section::{Contact, LineColumns, Part};
@@ -35,12 +36,22 @@ pub struct Playback {
 }
 
 impl Playback {
+    /// Playback of a scene that could not be computed.
+    pub fn without_scene(generation: u64) -> Self {
+        Playback { generation, ..Playback::default() }
+    }
+
     /// Generation of the scene.
     pub fn generation(&self) -> u64 {
         self.generation
     }
 
-    /// Computes a scene; `None` when a newer one is awaited.
+    /// The computed scene.
+    pub fn computed(&self) -> Option<Arc<SolvedScene>> {
+        self.computed.clone()
+    }
+
+    /// Computes a scene, or returns the reason why that failed, in one line; `None` when a newer scene is awaited.
     pub fn compute(
         &mut self,
         engine: &mut dyn Engine,
@@ -48,8 +59,8 @@ impl Playback {
         scene: Arc<Scene>,
         newest: &Newest,
         report: &dyn Fn(Report) -> bool,
-    ) -> Option<Report> {
-        *self = Playback { generation, ..Playback::default() };
+    ) -> Option<Result<(), String>> {
+        *self = Playback::without_scene(generation);
         // The histogram beside the profile needs the heights.
         let mut observed = scene.as_ref().clone();
         if !observed.observe.contains(&Observer::HeightHistogram) {
@@ -66,14 +77,17 @@ impl Playback {
         });
         match result {
             Ok(outcome) => {
-                let computed = Arc::new(SolvedScene { generation, scene, outcome });
                 self.legs = legs;
                 self.scene = Some(Arc::new(observed));
-                self.computed = Some(Arc::clone(&computed));
-                Some(Report::Computed(computed))
+                self.computed = Some(Arc::new(SolvedScene { generation, scene, outcome }));
+                Some(Ok(()))
             }
-            Err(error) if error.is_interruption() => None,
-            Err(error) => Some(Report::Failed { generation, error: error.to_string() }),
+            Err(error) if error.is_interruption() => {
+                // Unless it is awaited again.
+                self.generation = 0;
+                None
+            }
+            Err(error) => Some(Err(error.to_string())),
         }
     }
 
@@ -96,9 +110,6 @@ impl Playback {
                 let scales = (range_of(&computed) / STEPS_OF_A_PULL, preload);
                 self.held = ManualBody::take(&leg, indentation, scales);
             }
-            ManualMove::Give => {
-                self.held = None;
-            }
             order => {
                 if let Some(held) = &mut self.held {
                     held.obey(order);
@@ -109,10 +120,23 @@ impl Playback {
 
     /// The requested snapshot; `None` where the leg does not exist or manual loading has not begun.
     pub fn show(&mut self, engine: &mut dyn Engine, request: &SnapshotRequest) -> Option<ContactSnapshot> {
+        let mut drive = request.drive;
         let (leg, point) = match request.drive {
-            Drive::Leg(leg) => {
-                let leg = self.leg(engine, leg)?;
-                let point = leg.point(request.indentation).ok()?;
+            Drive::Leg(number) => {
+                self.held = None;
+                let legs = &self.computed.as_deref()?.outcome.history.legs;
+                let player = Player { leg: number, done: 0.0, playing: false };
+                let player = match request.place {
+                    Place::Share(done) => Player { done, ..player }.within(legs),
+                    Place::Indentation(_) => player,
+                };
+                let indentation = match request.place {
+                    Place::Share(_) => player.indentation(legs),
+                    Place::Indentation(indentation) => indentation,
+                };
+                let leg = self.leg(engine, player.leg)?;
+                drive = Drive::Leg(player.leg);
+                let point = leg.point(indentation).ok()?;
                 (leg, point)
             }
             Drive::Manual => self.held.as_ref().map(|held| (held.leg().clone(), held.point()))?,
@@ -138,8 +162,8 @@ impl Playback {
             self.spectra = Some(Arc::new(SceneSpectra::new(scene, outcome, line)));
         }
         Some(ContactSnapshot {
-            generation: request.generation,
-            drive: request.drive,
+            generation: self.generation,
+            drive,
             line: outcome.line,
             focus: request.focus,
             point,
@@ -154,7 +178,6 @@ impl Playback {
                 Drive::Leg(_) => None,
                 Drive::Manual => self.held.as_mut().map(ManualBody::travel),
             },
-            beside: None,
         })
     }
 

@@ -5,34 +5,41 @@ use crate::scene::Scene;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Request from the explorer to the worker.
+/// State that the screen waits for: the scene, solved unless it is the last one, after the manual moves, reduced to a
+/// snapshot; then the outcome of a scene that is tried.
 #[derive(Clone, Debug)]
-pub enum Request {
-    /// Compute a scene.
-    Compute {
-        /// Its generation.
-        generation: u64,
-        /// The scene.
-        scene: Arc<Scene>,
-    },
-    /// Move the body manually, in the last computed scene.
-    Manual {
-        /// Generation of the scene.
-        generation: u64,
-        /// Move.
-        order: ManualMove,
-    },
-    /// Show a snapshot of the last computed scene.
-    Show(SnapshotRequest),
-    /// Compute a scene beside, or none.
-    Beside(Option<Arc<Scene>>),
-    /// Compute the preview of a scene: one of the library, or one with a value being typed.
-    Preview {
-        /// The scene's text.
-        text: String,
-        /// The scene.
-        scene: Arc<Scene>,
-    },
+pub struct Request {
+    /// Generation of the scene.
+    pub generation: u64,
+    /// The scene.
+    pub scene: Arc<Scene>,
+    /// Manual moves since the last request.
+    pub moves: Vec<ManualMove>,
+    /// Snapshot of the contact.
+    pub snapshot: SnapshotRequest,
+    /// Scene with the value being typed, or to be kept as a ghost.
+    pub tried: Option<Tried>,
+}
+
+impl Request {
+    /// This request in place of an earlier one: no manual move of the same scene is lost.
+    #[must_use]
+    pub fn after(mut self, mut earlier: Request) -> Request {
+        if earlier.generation == self.generation {
+            earlier.moves.append(&mut self.moves);
+            self.moves = earlier.moves;
+        }
+        self
+    }
+}
+
+/// A scene whose outcome alone is of interest.
+#[derive(Clone, Debug)]
+pub struct Tried {
+    /// Its text, different for different scenes.
+    pub text: String,
+    /// The scene.
+    pub scene: Arc<Scene>,
 }
 
 /// Move of manual loading.
@@ -45,8 +52,6 @@ pub enum ManualMove {
         /// Indentation, m.
         indentation: f64,
     },
-    /// Ends manual loading.
-    Give,
     /// Moves the body to an indentation, m.
     To(f64),
     /// Moves the body by a distance, m; pressing is positive.
@@ -57,15 +62,22 @@ pub enum ManualMove {
     Separate,
 }
 
+/// Place of the body on a loading stage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// Share of the stage, 0 to 1, as the animation plays it.
+    Share(f64),
+    /// Indentation, m.
+    Indentation(f64),
+}
+
 /// Request for a snapshot of the contact, with the sizes of the panes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SnapshotRequest {
-    /// Generation of the scene.
-    pub generation: u64,
     /// Drive of the body.
     pub drive: Drive,
-    /// Indentation, m; manual loading has its own.
-    pub indentation: f64,
+    /// Place on the stage; manual loading has its own.
+    pub place: Place,
     /// Columns of dots of the profile pane.
     pub profile_columns: usize,
     /// Part of the line in the profile pane.
@@ -84,8 +96,6 @@ pub struct SnapshotRequest {
     pub lower: Pane,
     /// Position of the crosshair as a share of the profile, 0 to 1.
     pub crosshair: Option<f64>,
-    /// Loading stage and indentation, m, of the scene beside.
-    pub beside: Option<(usize, f64)>,
 }
 
 /// Part of the line in the profile pane.
@@ -138,17 +148,19 @@ pub enum Drive {
     Manual,
 }
 
-/// Generation and preview awaited by the explorer; older runs stop.
+/// Scenes awaited by the explorer; runs of others stop.
 #[derive(Debug, Default)]
 pub struct Awaited {
     generation: AtomicU64,
-    preview: Mutex<Option<Arc<Scene>>>,
+    tried: Mutex<Option<Arc<Scene>>>,
 }
 
 impl Awaited {
-    /// Sets the awaited generation.
-    pub fn set_generation(&self, generation: u64) {
-        self.generation.store(generation, Ordering::Relaxed);
+    /// Marks a request as awaited: runs of another scene and of another tried one become stale at once.
+    pub fn ask(&self, request: &Request) {
+        self.generation.store(request.generation, Ordering::Relaxed);
+        let tried = request.tried.as_ref().map(|tried| Arc::clone(&tried.scene));
+        *self.tried.lock().unwrap_or_else(PoisonError::into_inner) = tried;
     }
 
     /// Returns true if another generation than this one is awaited.
@@ -157,29 +169,11 @@ impl Awaited {
         self.generation.load(Ordering::Relaxed) != generation
     }
 
-    /// Sets the awaited preview, or none.
-    pub fn set_preview(&self, scene: Option<Arc<Scene>>) {
-        *self.preview.lock().unwrap_or_else(PoisonError::into_inner) = scene;
-    }
-
-    /// Marks a request as awaited: a scene makes all older ones and every preview stale at once, a preview all earlier
-    /// previews.
-    pub fn ask(&self, request: &Request) {
-        match request {
-            Request::Compute { generation, .. } => {
-                self.set_generation(*generation);
-                self.set_preview(None);
-            }
-            Request::Preview { scene, .. } => self.set_preview(Some(Arc::clone(scene))),
-            Request::Manual { .. } | Request::Show(_) | Request::Beside(_) => {}
-        }
-    }
-
-    /// Returns true if this very preview is awaited.
+    /// Returns true if this very scene is tried.
     #[must_use]
-    pub fn is_preview(&self, scene: &Arc<Scene>) -> bool {
-        let preview = self.preview.lock().unwrap_or_else(PoisonError::into_inner);
-        preview.as_ref().is_some_and(|awaited| Arc::ptr_eq(awaited, scene))
+    pub fn is_tried(&self, scene: &Arc<Scene>) -> bool {
+        let tried = self.tried.lock().unwrap_or_else(PoisonError::into_inner);
+        tried.as_ref().is_some_and(|awaited| Arc::ptr_eq(awaited, scene))
     }
 }
 

@@ -72,7 +72,7 @@ impl Solver {
             Solver::Inline(worker, newest) => {
                 newest.ask(&request);
                 let reports: RefCell<Vec<Report>> = RefCell::default();
-                worker.serve(std::iter::once(request), newest, &|report| {
+                worker.serve(request, newest, &|report| {
                     reports.borrow_mut().push(report);
                     true
                 });
@@ -140,6 +140,8 @@ pub struct Runtime {
     pub solver: Solver,
     /// Solver of the studies.
     pub studies: Studies,
+    /// Generation of the scene requested last.
+    pub asked: u64,
     /// Folder of relative paths; empty for the working folder.
     pub folder: PathBuf,
     /// Draws a seed.
@@ -188,22 +190,18 @@ impl Runtime {
     /// # Errors
     /// When the terminal refuses.
     pub fn answer(&mut self, effect: Effect, console: &mut dyn Console) -> io::Result<Vec<Action>> {
-        let Runtime { model, solver, studies, folder, .. } = self;
+        let Runtime { model, solver, studies, folder, asked, .. } = self;
         let action = match effect {
-            Effect::Compute | Effect::Show | Effect::Beside | Effect::Manual(_) | Effect::Preview(_) => {
-                if effect == Effect::Compute {
+            Effect::Ask => {
+                let request = request(model);
+                if request.generation != *asked {
                     // Estimates of the former scene are of no use, and take time from this one.
                     studies.stop();
+                    *asked = request.generation;
                 }
-                return Ok(request(model, &effect).map_or_else(Vec::new, |request| solver.ask(request)));
+                return Ok(solver.ask(request));
             }
             Effect::Study => return Ok(studies.ask(model.generation, study_tasks(model))),
-            Effect::StopPreview => {
-                if let Solver::Thread(worker) = solver {
-                    worker.stop_preview();
-                }
-                return Ok(Vec::new());
-            }
             Effect::DrawSeed => Action::SetSeed((self.draw_seed)()),
             Effect::Write(file) => writing::write(model, folder, file),
             Effect::Remember { path, appearance } => {

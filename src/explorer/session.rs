@@ -165,6 +165,7 @@ pub fn open_with(
         model,
         solver: Solver::Thread(worker),
         studies: Studies::Thread(study),
+        asked: 0,
         folder: PathBuf::new(),
         // Six digits are enough for another line and can be read out to a colleague.
         draw_seed: Box::new(|| rand::random_range(0..1_000_000)),
@@ -264,7 +265,7 @@ impl<W: Write> Session<'_, W> {
     fn run(&mut self) -> io::Result<Option<i32>> {
         let frames = if self.remote { self.frame_rate.min(REMOTE_FRAMES) } else { self.frame_rate };
         let frame_time = Duration::from_secs(1) / frames;
-        self.runtime.perform(vec![Effect::Compute], &mut self.console)?;
+        self.runtime.perform(vec![Effect::Ask], &mut self.console)?;
         let mut moved = Instant::now();
         let mut changed = true;
         // Over SSH nothing is drawn before this time: a held key or a dragged mouse would fill the line

@@ -51,8 +51,6 @@ pub struct ContactSnapshot {
     pub spectra: Option<Arc<SceneSpectra>>,
     /// Path of manual loading to this state.
     pub manual: Option<ManualPath>,
-    /// The scene beside, at the same part of its loading.
-    pub beside: Option<Box<ContactSnapshot>>,
 }
 
 /// Rigid profile and elastic surface at one spring.
@@ -137,7 +135,7 @@ pub struct FragmentFacts {
     pub force: f64,
 }
 
-/// Preview of a scene.
+/// Outcome of a tried scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Preview {
     /// The text of the scene, different for different scenes.
@@ -149,9 +147,9 @@ pub struct Preview {
 /// Report of the worker.
 #[derive(Clone, Debug)]
 pub enum Report {
-    /// A scene has been computed.
-    Computed(Arc<SolvedScene>),
-    /// A snapshot is ready.
+    /// A scene has been computed, with its first snapshot unless its loading is empty.
+    Solved(Arc<SolvedScene>, Option<Arc<ContactSnapshot>>),
+    /// Another snapshot of it is ready.
     Shown(Arc<ContactSnapshot>),
     /// Part of a scene is done.
     Progress {
@@ -167,6 +165,6 @@ pub enum Report {
         /// Reason, in one line.
         error: String,
     },
-    /// A preview has been computed, or has failed.
-    Previewed(Arc<Preview>),
+    /// A tried scene has been computed, or has failed.
+    Tried(Arc<Preview>),
 }

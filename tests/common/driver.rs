@@ -88,6 +88,7 @@ impl Driver {
             model,
             solver: Solver::inline(engine),
             studies: Studies::None,
+            asked: 0,
             folder: folder.path().to_owned(),
             draw_seed: Box::new(|| 4711),
         };

@@ -17,7 +17,7 @@ impl Driver {
     /// The explorer with its scene computed and the first state shown.
     pub fn start(opening: impl Into<Opening>) -> Self {
         let mut driver = Driver::open(opening);
-        driver.perform(vec![Effect::Compute]);
+        driver.perform(vec![Effect::Ask]);
         driver
     }
 

@@ -156,19 +156,17 @@ struct Explorer {
 
 impl Explorer {
     fn new(opening: Opening, study: &Path) -> Self {
-        let (driver, waiting) = (Driver::open(opening), VecDeque::from([Effect::Compute]));
+        let (driver, waiting) = (Driver::open(opening), VecDeque::from([Effect::Ask]));
         Explorer { driver, waiting, reports: Vec::new(), judged: 0, study: study.to_owned() }
     }
 
     fn act(&mut self, action: Action) {
         for effect in update(&mut self.driver.model, action) {
-            // Manual moves do not wait for an answer: they are sent at once.
             match effect {
-                Effect::Manual(_) => drop(self.driver.answer(effect)),
-                // Of all waiting scenes, only the newest is computed.
-                Effect::Compute => {
-                    self.waiting.retain(|one| *one != Effect::Compute);
-                    self.waiting.push_back(Effect::Compute);
+                // Of all waiting states, only the newest is computed.
+                Effect::Ask => {
+                    self.waiting.retain(|one| *one != Effect::Ask);
+                    self.waiting.push_back(Effect::Ask);
                 }
                 other => self.waiting.push_back(other),
             }
@@ -238,14 +236,13 @@ impl Explorer {
             is_small && numerics.solver == Solver::Exact
         };
         let actions = match &effect {
-            Effect::Compute if !is_cheap(&self.driver.model.document) => {
+            Effect::Ask if !is_cheap(&self.driver.model.document) => {
                 let generation = self.driver.model.generation;
                 vec![Action::Report(Report::Failed {
                     generation,
                     error: "too large for a test\nin two lines".to_owned(),
                 })]
             }
-            Effect::Preview(document) if !is_cheap(document) => Vec::new(),
             _ => self.driver.answer(effect),
         };
         self.reports.extend(actions.iter().cloned());

@@ -101,7 +101,7 @@ fn everywhere() -> Vec<Driver> {
         "*",
         "& L",
         "* Tab Right",
-        "* O v Right",
+        "* v Right",
         "i z",
     ];
     let mut all: Vec<Driver> = keys.into_iter().map(pressed).collect();

@@ -7,7 +7,7 @@ use asperity::contact::{ContactError, CurvePoint, Patch};
 use asperity::explorer::panes::Pane;
 use asperity::explorer::snapshot::{ContactSnapshot, Drive, SolvedScene};
 use asperity::explorer::worker::{
-    self, Engine, Focus, LineView, Newest, Report, Request, SnapshotRequest, Worker,
+    self, Engine, Focus, LineView, ManualMove, Newest, Place, Report, Request, SnapshotRequest, Tried, Worker,
 };
 use asperity::scene::{Document, Observer, Scene};
 use asperity::simulation::{AfterLeg, Outcome, RunError, Simulation};
@@ -24,6 +24,8 @@ const PATIENCE: Duration = Duration::from_secs(20);
 struct Served {
     worker: Worker,
     reports: Receiver<Report>,
+    /// The request of the last scene.
+    last: RefCell<Request>,
 }
 
 impl Served {
@@ -33,12 +35,13 @@ impl Served {
         let newest = Newest::default();
         worker::start(Box::new(engine), Arc::clone(&newest), outbox, move |one| report.send(one).is_ok())
             .unwrap();
-        Served { worker: Worker::new(requests, newest), reports }
+        let last = RefCell::new(compute(0, &rough()));
+        Served { worker: Worker::new(requests, newest), reports, last }
     }
 
     fn compute(&self, generation: u64, document: &Document) {
-        let scene = Arc::new(document.scene().clone());
-        self.worker.ask(Request::Compute { generation, scene });
+        *self.last.borrow_mut() = compute(generation, document);
+        self.worker.ask(compute(generation, document));
     }
 
     fn report(&self) -> Report {
@@ -57,16 +60,15 @@ impl Served {
 
     fn computed(&self, generation: u64, document: &Document) -> Arc<SolvedScene> {
         self.compute(generation, document);
-        // The snapshot of an earlier scene may have been requested.
-        let of_before = |report: &Report| matches!(report, Report::Shown(one) if one.generation < generation);
-        match std::iter::repeat_with(|| self.answer()).find(|report| !of_before(report)).unwrap() {
-            Report::Computed(computed) => computed,
+        match self.answer() {
+            Report::Solved(computed, _) => computed,
             other => panic!("not computed: {other:?}"),
         }
     }
 
-    fn shown(&self, request: SnapshotRequest) -> Arc<ContactSnapshot> {
-        self.worker.ask(Request::Show(request));
+    /// A snapshot of the last scene.
+    fn shown(&self, snapshot: SnapshotRequest) -> Arc<ContactSnapshot> {
+        self.worker.ask(Request { snapshot, ..self.last.borrow().clone() });
         match self.answer() {
             Report::Shown(snapshot) => snapshot,
             other => panic!("not shown: {other:?}"),
@@ -74,12 +76,11 @@ impl Served {
     }
 }
 
-/// A request for a snapshot of the first generation.
+/// A request for a snapshot.
 fn snapshot(leg: usize, indentation: f64) -> SnapshotRequest {
     SnapshotRequest {
-        generation: 1,
         drive: Drive::Leg(leg),
-        indentation,
+        place: Place::Indentation(indentation),
         profile_columns: 100,
         profile: LineView::WHOLE,
         close_up_columns: 100,
@@ -89,12 +90,12 @@ fn snapshot(leg: usize, indentation: f64) -> SnapshotRequest {
         large: None,
         lower: Pane::CloseUp,
         crosshair: None,
-        beside: None,
     }
 }
 
 fn compute(generation: u64, document: &Document) -> Request {
-    Request::Compute { generation, scene: Arc::new(document.scene().clone()) }
+    let scene = Arc::new(document.scene().clone());
+    Request { generation, scene, moves: Vec::new(), snapshot: snapshot(0, 0.0), tried: None }
 }
 
 /// Sends all requests to a worker at once and returns all its reports.
@@ -104,7 +105,7 @@ fn serve_all(engine: impl Engine + 'static, newest: u64, requests: Vec<Request>)
     drop(sender);
     let reports = RefCell::new(Vec::new());
     let generation = Newest::default();
-    generation.set_generation(newest);
+    generation.ask(&compute(newest, &rough()));
     worker::serve(Box::new(engine), &generation, &receiver, &|report| {
         reports.borrow_mut().push(report);
         true
@@ -112,18 +113,14 @@ fn serve_all(engine: impl Engine + 'static, newest: u64, requests: Vec<Request>)
     reports.into_inner()
 }
 
-/// The computed generations, and those with shown states.
-fn generations(reports: &[Report]) -> (Vec<u64>, Vec<u64>) {
-    let (mut computed, mut shown) = (Vec::new(), Vec::new());
-    for report in reports {
-        match report {
-            Report::Computed(one) => computed.push(one.generation),
-            Report::Shown(one) => shown.push(one.generation),
-            Report::Progress { .. } => {}
-            Report::Failed { .. } | Report::Previewed(_) => panic!("{report:?}"),
-        }
-    }
-    (computed, shown)
+/// The computed scenes.
+fn solved(reports: &[Report]) -> Vec<Arc<SolvedScene>> {
+    let computed = |report: &Report| match report {
+        Report::Solved(computed, _) => Some(Arc::clone(computed)),
+        Report::Progress { .. } => None,
+        other => panic!("{other:?}"),
+    };
+    reports.iter().filter_map(computed).collect()
 }
 
 /// Replacement of a run in a [`Double`].
@@ -171,7 +168,8 @@ fn a_scene_is_computed_leg_by_leg_and_then_whole() {
         for done in 1..=2 {
             assert!(matches!(served.report(), Report::Progress { generation: 7, legs } if legs == done));
         }
-        let Report::Computed(computed) = served.report() else { panic!("not computed") };
+        let Report::Solved(computed, Some(shown)) = served.report() else { panic!("not computed") };
+        assert_eq!((shown.generation, shown.drive), (7, Drive::Leg(0)));
         let mut scene = rough().scene().clone();
         scene.observe.push(Observer::HeightHistogram);
         let alone = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
@@ -184,74 +182,46 @@ fn a_scene_is_computed_leg_by_leg_and_then_whole() {
 #[test]
 fn of_all_that_wait_only_the_newest_is_done() {
     within(30, || {
-        let show = |leg| Request::Show(SnapshotRequest { generation: 5, ..snapshot(leg, 0.0) });
-        let mut requests: Vec<_> = (1..=5).map(|number| compute(number, &seed(&rough(), number))).collect();
-        requests.extend([show(0), show(0), show(1)]);
-        let reports = serve_all(Simulation::default(), 5, requests);
-        assert_eq!(generations(&reports), (vec![5], vec![5]));
-        let Some(Report::Shown(shown)) = reports.last() else { panic!("{reports:?}") };
-        assert_eq!(shown.drive, Drive::Leg(1));
-        let Some(Report::Computed(computed)) = reports.iter().rev().nth(1) else { panic!("{reports:?}") };
-        assert_eq!(computed.outcome.line.seed, Some(5));
+        let requests: Vec<_> = (1..=5).map(|number| compute(number, &seed(&rough(), number))).collect();
+        let reports = serve_all(Simulation::default(), 5, requests.clone());
+        assert_eq!(solved(&reports).iter().map(|one| one.outcome.line.seed).collect::<Vec<_>>(), [Some(5)]);
+        assert!(serve_all(Simulation::default(), 6, requests).is_empty(), "a newer scene is awaited");
+        // No manual move is lost, but those of another scene.
+        let moved =
+            |generation, by| Request { moves: vec![ManualMove::By(by)], ..compute(generation, &rough()) };
+        assert_eq!(moved(1, 2.0).after(moved(1, 1.0)).moves, [ManualMove::By(1.0), ManualMove::By(2.0)]);
+        assert_eq!(moved(2, 2.0).after(moved(1, 1.0)).moves, [ManualMove::By(2.0)]);
     });
 }
 
 #[test]
-fn moments_of_another_scene_are_not_shown() {
+fn a_tried_scene_that_is_no_longer_wanted_is_not_computed() {
     within(30, || {
-        let show = |generation| Request::Show(SnapshotRequest { generation, ..snapshot(0, 0.0) });
-        for generation in [1, 3] {
-            let requests = vec![compute(2, &rough()), show(generation)];
-            assert_eq!(generations(&serve_all(Simulation::default(), 2, requests)), (vec![2], vec![]));
-        }
-        // Before any scene there is nothing to show.
-        assert!(serve_all(Simulation::default(), 0, vec![show(0)]).is_empty());
-        let past_the_end = Request::Show(SnapshotRequest { generation: 2, ..snapshot(2, 0.0) });
-        let requests = vec![compute(2, &rough()), past_the_end];
-        assert_eq!(generations(&serve_all(Simulation::default(), 2, requests)), (vec![2], vec![]));
-    });
-}
-
-#[test]
-fn a_scene_that_is_no_longer_wanted_is_not_computed() {
-    within(30, || {
-        let show = Request::Show(snapshot(0, 0.0));
-        let reports = serve_all(Simulation::default(), 2, vec![compute(1, &rough()), show]);
-        assert!(reports.is_empty(), "{reports:?}");
-    });
-}
-
-#[test]
-fn a_preview_that_is_no_longer_wanted_is_not_computed() {
-    within(30, || {
-        let preview = |seed_of| {
-            let document = seed(&rough(), seed_of);
+        let tried = |number| {
+            let document = seed(&rough(), number);
             let scene = Arc::new(document.scene().clone());
-            (Arc::clone(&scene), Request::Preview { text: document.text().to_owned(), scene })
+            let tried = Some(Tried { text: document.text().to_owned(), scene });
+            Request { tried, ..compute(1, &rough()) }
         };
-        let serve = |awaited: &Newest, requests: Vec<Request>| {
-            let reports = RefCell::new(Vec::new());
-            let mut desk = worker::WorkerState::new(Box::new(Simulation::default()));
-            desk.serve(requests.into_iter(), awaited, &|report| {
-                reports.borrow_mut().push(report);
+        let mut desk = worker::WorkerState::new(Box::new(Simulation::default()));
+        let mut serve = |awaited: &Request, served: &Request| {
+            let newest = Newest::default();
+            newest.ask(awaited);
+            let texts = RefCell::new(Vec::new());
+            desk.serve(served.clone(), &newest, &|report| {
+                if let Report::Tried(preview) = report {
+                    texts.borrow_mut().push(preview.text.clone());
+                }
                 true
             });
-            reports.into_inner()
+            texts.into_inner()
         };
-        let ((first, one), (second, other)) = (preview(1), preview(2));
-        let awaited = Newest::default();
-        awaited.set_preview(Some(second));
-        assert!(serve(&awaited, vec![one.clone()]).is_empty(), "a newer one is waited for");
-        let reports = serve(&awaited, vec![one.clone(), other.clone()]);
-        let Request::Preview { text, .. } = &other else { panic!("{other:?}") };
-        assert!(matches!(&reports[..], [Report::Previewed(preview)] if preview.text == *text), "{reports:?}");
-        awaited.set_preview(None);
-        assert!(serve(&awaited, vec![other]).is_empty(), "none is waited for");
-        // A newer scene makes the request stale.
-        let (requests, _outbox) = channel();
-        awaited.set_preview(Some(Arc::clone(&first)));
-        Worker::new(requests, Arc::clone(&awaited)).ask(compute(1, &rough()));
-        assert!(!awaited.is_preview(&first));
+        let (one, other) = (tried(1), tried(2));
+        assert!(serve(&other, &one).is_empty(), "another one is awaited");
+        let text = |request: &Request| request.tried.as_ref().unwrap().text.clone();
+        assert_eq!(serve(&other, &other), [text(&other)]);
+        assert!(serve(&other, &other).is_empty(), "it is computed once");
+        assert!(serve(&compute(1, &rough()), &one).is_empty(), "none is awaited");
     });
 }
 
@@ -272,36 +242,10 @@ fn a_newer_scene_stops_the_one_that_is_being_computed() {
         served.compute(2, &rough());
         go_on.send(()).unwrap();
         let reports: Vec<_> = std::iter::from_fn(|| Some(served.report()))
-            .take_while(|report| !matches!(report, Report::Computed(_)))
+            .take_while(|report| !matches!(report, Report::Solved(..)))
             .collect();
         assert!(reports.iter().all(|report| matches!(report, Report::Progress { generation: 2, .. })));
-        served.worker.ask(Request::Show(SnapshotRequest { generation: 2, ..snapshot(0, 0.0) }));
-        assert!(matches!(served.report(), Report::Shown(snapshot) if snapshot.generation == 2));
-    });
-}
-
-#[test]
-fn a_scene_beside_is_computed_only_in_sight_and_gives_way_to_a_newer_scene() {
-    within(60, || {
-        let served = Served::by(Simulation::default());
-        served.computed(1, &rough());
-        // Ten million relaxations of a million springs take hours.
-        let endless = [
-            ("numerics.points", "1048576"),
-            ("numerics.solver", "Stepwise(step: 1.0e-15)"),
-            ("loading", "[ToIndentation(1.0e-8)]"),
-        ];
-        let endless = Arc::new(changed(&rough(), &endless).scene().clone());
-        served.worker.ask(Request::Beside(Some(Arc::clone(&endless))));
-        assert!(served.shown(snapshot(0, 0.0)).beside.is_none(), "out of sight it takes no time");
-        let in_sight =
-            |generation| SnapshotRequest { generation, beside: Some((0, 0.0)), ..snapshot(0, 0.0) };
-        served.worker.ask(Request::Show(in_sight(1)));
-        served.computed(2, &rough());
-        let small = Arc::new(smooth().scene().clone());
-        served.worker.ask(Request::Beside(Some(small)));
-        let shown = served.shown(in_sight(2));
-        assert_eq!(shown.beside.as_ref().map(|beside| beside.line.seed), Some(None), "the smooth sphere");
+        assert_eq!(served.shown(snapshot(0, 0.0)).generation, 2);
     });
 }
 
@@ -323,7 +267,7 @@ fn the_worker_ends_with_the_explorer() {
         let (sender, receiver) = channel();
         sender.send(compute(1, &rough())).unwrap();
         let generation = Newest::default();
-        generation.set_generation(1);
+        generation.ask(&compute(1, &rough()));
         let calls = RefCell::new(0);
         worker::serve(Box::new(Simulation::default()), &generation, &receiver, &|_| {
             *calls.borrow_mut() += 1;
@@ -352,7 +296,7 @@ fn a_panic_is_stated_and_the_next_scene_is_computed() {
             assert_eq!(error.lines().count(), 1, "{error}");
             generation += 1;
             assert_eq!(served.computed(generation, &rough()).generation, generation);
-            served.shown(SnapshotRequest { generation, ..snapshot(1, 0.0) });
+            served.shown(snapshot(1, 0.0));
         }
     });
 }
@@ -369,7 +313,7 @@ fn a_leg_that_cannot_be_gone_is_stated_in_one_line() {
         let alone = Simulation::default().run(beyond.scene(), &|| false, &mut |_, _, _| Ok(()));
         assert_eq!(error, alone.unwrap_err().to_string());
         // Nothing of the failed scene can be shown, and the next one is computed.
-        served.worker.ask(Request::Show(snapshot(0, 0.0)));
+        served.worker.ask(compute(1, &beyond));
         served.computed(2, &rough());
     });
 }
@@ -666,9 +610,10 @@ fn a_fragment_bears_what_the_rule_of_hess_allows() {
 fn the_histogram_is_there_whatever_a_scene_observes() {
     within(30, || {
         let served = Served::by(Simulation::default());
-        for observe in ["[]", "[Fragments]", "[HeightHistogram]", "[Fragments, HeightHistogram]"] {
+        let all = ["[]", "[Fragments]", "[HeightHistogram]", "[Fragments, HeightHistogram]"];
+        for (generation, observe) in (1..).zip(all) {
             let document = rough().set("observe", observe).unwrap();
-            let computed = served.computed(1, &document);
+            let computed = served.computed(generation, &document);
             let histogram = computed.outcome.histogram.as_ref().expect("the heights are observed");
             assert_eq!(histogram.counts.iter().sum::<u64>(), 1024);
             let observed = document.scene().observe.contains(&Observer::Fragments);

@@ -53,7 +53,8 @@ impl Demo {
         let solver = Solver::inline(Box::new(Simulation::default()));
         let mut seeds = 1..;
         let draw_seed = Box::new(move || seeds.next().unwrap_or_default());
-        let explorer = Runtime { model, solver, studies: Studies::Demo, folder: PathBuf::new(), draw_seed };
+        let explorer =
+            Runtime { model, solver, studies: Studies::Demo, asked: 0, folder: PathBuf::new(), draw_seed };
         let mut demo = Demo {
             explorer,
             cues: script.iter().copied().collect(),
@@ -63,7 +64,7 @@ impl Demo {
             frame: frames_per_second.recip(),
             begun: false,
         };
-        demo.perform(|explorer| explorer.perform(vec![Effect::Compute], &mut ()));
+        demo.perform(|explorer| explorer.perform(vec![Effect::Ask], &mut ()));
         demo
     }
 

@@ -1,4 +1,4 @@
-//! The newest ghost beside the scene: its profile and contact at the same part of its loading, the differences of the
+//! The newest ghost beside the scene: its profile and contact when it was kept, the differences of the
 //! scenes, and both adhesion forces.
 
 use super::{PaneRow, Place, force, profile, section};
@@ -19,19 +19,19 @@ pub static ROW: PaneRow = PaneRow {
     title,
     draw,
     figure: |model| {
-        let (snapshot, title) = (model.snapshot.as_deref()?, model.beside()?.document.title());
-        let beside = snapshot.beside.as_deref()?;
-        Some(section::figure(title, &beside.profile, beside, profile::heights(snapshot)))
+        let (snapshot, ghost) = (model.snapshot.as_deref()?, model.beside()?);
+        let (beside, title) = (ghost.snapshot.as_deref()?, ghost.document.title());
+        Some(section::figure(title, &beside.profile, beside, profile::heights(model, snapshot)))
     },
     edge: |model, area| {
         let snapshot = model.snapshot.as_deref()?;
-        let beside = snapshot.beside.as_deref()?;
-        Some(profile::scene_names(beside, profile::heights(snapshot), area, model.appearance))
+        let beside = model.beside()?.snapshot.as_deref()?;
+        Some(profile::scene_names(beside, profile::heights(model, snapshot), area, model.appearance))
     },
     keys: Some(ModeKind::Crosshair),
     help: &[(
         "Beside",
-        "&: profile and contact of the newest ghost at the same part of its loading, heights z on the axis of the profile \
+        "&: profile and contact of the newest ghost when it was kept, heights z on the axis of the profile \
          above; below them both adhesion forces F_a with their ratio, and the changed parameters",
     )],
     ..PaneRow::EMPTY
@@ -52,12 +52,25 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let Some(ghost) = model.beside() else { return };
     let text_rows = u16::from(area.height >= 4) + u16::from(area.height >= 8);
     let above = Rect { height: area.height - text_rows, ..area };
-    let shown = model.snapshot.as_deref().and_then(|snapshot| Some((snapshot, snapshot.beside.as_deref()?)));
+    // A small window hides the profile, which then is not drawn.
+    let kept = ghost.snapshot.as_deref().filter(|kept| !kept.profile.columns.is_empty());
+    let shown = model.snapshot.as_deref().zip(kept);
     if let Some((snapshot, beside)) = shown {
         let histogram = ghost.computed.outcome.histogram.as_ref();
-        profile::draw_scene(frame, above, (beside, histogram), profile::heights(snapshot), model.appearance);
+        profile::draw_scene(
+            frame,
+            above,
+            (beside, histogram),
+            profile::heights(model, snapshot),
+            model.appearance,
+        );
     } else {
-        draw_reason(frame, above, "computing…", model.appearance.theme);
+        draw_reason(
+            frame,
+            above,
+            "this loop was kept without a picture of its contact",
+            model.appearance.theme,
+        );
     }
     let changes = Line::raw(format!("{} → this scene: {}", force::newest_letter(model), ghost.changes));
     let lines = [forces(model, ghost), changes];

@@ -123,7 +123,7 @@ fn parts(model: &Model, map_model: &MapModel, area: Rect) -> Option<Parts> {
 fn put(model: &mut Model, area: Rect, here: Position) -> Vec<Effect> {
     match place_at(model, area, here) {
         Some(place) => update::chart::move_to(model, place),
-        None => vec![Effect::Show],
+        None => vec![Effect::Ask],
     }
 }
 

@@ -52,8 +52,7 @@ fn title(model: &Model) -> String {
             Quantities::FragmentsIndentation => "Fragments n(d)".to_owned(),
         },
     };
-    let is_shaded = model.curve.loss && model.curve.scale == AxisScale::Linear;
-    let loss = if is_shaded && model.curve.quantities == Quantities::ForceIndentation {
+    let loss = if model.curve.loss && model.curve.quantities == Quantities::ForceIndentation {
         match model.computed.as_ref().and_then(|computed| computed.outcome.figures.dissipated_energy) {
             Some(energy) => {
                 let number = model.computed.as_ref().and_then(|computed| computed.outcome.tabor_number);
@@ -77,8 +76,7 @@ fn title(model: &Model) -> String {
         Some(event) => format!(" · {event}"),
         None => String::new(),
     };
-    let scale = if model.curve.scale == AxisScale::Logarithmic { ", log–log" } else { "" };
-    format!(" {name}{scale}{loss}{event} ")
+    format!(" {name}{loss}{event} ")
 }
 
 /// Units of the axes: metres and newtons, or parameters of the scene.
@@ -90,7 +88,6 @@ struct Units {
     /// Contact length of one spring, m.
     spring: f64,
     in_lengths: bool,
-    scale: AxisScale,
 }
 
 impl Units {
@@ -105,7 +102,6 @@ impl Units {
             force: outcome.ideal_adhesion_force.and_then(positive),
             spring: outcome.line.spacing / if normalised { outcome.line.length } else { 1.0 },
             in_lengths: normalised,
-            scale: model.curve.scale,
         }
     }
 
@@ -143,7 +139,7 @@ impl Units {
         let axis = |span, symbol: &str, over: &str, unit: &str, normalised: bool| {
             let (symbol, unit) =
                 if normalised { (format!("{symbol}/{over}"), "1") } else { (symbol.to_owned(), unit) };
-            Axis::new(self.scale, span, "", &symbol, unit)
+            Axis::new(AxisScale::Linear, span, "", &symbol, unit)
         };
         let indentation = |span| axis(span, "d", "h", "m", self.indentation.is_some());
         let force = |span| axis(span, "F", "F_a,max", "N", self.force.is_some());
@@ -155,25 +151,19 @@ impl Units {
     }
 }
 
-/// Most decades of a logarithmic axis: a force near its change of sign would take all room.
-const MOST_DECADES: f64 = 3.0;
-
 /// Ranges of the pane: the curve, kept curves and the path of manual loading.
 fn spans(model: &Model, units: Units) -> (Span, Span) {
     let ghosts = model.ghosts.iter().flat_map(|ghost| &ghost.computed.outcome.history.legs);
     let tried = model.tried_outcome().into_iter().flat_map(|outcome| &outcome.history.legs);
     let points = model.legs().iter().chain(ghosts).chain(tried).flat_map(|leg| &leg.curve);
     let manual = model.manual.iter().flat_map(|manual| &manual.path);
-    let coordinate = |number| units.scale.coordinate(number);
     let places: Vec<(f64, f64)> = points.chain(manual).map(|point| units.place(point)).collect();
-    let x = Span::around(places.iter().map(|place| coordinate(place.0)), 0.06);
-    let y = Span::around(places.iter().map(|place| place.1).chain([0.0]).map(coordinate), 0.08);
-    let decades = |span: Span| Span { low: span.low.max(span.high - MOST_DECADES), ..span };
-    match (units.scale, units.quantities) {
-        (AxisScale::Logarithmic, _) => (decades(x), decades(y)),
-        (AxisScale::Linear, Quantities::ForceIndentation) => (x, y),
+    let x = Span::around(places.iter().map(|place| place.0), 0.06);
+    let y = Span::around(places.iter().map(|place| place.1).chain([0.0]), 0.08);
+    match units.quantities {
+        Quantities::ForceIndentation => (x, y),
         // There is no negative length or number.
-        (AxisScale::Linear, _) => (x, Span { low: 0.0, ..y }),
+        _ => (x, Span { low: 0.0, ..y }),
     }
 }
 
@@ -227,12 +217,12 @@ pub fn stage_at(model: &Model, area: Rect, here: Position) -> Option<(usize, f64
 /// Drags the body to the indentation under the mouse.
 fn drag(model: &mut Model, area: Rect, here: Position) -> Vec<Effect> {
     if indentation_at(model, area, here.x).is_none() {
-        return vec![Effect::Show];
+        return vec![Effect::Ask];
     }
     // Manual loading begins first: its axis may reach further than that of the loading, and the body is to be under
     // the mouse.
     let mut effects = if model.manual.is_none() { movement::take(model, None) } else { Vec::new() };
-    effects.retain(|effect| *effect != Effect::Show);
+    effects.retain(|effect| *effect != Effect::Ask);
     if let Some(indentation) = indentation_at(model, area, here.x) {
         effects.extend(movement::take(model, Some(ManualMove::To(indentation))));
     }
@@ -346,9 +336,7 @@ fn chart(model: &Model, units: Units) -> Chart {
     let line = Shape::line;
     let point = |at, sign| Shape::signs(vec![at], sign);
     let mut layers = vec![Layer::unnamed(Ink::Quiet, Shape::Level(0.0))];
-    // On logarithmic axes areas are no energies.
-    let is_linear = units.scale == AxisScale::Linear;
-    if model.curve.loss && is_linear && units.quantities == Quantities::ForceIndentation {
+    if model.curve.loss && units.quantities == Quantities::ForceIndentation {
         let border = legs.iter().flat_map(|leg| along(&leg.curve)).collect();
         layers.push(Layer::unnamed(Ink::Quiet, Shape::Inside(border)));
     }
@@ -383,10 +371,7 @@ fn chart(model: &Model, units: Units) -> Chart {
     layers.extend(marks.map(|(mark, at)| Layer::unnamed(Ink::Text, point(units.place(&at), sign(mark)))));
     if let Some(snapshot) = model.present() {
         let (at, value) = units.place(&snapshot.point);
-        let within = |number, span: Span| {
-            units.scale.number(units.scale.coordinate(number).clamp(span.low, span.high))
-        };
-        let at = (within(at, x), within(value, y));
+        let at = (at.clamp(x.low, x.high), value.clamp(y.low, y.high));
         if model.crosshair.is_some() {
             let lines = [Shape::Upright(at.0), Shape::Level(at.1)];
             // Below the curves, which stay whole.

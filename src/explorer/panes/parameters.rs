@@ -100,7 +100,7 @@ fn press(model: &mut Model, area: Rect, here: Position) -> Vec<Effect> {
             return edit::toggle_fold(model);
         }
     }
-    vec![Effect::Show]
+    vec![Effect::Ask]
 }
 
 /// The parameter in a row of the screen.

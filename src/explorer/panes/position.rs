@@ -24,5 +24,5 @@ pub fn share_at(model: &Model, pane: Pane, area: Rect, column: u16) -> Option<f6
 /// Selects the pane under the mouse and zooms such that the point under the mouse stays there.
 pub fn zoom_at(model: &mut Model, area: Rect, here: Position, turns: i32) -> Vec<Effect> {
     look::zoom_at(model, turns, share_at(model, model.pane, area, here.x));
-    vec![Effect::Show]
+    vec![Effect::Ask]
 }

@@ -23,7 +23,7 @@ pub static ROW: PaneRow = PaneRow {
     draw,
     figure: |model| {
         let snapshot = model.snapshot.as_deref()?;
-        Some(section::figure(model.document.title(), &snapshot.profile, snapshot, heights(snapshot)))
+        Some(section::figure(model.document.title(), &snapshot.profile, snapshot, heights(model, snapshot)))
     },
     edge: names,
     place: Place::Own,
@@ -59,7 +59,7 @@ fn title(model: &Model) -> String {
 /// Names of the lines and signs, for the lower edge of the frame.
 fn names(model: &Model, area: Rect) -> Option<Line<'static>> {
     let snapshot = model.snapshot.as_ref()?;
-    Some(scene_names(snapshot, heights(snapshot), area, model.appearance))
+    Some(scene_names(snapshot, heights(model, snapshot), area, model.appearance))
 }
 
 /// Names of the lines and signs of a scene at one snapshot, heights within `z`.
@@ -73,7 +73,7 @@ pub fn scene_names(snapshot: &ContactSnapshot, z: Span, area: Rect, appearance: 
 /// The shown part of the profile, with its chart and place.
 fn section_at(model: &Model, area: Rect) -> Option<(&Section, Chart, CellPlot)> {
     let snapshot = model.snapshot.as_deref()?;
-    let (chart, place) = placed(snapshot, area, heights(snapshot));
+    let (chart, place) = placed(snapshot, area, heights(model, snapshot));
     Some((&snapshot.profile, chart, place))
 }
 
@@ -84,7 +84,7 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         return draw_reason(frame, area, "…", model.appearance.theme);
     };
     let histogram = model.computed.as_ref().and_then(|computed| computed.outcome.histogram.as_ref());
-    draw_scene(frame, area, (snapshot, histogram), heights(snapshot), model.appearance);
+    draw_scene(frame, area, (snapshot, histogram), heights(model, snapshot), model.appearance);
 }
 
 /// Draws the profile of a scene at one snapshot with its histogram, heights within `z`.
@@ -124,13 +124,14 @@ fn placed(snapshot: &ContactSnapshot, area: Rect, z: Span) -> (Chart, CellPlot) 
 }
 
 /// The axis of heights: the whole line, and the surface unless far away. Two scenes side by side share the axis.
-pub fn heights(snapshot: &ContactSnapshot) -> Span {
+pub fn heights(model: &Model, snapshot: &ContactSnapshot) -> Span {
     let ends = |section: &Section| {
         let (low, high) = section.heights;
         let far = high + 0.5 * (high - low);
         [low, high, section.level.min(far)]
     };
-    let beside = snapshot.beside.iter().flat_map(|beside| ends(&beside.profile));
+    let beside = model.beside().and_then(|ghost| ghost.snapshot.as_deref());
+    let beside = beside.into_iter().flat_map(|beside| ends(&beside.profile));
     Span::around(ends(&snapshot.profile).into_iter().chain(beside), 0.05)
 }
 

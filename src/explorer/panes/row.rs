@@ -73,7 +73,7 @@ impl PaneRow {
         edge: |_, _| None,
         keys: None,
         section: None,
-        press: |_, _, _| vec![Effect::Show],
+        press: |_, _, _| vec![Effect::Ask],
         drag: |_, _, _| Vec::new(),
         wheel: |_, _, _, _| Vec::new(),
         needs_spectra: false,

@@ -10,18 +10,11 @@ use std::sync::Arc;
 /// Most kept curves; more could not be distinguished.
 const MOST_GHOSTS: usize = 8;
 
-/// Changes the ghosts, and so possibly the newest one.
-pub fn change(model: &mut Model, change: fn(&mut Model) -> Vec<Effect>) -> Vec<Effect> {
-    let beside = model.beside().map(|_| Effect::Beside);
-    let effects = change(model);
-    beside.into_iter().chain(effects).chain([Effect::Show]).collect()
-}
-
 /// Removes all ghosts.
 pub fn clear(model: &mut Model) -> Vec<Effect> {
     model.hide(Pane::Beside);
     model.ghosts.clear();
-    Vec::new()
+    vec![Effect::Ask]
 }
 
 /// Shows the newest ghost beside the scene, or hides it.
@@ -50,7 +43,7 @@ pub fn open_beside(model: &mut Model, document: Document) -> Vec<Effect> {
     model.notice = None;
     // There is no edit to undo: both scenes are as opened.
     model.undo.clear();
-    [vec![Effect::Beside], effects].concat()
+    effects
 }
 
 fn ghost(model: &Model) -> Option<Ghost> {
@@ -58,6 +51,7 @@ fn ghost(model: &Model) -> Option<Ghost> {
     Some(Ghost {
         document: model.document.clone(),
         computed: Arc::clone(computed),
+        snapshot: model.snapshot.clone(),
         differs: String::new(),
         changes: String::new(),
     })
@@ -72,7 +66,7 @@ pub fn pin(model: &mut Model) -> Vec<Effect> {
     if keep(model, ghost) {
         model.set_done("kept; now change something, x exchanges the two");
     }
-    Vec::new()
+    vec![Effect::Ask]
 }
 
 /// Adds a ghost; returns false if it was kept already.
@@ -99,8 +93,9 @@ pub fn pin_other_use(model: &mut Model) -> Vec<Effect> {
     let as_line = !scene.measured_as_line();
     match model.document.set("roughness.as_line", &as_line.to_string()) {
         Ok(document) => {
-            model.next_ghost = Some(document.clone());
-            vec![Effect::Preview(Box::new(document))]
+            model.tried = Some(edit::tried_of(&document));
+            model.next_ghost = Some(document);
+            vec![Effect::Ask]
         }
         Err(errors) => {
             model.set_error(errors.to_string());
@@ -120,14 +115,16 @@ pub fn previewed(model: &mut Model, preview: Arc<Preview>) -> Vec<Effect> {
             let what = if document.scene().measured_as_line() { "profile itself" } else { "equivalent line" };
             let scene = Arc::new(document.scene().clone());
             let computed = Arc::new(SolvedScene { generation: 0, scene, outcome: outcome.clone() });
-            let ghost = Ghost { document, computed, differs: String::new(), changes: String::new() };
+            let (differs, changes) = (String::new(), String::new());
+            let ghost = Ghost { document, computed, snapshot: None, differs, changes };
             if keep(model, ghost) {
                 model.set_done(format!("kept: the {what}; x exchanges the two"));
             }
         }
         Err(why) => model.set_error(why.clone()),
     }
-    vec![Effect::Show]
+    model.tried = None;
+    vec![Effect::Ask]
 }
 
 /// Exchanges the scene and the newest ghost.

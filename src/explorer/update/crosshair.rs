@@ -24,7 +24,7 @@ pub fn move_by(model: &mut Model, steps: i32, coarse: bool) -> Vec<Effect> {
         let share = f64::from(steps) / if coarse { STEPS.1 } else { STEPS.0 };
         put(model, model.player.leg, model.player.done + direction(model) * share);
     }
-    vec![Effect::Show]
+    vec![Effect::Ask]
 }
 
 /// Moves the crosshair to the left or right end of the loading stage or of the section.
@@ -52,7 +52,7 @@ pub fn point_at(model: &mut Model, pane: Pane, area: Rect, here: Position) -> Op
             look_at(model, spring);
         }
     }
-    Some(vec![Effect::Show])
+    Some(vec![Effect::Ask])
 }
 
 /// Shows or hides the crosshair, which begins in the middle of the close-up.

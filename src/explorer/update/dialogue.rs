@@ -101,7 +101,7 @@ pub fn cancel(model: &mut Model) -> Vec<Effect> {
         Mode::Prompt(Prompt { purpose: Purpose::Value, .. }) => edit::preview(model),
         Mode::Prompt(Prompt { purpose: Purpose::Parameter { before }, .. }) => {
             model.pane = before;
-            vec![Effect::Show]
+            vec![Effect::Ask]
         }
         _ => Vec::new(),
     }

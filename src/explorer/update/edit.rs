@@ -1,14 +1,14 @@
 //! Edits of the scene. Each results in a document of its own and can be undone.
 
 use super::ghosts::name_ghosts;
-use super::{Effect, show};
+use super::{Effect, scene_of, show};
 use crate::explorer::layout::Layout;
 use crate::explorer::mode::Mode;
 use crate::explorer::model::{Appraisal, CloseUpTarget, Model, Pane, Player};
 use crate::explorer::panes::first_listed;
 use crate::explorer::parameters::{Parameter, Setting, parameters, text_of};
 use crate::explorer::prompt::{Prompt, Purpose};
-use crate::explorer::request::{Focus, LineView};
+use crate::explorer::request::{Focus, LineView, Tried};
 use crate::explorer::text_line::TextLine;
 use crate::scene::{Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, presets};
 
@@ -155,6 +155,9 @@ fn stepped(model: &mut Model, steps: i32, coarse: bool) -> Vec<Effect> {
             fold(model, steps < 0);
             return Vec::new();
         }
+        Setting::Field if matches!(parameter.field.range, Range::Text { .. }) => {
+            return refuse(model, way_of_changing(parameter));
+        }
         Setting::Field | Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion => {}
     }
     let no_step = format!("no further step; allowed: {}", parameter.field.allowed());
@@ -255,12 +258,16 @@ pub fn preview(model: &mut Model) -> Vec<Effect> {
         _ => None,
     };
     let tried = tried.filter(|tried| tried.text() != model.document.text() && is_previewed(tried));
-    let text = tried.as_ref().map(|tried| tried.text().to_owned());
-    if text == model.tried {
+    if tried.as_ref().map(Document::text) == model.tried.as_ref().map(|tried| tried.text.as_str()) {
         return Vec::new();
     }
-    model.tried = text;
-    tried.map_or(vec![Effect::StopPreview], |tried| vec![Effect::Preview(Box::new(tried))])
+    model.tried = tried.as_ref().map(tried_of);
+    vec![Effect::Ask]
+}
+
+/// A document whose outcome alone is of interest.
+pub fn tried_of(document: &Document) -> Tried {
+    Tried { text: document.text().to_owned(), scene: scene_of(document) }
 }
 
 /// Switches the effect of the selected row on or off.
@@ -379,5 +386,6 @@ fn renew(model: &mut Model) -> Vec<Effect> {
         model.set_done("the body is back on the scene's loading");
     }
     name_ghosts(model);
-    vec![Effect::Compute]
+    model.moves.clear();
+    vec![Effect::Ask]
 }

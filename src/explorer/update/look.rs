@@ -1,7 +1,6 @@
 //! Changes of the view: panes, close-up, parts of the line, quantities, colours.
 
 use super::Effect;
-use crate::draw::AxisScale;
 use crate::explorer::model::{CloseUpTarget, Model, Pane};
 use crate::explorer::request::{Focus, LineView};
 use crate::explorer::theme::Choice;
@@ -28,14 +27,6 @@ pub fn toggle_follow(model: &mut Model) {
     if model.profile.follow && model.profile.share >= 1.0 {
         model.profile.share = 0.25;
     }
-}
-
-/// Switches the curve between linear and logarithmic axes.
-pub fn toggle_logarithmic(model: &mut Model) {
-    model.curve.scale = match model.curve.scale {
-        AxisScale::Linear => AxisScale::Logarithmic,
-        AxisScale::Logarithmic => AxisScale::Linear,
-    };
 }
 
 /// Selects the next pane.

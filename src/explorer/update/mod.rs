@@ -23,8 +23,8 @@ use super::action::Action;
 use super::command::Command;
 use super::layout::Layout;
 use super::mode::Mode;
-use super::model::{Model, Notice, Pane, Player};
-use super::request::{Request, SnapshotRequest};
+use super::model::{Model, Notice};
+use super::request::{Place, Request, SnapshotRequest};
 use super::snapshot::Report;
 use crate::scene::{Document, Scene};
 use std::sync::Arc;
@@ -37,7 +37,7 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
         Action::Paste(text) => return dialogue::insert(model, &text),
         Action::Resize(columns, rows) => {
             model.size = (columns, rows);
-            return vec![Effect::Show];
+            return vec![Effect::Ask];
         }
         Action::Elapse(time) => return movement::elapse(model, time),
         Action::SetSeed(seed) => match model.document.scene().seed() {
@@ -84,18 +84,20 @@ pub(super) fn begin(model: &mut Model) {
 /// Stores a report of the worker, unless the scene or the text has been changed since.
 fn reported(model: &mut Model, report: Report) -> Vec<Effect> {
     match report {
-        Report::Computed(computed) if computed.generation == model.generation => {
+        Report::Solved(computed, snapshot) if computed.generation == model.generation => {
             model.progress = None;
-            let last = computed.outcome.history.legs.len().saturating_sub(1);
+            model.player = model.player.within(&computed.outcome.history.legs);
             model.computed = Some(computed);
-            movement::stay_on_legs(model, last);
+            if let Some(snapshot) = snapshot {
+                movement::shown(model, snapshot);
+            }
             if matches!(model.notice, Some(Notice::Error(_))) {
                 model.notice = None;
             }
             if let Some(document) = model.opens_beside.take() {
                 return compare::open_beside(model, document);
             }
-            return vec![Effect::Show, Effect::Study];
+            return vec![Effect::Study];
         }
         Report::Shown(snapshot) if snapshot.generation == model.generation => {
             movement::shown(model, snapshot)
@@ -107,30 +109,24 @@ fn reported(model: &mut Model, report: Report) -> Vec<Effect> {
             model.progress = None;
             model.set_error(error);
         }
-        Report::Computed(_) | Report::Shown(_) | Report::Progress { .. } | Report::Failed { .. } => {}
-        Report::Previewed(preview)
+        Report::Solved(..) | Report::Shown(_) | Report::Progress { .. } | Report::Failed { .. } => {}
+        Report::Tried(preview)
             if model.mode.is_typing_value()
-                && model.tried.as_ref() != Some(&preview.text)
+                && model.tried.as_ref().is_none_or(|tried| tried.text != preview.text)
                 && model.next_ghost.is_none() => {}
-        Report::Previewed(preview) => return compare::previewed(model, preview),
+        Report::Tried(preview) => return compare::previewed(model, preview),
     }
     Vec::new()
 }
 
-/// Request to the worker for an effect; `None` for an effect for others, or for a snapshot of a scene that is not
-/// computed yet.
-#[must_use]
-pub fn request(model: &Model, effect: &Effect) -> Option<Request> {
-    let generation = model.generation;
-    match effect {
-        Effect::Compute => Some(Request::Compute { generation, scene: scene_of(&model.document) }),
-        Effect::Show => moment_request(model).map(Request::Show),
-        Effect::Beside => Some(Request::Beside(model.beside().map(|ghost| scene_of(&ghost.document)))),
-        Effect::Manual(order) => Some(Request::Manual { generation, order: *order }),
-        Effect::Preview(document) => {
-            Some(Request::Preview { text: document.text().to_owned(), scene: scene_of(document) })
-        }
-        _ => None,
+/// The state that the screen waits for; takes the manual moves.
+pub fn request(model: &mut Model) -> Request {
+    Request {
+        generation: model.generation,
+        scene: scene_of(&model.document),
+        moves: std::mem::take(&mut model.moves),
+        snapshot: snapshot_request(model),
+        tried: model.tried.clone(),
     }
 }
 
@@ -141,18 +137,14 @@ pub(super) fn scene_of(document: &Document) -> Arc<Scene> {
     Arc::new(scene)
 }
 
-/// Request to the worker for the panes of this model.
+/// Request for a snapshot in the panes of this model.
 #[must_use]
-pub fn moment_request(model: &Model) -> Option<SnapshotRequest> {
-    if !model.is_current() {
-        return None;
-    }
+pub fn snapshot_request(model: &Model) -> SnapshotRequest {
     let layout = Layout::of(model);
     let dots = model.appearance.marker.columns();
-    Some(SnapshotRequest {
-        generation: model.generation,
+    SnapshotRequest {
         drive: model.drive(),
-        indentation: model.indentation(),
+        place: Place::Share(model.player.done),
         profile_columns: dots * layout.profile_cells(),
         profile: model.profile,
         close_up_columns: dots * layout.close_up_cells(),
@@ -162,10 +154,5 @@ pub fn moment_request(model: &Model) -> Option<SnapshotRequest> {
         large: model.large,
         lower: model.lower,
         crosshair: model.crosshair.map(|crosshair| crosshair.position),
-        beside: model.beside().filter(|_| layout.pane(Pane::Beside).is_some()).map(|ghost| {
-            let legs = &ghost.computed.outcome.history.legs;
-            let leg = model.player.leg.min(legs.len().saturating_sub(1));
-            (leg, Player { leg, ..model.player }.indentation(legs))
-        }),
-    })
+    }
 }

@@ -99,9 +99,10 @@ pub fn go_to_pull_off(model: &mut Model) -> Vec<Effect> {
 
 /// Changes the animation, which ends manual loading: the animation is the loading of the scene.
 fn animate(model: &mut Model, change: impl FnOnce(&mut Model)) -> Vec<Effect> {
-    let gives = model.manual.take().map(|_| Effect::Manual(ManualMove::Give));
+    model.manual = None;
+    model.moves.clear();
     change(model);
-    gives.into_iter().chain([Effect::Show]).collect()
+    vec![Effect::Ask]
 }
 
 /// Advances the animation by a time.
@@ -125,7 +126,7 @@ pub fn elapse(model: &mut Model, time: Duration) -> Vec<Effect> {
             playing: repeats,
         };
     }
-    vec![Effect::Show]
+    vec![Effect::Ask]
 }
 
 /// Moves the animation by a share of a leg, but not past the boundary to another leg.
@@ -139,13 +140,6 @@ fn advance(player: &mut Player, share: f64, legs: usize) {
         player.done = 1.0;
     }
     player.done = player.done.clamp(0.0, 1.0);
-}
-
-/// Keeps the animation on existing legs.
-pub fn stay_on_legs(model: &mut Model, last: usize) {
-    if model.player.leg > last {
-        model.player = Player { leg: last, done: 1.0, playing: false };
-    }
 }
 
 /// Stores a snapshot from the worker.
@@ -199,17 +193,15 @@ pub fn take(model: &mut Model, order: Option<ManualMove>) -> Vec<Effect> {
     if !model.is_current() || model.legs().is_empty() {
         return Vec::new();
     }
-    let mut effects = Vec::new();
     if model.manual.is_none() {
         let (leg, indentation) = (model.player.leg, model.indentation());
         let start = model.present().map(|snapshot| snapshot.point);
         model.player.playing = false;
         model.manual = Some(ManualState { path: start.into_iter().collect(), ..ManualState::default() });
-        effects.push(Effect::Manual(ManualMove::Take { leg, indentation }));
+        model.moves.push(ManualMove::Take { leg, indentation });
     }
-    effects.extend(order.map(Effect::Manual));
-    effects.push(Effect::Show);
-    effects
+    model.moves.extend(order);
+    vec![Effect::Ask]
 }
 
 /// Moves the body to a typed force.

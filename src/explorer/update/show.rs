@@ -19,17 +19,9 @@ pub fn choose(model: &mut Model, pane: Pane) -> Vec<Effect> {
     change(model, |model| model.show(pane))
 }
 
-/// Changes the shown panes and returns the effects: other data are computed, the scene beside is needed or not.
+/// Changes the shown panes and returns the effects: other data are computed.
 pub fn change(model: &mut Model, change: impl FnOnce(&mut Model)) -> Vec<Effect> {
-    let before = (model.large, model.lower);
+    let before = model.large;
     change(model);
-    let mut effects = Vec::new();
-    if before.1 != model.lower && [before.1, model.lower].contains(&Pane::Beside) {
-        effects.push(Effect::Beside);
-    }
-    if before.0 != model.large {
-        effects.push(Effect::Study);
-    }
-    effects.push(Effect::Show);
-    effects
+    if before == model.large { vec![Effect::Ask] } else { vec![Effect::Study, Effect::Ask] }
 }

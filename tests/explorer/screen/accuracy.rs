@@ -95,7 +95,7 @@ fn driver_with(
 ) -> Driver {
     let mut driver = Driver::open(document);
     driver.studies = Studies::Inline(Box::new(StandIn { estimate, choose, ..measuring(table) }));
-    driver.perform(vec![Effect::Compute]);
+    driver.perform(vec![Effect::Ask]);
     driver.press("Space");
     driver
 }
@@ -127,7 +127,7 @@ fn what_accuracy_costs_is_shown_beside_what_can_be_changed() {
         assert!(driver.text().contains("Profile"), "{}", driver.text());
         // Costs are not measured twice.
         assert!(driver.model.appraisal.costs.is_whole);
-        assert_eq!(driver.press("A"), [Effect::Study, Effect::Show]);
+        assert_eq!(driver.press("A"), [Effect::Study, Effect::Ask]);
         assert!(driver.text().contains("order 2.0"));
     });
 }
@@ -159,7 +159,7 @@ fn an_edit_forgets_what_was_found_out() {
         // No answers any more.
         driver.studies = Studies::None;
         driver.select("roughness.hurst");
-        assert_eq!(driver.press("l"), [Effect::Compute]);
+        assert_eq!(driver.press("l"), [Effect::Ask]);
         assert!(driver.model.is_shown(Pane::Accuracy));
         assert_eq!(driver.model.appraisal.estimated, Estimated::Waiting);
         assert_eq!(driver.model.appraisal.costs, Costs::default());

@@ -64,7 +64,7 @@ fn driver_with(document: Document, levels: &[Level]) -> Driver {
     let levels = levels.to_vec();
     driver.studies =
         Studies::Inline(Box::new(StandIn::new(move |data, _, report| Ok(fill(&levels, data, report)))));
-    driver.perform(vec![Effect::Compute]);
+    driver.perform(vec![Effect::Ask]);
     driver.press("Space m");
     driver
 }
@@ -257,7 +257,7 @@ fn moves_in_a_row_are_one_edit() {
         assert_eq!(driver.model.keys(), ModeKind::Chart);
         let before = driver.model.document.clone();
         let (edits, map) = (driver.model.undo.len(), driver.model.chart.map.clone());
-        assert_eq!(driver.press("Down"), [Effect::Compute]);
+        assert_eq!(driver.press("Down"), [Effect::Ask]);
         assert_eq!(place(&driver), (6.73, 0.7));
         driver.press("Down Left h k Shift+Down Right");
         assert_eq!(place(&driver), (3.36, 0.65));
@@ -360,7 +360,7 @@ fn other_edits_begin_the_map_anew_and_wait_for_quiet() {
         driver.press("m m");
         assert!(!driver.model.is_shown(Pane::Chart));
         assert_eq!(chart(&driver), None);
-        assert_eq!(driver.press("m"), [Effect::Study, Effect::Show]);
+        assert_eq!(driver.press("m"), [Effect::Study, Effect::Ask]);
         assert_eq!(chart(&driver), Some((None, false)), "shown, it begins at once");
         // Accuracy takes the place of the map, and vice versa.
         driver.press("A");

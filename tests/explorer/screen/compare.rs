@@ -8,7 +8,7 @@ use asperity::explorer::Opening;
 use asperity::explorer::layout::Layout;
 use asperity::explorer::model::{Notice, Pane};
 use asperity::explorer::snapshot::SolvedScene;
-use asperity::explorer::update::{Effect, moment_request};
+use asperity::explorer::update::Effect;
 use asperity::scene::{Document, format_quantity};
 use asperity::simulation::Outcome;
 use ratatui::style::Color;
@@ -34,7 +34,7 @@ fn message(driver: &Driver) -> String {
 fn the_third_step_of_the_preload_raises_the_pull_off_as_the_tour_states() {
     within(60, || {
         let mut driver = Driver::open(asperity::scene::open("pressure-sensitive").unwrap());
-        driver.perform(vec![Effect::Compute]);
+        driver.perform(vec![Effect::Ask]);
         driver.press("2 c");
         driver.select("loading");
         driver.press("j");
@@ -191,14 +191,10 @@ fn two_scenes_are_shown_side_by_side() {
             assert!(text.contains("A → this scene: the same scene") && text.contains("ratio 1 "), "{text}");
             driver.press("L");
             let now = driver.model.snapshot.clone().unwrap();
-            let before = now.beside.clone().unwrap();
+            let before = driver.model.ghosts[0].snapshot.clone().unwrap();
             let ghost = driver.model.ghosts[0].computed.outcome.clone();
             assert_eq!(before.line, ghost.line);
             assert_ne!(before.profile.columns, now.profile.columns);
-            // At the same part of its own loading.
-            let stage = &ghost.history.legs[1];
-            let part = (before.point.indentation - stage.start()) / (stage.end() - stage.start());
-            assert!((part - driver.model.player.done).abs() < 1e-9, "{part}");
             let pane = lower_pane(&driver);
             let [before, now] =
                 [ghost, outcome(&driver)].map(|outcome| outcome.figures.adhesion_force.unwrap());
@@ -219,33 +215,8 @@ fn two_scenes_are_shown_side_by_side() {
                 assert_eq!(upper.first(), lower.first(), "{}", driver.text());
             }
             driver.press("&");
-            assert!(driver.model.snapshot.as_ref().unwrap().beside.is_none());
             assert!(rows_of(&driver, Pane::CloseUp)[0].contains("Fragments"));
         }
-    });
-}
-
-#[test]
-fn the_scene_beside_is_asked_for_only_where_it_is_in_sight() {
-    within(60, || {
-        let is_asked_for =
-            |driver: &Driver| moment_request(&driver.model).is_some_and(|request| request.beside.is_some());
-        let mut driver = pressed("& L");
-        assert!(is_asked_for(&driver));
-        for (keys, back) in [("z", "z"), ("Tab z", "z"), ("Tab z", "z")] {
-            driver.press(keys);
-            let is_shown = Layout::of(&driver.model).pane(Pane::Beside).is_some();
-            assert_eq!(is_asked_for(&driver), is_shown, "{keys}");
-            driver.press(back);
-            assert!(is_asked_for(&driver) && driver.text().contains("A → this scene"), "{back}");
-        }
-        for size in [(60, 20), (40, 12), (20, 5)] {
-            driver.resize(size);
-            driver.model.pane = Pane::Force;
-            assert!(!is_asked_for(&driver), "{size:?}");
-        }
-        driver.resize((80, 24));
-        assert!(is_asked_for(&driver) && driver.model.snapshot.as_ref().unwrap().beside.is_some());
     });
 }
 
@@ -274,9 +245,7 @@ fn two_scenes_that_are_opened_are_shown_side_by_side() {
         driver.press("&");
         assert!(driver.model.is_shown(Pane::Beside));
         driver.press("C");
-        assert!(
-            !driver.model.is_shown(Pane::Beside) && driver.model.snapshot.as_ref().unwrap().beside.is_none()
-        );
+        assert!(!driver.model.is_shown(Pane::Beside));
     });
 }
 

@@ -24,7 +24,7 @@ fn reports_of_another_scene_change_nothing() {
         let screen = driver.screen();
         let generation = computed.generation;
         for action in [
-            Action::Report(Report::Computed(computed)),
+            Action::Report(Report::Solved(computed, None)),
             Action::Report(Report::Shown(snapshot)),
             Action::Report(Report::Progress { generation, legs: 1 }),
             Action::Report(Report::Failed { generation, error: "old".to_owned() }),
@@ -81,7 +81,7 @@ impl Engine for Superstitious {
 fn a_panic_of_the_worker_is_a_line_and_the_explorer_goes_on() {
     within(30, || {
         let mut driver = Driver::open_with(rough(), Box::new(Superstitious(Simulation::default())));
-        driver.perform(vec![Effect::Compute]);
+        driver.perform(vec![Effect::Ask]);
         driver.select("roughness.seed");
         driver.enter("13");
         assert!(

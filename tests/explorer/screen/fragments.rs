@@ -51,7 +51,7 @@ fn a_moment_on_its_way_does_not_take_the_chosen_fragment_away() {
         let first = number(&driver);
         // The fragment is requested just after a snapshot requested by the animation.
         let effects = driver.update("fragment next");
-        assert_eq!(effects, [Effect::Show]);
+        assert_eq!(effects, [Effect::Ask]);
         driver.act(Action::Report(Report::Shown(before)));
         driver.perform(effects);
         assert_eq!(number(&driver), first + 1);

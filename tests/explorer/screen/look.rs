@@ -403,31 +403,3 @@ fn marks_have_names_where_there_is_room() {
         }
     });
 }
-
-#[test]
-fn logarithmic_axes_show_the_numbers_above_zero() {
-    within(30, || {
-        let mut driver = mid_retraction(default_scene());
-        driver.press("z");
-        let linear = driver.text();
-        driver.press("O");
-        let text = driver.text();
-        assert!(text.contains("Force F(d), log–log"), "{text}");
-        // Decades, or numbers between them, and none at or below zero.
-        let numbers = scale(&driver, Pane::Force);
-        assert!(numbers.len() >= 2 && numbers.iter().all(|number| *number > 0.0), "{text}");
-        assert!(numbers[0] / numbers[numbers.len() - 1] >= 10.0, "{numbers:?}");
-        assert!(!text.split("log–log").nth(1).unwrap().contains("▼ pull-off\n"), "{text}");
-        // An area is no energy on these axes.
-        driver.press("a");
-        assert!(!driver.text().contains("loss"), "{}", driver.text());
-        driver.press("a O");
-        assert_eq!(driver.text(), linear);
-        for view in ["v", "v", "N"] {
-            driver.press("O");
-            driver.press(view);
-            driver.press("O");
-            assert!(driver.text().contains(" ┤"), "{}", driver.text());
-        }
-    });
-}

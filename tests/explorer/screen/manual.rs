@@ -8,7 +8,6 @@ use asperity::contact::CurvePoint;
 use asperity::explorer::model::ManualState;
 use asperity::explorer::snapshot::Drive;
 use asperity::explorer::update::Effect;
-use asperity::explorer::worker::ManualMove;
 
 fn point(driver: &Driver) -> CurvePoint {
     driver.model.snapshot.as_ref().unwrap().point
@@ -282,7 +281,7 @@ fn playing_gives_it_back() {
             let leg = driver.model.player.leg;
             driver.press("d { [");
             let effects = driver.press(keys);
-            assert_eq!(effects, [Effect::Manual(ManualMove::Give), Effect::Show], "{keys}");
+            assert_eq!(effects, [Effect::Ask], "{keys}");
             assert!(driver.model.manual.is_none(), "{keys}");
             assert!(matches!(driver.model.snapshot.as_ref().unwrap().drive, Drive::Leg(_)), "{keys}");
             if keys == "Space" {

@@ -17,7 +17,7 @@ fn the_animation_plays_to_its_end_and_stops() {
         let (mut last, mut elapsed) = (f64::NEG_INFINITY, 0);
         while driver.model.player.playing {
             let leg = driver.model.player.leg;
-            assert_eq!(driver.elapse(0.1), [Effect::Show]);
+            assert_eq!(driver.elapse(0.1), [Effect::Ask]);
             if driver.model.player.leg != leg {
                 last = ends[0];
             }
@@ -66,7 +66,7 @@ fn nothing_is_played_while_there_is_no_curve() {
             assert!(driver.elapse(0.1).is_empty(), "that of another scene is not played");
         }
         driver.press("u");
-        assert_eq!(driver.elapse(0.1), [Effect::Show]);
+        assert_eq!(driver.elapse(0.1), [Effect::Ask]);
     });
 }
 

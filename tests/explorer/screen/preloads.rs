@@ -39,7 +39,7 @@ pub fn computed_preloads(document: Document) -> Driver {
 fn shown(document: Document, profiles: usize) -> Driver {
     let mut driver = Driver::open(document);
     driver.studies = Studies::Inline(Box::new(computing(profiles)));
-    driver.perform(vec![Effect::Compute]);
+    driver.perform(vec![Effect::Ask]);
     driver.press("Space i");
     driver
 }

@@ -53,7 +53,7 @@ fn the_spread_over_lines_is_beside_that_of_the_fit() {
         let document = document.set("numerics.points", "1024").unwrap();
         let mut driver = Driver::open(document);
         driver.studies = Studies::Inline(Box::new(Accuracy));
-        driver.perform(vec![Effect::Compute]);
+        driver.perform(vec![Effect::Ask]);
         // Not before the pane is shown.
         assert_eq!(driver.model.adhesion_spread, None);
         driver.press("Q");
