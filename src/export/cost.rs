@@ -45,7 +45,6 @@ impl Report for CostReport<'_> {
 
     /// Times in s, errors relative.
     fn table(&self) -> Option<Table<'_>> {
-        let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
         let mut table = Table::of(|| self.table.rows.iter())
             .with("knob", Kind::Text("sub-cell-springs".len()), |row| match row.knob {
                 Knob::SubCellSprings => "sub-cell-springs",
@@ -54,19 +53,17 @@ impl Report for CostReport<'_> {
             })
             .real("setting", |row| row.setting)
             .whole("springs", |row| row.springs)
-            .real("minimum_seconds", move |row| finite(row.seconds.map(|time| time.minimum)))
-            .real("median_seconds", move |row| finite(row.seconds.map(|time| time.median)))
-            .real("transforms", move |row| finite(row.transforms));
+            .real("minimum_seconds", |row| row.seconds.map(|time| time.minimum))
+            .real("median_seconds", |row| row.seconds.map(|time| time.median))
+            .real("transforms", |row| row.transforms);
         for (index, name) in QUANTITIES.into_iter().enumerate() {
             let error = move |row: &&Row| row.errors[index];
             table = table
-                .with(format!("{name}_error"), Kind::Real, move |row| finite(error(row).map(|one| one.error)))
+                .with(format!("{name}_error"), Kind::Real, move |row| error(row).map(|one| one.error))
                 .with(format!("{name}_resolved"), Kind::Text("false".len()), move |row| {
                     error(row).map_or("", |one| if one.resolved { "true" } else { "false" })
                 })
-                .with(format!("{name}_order"), Kind::Real, move |row| {
-                    finite(error(row).and_then(|one| one.order))
-                });
+                .with(format!("{name}_order"), Kind::Real, move |row| error(row).and_then(|one| one.order));
         }
         Some(table.done())
     }

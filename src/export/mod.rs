@@ -41,5 +41,5 @@ pub use spectrum_figure::{Spectra, SpectrumPoint};
 pub use study_figure::study_figure;
 pub use summary::brief_summary;
 pub use surface::{MeasuredFace, SurfaceFile, SurfaceReport, measured_adhesion_text};
-pub use table::{Kind, Table, TableOf, Value};
+pub use table::{Kind, Table, TableOf};
 pub use work_precision::work_precision;

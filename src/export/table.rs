@@ -4,7 +4,8 @@
 //! array in the same file, since the header of an array holds only its type and shape.
 
 use crate::io::npy;
-use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
+use serde::ser::{Serialize, Serializer};
+use serde_json::Value;
 use std::borrow::Cow;
 use std::io::{self, Write};
 use std::rc::Rc;
@@ -12,7 +13,7 @@ use std::rc::Rc;
 /// Values of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Double precision, NaN in an array if there is no value.
+    /// Double precision.
     Real,
     /// Integers from 0.
     Whole,
@@ -20,52 +21,15 @@ pub enum Kind {
     Text(usize),
 }
 
-/// A value of a row.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Value<'a> {
-    /// No value: empty in CSV, `null` in JSON.
-    Missing,
-    /// A number.
-    Real(f64),
-    /// A count or a seed.
-    Whole(u64),
-    /// A name.
-    Text(Cow<'a, str>),
-}
-
-impl From<f64> for Value<'_> {
-    fn from(value: f64) -> Self {
-        Value::Real(value)
-    }
-}
-
-impl From<u64> for Value<'_> {
-    fn from(value: u64) -> Self {
-        Value::Whole(value)
-    }
-}
-
-impl<'a> From<&'a str> for Value<'a> {
-    fn from(value: &'a str) -> Self {
-        Value::Text(value.into())
-    }
-}
-
-impl<'a, T: Into<Value<'a>>> From<Option<T>> for Value<'a> {
-    fn from(value: Option<T>) -> Self {
-        value.map_or(Value::Missing, Into::into)
-    }
-}
-
 /// Value of a row in a column.
-type Of<'a, T> = Box<dyn Fn(&T) -> Value<'a> + 'a>;
+type Of<'a, T> = Box<dyn Fn(&T) -> Value + 'a>;
 type Rows<'a, T> = Box<dyn Fn() -> Box<dyn Iterator<Item = T> + 'a> + 'a>;
 
 /// Named columns, and rows that are made one by one while they are written.
 pub struct Table<'a> {
     columns: Vec<(Cow<'static, str>, Kind)>,
     count: usize,
-    rows: Rows<'a, Vec<Value<'a>>>,
+    rows: Rows<'a, Vec<Value>>,
 }
 
 /// A table in the making: the rows, and the columns so far with their values of a row.
@@ -83,9 +47,9 @@ impl<'a> Table<'a> {
 }
 
 impl<'a, T: 'a> TableOf<'a, T> {
-    /// Adds a column.
+    /// Adds a column; a missing value is empty in CSV, `null` in JSON and NaN in an array.
     #[must_use]
-    pub fn with<V: Into<Value<'a>>>(
+    pub fn with<V: Into<Value>>(
         mut self,
         name: impl Into<Cow<'static, str>>,
         kind: Kind,
@@ -98,7 +62,7 @@ impl<'a, T: 'a> TableOf<'a, T> {
 
     /// Adds a column of double precision.
     #[must_use]
-    pub fn real<V: Into<Value<'a>>>(self, name: &'static str, value: impl Fn(&T) -> V + 'a) -> Self {
+    pub fn real<V: Into<Value>>(self, name: &'static str, value: impl Fn(&T) -> V + 'a) -> Self {
         self.with(name, Kind::Real, value)
     }
 
@@ -114,7 +78,7 @@ impl<'a, T: 'a> TableOf<'a, T> {
         let (rows, values) = (self.rows, Rc::new(self.values));
         // Without the values, which may take time.
         let count = rows().count();
-        let rows = move || -> Box<dyn Iterator<Item = Vec<Value<'a>>> + 'a> {
+        let rows = move || -> Box<dyn Iterator<Item = Vec<Value>> + 'a> {
             let values = Rc::clone(&values);
             Box::new(rows().map(move |row| values.iter().map(|value| value(&row)).collect()))
         };
@@ -135,10 +99,12 @@ impl Table<'_> {
             for (index, value) in row.iter().enumerate() {
                 out.write_all(if index > 0 { b"," } else { b"" })?;
                 match value {
-                    Value::Missing => Ok(()),
-                    Value::Real(real) => write!(out, "{real:?}"),
-                    Value::Whole(whole) => write!(out, "{whole}"),
-                    Value::Text(text) => out.write_all(quoted(text).as_bytes()),
+                    Value::Null => Ok(()),
+                    Value::String(text) => out.write_all(quoted(text).as_bytes()),
+                    number => match number.as_f64().filter(|_| number.is_f64()) {
+                        Some(real) => write!(out, "{real:?}"),
+                        None => write!(out, "{number}"),
+                    },
                 }?;
             }
             out.write_all(b"\n")?;
@@ -163,15 +129,18 @@ impl Table<'_> {
         for row in (self.rows)() {
             for (value, (_, kind)) in row.iter().zip(&self.columns) {
                 match (kind, value) {
-                    (Kind::Real, Value::Real(real)) => out.write_all(&real.to_le_bytes()),
-                    (Kind::Real, Value::Whole(whole)) => out.write_all(&(*whole as f64).to_le_bytes()),
-                    (Kind::Real, Value::Missing) => out.write_all(&f64::NAN.to_le_bytes()),
-                    (Kind::Whole, Value::Whole(whole)) => out.write_all(&whole.to_le_bytes()),
-                    (Kind::Text(characters), Value::Text(text)) if text.chars().count() <= *characters => {
+                    (Kind::Real, Value::Null) => out.write_all(&f64::NAN.to_le_bytes()),
+                    (Kind::Real, Value::Number(number)) => {
+                        out.write_all(&number.as_f64().unwrap_or(f64::NAN).to_le_bytes())
+                    }
+                    (Kind::Whole, Value::Number(number)) => {
+                        out.write_all(&number.as_u64().unwrap_or_default().to_le_bytes())
+                    }
+                    (Kind::Text(characters), Value::String(text)) if text.chars().count() <= *characters => {
                         let codes = text.chars().map(u32::from).chain(std::iter::repeat(0));
                         codes.take(*characters).try_for_each(|code| out.write_all(&code.to_le_bytes()))
                     }
-                    _ => Err(io::Error::other(format!("{value:?} in a column of {}", descr(*kind)))),
+                    _ => Err(io::Error::other(format!("{value} in a column of {}", descr(*kind)))),
                 }?;
             }
         }
@@ -191,28 +160,15 @@ fn quoted(text: &str) -> Cow<'_, str> {
 /// A JSON array with an object for each row.
 impl Serialize for Table<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut rows = serializer.serialize_seq(None)?;
-        for row in (self.rows)() {
-            rows.serialize_element(&Object(&self.columns, row))?;
-        }
-        rows.end()
+        serializer.collect_seq((self.rows)().map(|row| Object(&self.columns, row)))
     }
 }
 
-struct Object<'a, 'b>(&'b [(Cow<'static, str>, Kind)], Vec<Value<'a>>);
+struct Object<'a>(&'a [(Cow<'static, str>, Kind)], Vec<Value>);
 
-impl Serialize for Object<'_, '_> {
+impl Serialize for Object<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(Some(self.1.len()))?;
-        for ((name, _), value) in self.0.iter().zip(&self.1) {
-            match value {
-                Value::Missing => map.serialize_entry(name, &()),
-                Value::Real(real) => map.serialize_entry(name, real),
-                Value::Whole(whole) => map.serialize_entry(name, whole),
-                Value::Text(text) => map.serialize_entry(name, text),
-            }?;
-        }
-        map.end()
+        serializer.collect_map(self.0.iter().map(|(name, _)| name).zip(&self.1))
     }
 }
 
