@@ -80,7 +80,7 @@ mod tests {
             ]
         };
         assert_eq!(find(candidates(), "sphere"), [3, 5, 2, 4, 1, 0]);
-        assert_eq!(find(candidates(), " Rough  sphere "), [3, 2]);
+        assert_eq!(find(candidates(), " Rough  sphere "), [2, 3]);
         assert!(find(candidates(), "sphere nothing").is_empty());
         assert!(find(candidates(), "rghsph").is_empty(), "letters are not scattered");
         assert_eq!(find(candidates(), " "), [0, 1, 2, 3, 4, 5]);

@@ -23,7 +23,7 @@ impl Field {
         if self.range == FILE_NAME && !(typed.is_empty() || typed == "None" || typed.starts_with('"')) {
             return Ok(ron_string(typed));
         }
-        if matches!(self.range, Range::Text { .. }) && !typed.starts_with('"') {
+        if matches!(self.range, Range::Text { .. }) && self.range != FILE_NAME && !typed.starts_with('"') {
             return Ok(ron_string(typed));
         }
         if !typed.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.')) {

@@ -5,17 +5,25 @@ mod common {
     pub mod deadline;
     pub mod effort;
 }
-mod cli;
+#[cfg(target_os = "linux")]
+mod console;
 mod cost;
+mod documentation;
+mod estimates;
+mod generated;
+mod notices;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod processes;
 mod program;
-mod readme;
+mod python;
+#[cfg(target_os = "linux")]
+mod results;
 mod rounding;
 #[cfg(target_os = "linux")]
 mod slurm;
+mod source;
 mod surfaces;
 mod sweep;
 mod sweep_boundary;
 mod sweep_plot;
-mod tables;

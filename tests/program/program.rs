@@ -51,12 +51,22 @@ pub fn failed(code: i32, arguments: &[&str]) -> String {
     stderr
 }
 
+/// Standard output of a command that succeeds.
+pub fn text(arguments: &[&str]) -> String {
+    asperity(arguments).succeeded()
+}
+
 /// The JSON object printed by a command.
 pub fn json(arguments: &[&str]) -> Value {
-    serde_json::from_str(&asperity(arguments).succeeded()).unwrap()
+    serde_json::from_str(&text(arguments)).unwrap()
 }
 
 /// Lines of a table without its provenance.
 pub fn rows(table: &str) -> impl Iterator<Item = &str> {
     table.lines().filter(|line| !line.starts_with('#'))
+}
+
+/// Numbers of each row of a table; not a number in place of words.
+pub fn table(csv: &str) -> impl Iterator<Item = Vec<f64>> {
+    rows(csv).skip(1).map(|row| row.split(',').map(|cell| cell.parse().unwrap_or(f64::NAN)).collect())
 }

@@ -3,11 +3,12 @@
 mod command;
 mod generate;
 
-use super::readme::scenes;
+use super::documentation::markdown;
+use super::generated::check;
 use asperity::spectrum::{Analysis, End, Moment, Options, PowerLaw, analyse};
 use asperity::topography::Topography;
 use generate::{Normal, Profiles, Spectrum, cut, map, topography};
-use std::fmt::Write;
+use std::f64::consts::TAU;
 
 /// Waves of the finest resolved wavelength on the length of a surface, and points.
 const LAST: f64 = 256.0;
@@ -22,29 +23,30 @@ struct Ratio {
 }
 
 impl Ratio {
-    fn new(ratios: &[(f64, f64)]) -> Self {
-        let count = ratios.len() as f64;
-        let mean = ratios.iter().map(|(ratio, _)| ratio).sum::<f64>() / count;
-        let square = ratios.iter().map(|(ratio, _)| (ratio - mean).powi(2)).sum::<f64>() / (count - 1.0);
-        let stated = ratios.iter().map(|(_, error)| error).sum::<f64>() / count;
-        Ratio { bias: mean - 1.0, spread: square.sqrt(), stated }
-    }
-
     fn text(&self) -> String {
         format!("{:+.1} ± {:.1} ({:.1})", 100.0 * self.bias, 100.0 * self.spread, 100.0 * self.stated)
+    }
+
+    /// The stated error is neither much too small nor much too large.
+    fn is_stated_well(&self) -> bool {
+        (0.4..8.0).contains(&(self.stated / self.spread.max(self.bias.abs())))
     }
 }
 
 /// Ratios of rms height, rms gradient and elastic energy of the equivalent line to those of the generated surface.
 fn ratios(spectrum: &Spectrum, found: &[Analysis]) -> [Ratio; 3] {
-    let exact = spectrum.line();
-    [0, 1, 2].map(|moment| {
-        let each = found.iter().map(|analysis| {
-            let line = &analysis.line;
-            let estimate = [line.rms_height, line.rms_gradient, line.energy_per_modulus][moment];
-            (estimate.value / exact[moment], estimate.error / estimate.value)
-        });
-        Ratio::new(&each.collect::<Vec<_>>())
+    let (exact, count) = (spectrum.line(), found.len() as f64);
+    [0, 1, 2].map(|index| {
+        let mean =
+            |of: &dyn Fn(Moment) -> f64| found.iter().map(|one| of(moments(one)[index])).sum::<f64>() / count;
+        let ratio = |moment: Moment| moment.value / exact[index];
+        let level = mean(&ratio);
+        let square = mean(&|moment| (ratio(moment) - level).powi(2)) * count / (count - 1.0);
+        Ratio {
+            bias: level - 1.0,
+            spread: square.sqrt(),
+            stated: mean(&|moment| moment.error / moment.value),
+        }
     })
 }
 
@@ -76,88 +78,62 @@ fn bounds(kind: &str, has_roll_off: bool) -> [(f64, f64); 3] {
 fn assert_fit(fit: PowerLaw, spectrum: &Spectrum, has_roll_off: bool) {
     assert!((fit.hurst.value - spectrum.hurst).abs() < 0.02, "H = {}: {fit:?}", spectrum.hurst);
     assert!(fit.hurst.error > 0.001 && fit.hurst.error < 0.02, "{fit:?}");
-    let expected = std::f64::consts::TAU * spectrum.roll_off;
-    match fit.roll_off {
-        Some(found) if has_roll_off => assert!((found.value / expected - 1.0).abs() < 0.08, "{fit:?}"),
-        found => assert!(found.is_none() && !has_roll_off, "{fit:?}"),
-    }
+    let is_right = |found: f64| (found / (TAU * spectrum.roll_off) - 1.0).abs() < 0.08;
+    assert!(fit.roll_off.map_or(!has_roll_off, |found| has_roll_off && is_right(found.value)), "{fit:?}");
 }
 
 #[test]
 #[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn the_equivalent_line_of_generated_surfaces_is_theirs() {
-    let mut table = String::from(
-        "| roll-off | H | measured | h, % | ⟨∇z⟩, % | e_el, % |\n| --- | --- | --- | --- | --- | --- |\n",
-    );
-    for roll_off in [16.0, 1.0] {
-        let has_roll_off = roll_off > 1.0;
-        for hurst in [0.3, 0.5, 0.8] {
-            let spectrum = Spectrum { hurst, roll_off, last: LAST };
-            for (kind, found) in samples(&spectrum) {
-                let ratios = ratios(&spectrum, &found);
-                for (ratio, (bias, spread)) in ratios.iter().zip(bounds(kind, has_roll_off)) {
-                    let inside = ratio.bias.abs() <= bias && ratio.spread <= spread;
-                    assert!(inside, "{kind}, H = {hurst}, roll-off {roll_off}: {ratios:?}");
-                    // The stated error is neither much too small nor much too large.
-                    let stated = ratio.stated / ratio.spread.max(ratio.bias.abs());
-                    assert!((0.4..8.0).contains(&stated), "{kind}, H = {hurst}: {ratios:?}");
-                }
-                if kind != "1 profile" {
-                    found.iter().for_each(|analysis| {
-                        assert_fit(analysis.power_law.unwrap(), &spectrum, has_roll_off)
-                    });
-                }
-                let roll_off = if has_roll_off { "16 per length" } else { "none" };
-                let cells = ratios.map(|ratio| ratio.text()).join(" | ");
-                writeln!(table, "| {roll_off} | {hurst} | {kind} | {cells} |").unwrap();
+    let mut rows = Vec::new();
+    for (roll_off, hurst) in
+        [16.0, 1.0].into_iter().flat_map(|roll_off| [0.3, 0.5, 0.8].map(|hurst| (roll_off, hurst)))
+    {
+        let (spectrum, has_roll_off) = (Spectrum { hurst, roll_off, last: LAST }, roll_off > 1.0);
+        for (kind, found) in samples(&spectrum) {
+            let ratios = ratios(&spectrum, &found);
+            let is_good = |(ratio, (bias, spread)): (&Ratio, (f64, f64))| {
+                ratio.bias.abs() <= bias && ratio.spread <= spread && ratio.is_stated_well()
+            };
+            let all = ratios.iter().zip(bounds(kind, has_roll_off)).all(is_good);
+            assert!(all, "{kind}, H = {hurst}, roll-off {roll_off}: {ratios:?}");
+            for analysis in found.iter().filter(|_| kind != "1 profile") {
+                assert_fit(analysis.power_law.unwrap(), &spectrum, has_roll_off);
             }
+            let roll_off = if has_roll_off { "16 per length" } else { "none" };
+            let [h, gradient, energy] = ratios.map(|ratio| ratio.text());
+            rows.push([roll_off.to_owned(), hurst.to_string(), kind.to_owned(), h, gradient, energy]);
         }
     }
-    scenes::check("docs/surfaces.md", "biases", &table);
+    let header = ["roll-off", "H", "measured", "h, %", "⟨∇z⟩, %", "e_el, %"];
+    check("docs/surfaces.md", "biases", &markdown(header, rows.into_iter()));
 }
 
 /// Spectra that end before the last resolved wave.
 #[test]
 #[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn the_equivalent_line_ends_where_the_spectrum_ends() {
-    let mut table = String::from(
-        "| last wave | measured | h, % | ⟨∇z⟩, % | e_el, % |\n| --- | --- | --- | --- | --- |\n",
-    );
+    let mut rows = Vec::new();
     for last in [200.0, 128.0, 64.0, 32.0] {
         let spectrum = Spectrum { hurst: 0.7, roll_off: 8.0, last };
         for (kind, found) in samples(&spectrum) {
             let ratios = ratios(&spectrum, &found);
-            for ratio in ratios {
-                let stated = ratio.stated / ratio.spread.max(ratio.bias.abs());
-                assert!((0.4..8.0).contains(&stated), "{kind}, {last}: {ratios:?}");
-            }
-            let cells = ratios.map(|ratio| ratio.text()).join(" | ");
-            writeln!(table, "| {last} | {kind} | {cells} |").unwrap();
+            assert!(ratios.iter().all(Ratio::is_stated_well), "{kind}, {last}: {ratios:?}");
+            let [h, gradient, energy] = ratios.map(|ratio| ratio.text());
+            rows.push([last.to_string(), kind.to_owned(), h, gradient, energy]);
         }
     }
-    scenes::check("docs/surfaces.md", "cutoffs", &table);
-}
-
-/// Mean of w⁴ of a Hann window w with a mean of w² of 1: factor by which the window reduces the independent waves.
-const HANN: f64 = 35.0 / 18.0;
-
-/// Number of independent waves that carry ∫ k^power C_cut dk of one windowed profile: the power of each wave has a standard
-/// deviation as large as its mean.
-fn independent_waves(spectrum: &Spectrum, power: i32) -> f64 {
-    let waves = (1..=LAST as u32).map(f64::from).map(|k| k.powi(power) * cut(spectrum, k));
-    let (sum, squares) = waves.fold((0.0, 0.0), |(sum, squares), wave| (sum + wave, squares + wave * wave));
-    sum * sum / squares / HANN
+    let header = ["last wave", "measured", "h, %", "⟨∇z⟩, %", "e_el, %"];
+    check("docs/surfaces.md", "cutoffs", &markdown(header, rows.into_iter()));
 }
 
 /// A profile holds few waves, and no estimate can exceed their information: the spread follows from their number.
 #[test]
 #[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn the_spread_of_an_estimate_is_that_of_the_waves_in_its_profiles() {
-    const SETS: u64 = 48;
-    let mut table = String::from(
-        "| H | quantity | independent waves | least spread, % | 1 profile, % | 4 profiles, % | 16 profiles, % |\n\
-         | --- | --- | --- | --- | --- | --- | --- |\n",
-    );
+    // Mean of w⁴ of a Hann window w with a mean of w² of 1: factor by which the window reduces the independent waves.
+    const HANN: f64 = 35.0 / 18.0;
+    let mut rows = Vec::new();
     for hurst in [0.3, 0.5, 0.8] {
         let spectrum = Spectrum { hurst, roll_off: 16.0, last: LAST };
         let profiles = Profiles::new(&spectrum, POINTS);
@@ -166,14 +142,17 @@ fn the_spread_of_an_estimate_is_that_of_the_waves_in_its_profiles() {
                 let seeds = (0..count).map(|i| 10_000 * (count + 1) + set * count + i);
                 estimated(&seeds.map(|seed| profiles.profile(seed)).collect::<Vec<_>>())
             };
-            let found: Vec<Analysis> = (0..SETS).map(set).collect();
-            ratios(&spectrum, &found).map(|ratio| ratio.spread)
+            ratios(&spectrum, &(0..48).map(set).collect::<Vec<Analysis>>()).map(|ratio| ratio.spread)
         });
         // The relative error of a root is half as large.
         for (index, (name, power, share)) in
             [("h", 0, 0.5), ("⟨∇z⟩", 2, 0.5), ("e_el", 1, 1.0)].into_iter().enumerate()
         {
-            let waves = independent_waves(&spectrum, power);
+            // The power of each wave of ∫ k^power C_cut dk has a standard deviation as large as its mean.
+            let each = (1..=LAST as u32).map(f64::from).map(|k| k.powi(power) * cut(&spectrum, k));
+            let (sum, squares) =
+                each.fold((0.0, 0.0), |(sum, squares), wave| (sum + wave, squares + wave * wave));
+            let waves = sum * sum / squares / HANN;
             let least = share / waves.sqrt();
             let spreads = spreads.map(|spread| spread[index]);
             for (spread, count) in spreads.iter().zip([1.0_f64, 4.0, 16.0]) {
@@ -182,36 +161,47 @@ fn the_spread_of_an_estimate_is_that_of_the_waves_in_its_profiles() {
                 assert!((0.7..1.5).contains(&ratio), "H = {hurst}, {name}, {count} profiles: {ratio}");
             }
             let per_cent = |value: f64| format!("{:.1}", 100.0 * value);
-            let cells = spreads.map(per_cent).join(" | ");
-            writeln!(table, "| {hurst} | {name} | {waves:.0} | {} | {cells} |", per_cent(least)).unwrap();
+            let [one, four, many] = spreads.map(per_cent);
+            rows.push([
+                hurst.to_string(),
+                name.to_owned(),
+                format!("{waves:.0}"),
+                per_cent(least),
+                one,
+                four,
+                many,
+            ]);
         }
     }
-    scenes::check("docs/surfaces.md", "profiles", &table);
+    let header = [
+        "H",
+        "quantity",
+        "independent waves",
+        "least spread, %",
+        "1 profile, %",
+        "4 profiles, %",
+        "16 profiles, %",
+    ];
+    check("docs/surfaces.md", "profiles", &markdown(header, rows.into_iter()));
 }
 
 /// Waves of a rough surface beyond the distance between points.
 #[test]
 #[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn a_spectrum_that_continues_keeps_the_gradient_of_point_samples() {
-    let mut table = String::from("| H | `Ends`, % | continued, % |\n| --- | --- | --- |\n");
-    for hurst in [0.3, 0.5, 0.8] {
+    let rows = [0.3, 0.5, 0.8].map(|hurst| {
         let spectrum = Spectrum { hurst, roll_off: 16.0, last: 4.0 * LAST };
         let profiles = Profiles::new(&spectrum, POINTS);
-        let samples: Vec<Topography> = (0..60).map(|seed| profiles.profile(seed)).collect();
         let gradient = |end: End| {
             let options = Options { end, ..Options::default() };
-            let found: Vec<Analysis> = samples
-                .iter()
-                .map(|profile| analyse(std::slice::from_ref(profile), &options).unwrap())
-                .collect();
-            ratios(&spectrum, &found)[1]
+            let found = (0..60).map(|seed| analyse(&[profiles.profile(seed)], &options).unwrap());
+            ratios(&spectrum, &found.collect::<Vec<_>>())[1]
         };
-        let ends = gradient(End::Ends);
-        let continues = gradient(End::Continues(std::f64::consts::TAU * spectrum.last));
+        let [ends, continues] = [End::Ends, End::Continues(TAU * spectrum.last)].map(gradient);
         assert!(ends.bias < -0.1 && continues.bias.abs() < 0.4 * ends.bias.abs(), "{ends:?} {continues:?}");
-        writeln!(table, "| {hurst} | {} | {} |", ends.text(), continues.text()).unwrap();
-    }
-    scenes::check("docs/surfaces.md", "ends", &table);
+        [hurst.to_string(), ends.text(), continues.text()]
+    });
+    check("docs/surfaces.md", "ends", &markdown(["H", "`Ends`, %", "continued, %"], rows.into_iter()));
 }
 
 /// Moments of the equivalent line: h, ⟨∇z⟩, e_el.
@@ -238,7 +228,7 @@ fn a_spectrum_that_ends_inside_the_scan_ends_the_line() {
             let analysis = estimated(&surfaces);
             assert_right(&name, &spectrum, &analysis, 0.09);
             // The window widens each wave by two.
-            let end = analysis.isotropic.range()[1] / std::f64::consts::TAU;
+            let end = analysis.isotropic.range()[1] / TAU;
             assert!(analysis.ends_inside && (end - last).abs() < 3.0, "{name}: {end}");
             assert!(moments(&analysis).iter().all(|moment| moment.missing_short_waves == 0.0), "{name}");
             // Two octaves above the roll-off do not always show an exponent.
@@ -283,7 +273,7 @@ fn aliased_waves_of_maps_are_part_of_the_model() {
     let place = |index: usize| 4 * (index / few * POINTS + index % few);
     let heights: Vec<f64> = (0..few * few).map(|index| whole.heights()[place(index)]).collect();
     let sampled = [topography(&heights, few)];
-    let end = End::Continues(std::f64::consts::TAU * LAST);
+    let end = End::Continues(TAU * LAST);
     let continued = analyse(&sampled, &Options { end, ..Options::default() }).unwrap();
     assert_right("continued", &spectrum, &continued, 0.08);
     // Without short waves the longer ones have the power of all, as the last column states.

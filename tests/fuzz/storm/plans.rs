@@ -1,201 +1,101 @@
-//! Plans of studies: read, written and read back, and small ones computed.
+//! Plans of studies: read, written and read back.
 
 use super::*;
 use asperity::scene::check;
-use asperity::study::{
-    Axis, Changes, DERIVED, Finished, Folder, MOST_CELLS, Options, Plan, Quantity, Shard, StudyError, merge,
-    run,
-};
-
-/// Number of plans read.
-const PLANS: u32 = 1000;
-
-/// Number of plans computed.
-const STUDIES: u32 = 25;
-
-/// Most records of a computed study, and most samples of a curve in it.
-const MOST_RECORDS: u64 = 60;
-const MOST_SAMPLES: u64 = 1000;
+use asperity::study::{Axis, Changes, DERIVED, MOST_CELLS, Plan, Quantity};
 
 /// Name of a plan in messages.
 const NAME: &str = "drawn.ron";
 
-/// Quantities of an axis: the numbers of a scene, derived ones, and a few unknown ones.
-fn paths() -> impl Strategy<Value = &'static str> {
+/// Numbers in the range of the quantity of an axis, and a few others.
+fn numbers(path: &str) -> BoxedStrategy<f64> {
+    let range = FIELDS.iter().find(|field| field.path == path).map(|field| field.range);
+    let (low, high) = range.and_then(|range| range.ends()).unwrap_or((1e-3, 1e3));
+    let least = low.max(high * 1e-12).max(1e-9);
+    let inside = (least.ln()..=high.min(least * 1e6).ln()).prop_map(f64::exp);
+    let others = vec![low, high, 0.0, -1.0, f64::NAN, f64::INFINITY, 1e308];
+    prop_oneof![12 => inside.clone(), 4 => inside.prop_map(f64::round), 1 => prop::sample::select(others)]
+        .boxed()
+}
+
+/// Axes over the numbers of a scene, derived ones, and a few unknown ones.
+fn axis() -> impl Strategy<Value = String> {
     let is_number = |field: &&Field| matches!(field.range, Range::Real(..) | Range::Whole(..));
     let mut paths: Vec<_> = FIELDS.iter().filter(is_number).map(|field| field.path).collect();
     paths.extend(DERIVED);
     paths.extend(["roughness.modes.1", "loading.0.0", "loading.7.0", "title", "nothing"]);
-    prop::sample::select(paths)
-}
-
-/// Numbers in the range of the quantity of an axis.
-fn numbers(path: &str) -> BoxedStrategy<f64> {
-    let range = FIELDS.iter().find(|field| field.path == path).map(|field| field.range);
-    let (low, high) = match range {
-        Some(Range::Real(..) | Range::Whole(..)) => {
-            let of = |end: Option<f64>| end.unwrap_or_default();
-            let ends = range.and_then(|range| range.ends());
-            (of(ends.map(|(least, _)| least)), of(ends.map(|(_, most)| most)))
-        }
-        _ => (1e-3, 1e3),
-    };
-    let least = low.max(high * 1e-12).max(1e-9);
-    let most = high.min(least * 1e6);
-    let inside = (least.ln()..=most.ln()).prop_map(f64::exp);
-    prop_oneof![12 => inside.clone(), 4 => inside.prop_map(f64::round), 1 => prop::sample::select(vec![
-        low, high, 0.0, -1.0, f64::NAN, f64::INFINITY, 1e308
-    ])]
-    .boxed()
-}
-
-fn axis() -> impl Strategy<Value = String> {
-    paths().prop_flat_map(|path| {
-        let numbers = numbers(path);
-        let ends = prop_oneof![12 => Just("Logarithmic"), 12 => Just("Linear"), 1 => Just("Quadratic")];
-        let ends = (ends, numbers.clone(), numbers.clone(), prop_oneof![20 => 2_u64..5, 1 => 0..u64::MAX])
-            .prop_map(move |(kind, one, other, count)| {
-                let (from, to) = (ron_float(one.min(other)), ron_float(one.max(other)));
-                format!("{kind}(path: {path:?}, from: {from}, to: {to}, count: {count})")
-            });
-        let list = prop::collection::vec(numbers, 0..4)
-            .prop_map(move |values| format!("List(path: {path:?}, values: {})", list(values)));
+    prop::sample::select(paths).prop_flat_map(|path| {
+        let kind = prop_oneof![12 => Just("Logarithmic"), 12 => Just("Linear"), 1 => Just("Quadratic")];
+        let count = prop_oneof![20 => 2_u64..5, 1 => 0..u64::MAX];
+        let ends = (kind, numbers(path), numbers(path), count).prop_map(move |(kind, one, other, count)| {
+            let (from, to) = (ron_float(one.min(other)), ron_float(one.max(other)));
+            format!("{kind}(path: {path:?}, from: {from}, to: {to}, count: {count})")
+        });
+        let list = prop::collection::vec(numbers(path), 0..4)
+            .prop_map(move |values| format!("List(path: {path:?}, values: {})", list(&values)));
         prop_oneof![ends, list]
     })
 }
 
-fn list(values: Vec<f64>) -> String {
-    format!("[{}]", values.into_iter().map(ron_float).collect::<Vec<_>>().join(", "))
+fn list(values: &[f64]) -> String {
+    format!("[{}]", values.iter().copied().map(ron_float).collect::<Vec<_>>().join(", "))
 }
 
 /// Texts of plans on allowed scenes.
 fn plans() -> impl Strategy<Value = String> {
     let names: Vec<_> = Quantity::ALL.iter().map(|quantity| quantity.name()).collect();
-    let most = names.len();
-    let record = prop::sample::subsequence(names, 1..=most);
+    let count = names.len();
+    let record = prop::sample::subsequence(names, 1..=count);
     let axes = prop::collection::vec(axis(), 0..3);
-    let preloads = prop::option::of(prop::collection::vec(-6.0..1.0_f64, 1..3))
-        .prop_map(|powers| powers.map(|powers| powers.into_iter().map(f64::exp).collect::<Vec<_>>()));
+    let preloads = prop::option::of(prop::collection::vec((-6.0..1.0_f64).prop_map(f64::exp), 1..3));
     let lines = prop_oneof![20 => 1_u64..4, 1 => any::<u64>()];
-    let line = "[ -~µκ\u{202e}]{0,12}";
-    (quick().documents(), axes, preloads, lines, any::<u64>(), record, line).prop_map(
+    let title = "[ -~µκ\u{202e}]{0,12}";
+    (quick().documents(), axes, preloads, lines, any::<u64>(), record, title).prop_map(
         |(document, axes, preloads, lines, seed, record, title)| {
-            let preloads =
-                preloads.map_or_else(String::new, |shares| format!("preloads: {}, ", list(shares)));
+            let preloads = preloads.map_or(String::new(), |shares| format!("preloads: {}, ", list(&shares)));
             let lines = if lines == 1 { String::new() } else { format!("lines: {lines}, seed: {seed}, ") };
-            format!(
-                "(version: 1, title: {}, scene: {}, axes: [{}], {preloads}{lines}record: [{}])",
-                ron_string(&title),
-                document.text(),
-                axes.join(", "),
-                record.join(", ")
-            )
+            let (title, text, axes, record) =
+                (ron_string(&title), document.text(), axes.join(", "), record.join(", "));
+            format!("(version: 1, title: {title}, scene: {text}, axes: [{axes}], {preloads}{lines}record: [{record}])")
         },
     )
 }
 
 /// An accepted plan is written and read back the same, and each of its cells is an allowed scene; refusals begin with
-/// the name of the plan in each line.
-fn assert_plan(text: &str) -> Result<Option<Plan>, TestCaseError> {
+/// the name of the plan in each line. True if the plan is accepted.
+fn assert_plan(text: &str) -> Result<bool, TestCaseError> {
     let plan = match Plan::parse(text, NAME, &Changes::default()) {
         Ok(plan) => plan,
         Err(errors) => {
-            prop_assert!(!errors.0.is_empty());
-            for line in errors.to_string().lines() {
-                prop_assert!(line.starts_with(NAME), "{:?} of {}", line, text);
-                prop_assert!(!line.contains(char::is_control), "{:?}", line);
-                prop_assert!(line.chars().count() <= 2000, "{}", line);
-            }
-            return Ok(None);
+            let is_message = |line: &str| {
+                line.starts_with(NAME) && !line.contains(char::is_control) && line.chars().count() <= 2000
+            };
+            prop_assert!(!errors.0.is_empty() && errors.to_string().lines().all(is_message), "{}", errors);
+            return Ok(false);
         }
     };
     let written = plan.to_ron();
-    let read = Plan::parse(&written, NAME, &Changes::default());
-    prop_assert_eq!(read.as_ref(), Ok(&plan), "{}", written);
-    prop_assert_eq!(read.map(|plan| plan.to_ron()), Ok(written));
+    prop_assert_eq!(Plan::parse(&written, NAME, &Changes::default()), Ok(plan.clone()), "{}", written);
     let axes = || plan.axes.iter().chain(&plan.preloads);
     prop_assert_eq!(plan.cells(), axes().map(Axis::count).product::<u64>());
     prop_assert!((1..=MOST_CELLS).contains(&plan.cells()));
-    prop_assert_eq!(plan.records_in_all(), plan.cells() * plan.lines);
     for cell in [0, plan.cells() / 2, plan.cells() - 1] {
         let values = plan.values(cell);
-        prop_assert_eq!(values.len(), axes().count());
-        for (value, axis) in values.iter().zip(axes()) {
-            prop_assert!(axis.values().contains(value), "{} = {}", axis.path(), value);
-        }
+        let is_on_axes = values.iter().zip(axes()).all(|(value, axis)| axis.values().contains(value));
+        prop_assert!(values.len() == axes().count() && is_on_axes, "{:?}", values);
     }
     let mut wrong = Vec::new();
     plan.each_scene(|scene| wrong.extend(check(scene)));
     prop_assert_eq!(wrong, vec![]);
-    Ok(Some(plan))
-}
-
-/// True if a study is done in tenths of a second.
-fn is_small(plan: &Plan) -> bool {
-    let mut small = plan.records_in_all() <= MOST_RECORDS;
-    plan.each_scene(|scene| {
-        small &= scene.numerics.points <= MOST_POINTS && scene.numerics.samples <= MOST_SAMPLES;
-    });
-    small
-}
-
-/// The study is computed and merged, or one of its cells is named with the reason; the merged results read back.
-fn assert_study(plan: &Plan) -> Result<(), TestCaseError> {
-    let place = tempfile::tempdir().unwrap();
-    let fail = |error: StudyError| TestCaseError::fail(error.to_string());
-    let folder = match Folder::create(&place.path().join("study"), plan) {
-        // Measured files of these names do not exist, and the field is named.
-        Err(error) if error.to_string().starts_with("roughness.file = ") => return Ok(()),
-        folder => folder.map_err(fail)?,
-    };
-    match run(&folder, Options { jobs: 1, shard: Shard::WHOLE }, &|| false, &mut |_| ()) {
-        Ok(ended) => prop_assert!(ended.complete),
-        Err(StudyError::Run { cell, coordinates, .. }) => {
-            prop_assert!(cell < plan.cells());
-            prop_assert_eq!(coordinates, plan.coordinates(cell));
-            return Ok(());
-        }
-        Err(error) => return Err(fail(error)),
-    }
-    merge(&folder, false).map_err(fail)?;
-    let finished = Finished::open(folder.path()).map_err(fail)?;
-    prop_assert_eq!(finished.plan(), plan);
-    let mut rows = 0;
-    let mut unsound = Vec::new();
-    Finished::rows(folder.path(), |row| {
-        rows += 1;
-        if row.values.iter().flatten().any(|value| !value.is_finite()) {
-            unsound.push(row);
-        }
-    })
-    .map_err(fail)?;
-    prop_assert_eq!(unsound, vec![]);
-    prop_assert_eq!(rows, plan.records_in_all());
-    for cell in 0..plan.cells() {
-        let Some(summary) = finished.cell(cell) else { return Err(TestCaseError::fail("a cell is missing")) };
-        prop_assert_eq!(summary.lines, plan.lines);
-        for spread in summary.quantities.iter().flatten() {
-            prop_assert!(spread.mean.is_finite(), "{:?}", spread);
-            prop_assert!(spread.standard_deviation.is_none_or(|deviation| deviation >= 0.0), "{:?}", spread);
-        }
-    }
-    Ok(())
+    Ok(true)
 }
 
 #[test]
 fn texts_of_plans() {
     let allowed = std::cell::Cell::new(0);
-    proptest!(draws(PLANS), |(text in plans())| {
-        allowed.set(allowed.get() + u32::from(assert_plan(&text)?.is_some()));
+    proptest!(draws(1000), |(text in plans())| {
+        allowed.set(allowed.get() + u32::from(assert_plan(&text)?));
     });
     // A storm of refused plans would prove little.
-    assert!(allowed.get() >= PLANS / 50, "{} plans are allowed", allowed.get());
-}
-
-#[test]
-fn small_studies() {
-    let small = plans().prop_filter_map("a small plan that is allowed", |text| {
-        Plan::parse(&text, NAME, &Changes::default()).ok().filter(is_small)
-    });
-    proptest!(draws(STUDIES), |(plan in small)| assert_study(&plan)?);
+    assert!(allowed.get() >= 20, "{} plans are allowed", allowed.get());
 }

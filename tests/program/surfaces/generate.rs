@@ -72,32 +72,21 @@ impl Normal {
 pub fn map(spectrum: &Spectrum, points: usize, seed: u64) -> Topography {
     let (all, length) = (2 * points, 2.0);
     let mut normal = Normal::new(seed);
-    let mut waves = vec![Complex64::ZERO; all * all];
     let plan = FftPlanner::<f64>::new().plan_fft_inverse(all);
     let signed = |index: usize| if 2 * index > all { index as f64 - all as f64 } else { index as f64 };
-    for y in 0..all {
-        for x in 0..all {
-            let k = signed(x).hypot(signed(y)) / length;
-            // The real part of a sum of independent waves has half their power.
-            let power = if x + y == 0 { 0.0 } else { 2.0 * spectrum.power(k) / (length * length) };
-            waves[y * all + x] = normal.complex() * power.sqrt();
-        }
-    }
-    for row in waves.chunks_exact_mut(all) {
-        plan.process(row);
-    }
-    let mut heights = Vec::with_capacity(points * points);
-    let mut turned = vec![Complex64::ZERO; all * points];
-    for x in 0..points {
-        for y in 0..all {
-            turned[x * all + y] = waves[y * all + x];
-        }
-    }
-    for row in turned.chunks_exact_mut(all) {
-        plan.process(row);
-        heights.extend(row[..points].iter().map(|z| z.re));
-    }
-    topography(&heights, points)
+    let wave = |index: usize| {
+        let k = signed(index % all).hypot(signed(index / all)) / length;
+        // The real part of a sum of independent waves has half their power.
+        let power = if index == 0 { 0.0 } else { 2.0 * spectrum.power(k) / (length * length) };
+        normal.complex() * power.sqrt()
+    };
+    let mut waves: Vec<Complex64> = (0..all * all).map(wave).collect();
+    plan.process(&mut waves);
+    let mut turned: Vec<Complex64> =
+        (0..all * points).map(|index| waves[index % all * all + index / all]).collect();
+    plan.process(&mut turned);
+    let heights = turned.chunks_exact(all).flat_map(|row| row[..points].iter().map(|z| z.re));
+    topography(&heights.collect::<Vec<_>>(), points)
 }
 
 /// Profiles on a length of 1: parts of cuts twice as long, so that they do not repeat.
@@ -138,26 +127,19 @@ pub fn cut(spectrum: &Spectrum, k: f64) -> f64 {
     // t = e^u − 1 resolves the roll-off.
     let pieces = 2000;
     let step = (1.0 + most).ln() / f64::from(pieces);
-    let sum: f64 = (0..pieces)
-        .map(|piece| {
-            let u = (f64::from(piece) + 0.5) * step;
-            spectrum.power(k.hypot(u.exp() - 1.0)) * u.exp()
-        })
-        .sum();
-    2.0 * sum * step
+    let places = (0..pieces).map(|piece| ((f64::from(piece) + 0.5) * step).exp());
+    2.0 * step * places.map(|growth| spectrum.power(k.hypot(growth - 1.0)) * growth).sum::<f64>()
 }
 
 /// The heights as read from a NumPy file: a profile (`columns` of 0) or a map on a length of 1 m. Those that are not a number are
 /// interpolated.
 pub fn topography(heights: &[f64], columns: usize) -> Topography {
     let points = if columns == 0 { heights.len() } else { columns };
-    let shape = match heights.len().checked_div(columns) {
-        Some(rows) => format!("({rows}, {columns})"),
-        None => format!("({points},)"),
-    };
+    let rows = heights.len().checked_div(columns);
+    let shape = rows.map_or(format!("({points},)"), |rows| format!("({rows}, {columns})"));
     let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}\n");
-    let mut bytes =
-        [b"\x93NUMPY\x01\x00", &(header.len() as u16).to_le_bytes()[..], header.as_bytes()].concat();
+    let length = (header.len() as u16).to_le_bytes();
+    let mut bytes = [b"\x93NUMPY\x01\x00", &length[..], header.as_bytes()].concat();
     bytes.extend(heights.iter().flat_map(|z| z.to_le_bytes()));
     let options = ReadOptions {
         unit: Some(Unit::METRE),

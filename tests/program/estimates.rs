@@ -1,4 +1,8 @@
 //! Stated errors against true ones, on random scenes with known finest solutions.
+//!
+//! Measured: 194 of 200 true errors are within the stated one (any resolution), 120 of 120 (resolved), and 139 of 150 (cones
+//! that adhere everywhere); the stated error is 5.9, 7.9 and 38 times the true one in the median. On cones every even number
+//! of springs has the outermost spring; where it decides, the true error is zero and the stated one is not.
 
 use asperity::accuracy::estimate;
 use asperity::scene::Document;

@@ -1,0 +1,319 @@
+//! The documentation matches the program: tables, pictures, examples, links and claims.
+//!
+//! After a change of the program, `UPDATE_DOCS=1 cargo test --test program -- --include-ignored` writes generated parts anew.
+
+use super::generated::{check, compare, pages_in, read, root};
+use super::program::{asperity_in, json, table};
+use asperity::analysis::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
+use asperity::explorer::keys;
+use asperity::scene::{Document, FIELDS, LEG_FORCE, LEG_INDENTATION, Range, presets};
+use asperity::simulation::Simulation;
+use asperity::study::{Axis, Changes, Plan, Quantity};
+use std::path::{Path, PathBuf};
+
+/// Longest README, rows.
+const LONGEST_README: usize = 250;
+
+/// Pages of the documentation and their contents, in the order of the README's table.
+const PAGES: [(&str, &str); 11] = [
+    ("keys.md", "panes and keys of the explorer, typed values, appearance, recordings"),
+    ("scene-file.md", "fields of a scene, loading, measured profiles, results, built-in scenes"),
+    ("surfaces.md", "measured surfaces: formats, equivalent line, spectrum, accuracy"),
+    ("model.md", "equations, exact solution, regimes, validity"),
+    ("reversals.md", "adhesion against preload, reversal curves, Everett map, density, congruency"),
+    ("conventions.md", "units, signs, zero points, E\\*, numbers in results"),
+    ("glossary.md", "terms and symbols, words to avoid"),
+    ("accuracy.md", "rounding, errors against closed forms, cost of accuracy, scatter of random profiles"),
+    ("performance.md", "times, latency of the explorer, instructions, memory"),
+    ("studies.md", "parameter studies, figures, clusters, boundary of adhesion"),
+    ("errors.md", "messages, remedies, exit codes"),
+];
+
+/// The first fenced block of a language on a page.
+pub fn block(page: &str, language: &str) -> String {
+    let text = read(page);
+    let start = format!("```{language}\n");
+    let (_, rest) = text.split_once(&start).unwrap_or_else(|| panic!("{page} has no {start}"));
+    rest.split_once("```").unwrap().0.to_owned()
+}
+
+/// A table in Markdown, from its header and the cells of its rows.
+pub fn markdown<const N: usize>(header: [&str; N], rows: impl Iterator<Item = [String; N]>) -> String {
+    let head = format!("| {} |\n|{}\n", header.join(" | "), " --- |".repeat(N));
+    head + &rows.map(|cells| format!("| {} |\n", cells.join(" | "))).collect::<String>()
+}
+
+/// Text of the program for a page, with escaped asterisks.
+fn escaped(text: &str) -> String {
+    text.replace('*', "\\*")
+}
+
+#[test]
+fn tables_are_those_of_the_program() {
+    check("docs/keys.md", "keys", &keys::markdown());
+    let plans = asperity::study::plans().iter().map(|plan| {
+        let read = Plan::open(plan.name, &Changes::default()).unwrap();
+        let cells: u64 = read.axes.iter().chain(&read.preloads).map(Axis::count).product();
+        [format!("`{}`", plan.name), cells.to_string(), read.lines.to_string(), read.title.clone()]
+    });
+    check("docs/studies.md", "plans", &markdown(["plan", "cells", "random profiles", "title"], plans));
+    let quantities = Quantity::ALL.iter().map(|one| {
+        [format!("`{}`", one.name()), escaped(one.symbol()), one.unit().to_owned(), escaped(one.meaning())]
+    });
+    check("docs/studies.md", "quantities", &markdown(["quantity", "symbol", "unit", "meaning"], quantities));
+    let scenes = presets().iter().map(|preset| {
+        let document = asperity::scene::open(preset.name).unwrap();
+        [format!("`{}`", preset.name), document.scene().notice.clone()]
+    });
+    check("docs/scene-file.md", "scenes", &markdown(["scene", "what it shows"], scenes));
+    let legs = [&LEG_FORCE, &LEG_INDENTATION];
+    let fields = FIELDS.iter().chain(legs).filter(|field| field.range != Range::Group).map(|field| {
+        let of = field.variant.map_or(String::new(), |variant| format!(" ({variant})"));
+        let code = |text: &str| if text.is_empty() { String::new() } else { format!("`{text}`") };
+        let allowed = match field.range {
+            Range::Choice(choices) => choices.iter().map(|one| code(one)).collect::<Vec<_>>().join(", "),
+            _ => field.allowed(),
+        };
+        let name = format!("`{}`{of}", field.path);
+        [name, field.symbol.to_owned(), allowed, code(field.default), field.meaning.to_owned()]
+    });
+    check(
+        "docs/scene-file.md",
+        "fields",
+        &markdown(["field", "symbol", "allowed", "left out", "means"], fields),
+    );
+    let pages =
+        PAGES.iter().map(|(page, content)| [format!("[docs/{page}](docs/{page})"), (*content).to_owned()]);
+    check("README.md", "pages", &markdown(["page", "content"], pages));
+}
+
+#[test]
+fn the_readme_is_short_and_lists_all_pages() {
+    let listed = PAGES.map(|(page, _)| format!("docs/{page}"));
+    assert!(pages_in("docs").iter().all(|page| listed.contains(page)), "{:?}", pages_in("docs"));
+    let lines = read("README.md").lines().count();
+    assert!(lines <= LONGEST_README, "README.md has {lines} lines; allowed: at most {LONGEST_README}");
+    let version = format!("version: {}\n", env!("CARGO_PKG_VERSION"));
+    assert!(read("CITATION.cff").contains(&version), "CITATION.cff lacks {version}");
+}
+
+/// Relative error of the smallest force, −(3/2)πγR, of a sphere with γ = E* R on a profile of length 12 R.
+fn error_of_a_sphere(points: u32, edges: &str) -> f64 {
+    let text = format!(
+        "(version: 1, material: (effective_modulus: 1.0), length: 6.0, form: Paraboloid(radius: 0.5), \
+         adhesion: (work: 0.5), loading: [ToIndentation(0.75), ToSeparation], \
+         numerics: (points: {points}, edges: {edges}))"
+    );
+    let document = Document::parse(&text, "sphere").unwrap();
+    let outcome = Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
+    (outcome.figures.adhesion_force.unwrap() / (1.5 * std::f64::consts::PI * 0.25) - 1.0).abs()
+}
+
+#[test]
+fn errors_of_a_sphere_are_those_of_the_program() {
+    let rows = [("SubCell", "edges between springs"), ("Grid", "whole springs")].map(|(edges, words)| {
+        let error = |points| format!("{:.1e}", error_of_a_sphere(points, edges));
+        [
+            format!("`edges: {edges}`, {words}"),
+            error(100),
+            error(300),
+            error(1000),
+            error(3000),
+            error(10_000),
+        ]
+    });
+    let table = markdown(["springs N", "100", "300", "1000", "3000", "10000"], rows.into_iter());
+    check("README.md", "sphere", &format!("\n{table}\n"));
+}
+
+#[test]
+fn pictures_are_those_of_their_commands() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("docs")).unwrap();
+    for (page, command) in [
+        ("README.md", "asperity demo pressure-sensitive --at 9 --size 120x36 --picture docs/explorer.svg"),
+        ("docs/reversals.md", "asperity reversals pressure-sensitive --count 64 -o docs/reversals.svg"),
+    ] {
+        assert!(read(page).contains(command), "{page} lacks: {command}");
+        succeeded(folder.path(), command);
+        let file = command.rsplit(' ').next().unwrap();
+        compare(file, &std::fs::read_to_string(folder.path().join(file)).unwrap());
+    }
+}
+
+/// Runs a command in a folder.
+fn succeeded(folder: &Path, command: &str) -> String {
+    asperity_in(folder, &command.split(' ').skip(1).collect::<Vec<_>>()).succeeded()
+}
+
+#[test]
+fn the_figure_of_the_regimes_shows_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    std::fs::create_dir(folder.join("docs")).unwrap();
+    std::fs::write(folder.join("docs/regimes.ron"), read("docs/regimes.ron")).unwrap();
+    let readme = read("README.md");
+    let (_, commands) = readme.split_once("<!-- regimes command -->\n```sh\n").unwrap();
+    commands.split("```").next().unwrap().lines().for_each(|command| drop(succeeded(folder, command)));
+    compare("docs/regimes.svg", &std::fs::read_to_string(folder.join("docs/regimes.svg")).unwrap());
+    // The three sentences below the figure, and that of docs/model.md.
+    let summary = std::fs::read_to_string(folder.join("regimes/summary.csv")).unwrap();
+    let columns: Vec<&str> = summary.lines().next().unwrap().split(',').collect();
+    let column = |name: &str| columns.iter().position(|one| *one == name).unwrap();
+    let rows: Vec<Vec<f64>> = table(&summary).collect();
+    let of = |kappa: f64, name: &str| -> Vec<f64> {
+        rows.iter().filter(|row| row[column("kappa")] == kappa).map(|row| row[column(name)]).collect()
+    };
+    let shares = |kappa| of(kappa, "adhesion_share_mean");
+    assert!(shares(1.0).iter().all(|share| (share - 0.94).abs() < 0.005), "{:?}", shares(1.0));
+    assert!(of(1.0, "regime_pressure_insensitive").iter().all(|part| *part == 1.0));
+    let sensitive = shares(8.0);
+    assert!((sensitive[0] - 0.08).abs() < 0.005 && (sensitive[sensitive.len() - 1] - 0.54).abs() < 0.005);
+    assert!(sensitive.is_sorted() && of(8.0, "regime_pressure_sensitive").iter().all(|part| *part == 1.0));
+    assert!(shares(100.0).iter().all(|share| *share < 1e-6));
+    for (part, preload) in of(100.0, "regime_non_adhesive").into_iter().zip(of(100.0, "preload")) {
+        assert!(part == 1.0 || preload < 1e-4 * (1.0 - 1e-9), "{part} under {preload}");
+    }
+}
+
+#[test]
+#[ignore = "takes ten seconds or more; .ci/run runs it"]
+fn boundaries_are_those_of_the_program() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    succeeded(folder, "asperity sweep equation-15 -o edge");
+    let csv = succeeded(folder, "asperity sweep boundary edge --level 0.5 --level 0.1 --format csv");
+    // Four boundaries of each H and bandwidth: touch and zero force, at both levels.
+    let boundaries: Vec<Vec<f64>> = table(&csv).collect();
+    let rows = boundaries.chunks(4).map(|four| {
+        let cell = |one: usize| format!("{:.2} ({:.2}–{:.2})", four[one][4], four[one][7], four[one][8]);
+        [four[0][0].to_string(), four[0][1].to_string(), cell(0), cell(1), cell(2), cell(3)]
+    });
+    let header = ["H", "k_max", "touch, 0.5", "touch, 0.1", "zero force, 0.5", "zero force, 0.1"];
+    check("docs/studies.md", "boundaries", &markdown(header, rows));
+    succeeded(folder, "asperity sweep elastic-energy -o energy");
+    let rows = ["kappa", "elastic_energy_ratio"].map(|over| {
+        let csv = succeeded(
+            folder,
+            &format!("asperity sweep boundary energy --level 0.5 --level 0.1 --over {over} --format csv"),
+        );
+        let boundaries: Vec<Vec<f64>> = table(&csv).collect();
+        let range = |place: usize| {
+            let values = boundaries.iter().skip(place).step_by(4).map(|boundary| boundary[5]);
+            let (low, high) =
+                values.fold((f64::INFINITY, 0.0_f64), |(low, high), one| (low.min(one), high.max(one)));
+            format!("{low:.2} to {high:.2}")
+        };
+        let name = if over == "kappa" { "κ\\*" } else { "(e_el/γ)\\*" };
+        [name.to_owned(), range(0), range(1), range(2), range(3)]
+    });
+    check(
+        "docs/studies.md",
+        "energies",
+        &markdown(["boundary", header[2], header[3], header[4], header[5]], rows.into_iter()),
+    );
+}
+
+/// The table of docs/studies.md is of 2^19 springs; 2^13 have its values within their spread.
+#[test]
+#[ignore = "takes ten seconds or more; .ci/run runs it"]
+fn the_stiffness_without_adhesion_has_the_exponent_of_theory() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let plan = succeeded(folder, "asperity sweep plans stiffness-exponent");
+    std::fs::write(folder.join("plan.ron"), plan.replace("[8192, 65536, 524288]", "[8192]")).unwrap();
+    succeeded(folder, "asperity sweep plan.ron -o stiffness");
+    let summary = std::fs::read_to_string(folder.join("stiffness/summary.csv")).unwrap();
+    let fitted: Vec<f64> = table(&summary).map(|row| row[6]).collect();
+    let stated = [0.844, 0.0, 0.772, 0.719, 0.668, 0.624, 0.588, 0.553, 0.522];
+    let is_stated = |(fitted, stated): (&f64, f64)| stated == 0.0 || (fitted - stated).abs() < 0.02;
+    assert!(fitted.len() == 9 && fitted.iter().zip(stated).all(is_stated), "{fitted:?}");
+}
+
+/// The third step of the tour raises the pull-off force from 17 to 66 µN.
+#[test]
+fn the_tour_shows_a_staircase() {
+    let scene = asperity::scene::open("pressure-sensitive").unwrap();
+    let mut force = "1.0e-5".to_owned();
+    let forces = [0, 1, 2, 3].map(|step| {
+        if step > 0 {
+            force = LEG_FORCE.stepped(&force, 1, false).unwrap();
+        }
+        let pressed = scene.set("loading.0.0", &force).unwrap();
+        let outcome = Simulation::default().run(pressed.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
+        (1e6 * outcome.figures.adhesion_force.unwrap()).round()
+    });
+    assert_eq!(forces, [17.0, 17.0, 17.0, 66.0]);
+}
+
+#[test]
+fn the_regimes_are_those_of_the_program() {
+    let model = read("docs/model.md");
+    for row in [
+        format!(
+            "| pressure-insensitive | F_a(0) ≥ {INSENSITIVE_SHARE} F_a and F_a(0) ≥ {VANISHING_SHARE} F_smooth |"
+        ),
+        format!(
+            "| non-adhesive | F_a ≤ {NEGLIGIBLE_COEFFICIENT} F_n; without a preload: F_a < {VANISHING_SHARE} F_smooth |"
+        ),
+    ] {
+        assert!(model.contains(&row), "docs/model.md lacks: {row}");
+    }
+}
+
+/// docs/reversals.md: F_a/F_n of the mean over profiles varies from 0.5 to 40 µN by a factor of 3 near κ = 6, and by more
+/// far from it.
+#[test]
+#[ignore = "takes ten seconds or more; .ci/run runs it"]
+fn adhesion_grows_roughly_with_the_load_near_a_kappa_of_six() {
+    for (kappa, least, most) in [("6", 2.0, 3.5), ("8", 6.0, 10.0), ("10", 20.0, 40.0)] {
+        let set = format!("adhesion.kappa={kappa}");
+        let preloads = ["--preloads", "0.5uN..40uN:80", "--lines", "128", "--format", "json"];
+        let run = json(&[&["run", "pressure-sensitive", "--set", &set], &preloads[..]].concat());
+        let number = |value: &serde_json::Value| value.as_f64().unwrap();
+        let ratios = run["mean"].as_array().unwrap().iter();
+        let ratios: Vec<f64> =
+            ratios.map(|row| number(&row["adhesion_force"]["mean"]) / number(&row["preload"])).collect();
+        let factor =
+            ratios.iter().copied().fold(0.0, f64::max) / ratios.iter().copied().fold(f64::INFINITY, f64::min);
+        assert!((least..most).contains(&factor), "κ = {kappa}: {factor}");
+    }
+}
+
+/// The anchor of a heading on code hosts.
+fn anchor(heading: &str) -> String {
+    let kept = heading.trim().to_lowercase().replace(' ', "-");
+    kept.chars().filter(|c| c.is_alphanumeric() || matches!(c, '-' | '_')).collect()
+}
+
+#[test]
+fn links_and_paths_lead_somewhere() {
+    let others = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "fuzz/README.md"].map(String::from);
+    for page in pages_in("docs").into_iter().chain(others) {
+        let (text, folder) = (read(&page), Path::new(&page).parent().unwrap());
+        for link in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+            if link.starts_with("http") || link.contains([' ', '\n']) {
+                continue;
+            }
+            let (file, heading) = link.split_once('#').unwrap_or((link, ""));
+            let target: PathBuf = if file.is_empty() { page.clone().into() } else { folder.join(file) };
+            assert!(root().join(&target).exists(), "{page}: {link} leads nowhere");
+            let text = if heading.is_empty() { String::new() } else { read(target.to_str().unwrap()) };
+            let mut headings = text.lines().filter_map(|line| line.strip_prefix('#'));
+            let found = headings.any(|line| anchor(line.trim_start_matches('#')) == heading);
+            assert!(heading.is_empty() || found, "{page}: {link} has no such heading");
+        }
+        let code = text.split('`').skip(1).step_by(2);
+        for word in code.filter_map(|code| code.split_whitespace().next()) {
+            let is_path = ["src/", "tests/", "docs/", "fuzz/"].iter().any(|folder| word.starts_with(folder));
+            let exists = || root().join(word).exists() || word.contains('*') || page == "CHANGELOG.md";
+            assert!(!is_path || exists(), "{page}: there is no {word}");
+        }
+    }
+}
+
+#[test]
+fn examples_of_files_are_allowed() {
+    Document::parse(&block("docs/scene-file.md", "ron"), "docs/scene-file.md").unwrap();
+    Plan::parse(&block("docs/studies.md", "ron"), "docs/studies.md", &Changes::default()).unwrap();
+}

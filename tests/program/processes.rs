@@ -1,0 +1,122 @@
+//! Processes of the program: killed, left by their readers, asked for help, and recording a demo.
+
+use super::common::deadline::within;
+use super::program::{program, text};
+use serde_json::Value;
+use std::fs;
+use std::io::{BufRead, BufReader, Read};
+use std::process::Stdio;
+
+#[cfg(unix)]
+#[test]
+fn a_process_that_is_killed_while_it_writes_leaves_nothing_behind() {
+    within(120, || {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("out.csv");
+        let arguments = ["run", "jkr-sphere", "--set", "numerics.samples=200000", "--force", "-o"];
+        let clock = std::time::Instant::now();
+        assert!(program().args(arguments).arg(&out).status().unwrap().success());
+        let (whole, time) = (fs::read(&out).unwrap(), clock.elapsed());
+        for (round, share) in (0..16).map(|round| (round, 0.1 + 0.06 * f64::from(round))) {
+            if round % 2 == 0 {
+                fs::remove_file(&out).unwrap();
+            }
+            let mut run = program().args(arguments).arg(&out).spawn().unwrap();
+            std::thread::sleep(time.mul_f64(share));
+            run.kill().unwrap();
+            run.wait().unwrap();
+            assert!(!out.exists() || fs::read(&out).unwrap() == whole, "a file is whole or not there");
+            fs::write(&out, &whole).unwrap();
+        }
+        assert!(program().args(arguments).arg(&out).status().unwrap().success());
+        let names = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name());
+        assert_eq!(names.collect::<Vec<_>>(), ["out.csv"]);
+    });
+}
+
+#[test]
+fn a_reader_may_leave_at_any_time() {
+    for arguments in [
+        &["line", "million-springs"][..],
+        &["run", "million-springs", "--format", "json", "--set", "numerics.samples=20000"],
+        &["run", "jkr-sphere"],
+        &["demo", "--fps", "2"],
+        &["--help"],
+    ] {
+        let mut child =
+            program().args(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let (mut first, mut stderr) = (String::new(), String::new());
+        BufReader::new(child.stdout.take().unwrap()).read_line(&mut first).unwrap();
+        child.stderr.take().unwrap().read_to_string(&mut stderr).unwrap();
+        assert_eq!((child.wait().unwrap().code(), stderr.as_str()), (Some(0), ""), "{arguments:?}");
+    }
+}
+
+/// Commands listed in a help.
+fn commands(help: &str) -> impl Iterator<Item = &str> {
+    let listed = help.split_once("Commands:\n").map_or("", |(_, rest)| rest.split("\n\n").next().unwrap());
+    let names = listed.lines().filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
+    names.filter(|name| !name.is_empty() && *name != "help")
+}
+
+#[test]
+fn help_is_for_reading() {
+    let mut left: Vec<Vec<String>> = vec![Vec::new()];
+    let mut seen = 0;
+    while let Some(command) = left.pop() {
+        seen += 1;
+        for flag in ["-h", "--help"] {
+            let help = text(&[command.iter().map(String::as_str).collect(), vec![flag]].concat());
+            assert!(help.contains("Usage: asperity"), "{help}");
+            assert!(
+                help.contains("Examples:") || command.first().is_some_and(|room| room == "presets"),
+                "{help}"
+            );
+            assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");
+            if flag == "-h" {
+                left.extend(commands(&help).map(|name| [&command[..], &[name.to_owned()]].concat()));
+            }
+        }
+    }
+    assert!(seen >= 20, "{seen} commands");
+}
+
+#[test]
+fn a_demo_is_text_in_a_pipe_and_its_recording_plays_the_same_frames() {
+    within(60, || {
+        let demo = |more: &[&str]| text(&[&["demo", "jkr-sphere"], more].concat());
+        let frames = demo(&["--size", "100x30"]);
+        let heads: Vec<&str> = frames.lines().filter(|line| line.starts_with("== ")).collect();
+        assert_eq!((heads.len(), heads[0], heads[12]), (13, "== 0.00 s ==", "== 12.00 s =="));
+        assert!(!frames.contains(['\u{1b}', '\r']) && frames.contains("Force F(d)") && frames.contains('⠒'));
+        assert!(frames.lines().count() == 13 * 31 && frames.lines().all(|line| line.chars().count() <= 100));
+        assert_eq!(frames, demo(&["--size", "100x30", "--frames"]), "the same every time");
+        let ascii = demo(&["--size", "100x30", "--ascii", "--fps", "0.5"]);
+        assert!(ascii.bytes().all(|byte| byte == b'\n' || (b' '..=b'~').contains(&byte)));
+        assert!(
+            demo(&["--set", "adhesion.work=0.06", "--at", "1"]).contains("60 mJ/m²"),
+            "overrides have an effect"
+        );
+        assert_ne!(demo(&["--at", "3"]), demo(&["--at", "9"]));
+
+        let folder = tempfile::tempdir().unwrap();
+        let recorded = |name: &str| {
+            let file = folder.path().join(name);
+            demo(&["--size", "80x24", "--fps", "4", "--cast", file.to_str().unwrap()]);
+            fs::read_to_string(file).unwrap()
+        };
+        let recording = recorded("a.cast");
+        assert_eq!(recording, recorded("b.cast"));
+        let lines: Vec<Value> = recording.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+        assert_eq!(
+            (&lines[0]["version"], &lines[0]["width"], &lines[0]["height"]),
+            (&2.into(), &80.into(), &24.into())
+        );
+        let times: Vec<f64> = lines[1..].iter().map(|line| line[0].as_f64().unwrap()).collect();
+        assert!(times.len() > 40 && times.is_sorted_by(|a, b| a < b), "{times:?}");
+        let mut terminal = vt100::Parser::new(24.try_into().unwrap(), 80.try_into().unwrap(), 0);
+        lines[1..].iter().for_each(|line| terminal.process(line[2].as_str().unwrap().as_bytes()));
+        let shown: Vec<String> = terminal.screen().rows(0, 80).map(|row| row.trim_end().to_owned()).collect();
+        assert_eq!(shown, demo(&["--size", "80x24", "--at", "100"]).lines().collect::<Vec<_>>());
+    });
+}

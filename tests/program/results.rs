@@ -1,0 +1,243 @@
+//! Results of the program: JSON, tables and texts agree with each other, with the plan, and with a run of their own.
+
+use super::console::shell;
+use super::program::{json, rows, table, text};
+use serde_json::Value;
+
+/// Keys of `run --format json` and of two of its parts, in their order.
+const KEYS: &str = "scene line kappa elastic_energy elastic_energy_ratio regime ideal_adhesion_force preload \
+    preload_indentation adhesion_force adhesion_coefficient pull_off_indentation dissipated_energy tabor_number curve \
+    contacts work timings";
+const LINE_KEYS: &str = "points length spacing rms_height rms_gradient modes seed";
+const CURVE_KEYS: &str = "leg,indentation,force,contact_length,fragments,stored_energy";
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is not a number"))
+}
+
+fn array(value: &Value) -> &Vec<Value> {
+    value.as_array().unwrap_or_else(|| panic!("{value} is not a list"))
+}
+
+fn presets() -> Vec<String> {
+    let listed = json(&["presets", "list", "--format", "json"]);
+    array(&listed).iter().map(|preset| preset["name"].as_str().unwrap().to_owned()).collect()
+}
+
+/// Keys of an object whose entries have lines of their own.
+fn keys(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().filter_map(|line| line.strip_prefix("  \"")?.split_once('"')).map(|(key, _)| key)
+}
+
+#[test]
+fn every_scene_gives_the_documented_json() {
+    let sensitive = |sets: &[&str]| {
+        let sets = sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]);
+        std::iter::once("pressure-sensitive".to_owned()).chain(sets).collect()
+    };
+    let presets = presets().into_iter().map(|name| vec![name]);
+    for scene in presets.chain([
+        sensitive(&["loading=[ToForce(1e-5)]", "observe=[Fragments, HeightHistogram]"]),
+        sensitive(&["adhesion=None", "roughness=None", "numerics.points=1", "form=None"]),
+        sensitive(&["numerics.solver=Stepwise(step: 1e-9)", "numerics.points=1024"]),
+        sensitive(&["loading=[ToIndentation(-1e-9)]"]),
+        sensitive(&["loading=[ToTouch, ToZeroForce, ToSeparation, ToForce(1e-6)]", "numerics.samples=2"]),
+    ]) {
+        let scene: Vec<&str> = scene.iter().map(String::as_str).collect();
+        let run =
+            |command: &str, format: &str| text(&[&[command], &scene[..], &["--format", format]].concat());
+        let (written, plan) = (run("run", "json"), run("plan", "json"));
+        assert!(
+            keys(&written).filter(|key| KEYS.split(' ').any(|one| one == *key)).eq(KEYS.split(' ')),
+            "{scene:?}"
+        );
+        let object: Value = serde_json::from_str(&written).unwrap();
+        assert!(LINE_KEYS.split(' ').all(|key| object["line"].get(key).is_some()), "{}", object["line"]);
+        let spacing = number(&object["line"]["spacing"]);
+        for point in array(&object["curve"]) {
+            assert!(CURVE_KEYS.split(',').all(|key| point[key].is_number()), "{scene:?}: {point}");
+            let (length, patches) = (number(&point["contact_length"]), number(&point["fragments"]));
+            assert!(length >= 0.0 && (patches > 0.0 || length == 0.0), "{scene:?}: {point}");
+        }
+        // The contact at the end is that of the last point, and each edge lies within a cell of the last spring.
+        let (end, contacts) = (array(&object["curve"]).last().unwrap(), array(&object["contacts"]));
+        assert_eq!(contacts.len() as f64, number(&end["fragments"]), "{scene:?}");
+        let springs: f64 = contacts.iter().map(|run| number(&run[1]) - number(&run[0]) + 1.0).sum();
+        let beyond = number(&end["contact_length"]) / spacing - springs;
+        assert!(beyond.abs() <= contacts.len() as f64 * (1.0 + 1e-9), "{scene:?}: {beyond} cells");
+        if let [preset] = scene[..] {
+            assert_plan(&serde_json::from_str(&plan).unwrap(), &object, preset);
+        }
+        let summary = run("run", "text");
+        assert!(summary.lines().all(|line| line.chars().count() <= 80), "{summary}");
+        assert!(!summary.contains("NaN") && !summary.contains('\u{1b}'), "{summary}");
+    }
+}
+
+/// The plan counts the work that the run has done.
+fn assert_plan(plan: &Value, run: &Value, scene: &str) {
+    let stage = |name: &str| array(&plan["stages"]).iter().find(|stage| stage["stage"] == name).unwrap();
+    let runs = |name: &str| stage(name)["runs"].as_bool().unwrap();
+    let work = |key: &str| run["work"][key].as_u64();
+    assert_eq!(plan["springs"].as_u64(), work("springs"), "{scene}");
+    for (name, passes) in [("zero-load-adhesion", "zero_load_passes"), ("synthesis", "transforms")] {
+        assert_eq!(stage(name)["passes"].as_u64().unwrap_or(0), work(passes).unwrap(), "{scene}: {name}");
+    }
+    for (name, done) in [
+        ("loading-pass", work("loading_passes") > Some(0)),
+        ("unloading-pass", work("unloading_passes") > Some(0)),
+        // A smooth body has no local maximum of the gap, and so no node.
+        ("tree", work("loading_passes") > Some(0)),
+        ("relaxation", work("steps") > Some(0)),
+        ("height-histogram", !run["histogram"].is_null()),
+        ("fragments", !run["fragments"].is_null()),
+    ] {
+        assert_eq!(runs(name), done, "{scene}: {name}");
+    }
+    assert!(array(&plan["stages"]).iter().all(|stage| stage["because"] != ""), "{plan}");
+}
+
+#[test]
+fn figures_follow_from_the_curve_and_the_table_is_the_curve() {
+    let run = |more: &[&str]| text(&[&["run", "rough-sphere", "--set", "roughness.seed=3"], more].concat());
+    let written = run(&["--format", "json"]);
+    let object: Value = serde_json::from_str(&written).unwrap();
+    let forces = || array(&object["curve"]).iter().map(|point| number(&point["force"]));
+    let (smallest, largest) = (forces().fold(0.0, f64::min), forces().fold(0.0, f64::max));
+    assert_eq!((number(&object["adhesion_force"]), number(&object["preload"])), (-smallest, largest));
+    assert!((number(&object["adhesion_coefficient"]) * largest + smallest).abs() < 1e-12 * largest);
+    let coarse: Value =
+        serde_json::from_str(&run(&["--format", "json", "--set", "numerics.samples=7"])).unwrap();
+    for key in ["adhesion_force", "preload", "pull_off_indentation", "dissipated_energy"] {
+        let (one, other) = (number(&object[key]), number(&coarse[key]));
+        assert!((one - other).abs() <= 1e-9 * one.abs(), "{key}: {one} {other}");
+    }
+    // From the text itself, to the last digit: a general reader of JSON rounds.
+    let point = |line: &str| -> Option<Vec<f64>> {
+        let entries = line.strip_prefix("    {\"leg\"")?.trim_end_matches(['}', ',']);
+        Some(entries.split(", ").map(|entry| entry.rsplit(": ").next().unwrap().parse().unwrap()).collect())
+    };
+    let csv = run(&["--format", "csv"]);
+    assert_eq!(rows(&csv).next(), Some(CURVE_KEYS));
+    assert!(written.lines().filter_map(point).eq(table(&csv)) && table(&csv).count() > 1000);
+}
+
+#[test]
+fn a_profile_that_is_written_and_measured_gives_the_same_loop() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let stylus =
+        (0..=150).map(|x| format!("{:e} {:e}\n", f64::from(x) * 1e-6, 3.0 + 1e-8 * f64::from(x % 7)));
+    std::fs::write(path("stylus.txt"), stylus.collect::<String>()).unwrap();
+    let write = |name: &str, form: &str, roughness: &str, numerics: &str| {
+        let text = format!(
+            "(version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4, form: {form}, roughness: {roughness}, \
+             adhesion: (work: 0.02), observe: [Fragments], numerics: (samples: 50, {numerics}), \
+             loading: [ToForce(3.0e-4), ToZeroForce, ToForce(6.0e-4), ToSeparation])"
+        );
+        std::fs::write(path(name), text).unwrap();
+        path(name)
+    };
+    let rough = "SelfAffine(hurst: 0.7, rms_height: 3.0e-7, modes: (1, 100), seed: 4)";
+    let measured = "Measured(file: \"stylus.txt\")";
+    for (form, roughness, numerics) in [
+        ("None", rough, "points: 201, edges: SubCell"),
+        ("None", measured, "points: 317, edges: Grid"),
+        ("Paraboloid(radius: 5.0e-4)", rough, "points: 200, edges: Grid"),
+        ("Paraboloid(radius: 5.0e-4)", measured, "points: 1024, edges: SubCell"),
+        ("Cone(angle: 0.05)", "None", "points: 200, edges: SubCell"),
+        ("Power(coefficient: 1.0e7, exponent: 3.0)", rough, "points: 1024, edges: SubCell"),
+    ] {
+        let made = write("made.ron", form, roughness, numerics);
+        text(&["line", &made, "--force", "-o", &path("line.csv")]);
+        let measured = write("measured.ron", "None", "Measured(file: \"line.csv\")", numerics);
+        let curves = [&made, &measured].map(|scene| text(&["run", scene, "--format", "csv"]));
+        assert!(
+            rows(&curves[0]).eq(rows(&curves[1])) && rows(&curves[0]).count() > 100,
+            "{form}, {roughness}, {numerics}"
+        );
+        let [made, measured] = [&made, &measured].map(|scene| json(&["run", scene, "--format", "json"]));
+        assert!(number(&made["dissipated_energy"]) > 0.0);
+        for key in [
+            "zero_load_adhesion_force",
+            "preload_indentation",
+            "adhesion_force",
+            "dissipated_energy",
+            "fragments",
+        ] {
+            assert_eq!(made[key], measured[key], "{key}: {form}, {roughness}, {numerics}");
+        }
+    }
+}
+
+/// Few springs, for a profile that is only inspected.
+const FEW: [&str; 5] =
+    ["pressure-sensitive", "--set", "numerics.points=1024", "--set", "roughness.modes=(4, 64)"];
+
+#[test]
+fn preloads_and_profiles_are_those_of_runs_of_their_own() {
+    let alone = |set: &str| json(&[&["run"], &FEW[..], &["--set", set, "--format", "json"]].concat());
+    let many = |more: &[&str]| text(&[&["run"], &FEW[..], more].concat());
+    let preloads = many(&["--preloads", "0..20uN:5", "--format", "csv"]);
+    let of_preload = table(&preloads).nth(3).unwrap();
+    let one = alone(&format!("loading=[ToForce({:e}), ToSeparation]", of_preload[1]));
+    for (key, column) in [("preload_indentation", 2), ("adhesion_force", 3), ("dissipated_energy", 5)] {
+        assert_eq!(number(&one[key]), of_preload[column], "{key}");
+    }
+    let object: Value =
+        serde_json::from_str(&many(&["--lines", "6", "--set", "roughness.seed=5", "--format", "json"]))
+            .unwrap();
+    let lines = array(&object["lines"]);
+    let seven = alone("roughness.seed=7");
+    for key in ["adhesion_force", "preload_indentation", "dissipated_energy", "regime"] {
+        assert_eq!(lines[2][key], seven[key], "{key}");
+    }
+    let forces = lines.iter().map(|line| number(&line["adhesion_force"]));
+    let mean = forces.clone().sum::<f64>() / 6.0;
+    let deviation = (forces.map(|force| (force - mean).powi(2)).sum::<f64>() / 5.0).sqrt();
+    let statistics = &object["adhesion_force"];
+    for (found, expected) in [(&statistics["mean"], mean), (&statistics["standard_deviation"], deviation)] {
+        assert!((number(found) / expected - 1.0).abs() < 1e-8, "{found} for {expected}");
+    }
+    let of_preloads = many(&["--preloads", "0..20uN:5", "--lines", "3", "--format", "json"]);
+    let of_preloads: Value = serde_json::from_str(&of_preloads).unwrap();
+    assert_eq!(
+        (array(&of_preloads["lines"]).len(), &of_preloads["mean"][4]["adhesion_force"]["count"]),
+        (3, &3.into())
+    );
+}
+
+#[test]
+fn reversals_end_at_their_turning_points() {
+    let run = |more: &[&str]| text(&[&["reversals"], &FEW[..], &["--count", "12"], more].concat());
+    let object: Value = serde_json::from_str(&run(&["--format", "json", "--smoothing", "1"])).unwrap();
+    let (reversals, forces, indentations) =
+        (array(&object["reversals"]), array(&object["forces"]), array(&object["indentations"]));
+    assert_eq!((reversals.len(), forces.len()), (12, 12));
+    for (reversal, forces) in reversals.iter().zip(forces) {
+        let forces = array(forces);
+        assert_eq!(forces.last(), Some(&reversal["turning_force"]));
+        assert_eq!(indentations[forces.len() - 1], reversal["turning_indentation"]);
+    }
+    let points: usize = forces.iter().map(|forces| array(forces).len()).sum();
+    assert_eq!(rows(&run(&["--map"])).count(), 1 + points);
+}
+
+/// The table of docs/accuracy.md: more springs, with as many more waves, bring no heights nearer to a bell curve.
+#[test]
+fn heights_do_not_average_themselves() {
+    let folder = tempfile::tempdir().unwrap();
+    for n in [10, 12, 14] {
+        let command = format!(
+            "asperity run profile-hurst-075 --lines 32 --set numerics.points=$((1 << {n})) \
+             --set \"roughness.modes=(1, $((1 << {n} - 1)))\" | grep rms"
+        );
+        let found = String::from_utf8(shell(&command, folder.path()).stdout).unwrap();
+        let words: Vec<&str> = found.split_whitespace().collect();
+        let numbers: Vec<f64> = words.iter().filter_map(|word| word.parse().ok()).collect();
+        assert!(
+            (numbers[0] - 0.491).abs() < 1e-3 && (numbers[1] - 0.845).abs() < 1e-3,
+            "2^{n} springs: {found}"
+        );
+    }
+}

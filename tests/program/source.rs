@@ -1,0 +1,289 @@
+//! The source as a whole: directions of imports, circles of files, words, first words of comments.
+
+use super::generated::root;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Rooms of the source from the ground up: each imports only earlier rooms.
+const ROOMS: &str = "text draw memory parallel io topography contact spectrum surface scene analysis reference simulation \
+    profile contact_cycle study accuracy check export explorer cli main";
+
+/// Rooms in which files use each other in a circle, and the most files of the circle. The list only becomes shorter: a room
+/// without its circle fails the test until its row is deleted.
+const CIRCLES: [(&str, usize); 6] = [
+    // Cases use the types of the file that lists them.
+    ("check", 5),
+    // Commands use the error of the file that calls them.
+    ("cli", 29),
+    // Errors have targets and targets return errors; springs own the tree of their gaps; the record of a history has legs.
+    ("contact", 12),
+    // Parts use the sizes of the file that puts them together.
+    ("draw", 5),
+    // Update, keys, panes and views before their rebuild.
+    ("explorer", 54),
+    // The equivalent line has the options of the profile that is measured.
+    ("surface", 2),
+];
+
+/// Path of a module in the crate, as `["contact", "adhesive"]`.
+type Module = Vec<String>;
+
+/// Path and text of each file below a folder; the text of a file that holds none is empty.
+fn texts_below(folder: &str) -> Vec<(PathBuf, String)> {
+    let (mut texts, mut folders) = (Vec::new(), vec![root().join(folder)]);
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                let text = fs::read_to_string(&path).unwrap_or_default();
+                texts.push((path, text));
+            }
+        }
+    }
+    texts
+}
+
+/// Source files by their modules, without comments and tests.
+fn modules() -> BTreeMap<Module, String> {
+    let is_source = |path: &Path| path.extension().is_some_and(|extension| extension == "rs");
+    let of = |(path, text): (PathBuf, String)| {
+        let inside = path.strip_prefix(root().join("src")).unwrap().with_extension("");
+        let parts = inside.iter().map(|part| part.to_str().unwrap().to_owned());
+        let code = text.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
+        let lines: Vec<&str> = code.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
+        (parts.filter(|part| part != "mod" && part != "lib").collect(), lines.join("\n"))
+    };
+    texts_below("src").into_iter().filter(|(path, _)| is_source(path)).map(of).collect()
+}
+
+fn is_part_of_name(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
+/// Adds the paths of a tree of imports to `found`, and returns the rest of the text.
+fn multiply_out<'t>(prefix: &mut Module, text: &'t str, found: &mut Vec<Module>) -> &'t str {
+    let text = text.trim_start();
+    if let Some(mut inside) = text.strip_prefix('{') {
+        loop {
+            inside = multiply_out(&mut prefix.clone(), inside, found).trim_start();
+            inside = inside.find([',', '}']).map_or("", |end| &inside[end..]);
+            match inside.strip_prefix(',').map(str::trim_start) {
+                Some(next) if !next.starts_with('}') => inside = next,
+                Some(next) => return &next[1..],
+                None => return inside.strip_prefix('}').unwrap_or(""),
+            }
+        }
+    }
+    let end = text.find(|c| !is_part_of_name(c)).unwrap_or(text.len());
+    prefix.push(text[..end].to_owned());
+    match text[end..].strip_prefix("::") {
+        Some(more) => multiply_out(prefix, more, found),
+        None => {
+            found.push(prefix.clone());
+            &text[end..]
+        }
+    }
+}
+
+/// Modules and the items that a file takes from them: of `use` and of paths in code, from the crate, from the modules
+/// above, from the modules below by their bare names, and through re-exports.
+struct Source {
+    modules: BTreeMap<Module, String>,
+    reexports: BTreeMap<Module, Module>,
+}
+
+impl Source {
+    fn new() -> Self {
+        let source = Source { modules: modules(), reexports: BTreeMap::new() };
+        let mut reexports = BTreeMap::new();
+        for (module, code) in &source.modules {
+            for (index, start) in code.match_indices("use ") {
+                if code[..index].rsplit('\n').next().unwrap().starts_with("pub") {
+                    let mut found = Vec::new();
+                    multiply_out(&mut Vec::new(), &code[index + start.len()..], &mut found);
+                    let paths = found.iter().filter_map(|path| source.absolute(module, path));
+                    reexports
+                        .extend(paths.map(|path| ([&module[..], &path[path.len() - 1..]].concat(), path)));
+                }
+            }
+        }
+        Source { reexports, ..source }
+    }
+
+    /// A path in a file as one from the crate; `None` for paths out of other packages.
+    fn absolute(&self, module: &Module, path: &Module) -> Option<Module> {
+        let up = path.iter().take_while(|part| *part == "super").count();
+        let child = [&module[..], &path[..1]].concat();
+        match path[0].as_str() {
+            "crate" => Some(path[1..].to_vec()),
+            "self" => Some([&module[..], &path[1..]].concat()),
+            "super" => Some([&module[..module.len().checked_sub(up)?], &path[up..]].concat()),
+            _ if self.modules.contains_key(&child) => Some([&module[..], path].concat()),
+            _ => None,
+        }
+    }
+
+    /// The file of the item at the end of a path: re-exports lead to the file that has it.
+    fn file_of(&self, mut path: Module) -> Option<Module> {
+        for _ in 0..8 {
+            let longest = (1..=path.len()).rev().find(|&end| self.reexports.contains_key(&path[..end]));
+            let Some(end) = longest else { break };
+            let next = [&self.reexports[&path[..end]][..], &path[end..]].concat();
+            if next == path {
+                break;
+            }
+            path = next;
+        }
+        (1..=path.len()).rev().map(|end| path[..end].to_vec()).find(|part| self.modules.contains_key(part))
+    }
+
+    /// Files whose items a file uses; a `pub use` alone is the business of its users.
+    fn imports(&self, module: &Module) -> BTreeSet<Module> {
+        let code = &self.modules[module];
+        let mut found = Vec::new();
+        for (index, _) in code.match_indices("::") {
+            let start = code[..index].rfind(|c| !is_part_of_name(c)).map_or(0, |at| at + 1);
+            let statement = code[..start].rsplit(['\n', ';']).next().unwrap();
+            let is_first = !code[..start].ends_with("::") && start < index;
+            if is_first && !(statement.starts_with("pub") && statement.contains("use ")) {
+                multiply_out(&mut Vec::new(), &code[start..], &mut found);
+            }
+        }
+        let absolute = found.iter().filter_map(|path| self.absolute(module, path));
+        absolute.filter_map(|path| self.file_of(path)).filter(|there| there != module).collect()
+    }
+}
+
+#[test]
+fn rooms_import_in_one_direction() {
+    let source = Source::new();
+    let place = |module: &Module| {
+        let room = module.first().map_or("main", String::as_str);
+        ROOMS
+            .split(' ')
+            .position(|one| one == room)
+            .unwrap_or_else(|| panic!("{room} is not in the list of rooms"))
+    };
+    let mut seen = 0;
+    for here in source.modules.keys().filter(|here| !here.is_empty()) {
+        for there in source.imports(here) {
+            seen += 1;
+            assert!(place(&there) <= place(here), "{} imports {}", here.join("::"), there.join("::"));
+        }
+    }
+    assert!(seen > 500, "{seen} imports");
+}
+
+#[test]
+fn files_are_in_no_circle_but_the_listed_ones() {
+    let source = Source::new();
+    let imports: BTreeMap<&Module, BTreeSet<Module>> = source
+        .modules
+        .keys()
+        .filter(|module| !module.is_empty())
+        .map(|module| (module, source.imports(module)))
+        .collect();
+    // All files that a file leads to: a circle is a set of files that lead to each other.
+    let reached = |from: &Module| {
+        let (mut seen, mut next) = (BTreeSet::new(), vec![from.clone()]);
+        while let Some(file) = next.pop() {
+            let new = imports.get(&file).into_iter().flatten().filter(|there| seen.insert((*there).clone()));
+            next.extend(new.cloned().collect::<Vec<_>>());
+        }
+        seen
+    };
+    let reached: BTreeMap<&Module, BTreeSet<Module>> =
+        imports.keys().map(|file| (*file, reached(file))).collect();
+    let circle = |file: &Module| -> Vec<String> {
+        reached[file]
+            .iter()
+            .filter(|there| reached[*there].contains(file))
+            .map(|there| there.join("::"))
+            .collect()
+    };
+    let found: BTreeSet<Vec<String>> =
+        reached.keys().map(|file| circle(file)).filter(|circle| !circle.is_empty()).collect();
+    let room = |circle: &Vec<String>| circle[0].split("::").next().unwrap().to_owned();
+    let rooms: Vec<String> = found.iter().map(room).collect();
+    assert_eq!(rooms, CIRCLES.map(|(room, _)| room), "rooms with a circle of files: {found:?}");
+    for (circle, (room, most)) in found.iter().zip(CIRCLES) {
+        assert!(
+            circle.len() <= most,
+            "{room}: {} files in a circle; allowed: {most}: {circle:?}",
+            circle.len()
+        );
+    }
+}
+
+/// Files with this name as a whole, in order.
+fn files_that_name(name: &str) -> Vec<String> {
+    let is_whole = |code: &str, at: usize| !code[at + name.len()..].starts_with(is_part_of_name);
+    let names = |code: &str| code.match_indices(name).any(|(at, _)| is_whole(code, at));
+    modules().iter().filter(|(_, code)| names(code)).map(|(module, _)| module.join("::")).collect()
+}
+
+/// CONTRIBUTING.md states how many files an extension touches.
+#[test]
+fn few_files_name_a_pane_a_form_or_an_effect() {
+    for pane in ["Accuracy", "Spectrum", "Preloads", "Lengths"] {
+        // The file of the pane, the table of panes, that of keys, and the data or the demo.
+        let files = files_that_name(&format!("Pane::{pane}"));
+        assert!(!files.is_empty() && files.len() <= 4, "{pane}: {files:?}");
+    }
+    for form in ["Form::Paraboloid", "Form::Cone", "Form::Power", "Form::Punch"] {
+        // The profile of a sphere only constructs a form.
+        let files: Vec<String> = files_that_name(form).into_iter().filter(|file| file != "profile").collect();
+        assert_eq!(files, ["surface::form"], "{form}");
+    }
+    let files = files_that_name("closing_work");
+    assert!(files.len() <= 8, "a second work of adhesion is named in {files:?}");
+}
+
+/// Words that the glossary replaces.
+const REPLACED: [&str; 8] = ["tell", "tells", "told", "owe", "owes", "owed", "stands", "stood"];
+
+#[test]
+fn replaced_words_are_not_used() {
+    let folders =
+        ["src", "presets", "tests", "benches", "examples", "docs", "fuzz/src", "fuzz/fuzz_targets", ".ci"];
+    let pages = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "fuzz/README.md"];
+    let pages = pages.map(|page| (root().join(page), fs::read_to_string(root().join(page)).unwrap()));
+    let mut words = 0;
+    for (path, text) in folders.into_iter().flat_map(texts_below).chain(pages) {
+        if path.ends_with("program/source.rs") {
+            continue;
+        }
+        // The glossary ends with the words to avoid.
+        let text = text.split("## Words to avoid").next().unwrap();
+        for word in text.split(|c: char| !c.is_alphabetic()) {
+            words += 1;
+            assert!(!REPLACED.contains(&word), "{}: {word}", path.display());
+        }
+    }
+    assert!(words > 100_000, "{words} words");
+}
+
+/// First words that make a sentence of a comment an indirect question.
+const QUESTIONS: [&str; 6] = ["What ", "Whether ", "How ", "Why ", "Who ", "See the module"];
+
+#[test]
+fn comments_begin_with_a_noun_or_a_verb() {
+    let comment = |line: &str| {
+        let line = line.trim_start();
+        ["/// ", "//! "].iter().find_map(|mark| line.strip_prefix(mark)).map(str::to_owned)
+    };
+    let mut seen = 0;
+    for (path, text) in texts_below("src") {
+        let lines: Vec<Option<String>> = std::iter::once("").chain(text.lines()).map(comment).collect();
+        for pair in lines.windows(2).filter(|pair| pair[0].is_none()) {
+            let Some(first) = &pair[1] else { continue };
+            seen += 1;
+            let is_question = QUESTIONS.iter().any(|question| first.starts_with(question));
+            assert!(!is_question, "{}: {first}", path.display());
+        }
+    }
+    assert!(seen > 1000, "{seen} comments");
+}
