@@ -7,6 +7,7 @@ use super::{CostTable, ErrorFigure, Knob, Reference, Row, Timing};
 use crate::contact::ContactError;
 use crate::scene::{Edges, Scene, Solver, check, format_quantity};
 use crate::simulation::RunError;
+use crate::text::grouped;
 use realfft::RealFftPlanner;
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -126,7 +127,7 @@ impl Ladder<'_> {
             for (knob, setting, scene) in self.settings(points) {
                 let (named, rest) = match knob {
                     Knob::Step => (format_quantity(setting, "m"), "less"),
-                    _ => (format!("{points} springs"), "more"),
+                    _ => (format!("{} springs", grouped(points)), "more"),
                 };
                 if goes_on {
                     watch(Progress::Trying(knob, &named));

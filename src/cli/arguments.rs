@@ -12,13 +12,12 @@ Examples:
   asperity                                  Open the explorer
   asperity rough-sphere --set adhesion.work=0.1
                                             ... on a built-in scene, with one field changed
-  asperity study                            ... on the map of a finished parameter study
-  asperity run my-scene.ron                 Compute a scene and print what came out
-  asperity run jkr-sphere --format csv -o jkr.csv
-                                            ... and keep its force curve
-  asperity cost my-scene.ron                How many springs one per cent takes, and how long
+  asperity my-study                         ... on the map of a study, by its folder
+  asperity run my-scene.ron                 Compute a scene and print a summary
+  asperity run jkr-sphere -o jkr.csv        Write its force curve to a file
+  asperity cost my-scene.ron                Springs and time for an error of 1 %
 
-Exit codes: 0 done, 1 the input or the run failed, 2 wrong usage.";
+Exit codes: 0 success, 1 failure of the input or the run, 2 wrong usage.";
 
 /// Adhesion of rough elastic contacts: pull-off force and hysteresis for any loading history.
 ///
@@ -48,28 +47,28 @@ pub struct Arguments {
 pub enum Command {
     /// Compute a scene: a summary, JSON, or the curve as CSV
     Run(RunArguments),
-    /// Show two scenes side by side: profiles, force curves, what differs
+    /// Show two scenes side by side: profiles, force curves, differences
     Compare(CompareArguments),
-    /// Unload from many turning points: adhesion against preload, reversal curves
+    /// Unload a scene from many turning points: reversal curves, adhesion against preload
     Reversals(ReversalsArguments),
     /// Play the explorer without a keyboard: on screen, as text, or as a recording
     Demo(DemoArguments),
-    /// List the computing stages of a scene: run or skipped, reason, cost
+    /// List the computing stages of a scene with their cost, and those it skips
     Plan(PlanArguments),
     /// Measure errors against computing time for each setting that affects accuracy
     Cost(CostArguments),
     /// Compute a parameter study: many cells on many random profiles
     Sweep(SweepArguments),
-    /// Run the catalogue of numerically hard cases on this machine
+    /// Check this build against closed forms, laws and numerically hard cases
     Check(CheckArguments),
-    /// Print the rigid profile of a scene as CSV: x,z in m
+    /// Write the rigid profile of a scene as a table: x and z in m
     Line(LineArguments),
     /// Analyse measured surfaces: statistics, spectrum, equivalent line
     Surface(SurfaceArguments),
     /// List, show and check scenes
     #[command(subcommand)]
     Presets(PresetsCommand),
-    /// Print the configuration of the explorer, or write a file to begin with
+    /// Print the configuration of the explorer, or write a template of it
     Config(ConfigArguments),
     /// Print a completion script for a shell
     Completions(CompletionsArguments),

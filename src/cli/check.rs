@@ -1,24 +1,23 @@
 //! `asperity check`: closed forms, laws and hard cases, on this machine.
 
-use super::format::TEXT_OR_JSON;
+use super::output::{Origin, TEXT_OR_JSON, format_of};
 use super::progress::ProgressLine;
-use super::{CliError, Format, OutputArguments};
+use super::{CliError, OutputArguments};
 use crate::check::exhaustive::{every_history, every_order};
 use crate::check::{Case, Check, Verdict, catalogue, checks, judge};
-use crate::export::{check_text, write_check_json};
+use crate::export::Format;
 use clap::Args;
 use std::io::Write;
 
 const EXAMPLES: &str = "\
 Examples:
   asperity check                            All cases
-  asperity check --quick                    All but those that take seconds and much memory
-  asperity check sphere memory              Those with one of these words in their names
+  asperity check --quick                    All but the cases of seconds and much memory
+  asperity check sphere memory              Cases with one of these words in their names
   asperity check --format json -o check.json
-  asperity check --exhaustive               The engine on every line of up to 8 springs
+  asperity check --exhaustive               The engine on every profile of up to 8 springs
 
-Each case has one error, a bound stated beforehand, and the kinds of evidence that it gives.
-Exit code 1 when a case fails.";
+Each case has one error and a bound that was stated beforehand. The exit code is 1 if a case fails.";
 
 /// Most gaps of the lines that are judged exhaustively.
 const MOST_GAPS: usize = 8;
@@ -33,11 +32,11 @@ pub struct CheckArguments {
     /// Leave out cases that take seconds and hundreds of megabytes
     #[arg(long)]
     pub quick: bool,
-    /// Instead judge the engine on every line of up to 8 springs
+    /// Check the engine on every profile of up to 8 springs instead
     #[arg(long, conflicts_with_all = ["words", "quick", "format"])]
     pub exhaustive: bool,
     /// text or json; default: by the extension of FILE, else text
-    #[arg(long, value_parser = Format::parser(TEXT_OR_JSON), hide_possible_values = true)]
+    #[arg(long, value_parser = format_of(TEXT_OR_JSON), hide_possible_values = true)]
     pub format: Option<Format>,
     #[command(flatten)]
     pub output: OutputArguments,
@@ -59,13 +58,17 @@ impl CheckArguments {
             named && !(self.quick && case.large)
         };
         let chosen = checks(is_meant);
-        if chosen.is_empty() { Err(CliError::OnlyLargeCases) } else { Ok(chosen) }
+        if chosen.is_empty() {
+            let none = "--quick leaves out all of these cases: they take seconds and hundreds of megabytes";
+            return Err(CliError::Message(none.to_owned()));
+        }
+        Ok(chosen)
     }
 }
 
 /// Judges the engine on complete small worlds and writes the number of lines and of contacts that agree.
 fn check_all(arguments: &CheckArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    arguments.output.check()?;
+    arguments.output.format(None, &[Format::Text], Format::Text)?;
     let mut progress = ProgressLine::default();
     let failed = |error| CliError::named("exhaustive", error);
     let mut text =
@@ -82,7 +85,7 @@ fn check_all(arguments: &CheckArguments, stdout: &mut dyn Write) -> Result<(), C
         "Contacts of five springs after every history of up to three moves; all are as by the bare rules\n{contacts:>18}\n"
     );
     progress.clear();
-    arguments.output.write(stdout, |out| out.write_all(text.as_bytes()))
+    arguments.output.fill(stdout, |out| out.write_all(text.as_bytes()))
 }
 
 /// Runs the cases and writes their verdicts.
@@ -92,7 +95,6 @@ pub(super) fn check(arguments: &CheckArguments, stdout: &mut dyn Write) -> Resul
     }
     let chosen = arguments.chosen()?;
     let format = arguments.output.format(arguments.format, TEXT_OR_JSON, Format::Text)?;
-    arguments.output.check()?;
     let (mut progress, count) = (ProgressLine::default(), chosen.len());
     let run = |(index, check): (usize, Check)| {
         progress.show(&format!("{}/{count} {}", index + 1, check.case.name), None);
@@ -100,17 +102,17 @@ pub(super) fn check(arguments: &CheckArguments, stdout: &mut dyn Write) -> Resul
     };
     let verdicts: Vec<Verdict> = chosen.into_iter().enumerate().map(run).collect();
     progress.clear();
-    arguments.output.write(stdout, |out| match format {
-        Format::Json => write_check_json(out, &verdicts),
-        _ => out.write_all(check_text(&verdicts).as_bytes()),
-    })?;
+    arguments.output.write(stdout, &verdicts[..], format, Origin::Files(&[]))?;
     conclude(&verdicts)
 }
 
 /// Returns an error if a case fails.
 fn conclude(verdicts: &[Verdict]) -> Result<(), CliError> {
     let failed = verdicts.iter().filter(|verdict| !verdict.passes()).count();
-    if failed == 0 { Ok(()) } else { Err(CliError::CasesFail { failed, checks: verdicts.len() }) }
+    match failed {
+        0 => Ok(()),
+        _ => Err(CliError::Message(format!("{failed} of {} checks fail", verdicts.len()))),
+    }
 }
 
 #[cfg(test)]
@@ -138,7 +140,7 @@ mod tests {
         assert_eq!(names(&["cone", "memory"], false), ["cone", "return-point-memory"]);
         assert!(names(&[], false).contains(&"springs-2^24") && !names(&[], true).contains(&"springs-2^24"));
         assert!(matches!(arguments(&["cone", "trapezium"], false).chosen(), Err(CliError::Named { .. })));
-        assert!(matches!(arguments(&["2^24"], true).chosen(), Err(CliError::OnlyLargeCases)));
+        assert!(matches!(arguments(&["2^24"], true).chosen(), Err(CliError::Message(_))));
     }
 
     #[test]

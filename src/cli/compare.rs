@@ -1,11 +1,11 @@
 //! `asperity compare A B`: two scenes side by side, in the explorer or as text.
 
 use super::explore::{self, LookArguments};
-use super::output::text_for_reader;
+use super::output::{Origin, format_of};
 use super::scene::compute;
-use super::{CliError, Format, OutputArguments, Overrides};
+use super::{CliError, OutputArguments, Overrides};
 use crate::explorer::Opening;
-use crate::export::{comparison_figure, comparison_text};
+use crate::export::{Comparison, Format};
 use crate::scene::open_argument;
 use clap::Args;
 use std::io::{IsTerminal, Write, stdin, stdout};
@@ -14,9 +14,9 @@ const EXAMPLES: &str = "\
 Examples:
   asperity compare ideal-adhesion pressure-sensitive
   asperity compare before.ron after.ron --set roughness.seed=7 | less
-  asperity compare measured.ron --as-line   ... the equivalent line with the profile itself
+  asperity compare measured.ron --as-line   Compare the equivalent line with the profile itself
   asperity compare before.ron after.ron -o loops.png
-                                            ... draws both force curves into one picture";
+                                            Draw both force curves in one picture";
 
 /// Formats of a comparison.
 const FORMATS: &[Format] = &[Format::Text, Format::Svg, Format::Png];
@@ -28,7 +28,7 @@ pub struct CompareArguments {
     /// Scene file or built-in scene
     #[arg(value_name = "SCENE")]
     pub first: String,
-    /// The scene it is compared with
+    /// Scene file or built-in scene to compare it with
     #[arg(value_name = "OTHER", required_unless_present = "as_line")]
     pub second: Option<String>,
     /// Compare with the measured profile itself as the line
@@ -40,7 +40,7 @@ pub struct CompareArguments {
     #[command(flatten)]
     pub look: LookArguments,
     /// text, svg or png; default: by the extension of FILE, else text
-    #[arg(long, value_parser = Format::parser(FORMATS), hide_possible_values = true)]
+    #[arg(long, value_parser = format_of(FORMATS), hide_possible_values = true)]
     pub format: Option<Format>,
     #[command(flatten)]
     pub output: OutputArguments,
@@ -61,13 +61,7 @@ pub(super) fn compare(arguments: &CompareArguments, out: &mut dyn Write) -> Resu
         let opening = Opening { beside: Some(second), ..Opening::from(first) };
         return explore::open(opening, arguments.look.options(), out);
     }
-    arguments.output.check()?;
     let outcomes = [compute(&first, first.scene())?, compute(&second, second.scene())?];
-    let pair = [(&first, &outcomes[0]), (&second, &outcomes[1])];
-    let figure = comparison_figure(pair);
-    if format != Format::Text {
-        return arguments.output.write_figure(out, &figure, format);
-    }
-    let text = format!("{}\n{}", comparison_text(pair), text_for_reader(&figure, false));
-    arguments.output.write(out, |out| out.write_all(text.as_bytes()))
+    let report = Comparison([(&first, &outcomes[0]), (&second, &outcomes[1])]);
+    arguments.output.write(out, &report, format, Origin::Scene(&first, first.scene()))
 }

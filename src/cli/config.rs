@@ -11,7 +11,7 @@ use std::path::PathBuf;
 const EXAMPLES: &str = "\
 Examples:
   asperity config                           Print the settings in effect
-  asperity config --write                   Write a configuration file with all fields, as comments
+  asperity config --write                   Write a configuration file with all fields in comments
   asperity config my-config.ron             Check another file and print its settings";
 
 /// Arguments of `config`.
@@ -20,7 +20,7 @@ Examples:
 pub struct ConfigArguments {
     /// Configuration file; default: asperity/config.ron in the configuration folder of the user
     pub file: Option<PathBuf>,
-    /// Write a file with all fields, as comments; an existing file is kept
+    /// Write a file with all fields in comments; an existing file is kept
     #[arg(long)]
     pub write: bool,
 }

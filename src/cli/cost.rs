@@ -1,10 +1,10 @@
 //! `asperity cost`: the cost of accuracy for a scene.
 
-use super::output::PICTURES;
+use super::output::{Origin, PICTURES, format_of};
 use super::progress::ProgressLine;
-use super::{CliError, Format, OutputArguments, SceneArguments};
+use super::{CliError, OutputArguments, SceneArguments};
 use crate::accuracy::{Progress, measure};
-use crate::export::{cost_text, work_precision, write_cost_csv, write_cost_json};
+use crate::export::{CostReport, Format};
 use crate::scene::parse_quantity;
 use clap::Args;
 use std::io::Write;
@@ -17,8 +17,8 @@ Examples:
   asperity cost my-scene.ron --budget 30s --picture my-scene.svg
   asperity cost rough-sphere --set adhesion.work=0.1 --format csv -o rough.csv
 
-Errors are relative. They are counted from the closed form of the adhesion force where the scene has
-one, else from the finest solution within the budget, whose own error is estimated and shown.";
+Errors are relative to the closed form of the adhesion force if the scene has one, else to the
+finest solution within the budget, whose own error is estimated and stated.";
 
 /// Longest budget, s.
 const LONGEST: f64 = 86_400.0;
@@ -29,13 +29,13 @@ const LONGEST: f64 = 86_400.0;
 pub struct CostArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Time limit of the whole measurement: 500ms, 30s, 2min
+    /// Time limit of all measurements together: 500ms, 30s, 2min
     #[arg(long, value_name = "TIME", default_value = "10s", value_parser = budget)]
     pub budget: Duration,
-    /// text, json, csv, svg or png; default: by the extension of FILE
-    #[arg(long, value_parser = Format::parser(FORMATS), hide_possible_values = true)]
+    /// text, json, csv, npy, svg or png; default: by the extension of FILE
+    #[arg(long, value_parser = format_of(FORMATS), hide_possible_values = true)]
     pub format: Option<Format>,
-    /// Draw errors over times to FILE as well, .svg or .png
+    /// Also draw errors over times into FILE, .svg or .png
     #[arg(long, value_name = "FILE")]
     pub picture: Option<PathBuf>,
     /// Destination; --force is for both files.
@@ -44,7 +44,7 @@ pub struct CostArguments {
 }
 
 /// Formats of costs: answer and tables, one object, one row for each setting, errors over times.
-const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Svg, Format::Png];
+const FORMATS: &[Format] = &Format::ALL;
 
 /// Parses a time with its unit.
 fn budget(text: &str) -> Result<Duration, String> {
@@ -60,14 +60,13 @@ fn budget(text: &str) -> Result<Duration, String> {
 pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let output = &arguments.output;
     let format = output.format(arguments.format, FORMATS, Format::Text)?;
-    let beside = arguments.picture.clone().map(|path| output.beside(path));
-    let beside = beside
-        .map(|beside| Ok::<_, CliError>((beside.format(None, PICTURES, Format::Svg)?, beside)))
-        .transpose()?;
+    let picture = arguments.picture.clone().map(|path| {
+        let picture = OutputArguments { output: Some(path), force: output.force };
+        picture.format(None, PICTURES, Format::Svg).map(|format| (picture, format))
+    });
+    let picture = picture.transpose()?;
     let document = arguments.scene.open()?;
     let scene = document.scene();
-    output.check()?;
-    beside.as_ref().map_or(Ok(()), |(_, beside)| beside.check())?;
     let (mut line, mut seen) = (ProgressLine::default(), Vec::new());
     let measured =
         measure(scene, &document.resolve(""), arguments.budget, &|| false, &mut |progress| match progress {
@@ -80,16 +79,12 @@ pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<
         });
     line.clear();
     let table = measured.map_err(|error| CliError::named(document.name(), error))?;
-    let figure = || work_precision(document.title(), &table);
-    if let Some((format, beside)) = beside {
-        beside.write_figure(stdout, &figure(), format)?;
+    let (report, origin) =
+        (CostReport::new(document.title(), scene, &table), Origin::Scene(&document, scene));
+    if let Some((picture, format)) = picture {
+        picture.write(stdout, &report, format, origin)?;
     }
-    match format {
-        Format::Json => output.write(stdout, |out| write_cost_json(out, scene, &table)),
-        Format::Csv => output.write(stdout, |out| write_cost_csv(out, &table)),
-        Format::Text => output.write(stdout, |out| out.write_all(cost_text(&table).as_bytes())),
-        _ => output.write_figure(stdout, &figure(), format),
-    }
+    output.write(stdout, &report, format, origin)
 }
 
 #[cfg(test)]

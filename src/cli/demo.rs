@@ -1,13 +1,13 @@
 //! `asperity demo`: automatic play of the explorer.
 
-use super::format::Format;
-use super::output::OutputArguments;
+use super::explore::failed;
+use super::output::check_file;
 use super::{CliError, Overrides};
 use crate::explorer::demo::{Demo, ONE_SCENE, TOUR, play};
 use crate::explorer::picture::{Cast, text};
 use crate::explorer::theme::{Appearance, Marker, Theme};
 use crate::explorer::{FrameBytes, Screen, picture_of, screenshot};
-use crate::io::{check_writable, write_new};
+use crate::io::write_new;
 use crate::scene::{open_argument, presets};
 use clap::Args;
 use std::io::{self, IsTerminal, Write, stdout};
@@ -15,10 +15,10 @@ use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
-  asperity demo                             Watch the tour over the built-in scenes; any key ends it
-  asperity demo rough-sphere                Watch one scene, pressed and pulled off
-  asperity demo --frames --ascii | less     Read it, frame by frame
-  asperity demo --cast tour.cast            Record it; asciinema play tour.cast plays it
+  asperity demo                             Watch a tour of the built-in scenes; any key ends it
+  asperity demo rough-sphere                Watch one scene being pressed and pulled off
+  asperity demo --frames --ascii | less     Read the tour frame by frame
+  asperity demo --cast tour.cast            Record it for `asciinema play tour.cast`
   asperity demo my-scene.ron --at 8 --picture screen.svg
                                             Take a picture of the screen after 8 seconds
 
@@ -36,21 +36,21 @@ pub struct DemoArguments {
     pub scene: Option<String>,
     #[command(flatten)]
     pub overrides: Overrides,
-    /// Print plain frames, as into a pipe, also where there is a terminal
+    /// Print plain frames even on a terminal, as into a pipe
     #[arg(long)]
     pub frames: bool,
     /// Frames per second, 0.1 to 60; default: 12, and 1 for plain frames
-    #[arg(long, value_name = "N", value_parser = frames_per_second)]
+    #[arg(long, value_name = "N", value_parser = |text: &str| number(text, 0.1, 60.0))]
     pub fps: Option<f64>,
     /// Size of the screen; default: that of the terminal, else 120x40
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = size)]
     pub size: Option<(u16, u16)>,
-    /// ASCII only: no Braille, no box drawing, no Greek
+    /// Use ASCII characters only
     #[arg(long, conflicts_with = "marker")]
     pub ascii: bool,
-    /// Markers
+    /// Marker of plots
     ///
-    /// Marker of plots; default: braille.
+    /// Default: braille.
     #[arg(long, value_enum)]
     pub marker: Option<Marker>,
     /// Colours
@@ -61,11 +61,11 @@ pub struct DemoArguments {
     /// Record to FILE, an asciicast of version 2
     #[arg(long, value_name = "FILE", conflicts_with_all = ["frames", "at"])]
     pub cast: Option<PathBuf>,
-    /// Print only the frame at so many seconds
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    /// Print only the frame at this time
+    #[arg(long, value_name = "SECONDS", value_parser = |text: &str| number(text, 0.0, 3600.0))]
     pub at: Option<f64>,
     /// Write a picture of the screen to FILE, an SVG document
-    #[arg(long, alias = "svg", value_name = "FILE", requires = "at")]
+    #[arg(long, value_name = "FILE", requires = "at")]
     pub picture: Option<PathBuf>,
     /// Overwrite FILE if it exists
     #[arg(long)]
@@ -78,14 +78,6 @@ fn number(text: &str, low: f64, high: f64) -> Result<f64, String> {
     if (low..=high).contains(&value) { Ok(value) } else { Err(allowed()) }
 }
 
-fn frames_per_second(text: &str) -> Result<f64, String> {
-    number(text, 0.1, 60.0)
-}
-
-fn seconds(text: &str) -> Result<f64, String> {
-    number(text, 0.0, 3600.0)
-}
-
 fn size(text: &str) -> Result<(u16, u16), String> {
     let allowed = || "allowed: columns x rows, each from 1 to 1000, such as 120x40".to_owned();
     let (columns, rows) = text.split_once(['x', '×']).ok_or_else(allowed)?;
@@ -93,22 +85,13 @@ fn size(text: &str) -> Result<(u16, u16), String> {
     Ok((side(columns)?, side(rows)?))
 }
 
-/// File of a picture.
-fn picture_file(path: PathBuf, force: bool) -> Result<OutputArguments, CliError> {
-    let output = OutputArguments { output: Some(path), force };
-    output.format(None, &[Format::Svg], Format::Svg)?;
-    output.check()?;
-    Ok(output)
-}
-
 /// Plays the demo to its destination.
 pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result<(), CliError> {
     let first = presets().first().map_or("", |preset| preset.name);
     let document = arguments.overrides.apply(open_argument(arguments.scene.as_deref().unwrap_or(first))?)?;
-    if let Some(file) = &arguments.cast {
-        check_writable(file, arguments.force)?;
+    for (file, extension) in [(&arguments.cast, "cast"), (&arguments.picture, "svg")] {
+        file.as_ref().map_or(Ok(()), |file| check_file(file, extension, arguments.force))?;
     }
-    let picture = arguments.picture.clone().map(|path| picture_file(path, arguments.force)).transpose()?;
     let name = arguments.scene.clone().unwrap_or_else(|| "tour".to_owned());
     let script = if arguments.scene.is_some() { ONE_SCENE } else { TOUR };
     let watched = !arguments.frames
@@ -134,8 +117,10 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
     if let Some(at) = arguments.at {
         while demo.advance().is_some_and(|seconds| seconds + 1e-9 < at) {}
         let model = demo.model();
-        return match picture {
-            Some(output) => output.write(stdout_, |out| out.write_all(screenshot(model).as_bytes())),
+        return match &arguments.picture {
+            Some(file) => {
+                Ok(write_new(file, arguments.force, |out| out.write_all(screenshot(model).as_bytes()))?)
+            }
             None => Ok(stdout_.write_all(text(&picture_of(model)).as_bytes())?),
         };
     }
@@ -143,7 +128,7 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
         return Ok(write_new(file, arguments.force, |out| record(out, &mut demo, size, &name))?);
     }
     if watched {
-        return play(&mut demo, fps).map_err(|error| CliError::Explorer(error.to_string()));
+        return play(&mut demo, fps).map_err(failed);
     }
     while let Some(seconds) = demo.advance() {
         writeln!(stdout_, "== {seconds:.2} s ==")?;

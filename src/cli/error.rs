@@ -1,11 +1,9 @@
 //! Errors of commands.
 
-use crate::draw::PngError;
-use crate::explorer::OpeningError;
 use crate::explorer::config::ConfigError;
-use crate::export::MeasuredHashError;
+use crate::export::{FormatError, MeasuredFileError};
 use crate::io::WriteError;
-use crate::scene::{SceneErrors, quoted};
+use crate::scene::SceneErrors;
 use crate::study::slurm::SlurmError;
 use crate::study::{FigureError, StudyError};
 use std::io;
@@ -16,39 +14,17 @@ use thiserror::Error;
 pub enum CliError {
     #[error(transparent)]
     Scene(Box<SceneErrors>),
-    /// An argument that is neither a scene nor a command, with its errors as a scene.
-    #[error("{errors}\nCommands: {commands} (see asperity --help)")]
-    NeitherSceneNorCommand { errors: Box<SceneErrors>, commands: String },
-    #[error("{}", .0.join("\n"))]
-    Checked(Vec<String>),
     /// An error in a named object: a scene, a file, a word.
     #[error("{name}: {error}")]
     Named { name: String, error: Box<dyn std::error::Error + Send + Sync> },
-    #[error("{path}: not an ending of what is written; allowed: {allowed}")]
-    Ending { path: String, allowed: String },
-    /// Several scenes, or the profile or patches of a scene, in a format that cannot represent them.
-    #[error("{what}: only a picture shows {what}; allowed: -o FILE.svg or FILE.png, or --format svg")]
-    OnlyInPicture { what: &'static str },
-    #[error("--format {format}: not for a terminal; allowed: -o FILE.{format}")]
-    BinaryInTerminal { format: &'static str },
+    #[error("{0}")]
+    Message(String),
     #[error(transparent)]
-    Picture(#[from] PngError),
-    /// The points of a map in a format that cannot represent them.
-    #[error("{what}: only a table of the map; allowed: --format csv or npy")]
-    OnlyInTable { what: &'static str },
-    /// An option with a format that cannot represent its result.
-    #[error("{what}: {allowed}")]
-    NotInFormat { what: &'static str, allowed: &'static str },
+    Format(#[from] FormatError),
     #[error(transparent)]
-    Measured(#[from] MeasuredHashError),
+    Measured(#[from] MeasuredFileError),
     #[error(transparent)]
     Config(#[from] ConfigError),
-    #[error("--restore: {0}")]
-    Restore(String),
-    #[error("--quick leaves out all of these cases: they take seconds and hundreds of megabytes")]
-    OnlyLargeCases,
-    #[error("{failed} of {checks} checks fail")]
-    CasesFail { failed: usize, checks: usize },
     #[error(transparent)]
     Sweep(#[from] StudyError),
     #[error(transparent)]
@@ -68,22 +44,6 @@ pub enum CliError {
     Write(#[from] WriteError),
     #[error("standard output: cannot be written: {0}")]
     StandardOutput(#[from] io::Error),
-    #[error("the explorer needs a terminal; asperity run {} computes the scene without one", quoted(scene))]
-    NoTerminal { scene: String },
-    #[error(
-        "TERM=dumb: the explorer places characters, this terminal does not; asperity run {} computes the scene without one",
-        quoted(scene)
-    )]
-    DumbTerminal { scene: String },
-    #[error(
-        "the explorer needs a terminal; asperity sweep plot {} draws the study without one",
-        quoted(folder)
-    )]
-    NoTerminalForStudy { folder: String },
-    #[error(transparent)]
-    Opening(OpeningError),
-    #[error("the explorer failed: {0}")]
-    Explorer(String),
 }
 
 impl From<SceneErrors> for CliError {

@@ -6,8 +6,9 @@ use crate::explorer::config::{Config, default_path};
 use crate::explorer::theme::{Marker, Theme};
 use crate::explorer::{self, Opening, OpeningError, Options};
 use crate::export::brief_summary;
-use crate::scene::{DEFAULT, Document};
+use crate::scene::{DEFAULT, Document, quoted};
 use clap::{Args, CommandFactory};
+use std::fmt::Display;
 use std::io::{IsTerminal, Write, stdin, stdout};
 use std::path::{Path, PathBuf};
 
@@ -27,7 +28,7 @@ pub struct ExploreArguments {
     /// Read this configuration file
     ///
     /// Default: asperity/config.ron in the configuration folder of the user (~/.config),
-    /// where it exists.
+    /// if it exists.
     #[arg(long, value_name = "FILE", verbatim_doc_comment)]
     pub config: Option<PathBuf>,
     /// Read no configuration file
@@ -49,9 +50,9 @@ pub struct LookArguments {
     /// Default: chosen from NO_COLOR and COLORFGBG.
     #[arg(long, value_enum)]
     pub theme: Option<Theme>,
-    /// Markers
+    /// Marker of plots
     ///
-    /// Marker of plots; default: braille.
+    /// Default: braille.
     #[arg(long, value_enum)]
     pub marker: Option<Marker>,
     /// Leave the mouse to the terminal
@@ -72,25 +73,36 @@ pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Resu
     let unsaved = autosave::folder();
     let restored = if arguments.restore { Some(restored(unsaved.as_deref())?) } else { None };
     let first = restored.as_ref().and_then(|(_, documents)| documents.first().cloned());
-    let config = config(arguments)?;
+    let (config, warning) = config(arguments)?;
     let scene = config.scene.as_deref();
     let opening = first.map_or_else(|| opening(arguments, scene), |document| Ok(document.into()))?;
     if !stdin().is_terminal() || !stdout().is_terminal() {
-        let name = opening.document.name().into();
-        return Err(match opening.study_map {
-            None => CliError::NoTerminal { scene: name },
-            Some(_) => CliError::NoTerminalForStudy { folder: name },
-        });
+        let name = quoted(opening.document.name());
+        let (command, does) = match opening.study_map {
+            None => ("run", "computes the scene"),
+            Some(_) => ("sweep plot", "draws the study"),
+        };
+        let without = format!("asperity {command} {name} {does} without one");
+        return Err(CliError::Message(format!("the explorer needs a terminal; {without}")));
     }
-    open(opening, Options { restored, config, unsaved, ..arguments.look.options() }, out)
+    open(opening, Options { restored, config, warning, unsaved, ..arguments.look.options() }, out)
+}
+
+/// Error of the explorer itself.
+pub(super) fn failed(error: impl Display) -> CliError {
+    CliError::Message(format!("the explorer failed: {error}"))
 }
 
 /// Opens the explorer in the terminal; on leaving, prints a brief summary of the last scene.
 pub(super) fn open(opening: Opening, options: Options, out: &mut dyn Write) -> Result<(), CliError> {
     if std::env::var_os("TERM").is_some_and(|term| term == "dumb") {
-        return Err(CliError::DumbTerminal { scene: opening.document.name().into() });
+        return Err(CliError::Message(format!(
+            "TERM=dumb: the explorer places characters, this terminal does not; asperity run {} computes the scene \
+             without one",
+            quoted(opening.document.name())
+        )));
     }
-    let left = explorer::open(opening, options).map_err(|error| CliError::Explorer(error.to_string()))?;
+    let left = explorer::open(opening, options).map_err(failed)?;
     if let Some(signal) = left.signal {
         explorer::end_by(signal);
     }
@@ -103,18 +115,22 @@ pub(super) fn open(opening: Opening, options: Options, out: &mut dyn Write) -> R
 /// Newest unsaved changes of an ended session: their file and scenes.
 fn restored(folder: Option<&Path>) -> Result<(PathBuf, Vec<Document>), CliError> {
     let newest = folder.and_then(|folder| autosave::left_behind(folder).into_iter().next());
-    let none = || CliError::Restore("no unsaved changes are kept; asperity opens a scene".to_owned());
+    let none = || CliError::named("--restore", "no unsaved changes are kept; asperity opens a scene");
     let newest = newest.ok_or_else(none)?;
-    let documents = autosave::read(&newest).map_err(CliError::Restore)?;
+    let documents = autosave::read(&newest).map_err(|error| CliError::named("--restore", error))?;
     Ok((newest, documents))
 }
 
-/// The configuration file of the arguments, or that of the user.
-fn config(arguments: &ExploreArguments) -> Result<Config, CliError> {
+/// The configuration file of the arguments, or that of the user: if that one is wrong, the explorer opens with the
+/// defaults and this warning.
+fn config(arguments: &ExploreArguments) -> Result<(Config, Option<String>), CliError> {
     match (&arguments.config, default_path()) {
-        (Some(path), _) => Ok(Config::read(path, true)?),
-        (None, Some(path)) if !arguments.no_config => Ok(Config::read(&path, false)?),
-        _ => Ok(Config::default()),
+        (Some(path), _) => Ok((Config::read(path, true)?, None)),
+        (None, Some(path)) if !arguments.no_config => Ok(match Config::read(&path, false) {
+            Ok(config) => (config, None),
+            Err(error) => (Config::default(), Some(format!("{error}; defaults are used"))),
+        }),
+        _ => Ok((Config::default(), None)),
     }
 }
 
@@ -128,12 +144,12 @@ fn opening(arguments: &ExploreArguments, default: Option<&str>) -> Result<Openin
                 let command = Arguments::command();
                 let commands: Vec<_> = command.get_subcommands().map(|command| command.get_name()).collect();
                 let commands = commands.join(", ");
-                CliError::NeitherSceneNorCommand { errors, commands }
+                CliError::Message(format!("{errors}\nCommands: {commands} (see asperity --help)"))
             } else {
                 CliError::Scene(errors)
             }
         }
-        error => CliError::Opening(error),
+        error => CliError::Message(error.to_string()),
     })?;
     opening.document = arguments.overrides.apply(opening.document)?;
     Ok(opening)

@@ -1,18 +1,19 @@
 //! `asperity line`: the rigid profile of a scene.
 
+use super::output::{Origin, TABLES};
 use super::scene::simulation_of;
-use super::{CliError, Format, OutputArguments, SceneArguments};
-use crate::export::{TableFormat, write_line};
+use super::{CliError, OutputArguments, SceneArguments};
+use crate::export::Format;
 use clap::Args;
 use std::io::Write;
 
 const EXAMPLES: &str = "\
 Examples:
-  asperity line profile-hurst-025 > line.csv
+  asperity line profile-hurst-025 > profile.csv
   asperity line profile-hurst-025 --set numerics.points=65536 -o finer.csv
-  asperity line profile-hurst-025 -o line.npy
+  asperity line profile-hurst-025 -o profile.npy
 
-The finer line is the same line: a wave of a seed keeps its phase on every grid.";
+The finer profile is the same profile: a wave keeps its phase on every grid.";
 
 /// Arguments of `line`.
 #[derive(Args, Debug)]
@@ -26,14 +27,10 @@ pub struct LineArguments {
 
 /// Makes the profile of a scene and writes it.
 pub(super) fn line(arguments: &LineArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let format = arguments.output.format(None, &[Format::Csv, Format::Npy], Format::Csv)?;
-    let format = format.table().unwrap_or(TableFormat::Csv);
+    let format = arguments.output.format(None, TABLES, Format::Csv)?;
     let document = arguments.scene.open()?;
-    arguments.output.check()?;
     let mut simulation = simulation_of(&document);
     let made = simulation.make_line(document.scene());
     let (line, ..) = made.map_err(|error| CliError::named(document.name(), error))?;
-    arguments.output.write_table(stdout, (&document, document.scene()), |out, provenance| {
-        write_line(out, format, provenance, line)
-    })
+    arguments.output.write(stdout, line, format, Origin::Scene(&document, document.scene()))
 }

@@ -12,7 +12,6 @@ mod cost;
 mod demo;
 mod error;
 mod explore;
-mod format;
 mod line;
 mod output;
 mod plan;
@@ -24,7 +23,6 @@ mod run;
 mod scene;
 mod surface;
 mod sweep;
-mod usage;
 
 pub use arguments::{Arguments, Command};
 
@@ -36,9 +34,8 @@ use cost::CostArguments;
 use demo::DemoArguments;
 use error::CliError;
 use explore::ExploreArguments;
-use format::{AnswerFormat, Format};
 use line::LineArguments;
-use output::OutputArguments;
+use output::{AnswerFormat, OutputArguments};
 use plan::PlanArguments;
 use presets::PresetsCommand;
 use reversals::ReversalsArguments;
@@ -48,7 +45,9 @@ use surface::SurfaceArguments;
 use sweep::SweepArguments;
 
 use crate::text::printable_lines;
-use clap::Parser;
+use clap::error::{ContextKind, ErrorKind};
+use clap::{CommandFactory, Parser};
+use std::borrow::Cow;
 use std::ffi::OsString;
 use std::io::{self, BufWriter, Write};
 use std::process::ExitCode;
@@ -65,9 +64,13 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let arguments = match Arguments::try_parse_from(&typed) {
         Ok(arguments) => arguments,
         Err(error) => {
-            let error = usage::explained(error, &typed);
-            // Also for help and version. A failure to print them is ignored.
-            let _ = usage::print(&error);
+            let error = explained(error, &typed);
+            // Also for help and version. A failure to print them is ignored. An error that repeats control characters
+            // of an argument is printed without colours.
+            let _ = match printable_lines(&error.render().to_string()) {
+                Cow::Owned(shown) if error.use_stderr() => io::stderr().write_all(shown.as_bytes()),
+                _ => error.print(),
+            };
             return if error.use_stderr() { ExitCode::from(WRONG_USAGE) } else { ExitCode::SUCCESS };
         }
     };
@@ -84,6 +87,34 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             ExitCode::from(error.exit_code())
         }
     }
+}
+
+/// The error, or a plainer one for a word in front that is not a command: the parser takes that word for a scene, and
+/// the words that follow for another command, or for options of none.
+fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
+    let mut command = Arguments::command();
+    let names: Vec<String> = command.get_subcommands().map(|command| command.get_name().into()).collect();
+    let words: Vec<_> = typed.iter().skip(1).map(|word| word.to_string_lossy()).collect();
+    let is_command = |word: &&Cow<'_, str>| names.iter().any(|name| name == *word);
+    let (Some(first), ErrorKind::ArgumentConflict | ErrorKind::UnknownArgument) =
+        (words.first(), error.kind())
+    else {
+        return error;
+    };
+    let message = match words.iter().find(is_command) {
+        Some(misplaced) if misplaced != first => {
+            format!("the command '{misplaced}' comes first, its scene and options follow")
+        }
+        None if !first.starts_with('-') => {
+            let unknown =
+                error.get(ContextKind::InvalidArg).filter(|_| error.kind() == ErrorKind::UnknownArgument);
+            let unknown =
+                unknown.map_or(String::new(), |unknown| format!("unexpected argument '{unknown}': "));
+            format!("{unknown}'{first}' is not a command; the commands are {}", names.join(", "))
+        }
+        _ => return error,
+    };
+    command.error(ErrorKind::InvalidSubcommand, message)
 }
 
 fn dispatch(arguments: &Arguments, stdout: &mut dyn Write) -> Result<(), CliError> {

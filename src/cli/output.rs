@@ -1,20 +1,30 @@
-//! Destinations of results.
+//! Formats and destinations of results.
 
-use super::{CliError, Format};
+use super::CliError;
 use crate::draw::{Colours, Figure, figure_text};
-use crate::export::Provenance;
+use crate::export::{self, Format, Report, check_extension, files_provenance, scene_provenance};
 use crate::io::{check_writable, write_new};
 use crate::scene::{Document, Scene, quoted};
 use crate::text::path_name;
 use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 /// Formats of pictures.
 pub(super) const PICTURES: &[Format] = &[Format::Svg, Format::Png];
+/// Formats of tables.
+pub(super) const TABLES: &[Format] = &[Format::Csv, Format::Npy];
+/// Formats of results without a table and without a picture.
+pub(super) const TEXT_OR_JSON: &[Format] = &[Format::Text, Format::Json];
 
-/// Extensions of pictures, including those of unsupported formats.
-const ENDINGS_OF_PICTURES: [&str; 9] = ["svg", "svgz", "png", "pdf", "eps", "ps", "jpg", "jpeg", "gif"];
+/// Parser of the names of these formats.
+pub(super) fn format_of(formats: &'static [Format]) -> impl TypedValueParser<Value = Format> {
+    let named = |name: String| Format::ALL.into_iter().find(|format| format.name() == name);
+    PossibleValuesParser::new(formats.iter().map(|format| format.name()))
+        .map(move |name| named(name).unwrap_or(Format::Text))
+}
 
 /// A file for results in place of standard output.
 #[derive(Args, Clone, Debug)]
@@ -27,15 +37,19 @@ pub struct OutputArguments {
     pub force: bool,
 }
 
+/// Input of a table of results.
+#[derive(Clone, Copy)]
+pub(super) enum Origin<'a> {
+    /// A scene, with its document for the places of its files.
+    Scene(&'a Document, &'a Scene),
+    /// Measured files.
+    Files(&'a [PathBuf]),
+}
+
 impl OutputArguments {
     /// The file, unless results go to standard output.
     pub(super) fn file(&self) -> Option<&Path> {
         self.output.as_deref().filter(|path| *path != Path::new("-"))
-    }
-
-    /// Another file, to be overwritten if this one is.
-    pub(super) fn beside(&self, path: PathBuf) -> OutputArguments {
-        OutputArguments { output: Some(path), force: self.force }
     }
 
     /// Folder of the file; the working folder for standard output.
@@ -43,40 +57,43 @@ impl OutputArguments {
         self.file().and_then(Path::parent).unwrap_or(Path::new(""))
     }
 
-    /// Checks, before any computation, that the results can be written.
-    pub(super) fn check(&self) -> Result<(), CliError> {
-        Ok(self.file().map_or(Ok(()), |path| check_writable(path, self.force))?)
-    }
-
-    /// The chosen format, else that of the extension of FILE, else the usual one. Only a picture is written under
-    /// the extension of a picture, and a picture under no other extension. A terminal gets text only.
+    /// The format of the results: that of the extension of FILE, else the chosen one, else the usual one. Before any
+    /// computation, checks also that FILE can be written. A terminal gets text only.
     pub(super) fn format(
         &self,
         chosen: Option<Format>,
         formats: &[Format],
         usual: Format,
     ) -> Result<Format, CliError> {
-        let path = self.file();
-        let ending = path.and_then(Path::extension).map(|ending| ending.to_string_lossy().to_lowercase());
-        let has_ending = |format: &Format| ending.as_deref() == Some(format.extension());
-        let by_ending = formats.iter().copied().find(has_ending);
-        let format = chosen.or(by_ending).unwrap_or(usual);
-        let is_binary = matches!(format, Format::Npy | Format::Png);
-        let Some(path) = path else {
-            return if is_binary && io::stdout().is_terminal() {
-                Err(CliError::BinaryInTerminal { format: format.name() })
-            } else {
-                Ok(format)
-            };
-        };
-        let is_picture = ENDINGS_OF_PICTURES.contains(&ending.as_deref().unwrap_or_default());
-        let is_drawn = ending.is_some() && format.picture().is_some();
-        if by_ending == Some(format) || !(is_picture || is_drawn) {
-            return Ok(format);
+        let format = Format::of_file(self.file(), chosen, formats, usual)?;
+        match self.file() {
+            Some(path) => check_writable(path, self.force)?,
+            None if matches!(format, Format::Npy | Format::Png) && io::stdout().is_terminal() => {
+                let format = format.name();
+                let refused = format!("--format {format}: not for a terminal; allowed: -o FILE.{format}");
+                return Err(CliError::Message(refused));
+            }
+            None => {}
         }
-        let allowed = chosen.as_ref().map_or(formats, std::slice::from_ref);
-        let allowed: Vec<String> = allowed.iter().map(|format| format!(".{}", format.extension())).collect();
-        Err(CliError::Ending { path: path_name(path), allowed: allowed.join(", ") })
+        Ok(format)
+    }
+
+    /// Writes a report with the provenance of its table to its destination.
+    pub(super) fn write(
+        &self,
+        stdout: &mut dyn Write,
+        report: &(impl Report + ?Sized),
+        format: Format,
+        origin: Origin<'_>,
+    ) -> Result<(), CliError> {
+        let provenance = match origin {
+            _ if !format.is_table() => String::new(),
+            Origin::Scene(document, scene) => {
+                scene_provenance(&command(), scene, &document.resolve(""), self.folder())?
+            }
+            Origin::Files(files) => files_provenance(&command(), files, self.folder())?,
+        };
+        self.fill(stdout, |out| export::write(out, report, format, &provenance))
     }
 
     /// Writes a figure, as a picture or as text, to its destination.
@@ -86,26 +103,15 @@ impl OutputArguments {
         figure: &Figure,
         format: Format,
     ) -> Result<(), CliError> {
-        let drawn = match format.picture() {
-            Some(picture) => figure.picture(picture)?,
-            None => text_for_reader(figure, self.file().is_none()).into_bytes(),
-        };
-        self.write(stdout, |out| out.write_all(&drawn))
-    }
-
-    /// Writes a table of a scene with its provenance to its destination.
-    pub(super) fn write_table(
-        &self,
-        stdout: &mut dyn Write,
-        (document, scene): (&Document, &Scene),
-        write: impl FnOnce(&mut dyn Write, &Provenance) -> io::Result<()>,
-    ) -> Result<(), CliError> {
-        let provenance = Provenance::new(&command(), scene, &document.resolve(""), self.folder())?;
-        self.write(stdout, |out| write(out, &provenance))
+        if format == Format::Text {
+            let text = text_for_reader(figure, self.file().is_none());
+            return self.fill(stdout, |out| out.write_all(text.as_bytes()));
+        }
+        self.write(stdout, figure, format, Origin::Files(&[]))
     }
 
     /// Writes results to their destination.
-    pub(super) fn write(
+    pub(super) fn fill(
         &self,
         stdout: &mut dyn Write,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -117,8 +123,38 @@ impl OutputArguments {
     }
 }
 
+/// Checks that a file of one kind has its extension or none, and that it can be written.
+pub(super) fn check_file(path: &Path, extension: &str, overwrite: bool) -> Result<(), CliError> {
+    check_extension(path, &[extension]).map_err(|error| CliError::named(path_name(path), error))?;
+    Ok(check_writable(path, overwrite)?)
+}
+
+/// Format of a short answer on standard output.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct AnswerFormat {
+    /// Output format
+    #[arg(long, value_parser = format_of(TEXT_OR_JSON), default_value = "text")]
+    format: Format,
+}
+
+impl AnswerFormat {
+    /// Writes an answer as text or as JSON.
+    pub(super) fn write(
+        self,
+        stdout: &mut dyn Write,
+        text: impl FnOnce() -> String,
+        answer: &impl Serialize,
+    ) -> Result<(), CliError> {
+        match self.format {
+            Format::Json => crate::io::write_json_value(stdout, answer)?,
+            _ => stdout.write_all(text().as_bytes())?,
+        }
+        Ok(())
+    }
+}
+
 /// The command of this process, for a POSIX shell, without format and destination of its results.
-pub(super) fn command() -> String {
+fn command() -> String {
     let mut words = vec!["asperity".to_owned()];
     let mut typed = std::env::args().skip(1);
     while let Some(word) = typed.next() {
@@ -137,7 +173,7 @@ pub(super) fn command() -> String {
 const COLUMNS: usize = 80;
 
 /// A figure as text, in the width and the colours of the terminal if it is for one.
-pub(super) fn text_for_reader(figure: &Figure, to_stdout: bool) -> String {
+fn text_for_reader(figure: &Figure, to_stdout: bool) -> String {
     let terminal = to_stdout && io::stdout().is_terminal();
     let size = crossterm::terminal::size().ok().filter(|_| terminal);
     let columns = size.map_or(COLUMNS, |(columns, _)| usize::from(columns));
@@ -153,49 +189,5 @@ fn colours() -> Colours {
         Colours::All
     } else {
         Colours::Palette
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const FORMATS: [Format; 3] = [Format::Text, Format::Json, Format::Svg];
-
-    fn format(path: &str, chosen: Option<Format>) -> Result<Format, String> {
-        let output = OutputArguments { output: Some(path.into()), force: false };
-        output.format(chosen, &FORMATS, Format::Text).map_err(|error| error.to_string())
-    }
-
-    #[test]
-    fn formats_follow_the_ending() {
-        for (path, chosen, expected) in [
-            ("a.json", None, Format::Json),
-            ("a.SVG", None, Format::Svg),
-            ("a.txt", None, Format::Text),
-            ("a.dat", None, Format::Text),
-            ("svg", None, Format::Text),
-            ("-", Some(Format::Svg), Format::Svg),
-            ("a", Some(Format::Svg), Format::Svg),
-            ("a.json", Some(Format::Text), Format::Text),
-        ] {
-            assert_eq!(format(path, chosen), Ok(expected), "{path}");
-        }
-    }
-
-    #[test]
-    fn a_picture_is_written_under_its_ending_and_nothing_else() {
-        for (path, chosen, allowed) in [
-            ("a.svg", Some(Format::Json), ".json"),
-            ("a.svg", Some(Format::Text), ".txt"),
-            ("a.png", None, ".txt, .json, .svg"),
-            ("a.PDF", Some(Format::Svg), ".svg"),
-            ("a.json", Some(Format::Svg), ".svg"),
-        ] {
-            let error = format(path, chosen).unwrap_err();
-            assert_eq!(error, format!("{path}: not an ending of what is written; allowed: {allowed}"));
-        }
-        let output = OutputArguments { output: Some("a.svg".into()), force: false };
-        assert!(output.format(None, &[Format::Csv], Format::Csv).is_err());
     }
 }

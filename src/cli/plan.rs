@@ -12,9 +12,8 @@ Examples:
   asperity plan pressure-sensitive
   asperity plan million-springs --set adhesion=None --format json
 
-A stage that a scene does not call for does not run. Passes per stage are those of each
-loading stage, springs are those of all passes at the most, and memory is the addition of a stage
-while it runs.";
+A stage that a scene does not need is skipped. \"per stage\" counts the passes of each loading stage;
+springs are the most that all passes touch; memory is what a stage adds while it runs.";
 
 /// Arguments of `plan`.
 #[derive(Args, Debug)]

@@ -16,7 +16,7 @@ Examples:
   asperity presets check my-scene.ron other-scene.ron
   asperity presets show jkr-sphere | asperity presets check -
 
-Every error of every file is printed with its line and column. The exit code is 1 if there is any.";
+All errors of all files are printed with line and column. The exit code is 1 if there is an error.";
 
 const SHOW_EXAMPLES: &str = "\
 Example:
@@ -25,19 +25,19 @@ Example:
 /// Subcommands on scenes.
 #[derive(Debug, Subcommand)]
 pub enum PresetsCommand {
-    /// List the built-in scenes, one's own and those of the working folder
+    /// List the built-in scenes, your own and those in the working folder
     List {
         /// Name and title in columns, or objects with name, title and notice, and of scenes of files path and error.
         #[command(flatten)]
         format: AnswerFormat,
     },
-    /// Print the text of a listed scene, to start one's own from
+    /// Print a scene, as a template for your own
     #[command(after_help = SHOW_EXAMPLES)]
     Show {
         /// Its name
         name: String,
     },
-    /// Check scene files, without computing anything
+    /// Check scene files without computing them
     #[command(after_help = CHECK_EXAMPLES)]
     Check {
         /// Scene files; `-` is standard input
@@ -91,7 +91,7 @@ fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
             Err(errors) => wrong.push(errors),
         }
     }
-    if wrong.is_empty() { Ok(()) } else { Err(CliError::Checked(wrong)) }
+    if wrong.is_empty() { Ok(()) } else { Err(CliError::Message(wrong.join("\n"))) }
 }
 
 /// The name of a valid scene with its warning, or all its errors, line by line.

@@ -1,12 +1,10 @@
 //! `asperity reversals`: the unloadings of a scene from many turning points.
 
+use super::output::{Origin, TABLES, format_of};
 use super::preloads::parse_preloads;
 use super::scene::simulation_of;
-use super::{CliError, Format, OutputArguments, SceneArguments};
-use crate::export::{
-    ReversalReport, reversals_figure, reversals_text, write_reversal_map_table, write_reversals_json,
-    write_reversals_table,
-};
+use super::{CliError, OutputArguments, SceneArguments};
+use crate::export::{Format, ReversalReport};
 use crate::simulation::{RunError, TURNING_POINTS};
 use crate::study::{Preloads, solve_preloads};
 use clap::Args;
@@ -18,8 +16,8 @@ Examples:
   asperity reversals pressure-sensitive --preloads 1uN..20uN --count 128 -o reversals.svg
   asperity reversals rough-sphere --map -o map.csv
 
-Turning points are at equal indentations. The Everett function is half of what the force falls by
-from the turning point on; the density is -1/2 of the mixed second derivative of the force.";
+Turning points have equal distances of indentation. The Everett function is half the decrease of the
+force since the turning point; the density is -1/2 of the mixed second derivative of the force.";
 
 /// Most steps on either side of the fit of the density.
 const MOST_SMOOTHING: i64 = 16;
@@ -39,7 +37,7 @@ pub struct ReversalsArguments {
     #[command(flatten)]
     pub options: ReversalOptions,
     /// text, json, csv, npy, svg or png; default: by the extension of FILE
-    #[arg(long, value_parser = Format::parser(FORMATS), hide_possible_values = true)]
+    #[arg(long, value_parser = format_of(FORMATS), hide_possible_values = true)]
     pub format: Option<Format>,
     #[command(flatten)]
     pub output: OutputArguments,
@@ -48,10 +46,10 @@ pub struct ReversalsArguments {
 /// Choice of the reversals of a scene.
 #[derive(Args, Debug)]
 pub struct ReversalOptions {
-    /// Turning points
+    /// Number of turning points
     #[arg(long, value_name = "COUNT", default_value_t = 64, value_parser = clap::value_parser!(u16).range(*TURNING_POINTS.start() as i64..=*TURNING_POINTS.end() as i64))]
     pub count: u16,
-    /// Turn between the indentations of two forces: 1uN..20uN
+    /// Turn between the indentations at two forces: 1uN..20uN
     ///
     /// Default: between first touch and the preload of the scene.
     #[arg(long, value_name = "FROM..TO", value_parser = forces)]
@@ -59,18 +57,17 @@ pub struct ReversalOptions {
     /// Steps on either side of the quadratic fit of the density
     #[arg(long, value_name = "STEPS", default_value_t = SMOOTHING, value_parser = clap::value_parser!(u8).range(1..=MOST_SMOOTHING))]
     pub smoothing: u8,
-    /// Upper, and lower, ends of the minor loops; 0: no loops
+    /// Upper, and lower, ends of minor loops; 0: none
     #[arg(long, value_name = "LEVELS", default_value_t = LOOPS, value_parser = clap::value_parser!(u8).range(0..=MOST_LEVELS))]
     pub loops: u8,
-    /// Table with a row for each point of the map, not each turning point
+    /// Write a table of the points of the map instead of turning points
     #[arg(long)]
     pub map: bool,
 }
 
 /// Formats of reversals: text, one object, one row for each turning point or point of the map, and a picture of the
 /// adhesion force over the preload and of both maps.
-const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png];
-const TABLES: &[Format] = &[Format::Csv, Format::Npy];
+const FORMATS: &[Format] = &Format::ALL;
 
 fn forces(text: &str) -> Result<(f64, f64), String> {
     if text.contains(':') {
@@ -84,40 +81,33 @@ pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) 
     let ReversalsArguments { options, output, .. } = arguments;
     let (formats, usual) = if options.map { (TABLES, Format::Csv) } else { (FORMATS, Format::Text) };
     let format = output.format(arguments.format, formats, usual)?;
-    if options.map && format.table().is_none() {
-        return Err(CliError::OnlyInTable { what: "--map" });
-    }
     let document = arguments.scene.open()?;
-    output.check()?;
     let scene = document.scene();
     let failed = |error: RunError| CliError::named(document.name(), error);
     let mut simulation = simulation_of(&document);
     let (count, never) = (usize::from(options.count), || false);
     let map = simulation.reversal_map(scene, options.preloads, count, &never).map_err(failed)?;
-    let smoothing = usize::from(options.smoothing);
-    if let Some(format) = format.table() {
-        return output.write_table(stdout, (&document, scene), |out, provenance| match options.map {
-            true => write_reversal_map_table(out, format, provenance, &map, smoothing),
-            false => write_reversals_table(out, format, provenance, &map),
-        });
+    let (mut loops, mut preloads) = (None, Vec::new());
+    // Tables hold the map alone.
+    if !format.is_table() {
+        if let levels @ 1.. = usize::from(options.loops) {
+            loops = Some(simulation.minor_loops(scene, &map, levels, &never).map_err(failed)?);
+        }
+        let largest = map.reversals.iter().map(|reversal| reversal.turn.force).fold(0.0, f64::max);
+        let (from, to) = options.preloads.unwrap_or((0.0, largest));
+        if let Some(asked) = Preloads::new(from, to, count) {
+            let mut keep = |one| preloads.push(one);
+            solve_preloads(&mut simulation, scene, &asked.forces(), &never, &mut keep).map_err(failed)?;
+        }
     }
-    let loops = match usize::from(options.loops) {
-        0 => None,
-        levels => Some(simulation.minor_loops(scene, &map, levels, &never).map_err(failed)?),
+    let report = ReversalReport {
+        title: document.title(),
+        scene,
+        map: &map,
+        preloads: &preloads,
+        loops,
+        smoothing: usize::from(options.smoothing),
+        map_table: options.map,
     };
-    let largest = map.reversals.iter().map(|reversal| reversal.turn.force).fold(0.0, f64::max);
-    let (from, to) = options.preloads.unwrap_or((0.0, largest));
-    let mut preloads = Vec::new();
-    if let Some(asked) = Preloads::new(from, to, usize::from(options.count)) {
-        solve_preloads(&mut simulation, scene, &asked.forces(), &never, &mut |one| preloads.push(one))
-            .map_err(failed)?;
-    }
-    let report = ReversalReport { scene, map: &map, preloads: &preloads, loops, smoothing };
-    if format.picture().is_some() {
-        return output.write_figure(stdout, &reversals_figure(&report, document.title()), format);
-    }
-    output.write(stdout, |out| match format {
-        Format::Json => write_reversals_json(out, &report),
-        _ => out.write_all(reversals_text(&report).as_bytes()),
-    })
+    output.write(stdout, &report, format, Origin::Scene(&document, scene))
 }

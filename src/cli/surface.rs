@@ -1,26 +1,20 @@
 //! `asperity surface`: measured surfaces, their statistics and spectrum, and the equivalent line.
 
-use super::output::command;
+use super::output::{Origin, check_file, format_of};
 use super::scene::{MOST_LINES, threads};
-use super::{CliError, Format, OutputArguments};
-use crate::export::{
-    MeasuredFace, MeasuredHash, Provenance, Spectra, SurfaceAdhesion, SurfaceContact, SurfaceFile,
-    SurfaceReport, named_from, write_surface_table,
-};
-use crate::io::{check_writable, hexadecimal, write_new};
+use super::{CliError, OutputArguments};
+use crate::export::{Format, MeasuredFace, SurfaceFile, SurfaceReport, named_from};
+use crate::io::write_new;
 use crate::scene::{
-    self, Adhesion, Document, MOST_POINTS, Material, Move, Numerics, Roughness, SCENE_VERSIONS, Scene,
-    parse_quantity,
+    Adhesion, Document, Material, Move, Numerics, Roughness, SCENE_VERSIONS, Scene, parse_quantity,
 };
-use crate::simulation::measured_roughness_options;
-use crate::spectrum::{Analysis, Detrend, Options, analyse};
+use crate::simulation::{equivalent_springs, measured_roughness_options};
+use crate::spectrum::{Detrend, Options, analyse};
 use crate::study::MeasuredAdhesion;
-use crate::surface::EquivalentLine;
+use crate::surface::{EquivalentLine, MeasuredOptions};
 use crate::text::path_name;
-use crate::topography::{Unit, content, parse};
-use clap::{Args, ValueEnum};
-use sha2::{Digest, Sha256};
-use std::error::Error;
+use crate::topography::{Unit, read};
+use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -35,12 +29,9 @@ Examples:
   asperity surface afm.gwy --tip-radius 10nm -o spectra.svg
   asperity surface profile.csv --unit um --modulus 2.7MPa --work 50mJ/m^2 --scene rough.ron
 
-Files are profiles or maps: text in columns or as a matrix, SDF, GSF, NumPy, X3P, GWY, SUR,
-NetCDF, and these in gzip. Several files are samples of the same roughness. A profile is a cut
-through the surface; the contact computation needs the equivalent line.";
-
-/// Springs of a written scene per period of its shortest wave: twice the fewest, from where on both edge models agree.
-const SPRINGS_PER_WAVE: f64 = 2.0 * scene::SPRINGS_PER_WAVE as f64;
+Files are profiles or maps: text in columns or as a matrix, SDF, GSF, NumPy, X3P, GWY, SUR or
+NetCDF, also compressed by gzip. Several files are samples of the same roughness. A profile is a cut
+through the surface; the contact is computed on its equivalent line.";
 
 /// Default number of random profiles for the adhesion force, and the largest number of springs for it: some seconds.
 const LINES: u32 = 16;
@@ -56,34 +47,30 @@ pub struct SurfaceArguments {
     /// Measured surface of the opposite face: the spectra of both faces add
     #[arg(long, value_name = "FILE")]
     pub opposite: Option<PathBuf>,
-    /// Options of the readers.
     #[command(flatten)]
-    pub reading: ReadingArguments,
-    /// Options of the analysis.
-    #[command(flatten)]
-    pub analysis: AnalysisArguments,
+    pub options: SurfaceOptions,
     /// text, json, csv, npy, svg or png; default: by the extension of FILE
     ///
     /// Text is a summary for a person. JSON is one object with statistics, fit, spectra and
     /// warnings. CSV holds the spectra: spectrum,wave_number,power,waves. npy is the same as a
     /// structured array of NumPy. SVG and PNG are pictures of the spectra.
-    #[arg(long, value_parser = Format::parser(FORMATS), hide_possible_values = true, verbatim_doc_comment)]
+    #[arg(long, value_parser = format_of(FORMATS), hide_possible_values = true, verbatim_doc_comment)]
     pub format: Option<Format>,
     /// Write a scene with the equivalent line to FILE; needs --modulus
     ///
-    /// The scene names the files and holds all options of their reading and analysis.
+    /// The scene names the files and contains all options of their reading and analysis.
     #[arg(long, value_name = "FILE", requires = "modulus", verbatim_doc_comment)]
     pub scene: Option<PathBuf>,
-    /// Work of adhesion, as 50mJ/m^2: gives κ, e_el/γ, F_a; needs --modulus
-    #[arg(long, value_name = "ENERGY", requires = "modulus", value_parser = energy)]
+    /// Work of adhesion, such as 50mJ/m^2, for κ and F_a; needs --modulus
+    #[arg(long, value_name = "ENERGY", requires = "modulus", value_parser = |text: &str| positive(text, "J/m²"))]
     pub work: Option<f64>,
-    /// Force that presses before the pull, as 1mN; default: touch alone
-    #[arg(long, value_name = "FORCE", requires = "modulus", value_parser = force)]
+    /// Preload, such as 1mN; default: touch without a force
+    #[arg(long, value_name = "FORCE", requires = "modulus", value_parser = |text: &str| positive(text, "N"))]
     pub preload: Option<f64>,
     /// Random profiles of the adhesion force; needs --work
     ///
-    /// Each is solved on the fitted spectrum and on one moved within its uncertainty: the spread
-    /// over lines beside that of the fit. Default: 16 up to 131 072 springs, else none.
+    /// Each is solved on the fitted spectrum and on one moved within its uncertainty, for the
+    /// spread over profiles and that of the fit. Default: 16 up to 131 072 springs, else none.
     #[arg(long, value_name = "COUNT", requires = "work", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES), verbatim_doc_comment)]
     pub lines: Option<u32>,
     /// Output file.
@@ -94,18 +81,18 @@ pub struct SurfaceArguments {
     pub force_scene: bool,
 }
 
-/// Reading of files that leave something open.
+/// Reading and analysis of the files.
 #[derive(Args, Debug)]
-pub struct ReadingArguments {
+pub struct SurfaceOptions {
     /// Unit of lengths where a file states none: m, cm, mm, um, nm, Å, pm
     #[arg(long)]
     pub unit: Option<Unit>,
     /// Unit of heights where a file states none; default: as --unit
     #[arg(long, value_name = "UNIT")]
     pub height_unit: Option<Unit>,
-    /// Distance between points where a file states none, as 0.5um
+    /// Distance between points where a file states none, such as 0.5um
     ///
-    /// Lengths without a unit, here and below, are in --unit.
+    /// Lengths without a unit are in --unit, here and below.
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub spacing: Option<Length>,
     /// Fill missing points from their neighbours
@@ -114,69 +101,38 @@ pub struct ReadingArguments {
     /// Resample uneven profiles linearly at their mean distance
     #[arg(long)]
     pub resample: bool,
-    /// Number of the channel of files with several
+    /// Channel of files with several, by its number
     #[arg(long, value_name = "NUMBER")]
     pub channel: Option<u32>,
-    /// Row of maps that is the profile, from 1 on
+    /// Row of maps to use as the profile, from 1
     #[arg(long, value_name = "NUMBER", conflicts_with = "column", value_parser = clap::value_parser!(u64).range(1..))]
     pub row: Option<u64>,
-    /// Column of maps that is the profile, from 1 on
+    /// Column of maps to use as the profile, from 1
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u64).range(1..))]
     pub column: Option<u64>,
-}
-
-/// Analysis of surfaces.
-#[derive(Args, Debug)]
-pub struct AnalysisArguments {
-    /// Part that is removed: none, mean, tilt or curvature
+    /// Part of the heights to remove: none, mean, tilt or curvature
     ///
     /// Default: tilt, or mean with --periodic.
-    #[arg(long, value_enum, default_value = "tilt", default_value_if("periodic", "true", "mean"))]
-    #[arg(hide_possible_values = true, hide_default_value = true)]
-    pub detrend: DetrendArgument,
-    /// The surface repeats itself at its borders: no window
+    #[arg(long, value_enum, hide_possible_values = true)]
+    pub detrend: Option<Detrend>,
+    /// Treat the surface as periodic, without a window
     #[arg(long)]
     pub periodic: bool,
-    /// Wavelength down to which the spectrum continues as a power law
+    /// Continue the spectrum as a power law down to this wavelength
     ///
     /// Default: the spectrum ends at the last resolved wave.
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub continue_to: Option<Length>,
-    /// Radius of the tip, as 10nm: gives the reliability cut-off
+    /// Radius of the tip, such as 10nm, for the reliability cut-off
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub tip_radius: Option<Length>,
-    /// Effective modulus E*, as 2.7MPa: gives the elastic energy
-    #[arg(long, value_name = "PRESSURE", value_parser = pressure)]
+    /// Effective modulus E*, such as 2.7MPa, for the elastic energy
+    #[arg(long, value_name = "PRESSURE", value_parser = |text: &str| positive(text, "Pa"))]
     pub modulus: Option<f64>,
 }
 
-/// Detrending.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum DetrendArgument {
-    /// Nothing.
-    None,
-    /// Mean height.
-    Mean,
-    /// Mean height and tilt.
-    Tilt,
-    /// Mean height, tilt and curvature.
-    Curvature,
-}
-
-/// Formats of the results: text, one object with everything, and the spectra.
-const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png];
-
-impl AnalysisArguments {
-    /// Removed part; `None` for the tilt of a surface that is not periodic, the default.
-    fn detrend(&self) -> Option<Detrend> {
-        match self.detrend {
-            DetrendArgument::None => Some(Detrend::None),
-            DetrendArgument::Mean => Some(Detrend::Mean),
-            DetrendArgument::Tilt => self.periodic.then_some(Detrend::Tilt),
-            DetrendArgument::Curvature => Some(Detrend::Curvature),
-        }
-    }
-}
+/// Formats of the results: text, one object with everything, the spectra as a table and as a picture.
+const FORMATS: &[Format] = &Format::ALL;
 
 /// Length as typed.
 #[derive(Clone, Copy, Debug)]
@@ -186,39 +142,51 @@ pub struct Length {
     has_unit: bool,
 }
 
-impl Length {
-    /// Length, m.
-    fn in_metres(self, unit: Option<Unit>) -> f64 {
-        unit.filter(|_| !self.has_unit).map_or(self.value, |unit| unit.to_metres(self.value))
-    }
-}
-
 impl SurfaceArguments {
-    fn in_metres(&self, length: Option<Length>) -> Option<f64> {
-        length.map(|length| length.in_metres(self.reading.unit))
+    /// The value of an option in m.
+    fn in_metres(&self, option: &str, length: Option<Length>) -> Result<Option<f64>, CliError> {
+        match (length, self.options.unit) {
+            (Some(Length { value, has_unit: true }), _) => Ok(Some(value)),
+            (Some(Length { value, .. }), Some(unit)) => Ok(Some(unit.to_metres(value))),
+            (None, _) => Ok(None),
+            (Some(_), None) => Err(CliError::named(
+                option,
+                "a length without a unit; allowed: a unit, such as 0.5um, or --unit um",
+            )),
+        }
     }
 
-    /// Refuses a length without a unit, if `--unit` states none either, and a wavelength that no scene may have.
-    fn check_lengths(&self) -> Result<(), CliError> {
-        let AnalysisArguments { continue_to, tip_radius, .. } = self.analysis;
-        let lengths = [
-            ("--spacing", self.reading.spacing),
-            ("--continue-to", continue_to),
-            ("--tip-radius", tip_radius),
-        ];
-        let has_none = |length: Option<Length>| length.is_some_and(|length| !length.has_unit);
-        match lengths.into_iter().find(|(_, length)| self.reading.unit.is_none() && has_none(*length)) {
-            Some((name, _)) => {
-                Err(CliError::named(name, "a length without a unit; allowed: a unit, as 0.5um, or --unit um"))
-            }
-            None => match self.in_metres(continue_to).filter(|length| !(1e-15..=10.0).contains(length)) {
-                Some(length) => {
-                    let fault = format!("--continue-to: {length:e} m");
-                    Err(CliError::named(fault, "allowed: from 1e-15 to 10 m"))
-                }
-                None => Ok(()),
-            },
+    /// The surfaces with all options as the roughness of a scene; the files have the names of the command line.
+    fn roughness(&self) -> Result<Roughness, CliError> {
+        let options = &self.options;
+        let continue_to = self.in_metres("--continue-to", options.continue_to)?;
+        if let Some(length) = continue_to.filter(|length| !(1e-15..=10.0).contains(length)) {
+            return Err(CliError::named(
+                format!("--continue-to: {length:e} m"),
+                "allowed: from 1e-15 to 10 m",
+            ));
         }
+        let name = |file: &PathBuf| file.to_string_lossy().into_owned();
+        let unit = |unit: Option<Unit>| unit.map_or_else(String::new, |unit| unit.name().to_owned());
+        let mut files = self.files.iter().map(name);
+        Ok(Roughness::Measured {
+            file: files.next().unwrap_or_default(),
+            further_files: files.collect(),
+            as_line: None,
+            opposite: self.opposite.as_ref().map(name),
+            row: options.row,
+            column: options.column,
+            detrend: options.detrend,
+            periodic: options.periodic,
+            unit: unit(options.unit),
+            height_unit: unit(options.height_unit),
+            spacing: self.in_metres("--spacing", options.spacing)?,
+            interpolate: options.interpolate,
+            resample: options.resample,
+            channel: options.channel.map(u64::from),
+            continue_to,
+            seed: 1,
+        })
     }
 
     /// Refuses to write over a measured file, also with `--force`: it could not be measured again.
@@ -226,8 +194,8 @@ impl SurfaceArguments {
         let place = |file: &Path| file.canonicalize().ok();
         let outputs: Vec<PathBuf> =
             [self.output.file(), self.scene.as_deref()].into_iter().flatten().filter_map(place).collect();
-        let files = self.files.iter().chain(&self.opposite);
-        match files.into_iter().find(|file| place(file).is_some_and(|file| outputs.contains(&file))) {
+        let mut files = self.files.iter().chain(&self.opposite);
+        match files.find(|file| place(file).is_some_and(|file| outputs.contains(&file))) {
             Some(file) => Err(CliError::named(
                 path_name(file),
                 "the output would replace this measured file; allowed: another name",
@@ -236,166 +204,95 @@ impl SurfaceArguments {
         }
     }
 
-    /// Name of a file in a table in the destination of the results.
-    fn in_table(&self, file: &Path) -> String {
-        named_from(&file.to_string_lossy(), Path::new(""), self.output.folder())
-    }
-
-    /// Roughness of a scene in a file, with the surfaces named from the folder of that file.
-    fn roughness(&self, scene: &Path) -> Roughness {
-        let beside = |file: &Path| std::path::absolute(file).ok()?.parent().map(Path::to_path_buf);
-        let named = |file: &Path| {
-            let path = match file.file_name() {
-                Some(name) if beside(file) == beside(scene) => PathBuf::from(name),
-                _ => std::path::absolute(file).unwrap_or_else(|_| file.to_path_buf()),
-            };
-            path.to_string_lossy().into_owned()
-        };
-        let (reading, analysis) = (&self.reading, &self.analysis);
-        let unit = |unit: Option<Unit>| unit.map_or_else(String::new, |unit| unit.name().to_owned());
-        let mut files = self.files.iter().map(|file| named(file));
-        Roughness::Measured {
-            file: files.next().unwrap_or_default(),
-            further_files: files.collect(),
-            as_line: None,
-            opposite: self.opposite.as_deref().map(named),
-            row: reading.row,
-            column: reading.column,
-            detrend: analysis.detrend(),
-            periodic: analysis.periodic,
-            unit: unit(reading.unit),
-            height_unit: unit(reading.height_unit),
-            spacing: self.in_metres(reading.spacing),
-            interpolate: reading.interpolate,
-            resample: reading.resample,
-            channel: reading.channel.map(u64::from),
-            continue_to: self.in_metres(analysis.continue_to),
-            seed: 1,
-        }
-    }
-
-    /// Error of the equivalent line, named by the first file.
-    fn failed(&self, error: impl Into<Box<dyn Error + Send + Sync>>) -> CliError {
-        let file = self.files.first().map(|file| path_name(file));
-        CliError::named(file.unwrap_or_default(), error)
-    }
-
-    /// Reads and analyses the files of a face. Adds the hashes of the files if requested.
-    fn face(
+    /// Scene of the equivalent line over the length of the scan, the shorter one of two faces.
+    fn scene_of(
         &self,
-        files: &[PathBuf],
-        hashes: &mut Option<Vec<MeasuredHash>>,
-    ) -> Result<MeasuredFace, CliError> {
-        let options = measured_roughness_options(&self.roughness(Path::new("")), false);
-        let (mut surfaces, mut facts) = (Vec::new(), Vec::new());
-        for file in files {
-            let failed = |error| CliError::named(path_name(file), error);
-            let bytes = content(file).map_err(failed)?;
-            let surface = parse(&bytes, &options.reading).map_err(failed)?;
-            if let Some(hashes) = hashes {
-                let sha256 = hexadecimal(Sha256::new_with_prefix(bytes));
-                hashes.push(MeasuredHash { file: self.in_table(file), sha256 });
-            }
-            facts.push(SurfaceFile::new(file.clone(), &surface));
-            surfaces.push(surface);
+        roughness: Roughness,
+        modulus: f64,
+        faces: &[MeasuredFace],
+        line: &EquivalentLine,
+    ) -> Scene {
+        let name = self.files.first().and_then(|file| file.file_name()).unwrap_or_default();
+        let length = faces.iter().map(|face| face.analysis.length).fold(f64::INFINITY, f64::min);
+        Scene {
+            version: *SCENE_VERSIONS.end(),
+            title: format!("Equivalent line of {}", path_name(Path::new(name))),
+            notice: String::new(),
+            material: Material::effective(modulus),
+            length,
+            form: None,
+            roughness: Some(roughness),
+            adhesion: self.work.map(Adhesion::by_work),
+            loading: vec![self.preload.map_or(Move::ToZeroForce, Move::ToForce), Move::ToSeparation],
+            numerics: Numerics { points: equivalent_springs(line, length), ..Numerics::default() },
+            observe: Vec::new(),
         }
-        let options = Options { tip_radius: self.in_metres(self.analysis.tip_radius), ..options.spectrum };
-        let analysis = analyse(&surfaces, &options).map_err(|error| {
-            let file = facts.get(error.surface().unwrap_or(0)).map(|file| path_name(&file.path));
-            CliError::named(file.unwrap_or_default(), error)
-        })?;
-        Ok(MeasuredFace { files: facts, analysis })
     }
 }
 
 /// Reads and analyses the files and writes the results.
 pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let format = arguments.output.format(arguments.format, FORMATS, Format::Text)?;
-    arguments.output.check()?;
-    arguments.check_lengths()?;
     arguments.check_outputs()?;
-    if let Some(scene) = &arguments.scene {
-        check_writable(scene, arguments.force_scene)?;
+    let format = arguments.output.format(arguments.format, FORMATS, Format::Text)?;
+    if let Some(file) = &arguments.scene {
+        check_file(file, "ron", arguments.force_scene)?;
     }
-    let mut hashes = format.table().map(|_| Vec::new());
-    let mut faces = vec![arguments.face(&arguments.files, &mut hashes)?];
+    let roughness = arguments.roughness()?;
+    let tip_radius = arguments.in_metres("--tip-radius", arguments.options.tip_radius)?;
+    let MeasuredOptions { reading, spectrum, .. } = measured_roughness_options(&roughness, false);
+    let options = MeasuredOptions { as_line: None, reading, spectrum: Options { tip_radius, ..spectrum } };
+    let mut faces = vec![face(&arguments.files, &options)?];
     if let Some(opposite) = &arguments.opposite {
-        faces.push(arguments.face(std::slice::from_ref(opposite), &mut hashes)?);
+        faces.push(face(std::slice::from_ref(opposite), &options)?);
     }
     let line = EquivalentLine { faces: faces.iter().map(|face| face.analysis.isotropic.clone()).collect() };
-    let modulus = arguments.analysis.modulus;
-    let contact = modulus.map(|modulus| SurfaceContact { modulus, work: arguments.work });
-    if let (Some(path), Some(modulus)) = (&arguments.scene, modulus) {
-        let document =
-            Document::from_scene(&scene(arguments, path, &faces, &line, modulus), &path_name(path))?;
-        write_new(path, arguments.force_scene, |out| out.write_all(document.text().as_bytes()))?;
+    let modulus = arguments.options.modulus;
+    let scene = modulus.map(|modulus| arguments.scene_of(roughness, modulus, &faces, &line));
+    if let (Some(file), Some(scene)) = (&arguments.scene, &scene) {
+        write_scene(file, scene.clone(), arguments.force_scene)?;
     }
-    if format.picture().is_some() {
-        let files = faces.iter().flat_map(|face| &face.files);
-        let names = files.filter_map(|file| file.path.file_name());
-        let names: Vec<String> = names.map(|name| path_name(Path::new(name))).collect();
-        let analyses: Vec<&Analysis> = faces.iter().map(|face| &face.analysis).collect();
-        let figure = Spectra::of_faces(&analyses).figure(&names.join(", "));
-        return arguments.output.write_figure(stdout, &figure, format);
-    }
-    if let Some(format) = format.table() {
-        let provenance = Provenance::of_files(&command(), &hashes.unwrap_or_default());
-        let write = |out: &mut dyn Write| write_surface_table(out, format, &provenance, &faces, &line);
-        return arguments.output.write(stdout, write);
-    }
-    let adhesion = match modulus.filter(|_| arguments.work.is_some()) {
-        Some(modulus) => Some(adhesion(arguments, &faces, &line, modulus)?),
-        None => None,
-    };
-    let report = SurfaceReport { faces: &faces, line: &line, contact, adhesion: adhesion.as_ref() };
-    arguments.output.write(stdout, |out| match format {
-        Format::Json => report.write_json(out),
-        _ => out.write_all(report.text().as_bytes()),
-    })
+    // Adhesion is computed for text and JSON, if it is asked for or takes seconds.
+    let is_asked = arguments.work.is_some() && matches!(format, Format::Text | Format::Json);
+    let adhesion = scene.filter(|_| is_asked).map(|scene| {
+        scene.check()?;
+        let unasked = (scene.numerics.points <= MOST_SPRINGS).then_some(LINES);
+        let solve = |lines: u32| MeasuredAdhesion::solve(&scene, &line, lines, threads(None));
+        let solved = arguments.lines.or(unasked).map(solve).transpose();
+        let solved = solved.map_err(|error| CliError::named(path_name(&arguments.files[0]), error))?;
+        Ok::<_, CliError>((scene, solved))
+    });
+    let adhesion = adhesion.transpose()?;
+    let files: Vec<PathBuf> = arguments.files.iter().chain(&arguments.opposite).cloned().collect();
+    let report = SurfaceReport { faces, line, modulus, work: arguments.work, adhesion };
+    arguments.output.write(stdout, &report, format, Origin::Files(&files))
 }
 
-/// Adhesion of the equivalent line, if requested or computed in seconds.
-fn adhesion(
-    arguments: &SurfaceArguments,
-    faces: &[MeasuredFace],
-    line: &EquivalentLine,
-    modulus: f64,
-) -> Result<SurfaceAdhesion, CliError> {
-    let scene = scene(arguments, Path::new(""), faces, line, modulus);
-    scene.check()?;
-    let unasked = (scene.numerics.points <= MOST_SPRINGS).then_some(LINES);
-    let solve = |lines: u32| MeasuredAdhesion::solve(&scene, line, lines, threads(None));
-    let computed = arguments.lines.or(unasked).map(solve).transpose();
-    let computed = computed.map_err(|error| arguments.failed(error))?;
-    Ok(SurfaceAdhesion { scene, computed })
+/// Reads and analyses the files of a face.
+fn face(files: &[PathBuf], options: &MeasuredOptions) -> Result<MeasuredFace, CliError> {
+    let (mut surfaces, mut facts) = (Vec::new(), Vec::new());
+    for file in files {
+        let surface =
+            read(file, &options.reading).map_err(|error| CliError::named(path_name(file), error))?;
+        facts.push(SurfaceFile::new(file.clone(), &surface));
+        surfaces.push(surface);
+    }
+    let analysis = analyse(&surfaces, &options.spectrum).map_err(|error| {
+        let file = files.get(error.surface().unwrap_or(0));
+        CliError::named(file.map(|file| path_name(file)).unwrap_or_default(), error)
+    })?;
+    Ok(MeasuredFace { files: facts, analysis })
 }
 
-/// Scene of the equivalent line over the length of the scan, the shorter one of two faces, on springs that
-/// resolve its shortest wave.
-fn scene(
-    arguments: &SurfaceArguments,
-    path: &Path,
-    faces: &[MeasuredFace],
-    line: &EquivalentLine,
-    modulus: f64,
-) -> Scene {
-    let name = arguments.files.first().and_then(|file| file.file_name()).unwrap_or_default();
-    let length = faces.iter().map(|face| face.analysis.length).fold(f64::INFINITY, f64::min);
-    let waves = length * line.range()[1] / std::f64::consts::TAU;
-    let points = ((SPRINGS_PER_WAVE * waves) as u64).next_power_of_two().clamp(1024, MOST_POINTS);
-    Scene {
-        version: *SCENE_VERSIONS.end(),
-        title: format!("Equivalent line of {}", path_name(&PathBuf::from(name))),
-        notice: String::new(),
-        material: Material::effective(modulus),
-        length,
-        form: None,
-        roughness: Some(arguments.roughness(path)),
-        adhesion: arguments.work.map(Adhesion::by_work),
-        loading: vec![arguments.preload.map_or(Move::ToZeroForce, Move::ToForce), Move::ToSeparation],
-        numerics: Numerics { points, ..Numerics::default() },
-        observe: Vec::new(),
-    }
+/// Writes a scene that names the measured files from its own folder.
+fn write_scene(file: &Path, mut scene: Scene, overwrite: bool) -> Result<(), CliError> {
+    let folder = file.parent().unwrap_or(Path::new(""));
+    scene.rename_measured_files(|measured| {
+        let measured = Path::new(measured);
+        let name = measured.file_name().unwrap_or_default().to_string_lossy();
+        named_from(&name, measured.parent().unwrap_or(Path::new("")), folder)
+    });
+    let document = Document::from_scene(&scene, &path_name(file))?;
+    Ok(write_new(file, overwrite, |out| out.write_all(document.text().as_bytes()))?)
 }
 
 /// Parses a length above 0.
@@ -404,21 +301,7 @@ fn length(text: &str) -> Result<Length, String> {
     Ok(Length { value, has_unit: text.trim().parse::<f64>().is_err() })
 }
 
-/// Parses an energy per area above 0, J/m².
-fn energy(text: &str) -> Result<f64, String> {
-    positive(text, "J/m²")
-}
-
-/// Parses a force above 0, N.
-fn force(text: &str) -> Result<f64, String> {
-    positive(text, "N")
-}
-
-/// Parses a pressure above 0, Pa.
-fn pressure(text: &str) -> Result<f64, String> {
-    positive(text, "Pa")
-}
-
+/// Parses a value above 0 with its unit.
 fn positive(text: &str, unit: &str) -> Result<f64, String> {
     match parse_quantity(text, unit) {
         Ok(value) if value > 0.0 => Ok(value),

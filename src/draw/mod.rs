@@ -23,7 +23,7 @@ pub use chart::{Chart, Class, Contour, Entry, Figure, HeatMap, Layer, Sample, Sh
 pub use colour::{Ink, Palette, Rgb, Shades, hex};
 pub use label::{Label, prefixed, short, value_label};
 #[cfg(feature = "tui")]
-pub use png::{PictureFormat, PngError};
+pub use png::PngError;
 pub use scale::{AxisScale, Span};
 #[cfg(feature = "tui")]
 pub(crate) use svg::{Svg, escaped};

@@ -18,15 +18,6 @@ const MOST_PIXELS: f64 = (1_u32 << 26) as f64;
 /// Pixels per metre of a print on which a px is 1/96 inch.
 const PER_METRE: u32 = 7559;
 
-/// Format of a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PictureFormat {
-    /// Vector picture, SVG.
-    Svg,
-    /// Raster picture, two pixels for each px of the SVG.
-    Png,
-}
-
 /// Error of a raster picture.
 #[derive(Debug, Error)]
 pub enum PngError {
@@ -49,15 +40,12 @@ pub enum PngError {
 }
 
 impl Figure {
-    /// The figure as the content of a picture file.
+    /// The figure as the content of a PNG file.
     ///
     /// # Errors
     /// A picture with more pixels than allowed.
-    pub fn picture(&self, format: PictureFormat) -> Result<Vec<u8>, PngError> {
-        match format {
-            PictureFormat::Svg => Ok(self.svg().into_bytes()),
-            PictureFormat::Png => png(&self.svg()),
-        }
+    pub fn png(&self) -> Result<Vec<u8>, PngError> {
+        png(&self.svg())
     }
 }
 

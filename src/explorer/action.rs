@@ -4,8 +4,7 @@ use super::command::Command;
 use super::opening::Opening;
 use super::snapshot::Report;
 use super::study::Found;
-use crate::draw::PictureFormat;
-use crate::export::TableFormat;
+use crate::export::Format;
 use crate::scene::Entry;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -70,12 +69,10 @@ pub enum WriteFailure {
 pub enum Content {
     /// The scene, in RON.
     Scene,
-    /// The force curve, as a table.
-    Curve(TableFormat),
-    /// The whole outcome, in JSON.
-    Outcome,
-    /// The selected pane as a figure.
-    Figure(PictureFormat),
+    /// The outcome of the scene in JSON, or its force curve as a table.
+    Outcome(Format),
+    /// The selected pane as a picture.
+    Figure(Format),
     /// The panes as plain text.
     Text,
     /// The cells of the map as comma-separated values.
@@ -84,30 +81,22 @@ pub enum Content {
 
 impl Content {
     /// Contents that can be exported, by the extension of the file.
-    pub const EXPORTS: [(&'static str, Content); 6] = [
-        ("csv", Content::Curve(TableFormat::Csv)),
-        ("npy", Content::Curve(TableFormat::Npy)),
-        ("json", Content::Outcome),
-        ("svg", Content::Figure(PictureFormat::Svg)),
-        ("png", Content::Figure(PictureFormat::Png)),
-        ("txt", Content::Text),
+    pub const EXPORTS: &[(Format, Content)] = &[
+        (Format::Csv, Content::Outcome(Format::Csv)),
+        (Format::Npy, Content::Outcome(Format::Npy)),
+        (Format::Json, Content::Outcome(Format::Json)),
+        (Format::Svg, Content::Figure(Format::Svg)),
+        (Format::Png, Content::Figure(Format::Png)),
+        (Format::Text, Content::Text),
     ];
 
     /// Exports of the map, while its pane is selected.
-    pub const MAP_EXPORTS: [(&'static str, Content); 4] = [
-        ("csv", Content::MapCells),
-        ("svg", Content::Figure(PictureFormat::Svg)),
-        ("png", Content::Figure(PictureFormat::Png)),
-        ("txt", Content::Text),
+    pub const MAP_EXPORTS: &[(Format, Content)] = &[
+        (Format::Csv, Content::MapCells),
+        (Format::Svg, Content::Figure(Format::Svg)),
+        (Format::Png, Content::Figure(Format::Png)),
+        (Format::Text, Content::Text),
     ];
-
-    /// Content among `exports` by the extension of a file; `None` for others.
-    #[must_use]
-    pub fn of_file(exports: &[(&'static str, Content)], path: &std::path::Path) -> Option<Self> {
-        let ending = path.extension()?.to_str()?;
-        let known = |(name, _): &&(&str, Content)| ending.eq_ignore_ascii_case(name);
-        exports.iter().find(known).map(|(_, content)| *content)
-    }
 }
 
 /// Gesture of the mouse at a cell of the screen.

@@ -56,6 +56,8 @@ pub struct Options {
     pub restored: Option<(PathBuf, Vec<Document>)>,
     /// Configuration; options here have precedence.
     pub config: Config,
+    /// Message that is shown at the start.
+    pub warning: Option<String>,
     /// Folder in which unsaved changes are kept; `None`: nowhere.
     pub unsaved: Option<PathBuf>,
 }
@@ -149,6 +151,9 @@ pub fn open_with(
         model.show_study(study_map);
     }
     model.configure(options.config);
+    if let Some(warning) = options.warning {
+        model.set_error(warning);
+    }
     if let Some((_, documents)) = &options.restored {
         model.restore(documents);
     } else if let Some(folder) = &options.unsaved {

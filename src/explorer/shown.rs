@@ -6,6 +6,7 @@ use super::mode::ModeKind;
 use super::model::Model;
 use super::panes::{Pane, Place};
 use crate::draw::Figure;
+use crate::export::Format;
 use crate::study::map::StudyMap;
 use std::sync::Arc;
 
@@ -75,8 +76,8 @@ impl Model {
 
     /// Contents that can be exported, by the extension of the file; those of the map while its pane is selected.
     #[must_use]
-    pub fn exports(&self) -> &'static [(&'static str, Content)] {
-        if self.pane == Pane::Chart { &Content::MAP_EXPORTS } else { &Content::EXPORTS }
+    pub fn exports(&self) -> &'static [(Format, Content)] {
+        if self.pane == Pane::Chart { Content::MAP_EXPORTS } else { Content::EXPORTS }
     }
 
     /// The selected pane as a figure; the force curve while the parameters are selected.

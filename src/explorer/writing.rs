@@ -6,7 +6,7 @@ use super::picture::{svg, text};
 use super::theme::Theme;
 use super::view;
 use crate::draw::Palette;
-use crate::export::{Provenance, write_curve, write_json, write_map};
+use crate::export::{self, Format, RunReport, scene_provenance, write_map};
 use crate::io::{WriteError, check_file_name, write_new_file};
 use crate::scene::command_line;
 use ratatui::Terminal;
@@ -40,21 +40,22 @@ fn write_content(file: &mut dyn Write, model: &Model, path: &Path, content: Cont
     let computed = || model.current().ok_or_else(no_curve);
     match content {
         Content::Scene => file.write_all(model.document.text().as_bytes()),
-        Content::Curve(format) => {
+        Content::Outcome(format) => {
             let (document, destination) = (&model.document, path.parent().unwrap_or(Path::new("")));
             let (scene, folder) = (document.scene(), document.resolve(""));
             let command = command_line("asperity run", document.name(), document.overrides());
-            let provenance = Provenance::new(&command, scene, &folder, destination);
-            let provenance = provenance.map_err(io::Error::other)?;
-            write_curve(file, format, &provenance, &computed()?.outcome)
-        }
-        Content::Outcome => {
+            let provenance = match format {
+                Format::Json => String::new(),
+                _ => scene_provenance(&command, scene, &folder, destination).map_err(io::Error::other)?,
+            };
+            let (title, outcome) = (document.title(), &computed()?.outcome);
             let estimate = model.appraisal.estimate();
-            write_json(file, model.document.scene(), &computed()?.outcome, None, estimate)
+            let report = RunReport { title, scene, outcome, choice: None, estimate };
+            export::write(file, &report, format, &provenance)
         }
         Content::Figure(format) => {
             let figure = model.figure().ok_or_else(|| io::Error::other("the pane is empty"))?;
-            file.write_all(&figure.picture(format).map_err(io::Error::other)?)
+            export::write(file, &figure, format, "")
         }
         Content::MapCells => write_map(file, model.chart.grid().ok_or_else(no_map)?),
         Content::Text => file.write_all(text(&picture_of(model)).as_bytes()),

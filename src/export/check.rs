@@ -1,15 +1,41 @@
-//! The table of hard cases.
+//! Verdicts of the catalogue of hard cases as text and JSON.
 
-use super::sheet::{Sheet, markdown};
+use super::report::{Json, Report};
+use super::sheet::Sheet;
 use crate::check::{Check, Verdict, catalogue};
-use crate::io::{object, write_json_value};
-use std::io::{self, Write};
+use crate::io::object;
 
-/// The verdicts for a reader: one row for each check, then the claims of the cases, then the failures.
-#[must_use]
-pub fn check_text(verdicts: &[Verdict]) -> String {
+impl Report for [Verdict] {
+    fn text(&self) -> Option<String> {
+        Some(text(self))
+    }
+
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
+        let row = |verdict: &Verdict| {
+            let Check { case, edges, bound } = verdict.check;
+            object! {
+                "case": case.name,
+                "family": case.family,
+                "edges": edges,
+                "holds": case.holds,
+                "evidence": [case.evidence.replace(' ', "-")],
+                "error_of": case.error_of,
+                "error": verdict.error.as_ref().ok().copied().filter(|error| error.is_finite()),
+                "bound": bound,
+                "passes": verdict.passes(),
+                "fault": verdict.error.as_ref().err().cloned(),
+                "seconds": verdict.seconds,
+            }
+        };
+        let passes = self.iter().all(Verdict::passes);
+        Some(Box::new(object! { "passes": passes, "checks": self.iter().map(row).collect::<Vec<_>>() }))
+    }
+}
+
+/// One row for each check, then the claims of the cases, then the failures.
+fn text(verdicts: &[Verdict]) -> String {
     let mut sheet = Sheet::default();
-    let head = ["case", "edges", "error", "bound", "", "time", "evidence: error of"].map(String::from);
+    let head = ["case", "edges", "error", "bound", "", "time"].map(String::from);
     let mut rows = vec![head];
     rows.extend(verdicts.iter().map(|verdict| {
         let Check { case, edges, bound } = verdict.check;
@@ -20,21 +46,21 @@ pub fn check_text(verdicts: &[Verdict]) -> String {
             figure(bound),
             if verdict.passes() { "pass" } else { "FAIL" }.to_owned(),
             format!("{:.2} s", verdict.seconds),
-            format!("{}: {}", case.evidence, case.error_of),
         ]
     }));
     sheet.table(&rows);
-    sheet.heading("What must hold");
+    sheet.heading("Claims");
     let mut sentences = Vec::new();
     for case in catalogue() {
         if verdicts.iter().any(|verdict| verdict.check.case.name == case.name) {
-            sentences.push([case.name.to_owned(), case.holds.to_owned()]);
+            let evidence = format!("{} Evidence: {}; error of {}.", case.holds, case.evidence, case.error_of);
+            sentences.push([case.name.to_owned(), evidence]);
         }
     }
     sheet.table(&sentences);
     let failed: Vec<&Verdict> = verdicts.iter().filter(|verdict| !verdict.passes()).collect();
     if !failed.is_empty() {
-        sheet.heading("What fails");
+        sheet.heading("Failures");
         let why = |verdict: &&Verdict| {
             let Check { case, edges, bound } = verdict.check;
             let name = format!("{} {}", case.name, edges.name());
@@ -55,53 +81,6 @@ pub fn check_text(verdicts: &[Verdict]) -> String {
     sheet.into_text()
 }
 
-/// The cases as a Markdown table: claims and bounds.
-#[must_use]
-pub fn check_markdown(checks: &[Check]) -> String {
-    let mut rows = vec![["case", "what must hold", "evidence", "error of", "bound"].map(String::from)];
-    for case in catalogue() {
-        let bounds: Vec<String> = checks
-            .iter()
-            .filter(|check| check.case.name == case.name)
-            .map(|check| format!("{}: {}", check.edges.name(), figure(check.bound)))
-            .collect();
-        rows.push([
-            format!("`{}`", case.name),
-            case.holds.to_owned(),
-            case.evidence.to_owned(),
-            case.error_of.to_owned(),
-            bounds.join(", "),
-        ]);
-    }
-    markdown(&rows)
-}
-
-/// Writes the verdicts as one object.
-///
-/// # Errors
-/// Errors of `out`.
-pub fn write_check_json(out: &mut (impl Write + ?Sized), verdicts: &[Verdict]) -> io::Result<()> {
-    let row = |verdict: &Verdict| {
-        let Check { case, edges, bound } = verdict.check;
-        object! {
-            "case": case.name,
-            "family": case.family,
-            "edges": edges,
-            "holds": case.holds,
-            "evidence": [case.evidence.replace(' ', "-")],
-            "error_of": case.error_of,
-            "error": verdict.error.as_ref().ok().copied().filter(|error| error.is_finite()),
-            "bound": bound,
-            "passes": verdict.passes(),
-            "fault": verdict.error.as_ref().err().cloned(),
-            "seconds": verdict.seconds,
-        }
-    };
-    let checks: Vec<_> = verdicts.iter().map(row).collect();
-    let passes = verdicts.iter().all(Verdict::passes);
-    write_json_value(out, &object! { "passes": passes, "checks": checks })
-}
-
 /// A bound or an error: two digits suffice for a comparison, zero is exact.
 fn figure(value: f64) -> String {
     if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
@@ -111,6 +90,7 @@ fn figure(value: f64) -> String {
 mod tests {
     use super::*;
     use crate::check::checks;
+    use crate::export::{Format, write};
     use serde_json::Value;
 
     #[test]
@@ -121,7 +101,7 @@ mod tests {
         let verdict = |check, error| Verdict { check, error, seconds: 0.25 };
         let verdicts =
             [verdict(one, Ok(0.0)), verdict(other, Ok(3.0)), verdict(third, Err("another contact".into()))];
-        let text = check_text(&verdicts);
+        let text = verdicts.text().unwrap();
         let row = |name: &str, edges: &str| {
             text.lines().find(|line| line.starts_with(name) && line.contains(edges)).unwrap().to_owned()
         };
@@ -133,18 +113,11 @@ mod tests {
         assert!(text.contains("error 3.0e0 above the bound") && text.contains("another contact"), "{text}");
         assert!(text.contains("1 of 3 checks pass, in 0.8 s."), "{text}");
         let mut json = Vec::new();
-        write_check_json(&mut json, &verdicts).unwrap();
+        write(&mut json, &verdicts[..], Format::Json, "").unwrap();
         let report: Value = serde_json::from_slice(&json).unwrap();
         assert_eq!(report["passes"], false);
         assert_eq!(report["checks"][1]["error"], 3.0);
         assert_eq!(report["checks"][2]["fault"], "another contact");
         assert_eq!(report["checks"][2]["edges"], "Grid");
-    }
-
-    #[test]
-    fn every_case_has_its_row() {
-        let table = check_markdown(&checks(|_| true));
-        assert_eq!(table.lines().count(), catalogue().len() + 2);
-        assert!(table.contains("| `flat-line` |") && table.contains("| Grid: 2.0e-15, SubCell: 2.0e-15 |"));
     }
 }

@@ -1,35 +1,56 @@
 //! Two scenes in words: titles, differences, both adhesion forces.
 
-use super::force_figure;
+use super::report::Report;
+use super::scene_figure::force_figure;
 use crate::draw::Figure;
 use crate::scene::{Document, format_quantity};
 use crate::simulation::Outcome;
 
 /// Two computed scenes, in the order of the comparison.
-pub type Pair<'a> = [(&'a Document, &'a Outcome); 2];
+#[derive(Clone, Copy, Debug)]
+pub struct Comparison<'a>(pub [(&'a Document, &'a Outcome); 2]);
 
-/// Titles of two scenes, the changes from the first to the second, both adhesion forces with their ratio.
-#[must_use]
-pub fn comparison_text([first, second]: Pair<'_>) -> String {
-    let changes = first.0.changes_to(second.0);
-    let changes: Vec<String> =
-        changes.iter().map(|change| format!("{} {} → {}", change.name, change.from, change.to)).collect();
-    let changes = if changes.is_empty() { "nothing".to_owned() } else { changes.join(", ") };
-    let forces = [first, second].map(|(_, outcome)| outcome.figures.adhesion_force);
-    format!(
-        "A  {}\nB  {}\ndifferent from A to B: {changes}\nadhesion force F_a: {}\n",
-        first.0.title(),
-        second.0.title(),
-        adhesion_forces(forces)
-    )
+impl Comparison<'_> {
+    /// Titles, the changes from the first scene to the second, both adhesion forces with their ratio.
+    fn words(&self) -> String {
+        let [first, second] = self.0;
+        let changes = first.0.changes_to(second.0);
+        let changes: Vec<String> =
+            changes.iter().map(|change| format!("{} {} → {}", change.name, change.from, change.to)).collect();
+        let changes = if changes.is_empty() { "nothing".to_owned() } else { changes.join(", ") };
+        let forces = [first, second].map(|(_, outcome)| outcome.figures.adhesion_force);
+        format!(
+            "A  {}\nB  {}\ndifferent from A to B: {changes}\nadhesion force F_a: {}\n",
+            first.0.title(),
+            second.0.title(),
+            adhesion_forces(forces)
+        )
+    }
+
+    /// Both force curves.
+    fn drawn(&self) -> Figure {
+        let named =
+            |(letter, (scene, _)): (&str, (&Document, &Outcome))| format!("{letter}: {}", scene.title());
+        let [first, second] = self.0;
+        let titles = [("A", first), ("B", second)].map(named);
+        force_figure(&[(&titles[0], first.1), (&titles[1], second.1)])
+    }
 }
 
-/// Force curves of two scenes in one figure.
-#[must_use]
-pub fn comparison_figure([first, second]: Pair<'_>) -> Figure {
-    let titles =
-        [("A", first), ("B", second)].map(|(letter, (scene, _))| format!("{letter}: {}", scene.title()));
-    force_figure(&[(&titles[0], first.1), (&titles[1], second.1)])
+impl Report for Comparison<'_> {
+    fn text(&self) -> Option<String> {
+        let text = self.words();
+        #[cfg(feature = "tui")]
+        let text = {
+            use crate::draw::{Colours, figure_text};
+            format!("{text}\n{}", figure_text(&self.drawn(), super::sheet::WIDTH, Colours::None))
+        };
+        Some(text)
+    }
+
+    fn figure(&self) -> Option<Figure> {
+        Some(self.drawn())
+    }
 }
 
 /// Two adhesion forces, N, and the ratio of the second to the first.
@@ -60,15 +81,15 @@ mod tests {
         let second = first.set("adhesion.work", "0.1").unwrap();
         let outcomes = [&first, &second].map(|document| crate::run(document.scene()).unwrap());
         let pair = [(&first, &outcomes[0]), (&second, &outcomes[1])];
-        let text = comparison_text(pair);
+        let text = Comparison(pair).words();
         assert!(text.contains("different from A to B: γ 50 mJ/m² → 100 mJ/m²\n"), "{text}");
         assert!(text.starts_with(&format!("A  {}\n", first.scene().title)), "{text}");
         // The pull-off force of a sphere is proportional to the work of adhesion.
         assert!(text.ends_with("ratio 2\n"), "{text}");
         let names: Vec<String> =
-            comparison_figure(pair).legend().iter().map(|entry| entry.name.to_string()).collect();
+            Comparison(pair).drawn().legend().iter().map(|entry| entry.name.to_string()).collect();
         let title = first.title();
         assert_eq!(names, [format!("A: {title}"), format!("B: {title}")]);
-        assert!(comparison_text([pair[0], pair[0]]).contains("different from A to B: nothing\n"));
+        assert!(Comparison([pair[0], pair[0]]).words().contains("different from A to B: nothing\n"));
     }
 }

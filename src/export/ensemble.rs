@@ -1,22 +1,64 @@
 //! Results of many random profiles as text, JSON and CSV.
 
-use super::Provenance;
+use super::report::{Json, Report};
 use super::sheet::Sheet;
 use super::summary::tabor_number;
-use super::table::{Column, TableFormat, Value, write_table};
+use super::table::{Kind, Table};
 use crate::accuracy::Choice;
 use crate::analysis::Regime;
-use crate::io::write_json_value;
 use crate::scene::{Scene, format_quantity, format_rounded};
 use crate::study::{LineResult, LinesSummary, Statistics, quartiles};
 use crate::text::grouped;
 use serde::Serialize;
-use std::io::{self, Write};
 
-/// Statistics over the profiles in plain text of at most a hundred columns.
-#[must_use]
-pub fn ensemble_text(scene: &Scene, lines: &[LineResult]) -> String {
-    let summary = LinesSummary::of(lines);
+/// Results of a scene on random profiles; JSON has its fields in this order.
+#[derive(Clone, Debug, Serialize)]
+pub struct LinesReport<'a> {
+    scene: &'a Scene,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    choice: Option<&'a Choice>,
+    #[serde(flatten)]
+    summary: LinesSummary,
+    lines: &'a [LineResult],
+}
+
+impl<'a> LinesReport<'a> {
+    /// The results, with the choice of springs for a tolerance if there is one.
+    #[must_use]
+    pub fn new(scene: &'a Scene, choice: Option<&'a Choice>, lines: &'a [LineResult]) -> LinesReport<'a> {
+        LinesReport { scene, choice, summary: LinesSummary::of(lines), lines }
+    }
+}
+
+impl Report for LinesReport<'_> {
+    fn text(&self) -> Option<String> {
+        Some(text(self))
+    }
+
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
+        Some(Box::new(self))
+    }
+
+    fn table(&self) -> Option<Table<'_>> {
+        let table = Table::of(|| self.lines.iter())
+            .whole("seed", |line| line.seed)
+            .real("adhesion_force", |line| line.adhesion_force)
+            .real("preload_indentation", |line| line.preload_indentation)
+            .real("dissipated_energy", |line| line.dissipated_energy)
+            .real("contact_fraction", |line| line.contact_fraction)
+            .with("regime", Kind::Text("pressure-insensitive".len()), |line| {
+                line.regime.map_or("", Regime::name)
+            })
+            .real("skewness", |line| line.heights.map(|shape| shape.skewness))
+            .real("excess_kurtosis", |line| line.heights.map(|shape| shape.excess_kurtosis))
+            .real("tabor_number", |line| line.tabor_number);
+        Some(table.done())
+    }
+}
+
+/// Statistics over the profiles.
+fn text(report: &LinesReport<'_>) -> String {
+    let LinesReport { scene, choice, ref summary, lines } = *report;
     let mut sheet = Sheet::default();
     sheet.paragraph(&scene.title);
     let seeds = lines.first().zip(lines.last());
@@ -49,6 +91,9 @@ pub fn ensemble_text(scene: &Scene, lines: &[LineResult]) -> String {
     sheet.heading("Heights of single lines; both would be 0 if they averaged themselves");
     sheet.quantity("rms skewness", summary.rms_skewness, "1");
     sheet.quantity("rms excess kurtosis", summary.rms_excess_kurtosis, "1");
+    if let Some(choice) = choice {
+        sheet.heading(&choice.sentence());
+    }
     sheet.into_text()
 }
 
@@ -72,56 +117,3 @@ fn cells(name: &str, unit: &str, statistics: &Statistics) -> [String; 6] {
         grouped(count as u64),
     ]
 }
-
-/// The JSON object; its keys have the order of these fields.
-#[derive(Serialize)]
-struct Report<'a> {
-    scene: &'a Scene,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    choice: Option<&'a Choice>,
-    #[serde(flatten)]
-    summary: LinesSummary,
-    lines: &'a [LineResult],
-}
-
-/// Writes statistics and profiles as one JSON object, beginning with the scene including its defaults, with the
-/// choice for a tolerance if there is one.
-///
-/// # Errors
-/// Errors of `out`.
-pub fn write_ensemble_json(
-    out: &mut (impl Write + ?Sized),
-    scene: &Scene,
-    choice: Option<&Choice>,
-    lines: &[LineResult],
-) -> io::Result<()> {
-    write_json_value(out, &Report { scene, choice, summary: LinesSummary::of(lines), lines })
-}
-
-/// Writes one row for each profile, in SI units; missing values are empty.
-///
-/// # Errors
-/// Errors of `out`.
-pub fn write_ensemble_table(
-    out: &mut (impl Write + ?Sized),
-    format: TableFormat,
-    provenance: &Provenance,
-    lines: &[LineResult],
-) -> io::Result<()> {
-    write_table(out, format, provenance, COLUMNS, lines.len(), lines.iter())
-}
-
-/// Characters of the longest name of a regime.
-const LONGEST_REGIME: usize = "pressure-insensitive".len();
-
-const COLUMNS: &[Column<LineResult>] = &[
-    Column("seed", Value::Whole(|line| line.seed)),
-    Column("adhesion_force", Value::Optional(|line| line.adhesion_force)),
-    Column("preload_indentation", Value::Optional(|line| line.preload_indentation)),
-    Column("dissipated_energy", Value::Optional(|line| line.dissipated_energy)),
-    Column("contact_fraction", Value::Real(|line| line.contact_fraction)),
-    Column("regime", Value::Word(LONGEST_REGIME, |line| line.regime.map_or("", Regime::name))),
-    Column("skewness", Value::Optional(|line| line.heights.map(|shape| shape.skewness))),
-    Column("excess_kurtosis", Value::Optional(|line| line.heights.map(|shape| shape.excess_kurtosis))),
-    Column("tabor_number", Value::Optional(|line| line.tabor_number)),
-];

@@ -1,4 +1,4 @@
-//! Computed scenes, studies, costs and checks as text: JSON and CSV for programs, summaries and pictures for readers.
+//! Results as reports: text for readers, JSON, tables and figures, written in any of their formats.
 //!
 //! Numbers are written in SI units and in the shortest form that reads back as the same number.
 
@@ -6,14 +6,13 @@ mod check;
 mod comparison;
 mod cost;
 mod ensemble;
-mod json;
 mod map;
-mod measured_hash;
 mod preloads;
 mod provenance;
+mod report;
 mod reversals;
+mod run;
 mod scene_figure;
-mod scene_tables;
 pub mod section;
 pub(crate) mod sheet;
 mod spectrum_figure;
@@ -21,31 +20,26 @@ mod study_figure;
 mod summary;
 mod surface;
 mod table;
-mod verdict;
 mod work_precision;
 
-pub use check::{check_markdown, check_text, write_check_json};
-pub use comparison::{Pair, adhesion_forces, comparison_figure, comparison_text};
-pub use cost::{cost_text, write_cost_csv, write_cost_json};
-pub use ensemble::{ensemble_text, write_ensemble_json, write_ensemble_table};
-pub use json::write_json;
+pub use comparison::{Comparison, adhesion_forces};
+pub use cost::CostReport;
+pub use ensemble::LinesReport;
 pub use map::write_map;
-pub use measured_hash::{MeasuredHash, MeasuredHashError, named_from};
 pub use preloads::{PreloadReport, preload_axes, preload_layers};
-pub use provenance::Provenance;
-pub use reversals::{
-    ReversalReport, reversals_figure, reversals_text, write_reversal_map_table, write_reversals_json,
-    write_reversals_table,
+pub use provenance::{
+    MeasuredFileError, check_measured_files, files_provenance, named_from, scene_provenance,
 };
+#[cfg(feature = "tui")]
+pub use report::write;
+pub use report::{Format, FormatError, Json, Report, check_extension};
+pub use reversals::ReversalReport;
+pub use run::RunReport;
 pub(crate) use scene_figure::mark_name;
 pub use scene_figure::{ContactSets, force_figure, sign};
-pub use scene_tables::{write_curve, write_line};
 pub use spectrum_figure::{Spectra, SpectrumPoint};
 pub use study_figure::{study_curves, study_figure, study_map};
-pub use summary::{brief_summary, summary};
-pub use surface::{
-    MeasuredFace, SurfaceAdhesion, SurfaceContact, SurfaceFile, SurfaceReport, measured_adhesion_text,
-    write_surface_table,
-};
-pub use table::TableFormat;
+pub use summary::brief_summary;
+pub use surface::{MeasuredFace, SurfaceFile, SurfaceReport, measured_adhesion_text};
+pub use table::{Kind, Table, TableOf};
 pub use work_precision::work_precision;

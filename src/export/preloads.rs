@@ -1,43 +1,43 @@
 //! Adhesion against preload as text, JSON, tables and a figure.
 
-use super::Provenance;
+use super::report::{Json, Report};
 use super::sheet::{Sheet, thinned};
-use super::table::{Column, TableFormat, Value, write_table};
-use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Span, Stroke};
-use crate::io::{object, write_json_value};
+use super::table::Table;
+use crate::accuracy::Choice;
+use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
+use crate::io::object;
 use crate::scene::{Scene, format_quantity};
 use crate::study::{Preloaded, Statistics, preload_statistics};
 use crate::text::grouped;
-use std::io::{self, Write};
 
 /// Most rows of the table.
 const MOST_ROWS: usize = 32;
+/// Most preloads that are drawn as single signs.
+const MOST_SIGNS: usize = 128;
 
 /// Results for the same preloads on one or more profiles.
 #[derive(Clone, Debug)]
 pub struct PreloadReport<'a> {
+    title: &'a str,
+    choice: Option<&'a Choice>,
     scene: &'a Scene,
     seeds: Vec<Option<u64>>,
     lines: Vec<Vec<Preloaded>>,
     statistics: Vec<Option<Statistics>>,
 }
 
-/// Columns of a seed and the unloading from one preload.
-const COLUMNS: &[Column<(u64, Preloaded)>] = &[
-    Column("seed", Value::Whole(|(seed, _)| *seed)),
-    Column("preload", Value::Real(|(_, one)| one.preload)),
-    Column("preload_indentation", Value::Real(|(_, one)| one.preload_indentation)),
-    Column("adhesion_force", Value::Optional(|(_, one)| one.adhesion_force)),
-    Column("pull_off_indentation", Value::Real(|(_, one)| one.pull_off_indentation)),
-    Column("dissipated_energy", Value::Real(|(_, one)| one.dissipated_energy)),
-];
-
 impl<'a> PreloadReport<'a> {
-    /// The results of profiles, each with its seed if it has one.
+    /// The results of profiles, each with its seed if it has one, with the title of their figure and the choice of
+    /// springs for a tolerance if there is one.
     #[must_use]
-    pub fn new(scene: &'a Scene, results: Vec<(Option<u64>, Vec<Preloaded>)>) -> Self {
+    pub fn new(
+        title: &'a str,
+        scene: &'a Scene,
+        choice: Option<&'a Choice>,
+        results: Vec<(Option<u64>, Vec<Preloaded>)>,
+    ) -> Self {
         let (seeds, lines): (Vec<_>, Vec<_>) = results.into_iter().unzip();
-        PreloadReport { scene, seeds, statistics: preload_statistics(&lines), lines }
+        PreloadReport { title, choice, scene, seeds, statistics: preload_statistics(&lines), lines }
     }
 
     fn is_mean(&self) -> bool {
@@ -47,10 +47,10 @@ impl<'a> PreloadReport<'a> {
     fn first(&self) -> &[Preloaded] {
         self.lines.first().map_or(&[], Vec::as_slice)
     }
+}
 
-    /// Plain text of at most eighty columns.
-    #[must_use]
-    pub fn text(&self) -> String {
+impl Report for PreloadReport<'_> {
+    fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         sheet.paragraph(&self.scene.title);
         let profiles = match self.lines.len() {
@@ -73,49 +73,49 @@ impl<'a> PreloadReport<'a> {
         } else {
             unloadings(&mut sheet, ["preload F_n", "indentation"], shown.map(|(one, _)| *one));
         }
-        sheet.into_text()
+        if let Some(choice) = self.choice {
+            sheet.heading(&choice.sentence());
+        }
+        Some(sheet.into_text())
     }
 
-    /// Writes one JSON object in SI units.
-    ///
-    /// # Errors
-    /// Errors of `out`.
-    pub fn write_json(&self, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
         let means = self.first().iter().zip(&self.statistics).map(|(one, statistics)| {
             object! { "preload": one.preload, "adhesion_force": statistics }
         });
         let lines = self.seeds.iter().zip(&self.lines).map(|(seed, preloads)| {
             object! { "seed": seed, "preloads": preloads }
         });
-        let json = object! {
+        Some(Box::new(object! {
             "scene": self.scene,
             "mean": self.is_mean().then(|| means.collect::<Vec<_>>()),
             "lines": lines.collect::<Vec<_>>(),
-        };
-        write_json_value(out, &json)
+        }))
     }
 
-    /// Writes one row for each preload of each profile, in SI units, beginning with the seed if profiles have one.
-    ///
-    /// # Errors
-    /// Errors of `out`.
-    pub fn write_table(
-        &self,
-        out: &mut (impl Write + ?Sized),
-        format: TableFormat,
-        provenance: &Provenance,
-    ) -> io::Result<()> {
-        let count = self.lines.iter().map(Vec::len).sum();
-        let columns = if self.seeds.contains(&None) { &COLUMNS[1..] } else { COLUMNS };
-        let lines = self.seeds.iter().zip(&self.lines);
-        let rows = lines.flat_map(|(seed, line)| line.iter().map(|one| (seed.unwrap_or(0), *one)));
-        write_table(out, format, provenance, columns, count, rows)
+    /// One row for each preload of each profile, beginning with the seed if profiles have one.
+    fn table(&self) -> Option<Table<'_>> {
+        let rows = || {
+            let lines = self.seeds.iter().zip(&self.lines);
+            lines.flat_map(|(seed, line)| line.iter().map(|one| (seed.unwrap_or(0), one)))
+        };
+        let mut table = Table::of(rows);
+        if !self.seeds.contains(&None) {
+            table = table.whole("seed", |(seed, _)| *seed);
+        }
+        let table = table
+            .real("preload", |(_, one)| one.preload)
+            .real("preload_indentation", |(_, one)| one.preload_indentation)
+            .real("adhesion_force", |(_, one)| one.adhesion_force)
+            .real("pull_off_indentation", |(_, one)| one.pull_off_indentation)
+            .real("dissipated_energy", |(_, one)| one.dissipated_energy);
+        Some(table.done())
     }
 
     /// The adhesion force over the preload: of the first profile, and the mean with its 95 % confidence.
-    #[must_use]
-    pub fn figure(&self, title: &str) -> Figure {
-        Figure::of_chart(title, preload_axes(preload_layers(self.first(), &self.statistics)))
+    fn figure(&self) -> Option<Figure> {
+        let chart = preload_axes(preload_layers(self.first(), &self.statistics));
+        Some(Figure::of_chart(self.title, chart))
     }
 }
 
@@ -153,8 +153,13 @@ pub fn preload_layers(one: &[Preloaded], statistics: &[Option<Statistics>]) -> V
         let points = mean.iter().map(|&(preload, of)| (preload, of.mean)).collect();
         layers.push(Layer::new(name, Ink::Kept, Shape::line(points, Stroke::Dashed)));
     }
-    let points = one.iter().map(|one| (one.preload, one.adhesion_force.unwrap_or(0.0))).collect();
-    layers.push(Layer::new("this profile".into(), Ink::Unloading, Shape::line(points, Stroke::Solid)));
+    let points: Vec<_> = one.iter().map(|one| (one.preload, one.adhesion_force.unwrap_or(0.0))).collect();
+    // The force of one profile is a staircase, whose steps lie anywhere between two preloads.
+    let shape = match points.len() {
+        0..=MOST_SIGNS => Shape::signs(points, Sign::Dot),
+        _ => Shape::line(points, Stroke::Solid),
+    };
+    layers.push(Layer::new("this profile".into(), Ink::Unloading, shape));
     layers
 }
 

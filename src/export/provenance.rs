@@ -1,58 +1,109 @@
-//! Provenance of a table of results: the version, the command and the scene behind it, written into its file.
+//! Provenance of a table of results: version, command, measured files and scene, written into its file.
 //!
 //! In CSV the text fills the first lines, each after `# `; in `.npy` it is an array after that of the results.
 
-use super::measured_hash::{MeasuredHash, MeasuredHashError, named_from};
-use crate::scene::{Scene, to_ron};
-use std::path::Path;
+use crate::io::sha256_of;
+use crate::scene::{Document, Scene, to_ron};
+use crate::text::{path_name, printable};
+use std::path::{Path, PathBuf};
+use thiserror::Error;
 
-/// Version, command, measured files and scene behind a table.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Provenance {
-    text: String,
+/// Prefix of the line of a measured file.
+const HASH: &str = "sha256: ";
+
+/// A measured file that has changed or cannot be read.
+#[derive(Debug, Error)]
+#[error("{0}")]
+pub struct MeasuredFileError(String);
+
+/// Provenance of a table of a scene. Files of the scene are relative to `folder`, and the table is written into
+/// `destination`.
+///
+/// # Errors
+/// A measured file of the scene that cannot be read.
+pub fn scene_provenance(
+    command: &str,
+    scene: &Scene,
+    folder: &Path,
+    destination: &Path,
+) -> Result<String, MeasuredFileError> {
+    let mut text = head(command, &scene.measured_files(), folder, destination)?;
+    let mut scene = scene.clone();
+    scene.rename_measured_files(|file| named_from(file, folder, destination));
+    if let Some(seed) = scene.seed() {
+        text += &format!("seed: {seed}\n");
+    }
+    Ok(text + &format!("scene:\n{}", to_ron(&scene)))
 }
 
-impl Provenance {
-    /// Provenance of a table of a scene. Files of the scene are relative to `folder`, and the table is written into
-    /// `destination`.
-    ///
-    /// # Errors
-    /// A measured file of the scene that cannot be read.
-    pub fn new(
-        command: &str,
-        scene: &Scene,
-        folder: &Path,
-        destination: &Path,
-    ) -> Result<Self, MeasuredHashError> {
-        let files = scene.measured_files().into_iter();
-        let hashes = files.map(|file| MeasuredHash::of_file(file, folder, destination));
-        let Provenance { mut text } = Provenance::of_files(command, &hashes.collect::<Result<Vec<_>, _>>()?);
-        let mut scene = scene.clone();
-        scene.rename_measured_files(|file| named_from(file, folder, destination));
-        if let Some(seed) = scene.seed() {
-            text += &format!("seed: {seed}\n");
+/// Provenance of a table of measured files without a scene, written into `destination`.
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn files_provenance(
+    command: &str,
+    files: &[PathBuf],
+    destination: &Path,
+) -> Result<String, MeasuredFileError> {
+    let names: Vec<_> = files.iter().map(|file| file.to_string_lossy()).collect();
+    let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
+    head(command, &names, Path::new(""), destination)
+}
+
+/// Version, measured files with the SHA-256 of their contents, and command, one line each. The name of a file is a RON
+/// string, always on one line.
+fn head(
+    command: &str,
+    files: &[&str],
+    folder: &Path,
+    destination: &Path,
+) -> Result<String, MeasuredFileError> {
+    let mut text = format!("asperity {}\n", env!("CARGO_PKG_VERSION"));
+    for file in files {
+        let sha256 = hash_of(&folder.join(file))?;
+        text += &format!("{HASH}{sha256} {:?}\n", named_from(file, folder, destination));
+    }
+    Ok(text + &format!("command: {}\n", command.replace(['\n', '\r'], " ")))
+}
+
+/// Checks that the measured files of a scene are those behind the table of results that it was read from.
+///
+/// # Errors
+/// [`MeasuredFileError`] of the first file that differs.
+pub fn check_measured_files(document: &Document) -> Result<(), MeasuredFileError> {
+    let files = document.scene().measured_files();
+    let recorded = document.table_head().lines().filter_map(|line| {
+        let (sha256, file) = line.strip_prefix(HASH)?.split_once(' ')?;
+        Some((ron::from_str::<String>(file).ok()?, sha256))
+    });
+    for (file, expected) in recorded.filter(|(file, _)| files.contains(&file.as_str())) {
+        let path = document.resolve(&file);
+        let found = hash_of(&path)?;
+        if found != expected {
+            let [found, expected] = [&found, expected].map(|hash| hash.chars().take(12).collect::<String>());
+            let (file, table) = (path_name(&path), printable(document.name()));
+            return Err(MeasuredFileError(format!(
+                "{file}: the measured file has changed: its SHA-256 is {found}…, {table} has {expected}…; allowed: the \
+                 file as it was, or its scene in a file of its own"
+            )));
         }
-        text += &format!("scene:\n{}", to_ron(&scene));
-        Ok(Provenance { text })
     }
+    Ok(())
+}
 
-    /// Provenance of a table of measured files without a scene.
-    #[must_use]
-    pub fn of_files(command: &str, files: &[MeasuredHash]) -> Self {
-        let hashes: String = files.iter().map(MeasuredHash::line).collect();
-        let command = command.replace(['\n', '\r'], " ");
-        Provenance { text: format!("asperity {}\n{hashes}command: {command}\n", env!("CARGO_PKG_VERSION")) }
-    }
+fn hash_of(path: &Path) -> Result<String, MeasuredFileError> {
+    sha256_of(path).map_err(|reason| MeasuredFileError(format!("{}: {reason}", path_name(path))))
+}
 
-    /// The text: version, hashes of measured files, command and seed, one line each, and the scene.
-    #[must_use]
-    pub fn text(&self) -> &str {
-        &self.text
-    }
-
-    /// The text as comments of CSV.
-    #[must_use]
-    pub fn comments(&self) -> String {
-        self.text.lines().map(|line| format!("# {line}\n")).collect()
+/// Name of a file relative to `folder` in a table that is written into `destination`: unchanged in the same folder,
+/// else the absolute path.
+#[must_use]
+pub fn named_from(file: &str, folder: &Path, destination: &Path) -> String {
+    let whole = |folder: &Path| Path::new(".").join(folder).canonicalize().ok();
+    let is_same_folder =
+        folder == destination || whole(folder).is_some_and(|one| Some(one) == whole(destination));
+    match std::path::absolute(folder.join(file)) {
+        Ok(absolute) if !is_same_folder => absolute.to_string_lossy().into_owned(),
+        _ => file.to_owned(),
     }
 }

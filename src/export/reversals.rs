@@ -1,17 +1,15 @@
 //! First-order reversal curves of a scene as text, JSON, tables and a figure.
 
-use super::Provenance;
 use super::preloads::{preload_axes, preload_layers, unloadings};
+use super::report::{Json, Report};
 use super::sheet::{Sheet, thinned};
-use super::table::{Column, Record, TableFormat, Value, write_table};
+use super::table::Table;
 use crate::analysis::{MinorLoops, ReversalMap};
-use crate::contact::Reversal;
 use crate::draw::{Axis, AxisScale, Chart, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Span};
-use crate::io::{object, write_json_value};
+use crate::io::object;
 use crate::scene::{Scene, format_quantity};
 use crate::study::Preloaded;
 use crate::text::grouped;
-use std::io::{self, Write};
 
 /// Most rows of the table.
 const MOST_ROWS: usize = 16;
@@ -21,6 +19,8 @@ const MOST_CELLS: usize = 128;
 /// Reversals of a scene, their minor loops, and the smoothing of the density.
 #[derive(Clone, Copy, Debug)]
 pub struct ReversalReport<'a> {
+    /// Title of the figure.
+    pub title: &'a str,
     /// The scene.
     pub scene: &'a Scene,
     /// Reversals of the scene.
@@ -31,6 +31,8 @@ pub struct ReversalReport<'a> {
     pub loops: Option<MinorLoops>,
     /// Steps on either side over which the density is fitted.
     pub smoothing: usize,
+    /// True for a table with a row for each point of the map instead of each turning point.
+    pub map_table: bool,
 }
 
 /// Share of incongruent minor loops in words.
@@ -47,137 +49,107 @@ fn congruency(loops: MinorLoops) -> String {
     }
 }
 
-/// Reversals in plain text of at most eighty columns.
-#[must_use]
-pub fn reversals_text(report: &ReversalReport<'_>) -> String {
-    let ReversalReport { scene, map, loops, smoothing, .. } = *report;
-    let mut sheet = Sheet::default();
-    sheet.paragraph(&scene.title);
-    let reversals = &map.reversals;
-    let (count, springs) = (grouped(reversals.len() as u64), grouped(scene.numerics.points));
-    sheet.heading(&format!("{count} reversals of one loading, {springs} springs"));
-    let shown = thinned(reversals.iter(), MOST_ROWS);
-    let shown = shown.map(|reversal| Preloaded::new(reversal.turn.force, reversal));
-    unloadings(&mut sheet, ["force at turn", "turning at"], shown);
-    sheet.heading("Map");
-    sheet.quantity("step of indentations", map.step(), "m");
-    let largest = |value: fn(&ReversalMap, usize, usize) -> Option<f64>| {
-        let all = (0..reversals.len()).flat_map(|turn| (0..map.points.len()).map(move |point| (turn, point)));
-        all.filter_map(|(turn, point)| value(map, turn, point)).reduce(f64::max)
-    };
-    let everett = largest(|map, turn, point| map.everett(turn, point));
-    sheet.quantity("largest Everett value", everett, "N");
-    sheet.row("density", format!("quadratic fit, {smoothing} steps on either side"));
-    sheet.row_of("incongruent", loops.map(congruency));
-    sheet.into_text()
-}
-
-/// Writes a map as one JSON object in SI units: for each turning point the forces at the indentations of the
-/// columns up to that point, the Everett function and the density.
-///
-/// # Errors
-/// Errors of `out`.
-pub fn write_reversals_json(out: &mut (impl Write + ?Sized), report: &ReversalReport<'_>) -> io::Result<()> {
-    let ReversalReport { scene, map, preloads, loops, smoothing } = *report;
-    let rows = |value: &dyn Fn(usize, usize) -> Option<f64>| -> Vec<Vec<Option<f64>>> {
-        let row = |turn: usize| (0..=map.below + turn).map(|point| value(turn, point)).collect();
-        (0..map.reversals.len()).map(row).collect()
-    };
-    let json = object! {
-        "scene": scene,
-        "preloads": preloads,
-        "reversals": map.reversals.iter().map(|reversal| Record(COLUMNS, reversal)).collect::<Vec<_>>(),
-        "indentations": &map.points,
-        "step": map.step(),
-        "smoothing": smoothing,
-        "forces": map.reversals.iter().map(|reversal| reversal.forces.as_slice()).collect::<Vec<_>>(),
-        "everett": rows(&|turn, point| map.everett(turn, point)),
-        "density": rows(&|turn, point| map.density(turn, point, smoothing)),
-        "minor_loops": loops.map(|loops| object! {
-            "with_loss": loops.with_loss,
-            "incongruent": loops.incongruent,
-            "incongruent_share": loops.incongruent_share(),
-        }),
-    };
-    write_json_value(out, &json)
-}
-
-const COLUMNS: &[Column<Reversal>] = &[
-    Column("turning_indentation", Value::Real(|reversal| reversal.turn.indentation)),
-    Column("turning_force", Value::Real(|reversal| reversal.turn.force)),
-    Column("adhesion_force", Value::Optional(Reversal::adhesion_force)),
-    Column("pull_off_indentation", Value::Real(|reversal| reversal.smallest.indentation)),
-    Column("separation", Value::Real(|reversal| reversal.separation)),
-    Column("dissipated_energy", Value::Real(|reversal| reversal.dissipated_energy)),
-];
-
-/// Writes a table with one row for each turning point, in SI units.
-///
-/// # Errors
-/// Errors of `out`.
-pub fn write_reversals_table(
-    out: &mut (impl Write + ?Sized),
-    format: TableFormat,
-    provenance: &Provenance,
-    map: &ReversalMap,
-) -> io::Result<()> {
-    write_table(out, format, provenance, COLUMNS, map.reversals.len(), map.reversals.iter())
-}
-
-/// A turning point and an indentation, m, with the values of the map.
-type MapPoint = ([f64; 2], [Option<f64>; 3]);
-
-const MAP_COLUMNS: &[Column<MapPoint>] = &[
-    Column("turning_indentation", Value::Real(|(at, _)| at[0])),
-    Column("indentation", Value::Real(|(at, _)| at[1])),
-    Column("force", Value::Optional(|(_, values)| values[0])),
-    Column("everett", Value::Optional(|(_, values)| values[1])),
-    Column("density", Value::Optional(|(_, values)| values[2])),
-];
-
-/// Writes a table with one row for each turning point and each indentation up to that point, in SI units.
-///
-/// # Errors
-/// Errors of `out`.
-pub fn write_reversal_map_table(
-    out: &mut (impl Write + ?Sized),
-    format: TableFormat,
-    provenance: &Provenance,
-    map: &ReversalMap,
-    smoothing: usize,
-) -> io::Result<()> {
-    let points = |turn: usize| &map.points[..=map.below + turn];
-    let rows = map.turns().iter().enumerate().flat_map(|(turn, &at)| {
-        points(turn).iter().enumerate().map(move |(point, &indentation)| {
-            let density = map.density(turn, point, smoothing);
-            ([at, indentation], [map.force(turn, point), map.everett(turn, point), density])
-        })
-    });
-    let count = (0..map.turns().len()).map(|turn| points(turn).len()).sum();
-    write_table(out, format, provenance, MAP_COLUMNS, count, rows)
-}
-
-/// The adhesion force over the preload, the Everett function and the density.
-#[must_use]
-pub fn reversals_figure(report: &ReversalReport<'_>, title: &str) -> Figure {
-    let ReversalReport { map, preloads, loops, smoothing, .. } = *report;
-    let mut notes = vec![Label::plain(&format!("density: quadratic fit, {smoothing} steps on either side"))];
-    notes.extend(loops.map(|loops| Label::plain(&format!("incongruent: {}", congruency(loops)))));
-    let everett = |turn, point| map.everett(turn, point);
-    let density = |turn, point| map.density(turn, point, smoothing);
-    Figure {
-        title: title.to_owned(),
-        notes,
-        charts: vec![
-            Chart {
-                heading: Label::quantity("adhesion force", "F_a"),
-                ..preload_axes(preload_layers(preloads, &[]))
-            },
-            map_chart(map, "Everett function", ("E", "N"), Shades::Sequential, &everett),
-            map_chart(map, "FORC density", ("ρ", "N/m²"), Shades::Diverging, &density),
-        ],
-        size: Figure::SMALL,
+impl Report for ReversalReport<'_> {
+    fn text(&self) -> Option<String> {
+        let ReversalReport { scene, map, loops, smoothing, .. } = *self;
+        let mut sheet = Sheet::default();
+        sheet.paragraph(&scene.title);
+        let reversals = &map.reversals;
+        let (count, springs) = (grouped(reversals.len() as u64), grouped(scene.numerics.points));
+        sheet.heading(&format!("{count} reversals of one loading, {springs} springs"));
+        let shown = thinned(reversals.iter(), MOST_ROWS);
+        let shown = shown.map(|reversal| Preloaded::new(reversal.turn.force, reversal));
+        unloadings(&mut sheet, ["force at turn", "turning at"], shown);
+        sheet.heading("Map");
+        sheet.quantity("step of indentations", map.step(), "m");
+        let points = 0..map.points.len();
+        let all = (0..reversals.len()).flat_map(|turn| points.clone().map(move |point| (turn, point)));
+        let everett = all.filter_map(|(turn, point)| map.everett(turn, point)).reduce(f64::max);
+        sheet.quantity("largest Everett value", everett, "N");
+        sheet.row("density", format!("quadratic fit, {smoothing} steps on either side"));
+        sheet.row_of("incongruent", loops.map(congruency));
+        Some(sheet.into_text())
     }
+
+    /// For each turning point the forces at the indentations of the columns up to that point, the Everett function and
+    /// the density.
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
+        let ReversalReport { scene, map, preloads, loops, smoothing, .. } = *self;
+        let rows = |value: &dyn Fn(usize, usize) -> Option<f64>| -> Vec<Vec<Option<f64>>> {
+            let row = |turn: usize| (0..=map.below + turn).map(|point| value(turn, point)).collect();
+            (0..map.reversals.len()).map(row).collect()
+        };
+        Some(Box::new(object! {
+            "scene": scene,
+            "preloads": preloads,
+            "reversals": turning_points(map),
+            "indentations": &map.points,
+            "step": map.step(),
+            "smoothing": smoothing,
+            "forces": map.reversals.iter().map(|reversal| reversal.forces.as_slice()).collect::<Vec<_>>(),
+            "everett": rows(&|turn, point| map.everett(turn, point)),
+            "density": rows(&|turn, point| map.density(turn, point, smoothing)),
+            "minor_loops": loops.map(|loops| object! {
+                "with_loss": loops.with_loss,
+                "incongruent": loops.incongruent,
+                "incongruent_share": loops.incongruent_share(),
+            }),
+        }))
+    }
+
+    fn table(&self) -> Option<Table<'_>> {
+        Some(if self.map_table { points(self.map, self.smoothing) } else { turning_points(self.map) })
+    }
+
+    /// The adhesion force over the preload, the Everett function and the density.
+    fn figure(&self) -> Option<Figure> {
+        let ReversalReport { map, preloads, loops, smoothing, .. } = *self;
+        let mut notes =
+            vec![Label::plain(&format!("density: quadratic fit, {smoothing} steps on either side"))];
+        notes.extend(loops.map(|loops| Label::plain(&format!("incongruent: {}", congruency(loops)))));
+        let everett = |turn, point| map.everett(turn, point);
+        let density = |turn, point| map.density(turn, point, smoothing);
+        Some(Figure {
+            title: self.title.to_owned(),
+            notes,
+            charts: vec![
+                Chart {
+                    heading: Label::quantity("adhesion force", "F_a"),
+                    ..preload_axes(preload_layers(preloads, &[]))
+                },
+                map_chart(map, "Everett function", ("E", "N"), Shades::Sequential, &everett),
+                map_chart(map, "FORC density", ("ρ", "N/m²"), Shades::Diverging, &density),
+            ],
+            size: Figure::SMALL,
+        })
+    }
+}
+
+/// One row for each turning point.
+fn turning_points(map: &ReversalMap) -> Table<'_> {
+    Table::of(|| map.reversals.iter())
+        .real("turning_indentation", |one| one.turn.indentation)
+        .real("turning_force", |one| one.turn.force)
+        .real("adhesion_force", |one| one.adhesion_force())
+        .real("pull_off_indentation", |one| one.smallest.indentation)
+        .real("separation", |one| one.separation)
+        .real("dissipated_energy", |one| one.dissipated_energy)
+        .done()
+}
+
+/// One row for each turning point and each indentation up to that point.
+fn points(map: &ReversalMap, smoothing: usize) -> Table<'_> {
+    let points = || {
+        let turns = 0..map.turns().len();
+        turns.flat_map(|turn| (0..=map.below + turn).map(move |point| (turn, point)))
+    };
+    Table::of(points)
+        .real("turning_indentation", |&(turn, _)| map.turns()[turn])
+        .real("indentation", |&(_, point)| map.points[point])
+        .real("force", |&(turn, point)| map.force(turn, point))
+        .real("everett", |&(turn, point)| map.everett(turn, point))
+        .real("density", move |&(turn, point)| map.density(turn, point, smoothing))
+        .done()
 }
 
 fn map_chart(

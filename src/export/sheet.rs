@@ -67,25 +67,51 @@ impl Sheet {
         }
     }
 
-    /// Lines of cells below each other, all but the last column as wide as its widest cell. A last cell too long
-    /// for its line continues below itself, or begins on the next line if the other columns leave too little room.
+    /// Lines of cells below each other. Columns beyond the width follow as a further table that begins with the first
+    /// column again. The last cell of a line continues below itself if it is too long.
     pub(crate) fn table<R: AsRef<[String]>>(&mut self, rows: &[R]) {
-        let cell = |row: &R, column: usize| row.as_ref().get(column).map_or(0, |cell| cell.chars().count());
-        let width = |column: usize| rows.iter().map(|row| cell(row, column)).max().unwrap_or(0);
-        for row in rows {
-            let Some((last, others)) = row.as_ref().split_last() else { continue };
-            let mut before: String =
-                others.iter().enumerate().map(|(column, cell)| padded(cell, width(column) + 2)).collect();
-            let mut room = WIDTH.saturating_sub(before.chars().count());
-            if room < FEWEST_IN_LAST && last.chars().count() > room {
-                self.line(&before);
-                before = " ".repeat(INDENT);
-                room = WIDTH - INDENT;
+        let columns = rows.iter().map(|row| row.as_ref().len()).max().unwrap_or(0);
+        let length = |row: &R, column: usize| row.as_ref().get(column).map_or(0, |cell| cell.chars().count());
+        let width = |column: usize| rows.iter().map(|row| length(row, column)).max().unwrap_or(0);
+        let widths: Vec<usize> = (0..columns).map(width).collect();
+        let mut next = columns.min(1);
+        loop {
+            let (begin, mut room) = (next, WIDTH.saturating_sub(widths.first().map_or(0, |width| width + 2)));
+            while next < columns {
+                // Only the last column holds sentences, which continue on further lines.
+                let needed =
+                    if next + 1 == columns { widths[next].min(FEWEST_IN_LAST) } else { widths[next] };
+                if needed > room && next > begin {
+                    break;
+                }
+                room = room.saturating_sub(widths[next] + 2);
+                next += 1;
             }
-            for line in wrap(last, room) {
-                self.line(&format!("{before}{line}"));
-                before = " ".repeat(before.chars().count());
+            for row in rows {
+                let cells: Vec<_> = row.as_ref().iter().enumerate().collect();
+                let shown = cells.iter().filter(|(column, _)| *column == 0 || (begin..next).contains(column));
+                self.cells(&shown.map(|(column, cell)| (widths[*column], cell.as_str())).collect::<Vec<_>>());
             }
+            if next >= columns {
+                return;
+            }
+            self.text.push('\n');
+        }
+    }
+
+    /// A line of cells with the widths of their columns; a last cell that has too little room begins on the next line.
+    fn cells(&mut self, cells: &[(usize, &str)]) {
+        let Some(((_, last), others)) = cells.split_last() else { return };
+        let mut before: String = others.iter().map(|(width, cell)| padded(cell, width + 2)).collect();
+        let mut room = WIDTH.saturating_sub(before.chars().count());
+        if room < FEWEST_IN_LAST && last.chars().count() > room {
+            self.line(&before);
+            before = " ".repeat(INDENT);
+            room = WIDTH - INDENT;
+        }
+        for line in wrap(last, room) {
+            self.line(&format!("{before}{line}"));
+            before = " ".repeat(before.chars().count());
         }
     }
 
@@ -94,20 +120,6 @@ impl Sheet {
         self.text.push_str(&printable(line.trim_end()));
         self.text.push('\n');
     }
-}
-
-/// Rows as comma-separated values.
-#[cfg(feature = "tui")]
-pub(crate) fn csv<R: AsRef<[String]>>(rows: &[R]) -> String {
-    rows.iter().map(|row| row.as_ref().join(",") + "\n").collect()
-}
-
-/// Rows as a table of Markdown, the first one as its heading.
-pub(crate) fn markdown<R: AsRef<[String]>>(rows: &[R]) -> String {
-    let mut lines: Vec<_> = rows.iter().map(|row| format!("| {} |\n", row.as_ref().join(" | "))).collect();
-    let columns = rows.first().map_or(0, |row| row.as_ref().len());
-    lines.insert(lines.len().min(1), format!("|{}\n", " --- |".repeat(columns)));
-    lines.concat()
 }
 
 /// At most `most` evenly spaced rows of a table, including the last one.
@@ -125,16 +137,33 @@ fn padded(text: &str, width: usize) -> String {
 mod tests {
     use super::*;
 
+    fn lines(rows: &[Vec<String>]) -> Vec<String> {
+        let mut sheet = Sheet::default();
+        sheet.table(rows);
+        sheet.into_text().lines().map(str::to_owned).collect()
+    }
+
     #[test]
     fn columns_are_as_wide_as_their_cells() {
-        let mut sheet = Sheet::default();
-        sheet.table(&[["a", "b", &"c ".repeat(60)], ["aaa", "", "d"]].map(|row| row.map(String::from)));
-        let text = sheet.into_text();
-        let lines: Vec<_> = text.lines().collect();
-        assert_eq!(lines.len(), 3, "{text}");
-        assert!(lines[0].starts_with("a    b  c c"), "{text}");
-        assert!(lines[1].starts_with("        c c"), "{text}");
+        let lines = lines(
+            &[["a", "b", &"c ".repeat(60)], ["aaa", "", "d"]].map(|row| row.map(String::from).to_vec()),
+        );
+        assert_eq!(lines.len(), 3, "{lines:?}");
+        assert!(lines[0].starts_with("a    b  c c"), "{lines:?}");
+        assert!(lines[1].starts_with("        c c"), "{lines:?}");
         assert_eq!(lines[2], "aaa     d");
+        assert!(lines.iter().all(|line| line.len() <= WIDTH));
+    }
+
+    #[test]
+    fn columns_that_do_not_fit_are_a_further_table() {
+        let row = |first: &str| {
+            let others = (1..8).map(|column| format!("{column}{}", "x".repeat(13)));
+            std::iter::once(first.to_owned()).chain(others).collect::<Vec<_>>()
+        };
+        let lines = lines(&[row("setting"), row("16")]);
+        let starts: Vec<String> = lines.iter().map(|line| line.chars().take(10).collect()).collect();
+        assert_eq!(starts, ["setting  1", "16       1", "", "setting  5", "16       5"]);
         assert!(lines.iter().all(|line| line.len() <= WIDTH));
     }
 }

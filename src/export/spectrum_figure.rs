@@ -53,25 +53,25 @@ pub(super) fn wave_numbers([low, high]: [f64; 2], per_decade: f64) -> impl Itera
     (0..=pieces as u32).map(move |piece| (low * (high / low).powf(f64::from(piece) / pieces)).min(high))
 }
 
+/// Measured spectra of a face with their names.
+fn measured(face: usize, analysis: &Analysis) -> impl Iterator<Item = (&'static str, Vec<SpectrumPoint>)> {
+    analysis.spectra.iter().map(move |(direction, bins)| {
+        (spectrum_name(face, *direction), bins.iter().map(|bin| (bin.wave_number, bin.power)).collect())
+    })
+}
+
 impl Spectra {
     /// Spectra of measured surfaces and of their equivalent line.
     #[must_use]
     pub fn of_analysis(analysis: &Analysis) -> Self {
-        Spectra::of_face(0, analysis)
-    }
-
-    fn of_face(face: usize, analysis: &Analysis) -> Self {
         let isotropic = &analysis.isotropic;
         let range = isotropic.range();
-        let measured = analysis.spectra.iter().map(|(direction, bins)| {
-            (spectrum_name(face, *direction), bins.iter().map(|bin| (bin.wave_number, bin.power)).collect())
-        });
         let over = |spectrum: &dyn Fn(f64) -> f64| {
             wave_numbers(range, PER_DECADE).map(|q| (q, spectrum(q))).collect()
         };
         let fit = analysis.power_law;
         Spectra {
-            measured: measured.collect(),
+            measured: measured(0, analysis).collect(),
             fit: over(&|q| isotropic.cut(q)),
             self_affine: fit.map(|fit| (fit.hurst.value, over(&|q| fit.cut(q, range)))),
             line: over(&|q| isotropic.line(q)),
@@ -93,8 +93,7 @@ impl Spectra {
             [face] => return Spectra::of_analysis(face),
             _ => {}
         }
-        let measured =
-            faces.iter().enumerate().flat_map(|(face, analysis)| Spectra::of_face(face, analysis).measured);
+        let measured = faces.iter().enumerate().flat_map(|(face, analysis)| measured(face, analysis));
         let line = EquivalentLine { faces: faces.iter().map(|face| face.isotropic.clone()).collect() };
         let line = wave_numbers(line.range(), PER_DECADE).map(|q| (q, line.power(q))).collect();
         Spectra { measured: measured.collect(), line, ..Spectra::default() }

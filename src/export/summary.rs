@@ -1,24 +1,26 @@
 //! Summary of a computed scene for a reader.
 
 use super::sheet::Sheet;
-use super::verdict;
-use crate::accuracy::Estimate;
-use crate::analysis::{LEAST_TABOR_NUMBER, SteepWaves};
+use crate::accuracy::{Choice, Estimate};
+use crate::analysis::{
+    INSENSITIVE_SHARE, LEAST_TABOR_NUMBER, NEGLIGIBLE_COEFFICIENT, Regime, SteepWaves, VANISHING_SHARE,
+};
 use crate::contact::Work;
 use crate::scene::{Move, Scene, format_quantity};
 use crate::simulation::{Outcome, Timings};
 use crate::text::grouped;
 
-/// Most loading stages of a history that are named; further ones are counted.
-const MOST_LEGS: usize = 8;
+/// Largest number of loading stages that are listed; further ones are counted.
+const MOST_STAGES: usize = 8;
 
-/// Text in place of an adhesion force.
-const NO_PULL: &str = "none: no stage unloads";
-
-/// Result of a scene in plain text of at most 80 columns that ends in a line break, the adhesion force with its
-/// estimated error if there is one.
-#[must_use]
-pub fn summary(scene: &Scene, outcome: &Outcome, estimate: Option<&Estimate>) -> String {
+/// Result of a scene in plain text of at most 80 columns, with the estimated error of the adhesion force and the choice of
+/// springs for a tolerance if there are such.
+pub(super) fn summary(
+    scene: &Scene,
+    outcome: &Outcome,
+    estimate: Option<&Estimate>,
+    choice: Option<&Choice>,
+) -> String {
     let mut sheet = Sheet::default();
     sheet.paragraph(&scene.title);
     sheet.paragraph(&scene.notice);
@@ -27,10 +29,13 @@ pub fn summary(scene: &Scene, outcome: &Outcome, estimate: Option<&Estimate>) ->
     adhesion(&mut sheet, scene, outcome, estimate);
     contact(&mut sheet, outcome);
     cost(&mut sheet, &outcome.history.work, &outcome.timings);
+    if let Some(choice) = choice {
+        sheet.heading(&choice.sentence());
+    }
     sheet.into_text()
 }
 
-/// The result of a scene in a few rows: title, κ, regime, forces and dissipated energy, as in [`summary`].
+/// The result of a scene in a few rows: title, κ, regime, forces and dissipated energy.
 #[must_use]
 pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
     let figures = &outcome.figures;
@@ -38,7 +43,7 @@ pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
     sheet.paragraph(&scene.title);
     sheet.quantity("κ = √(h⟨∇z⟩E*/γ)", outcome.governing.kappa, "1");
     sheet.quantity("e_el/γ", outcome.governing.elastic_energy_ratio, "1");
-    sheet.row("regime", verdict::sentence(outcome));
+    sheet.row("regime", regime(outcome));
     sheet.quantity("preload F_n", figures.preload, "N");
     sheet.row("adhesion force F_a", adhesion_force(outcome));
     sheet.quantity("at first touch F_a(0)", outcome.zero_load_adhesion_force, "N");
@@ -90,7 +95,7 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Optio
     let figures = &outcome.figures;
     sheet.heading("Adhesion");
     sheet.row("loading", loading(&scene.loading));
-    verdict::rows(sheet, outcome);
+    deciding_shares(sheet, outcome);
     sheet.quantity("preload F_n", figures.preload, "N");
     sheet.quantity("at indentation", figures.preload_indentation, "m");
     let force = figures.adhesion_force.is_some();
@@ -104,6 +109,58 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Optio
     sheet.row_of("λ²/(AR)", outcome.steep_waves.map(steep_waves));
     sheet.quantity("ideal F_a,max", outcome.ideal_adhesion_force, "N");
     dissipated_energy(sheet, outcome);
+}
+
+/// The regime and its meaning.
+fn regime(outcome: &Outcome) -> String {
+    let adhesive = outcome.governing.adhesive_work().is_some();
+    let meaning = match outcome.regime {
+        None if adhesive => return "not known: no stage unloads".to_owned(),
+        None => return "none: no adhesion, and no stage unloads".to_owned(),
+        Some(Regime::NonAdhesive) if !adhesive => "the scene has no adhesion",
+        Some(Regime::PressureInsensitive) => "adhesion hardly needs a preload",
+        Some(Regime::PressureSensitive) => "adhesion is small without a preload",
+        Some(Regime::NonAdhesive) => "almost no adhesion, after a turn at first touch or after the preload",
+    };
+    let name = outcome.regime.map_or("", Regime::by_protocol);
+    format!("{name}: {meaning}")
+}
+
+/// The regime and, one row each, the deciding shares.
+fn deciding_shares(sheet: &mut Sheet, outcome: &Outcome) {
+    sheet.row("regime", regime(outcome));
+    if outcome.regime.is_none() {
+        return;
+    }
+    let (zero_load, adhesion) = (outcome.zero_load_adhesion_force, outcome.figures.adhesion_force);
+    let (smooth, preload) = (outcome.smooth_adhesion_force, outcome.figures.preload);
+    let says = ["first touch makes most of it", "the preload makes most of it"];
+    share(sheet, "  F_a(0)/F_a", zero_load, adhesion, INSENSITIVE_SHARE, says);
+    let says = ["there at first touch", "vanished at first touch"];
+    share(sheet, "  F_a(0)/F_smooth", zero_load, smooth, VANISHING_SHARE, says);
+    if preload.is_some_and(|preload| preload <= 0.0) && zero_load != adhesion {
+        let says = ["there without a preload", "vanished without a preload"];
+        share(sheet, "  F_a/F_smooth", adhesion, smooth, VANISHING_SHARE, says);
+    }
+    let says = ["not negligible", "negligible"];
+    share(sheet, "  F_a/F_n", adhesion, preload, NEGLIGIBLE_COEFFICIENT, says);
+}
+
+/// One share, its side of the threshold, and the conclusion: from the threshold on, below.
+fn share(
+    sheet: &mut Sheet,
+    label: &str,
+    part: Option<f64>,
+    whole: Option<f64>,
+    threshold: f64,
+    [from_on, below]: [&str; 2],
+) {
+    // A share of zero has no meaning.
+    let (Some(part), Some(whole)) = (part, whole.filter(|&whole| whole > 0.0)) else { return };
+    // Products, as in the comparison of the regime itself.
+    let (side, says) = if part >= threshold * whole { ("at least", from_on) } else { ("below", below) };
+    let share = format_quantity(part / whole, "1");
+    sheet.row(label, format!("{share}, {side} {threshold}: {says}"));
 }
 
 /// Dissipated energy, and the Tabor number as a measure of its validity.
@@ -135,7 +192,7 @@ fn steep_waves(waves: SteepWaves) -> String {
 }
 
 fn adhesion_force(outcome: &Outcome) -> String {
-    quantity(outcome.figures.adhesion_force, "N").unwrap_or_else(|| NO_PULL.into())
+    quantity(outcome.figures.adhesion_force, "N").unwrap_or_else(|| "none: no stage unloads".into())
 }
 
 fn loading(legs: &[Move]) -> String {
@@ -146,9 +203,9 @@ fn loading(legs: &[Move]) -> String {
         Move::ToZeroForce => "to zero force".into(),
         Move::ToSeparation => "to separation".into(),
     };
-    let mut named: Vec<String> = legs.iter().take(MOST_LEGS).map(words).collect();
-    if legs.len() > MOST_LEGS {
-        named.push(format!("and {} more stages", legs.len() - MOST_LEGS));
+    let mut named: Vec<String> = legs.iter().take(MOST_STAGES).map(words).collect();
+    if legs.len() > MOST_STAGES {
+        named.push(format!("and {} more stages", legs.len() - MOST_STAGES));
     }
     named.join(", ")
 }
@@ -164,7 +221,7 @@ fn contact(sheet: &mut Sheet, outcome: &Outcome) {
     let length = end.contact_length;
     let share = format_quantity(100.0 * length / outcome.line.length, "1");
     sheet.row("contact length", format!("{}, {share} % of L", format_quantity(length, "m")));
-    sheet.row("fragments", grouped(end.fragments));
+    sheet.row("contact patches", grouped(end.fragments));
 }
 
 fn cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
@@ -226,17 +283,21 @@ mod tests {
     numerics: (points: 1000),
 )";
 
-    fn summary_of(text: &str, overrides: &[(&str, &str)]) -> String {
+    fn summary_of(scene: &str, overrides: &[(&str, &str)]) -> String {
         let overrides: Vec<_> =
             overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
-        let document = Document::parse(text, "test").unwrap().set_all(&overrides).unwrap();
+        let document = Document::parse(scene, "test").unwrap().set_all(&overrides).unwrap();
         let scene = document.scene();
         let mut outcome = Simulation::default().run(scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
         // Without times and the solver's own counts of work.
         outcome.timings = Timings { line: 1.5e-3, ..Timings::default() };
         let springs = outcome.history.work.springs;
         outcome.history.work = Work { springs, tree_nodes: springs, attached: 1_234_567, ..Work::default() };
-        summary(scene, &outcome, None)
+        text(scene, &outcome, None)
+    }
+
+    fn text(scene: &Scene, outcome: &Outcome, estimate: Option<&Estimate>) -> String {
+        summary(scene, outcome, estimate, None)
     }
 
     #[test]
@@ -258,23 +319,23 @@ mod tests {
         use crate::accuracy::{Evidence, Target};
         let document = Document::parse(ROUGH, "test").unwrap();
         let outcome = Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
-        let text = |target, error| {
+        let with = |target, error| {
             let estimate = Estimate { target, error, near_step: error > 1.0, evidence: Evidence::ClosedForm };
-            summary(document.scene(), &outcome, Some(&estimate))
+            text(document.scene(), &outcome, Some(&estimate))
         };
         let row = |text: &str| text.lines().find(|line| line.contains("force F_a ")).unwrap().to_owned();
         let force = format_quantity(outcome.figures.adhesion_force.unwrap(), "N");
-        let of_force = text(Target::AdhesionForce, 0.0123);
+        let of_force = with(Target::AdhesionForce, 0.0123);
         assert!(row(&of_force).ends_with(&format!("{force}, grid ± 1.2 %")), "{of_force}");
-        let near_step = text(Target::AdhesionForce, 1.4);
+        let near_step = with(Target::AdhesionForce, 1.4);
         assert!(row(&near_step).ends_with(&format!("{force}, near a step of F_a(F_n)")), "{near_step}");
-        let unknown = summary(document.scene(), &outcome, None);
+        let unknown = text(document.scene(), &outcome, None);
         assert!(row(&unknown).ends_with(&format!("{force}, error unknown")), "{unknown}");
-        let of_curve = text(Target::Curve, 2e-3);
+        let of_curve = with(Target::Curve, 2e-3);
         assert!(row(&of_curve).ends_with(&format!("{force}, curve, grid ± 0.2 %")), "{of_curve}");
         let brief = brief_summary(document.scene(), &outcome);
         assert!(brief.lines().count() <= 10, "{brief}");
-        let whole = text(Target::AdhesionForce, 0.01);
+        let whole = with(Target::AdhesionForce, 0.01);
         assert!(
             brief.lines().all(|line| whole.lines().any(|other| other.starts_with(line))),
             "{brief}{whole}"

@@ -1,11 +1,12 @@
-//! Analysed surfaces: text for readers, JSON and CSV for programs.
+//! Analysed surfaces: text for readers, JSON, and their spectra as a table and as a figure.
 
-use super::Provenance;
 use super::ensemble::profiles_text;
+use super::report::{Json, Report};
 use super::sheet::Sheet;
-use super::spectrum_figure::{SpectrumPoint, spectrum_name, wave_numbers};
-use super::table::{Column, TableFormat, Value, write_table};
-use crate::io::{object, write_json_value};
+use super::spectrum_figure::{Spectra, spectrum_name, wave_numbers};
+use super::table::{Kind, Table};
+use crate::draw::Figure;
+use crate::io::object;
 use crate::scene::{Move, Scene, format_quantity, format_rounded};
 use crate::spectrum::{Analysis, Bin, Direction, End, Estimate, LineMoments, Moment};
 use crate::study::MeasuredAdhesion;
@@ -13,12 +14,10 @@ use crate::surface::EquivalentLine;
 use crate::text::{grouped, path_name, per_cent};
 use crate::topography::Topography;
 use serde::Serialize;
-use serde_json::json;
-use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI};
-use std::io::{self, Write};
-use std::path::PathBuf;
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, TAU};
+use std::path::{Path, PathBuf};
 
-/// Points per decade of the spectrum of the equivalent line in CSV.
+/// Points per decade of the spectrum of the equivalent line in a table.
 const LINE_PER_DECADE: f64 = 10.0;
 
 /// Share of the squared height in long waves above which it depends on the length of the scan.
@@ -32,9 +31,6 @@ const BOUNDARY_FACTORS: [f64; 2] = [1.4, 3.3];
 
 /// Name of the spectrum of the equivalent line.
 const LINE: &str = "equivalent line";
-
-/// Name of a spectrum, point, waves averaged.
-type SpectrumRow = (&'static str, SpectrumPoint, Option<u64>);
 
 /// A surface and its file.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,6 +47,17 @@ pub struct SurfaceFile {
     pub interpolated: usize,
 }
 
+impl SurfaceFile {
+    /// Facts of a surface with evenly spaced points; lengths of others are 0.
+    #[must_use]
+    pub fn new(path: PathBuf, surface: &Topography) -> Self {
+        let points = [surface.columns(), surface.rows()];
+        let spacing = surface.spacing().unwrap_or_default();
+        let lengths = [0, 1].map(|axis| points[axis] as f64 * spacing[axis]);
+        SurfaceFile { path, format: surface.format(), points, lengths, interpolated: surface.interpolated() }
+    }
+}
+
 /// Surfaces of one face: files that are samples of the same roughness, and their analysis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredFace {
@@ -58,53 +65,6 @@ pub struct MeasuredFace {
     pub files: Vec<SurfaceFile>,
     /// Common analysis of the files.
     pub analysis: Analysis,
-}
-
-impl SurfaceFile {
-    /// Facts of a surface with evenly spaced points; lengths of others are 0.
-    #[must_use]
-    pub fn new(path: PathBuf, surface: &Topography) -> Self {
-        let points = [surface.columns(), surface.rows()];
-        let spacing = surface.spacing().unwrap_or_default();
-        SurfaceFile {
-            path,
-            format: surface.format(),
-            points,
-            lengths: [0, 1].map(|axis| points[axis] as f64 * spacing[axis]),
-            interpolated: surface.interpolated(),
-        }
-    }
-
-    /// Number of axes: one of a profile, two of a map.
-    fn axes(&self) -> usize {
-        if self.points[1] > 1 { 2 } else { 1 }
-    }
-}
-
-/// Elastic and adhesive constants of a contact with the surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SurfaceContact {
-    /// Effective modulus E*, Pa.
-    pub modulus: f64,
-    /// Work of adhesion γ, J/m².
-    pub work: Option<f64>,
-}
-
-impl SurfaceContact {
-    /// Elastic energy of full contact, J/m².
-    fn elastic_energy(self, moments: &LineMoments) -> Moment {
-        moments.energy_per_modulus.scaled(self.modulus)
-    }
-
-    /// κ = √(h⟨∇z⟩E*/γ), with half the relative error of h⟨∇z⟩.
-    fn kappa(self, moments: &LineMoments) -> Option<Moment> {
-        Some(moments.height_gradient.scaled(self.modulus).scaled(1.0 / self.work?).root())
-    }
-
-    /// Elastic energy of full contact over the work of adhesion.
-    fn energy_ratio(self, moments: &LineMoments) -> Option<Moment> {
-        Some(self.elastic_energy(moments).scaled(1.0 / self.work?))
-    }
 }
 
 /// Median and quartiles of the adhesion forces of the profiles, and the error by the fit; `None` for fewer than two.
@@ -115,81 +75,24 @@ pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
     Some(forces + &fit.unwrap_or_default())
 }
 
-/// Adhesion of the equivalent line.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SurfaceAdhesion {
-    /// Computed scene.
-    pub scene: Scene,
-    /// Random profiles of the scene; `None` for many springs without a request.
-    pub computed: Option<MeasuredAdhesion>,
-}
-
-impl SurfaceAdhesion {
-    /// Preload, N; `None` for touch alone.
-    fn preload(&self) -> Option<f64> {
-        match self.scene.loading.first() {
-            Some(Move::ToForce(force)) => Some(*force),
-            _ => None,
-        }
-    }
-
-    /// Adhesion force with its spread over the profiles and that of the fit.
-    fn force(&self) -> String {
-        let Some(computed) = &self.computed else {
-            let springs = grouped(self.scene.numerics.points);
-            return format!("not computed on {springs} springs; --lines 16 does");
-        };
-        measured_adhesion_text(computed).unwrap_or_else(|| "none: nothing is pulled".to_owned())
-    }
-
-    /// Rows of the text.
-    fn rows(&self, sheet: &mut Sheet) {
-        sheet.heading("Adhesion of the equivalent line");
-        let loading = self.preload().map_or_else(
-            || "touch without force, then pull (--preload presses before)".to_owned(),
-            |force| format!("to {}, then pull", format_quantity(force, "N")),
-        );
-        sheet.row("loading", loading);
-        let springs = grouped(self.scene.numerics.points);
-        sheet.row("length L", format!("{} on {springs} springs", format_quantity(self.scene.length, "m")));
-        sheet.row("adhesion force F_a", self.force());
-        let regimes = self.computed.as_ref().map(|computed| {
-            let count = computed.profiles.len();
-            let each =
-                computed.regimes().present().map(|(name, lines)| format!("{name} on {lines} of {count}"));
-            each.collect::<Vec<_>>().join(", ")
-        });
-        sheet.row_of("regime", regimes.map(|regimes| regimes + " lines"));
-    }
-
-    /// JSON object.
-    fn json(&self) -> Option<serde_json::Value> {
-        let computed = self.computed.as_ref()?;
-        Some(json!({
-            "length": self.scene.length, "springs": self.scene.numerics.points, "preload": self.preload(),
-            "adhesion_force": computed.adhesion_force(), "fit_deviation": computed.fit_deviation(),
-            "regimes": computed.regimes(), "lines": computed.profiles,
-        }))
-    }
-}
-
 /// Analysed surfaces of one or both faces, with the known values of their contact.
-#[derive(Clone, Copy, Debug)]
-pub struct SurfaceReport<'a> {
+#[derive(Clone, Debug)]
+pub struct SurfaceReport {
     /// The face, and the opposite one if that is rough too.
-    pub faces: &'a [MeasuredFace],
+    pub faces: Vec<MeasuredFace>,
     /// Equivalent line of the faces.
-    pub line: &'a EquivalentLine,
-    /// Constants of the contact.
-    pub contact: Option<SurfaceContact>,
-    /// Adhesion of the equivalent line.
-    pub adhesion: Option<&'a SurfaceAdhesion>,
+    pub line: EquivalentLine,
+    /// Effective modulus E*, Pa.
+    pub modulus: Option<f64>,
+    /// Work of adhesion γ, J/m².
+    pub work: Option<f64>,
+    /// Scene of the equivalent line if its adhesion is asked for, and the random profiles that were solved: none on
+    /// many springs without a request.
+    pub adhesion: Option<(Scene, Option<MeasuredAdhesion>)>,
 }
 
-impl SurfaceReport<'_> {
-    /// Plain text.
-    #[must_use]
-    pub fn text(&self) -> String {
+impl Report for SurfaceReport {
+    fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         for (number, MeasuredFace { files, analysis }) in self.faces.iter().enumerate() {
             sheet.heading(if number == 0 { "Measured surface" } else { "Opposite face" });
@@ -199,66 +102,146 @@ impl SurfaceReport<'_> {
             self_affine(&mut sheet, analysis);
         }
         sheet.heading("Equivalent line");
-        let moments = self.line.moments();
-        line(&mut sheet, &moments, self.contact);
-        let wave = |q: f64| format_quantity(std::f64::consts::TAU / q, "m");
-        let [low, high] = self.line.range().map(wave);
-        let analyses = || self.faces.iter().map(|face| &face.analysis);
-        let last = |analysis: &&Analysis| analysis.isotropic.range()[1];
-        let end = match analyses().max_by(|one, other| last(one).total_cmp(&last(other))) {
+        let line = self.line.moments();
+        moments(&mut sheet, self, &line);
+        let [low, high] = self.line.range().map(|q| format_quantity(TAU / q, "m"));
+        let last = |analysis: &Analysis| analysis.isotropic.range()[1];
+        let analyses = self.faces.iter().map(|face| &face.analysis);
+        let end = match analyses.max_by(|one, other| last(one).total_cmp(&last(other))) {
             Some(Analysis { end: End::Continues(_), .. }) => "continued as a power law",
             Some(Analysis { ends_inside: true, .. }) => "the spectrum ends inside the scan",
             _ => "the last resolved wave; shorter ones are left out",
         };
         sheet.row("wavelengths", format!("{low} to {high} ({end})"));
-        let gradient = format_quantity(moments.rms_gradient.value * FRAC_1_SQRT_2, "1");
+        let gradient = format_quantity(line.rms_gradient.value * FRAC_1_SQRT_2, "1");
         let energy = 100.0 * FRAC_2_PI;
         sheet.row(
-            "a profile as the line",
-            format!("⟨∇z⟩ = {gradient} and {energy:.0} % of the elastic energy"),
+            "the profile itself",
+            format!("⟨∇z⟩ = {gradient}, {energy:.0} % of e_el if it were the line"),
         );
-        if let Some(adhesion) = self.adhesion {
-            adhesion.rows(&mut sheet);
+        if let Some((scene, computed)) = &self.adhesion {
+            adhesion(&mut sheet, scene, computed.as_ref());
         }
-        let warnings = analyses().enumerate().flat_map(|(number, analysis)| {
+        let warnings = self.faces.iter().enumerate().flat_map(|(number, face)| {
             let of_face =
                 move |warning| if number == 0 { warning } else { format!("opposite face: {warning}") };
-            warnings(analysis).into_iter().map(of_face)
+            warnings(&face.analysis).into_iter().map(of_face)
         });
         let warnings: Vec<String> = warnings.collect();
         if !warnings.is_empty() {
             sheet.heading("Warnings");
             warnings.iter().for_each(|warning| sheet.row("", warning));
         }
-        sheet.into_text()
+        Some(sheet.into_text())
     }
 
-    /// Writes one JSON object. The opposite face is an object inside, without equivalent line and adhesion.
-    ///
-    /// # Errors
-    /// Errors of `out`.
-    pub fn write_json(&self, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
-        let (moments, contact) = (self.line.moments(), self.contact);
-        let line = json!({
+    /// The opposite face is an object inside, without equivalent line and adhesion.
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
+        let (first, others) = self.faces.split_first()?;
+        let moments = self.line.moments();
+        let line = object! {
             "rms_height": moments.rms_height,
             "rms_gradient": moments.rms_gradient,
             "energy_per_modulus": moments.energy_per_modulus,
-            "elastic_energy": contact.map(|contact| contact.elastic_energy(&moments)),
-            "kappa": contact.and_then(|contact| contact.kappa(&moments)),
-            "elastic_energy_ratio": contact.and_then(|contact| contact.energy_ratio(&moments)),
+            "elastic_energy": self.elastic_energy(&moments),
+            "kappa": self.kappa(&moments),
+            "elastic_energy_ratio": self.energy_ratio(&moments),
+        };
+        let adhesion = self.adhesion.as_ref().and_then(|(scene, computed)| Some((scene, computed.as_ref()?)));
+        let adhesion = adhesion.map(|(scene, computed)| {
+            object! {
+                "length": scene.length,
+                "springs": scene.numerics.points,
+                "preload": preload(scene),
+                "adhesion_force": computed.adhesion_force(),
+                "fit_deviation": computed.fit_deviation(),
+                "regimes": computed.regimes(),
+                "lines": &computed.profiles,
+            }
         });
-        let adhesion = self.adhesion.and_then(SurfaceAdhesion::json).unwrap_or_default();
-        let Some((first, others)) = self.faces.split_first() else { return Ok(()) };
-        let opposite = others.first().map(|face| face_json(face, [None, None], None::<()>));
-        write_json_value(out, &face_json(first, [Some(line), Some(adhesion)], opposite))
+        let opposite = others.first().map(|face| face_json(face, None::<()>, None::<()>, None::<()>));
+        Some(Box::new(face_json(first, Some(line), Some(adhesion), opposite)))
     }
+
+    /// Spectra: kind, wave number in rad/m, power in m³, waves averaged (if any).
+    fn table(&self) -> Option<Table<'_>> {
+        let names = || {
+            self.faces.iter().enumerate().flat_map(|(face, MeasuredFace { analysis, .. })| {
+                analysis.spectra.iter().map(move |(direction, bins)| (spectrum_name(face, *direction), bins))
+            })
+        };
+        let longest = names().map(|(name, _)| name.chars().count()).fold(LINE.len(), usize::max);
+        let rows = move || {
+            let row = |name, bin: &Bin| (name, bin.wave_number, bin.power, Some(bin.waves));
+            let measured = names().flat_map(move |(name, bins)| bins.iter().map(move |bin| row(name, bin)));
+            let line = wave_numbers(self.line.range(), LINE_PER_DECADE);
+            measured.chain(line.map(|q| (LINE, q, self.line.power(q), None)))
+        };
+        let table = Table::of(rows).with("spectrum", Kind::Text(longest), |row| row.0);
+        let table = table.real("wave_number", |row| row.1).real("power", |row| row.2);
+        Some(table.real("waves", |row| row.3).done())
+    }
+
+    fn figure(&self) -> Option<Figure> {
+        let files = self.faces.iter().flat_map(|face| &face.files).filter_map(|file| file.path.file_name());
+        let names: Vec<String> = files.map(|name| path_name(Path::new(name))).collect();
+        let analyses: Vec<&Analysis> = self.faces.iter().map(|face| &face.analysis).collect();
+        Some(Spectra::of_faces(&analyses).figure(&names.join(", ")))
+    }
+}
+
+impl SurfaceReport {
+    /// Elastic energy of full contact, J/m².
+    fn elastic_energy(&self, moments: &LineMoments) -> Option<Moment> {
+        Some(moments.energy_per_modulus.scaled(self.modulus?))
+    }
+
+    /// κ = √(h⟨∇z⟩E*/γ), with half the relative error of h⟨∇z⟩.
+    fn kappa(&self, moments: &LineMoments) -> Option<Moment> {
+        Some(moments.height_gradient.scaled(self.modulus?).scaled(1.0 / self.work?).root())
+    }
+
+    /// Elastic energy of full contact over the work of adhesion.
+    fn energy_ratio(&self, moments: &LineMoments) -> Option<Moment> {
+        Some(self.elastic_energy(moments)?.scaled(1.0 / self.work?))
+    }
+}
+
+/// Preload of the scene of an equivalent line, N; `None` for touch alone.
+fn preload(scene: &Scene) -> Option<f64> {
+    match scene.loading.first() {
+        Some(Move::ToForce(force)) => Some(*force),
+        _ => None,
+    }
+}
+
+/// Adhesion of the equivalent line.
+fn adhesion(sheet: &mut Sheet, scene: &Scene, computed: Option<&MeasuredAdhesion>) {
+    sheet.heading("Adhesion of the equivalent line");
+    let loading = preload(scene).map_or_else(
+        || "touch without force, then pull (--preload presses before)".to_owned(),
+        |force| format!("to {}, then pull", format_quantity(force, "N")),
+    );
+    sheet.row("loading", loading);
+    let springs = grouped(scene.numerics.points);
+    sheet.row("length L", format!("{} on {springs} springs", format_quantity(scene.length, "m")));
+    let Some(computed) = computed else {
+        return sheet
+            .row("adhesion force F_a", format!("not computed on {springs} springs; --lines 16 does"));
+    };
+    let force = measured_adhesion_text(computed);
+    sheet.row("adhesion force F_a", force.unwrap_or_else(|| "none: nothing is pulled".to_owned()));
+    let count = computed.profiles.len();
+    let regimes = computed.regimes();
+    let each: Vec<_> = regimes.present().map(|(name, some)| format!("{name} on {some} of {count}")).collect();
+    sheet.row("regime", each.join(", ") + " profiles");
 }
 
 fn self_affine(sheet: &mut Sheet, analysis: &Analysis) {
     let Some(fit) = &analysis.power_law else { return sheet.row("fit", "none with 0 < H < 1") };
     sheet.row("Hurst exponent H", with_error(fit.hurst, "1"));
     let wavelength = fit.roll_off.map(|roll_off| {
-        let length = std::f64::consts::TAU / roll_off.value;
+        let length = TAU / roll_off.value;
         let error = length * roll_off.error / roll_off.value;
         with_error(Estimate { value: length, error }, "m")
     });
@@ -269,13 +252,8 @@ fn describe(file: &SurfaceFile) -> String {
     let [columns, rows] = file.points;
     let length = |axis: usize| format_quantity(file.lengths[axis], "m");
     let shape = if rows > 1 {
-        format!(
-            "map of {} × {} points, {} × {}",
-            grouped(columns as u64),
-            grouped(rows as u64),
-            length(0),
-            length(1)
-        )
+        let (columns, rows) = (grouped(columns as u64), grouped(rows as u64));
+        format!("map of {columns} × {rows} points, {} × {}", length(0), length(1))
     } else {
         format!("profile of {} points, {}", grouped(columns as u64), length(0))
     };
@@ -297,7 +275,7 @@ fn measured(sheet: &mut Sheet, analysis: &Analysis) {
 }
 
 /// Moments with their errors, a column for each kind.
-fn line(sheet: &mut Sheet, moments: &LineMoments, contact: Option<SurfaceContact>) {
+fn moments(sheet: &mut Sheet, report: &SurfaceReport, moments: &LineMoments) {
     let heading = ["", "value", "statistical", "method", "missing short waves"].map(str::to_owned);
     let mut rows = vec![heading];
     let mut row = |label: &str, moment: Option<Moment>, unit: &str| {
@@ -310,22 +288,17 @@ fn line(sheet: &mut Sheet, moments: &LineMoments, contact: Option<SurfaceContact
             change => format!("up to {}", share(change)),
         };
         // As wide as the labels of the other rows.
-        rows.push([
-            format!("  {label:22}"),
-            format_quantity(moment.value, unit),
-            statistical,
-            method,
-            missing,
-        ]);
+        let (label, value) = (format!("  {label:22}"), format_quantity(moment.value, unit));
+        rows.push([label, value, statistical, method, missing]);
     };
     row("rms height h", Some(moments.rms_height), "m");
     row("rms gradient ⟨∇z⟩", Some(moments.rms_gradient), "1");
-    match contact {
+    match report.elastic_energy(moments) {
         None => row("e_el/E*", Some(moments.energy_per_modulus), "m"),
-        Some(contact) => {
-            row("elastic energy e_el", Some(contact.elastic_energy(moments)), "J/m²");
-            row("κ", contact.kappa(moments), "1");
-            row("e_el/γ", contact.energy_ratio(moments), "1");
+        energy => {
+            row("elastic energy e_el", energy, "J/m²");
+            row("κ", report.kappa(moments), "1");
+            row("e_el/γ", report.energy_ratio(moments), "1");
         }
     }
     sheet.table(&rows);
@@ -384,26 +357,32 @@ fn with_error(estimate: Estimate, unit: &str) -> String {
 /// together, and the object of the opposite face.
 fn face_json<'a>(
     MeasuredFace { files, analysis }: &'a MeasuredFace,
-    [equivalent_line, adhesion]: [Option<serde_json::Value>; 2],
+    equivalent_line: Option<impl Serialize + 'a>,
+    adhesion: Option<impl Serialize + 'a>,
     opposite: Option<impl Serialize + 'a>,
 ) -> impl Serialize + 'a {
     let (statistics, fit) = (&analysis.statistics, analysis.power_law);
-    let file = |file: &SurfaceFile| {
-        json!({
-            "file": file.path.to_string_lossy(), "format": file.format, "points": &file.points[..file.axes()],
-            "lengths": &file.lengths[..file.axes()], "interpolated": file.interpolated,
-        })
+    let file = |file: &'a SurfaceFile| {
+        let axes = if file.points[1] > 1 { 2 } else { 1 };
+        object! {
+            "file": file.path.to_string_lossy(),
+            "format": file.format,
+            "points": &file.points[..axes],
+            "lengths": &file.lengths[..axes],
+            "interpolated": file.interpolated,
+        }
+    };
+    let estimate = |estimate: Option<Estimate>| {
+        estimate.map(|Estimate { value, error }| object! { "value": value, "error": error })
     };
     let node = |(wave_number, c2d, error)| {
-        json!({
-            "wave_number": wave_number, "c2d": c2d, "relative_error": error,
-            "line": analysis.isotropic.line(wave_number),
-        })
+        let line = analysis.isotropic.line(wave_number);
+        object! { "wave_number": wave_number, "c2d": c2d, "relative_error": error, "line": line }
     };
-    let bin = |bin: &Bin| json!({"wave_number": bin.wave_number, "power": bin.power, "waves": bin.waves});
-    let spectrum = |(direction, bins): &(Direction, Vec<Bin>)| {
-        let bins: Vec<_> = bins.iter().map(bin).collect();
-        json!({"name": spectrum_name(0, *direction), "bins": bins})
+    let spectrum = |(direction, bins): &'a (Direction, Vec<Bin>)| {
+        let bin =
+            |bin: &Bin| object! { "wave_number": bin.wave_number, "power": bin.power, "waves": bin.waves };
+        object! { "name": spectrum_name(0, *direction), "bins": bins.iter().map(bin).collect::<Vec<_>>() }
     };
     object! {
         "version": env!("CARGO_PKG_VERSION"),
@@ -425,41 +404,6 @@ fn face_json<'a>(
         "warnings": warnings(analysis),
         "opposite"?: opposite,
     }
-}
-
-fn estimate(estimate: Option<Estimate>) -> Option<serde_json::Value> {
-    estimate.map(|estimate| json!({"value": estimate.value, "error": estimate.error}))
-}
-
-/// Writes spectra as a table: kind, wave number in rad/m, power in m³, waves averaged (if any).
-///
-/// # Errors
-/// Errors of `out`.
-pub fn write_surface_table(
-    out: &mut (impl Write + ?Sized),
-    format: TableFormat,
-    provenance: &Provenance,
-    faces: &[MeasuredFace],
-    line: &EquivalentLine,
-) -> io::Result<()> {
-    let measured = faces.iter().enumerate().flat_map(|(face, MeasuredFace { analysis, .. })| {
-        analysis.spectra.iter().flat_map(move |(direction, bins)| {
-            let row = move |bin: &Bin| {
-                (spectrum_name(face, *direction), (bin.wave_number, bin.power), Some(bin.waves))
-            };
-            bins.iter().map(row)
-        })
-    });
-    let points = wave_numbers(line.range(), LINE_PER_DECADE).map(|q| (LINE, (q, line.power(q)), None));
-    let rows: Vec<SpectrumRow> = measured.chain(points).collect();
-    let longest = rows.iter().map(|(name, ..)| name.chars().count()).fold(0, usize::max);
-    let columns: [Column<SpectrumRow>; 4] = [
-        Column("spectrum", Value::Word(longest, |(name, ..)| name)),
-        Column("wave_number", Value::Real(|(_, point, _)| point.0)),
-        Column("power", Value::Real(|(_, point, _)| point.1)),
-        Column("waves", Value::Count(|(.., waves)| *waves)),
-    ];
-    write_table(out, format, provenance, &columns, rows.len(), rows.iter())
 }
 
 #[cfg(test)]

@@ -1,184 +1,207 @@
-//! Tables of results as CSV or as an array of NumPy, each with its provenance.
+//! Tables of results: as CSV, as an array of NumPy, and as JSON objects.
 //!
-//! CSV begins with the provenance in comments. An array has a field for each column, and the provenance is a second
+//! CSV begins with its provenance in comments. An array has a field for each column, and the provenance is a second
 //! array in the same file, since the header of an array holds only its type and shape.
 
-use super::Provenance;
 use crate::io::npy;
-use serde::ser::{Serialize, SerializeMap, Serializer};
-use std::borrow::Borrow;
+use serde::ser::{Serialize, Serializer};
+use serde_json::Value;
+use std::borrow::Cow;
 use std::io::{self, Write};
+use std::rc::Rc;
 
-/// Format of a table.
+/// Values of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TableFormat {
-    /// Comma-separated values.
-    Csv,
-    /// Structured array of NumPy.
-    Npy,
+pub enum Kind {
+    /// Double precision.
+    Real,
+    /// Integers from 0.
+    Whole,
+    /// Text of at most this many characters.
+    Text(usize),
 }
-
-/// A column of a table and an entry of the JSON objects with the same rows: name and value.
-pub(super) struct Column<T>(pub &'static str, pub Value<T>);
 
 /// Value of a row in a column.
-pub(super) enum Value<T> {
-    /// Double precision.
-    Real(fn(&T) -> f64),
-    /// Double precision; empty in CSV and NaN in an array if there is no value.
-    Optional(fn(&T) -> Option<f64>),
-    /// Integers from 0.
-    Whole(fn(&T) -> u64),
-    /// Integers missing in some rows: double precision in an array.
-    Count(fn(&T) -> Option<u64>),
-    /// Words with a largest number of characters.
-    Word(usize, fn(&T) -> &'static str),
-}
+type Of<'a, T> = Box<dyn Fn(&T) -> Value + 'a>;
+type Rows<'a, T> = Box<dyn Fn() -> Box<dyn Iterator<Item = T> + 'a> + 'a>;
 
-/// Writes a table with this number of rows.
-///
-/// # Errors
-/// Errors of `out`.
-pub(super) fn write_table<T>(
-    out: &mut (impl Write + ?Sized),
-    format: TableFormat,
-    provenance: &Provenance,
-    columns: &[Column<T>],
+/// Named columns, and rows that are made one by one while they are written.
+pub struct Table<'a> {
+    columns: Vec<(Cow<'static, str>, Kind)>,
     count: usize,
-    rows: impl Iterator<Item = impl Borrow<T>>,
-) -> io::Result<()> {
-    if format == TableFormat::Csv {
-        out.write_all(provenance.comments().as_bytes())?;
-        return write_csv(out, columns, rows);
-    }
-    let fields: Vec<_> =
-        columns.iter().map(|Column(name, value)| format!("('{name}', '{}')", value.descr())).collect();
-    npy::write_header(out, &format!("[{}]", fields.join(", ")), &format!("{count},"))?;
-    for row in rows {
-        columns.iter().try_for_each(|Column(_, value)| value.write_bytes(out, row.borrow()))?;
-    }
-    npy::write_text(out, provenance.text())
+    rows: Rows<'a, Vec<Value>>,
 }
 
-/// Writes comma-separated values without provenance.
-fn write_csv<T>(
-    out: &mut (impl Write + ?Sized),
-    columns: &[Column<T>],
-    rows: impl Iterator<Item = impl Borrow<T>>,
-) -> io::Result<()> {
-    let names: Vec<_> = columns.iter().map(|column| column.0).collect();
-    writeln!(out, "{}", names.join(","))?;
-    for row in rows {
-        for (index, Column(_, value)) in columns.iter().enumerate() {
-            out.write_all(if index > 0 { b"," } else { b"" })?;
-            value.write_text(out, row.borrow())?;
-        }
-        out.write_all(b"\n")?;
-    }
-    Ok(())
+/// A table in the making: the rows, and the columns so far with their values of a row.
+pub struct TableOf<'a, T> {
+    rows: Rows<'a, T>,
+    columns: Vec<(Cow<'static, str>, Kind)>,
+    values: Vec<Of<'a, T>>,
 }
 
-impl<T> Value<T> {
-    /// Type in NumPy's notation.
-    fn descr(&self) -> String {
-        match self {
-            Value::Real(_) | Value::Optional(_) | Value::Count(_) => "<f8".to_owned(),
-            Value::Whole(_) => "<u8".to_owned(),
-            Value::Word(characters, _) => format!("<U{characters}"),
-        }
+impl<'a> Table<'a> {
+    /// Begins a table with its rows.
+    pub fn of<T, I: Iterator<Item = T> + 'a>(rows: impl Fn() -> I + 'a) -> TableOf<'a, T> {
+        TableOf { rows: Box::new(move || Box::new(rows())), columns: Vec::new(), values: Vec::new() }
+    }
+}
+
+impl<'a, T: 'a> TableOf<'a, T> {
+    /// Adds a column; a missing value is empty in CSV, `null` in JSON and NaN in an array.
+    #[must_use]
+    pub fn with<V: Into<Value>>(
+        mut self,
+        name: impl Into<Cow<'static, str>>,
+        kind: Kind,
+        value: impl Fn(&T) -> V + 'a,
+    ) -> Self {
+        self.columns.push((name.into(), kind));
+        self.values.push(Box::new(move |row| value(row).into()));
+        self
     }
 
-    fn write_text(&self, out: &mut (impl Write + ?Sized), row: &T) -> io::Result<()> {
-        match self {
-            Value::Real(of) => write!(out, "{:?}", of(row)),
-            Value::Optional(of) => of(row).map_or(Ok(()), |value| write!(out, "{value:?}")),
-            Value::Whole(of) => write!(out, "{}", of(row)),
-            Value::Count(of) => of(row).map_or(Ok(()), |count| write!(out, "{count}")),
-            Value::Word(_, of) => out.write_all(of(row).as_bytes()),
-        }
+    /// Adds a column of double precision.
+    #[must_use]
+    pub fn real<V: Into<Value>>(self, name: &'static str, value: impl Fn(&T) -> V + 'a) -> Self {
+        self.with(name, Kind::Real, value)
     }
 
-    fn write_bytes(&self, out: &mut (impl Write + ?Sized), row: &T) -> io::Result<()> {
-        let real = match *self {
-            Value::Real(of) => of(row),
-            Value::Optional(of) => of(row).unwrap_or(f64::NAN),
-            Value::Count(of) => of(row).map_or(f64::NAN, |count| count as f64),
-            Value::Whole(of) => return out.write_all(&of(row).to_le_bytes()),
-            Value::Word(characters, of) => {
-                let word = of(row);
-                if word.chars().count() > characters {
-                    return Err(io::Error::other(format!("{word} in a column of {}", self.descr())));
-                }
-                let codes = word.chars().map(u32::from).chain(std::iter::repeat(0));
-                return codes.take(characters).try_for_each(|code| out.write_all(&code.to_le_bytes()));
-            }
+    /// Adds a column of integers from 0.
+    #[must_use]
+    pub fn whole(self, name: &'static str, value: impl Fn(&T) -> u64 + 'a) -> Self {
+        self.with(name, Kind::Whole, value)
+    }
+
+    /// The table.
+    #[must_use]
+    pub fn done(self) -> Table<'a> {
+        let (rows, values) = (self.rows, Rc::new(self.values));
+        // Without the values, which may take time.
+        let count = rows().count();
+        let rows = move || -> Box<dyn Iterator<Item = Vec<Value>> + 'a> {
+            let values = Rc::clone(&values);
+            Box::new(rows().map(move |row| values.iter().map(|value| value(&row)).collect()))
         };
-        out.write_all(&real.to_le_bytes())
+        Table { columns: self.columns, count, rows: Box::new(rows) }
     }
 }
 
-/// A row as a JSON object with an entry for each column.
-pub(super) struct Record<'a, T, R>(pub &'a [Column<T>], pub R);
+impl Table<'_> {
+    /// Writes comma-separated values after the provenance.
+    ///
+    /// # Errors
+    /// Errors of `out`.
+    pub fn write_csv(&self, out: &mut dyn Write, provenance: &str) -> io::Result<()> {
+        provenance.lines().try_for_each(|line| writeln!(out, "# {line}"))?;
+        let names: Vec<_> = self.columns.iter().map(|(name, _)| quoted(name)).collect();
+        writeln!(out, "{}", names.join(","))?;
+        for row in (self.rows)() {
+            for (index, value) in row.iter().enumerate() {
+                out.write_all(if index > 0 { b"," } else { b"" })?;
+                match value {
+                    Value::Null => Ok(()),
+                    Value::String(text) => out.write_all(quoted(text).as_bytes()),
+                    number => match number.as_f64().filter(|_| number.is_f64()) {
+                        Some(real) => write!(out, "{real:?}"),
+                        None => write!(out, "{number}"),
+                    },
+                }?;
+            }
+            out.write_all(b"\n")?;
+        }
+        Ok(())
+    }
 
-impl<T, R: Borrow<T>> Serialize for Record<'_, T, R> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let (columns, row) = (self.0, self.1.borrow());
-        let mut map = serializer.serialize_map(Some(columns.len()))?;
-        for Column(name, value) in columns {
-            match value {
-                Value::Real(of) => map.serialize_entry(name, &of(row))?,
-                Value::Optional(of) => map.serialize_entry(name, &of(row))?,
-                Value::Whole(of) => map.serialize_entry(name, &of(row))?,
-                Value::Count(of) => map.serialize_entry(name, &of(row))?,
-                Value::Word(_, of) => map.serialize_entry(name, of(row))?,
+    /// Writes an array of NumPy, and the provenance as a second one.
+    ///
+    /// # Errors
+    /// Errors of `out`; a text that is longer than its column allows.
+    pub fn write_npy(&self, out: &mut dyn Write, provenance: &str) -> io::Result<()> {
+        let descr = |kind: Kind| match kind {
+            Kind::Real => "<f8".to_owned(),
+            Kind::Whole => "<u8".to_owned(),
+            Kind::Text(characters) => format!("<U{characters}"),
+        };
+        let fields: Vec<_> =
+            self.columns.iter().map(|(name, kind)| format!("('{name}', '{}')", descr(*kind))).collect();
+        let shape = format!("{},", self.count);
+        npy::write_header(out, &format!("[{}]", fields.join(", ")), &shape)?;
+        for row in (self.rows)() {
+            for (value, (_, kind)) in row.iter().zip(&self.columns) {
+                match (kind, value) {
+                    (Kind::Real, Value::Null) => out.write_all(&f64::NAN.to_le_bytes()),
+                    (Kind::Real, Value::Number(number)) => {
+                        out.write_all(&number.as_f64().unwrap_or(f64::NAN).to_le_bytes())
+                    }
+                    (Kind::Whole, Value::Number(number)) => {
+                        out.write_all(&number.as_u64().unwrap_or_default().to_le_bytes())
+                    }
+                    (Kind::Text(characters), Value::String(text)) if text.chars().count() <= *characters => {
+                        let codes = text.chars().map(u32::from).chain(std::iter::repeat(0));
+                        codes.take(*characters).try_for_each(|code| out.write_all(&code.to_le_bytes()))
+                    }
+                    _ => Err(io::Error::other(format!("{value} in a column of {}", descr(*kind)))),
+                }?;
             }
         }
-        map.end()
+        npy::write_text(out, provenance)
+    }
+}
+
+/// A cell of CSV, by RFC 4180 in quotes where it contains a separator.
+fn quoted(text: &str) -> Cow<'_, str> {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\"")).into()
+    } else {
+        text.into()
+    }
+}
+
+/// A JSON array with an object for each row.
+impl Serialize for Table<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq((self.rows)().map(|row| Object(&self.columns, row)))
+    }
+}
+
+struct Object<'a>(&'a [(Cow<'static, str>, Kind)], Vec<Value>);
+
+impl Serialize for Object<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, _)| name).zip(&self.1))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::path::Path;
-
-    type Row = (Option<f64>, u64, &'static str);
 
     #[test]
-    fn columns_have_their_types_in_either_format() {
-        let document = crate::scene::open("jkr-sphere").unwrap();
-        let here = Path::new("");
-        let provenance = Provenance::new("asperity run", document.scene(), here, here).unwrap();
-        let columns = [
-            Column("a", Value::Optional(|row: &Row| row.0)),
-            Column("b", Value::Whole(|row| row.1)),
-            Column("c", Value::Word(2, |row| row.2)),
-        ];
-        let rows = [(Some(0.1), 7, "é"), (None, 8, "yz")];
-        let table = |format| {
-            let mut out = Vec::new();
-            write_table(&mut out, format, &provenance, &columns, 2, rows.iter()).unwrap();
-            out
-        };
-        let too_long = [(None, 9, "xyz")].into_iter();
-        let refused = write_table(&mut Vec::new(), TableFormat::Npy, &provenance, &columns, 1, too_long);
-        assert_eq!(refused.unwrap_err().to_string(), "xyz in a column of <U2");
-        let objects = serde_json::to_string(&rows.map(|row| Record(&columns, row))).unwrap();
-        assert_eq!(objects, r#"[{"a":0.1,"b":7,"c":"é"},{"a":null,"b":8,"c":"yz"}]"#);
-        let csv = String::from_utf8(table(TableFormat::Csv)).unwrap();
-        assert_eq!(csv.strip_prefix(&provenance.comments()), Some("a,b,c\n0.1,7,é\n,8,yz\n"));
-        let array = table(TableFormat::Npy);
+    fn columns_have_their_types_in_every_format() {
+        let rows = || [(Some(0.1), 7, "é"), (None, 8, "y,")].into_iter();
+        let table = Table::of(rows).real("a", |row| row.0).whole("b", |row| row.1);
+        let table = table.with("c", Kind::Text(2), |row| row.2).done();
+        let objects = serde_json::to_string(&table).unwrap();
+        assert_eq!(objects, r#"[{"a":0.1,"b":7,"c":"é"},{"a":null,"b":8,"c":"y,"}]"#);
+        let mut csv = Vec::new();
+        table.write_csv(&mut csv, "one\ntwo\n").unwrap();
+        assert_eq!(String::from_utf8(csv).unwrap(), "# one\n# two\na,b,c\n0.1,7,é\n,8,\"y,\"\n");
+        let mut array = Vec::new();
+        table.write_npy(&mut array, "one").unwrap();
         let header = 128;
         let descr =
             "{'descr': [('a', '<f8'), ('b', '<u8'), ('c', '<U2')], 'fortran_order': False, 'shape': (2,), }";
         assert_eq!(&array[10..10 + descr.len()], descr.as_bytes());
-        let mut rows = Vec::new();
-        for (real, whole, word) in [(0.1, 7_u64, ['é', '\0']), (f64::NAN, 8, ['y', 'z'])] {
-            rows.extend(f64::to_le_bytes(real));
-            rows.extend(whole.to_le_bytes());
-            word.into_iter().for_each(|code| rows.extend(u32::from(code).to_le_bytes()));
+        let mut expected = Vec::new();
+        for (real, whole, word) in [(0.1, 7_u64, ['é', '\0']), (f64::NAN, 8, ['y', ','])] {
+            expected.extend(f64::to_le_bytes(real));
+            expected.extend(whole.to_le_bytes());
+            word.into_iter().for_each(|code| expected.extend(u32::from(code).to_le_bytes()));
         }
-        assert_eq!(array[header..header + rows.len()], rows);
-        assert_eq!(npy::appended_text(&array), Some(provenance.text()));
+        assert_eq!(array[header..header + expected.len()], expected);
+        assert_eq!(npy::appended_text(&array), Some("one"));
+        let long = Table::of(|| ["xyz"].into_iter()).with("c", Kind::Text(2), |word| *word);
+        assert!(long.done().write_npy(&mut Vec::new(), "").is_err());
+        assert_eq!(quoted("a\"b"), "\"a\"\"b\"");
     }
 }

@@ -14,37 +14,20 @@ const BUFFER: usize = 1 << 18;
 #[derive(Debug, Error)]
 pub enum WriteError {
     /// The file exists, and overwriting was not requested.
-    #[error("{}: there is a file of that name already", path_name(path))]
-    Exists {
-        /// The file.
-        path: PathBuf,
-    },
+    #[error("{}: there is a file of that name already", path_name(.0))]
+    Exists(PathBuf),
     /// The path is that of a folder, or has no file name.
-    #[error("{}: this is not the name of a file", path_name(path))]
-    NoFileName {
-        /// The name.
-        path: PathBuf,
-    },
+    #[error("{}: this is not the name of a file", path_name(.0))]
+    NoFileName(PathBuf),
     /// The folder of the file does not exist.
-    #[error("{}: there is no folder {}", path_name(path), path_name(folder))]
-    NoFolder {
-        /// The file.
-        path: PathBuf,
-        /// Its folder.
-        folder: PathBuf,
-    },
+    #[error("{}: there is no folder {}", path_name(.0), path_name(folder_of(.0)))]
+    NoFolder(PathBuf),
     /// The path is a pipe, a terminal or another device instead of a file.
-    #[error("{}: this is not a regular file; allowed: the name of a file", path_name(path))]
-    NotRegular {
-        /// The path.
-        path: PathBuf,
-    },
+    #[error("{}: this is not a regular file; allowed: the name of a file", path_name(.0))]
+    NotRegular(PathBuf),
     /// The file is read-only.
-    #[error("{}: this file may not be written", path_name(path))]
-    ReadOnly {
-        /// The file.
-        path: PathBuf,
-    },
+    #[error("{}: this file may not be written", path_name(.0))]
+    ReadOnly(PathBuf),
     /// The system refused.
     #[error("{}: cannot be written: {reason}", path_name(path))]
     Failed {
@@ -73,20 +56,14 @@ pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
 #[cfg(feature = "tui")]
 pub fn check_file_name(path: &Path) -> Result<(), WriteError> {
     match Target::of(path, true) {
-        Err(error @ WriteError::NoFileName { .. }) => Err(error),
-        Ok(Target::Stream) => Err(WriteError::NotRegular { path: path.to_path_buf() }),
+        Err(error @ WriteError::NoFileName(_)) => Err(error),
+        Ok(Target::Stream) => Err(WriteError::NotRegular(path.into())),
         Ok(Target::File { .. }) | Err(_) => Ok(()),
     }
 }
 
-/// Writes a file through a temporary one in the same folder: a reader sees the old file or the whole
-/// new one, and a failure leaves nothing behind.
-///
-/// An existing file is replaced only with `overwrite`; a pipe or a device, which cannot be overwritten,
-/// is written to directly, which waits for a reader.
-///
-/// On Linux the temporary file has no name until it is complete, so that any end of the process leaves nothing behind;
-/// elsewhere a killed process may leave a file `.asperity-….tmp`.
+/// Writes a file as [`write_new_file`] does, or into a pipe or a device, which cannot be overwritten: that waits for a
+/// reader.
 ///
 /// # Errors
 /// [`WriteError`]; an error of `write` itself becomes [`WriteError::Failed`].
@@ -95,36 +72,32 @@ pub fn write_new(
     overwrite: bool,
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> Result<(), WriteError> {
-    let target = Target::of(path, overwrite)?;
-    if let Target::Stream = target {
-        let failed = |reason| WriteError::Failed { path: path.to_path_buf(), reason };
-        let mut stream = OpenOptions::new().write(true).open(path).map_err(failed)?;
-        return fill(&mut stream, write).map_err(failed);
+    match Target::of(path, overwrite)? {
+        Target::Stream => {
+            let failed = |reason| WriteError::Failed { path: path.into(), reason };
+            let mut stream = OpenOptions::new().write(true).open(path).map_err(failed)?;
+            fill(&mut stream, write).map_err(failed)
+        }
+        Target::File { .. } => write_new_file(path, overwrite, write),
     }
-    write_target(path, target, overwrite, write)
 }
 
-/// The same for files only: a pipe or a device is refused at once.
+/// Writes a regular file through a temporary one in the same folder: a reader sees the old file or the whole new one,
+/// and a failure leaves nothing behind. An existing file is replaced only with `overwrite`.
+///
+/// On Linux the temporary file has no name until it is complete, so that any end of the process leaves nothing behind;
+/// elsewhere a killed process may leave a file `.asperity-….tmp`.
 ///
 /// # Errors
-/// As [`write_new`], and [`WriteError::NotRegular`].
+/// As [`write_new`]; a pipe or a device is refused at once.
 pub fn write_new_file(
     path: &Path,
     overwrite: bool,
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> Result<(), WriteError> {
-    write_target(path, Target::of(path, overwrite)?, overwrite, write)
-}
-
-fn write_target(
-    path: &Path,
-    target: Target,
-    overwrite: bool,
-    write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
-) -> Result<(), WriteError> {
-    let failed = |reason| WriteError::Failed { path: path.to_path_buf(), reason };
-    let Target::File { path: place, permissions } = target else {
-        return Err(WriteError::NotRegular { path: path.to_path_buf() });
+    let failed = |reason| WriteError::Failed { path: path.into(), reason };
+    let Target::File { path: place, permissions } = Target::of(path, overwrite)? else {
+        return Err(WriteError::NotRegular(path.into()));
     };
     let mut unfinished = Unfinished::beside(&place)?;
     let file = unfinished.file();
@@ -134,7 +107,7 @@ fn write_target(
     }
     file.sync_all().map_err(failed)?;
     unfinished.publish(&place, overwrite).map_err(|reason| match reason.kind() {
-        io::ErrorKind::AlreadyExists => WriteError::Exists { path: path.to_path_buf() },
+        io::ErrorKind::AlreadyExists => WriteError::Exists(path.into()),
         _ => failed(reason),
     })?;
     // The name has to be durable as well.
@@ -171,7 +144,7 @@ impl Unfinished {
         }
         named.tempfile_in(folder).map(Unfinished::Named).map_err(|reason| match folder.is_dir() {
             true => WriteError::Failed { path: path.into(), reason },
-            false => WriteError::NoFolder { path: path.into(), folder: folder.into() },
+            false => WriteError::NoFolder(path.into()),
         })
     }
 
@@ -218,18 +191,12 @@ fn of_descriptor(file: &File) -> PathBuf {
 
 /// Waits until the names in a folder have reached the disk.
 pub(crate) fn sync_folder(path: &Path) -> io::Result<()> {
-    // Some systems cannot open a folder, some folders may not be read, and some file systems cannot synchronise one:
-    // there, names are as safe as the system makes them.
+    use io::ErrorKind::{InvalidInput, PermissionDenied, Unsupported};
     let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
     match File::open(path).and_then(|folder| folder.sync_all()) {
-        Err(error)
-            if matches!(
-                error.kind(),
-                io::ErrorKind::PermissionDenied | io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported
-            ) =>
-        {
-            Ok(())
-        }
+        // Some systems cannot open a folder, some folders may not be read, and some file systems cannot synchronise one:
+        // there, names are as safe as the system makes them.
+        Err(error) if matches!(error.kind(), PermissionDenied | InvalidInput | Unsupported) => Ok(()),
         synced => synced,
     }
 }
@@ -258,29 +225,29 @@ enum Target {
 
 impl Target {
     fn of(path: &Path, overwrite: bool) -> Result<Target, WriteError> {
-        let own = || path.to_path_buf();
         let ends_as_folder = path.to_string_lossy().ends_with(std::path::is_separator);
         if path.file_name().is_none() || ends_as_folder {
-            return Err(WriteError::NoFileName { path: own() });
+            return Err(WriteError::NoFileName(path.into()));
         }
+        let failed = |reason| WriteError::Failed { path: path.into(), reason };
         match fs::metadata(path) {
-            Ok(found) if found.is_dir() => Err(WriteError::NoFileName { path: own() }),
+            Ok(found) if found.is_dir() => Err(WriteError::NoFileName(path.into())),
             Ok(found) if !found.is_file() => Ok(Target::Stream),
-            Ok(_) if !overwrite => Err(WriteError::Exists { path: own() }),
-            Ok(found) if found.permissions().readonly() => Err(WriteError::ReadOnly { path: own() }),
-            // Through a link to its target: the link itself is kept.
-            Ok(found) => Ok(Target::File {
-                path: fs::canonicalize(path).map_err(|reason| WriteError::Failed { path: own(), reason })?,
-                permissions: Some(found.permissions()),
-            }),
+            Ok(_) if !overwrite => Err(WriteError::Exists(path.into())),
+            Ok(found) if found.permissions().readonly() => Err(WriteError::ReadOnly(path.into())),
+            Ok(found) => {
+                // Through a link to its target: the link itself is kept.
+                let path = fs::canonicalize(path).map_err(failed)?;
+                Ok(Target::File { path, permissions: Some(found.permissions()) })
+            }
             // A dangling link exists all the same.
             Err(_) if !overwrite && fs::symlink_metadata(path).is_ok() => {
-                Err(WriteError::Exists { path: own() })
+                Err(WriteError::Exists(path.into()))
             }
             Err(reason) if reason.kind() == io::ErrorKind::NotFound => {
-                Ok(Target::File { path: own(), permissions: None })
+                Ok(Target::File { path: path.into(), permissions: None })
             }
-            Err(reason) => Err(WriteError::Failed { path: own(), reason }),
+            Err(reason) => Err(failed(reason)),
         }
     }
 }
@@ -300,8 +267,8 @@ mod tests {
         let path = folder.path().join("curve.csv");
         write_new(&path, false, |out| out.write_all(b"one")).unwrap();
         let again = write_new(&path, false, |out| out.write_all(b"two"));
-        assert!(matches!(again, Err(WriteError::Exists { .. })), "{again:?}");
-        assert!(matches!(check_writable(&path, false), Err(WriteError::Exists { .. })));
+        assert!(matches!(again, Err(WriteError::Exists(_))), "{again:?}");
+        assert!(matches!(check_writable(&path, false), Err(WriteError::Exists(_))));
         assert_eq!(fs::read(&path).unwrap(), b"one");
         check_writable(&path, true).unwrap();
         write_new(&path, true, |out| out.write_all(b"two")).unwrap();
@@ -333,7 +300,7 @@ mod tests {
             fs::write(&path, "theirs")?;
             out.write_all(b"ours")
         });
-        assert!(matches!(late, Err(WriteError::Exists { .. })), "{late:?}");
+        assert!(matches!(late, Err(WriteError::Exists(_))), "{late:?}");
         assert_eq!(fs::read(&path).unwrap(), b"theirs");
         assert_eq!(names(folder.path()), ["curve.csv"]);
     }
@@ -364,8 +331,8 @@ mod tests {
         std::os::unix::fs::symlink(&file, &link).unwrap();
         std::os::unix::fs::symlink(folder.path().join("nothing"), &lost).unwrap();
         fs::write(&file, "one").unwrap();
-        assert!(matches!(check_writable(&link, false), Err(WriteError::Exists { .. })));
-        assert!(matches!(check_writable(&lost, false), Err(WriteError::Exists { .. })));
+        assert!(matches!(check_writable(&link, false), Err(WriteError::Exists(_))));
+        assert!(matches!(check_writable(&lost, false), Err(WriteError::Exists(_))));
         write_new(&link, true, |out| out.write_all(b"two")).unwrap();
         assert_eq!(fs::read(&file).unwrap(), b"two");
         assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
@@ -381,7 +348,7 @@ mod tests {
         for path in [&pipe, Path::new("/dev/null")] {
             for overwrite in [false, true] {
                 let refused = write_new_file(path, overwrite, |out| out.write_all(b"one"));
-                assert!(matches!(refused, Err(WriteError::NotRegular { .. })), "{refused:?}");
+                assert!(matches!(refused, Err(WriteError::NotRegular(_))), "{refused:?}");
             }
         }
         assert_eq!(names(folder.path()), ["pipe"]);

@@ -75,13 +75,13 @@ fn changed_stages(scenes: &[Scene; 2]) -> Option<Vec<Change>> {
 }
 
 fn change_of_stage((index, (one, other)): (usize, (&Move, &Move))) -> Change {
-    let leg = format!("leg {}", index + 1);
+    let stage = format!("stage {}", index + 1);
     match (one.field(), other.field()) {
         (Some((field, from)), Some((same, to))) if field == same => {
             let change = Change::of(field, [from, to].map(|value| in_ron(&value)));
-            Change { name: format!("{leg} {}", change.name), ..change }
+            Change { name: format!("{stage} {}", change.name), ..change }
         }
-        _ => Change { name: leg, from: in_ron(one), to: in_ron(other) },
+        _ => Change { name: stage, from: in_ron(one), to: in_ron(other) },
     }
 }
 
@@ -112,7 +112,7 @@ mod tests {
         assert_eq!(changes(&scene, &other), ["H 0.7 → 0.5"]);
         assert_eq!(changes(&other, &scene), ["H 0.5 → 0.7"]);
         let other = scene.set("loading.0.0", "2e-5").unwrap();
-        assert_eq!(changes(&scene, &other), ["leg 1 F 10 µN → 20 µN"]);
+        assert_eq!(changes(&scene, &other), ["stage 1 F 10 µN → 20 µN"]);
         let text = "(version: 2, material: (effective_modulus: 1.0e6), length: 1.0e-4, roughness: Measured(file: \"a\"))";
         let line = Document::parse(text, "test").unwrap();
         let profile = line.set("roughness.as_line", "true").unwrap();

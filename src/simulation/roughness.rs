@@ -2,10 +2,11 @@
 
 use super::RunError;
 use super::cached::Cached;
-use crate::scene::{Roughness, Scene};
+use crate::scene::{MOST_POINTS, Roughness, SPRINGS_PER_WAVE, Scene};
 use crate::spectrum::{Detrend, End, Options};
 use crate::surface::{
-    Amplitude, MeasuredOptions, MeasuredRoughness, SelfAffine, SurfaceError, Synthesizer, read_faces,
+    Amplitude, EquivalentLine, MeasuredOptions, MeasuredRoughness, SelfAffine, SurfaceError, Synthesizer,
+    read_faces,
 };
 use crate::topography::{Cut, ReadOptions, Unit};
 use std::f64::consts::TAU;
@@ -156,6 +157,14 @@ pub(super) fn spectrum(scene: &Scene) -> Option<SelfAffine> {
 pub fn measured_options(scene: &Scene) -> MeasuredOptions {
     let of_roughness = |roughness| measured_roughness_options(roughness, scene.measured_as_line());
     scene.roughness.as_ref().map_or_else(MeasuredOptions::default, of_roughness)
+}
+
+/// Springs, a power of two, on which the shortest wave of an equivalent line over a length (m) has twice the fewest springs
+/// of a resolved wave, from where on both edge models agree.
+#[must_use]
+pub fn equivalent_springs(line: &EquivalentLine, length: f64) -> u64 {
+    let waves = length * line.range()[1] / TAU;
+    ((2.0 * SPRINGS_PER_WAVE as f64 * waves) as u64).next_power_of_two().clamp(1024, MOST_POINTS)
 }
 
 /// Options of a checked roughness, whose measured profile is the line itself or not.

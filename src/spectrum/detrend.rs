@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
 
 /// Part of a surface removed before analysis.
+#[cfg_attr(feature = "tui", derive(clap::ValueEnum))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
 pub enum Detrend {
     /// None; in scenes `Nothing`, since `None` omits a field.

@@ -231,9 +231,9 @@ fn curve_figures_and_panes_are_exported() {
         terminal.wait_without("Overwrite");
         terminal.send("E");
         answer(&mut terminal, "Export to (.csv .npy .json .svg .png .txt): ", "out.pdf");
-        terminal.wait_for("the name must end in .csv, .npy, .json, .svg, .png, .txt");
+        terminal.wait_for("unsupported file extension .pdf; use .csv, .npy, .json, .svg, .png or .txt");
         terminal.send(ESCAPE);
-        terminal.wait_without("must end");
+        terminal.wait_without("unsupported");
         quit(&mut terminal);
         assert!(!folder.path().join("out.pdf").exists());
     });

@@ -1,7 +1,8 @@
 //! `asperity sweep boundary`: the boundary of vanishing zero-load adhesion.
 
-use crate::cli::{CliError, Format};
-use crate::export::sheet::{self, Sheet};
+use super::csv;
+use crate::cli::CliError;
+use crate::export::sheet::Sheet;
 use crate::io::write_json_value;
 use crate::scene::RoughnessParameter;
 use crate::study::{Boundaries, Boundary, Crossing, DEFINITIONS, USUAL_LEVELS, boundaries, protocol_name};
@@ -37,12 +38,12 @@ pub struct BoundaryArguments {
     #[arg(long, value_name = "PARAMETER", value_parser = over, default_value = "kappa")]
     pub over: RoughnessParameter,
     /// text, json or csv
-    #[arg(long, value_parser = Format::parser(FORMATS), hide_possible_values = true, default_value = "text")]
-    pub format: Format,
+    #[arg(long, value_parser = FORMATS, hide_possible_values = true, default_value = "text")]
+    pub format: String,
 }
 
 /// Formats of boundaries: a table, one object, one row for each boundary.
-const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv];
+const FORMATS: [&str; 3] = ["text", "json", "csv"];
 
 fn level(text: &str) -> Result<f64, String> {
     let level = text.trim().parse::<f64>().ok().filter(|level| *level > 0.0 && *level < 1.0);
@@ -61,9 +62,9 @@ fn over(text: &str) -> Result<RoughnessParameter, String> {
 pub(super) fn boundary(arguments: &BoundaryArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let levels = if arguments.levels.is_empty() { USUAL_LEVELS.to_vec() } else { arguments.levels.clone() };
     let boundaries = boundaries(&arguments.folder, arguments.over, &levels)?;
-    match arguments.format {
-        Format::Json => write_json_value(stdout, &object(&boundaries))?,
-        Format::Csv => stdout.write_all(csv(&boundaries).as_bytes())?,
+    match arguments.format.as_str() {
+        "json" => write_json_value(stdout, &object(&boundaries))?,
+        "csv" => stdout.write_all(rows(&boundaries).as_bytes())?,
         _ => stdout.write_all(text(&boundaries).as_bytes())?,
     }
     Ok(())
@@ -141,7 +142,7 @@ fn object(boundaries: &Boundaries) -> Value {
     json!({ "lines": boundaries.lines, "boundaries": found.collect::<Vec<_>>() })
 }
 
-fn csv(boundaries: &Boundaries) -> String {
+fn rows(boundaries: &Boundaries) -> String {
     let of_parameter = columns(boundaries.over);
     let mut heading = boundaries.others.clone();
     heading.extend(["protocol", "level"].map(String::from));
@@ -162,5 +163,5 @@ fn csv(boundaries: &Boundaries) -> String {
         row.extend(numbers.into_iter().map(|number| number.map_or_else(String::new, |n| n.to_string())));
         rows.push(row);
     }
-    sheet::csv(&rows)
+    csv(&rows)
 }

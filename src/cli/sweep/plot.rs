@@ -1,8 +1,8 @@
 //! `asperity sweep plot`: figures of a merged study.
 
-use crate::cli::{CliError, Format, OutputArguments};
+use crate::cli::{CliError, OutputArguments};
 use crate::draw::AxisScale;
-use crate::export::{study_curves, study_figure, study_map};
+use crate::export::{Format, study_curves, study_figure, study_map};
 use crate::study::{Results, Selected, Selection};
 use clap::{Args, ValueEnum};
 use std::io::Write;

@@ -159,6 +159,7 @@ mod tests {
             for key in row.keys.iter() {
                 assert_eq!(Key::named(&key.name()), Some(*key), "{}", key.name());
             }
+            assert_eq!(Key::named("ctrl+y"), Some(control('y')));
         }
         for name in ["", "ab", "Shift+a", "F0", "F13", "Ctrl+", "\u{1b}", "Alt+x"] {
             assert_eq!(Key::named(name), None, "{name}");

@@ -45,8 +45,13 @@ impl Key {
     /// The key of a name, as [`Key::name`] writes it, or in the words on a keyboard: `Up`, `Ctrl+p`, `Shift+Left`.
     #[must_use]
     pub fn named(name: &str) -> Option<Key> {
-        let (control, rest) = name.strip_prefix("Ctrl+").map_or((false, name), |rest| (true, rest));
-        let (shift, rest) = rest.strip_prefix("Shift+").map_or((false, rest), |rest| (true, rest));
+        fn without<'a>(name: &'a str, modifier: &str) -> (bool, &'a str) {
+            let named = name.split_at_checked(modifier.len());
+            let rest = named.filter(|(before, _)| before.eq_ignore_ascii_case(modifier));
+            rest.map_or((false, name), |(_, rest)| (true, rest))
+        }
+        let (control, rest) = without(name, "Ctrl+");
+        let (shift, rest) = without(rest, "Shift+");
         let mut characters = rest.chars();
         let code = match (NAMES.iter().find(|(name, _)| *name == rest), characters.next(), characters.next())
         {

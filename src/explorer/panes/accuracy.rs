@@ -200,7 +200,7 @@ fn texts(model: &Model, table: Option<&CostTable>, area: Rect) -> Vec<Line<'stat
         let steps = table.rows_of(Knob::Step).next().map_or_else(String::new, |row| {
             format!("; of steps, from the exact solver on {} springs", grouped(row.springs))
         });
-        let note = format!("{from}{steps}. ○ is below what they resolve.");
+        let note = format!("{from}{steps}. ○: error below that of the reference.");
         lines.extend(wrapped(&Line::styled(note, theme.style(Meaning::Quiet)), area.width));
     }
     lines

@@ -117,15 +117,16 @@ fn take_over(model: &mut Model, choice: &Choice) -> Vec<Effect> {
 /// States the accuracy within reach instead.
 fn refuse(model: &mut Model, tolerance: f64, error: &ChoiceError) {
     let sentence = error.to_string();
-    let asked = per_cent(tolerance);
     let short = match error {
         ChoiceError::Unreached { best: Some(best), .. } => format!(
-            "{asked} is out of reach: {:.1e} with {} springs, edges {}",
+            "{tolerance:e} is out of reach: {:.1e} with {} springs, edges {}",
             best.error,
             grouped(best.points),
             best.edges.name()
         ),
-        ChoiceError::Unreached { best: None, .. } => format!("{asked} cannot be checked: too few springs"),
+        ChoiceError::Unreached { best: None, .. } => {
+            format!("{tolerance:e} cannot be checked: too few springs")
+        }
         ChoiceError::Stepwise => "a tolerance needs numerics.solver: Exact".to_owned(),
         ChoiceError::Run(_) | ChoiceError::Stopped => sentence.clone(),
     };

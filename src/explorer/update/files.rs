@@ -6,6 +6,7 @@ use crate::explorer::mode::Mode;
 use crate::explorer::model::Model;
 use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::text_line::TextLine;
+use crate::export::check_extension;
 use crate::scene::{Document, command_line};
 use crate::text::is_control;
 use std::path::{Path, PathBuf};
@@ -20,12 +21,8 @@ pub fn ask_save(model: &mut Model, then_quit: bool) {
 
 /// Saves the scene.
 pub fn save(path: PathBuf, then_quit: bool) -> Result<Vec<Effect>, String> {
-    match path.extension() {
-        Some(extension) if extension != "ron" => {
-            Err(format!("unsupported file extension .{}; use .ron", extension.display()))
-        }
-        _ => write(path, Content::Scene, then_quit),
-    }
+    check_extension(&path, &["ron"]).map_err(|error| error.to_string())?;
+    write(path, Content::Scene, then_quit)
 }
 
 fn write(path: PathBuf, content: Content, then_quit: bool) -> Result<Vec<Effect>, String> {
@@ -54,7 +51,7 @@ pub fn ask_export(model: &mut Model) {
     model.ask(Purpose::Export, TextLine::new(&format!("{stem}.csv")));
 }
 
-/// Exports to a file; the ending of its name selects the content.
+/// Exports to a file; the extension of its name selects the content.
 pub fn export(model: &Model, path: PathBuf) -> Result<Vec<Effect>, String> {
     let content = content_for(model, &path)?;
     write(path, content, false)
@@ -62,21 +59,23 @@ pub fn export(model: &Model, path: PathBuf) -> Result<Vec<Effect>, String> {
 
 /// Content for an exported file; or why there is none.
 fn content_for(model: &Model, path: &Path) -> Result<Content, String> {
-    let (exports, is_map) = (model.exports(), model.exports() == Content::MAP_EXPORTS);
-    let Some(content) = Content::of_file(exports, path) else {
-        let what = if is_map { "the map" } else { "the curve" };
-        let endings: Vec<String> = exports.iter().map(|(ending, _)| format!(".{ending}")).collect();
-        let (path, endings) = (path.display(), endings.join(", "));
-        return Err(format!("{path}: the name must end in {endings}, to export {what}"));
+    let exports = model.exports();
+    let extensions: Vec<_> = exports.iter().map(|(format, _)| format.extension()).collect();
+    let content = match check_extension(path, &extensions) {
+        Ok(Some(place)) => exports[place].1,
+        Ok(None) => {
+            let extensions: Vec<String> =
+                extensions.iter().map(|extension| format!(".{extension}")).collect();
+            return Err(format!("the extension chooses the format; use one of {}", extensions.join(", ")));
+        }
+        Err(error) => return Err(error.to_string()),
     };
     match content {
         Content::MapCells if model.chart.grid().is_none() => Err("there is no map yet to export".to_owned()),
         Content::Figure(_) if model.figure().is_none() => {
             Err("the selected pane is empty; there is no figure to export".to_owned())
         }
-        Content::Curve(_) | Content::Outcome if !model.is_current() => {
-            Err("the scene has no curve yet to export".to_owned())
-        }
+        Content::Outcome(_) if !model.is_current() => Err("the scene has no curve yet to export".to_owned()),
         content => Ok(content),
     }
 }

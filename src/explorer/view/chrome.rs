@@ -102,8 +102,9 @@ fn label(prompt: &Prompt, model: &Model, width: u16) -> String {
         Purpose::Export => {
             let exports = model.exports();
             let what = if exports == Content::MAP_EXPORTS { "Export the map" } else { "Export" };
-            let endings: Vec<String> = exports.iter().map(|(ending, _)| format!(".{ending}")).collect();
-            format!("{what} to ({}): ", endings.join(" "))
+            let extensions: Vec<String> =
+                exports.iter().map(|(format, _)| format!(".{}", format.extension())).collect();
+            format!("{what} to ({}): ", extensions.join(" "))
         }
         Purpose::Scene(_) => "Search: ".to_owned(),
         Purpose::Parameter { .. } => "Find: ".to_owned(),

@@ -55,16 +55,18 @@ pub fn strip(model: &Model, width: u16, rows: usize) -> Vec<Line<'static>> {
     let theme = model.appearance.theme;
     let plan = Plan::of(&computed.scene);
     let timings = &computed.outcome.timings;
-    let mut parts: Vec<Vec<Span<'static>>> = vec![vec![Span::styled("ran", theme.style(Meaning::Quiet))]];
+    let total = format_rounded(timings.total(), 2, "s");
+    let ran = if model.shows_times { format!("ran {total}:") } else { "ran:".to_owned() };
+    let mut parts: Vec<Vec<Span<'static>>> = vec![vec![Span::styled(ran, theme.style(Meaning::Quiet))]];
     for part in PARTS {
         let name = part.name(&plan);
         parts.push(match part.runs(&plan) {
             true if model.shows_times => {
                 let time = part.time(timings);
-                vec![Span::raw(format!("● {name} ")), Span::styled(time, theme.style(Meaning::Title))]
+                vec![Span::raw(format!("{name} ")), Span::styled(time, theme.style(Meaning::Title))]
             }
-            true => vec![Span::raw(format!("● {name}"))],
-            false => vec![Span::styled(format!("○ {name}"), theme.style(Meaning::Quiet))],
+            true => vec![Span::raw(name)],
+            false => vec![Span::styled(format!("{name} skipped"), theme.style(Meaning::Quiet))],
         });
     }
     let mut lines = filled(parts, "  ", usize::from(width));

@@ -207,7 +207,8 @@ fn the_map_is_exported_as_it_is_seen() {
         assert!(std::fs::read(folder.path().join("map.png")).unwrap().starts_with(b"\x89PNG\r\n\x1a\n"));
         let (nothing, message) = export("", "map.json");
         assert!(
-            nothing.is_empty() && message.contains("the name must end in .csv, .svg, .png, .txt"),
+            nothing.is_empty()
+                && message.contains("unsupported file extension .json; use .csv, .svg, .png or .txt"),
             "{message}"
         );
         // The curve, with another pane selected.

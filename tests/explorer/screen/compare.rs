@@ -65,7 +65,7 @@ fn ghosts_have_letters_and_say_where_they_differ() {
         driver.press("j");
         driver.enter("10 µN");
         let text = driver.text();
-        for expected in ["· H 0.7, κ 8", "· κ 8, leg 1"] {
+        for expected in ["· H 0.7, κ 8", "· κ 8, stage 1"] {
             assert!(text.contains(expected), "{expected}\n{text}");
         }
         driver.select("loading");

@@ -4,14 +4,13 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::pressed;
-use asperity::draw::PictureFormat;
 use asperity::explorer::action::{Content, OutputFile};
 use asperity::explorer::model::Mode;
 use asperity::explorer::panes::Pane;
 use asperity::explorer::theme::{Marker, Theme};
 use asperity::explorer::update::Effect;
 use asperity::explorer::{picture, screenshot};
-use asperity::export::{Provenance, TableFormat, write_curve, write_json};
+use asperity::export::{Format, RunReport, scene_provenance, write};
 use asperity::scene::{Document, command_line, open, presets};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -36,11 +35,11 @@ fn exported(driver: &mut Driver, name: &str) -> String {
 fn the_ending_of_a_name_shows_what_is_exported() {
     within(30, || {
         for (name, content) in [
-            ("a.csv", Content::Curve(TableFormat::Csv)),
-            ("a.npy", Content::Curve(TableFormat::Npy)),
-            ("folder/b.JSON", Content::Outcome),
-            ("c.d.svg", Content::Figure(PictureFormat::Svg)),
-            ("c.png", Content::Figure(PictureFormat::Png)),
+            ("a.csv", Content::Outcome(Format::Csv)),
+            ("a.npy", Content::Outcome(Format::Npy)),
+            ("folder/b.JSON", Content::Outcome(Format::Json)),
+            ("c.d.svg", Content::Figure(Format::Svg)),
+            ("c.png", Content::Figure(Format::Png)),
             ("e.txt", Content::Text),
         ] {
             let mut driver = pressed("");
@@ -58,14 +57,21 @@ fn the_ending_of_a_name_shows_what_is_exported() {
             assert!(driver.status().contains(&format!("exported to {name}")), "{}", driver.status());
             assert!(!driver.model.is_unsaved() && !driver.model.finished);
         }
-        for name in ["a", "a.ron", "csv", "a.csv.gz", "a.gif"] {
+        let unknown = |extension| {
+            format!("unsupported file extension .{extension}; use .csv, .npy, .json, .svg, .png or .txt")
+        };
+        let none = "the extension chooses the format; use one of .csv, .npy, .json, .svg, .png, .txt";
+        for (name, why) in [
+            ("a", none.to_owned()),
+            ("a.ron", unknown("ron")),
+            ("csv", none.to_owned()),
+            ("a.csv.gz", unknown("gz")),
+            ("a.gif", unknown("gif")),
+        ] {
             let mut driver = pressed("");
             assert!(export(&mut driver, Path::new(name)).is_empty(), "{name}");
             assert!(driver.files().is_empty());
-            let expected = format!(
-                "{name}: the name must end in .csv, .npy, .json, .svg, .png, .txt, to export the curve"
-            );
-            assert!(driver.status().contains(&expected), "{}", driver.status());
+            assert!(driver.status().contains(&why), "{}", driver.status());
         }
         // The proposed name is that of the scene.
         let mut driver = pressed("");
@@ -107,12 +113,13 @@ fn the_curve_and_the_figures_are_those_of_the_command_line() {
         let outcome = driver.model.computed.as_ref().unwrap().outcome.clone();
         let scene = driver.model.document.scene().clone();
         let command = command_line("asperity run", driver.model.document.name(), &[]);
-        let provenance = Provenance::new(&command, &scene, Path::new(""), Path::new("")).unwrap();
-        let mut curve = Vec::new();
-        write_curve(&mut curve, TableFormat::Csv, &provenance, &outcome).unwrap();
+        let provenance = scene_provenance(&command, &scene, Path::new(""), Path::new("")).unwrap();
+        let estimate = driver.model.appraisal.estimate();
+        let report = RunReport { title: "", scene: &scene, outcome: &outcome, choice: None, estimate };
+        let (mut curve, mut figures) = (Vec::new(), Vec::new());
+        write(&mut curve, &report, Format::Csv, &provenance).unwrap();
+        write(&mut figures, &report, Format::Json, "").unwrap();
         assert_eq!(exported(&mut driver, "a.csv").into_bytes(), curve);
-        let mut figures = Vec::new();
-        write_json(&mut figures, &scene, &outcome, None, driver.model.appraisal.estimate()).unwrap();
         assert_eq!(exported(&mut driver, "a.json").into_bytes(), figures);
         assert!(serde_json::from_slice::<serde_json::Value>(&figures).is_ok());
         // A failed scene has neither, but its screen can be exported.

@@ -218,7 +218,8 @@ fn the_spectra_of_both_faces_add() {
     for kind in ["1D PSD along x,", "q/π × 2D PSD,"] {
         let alone = powers(&["map.txt"], kind);
         assert!(!alone.is_empty());
-        assert_eq!(powers(&["line.txt", "--opposite", "map.txt"], &format!("opposite, {kind}")), alone);
+        let opposite = format!("\"opposite, {}\",", kind.trim_end_matches(','));
+        assert_eq!(powers(&["line.txt", "--opposite", "map.txt"], &opposite), alone);
     }
     // The line begins at the first wave contained in both scans.
     let line = powers(&["line.txt", "--opposite", "map.txt"], "equivalent line,");

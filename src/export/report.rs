@@ -1,0 +1,220 @@
+//! A result in up to four shapes, and the formats in which these are written.
+
+use super::table::Table;
+use crate::draw::Figure;
+use crate::io::write_json_value;
+use crate::text::{path_name, printable};
+use serde::Serialize;
+use std::io::{self, Write};
+use std::path::Path;
+use thiserror::Error;
+
+/// A result that has one or more of four shapes.
+pub trait Report {
+    /// Plain text of at most 80 columns.
+    fn text(&self) -> Option<String> {
+        None
+    }
+
+    /// One JSON value in SI units.
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
+        None
+    }
+
+    /// Rows in SI units.
+    fn table(&self) -> Option<Table<'_>> {
+        None
+    }
+
+    /// A picture.
+    fn figure(&self) -> Option<Figure> {
+        None
+    }
+}
+
+/// A value that is written as JSON without an intermediate copy.
+pub trait Json {
+    /// Writes the value.
+    ///
+    /// # Errors
+    /// Errors of `out`.
+    fn write_json(&self, out: &mut dyn Write) -> io::Result<()>;
+}
+
+impl<T: Serialize> Json for T {
+    fn write_json(&self, out: &mut dyn Write) -> io::Result<()> {
+        write_json_value(out, self)
+    }
+}
+
+impl Report for Figure {
+    fn figure(&self) -> Option<Figure> {
+        Some(self.clone())
+    }
+}
+
+/// Writes a report; a table begins with its provenance.
+///
+/// # Errors
+/// Errors of `out`; a report without the shape that the format needs, or a picture with too many pixels.
+#[cfg(feature = "tui")]
+pub fn write(
+    out: &mut dyn Write,
+    report: &(impl Report + ?Sized),
+    format: Format,
+    provenance: &str,
+) -> io::Result<()> {
+    let missing = || io::Error::other(format!("this result has no {} form", format.name()));
+    match format {
+        Format::Text => out.write_all(report.text().ok_or_else(missing)?.as_bytes()),
+        Format::Json => report.json().ok_or_else(missing)?.write_json(out),
+        Format::Csv => report.table().ok_or_else(missing)?.write_csv(out, provenance),
+        Format::Npy => report.table().ok_or_else(missing)?.write_npy(out, provenance),
+        Format::Svg => out.write_all(report.figure().ok_or_else(missing)?.svg().as_bytes()),
+        Format::Png => out.write_all(&report.figure().ok_or_else(missing)?.png().map_err(io::Error::other)?),
+    }
+}
+
+/// Format of a result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Text for a reader.
+    Text,
+    /// One object.
+    Json,
+    /// Comma-separated values.
+    Csv,
+    /// Structured array of NumPy.
+    Npy,
+    /// Vector picture.
+    Svg,
+    /// Raster picture.
+    Png,
+}
+
+impl Format {
+    /// All formats.
+    pub const ALL: [Format; 6] =
+        [Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png];
+
+    /// Name on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        if self == Format::Text { "text" } else { self.extension() }
+    }
+
+    /// Extension of files.
+    #[must_use]
+    pub fn extension(self) -> &'static str {
+        match self {
+            Format::Text => "txt",
+            Format::Json => "json",
+            Format::Csv => "csv",
+            Format::Npy => "npy",
+            Format::Svg => "svg",
+            Format::Png => "png",
+        }
+    }
+
+    /// Returns true for the formats of a table.
+    #[must_use]
+    pub fn is_table(self) -> bool {
+        matches!(self, Format::Csv | Format::Npy)
+    }
+
+    /// The format of a file by its extension; without an extension, or a file, the chosen format or the usual one.
+    ///
+    /// # Errors
+    /// For a format that is not one of `formats`, or an extension that contradicts the chosen one.
+    pub fn of_file(
+        file: Option<&Path>,
+        chosen: Option<Format>,
+        formats: &[Format],
+        usual: Format,
+    ) -> Result<Format, FormatError> {
+        if let Some(format) = chosen.filter(|chosen| !formats.contains(chosen)) {
+            let (format, allowed) =
+                (format.name(), alternatives("", formats.iter().map(|format| format.name())));
+            return Err(FormatError(format!(
+                "--format {format}: this result has no such format; use {allowed}"
+            )));
+        }
+        let extensions: Vec<_> = formats.iter().map(|format| format.extension()).collect();
+        let file = file.unwrap_or(Path::new(""));
+        let refused = |error: FormatError| FormatError(format!("{}: {}", path_name(file), error.0));
+        let place = check_extension(file, &extensions).map_err(refused)?;
+        match (place.map(|place| formats[place]), chosen) {
+            (Some(of_extension), Some(chosen)) if of_extension != chosen => {
+                let (name, extension) = (chosen.name(), chosen.extension());
+                let fault = format!(
+                    "the extension contradicts --format {name}; use .{extension}, or leave out --format"
+                );
+                Err(refused(FormatError(fault)))
+            }
+            (of_extension, chosen) => Ok(of_extension.or(chosen).unwrap_or(usual)),
+        }
+    }
+}
+
+/// The place of a file's extension in a list; `None` for a name without an extension.
+///
+/// # Errors
+/// For an extension that is not in the list.
+pub fn check_extension(file: &Path, allowed: &[&str]) -> Result<Option<usize>, FormatError> {
+    let Some(extension) = file.extension().map(|extension| extension.to_string_lossy()) else {
+        return Ok(None);
+    };
+    let place = allowed.iter().position(|one| extension.eq_ignore_ascii_case(one));
+    place.map(Some).ok_or_else(|| {
+        let (extension, allowed) = (printable(&extension), alternatives(".", allowed.iter().copied()));
+        FormatError(format!("unsupported file extension .{extension}; use {allowed}"))
+    })
+}
+
+/// A list such as `.txt, .json or .csv`.
+fn alternatives<'a>(before: &str, words: impl Iterator<Item = &'a str>) -> String {
+    let words: Vec<String> = words.map(|word| format!("{before}{word}")).collect();
+    match words.split_last() {
+        Some((last, others)) if !others.is_empty() => format!("{} or {last}", others.join(", ")),
+        _ => words.concat(),
+    }
+}
+
+/// A format, or the extension of a file, in which a result is not written.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{0}")]
+pub struct FormatError(String);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_format_follows_the_extension() {
+        let formats = [Format::Text, Format::Json, Format::Svg];
+        let of = |path: &str, chosen| {
+            let format = Format::of_file(Some(Path::new(path)), chosen, &formats, Format::Text);
+            format.map_err(|error| error.to_string())
+        };
+        for (path, chosen, expected) in [
+            ("a.json", None, Format::Json),
+            ("a.SVG", None, Format::Svg),
+            ("a.json", Some(Format::Json), Format::Json),
+            ("a", None, Format::Text),
+            ("json", Some(Format::Svg), Format::Svg),
+        ] {
+            assert_eq!(of(path, chosen), Ok(expected), "{path}");
+        }
+        for path in ["a.csv", "a.json.gz", "a.dat", "b/a.PNG"] {
+            let extension = path.rsplit_once('.').unwrap().1;
+            let expected =
+                format!("{path}: unsupported file extension .{extension}; use .txt, .json or .svg");
+            assert_eq!(of(path, None), Err(expected.clone()));
+            assert_eq!(of(path, Some(Format::Json)), Err(expected));
+        }
+        let expected = "a.svg: the extension contradicts --format text; use .txt, or leave out --format";
+        assert_eq!(of("a.svg", Some(Format::Text)), Err(expected.to_owned()));
+        let expected = "--format csv: this result has no such format; use text, json or svg";
+        assert_eq!(of("a", Some(Format::Csv)), Err(expected.to_owned()));
+    }
+}
