@@ -232,8 +232,10 @@ impl Scene {
             }
         };
         (springs < SPRINGS_PER_WAVE as f64).then(|| {
+            // Rounded down: never to the least number.
+            let springs = (10.0 * springs).floor() / 10.0;
             format!(
-                "{path}: the shortest wave has {springs:.1} springs, a resolved one at least {SPRINGS_PER_WAVE}: more \
+                "{path}: the shortest wave has {springs} springs, a resolved one at least {SPRINGS_PER_WAVE}: more \
                  points or longer waves"
             )
         })
