@@ -328,7 +328,7 @@ mod tests {
     fn figures_name_what_they_show() {
         for (study, words) in [
             (phase_map(), vec!["pressure-sensitive", "non-adhesive", "no value", "Hurst exponent"]),
-            (sections(), vec!["95 % confidence of the mean", "mean", "roughness–adhesion parameter"]),
+            (sections(), vec!["95 % confidence of the mean", "mean", "roughness-adhesion parameter"]),
         ] {
             let svg = drawn(&study);
             let text = parsed(&svg).1;

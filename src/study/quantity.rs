@@ -73,7 +73,7 @@ macro_rules! quantities {
 
 quantities! {
     Kappa {
-        name: "kappa", meaning: "roughness–adhesion parameter, eq. (11)",
+        name: "kappa", meaning: "roughness-adhesion parameter, eq. (11)",
         symbol: "κ", needs: Needs::Profile, of: |case| case.governing.kappa,
     }
     ElasticEnergy {

@@ -114,7 +114,7 @@ impl Target {
     /// Name, symbol, which may be empty, and SI unit of the quantity at this path of a scene.
     pub fn label(self, path: &str, scene: &Scene) -> (String, &'static str, &'static str) {
         if self.parameter() == Some(RoughnessParameter::Kappa) {
-            return ("roughness–adhesion parameter".into(), RoughnessParameter::Kappa.symbol(), "1");
+            return ("roughness-adhesion parameter".into(), RoughnessParameter::Kappa.symbol(), "1");
         }
         match self {
             Target::RoughnessParameter(parameter) => ("elastic energy ratio".into(), parameter.symbol(), "1"),
