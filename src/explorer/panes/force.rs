@@ -4,10 +4,10 @@ use super::{PaneRow, Place};
 use crate::analysis::{LEAST_TABOR_NUMBER, Mark, marks};
 use crate::contact::{CurvePoint, Direction, LegRecord};
 use crate::draw::{CellPlot, Chart, Figure, Ink, Label, Layer, Shape, Sign, Stroke, glyph, legend};
+use crate::explorer::app::{App, Ghost};
 use crate::explorer::caption::caption;
 use crate::explorer::layout::inside;
 use crate::explorer::mode::ModeKind;
-use crate::explorer::model::{Ghost, Model};
 use crate::explorer::request::ManualMove;
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::theme::{Meaning, Theme};
@@ -40,20 +40,20 @@ pub static ROW: PaneRow = PaneRow {
 };
 
 /// Title of the pane.
-fn title(model: &Model) -> String {
-    let name = match model.curve.quantities {
+fn title(app: &App) -> String {
+    let name = match app.view.curve.quantities {
         LoopQuantities::ForceIndentation => "Force",
         LoopQuantities::LengthForce => "Contact length",
         LoopQuantities::FragmentsIndentation => "Fragments",
     };
     // Not every scene has an h or an F_a,max.
-    let (x, y) = units(model).symbols();
+    let (x, y) = units(app).symbols();
     let is_normalised = [&x, &y].iter().any(|symbol| symbol.contains('/'));
     let name = if is_normalised { format!("{name} {y} over {x}") } else { format!("{name} {y}({x})") };
-    let loss = if model.curve.loss && model.curve.quantities == LoopQuantities::ForceIndentation {
-        match model.computed.as_ref().and_then(|computed| computed.outcome.figures.dissipated_energy) {
+    let loss = if app.view.curve.loss && app.view.curve.quantities == LoopQuantities::ForceIndentation {
+        match app.solved.as_ref().and_then(|computed| computed.outcome.figures.dissipated_energy) {
             Some(energy) => {
-                let number = model.computed.as_ref().and_then(|computed| computed.outcome.tabor_number);
+                let number = app.solved.as_ref().and_then(|computed| computed.outcome.tabor_number);
                 let number = number.map_or_else(String::new, |number| {
                     let low = if number < LEAST_TABOR_NUMBER {
                         format!(" < {LEAST_TABOR_NUMBER}")
@@ -69,8 +69,8 @@ fn title(model: &Model) -> String {
     } else {
         String::new()
     };
-    let event = match caption(model) {
-        _ if model.is_computing() => " · computing".to_owned(),
+    let event = match caption(app) {
+        _ if app.is_computing() => " · computing".to_owned(),
         Some(event) => format!(" · {event}"),
         None => String::new(),
     };
@@ -78,86 +78,83 @@ fn title(model: &Model) -> String {
 }
 
 /// Units of the axes.
-fn units(model: &Model) -> LoopUnits {
-    let quantities = model.curve.quantities;
-    match model.computed.as_ref().filter(|_| model.curve.normalised) {
+fn units(app: &App) -> LoopUnits {
+    let quantities = app.view.curve.quantities;
+    match app.solved.as_ref().filter(|_| app.view.curve.normalised) {
         Some(computed) => LoopUnits::of_scene(quantities, &computed.outcome),
         None => LoopUnits::si(quantities),
     }
 }
 
 /// Rows of text above the plot.
-fn rows_above(model: &Model, area: Rect) -> u16 {
+fn rows_above(app: &App, area: Rect) -> u16 {
     match area.height {
         0..8 => 0,
         8..12 => 1,
-        height => 2 + (model.ghosts.len() as u16).min(height / 5),
+        height => 2 + (app.ghosts.len() as u16).min(height / 5),
     }
 }
 
 /// The indentation under a column of the pane, m; `None` where that axis is not shown.
-pub fn indentation_at(model: &Model, area: Rect, column: u16) -> Option<f64> {
-    let chart = shown_chart(model)?;
-    let at = CellPlot::within(below(area, rows_above(model, area)), &chart).number_at(&chart.x, column);
-    units(model).indentation(at)
+pub fn indentation_at(app: &App, area: Rect, column: u16) -> Option<f64> {
+    let chart = shown_chart(app)?;
+    let at = CellPlot::within(below(area, rows_above(app, area)), &chart).number_at(&chart.x, column);
+    units(app).indentation(at)
 }
 
 /// Loading stage and indentation, m, of the point of the curves nearest to a cell.
-pub fn stage_at(model: &Model, area: Rect, here: Position) -> Option<(usize, f64)> {
-    let (chart, units) = (shown_chart(model)?, units(model));
-    let place = CellPlot::within(below(area, rows_above(model, area)), &chart);
+pub fn stage_at(app: &App, area: Rect, here: Position) -> Option<(usize, f64)> {
+    let (chart, units) = (shown_chart(app)?, units(app));
+    let place = CellPlot::within(below(area, rows_above(app, area)), &chart);
     let distance = |point: &CurvePoint| {
-        let (column, row) = place.cell(&chart, model.appearance.marker.symbols(), units.place(point))?;
+        let (column, row) = place.cell(&chart, app.view.appearance.marker.symbols(), units.place(point))?;
         // A row is about as high as two columns are wide.
         let (across, down) = (f64::from(column.abs_diff(here.x)), 2.0 * f64::from(row.abs_diff(here.y)));
         Some(across.hypot(down))
     };
-    let points = model
-        .legs()
-        .iter()
-        .enumerate()
-        .flat_map(|(leg, record)| record.curve.iter().map(move |at| (leg, at)));
+    let points =
+        app.legs().iter().enumerate().flat_map(|(leg, record)| record.curve.iter().map(move |at| (leg, at)));
     let near = points.filter_map(|(leg, point)| Some((distance(point)?, leg, point.indentation)));
     let nearest = near.min_by(|a, b| a.0.total_cmp(&b.0))?;
     Some((nearest.1, nearest.2))
 }
 
 /// Drags the body to the indentation under the mouse.
-fn drag(model: &mut Model, area: Rect, here: Position) -> Vec<Effect> {
-    if indentation_at(model, area, here.x).is_none() {
+fn drag(app: &mut App, area: Rect, here: Position) -> Vec<Effect> {
+    if indentation_at(app, area, here.x).is_none() {
         return vec![Effect::Ask];
     }
     // Manual loading begins first: its axis may reach further than that of the loading, and the body is to be under
     // the mouse.
-    let mut effects = if model.manual.is_none() { movement::take(model, None) } else { Vec::new() };
+    let mut effects = if app.manual.is_none() { movement::take(app, None) } else { Vec::new() };
     effects.retain(|effect| *effect != Effect::Ask);
-    if let Some(indentation) = indentation_at(model, area, here.x) {
-        effects.extend(movement::take(model, Some(ManualMove::To(indentation))));
+    if let Some(indentation) = indentation_at(app, area, here.x) {
+        effects.extend(movement::take(app, Some(ManualMove::To(indentation))));
     }
     effects
 }
 
 /// Lower edge of the frame: readings of the crosshair, or the label of the force axis where no row above the plot
 /// has the label.
-fn edge(model: &Model, area: Rect) -> Option<Line<'static>> {
-    let is_read = model.crosshair.is_some() && model.present().is_some();
-    let line = if is_read { reading(model)? } else { label(model, inside(area))? };
+fn edge(app: &App, area: Rect) -> Option<Line<'static>> {
+    let is_read = app.view.crosshair.is_some() && app.present().is_some();
+    let line = if is_read { reading(app)? } else { label(app, inside(area))? };
     Some(plot::on_frame(line, area.width))
 }
 
 /// Label of the vertical axis with its unit, in a pane without rows of text.
-fn label(model: &Model, area: Rect) -> Option<Vec<Vec<Text<'static>>>> {
-    if rows_above(model, area) > 0 {
+fn label(app: &App, area: Rect) -> Option<Vec<Vec<Text<'static>>>> {
+    if rows_above(app, area) > 0 {
         return None;
     }
-    let y = shown_chart(model)?.y;
-    let style = model.appearance.theme.style(Meaning::Quiet);
+    let y = shown_chart(app)?.y;
+    let style = app.view.appearance.theme.style(Meaning::Quiet);
     Some(vec![vec![Text::styled(y.label_with_unit().to_string(), style)]])
 }
 
 /// Readings of the crosshair.
-fn reading(model: &Model) -> Option<Vec<Vec<Text<'static>>>> {
-    let point = model.present()?.point;
+fn reading(app: &App) -> Option<Vec<Vec<Text<'static>>>> {
+    let point = app.present()?.point;
     let [d, length] = [point.indentation, point.contact_length].map(|value| format_rounded(value, 3, "m"));
     let mut parts = vec![
         format!("d {d}"),
@@ -165,10 +162,10 @@ fn reading(model: &Model) -> Option<Vec<Vec<Text<'static>>>> {
         format!("l {length}"),
         format!("n {}", point.fragments),
     ];
-    if model.manual.is_none() {
-        parts.push(format!("stage {} of {}", model.player.leg + 1, model.legs().len()));
+    if app.manual.is_none() {
+        parts.push(format!("stage {} of {}", app.play.leg + 1, app.legs().len()));
     }
-    let style = model.appearance.theme.style(Meaning::Cursor);
+    let style = app.view.appearance.theme.style(Meaning::Cursor);
     Some(parts.into_iter().map(|text| vec![Text::styled(text, style)]).collect())
 }
 
@@ -178,30 +175,32 @@ fn below(area: Rect, rows: u16) -> Rect {
 }
 
 /// Draws the curve with its axes.
-fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
     let area = inside(area);
-    let theme = model.appearance.theme;
-    let Some(chart) = shown_chart(model) else {
-        let text = if model.is_computing() { "computing…" } else { "no curve" };
+    let theme = app.view.appearance.theme;
+    let Some(chart) = shown_chart(app) else {
+        let text = if app.is_computing() { "computing…" } else { "no curve" };
         return draw_reason(frame, area, text, theme);
     };
-    let above = rows_above(model, area);
-    let units = units(model);
-    let place = plot::draw_chart(frame, below(area, above), &chart, model.appearance);
-    draw_letters(frame, &place, &chart, model, units);
-    if model.is_current() {
-        let marks = marks(model.legs());
+    let above = rows_above(app, area);
+    let units = units(app);
+    let place = plot::draw_chart(frame, below(area, above), &chart, app.view.appearance);
+    draw_letters(frame, &place, &chart, app, units);
+    if app.is_current() {
+        let marks = marks(app.legs());
         let names: Vec<_> = marks.iter().map(|(mark, point)| (units.place(point), mark.name())).collect();
-        plot::in_theme(model.appearance, |style| place.draw_names(frame.buffer_mut(), &chart, style, &names));
+        plot::in_theme(app.view.appearance, |style| {
+            place.draw_names(frame.buffer_mut(), &chart, style, &names)
+        });
     }
-    let legend = plot::in_theme(model.appearance, |style| legend(std::slice::from_ref(&chart), style));
+    let legend = plot::in_theme(app.view.appearance, |style| legend(std::slice::from_ref(&chart), style));
     let mut parts =
         vec![vec![Text::styled(chart.y.label_with_unit().to_string(), theme.style(Meaning::Quiet))]];
     parts.extend(legend);
     let rows = [plot::spaced(parts, usize::from(area.width))];
-    let values = model.is_current().then(|| values(model.legs(), area.width, theme));
-    let ghosts = model.ghosts.iter().enumerate().rev().map(|(number, ghost)| {
-        let force = adhesion(model, ghost).map_or_else(String::new, |force| format!(" {force} ·"));
+    let values = app.is_current().then(|| values(app.legs(), area.width, theme));
+    let ghosts = app.ghosts.iter().enumerate().rev().map(|(number, ghost)| {
+        let force = adhesion(app, ghost).map_or_else(String::new, |force| format!(" {force} ·"));
         let style = theme.style(plot::meaning(Ink::Compared(number)));
         Line::styled(format!("{}{force} {}", letter(number), ghost.differs), style)
     });
@@ -210,15 +209,15 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
 }
 
 /// The figure of the chart.
-fn figure(model: &Model) -> Option<Figure> {
-    Some(Figure::of_chart(model.document.title(), chart(model)?))
+fn figure(app: &App) -> Option<Figure> {
+    Some(Figure::of_chart(app.edit.document.title(), chart(app)?))
 }
 
 /// The chart without names that the pane writes elsewhere: those of marks and ghosts, and those of the axes.
-fn shown_chart(model: &Model) -> Option<Chart> {
-    let mut chart = chart(model)?;
+fn shown_chart(app: &App) -> Option<Chart> {
+    let mut chart = chart(app)?;
     // A ghost beside the scene is named with the curves; the others have their letters.
-    let beside = model.beside().map(|_| model.ghosts.len() - 1);
+    let beside = app.beside().map(|_| app.ghosts.len() - 1);
     for layer in &mut chart.layers {
         layer.name = match layer.ink {
             Ink::Text => Label::default(),
@@ -234,29 +233,29 @@ fn shown_chart(model: &Model) -> Option<Chart> {
 }
 
 /// The curve, curves compared with it, the path of manual loading, and marks.
-fn chart(model: &Model) -> Option<Chart> {
-    model.indentations()?;
-    let units = units(model);
+fn chart(app: &App) -> Option<Chart> {
+    app.indentations()?;
+    let units = units(app);
     let unmarked = |legs| ForceLoop { marks: Vec::new(), ..ForceLoop::new(legs) };
-    let ghosts = model.ghosts.iter().enumerate().map(|(number, ghost)| ForceLoop {
+    let ghosts = app.ghosts.iter().enumerate().map(|(number, ghost)| ForceLoop {
         name: Some(Label::plain(&format!("{}: {}", letter(number), ghost.differs))),
         ink: Some(Ink::Compared(number)),
         stroke: Some(Stroke::Sparse),
         ..unmarked(&ghost.computed.outcome.history.legs)
     });
-    let tried = model.tried_outcome().map(|outcome| ForceLoop {
+    let tried = app.tried_outcome().map(|outcome| ForceLoop {
         name: Some("preview".into()),
         ink: Some(Ink::Kept),
         stroke: Some(Stroke::Dashed),
         ..unmarked(&outcome.history.legs)
     });
-    let legs = model.legs();
+    let legs = app.legs();
     // A curve of a scene changed since stays in the background until the new one is there.
-    let present = match model.is_current() {
+    let present = match app.is_current() {
         true => ForceLoop::new(legs),
         false => ForceLoop { ink: Some(Ink::Quiet), ..unmarked(legs) },
     };
-    let manual = model.manual.as_ref().map(|manual| ForceLoop {
+    let manual = app.manual.as_ref().map(|manual| ForceLoop {
         curves: vec![(Direction::Unloading, &manual.path)],
         name: Some("manual".into()),
         ink: Some(Ink::Manual),
@@ -266,18 +265,18 @@ fn chart(model: &Model) -> Option<Chart> {
     let loops: Vec<ForceLoop<'_>> = ghosts.chain(tried).chain([present]).chain(manual).collect();
     let mut chart = loop_chart(&loops, units);
     // Below the curves, which stay whole.
-    if model.curve.loss && model.curve.quantities == LoopQuantities::ForceIndentation {
+    if app.view.curve.loss && app.view.curve.quantities == LoopQuantities::ForceIndentation {
         let border = legs.iter().flat_map(|leg| &leg.curve).map(|point| units.place(point)).collect();
         chart.layers.insert(1, Layer::unnamed(Ink::Quiet, Shape::Inside(border)));
     }
-    if let Some(snapshot) = model.present() {
+    if let Some(snapshot) = app.present() {
         let (x, y) = units.place(&snapshot.point);
         let at = (x.clamp(chart.x.span.low, chart.x.span.high), y.clamp(chart.y.span.low, chart.y.span.high));
-        if model.crosshair.is_some() {
+        if app.view.crosshair.is_some() {
             let lines = [Shape::Upright(at.0), Shape::Level(at.1)];
             chart.layers.splice(0..0, lines.map(|line| Layer::unnamed(Ink::Cursor, line)));
         }
-        let name = if model.manual.is_some() { "manual" } else { "now" };
+        let name = if app.manual.is_some() { "manual" } else { "now" };
         chart.layers.push(Layer::new(name.into(), Ink::Cursor, Shape::signs(vec![at], Sign::Diamond)));
     }
     Some(chart)
@@ -320,10 +319,10 @@ fn marked(ghost: &Ghost) -> Option<CurvePoint> {
 }
 
 /// Adhesion force of a ghost, and its difference from that of the present scene: `F_a 12 µN (+3 µN)`.
-fn adhesion(model: &Model, ghost: &Ghost) -> Option<String> {
+fn adhesion(app: &App, ghost: &Ghost) -> Option<String> {
     let of = |computed: &SolvedScene| computed.outcome.figures.adhesion_force;
     let force = of(&ghost.computed)?;
-    let present = model.current().and_then(|one| of(one));
+    let present = app.current().and_then(|one| of(one));
     let difference = present.map_or_else(String::new, |present| {
         let sign = if force > present { "+" } else { "" };
         format!(" ({sign}{})", format_rounded(force - present, 3, "N"))
@@ -332,29 +331,29 @@ fn adhesion(model: &Model, ghost: &Ghost) -> Option<String> {
 }
 
 /// Draws the letters of ghosts, each in the nearest cell of its row without a sign.
-fn draw_letters(frame: &mut Frame<'_>, place: &CellPlot, chart: &Chart, model: &Model, units: LoopUnits) {
-    let marker = model.appearance.marker.symbols();
+fn draw_letters(frame: &mut Frame<'_>, place: &CellPlot, chart: &Chart, app: &App, units: LoopUnits) {
+    let marker = app.view.appearance.marker.symbols();
     let signs = chart.layers.iter().filter_map(|layer| match &layer.shape {
         Shape::Curve { points, sign: Some(_), .. } => points.first(),
         _ => None,
     });
     let mut taken: Vec<(u16, u16)> = signs.filter_map(|at| place.cell(chart, marker, *at)).collect();
     let columns = place.plot.x..place.plot.right();
-    for (number, ghost) in model.ghosts.iter().enumerate() {
+    for (number, ghost) in app.ghosts.iter().enumerate() {
         let at = marked(ghost).and_then(|point| place.cell(chart, marker, units.place(&point)));
         let Some((column, row)) = at else { continue };
         let beside = (0..place.plot.width).flat_map(|step| [column + step, column.wrapping_sub(step)]);
         let mut free = beside.filter(|column| columns.contains(column)).map(|column| (column, row));
         let cell = free.find(|cell| !taken.contains(cell)).unwrap_or((column, row));
         taken.push(cell);
-        let style = model.appearance.theme.style(plot::meaning(Ink::Compared(number)));
+        let style = app.view.appearance.theme.style(plot::meaning(Ink::Compared(number)));
         frame.buffer_mut()[cell].set_symbol(letter(number)).set_style(style);
     }
 }
 
 /// Letter of the newest ghost.
-pub fn newest_letter(model: &Model) -> &'static str {
-    letter(model.ghosts.len().saturating_sub(1))
+pub fn newest_letter(app: &App) -> &'static str {
+    letter(app.ghosts.len().saturating_sub(1))
 }
 
 fn letter(number: usize) -> &'static str {
