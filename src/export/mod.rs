@@ -7,6 +7,7 @@ mod check;
 mod comparison;
 mod cost;
 mod ensemble;
+mod loop_chart;
 mod map;
 mod preloads;
 mod provenance;
@@ -25,6 +26,7 @@ mod work_precision;
 pub use comparison::{Comparison, adhesion_forces};
 pub use cost::CostReport;
 pub use ensemble::LinesReport;
+pub use loop_chart::{ForceLoop, LoopQuantities, LoopUnits, force_figure, loop_chart, sign};
 pub use preloads::{PreloadReport, preload_axes, preload_layers};
 pub use provenance::{
     MeasuredFileError, check_measured_files, files_provenance, named_from, scene_provenance,
@@ -34,8 +36,7 @@ pub use report::write;
 pub use report::{Format, FormatError, Json, Report, check_extension};
 pub use reversals::ReversalReport;
 pub use run::RunReport;
-pub(crate) use scene_figure::mark_name;
-pub use scene_figure::{ContactSets, force_figure, sign};
+pub use scene_figure::ContactSets;
 pub use spectrum_figure::{Spectra, SpectrumPoint};
 pub use study_figure::{study_curves, study_figure, study_map};
 pub use summary::brief_summary;

@@ -1,7 +1,7 @@
 //! A computed scene: one JSON object, the force curve as a table and as a figure; and the table of a profile.
 
+use super::loop_chart::force_figure;
 use super::report::{Json, Report};
-use super::scene_figure::force_figure;
 use super::summary::summary;
 use crate::accuracy::{Choice, Estimate};
 use crate::draw::Figure;
