@@ -58,12 +58,6 @@ pub struct Header {
     pub measured_sha256: Option<String>,
 }
 
-/// Part of a header that every version of the program can read.
-#[derive(Deserialize)]
-struct AnyHeader {
-    format: u32,
-}
-
 /// A shard file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShardFile {
@@ -211,11 +205,10 @@ impl Folder {
                 "its first line is not the header of a shard file ({error}); remove the file or bring back another"
             )
         };
-        let AnyHeader { format } = serde_json::from_str(payload).map_err(unknown)?;
-        if format != STORE_VERSION {
-            return Err(format!("its format is {format}; this program reads {STORE_VERSION}"));
-        }
         let header: Header = serde_json::from_str(payload).map_err(unknown)?;
+        if header.format != STORE_VERSION {
+            return Err(format!("its format is {}; this program reads {STORE_VERSION}", header.format));
+        }
         if header.measured_sha256 != self.plan.measured_sha256 {
             let [found, expected] = [&header.measured_sha256, &self.plan.measured_sha256]
                 .map(|hash| hash.as_deref().unwrap_or("none"));

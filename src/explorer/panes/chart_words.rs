@@ -8,8 +8,8 @@ use crate::explorer::theme::Meaning;
 use crate::explorer::view::plot;
 use crate::explorer::view::wrap::{filled, wrapped};
 use crate::scene::{RoughnessParameter, format_rounded};
-use crate::study::map::{Level, LiveMap, Template};
-use crate::study::{Axis, Cell, Estimate, Grid, Place, Quantity};
+use crate::study::map::{Level, LiveMap, live_plan};
+use crate::study::{Axis, Cell, Estimate, Grid, Place, Plan, Quantity};
 use crate::text::grouped;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span as Text};
@@ -19,7 +19,7 @@ const ROOMY: u16 = 24;
 
 /// Title of the pane: the mapped quantity, the axes, and the number of profiles of the mean.
 pub fn title(app: &App) -> String {
-    let template = Template::of(app.edit.document.scene());
+    let plan = live_plan(app.edit.document.scene(), app.chart.parameter());
     let Some((across, up)) = app.chart.axes(app.edit.document.scene()) else { return " Map ".to_owned() };
     let axes: Vec<&str> =
         [Some(&across), up.as_ref()].into_iter().flatten().map(Axis::symbol_or_name).collect();
@@ -27,11 +27,11 @@ pub fn title(app: &App) -> String {
     let charted = app.chart.grid().map(|grid| name_of(grid, app.chart.charted()));
     let quantity = charted.unwrap_or_else(|| "regime".to_owned());
     let study = app.chart.shown_study().map(|study| (&study.study_map, study.study_map.plan().lines));
-    match (study, template) {
+    match (study, plan) {
         (Some((study_map, count)), _) => {
             format!(" Study {}: {quantity} over {over}, {} ", study_map.name(), profiles(count))
         }
-        (None, Ok(template)) => format!(" Map of {quantity} over {over}, {} ", profiles(template.lines())),
+        (None, Ok(plan)) => format!(" Map of {quantity} over {over}, {} ", profiles(plan.lines)),
         (None, Err(_)) => " Map ".to_owned(),
     }
 }
@@ -42,7 +42,7 @@ fn profiles(count: u64) -> String {
 
 /// Reason why there is no map.
 pub fn nothing_yet(app: &App) -> String {
-    if let Err(why) = Template::of(app.edit.document.scene()) {
+    if let Err(why) = live_plan(app.edit.document.scene(), app.chart.parameter()) {
         return why.to_string();
     }
     if let Some(why) = app.studies.failures.get(&Pane::Chart) {
@@ -148,7 +148,7 @@ pub fn below(app: &App, area: Rect) -> Vec<Line<'static>> {
             }
         }
         None if study.is_some() => {
-            let why = Template::of(app.edit.document.scene()).err();
+            let why = live_plan(app.edit.document.scene(), app.chart.parameter()).err();
             let no_mark = "no mark: the scene lacks a quantity of the axes".to_owned();
             let why = why.map_or(no_mark, |why| why.to_string().replacen("no map", "no mark", 1));
             say(Line::styled(why, theme.style(Meaning::Quiet)));
@@ -186,12 +186,12 @@ fn computed_so_far(app: &App, say: &mut impl FnMut(Line<'static>)) {
 }
 
 fn note_of_computed(app: &App) -> String {
-    let cells = Template::of(app.edit.document.scene()).map_or_else(
-        |_| String::new(),
-        |template| {
-            format!("Each cell: {} of {} springs. ", profiles(template.lines()), grouped(template.springs()))
-        },
-    );
+    let cells = |plan: Plan| {
+        let springs = grouped(plan.scene.numerics.points);
+        format!("Each cell: {} of {springs} springs. ", profiles(plan.lines))
+    };
+    let cells =
+        live_plan(app.edit.document.scene(), app.chart.parameter()).map_or_else(|_| String::new(), cells);
     let parameter = match app.chart.parameter() {
         RoughnessParameter::Kappa => {
             "κ ≈ 0.6 is the boundary of eq. (15) in the paper: with smaller κ bodies adhere without a preload, with larger κ \
