@@ -4,7 +4,7 @@ use super::levels::{COLUMNS, HURSTS, Level};
 use crate::simulation::Simulation;
 use crate::study::StudyError;
 use crate::study::cells::Cells;
-use crate::study::grid::{Cell, Grid};
+use crate::study::grid::Grid;
 use crate::study::plan::Plan;
 use crate::study::recorder::Recorder;
 use crate::study::results::Results;
@@ -116,29 +116,20 @@ impl LiveMap {
     /// The map for display: H across, and κ or e_el/γ up as in the paper. Of too few profiles for a confidence, cells
     /// have the range of the profiles alone.
     pub fn grid(&self) -> Grid {
-        let axes = &self.results.plan().axes;
-        let layers = self.results.layers();
-        let cell = |cell: u64| -> Option<Result<Cell, String>> {
-            if let Some(why) = self.failed.get(&cell) {
-                return Some(Err(why.clone()));
-            }
-            let mut computed = self.results.cell(cell, &layers)?;
-            computed.estimates.iter_mut().flatten().for_each(|estimate| estimate.interval = None);
-            self.results.is_whole(cell).then_some(Ok(computed))
-        };
-        let mut grid = match axes.as_slice() {
-            [hurst, parameter] => {
-                let places = (0..COLUMNS).flat_map(|up| (0..HURSTS).map(move |across| (up, across)));
-                let cells = places.map(|(column, row)| cell(Self::number(column, row))).collect();
-                Grid::new(hurst.clone(), Some(parameter.clone()), layers.clone(), cells)
-            }
-            axes => Grid::new(axes[0].clone(), None, layers.clone(), (0..COLUMNS as u64).map(cell).collect()),
-        };
-        for (index, stand_in) in grid.stand_ins.iter_mut().enumerate() {
-            let has_hurst = self.has_hurst();
+        let (has_hurst, count) = (self.has_hurst(), self.plan().axes.len());
+        let mut grid = self.results.grid((0, has_hurst.then_some(1)), vec![0; count], self.results.layers());
+        for index in 0..grid.cells.len() {
             let (column, row) = if has_hurst { (index / HURSTS, index % HURSTS) } else { (index, 0) };
+            let (number, cell) = (Self::number(column, row), &mut grid.cells[index]);
+            if let Some(why) = self.failed.get(&number) {
+                *cell = Some(Err(why.clone()));
+            } else if !self.results.is_whole(number) {
+                *cell = None;
+            }
+            let estimates = cell.iter_mut().flatten().flat_map(|cell| &mut cell.estimates);
+            estimates.flatten().for_each(|estimate| estimate.interval = None);
             let (column, row) = self.stand_in(column, row);
-            *stand_in = if has_hurst { column * HURSTS + row } else { column };
+            grid.stand_ins[index] = if has_hurst { column * HURSTS + row } else { column };
         }
         grid
     }
