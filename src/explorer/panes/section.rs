@@ -1,33 +1,21 @@
 //! Part of the profile on its axes: rigid profile, elastic surface and contact, for profile and close-up.
 
-use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Layer, Shape, Span, legend, value_label};
-use crate::explorer::snapshot::{Column, ContactSnapshot, Section};
+use crate::draw::{Chart, Figure, Ink, Layer, Shape, Span, legend, value_label};
+use crate::explorer::snapshot::{ContactSnapshot, Section};
 use crate::explorer::theme::{Appearance, Meaning, Theme};
 use crate::explorer::view::plot;
 use crate::scene::format_quantity;
 use crate::simulation::LineFacts;
 use ratatui::text::{Line, Span as Text};
 
-/// Chart of a section over the position; heights within `z`.
+/// Chart of a section over the position on the screen; heights within `z`.
 pub fn chart(section: &Section, line: LineFacts, z: Span) -> Chart {
-    let [low, high] =
-        [section.first, section.first + section.springs.max(1)].map(|spring| edge(line, spring));
-    let layer = |name: &str, ink, ends: &dyn Fn(&Column) -> Option<(f64, f64)>| {
-        let columns = section.columns.iter().map(ends).collect();
-        Layer::new(name.into(), ink, Shape::Envelope { x: (low, high), columns })
-    };
-    let layers = vec![
-        layer("surface", Ink::Surface, &|column| Some(column.surface)),
-        layer("profile", Ink::Profile, &|column| Some(column.line)),
-        layer("contact", Ink::Contact, &|column| column.contact),
-    ];
-    let axis = |span, symbol, unit| Axis::new(AxisScale::Linear, span, "", symbol, unit);
-    Chart::new(axis(Span { low, high }, "x", "m"), axis(z, "z", "m"), layers)
+    section.chart(line, z).with_symbols()
 }
 
 /// Figure of a section with its indentation and force, heights within `z`.
 pub fn figure(title: &str, section: &Section, snapshot: &ContactSnapshot, z: Span) -> Figure {
-    let mut chart = chart(section, snapshot.line, z);
+    let mut chart = section.chart(snapshot.line, z);
     add_crosshair(&mut chart, snapshot);
     let point = &snapshot.point;
     let force = value_label("", "F", "N", point.force).then(", ");
@@ -35,14 +23,9 @@ pub fn figure(title: &str, section: &Section, snapshot: &ContactSnapshot, z: Spa
     Figure { notes, size: Figure::LOW, ..Figure::of_chart(title, chart) }
 }
 
-/// Position of the left edge of a spring, m.
-fn edge(line: LineFacts, spring: usize) -> f64 {
-    (line.first + spring) as f64 * line.spacing
-}
-
 /// Position of the middle of a spring, m.
 pub fn position(line: LineFacts, spring: usize) -> f64 {
-    edge(line, spring) + 0.5 * line.spacing
+    (line.first + spring) as f64 * line.spacing + 0.5 * line.spacing
 }
 
 /// Adds the crosshair to the chart of a section.
