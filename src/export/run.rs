@@ -3,10 +3,9 @@
 use super::loop_chart::force_figure;
 use super::report::{Json, Report};
 use super::summary::summary;
-use super::table::Table;
 use crate::accuracy::{Choice, Estimate};
 use crate::draw::Figure;
-use crate::io::object;
+use crate::io::{Table, object};
 use crate::scene::{Observer, Scene};
 use crate::simulation::Outcome;
 use crate::surface::Line;
