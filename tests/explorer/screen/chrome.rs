@@ -151,11 +151,7 @@ fn the_status_line_has_mechanics_or_the_work_of_the_computation() {
         }
         driver.press("d { I");
         assert!(driver.status().contains("springs changed"), "{}", driver.status());
-        assert!(
-            driver.status().contains("released "),
-            "{}",
-            driver.status()
-        );
+        assert!(driver.status().contains("released "), "{}", driver.status());
     });
 }
 

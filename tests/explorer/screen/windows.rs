@@ -172,7 +172,12 @@ fn no_number_of_the_status_is_cut() {
             let status = driver.status();
             // Each fact is shown in full.
             let facts = |status: &str| -> Vec<String> {
-                status.replace("manual: ", "").replace("  ◆ ", " · ").split(" · ").map(str::to_owned).collect()
+                status
+                    .replace("manual: ", "")
+                    .replace("  ◆ ", " · ")
+                    .split(" · ")
+                    .map(str::to_owned)
+                    .collect()
             };
             let all = facts(&whole);
             let has_error = all[0].starts_with(&facts(&status)[0]);
