@@ -3,8 +3,8 @@
 
 use super::{PaneRow, Place, force, profile, section};
 use crate::explorer::app::{App, Ghost};
+use crate::explorer::keys::Context;
 use crate::explorer::layout::inside;
-use crate::explorer::mode::ModeKind;
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::view::lines::{draw_lines, draw_reason};
 use crate::export::adhesion_forces;
@@ -28,7 +28,7 @@ pub static ROW: PaneRow = PaneRow {
         let beside = app.beside()?.snapshot.as_deref()?;
         Some(profile::scene_names(beside, profile::heights(app, snapshot), area, app.view.appearance))
     },
-    keys: Some(ModeKind::Crosshair),
+    keys: Some(Context::Crosshair),
     help: &[(
         "Beside",
         "&: profile and contact of the newest ghost when it was kept, heights z on the axis of the profile \

@@ -4,8 +4,8 @@ use super::curves::draw_chart;
 use super::{PaneRow, chart_words as words};
 use crate::draw::{CellPlot, Chart, Figure, Ink, Layer, Shape, Sign};
 use crate::explorer::app::App;
+use crate::explorer::keys::Context;
 use crate::explorer::layout::inside;
-use crate::explorer::mode::ModeKind;
 use crate::explorer::study::{PaneData, Task};
 use crate::explorer::theme::{Meaning, Theme};
 use crate::explorer::update::{self, Effect, scene_of};
@@ -23,7 +23,7 @@ pub static ROW: PaneRow = PaneRow {
     title: words::title,
     draw,
     figure: |app| app.chart.grid().map(|grid| figure(app, grid)),
-    keys: Some(ModeKind::Chart),
+    keys: Some(Context::Map),
     press: |app, area, here| {
         app.chart.moving = false;
         put(app, area, here)

@@ -5,8 +5,8 @@ use super::position::zoom_at;
 use super::{PaneRow, Place, section};
 use crate::draw::{CellPlot, Chart, Ink, Layer, Shape, Sign, Span};
 use crate::explorer::app::App;
+use crate::explorer::keys::Context;
 use crate::explorer::layout::inside;
-use crate::explorer::mode::ModeKind;
 use crate::explorer::snapshot::{ContactSnapshot, FragmentFacts, Section};
 use crate::explorer::theme::{Meaning, Theme};
 use crate::explorer::view::lines::draw_lines;
@@ -31,7 +31,7 @@ pub static ROW: PaneRow = PaneRow {
         Some(figure)
     },
     edge: names,
-    keys: Some(ModeKind::Crosshair),
+    keys: Some(Context::Crosshair),
     section: Some(section_at),
     wheel: zoom_at,
     help: &[(

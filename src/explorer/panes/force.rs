@@ -8,8 +8,8 @@ use crate::draw::{
 };
 use crate::explorer::app::{App, Ghost, Quantities};
 use crate::explorer::caption::caption;
+use crate::explorer::keys::Context;
 use crate::explorer::layout::inside;
-use crate::explorer::mode::ModeKind;
 use crate::explorer::request::ManualMove;
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::theme::{Meaning, Theme};
@@ -30,7 +30,7 @@ pub static ROW: PaneRow = PaneRow {
     figure,
     edge,
     place: Place::Own,
-    keys: Some(ModeKind::Crosshair),
+    keys: Some(Context::Crosshair),
     press: drag,
     drag,
     help: &[(

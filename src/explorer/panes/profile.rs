@@ -4,8 +4,8 @@ use super::position::zoom_at;
 use super::{PaneRow, Place, histogram, section};
 use crate::draw::{CellPlot, Chart, Span};
 use crate::explorer::app::App;
+use crate::explorer::keys::Context;
 use crate::explorer::layout::{inside, split_profile};
-use crate::explorer::mode::ModeKind;
 use crate::explorer::snapshot::{ContactSnapshot, Section};
 use crate::explorer::theme::{Appearance, Meaning, Theme};
 use crate::explorer::view::lines::draw_reason;
@@ -27,7 +27,7 @@ pub static ROW: PaneRow = PaneRow {
     },
     edge: names,
     place: Place::Own,
-    keys: Some(ModeKind::Crosshair),
+    keys: Some(Context::Crosshair),
     section: Some(section_at),
     wheel: zoom_at,
     help: &[(

@@ -2,7 +2,7 @@
 
 use crate::draw::{CellPlot, Chart, Figure};
 use crate::explorer::app::App;
-use crate::explorer::mode::ModeKind;
+use crate::explorer::keys::Context;
 use crate::explorer::snapshot::{Section, SolvedScene};
 use crate::explorer::study::{PaneData, Task};
 use crate::explorer::update::Effect;
@@ -42,7 +42,7 @@ pub struct PaneRow {
     /// Text in the lower edge of the frame.
     pub edge: fn(&App, Rect) -> Option<Line<'static>>,
     /// Keys of the selected pane; those of the crosshair, while this is shown.
-    pub keys: Option<ModeKind>,
+    pub keys: Option<Context>,
     /// Section of the profile in the pane.
     pub section: Option<PlacedSection>,
     /// Reply to a press, which also selects the pane.

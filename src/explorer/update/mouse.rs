@@ -4,18 +4,15 @@ use super::{Effect, crosshair, dialogue};
 use crate::explorer::action::{Gesture, Mouse};
 use crate::explorer::app::App;
 use crate::explorer::layout::{Layout, inside};
-use crate::explorer::mode::Mode;
 use ratatui::layout::Position;
 
 /// Performs a gesture of the mouse.
 pub fn act(app: &mut App, mouse: Mouse) -> Vec<Effect> {
-    match (&app.mode, mouse.gesture) {
-        (Mode::Explore, _) => {}
-        (Mode::Help { .. } | Mode::Prompt(_), Gesture::Wheel(turns)) => {
+    if app.prompt.is_some() {
+        if let Gesture::Wheel(turns) = mouse.gesture {
             dialogue::select(app, -turns);
-            return Vec::new();
         }
-        _ => return Vec::new(),
+        return Vec::new();
     }
     let layout = Layout::of(app);
     let here = Position::new(mouse.column, mouse.row);

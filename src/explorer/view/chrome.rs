@@ -6,14 +6,11 @@ use super::wrap::{fitted, fitting, wrapped_within};
 use crate::analysis::SteepWaves;
 use crate::contact::CurvePoint;
 use crate::explorer::action::{Content, Traffic};
-use crate::explorer::app::{App, Estimated, ManualState, Message, Mode, ModeKind};
-use crate::explorer::keys::{self, Binding};
-use crate::explorer::parameters::Parameter;
+use crate::explorer::app::{App, Estimated, ManualState, Message};
 use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::{Meaning, Theme};
-use crate::explorer::update::can_complete;
 use crate::scene::{format_quantity, format_rounded};
 use crate::text::grouped;
 use ratatui::Frame;
@@ -41,11 +38,11 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, app: &App) {
     let theme = app.view.appearance.theme;
     let stated = |line: Line<'static>| fitted(line, area.width);
     let error = |text: String| stated(Line::styled(text, theme.style(Meaning::Error)));
-    let line = match (&app.mode, &app.message) {
-        (Mode::Prompt(prompt), _) if prompt.refused.is_some() || prompt.line.left_out().is_some() => {
+    let line = match (app.prompt.as_ref().map(|prompt| (prompt, &prompt.purpose)), &app.message) {
+        (Some((prompt, purpose)), _) if prompt.refused.is_some() || prompt.line.left_out().is_some() => {
             let why = prompt.refused.as_deref().or(prompt.line.left_out()).unwrap_or_default();
             let why = why.replace('\n', " · ");
-            if prompt.purpose == Purpose::Value {
+            if matches!(purpose, Purpose::Value) {
                 // The line is in its row.
                 error(format!("! {why}"))
             } else {
@@ -57,24 +54,24 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, app: &App) {
                 prompted(why, &prompt.line, area.width, theme)
             }
         }
-        (Mode::Prompt(prompt), _) if prompt.purpose != Purpose::Value => {
-            prompted(Line::raw(label(prompt, app, area.width)), &prompt.line, area.width, theme)
+        (Some((_, Purpose::Overwrite(file))), _) => {
+            error(format!("{} exists. Overwrite it?", file.path.display()))
         }
-        (Mode::Overwrite(file), _) => error(format!("{} exists. Overwrite it?", file.path.display())),
-        (Mode::Quit, _) => error(match app.unsaved()[..] {
+        (Some((_, Purpose::Leave)), _) => error(match app.unsaved()[..] {
             [] | [_] => "The scene has unsaved changes. Leave?".to_owned(),
             ref several => {
                 let names: Vec<&str> = several.iter().map(|document| document.name()).collect();
                 format!("{} scenes have unsaved changes: {}. Leave?", several.len(), names.join(", "))
             }
         }),
-        (_, Some(Message::Error(text))) => error(format!("! {}", text.replace('\n', " · "))),
-        (Mode::Explore, None) if app.edit.refused.is_some() => {
-            let text = app.edit.refused.as_ref().map_or("", |(_, text)| text);
-            error(format!("! {text}"))
+        (Some((prompt, purpose)), _) if !matches!(purpose, Purpose::Value | Purpose::Help) => {
+            prompted(Line::raw(label(prompt, app, area.width)), &prompt.line, area.width, theme)
+        }
+        (_, Some(Message::Error(text) | Message::Refused(text))) => {
+            error(format!("! {}", text.replace('\n', " · ")))
         }
         (_, Some(Message::Done(text))) => stated(Line::raw(text.clone())),
-        (Mode::Explore, None) if app.studies.appraisal.choosing.is_some() => choosing(app),
+        (None, None) if app.studies.appraisal.choosing.is_some() => choosing(app),
         _ => headline(app, area.width),
     };
     frame.render_widget(Paragraph::new(line), area);
@@ -93,7 +90,7 @@ fn prompted(label: Line<'static>, line: &TextLine, width: u16, theme: Theme) -> 
 fn label(prompt: &Prompt, app: &App, width: u16) -> String {
     let is_narrow = width < 60;
     match &prompt.purpose {
-        Purpose::Value => String::new(),
+        Purpose::Value | Purpose::Overwrite(_) | Purpose::Leave | Purpose::Help => String::new(),
         Purpose::Force => "Go to the force: ".to_owned(),
         Purpose::Tolerance if is_narrow => "Tolerance: ".to_owned(),
         Purpose::Tolerance => "Relative error allowed (0.1 % or 1e-3): ".to_owned(),
@@ -125,7 +122,7 @@ fn headline(app: &App, width: u16) -> Line<'static> {
         let apart = if parts.is_empty() { "" } else { apart };
         parts.push(vec![Span::raw(apart), Span::styled(text, theme.style(meaning))]);
     };
-    if let Some(tried) = app.tried_outcome().filter(|_| app.mode.is_typing_value()) {
+    if let Some(tried) = app.tried_outcome().filter(|_| app.is_typing_value()) {
         let force =
             tried.figures.adhesion_force.map_or("none".to_owned(), |force| format_quantity(force, "N"));
         let shown = if app.is_tried() { format!("F_a {force}") } else { "computing…".to_owned() };
@@ -303,16 +300,14 @@ pub fn footer(frame: &mut Frame<'_>, area: Rect, app: &App) {
             area,
         );
     }
-    if let Mode::Prompt(prompt) = &app.mode
-        && !prompt.paths.is_empty()
-    {
+    if let Some(prompt) = app.prompt.as_ref().filter(|prompt| !prompt.paths.is_empty()) {
         return frame.render_widget(candidates(&prompt.paths, area.width, app.view.appearance.theme), area);
     }
     let mut spans = Vec::new();
     // Two columns apart.
     let mut room =
         usize::from(area.width).saturating_sub(traffic.as_ref().map_or(0, |line| line.width() + 2));
-    for (keys, label) in footer_items(app) {
+    for (keys, label) in app.config.bindings.footer(app) {
         let width = keys.chars().count() + label.chars().count() + 3;
         if width > room + 2 {
             break;
@@ -335,35 +330,4 @@ fn candidates(paths: &[String], width: u16, theme: Theme) -> Line<'static> {
         vec![Span::styled(path[from..].to_owned(), theme.style(Meaning::Quiet))]
     };
     fitting(paths.iter().map(name).collect(), "  ", usize::from(width))
-}
-
-/// Valid keys with their labels, the most important first; adjacent rows with the same label are one item.
-fn footer_items(app: &App) -> Vec<(String, &'static str)> {
-    let is_shown = |row: &&Binding| match row.command.name {
-        "toggle-manual" => true,
-        "complete" => can_complete(app),
-        "start-value" => app.parameter().is_some_and(Parameter::takes_number),
-        _ => !row.label.is_empty() && (app.manual.is_some() || !keys::is_manual(row)),
-    };
-    let mut rows: Vec<&Binding> = app.config.bindings.valid_in(app.keys()).filter(is_shown).collect();
-    rows.sort_by_key(|row| rank(row, app));
-    let items = rows.chunk_by(|one, next| one.label == next.label);
-    items
-        .map(|rows| {
-            let first = |row: &&Binding| keys::names(&row.keys).into_iter().next().unwrap_or_default();
-            (rows.iter().map(first).collect::<Vec<_>>().join(" "), rows[0].label)
-        })
-        .collect()
-}
-
-/// Place of a key in the footer: help and quit, which show in the smallest window; keys of the present mode only; the
-/// main keys for panes, scenes and loops; the rest.
-fn rank(row: &Binding, app: &App) -> u8 {
-    match row.command.name {
-        "help" | "close-help" | "quit" => 0,
-        _ if app.manual.is_some() && keys::is_manual(row) => 1,
-        _ if !row.modes.contains(&ModeKind::Explore) => 1,
-        "next-pane" | "toggle-chart" | "open-library" | "save" | "pin" | "open-palette" => 2,
-        _ => 3,
-    }
 }

@@ -24,7 +24,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, theme: Theme, prompt: &Prompt, en
     draw_list(frame, list, theme, prompt, entries);
     if beside && let Some(entry) = prompt.scene() {
         let right = Rect { x: list.right() + 2, width: inner.width - list.width - 2, ..inner };
-        draw_entry(frame, right, theme, entry, &prompt.line.text());
+        draw_entry(frame, right, theme, entry, prompt.line.text());
     }
 }
 
@@ -45,7 +45,7 @@ fn draw_list(frame: &mut Frame<'_>, area: Rect, theme: Theme, prompt: &Prompt, e
         };
         let style = theme.style(if selected { Meaning::Selected } else { Meaning::Text });
         let mut line = Line::from(Text::styled(format!("{mark} "), style));
-        line.extend(found(&entry.name, &prompt.line.text(), style, theme));
+        line.extend(found(&entry.name, prompt.line.text(), style, theme));
         line.push_span(Text::styled(format!("  {}", place_of(entry.origin)), theme.style(Meaning::Quiet)));
         draw_lines(frame, Rect { y: row, height: 1, ..area }, [line]);
     }

@@ -11,7 +11,7 @@ pub mod typed;
 pub mod wrap;
 
 use self::wrap::fitted;
-use super::app::{App, Mode};
+use super::app::App;
 use super::layout::{Layout, is_framed};
 use super::panes::Pane;
 use super::picture::to_ascii;
@@ -32,10 +32,10 @@ pub fn draw(frame: &mut Frame<'_>, app: &App) {
         chrome::title(frame, area, app);
     }
     let (panes, theme) = (body(&layout), app.view.appearance.theme);
-    let list = app.mode.prompt().map(|prompt| (prompt, &prompt.purpose));
-    match (&app.mode, list) {
-        (Mode::Help { scroll }, _) => help::draw(frame, panes, app, *scroll),
-        (_, Some((prompt, Purpose::Scene(entries)))) => library::draw(frame, panes, theme, prompt, entries),
+    let list = app.prompt.as_ref().map(|prompt| (prompt, &prompt.purpose));
+    match list {
+        Some((prompt, Purpose::Help)) => help::draw(frame, panes, app, prompt.selected as u16),
+        Some((prompt, Purpose::Scene(entries))) => library::draw(frame, panes, theme, prompt, entries),
         _ => layout.panes.iter().for_each(|&(pane, area)| draw_pane(frame, area, app, pane)),
     }
     if let Some((prompt, Purpose::Command(entries))) = list {

@@ -1,7 +1,7 @@
 //! The list of all commands, over the panes.
 
 use super::lines::{draw_lines, found};
-use crate::explorer::palette::Entry;
+use crate::explorer::palette::Listed;
 use crate::explorer::prompt::Prompt;
 use crate::explorer::theme::{Meaning, Theme};
 use ratatui::Frame;
@@ -13,7 +13,7 @@ use ratatui::widgets::{Block, Clear, Paragraph};
 const WIDEST: u16 = 100;
 
 /// Draws the list, scrolled so that the selected row shows.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, theme: Theme, prompt: &Prompt, entries: &[Entry]) {
+pub fn draw(frame: &mut Frame<'_>, area: Rect, theme: Theme, prompt: &Prompt, entries: &[Listed]) {
     let query = prompt.line.text();
     let width = area.width.min(WIDEST);
     let height = area.height.min(prompt.found.len().max(1) as u16 + 2);
@@ -32,12 +32,12 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, theme: Theme, prompt: &Prompt, en
     for (y, place) in (inner.y..inner.bottom()).zip(first..prompt.found.len()) {
         let Some(entry) = entries.get(prompt.found[place]) else { continue };
         let selected = place == prompt.selected;
-        let key = |key: &String| found(key, &query, theme.style(Meaning::Key), theme);
+        let key = |key: &String| found(key, query, theme.style(Meaning::Key), theme);
         let keys: Vec<_> = entry.keys.iter().map(key).collect();
         let keys = Line::from(keys.join(&Span::raw(" "))).right_aligned();
         let mark = if selected { "›" } else { " " };
         let style = theme.style(if selected { Meaning::Selected } else { Meaning::Text });
-        let help = found(&entry.help, &query, style, theme);
+        let help = found(&entry.help, query, style, theme);
         let line: Line<'_> = [Span::styled(format!("{mark} "), style)].into_iter().chain(help).collect();
         let room = inner.width.saturating_sub(keys.width() as u16 + 1);
         let row = Rect { y, height: 1, ..inner };
