@@ -3,10 +3,8 @@
 use super::{PaneRow, Place};
 use crate::analysis::{LEAST_TABOR_NUMBER, Mark, marks};
 use crate::contact::{CurvePoint, Direction, LegRecord};
-use crate::draw::{
-    Axis, AxisScale, CellPlot, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, glyph, legend,
-};
-use crate::explorer::app::{App, Ghost, Quantities};
+use crate::draw::{CellPlot, Chart, Figure, Ink, Label, Layer, Shape, Sign, Stroke, glyph, legend};
+use crate::explorer::app::{App, Ghost};
 use crate::explorer::caption::caption;
 use crate::explorer::keys::Context;
 use crate::explorer::layout::inside;
@@ -17,7 +15,7 @@ use crate::explorer::update::{Effect, movement};
 use crate::explorer::view::lines::{draw_lines, draw_reason};
 use crate::explorer::view::plot;
 use crate::explorer::view::wrap::fitting;
-use crate::export::{mark_name, sign};
+use crate::export::{ForceLoop, LoopQuantities, LoopUnits, loop_chart, sign};
 use crate::scene::format_rounded;
 use ratatui::Frame;
 use ratatui::layout::{Position, Rect};
@@ -43,16 +41,16 @@ pub static ROW: PaneRow = PaneRow {
 
 /// Title of the pane.
 fn title(app: &App) -> String {
-    let units = app.solved.as_ref().map(|computed| Units::of(app, computed));
-    let name = match units.filter(Units::is_normalised) {
-        Some(units) => units.title(),
-        None => match app.view.curve.quantities {
-            Quantities::ForceIndentation => "Force F(d)".to_owned(),
-            Quantities::LengthForce => "Contact length l(F)".to_owned(),
-            Quantities::FragmentsIndentation => "Fragments n(d)".to_owned(),
-        },
+    let name = match app.view.curve.quantities {
+        LoopQuantities::ForceIndentation => "Force",
+        LoopQuantities::LengthForce => "Contact length",
+        LoopQuantities::FragmentsIndentation => "Fragments",
     };
-    let loss = if app.view.curve.loss && app.view.curve.quantities == Quantities::ForceIndentation {
+    // Not every scene has an h or an F_a,max.
+    let (x, y) = units(app).symbols();
+    let is_normalised = [&x, &y].iter().any(|symbol| symbol.contains('/'));
+    let name = if is_normalised { format!("{name} {y} over {x}") } else { format!("{name} {y}({x})") };
+    let loss = if app.view.curve.loss && app.view.curve.quantities == LoopQuantities::ForceIndentation {
         match app.solved.as_ref().and_then(|computed| computed.outcome.figures.dissipated_energy) {
             Some(energy) => {
                 let number = app.solved.as_ref().and_then(|computed| computed.outcome.tabor_number);
@@ -79,91 +77,12 @@ fn title(app: &App) -> String {
     format!(" {name}{loss}{event} ")
 }
 
-/// Units of the axes: metres and newtons, or parameters of the scene.
-#[derive(Clone, Copy)]
-struct Units {
-    quantities: Quantities,
-    indentation: Option<f64>,
-    force: Option<f64>,
-    /// Contact length of one spring, m.
-    spring: f64,
-    in_lengths: bool,
-}
-
-impl Units {
-    fn of(app: &App, computed: &SolvedScene) -> Self {
-        let outcome = &computed.outcome;
-        let normalised = app.view.curve.normalised;
-        let positive = |value: f64| Some(value).filter(|value| normalised && *value > 0.0);
-        let height = outcome.governing.amplitude.map(|amplitude| amplitude.rms_height);
-        Units {
-            quantities: app.view.curve.quantities,
-            indentation: height.and_then(positive),
-            force: outcome.ideal_adhesion_force.and_then(positive),
-            spring: outcome.line.spacing / if normalised { outcome.line.length } else { 1.0 },
-            in_lengths: normalised,
-        }
-    }
-
-    /// Returns true if any axis has other units than SI.
-    fn is_normalised(&self) -> bool {
-        match self.quantities {
-            Quantities::ForceIndentation => self.indentation.is_some() || self.force.is_some(),
-            Quantities::LengthForce => self.in_lengths,
-            Quantities::FragmentsIndentation => self.indentation.is_some(),
-        }
-    }
-
-    /// Quantities of the axes with their units: not every scene has an h or an F_a,max.
-    fn title(&self) -> String {
-        let indentation = if self.indentation.is_some() { "d/h" } else { "d" };
-        let force = if self.force.is_some() { "F/F_a,max" } else { "F" };
-        match self.quantities {
-            Quantities::ForceIndentation => format!("Force {force} over {indentation}"),
-            Quantities::LengthForce => format!("Contact length l/L over {force}"),
-            Quantities::FragmentsIndentation => format!("Fragments n over {indentation}"),
-        }
-    }
-
-    fn place(&self, point: &CurvePoint) -> (f64, f64) {
-        let indentation = point.indentation / self.indentation.unwrap_or(1.0);
-        let force = point.force / self.force.unwrap_or(1.0);
-        match self.quantities {
-            Quantities::ForceIndentation => (indentation, force),
-            Quantities::LengthForce => (force, point.springs as f64 * self.spring),
-            Quantities::FragmentsIndentation => (indentation, point.fragments as f64),
-        }
-    }
-
-    fn axes(&self, x: Span, y: Span) -> (Axis, Axis) {
-        let axis = |span, symbol: &str, over: &str, unit: &str, normalised: bool| {
-            let (symbol, unit) =
-                if normalised { (format!("{symbol}/{over}"), "1") } else { (symbol.to_owned(), unit) };
-            Axis::new(AxisScale::Linear, span, "", &symbol, unit)
-        };
-        let indentation = |span| axis(span, "d", "h", "m", self.indentation.is_some());
-        let force = |span| axis(span, "F", "F_a,max", "N", self.force.is_some());
-        match self.quantities {
-            Quantities::ForceIndentation => (indentation(x), force(y)),
-            Quantities::LengthForce => (force(x), axis(y, "l", "L", "m", self.in_lengths)),
-            Quantities::FragmentsIndentation => (indentation(x), axis(y, "n", "", "1", false)),
-        }
-    }
-}
-
-/// Ranges of the pane: the curve, kept curves and the path of manual loading.
-fn spans(app: &App, units: Units) -> (Span, Span) {
-    let ghosts = app.ghosts.iter().flat_map(|ghost| &ghost.computed.outcome.history.legs);
-    let tried = app.tried_outcome().into_iter().flat_map(|outcome| &outcome.history.legs);
-    let points = app.legs().iter().chain(ghosts).chain(tried).flat_map(|leg| &leg.curve);
-    let manual = app.manual.iter().flat_map(|manual| &manual.path);
-    let places: Vec<(f64, f64)> = points.chain(manual).map(|point| units.place(point)).collect();
-    let x = Span::around(places.iter().map(|place| place.0), 0.06);
-    let y = Span::around(places.iter().map(|place| place.1).chain([0.0]), 0.08);
-    match units.quantities {
-        Quantities::ForceIndentation => (x, y),
-        // There is no negative length or number.
-        _ => (x, Span { low: 0.0, ..y }),
+/// Units of the axes.
+fn units(app: &App) -> LoopUnits {
+    let quantities = app.view.curve.quantities;
+    match app.solved.as_ref().filter(|_| app.view.curve.normalised) {
+        Some(computed) => LoopUnits::of_scene(quantities, &computed.outcome),
+        None => LoopUnits::si(quantities),
     }
 }
 
@@ -178,25 +97,14 @@ fn rows_above(app: &App, area: Rect) -> u16 {
 
 /// The indentation under a column of the pane, m; `None` where that axis is not shown.
 pub fn indentation_at(app: &App, area: Rect, column: u16) -> Option<f64> {
-    let computed = app.solved.as_ref()?;
-    if app.view.curve.quantities == Quantities::LengthForce || app.indentations().is_none() {
-        return None;
-    }
-    let units = Units::of(app, computed);
-    let (x, y) = spans(app, units);
-    let (x, y) = units.axes(x, y);
-    let chart = Chart::new(x, y, Vec::new());
+    let chart = shown_chart(app)?;
     let at = CellPlot::within(below(area, rows_above(app, area)), &chart).number_at(&chart.x, column);
-    Some(at * units.indentation.unwrap_or(1.0))
+    units(app).indentation(at)
 }
 
 /// Loading stage and indentation, m, of the point of the curves nearest to a cell.
 pub fn stage_at(app: &App, area: Rect, here: Position) -> Option<(usize, f64)> {
-    let computed = app.solved.as_ref()?;
-    let units = Units::of(app, computed);
-    let (x, y) = spans(app, units);
-    let (x, y) = units.axes(x, y);
-    let chart = Chart::new(x, y, Vec::new());
+    let (chart, units) = (shown_chart(app)?, units(app));
     let place = CellPlot::within(below(area, rows_above(app, area)), &chart);
     let distance = |point: &CurvePoint| {
         let (column, row) = place.cell(&chart, app.view.appearance.marker.symbols(), units.place(point))?;
@@ -236,11 +144,10 @@ fn edge(app: &App, area: Rect) -> Option<Line<'static>> {
 
 /// Label of the vertical axis with its unit, in a pane without rows of text.
 fn label(app: &App, area: Rect) -> Option<Vec<Vec<Text<'static>>>> {
-    let computed = app.solved.as_ref().filter(|_| rows_above(app, area) == 0)?;
-    app.indentations()?;
-    let units = Units::of(app, computed);
-    let (x, y) = spans(app, units);
-    let (_, y) = units.axes(x, y);
+    if rows_above(app, area) > 0 {
+        return None;
+    }
+    let y = shown_chart(app)?.y;
     let style = app.view.appearance.theme.style(Meaning::Quiet);
     Some(vec![vec![Text::styled(y.label_with_unit().to_string(), style)]])
 }
@@ -271,14 +178,12 @@ fn below(area: Rect, rows: u16) -> Rect {
 fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
     let area = inside(area);
     let theme = app.view.appearance.theme;
-    let shown = app.solved.as_ref().filter(|_| app.indentations().is_some());
-    let Some(computed) = shown else {
+    let Some(chart) = shown_chart(app) else {
         let text = if app.is_computing() { "computing…" } else { "no curve" };
         return draw_reason(frame, area, text, theme);
     };
     let above = rows_above(app, area);
-    let units = Units::of(app, computed);
-    let chart = chart(app, units);
+    let units = units(app);
     let place = plot::draw_chart(frame, below(area, above), &chart, app.view.appearance);
     draw_letters(frame, &place, &chart, app, units);
     if app.is_current() {
@@ -303,84 +208,78 @@ fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
     draw_lines(frame, above, rows.into_iter().chain(values).chain(ghosts));
 }
 
-/// The chart with names for the marks and the compared curves, which the pane writes beside it.
+/// The figure of the chart.
 fn figure(app: &App) -> Option<Figure> {
-    let computed = app.solved.as_ref().filter(|_| app.indentations().is_some())?;
-    let mut chart = chart(app, Units::of(app, computed));
-    let mut marks = marks(app.legs()).into_iter();
-    for layer in chart.layers.iter_mut().filter(|layer| layer.name.is_empty()) {
-        layer.name = match (layer.ink, &layer.shape) {
-            (Ink::Compared(number), _) => {
-                let ghost = app.ghosts.get(number)?;
-                Label::plain(&format!("{}: {}", letter(number), ghost.differs))
-            }
-            (Ink::Text, Shape::Curve { sign: Some(_), .. }) => {
-                let (mark, point) = marks.next()?;
-                mark_name(mark, point.force)
-            }
+    Some(Figure::of_chart(app.edit.document.title(), chart(app)?))
+}
+
+/// The chart without names that the pane writes elsewhere: those of marks and ghosts, and those of the axes.
+fn shown_chart(app: &App) -> Option<Chart> {
+    let mut chart = chart(app)?;
+    // A ghost beside the scene is named with the curves; the others have their letters.
+    let beside = app.beside().map(|_| app.ghosts.len() - 1);
+    for layer in &mut chart.layers {
+        layer.name = match layer.ink {
+            Ink::Text => Label::default(),
+            Ink::Compared(number) if beside == Some(number) => letter(number).into(),
+            Ink::Compared(_) => Label::default(),
             _ => continue,
         };
     }
-    Some(Figure::of_chart(app.edit.document.title(), chart))
+    for axis in [&mut chart.x, &mut chart.y] {
+        axis.label = axis.label.without_name();
+    }
+    Some(chart)
 }
 
 /// The curve, curves compared with it, the path of manual loading, and marks.
-fn chart(app: &App, units: Units) -> Chart {
-    // A curve of a scene changed since stays in the background until the new one is there.
-    let stale = !app.is_current();
-    let ink = |ink| if stale { Ink::Quiet } else { ink };
+fn chart(app: &App) -> Option<Chart> {
+    app.indentations()?;
+    let units = units(app);
+    let unmarked = |legs| ForceLoop { marks: Vec::new(), ..ForceLoop::new(legs) };
+    let ghosts = app.ghosts.iter().enumerate().map(|(number, ghost)| ForceLoop {
+        name: Some(Label::plain(&format!("{}: {}", letter(number), ghost.differs))),
+        ink: Some(Ink::Compared(number)),
+        stroke: Some(Stroke::Sparse),
+        ..unmarked(&ghost.computed.outcome.history.legs)
+    });
+    let tried = app.tried_outcome().map(|outcome| ForceLoop {
+        name: Some("preview".into()),
+        ink: Some(Ink::Kept),
+        stroke: Some(Stroke::Dashed),
+        ..unmarked(&outcome.history.legs)
+    });
     let legs = app.legs();
-    let along =
-        |points: &[CurvePoint]| -> Vec<(f64, f64)> { points.iter().map(|p| units.place(p)).collect() };
-    let line = Shape::line;
-    let point = |at, sign| Shape::signs(vec![at], sign);
-    let mut layers = vec![Layer::unnamed(Ink::Quiet, Shape::Level(0.0))];
-    if app.view.curve.loss && units.quantities == Quantities::ForceIndentation {
-        let border = legs.iter().flat_map(|leg| along(&leg.curve)).collect();
-        layers.push(Layer::unnamed(Ink::Quiet, Shape::Inside(border)));
+    // A curve of a scene changed since stays in the background until the new one is there.
+    let present = match app.is_current() {
+        true => ForceLoop::new(legs),
+        false => ForceLoop { ink: Some(Ink::Quiet), ..unmarked(legs) },
+    };
+    let manual = app.manual.as_ref().map(|manual| ForceLoop {
+        curves: vec![(Direction::Unloading, &manual.path)],
+        name: Some("manual".into()),
+        ink: Some(Ink::Manual),
+        stroke: Some(Stroke::Dashed),
+        ..unmarked(&[])
+    });
+    let loops: Vec<ForceLoop<'_>> = ghosts.chain(tried).chain([present]).chain(manual).collect();
+    let mut chart = loop_chart(&loops, units);
+    // Below the curves, which stay whole.
+    if app.view.curve.loss && app.view.curve.quantities == LoopQuantities::ForceIndentation {
+        let border = legs.iter().flat_map(|leg| &leg.curve).map(|point| units.place(point)).collect();
+        chart.layers.insert(1, Layer::unnamed(Ink::Quiet, Shape::Inside(border)));
     }
-    for (number, ghost) in app.ghosts.iter().enumerate() {
-        // A ghost beside the scene is named with the curves; the others have their letters.
-        let is_beside = app.beside().is_some() && number + 1 == app.ghosts.len();
-        let name = if is_beside { letter(number).into() } else { Label::default() };
-        for leg in &ghost.computed.outcome.history.legs {
-            layers.push(Layer::new(
-                name.clone(),
-                Ink::Compared(number),
-                line(along(&leg.curve), Stroke::Sparse),
-            ));
-        }
-    }
-    for leg in app.tried_outcome().into_iter().flat_map(|outcome| &outcome.history.legs) {
-        layers.push(Layer::new("preview".into(), Ink::Kept, line(along(&leg.curve), Stroke::Dashed)));
-    }
-    let (x, y) = spans(app, units);
-    for (direction, name, of, stroke) in [
-        (Direction::Loading, "loading", Ink::Loading, Stroke::Dotted),
-        (Direction::Unloading, "unloading", Ink::Unloading, Stroke::Solid),
-    ] {
-        for leg in legs.iter().filter(|leg| leg.direction == direction) {
-            layers.push(Layer::new(name.into(), ink(of), line(along(&leg.curve), stroke)));
-        }
-    }
-    if let Some(manual) = &app.manual {
-        layers.push(Layer::new("manual".into(), Ink::Manual, line(along(&manual.path), Stroke::Dashed)));
-    }
-    let marks = marks(legs).into_iter().filter(|_| !stale);
-    layers.extend(marks.map(|(mark, at)| Layer::unnamed(Ink::Text, point(units.place(&at), sign(mark)))));
     if let Some(snapshot) = app.present() {
-        let (at, value) = units.place(&snapshot.point);
-        let at = (at.clamp(x.low, x.high), value.clamp(y.low, y.high));
+        let (x, y) = units.place(&snapshot.point);
+        let at = (x.clamp(chart.x.span.low, chart.x.span.high), y.clamp(chart.y.span.low, chart.y.span.high));
         if app.view.crosshair.is_some() {
             let lines = [Shape::Upright(at.0), Shape::Level(at.1)];
-            // Below the curves, which stay whole.
-            layers.splice(0..0, lines.map(|line| Layer::unnamed(Ink::Cursor, line)));
+            chart.layers.splice(0..0, lines.map(|line| Layer::unnamed(Ink::Cursor, line)));
         }
         let name = if app.manual.is_some() { "manual" } else { "now" };
-        layers.push(Layer::new(Label::plain(name), Ink::Cursor, point(at, Sign::Diamond)));
+        chart.layers.push(Layer::new(name.into(), Ink::Cursor, Shape::signs(vec![at], Sign::Diamond)));
     }
-    let (x, y) = units.axes(x, y);
-    Chart::new(x, y, layers)
+    Some(chart)
 }
 
 /// Share of the largest force below which a force is rounding.
@@ -432,7 +331,7 @@ fn adhesion(app: &App, ghost: &Ghost) -> Option<String> {
 }
 
 /// Draws the letters of ghosts, each in the nearest cell of its row without a sign.
-fn draw_letters(frame: &mut Frame<'_>, place: &CellPlot, chart: &Chart, app: &App, units: Units) {
+fn draw_letters(frame: &mut Frame<'_>, place: &CellPlot, chart: &Chart, app: &App, units: LoopUnits) {
     let marker = app.view.appearance.marker.symbols();
     let signs = chart.layers.iter().filter_map(|layer| match &layer.shape {
         Shape::Curve { points, sign: Some(_), .. } => points.first(),

@@ -161,12 +161,11 @@ fn the_curve_has_three_views_in_two_units() {
         let (f_low, f_high) = (smallest(|point| point.force), largest(|point| point.force));
         let height = outcome.governing.amplitude.unwrap().rms_height;
         let ideal = outcome.ideal_adhesion_force.unwrap();
-        let springs = largest(|point| point.springs as f64);
-        let spacing = outcome.line.spacing;
+        let contact = largest(|point| point.contact_length);
         let length = outcome.line.length;
         let fragments = largest(|point| point.fragments as f64);
         let (d, f) = ((d_low, d_high), (f_low, f_high));
-        let (l, n) = ((0.0, springs * spacing), (0.0, fragments));
+        let (l, n) = ((0.0, contact), (0.0, fragments));
         let views = [
             ("Force F(d)", end("d", d, 0.06, 1.0, "m"), end("F", f, 0.08, 1.0, "N")),
             (
