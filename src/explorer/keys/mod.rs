@@ -230,7 +230,7 @@ pub const TABLE: &[Row] = &[
     row("Shift+← H", LIST, "decrease-coarse", Act(|app| edit::step_value(app, -1, true)), "", "decrease the value by a large step", PARAMETERS),
     row("Shift+→ L", LIST, "increase-coarse", Act(|app| edit::step_value(app, 1, true)), "", "increase the value by a large step", PARAMETERS),
     row("Enter e", LIST, "edit-value", Act(|app| edit::edit_value(app, None)), "type", "type a value, with an optional prefix and unit: 2.5 MPa, 10 µm, 50m", PARAMETERS),
-    row("- 0 1 2 3 4 5 6 7 8 9 .", VALUES, "start-value", Character(|app, first| edit::edit_value(app, Some(first))), "type", "type a number, while the pane of parameters is selected; not for a choice, a switch or a group", PARAMETERS).unlisted().shown_if(takes_number),
+    row("0 1 2 3 4 5 6 7 8 9 - .", VALUES, "start-value", Character(|app, first| edit::edit_value(app, Some(first))), "type", "type a number, while the pane of parameters is selected; not for a choice, a switch or a group", PARAMETERS).unlisted().shown_if(takes_number),
     row("/", EXPLORE, "find-parameter", Act(dialogue::find_parameter), "find", "find a parameter by words of its name, symbol or meaning", PARAMETERS),
     row("Z", LIST, "toggle-fold", Act(edit::toggle_fold), "", "fold the group of the selected parameter, or unfold it", PARAMETERS),
     row("t", LIST, "toggle-effect", Act(edit::toggle_effect), "on/off", "switch the effect of the selected row on or off", PARAMETERS),

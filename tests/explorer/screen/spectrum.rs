@@ -167,7 +167,7 @@ fn a_measured_surface_is_the_roughness_by_its_path_alone() {
             driver.type_text(&format!("{}/sty", folder.path().display()));
             driver.press("Tab");
             let typed = driver.app.prompt.as_ref().map(|prompt| prompt.line.text());
-            assert_eq!(typed.as_deref(), file.to_str());
+            assert_eq!(typed, file.to_str());
             driver.press("Enter");
             let scene = driver.app.edit.document.scene();
             let named = vec![file.to_str().unwrap()];
