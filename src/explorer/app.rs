@@ -145,8 +145,6 @@ pub struct View {
     pub appearance: Appearance,
     /// True where octants have no known width: `M` skips them.
     pub lacks_octants: bool,
-    /// Place of the first visible row of the list of parameters, unless the selected row would be hidden.
-    pub first_listed: usize,
     /// Target of the close-up.
     pub look: CloseUpTarget,
     /// Part of the line in the profile pane.
@@ -249,7 +247,6 @@ impl App {
                 size,
                 appearance,
                 lacks_octants: false,
-                first_listed: 0,
                 look: CloseUpTarget { focus: Focus::Summit, springs },
                 profile: LineView::WHOLE,
                 curve: CurveLook::default(),

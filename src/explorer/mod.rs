@@ -20,6 +20,7 @@ pub mod layout;
 mod manual_body;
 mod opening;
 mod palette;
+pub mod panel;
 pub mod panes;
 pub mod parameters;
 pub mod picture;

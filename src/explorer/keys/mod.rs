@@ -280,7 +280,7 @@ pub const TABLE: &[Row] = &[
     row("End G", CROSSHAIR, "crosshair-end", View(|app| crosshair::go_to_end(app, true)), "", "move the crosshair to the right end", CROSS),
     row("↑ k", CROSSHAIR, "crosshair-previous-stage", View(|app| crosshair::go_to_stage(app, -1)), "", "move to the previous loading stage at the same indentation", CROSS),
     row("↓ j", CROSSHAIR, "crosshair-next-stage", View(|app| crosshair::go_to_stage(app, 1)), "stage", "move to the next loading stage at the same indentation", CROSS),
-    row("Esc", CROSSHAIR, "toggle-crosshair", View(crosshair::toggle), "hide", "hide the crosshair", CROSS),
+    row("Esc", CROSSHAIR, "hide-crosshair", View(crosshair::toggle), "hide", "hide the crosshair", CROSS),
 
     row("m", EXPLORE, "toggle-map", Act(|app| show::toggle(app, Pane::Chart)), "map", "show the regimes over H and κ or e_el/γ, in place of profile and close-up", MAP).rank(2),
     row("← h", MAP_PANE, "move-left", Act(|app| chart::step(app, -1, 0)), "", "move the scene to the value on the left: decrease H; successive moves are one edit", MAP).merges(),
