@@ -123,9 +123,16 @@ impl Adhesion {
         range
     }
 
-    /// The same adhesion by this work of adhesion, J/m², without a parameter.
+    /// The same adhesion by this work of adhesion, J/m².
     pub fn with_work(self, work: f64) -> Self {
-        Adhesion::Work { work, closing_work: self.closing_work(), amplitude: None, range: self.range() }
+        match self {
+            Adhesion::Work { closing_work, amplitude, range, .. } => {
+                Adhesion::Work { work, closing_work, amplitude, range }
+            }
+            Adhesion::Parameter { range, .. } => {
+                Adhesion::Work { work, closing_work: None, amplitude: None, range }
+            }
+        }
     }
 
     /// The same adhesion by this value of a parameter. A work of adhesion that specifies the amplitude of the roughness

@@ -10,6 +10,7 @@ use super::adhesion::Adhesion;
 use super::errors::SceneError;
 use super::field::{FILE_NAME, Field, LEG_INDENTATION};
 use super::fields::{FIELDS, field};
+use super::measured::Measured;
 use super::model::{Edges, Move, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
 use super::range::Range;
 use super::text::{is_within, ron_float, ron_string};
@@ -190,7 +191,8 @@ impl Found<'_> {
                 self.require(*last <= points / 2, &of, path, &allowed, &reason);
             }
             // A profile is one row or one column; several files have a common spectrum and no profile.
-            Some(Roughness::Measured { unit, height_unit, further_files, opposite, row, column, .. }) => {
+            Some(Roughness::Measured(measured)) => {
+                let Measured { unit, height_unit, further_files, opposite, row, column, .. } = measured;
                 for (path, unit) in [("roughness.unit", unit), ("roughness.height_unit", height_unit)] {
                     let is_unit = unit.is_empty() || unit.parse::<Unit>().is_ok();
                     self.require(is_unit, &[path], path, UnitError::ALLOWED, "unit of the file");

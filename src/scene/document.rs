@@ -11,7 +11,7 @@ use super::field::Field;
 use super::fields::{FIELDS, field};
 use super::model::Scene;
 use super::range::Range;
-use super::read::read;
+use super::read::{read, read_contradictory};
 use super::text::{Text, is_within, line_column};
 use super::tree::{Tree, to_ron};
 
@@ -54,7 +54,7 @@ impl Document {
         check_length(source)
             .map_err(|message| SceneError::whole(Origin::File { name: name.into() }, message))?;
         let place = |offset| origin_at(source, name, offset);
-        let scene = read(source).map_err(|unread| unread.error.at(place(unread.offset)))?;
+        let scene = read(source).map_err(|unread| unread.1.at(place(unread.0)))?;
         let text = Text::new(source)
             .map_err(|unreadable| SceneError::whole(place(unreadable.offset), unreadable.reason))?;
         SceneErrors::result(as_written(check(&scene), &text), |error| {
@@ -111,8 +111,8 @@ impl Document {
         }
         SceneErrors::result(errors, |error| error.origin.clone())?;
         new.scene = read(new.text.as_str()).map_err(|unread| {
-            let origin = overrides_behind(&unread.error, overrides);
-            unread.error.at(origin)
+            let origin = overrides_behind(&unread.1, overrides);
+            unread.1.at(origin)
         })?;
         SceneErrors::result(as_written(check(&new.scene), &new.text), |error| {
             overrides_behind(error, overrides)
@@ -212,22 +212,19 @@ impl Document {
 /// The text with another value of a field. Fields may contradict each other until further overrides.
 fn spliced(text: &Text, path: &str, value: &str) -> Result<Text, Box<SceneError>> {
     let origin = || Origin::Overrides(vec![format!("{path}={value}")]);
-    let refused = |message: String| Box::new(SceneError::whole(origin(), message));
+    let refused = |message| Box::new(SceneError::whole(origin(), message));
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
     let band = || field(parent, None).filter(|field| matches!(field.range, Range::Band(..)));
     let typed = match field_at(text, path).or_else(band) {
         Some(known) => known.read_typed(value).map_err(|error| {
-            let (field, value, allowed) = (path.to_string(), value.to_string(), known.allowed());
-            Box::new(SceneError { field, value, allowed, ..*refused(error.to_string()) })
+            Box::new(SceneError::of(path, value, known.allowed(), &error.to_string()).at(origin()))
         })?,
         None => value.to_string(),
     };
     let text = set(text, path, &typed).map_err(refused)?;
     check_length(text.as_str()).map_err(refused)?;
-    match read(text.as_str()) {
-        Err(unread) if !unread.is_conflict => Err(Box::new(unread.error.at(origin()))),
-        _ => Ok(text),
-    }
+    read_contradictory(text.as_str()).map_err(|unread| unread.1.at(origin()))?;
+    Ok(text)
 }
 
 /// An override: a path and a value in RON.
@@ -385,7 +382,7 @@ mod tests {
 
     #[test]
     fn values_are_given_as_written_or_as_left_out() {
-        let document = document().set("adhesion", "Some((work: Some(0.1)))").unwrap();
+        let document = document().set("adhesion", "Some(work: Some(0.1))").unwrap();
         for (path, value) in [
             ("length", Some("1.0e-4")),
             ("roughness.hurst", Some("0.7")),

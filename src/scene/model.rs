@@ -4,8 +4,8 @@
 
 use super::adhesion::Adhesion;
 use super::fields::default;
+use super::measured::Measured;
 pub use crate::contact::{Edges, Move};
-use crate::spectrum::Detrend;
 use crate::surface::Form;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -137,69 +137,7 @@ pub enum Roughness {
         seed: u64,
     },
     /// Measured surface, profile or map: its equivalent line, or the profile itself.
-    Measured {
-        /// The file, relative to the scene file.
-        file: String,
-        /// Further files of the same face: samples of one roughness, whose spectrum is estimated from all of them.
-        #[serde(default, skip_serializing_if = "Vec::is_empty")]
-        further_files: Vec<String>,
-        /// True if the measured profile itself is the line. `None`: true in scenes of version 1, false in those of
-        /// version 2; see [`Scene::measured_as_line`].
-        #[serde(skip_serializing_if = "Option::is_none")]
-        as_line: Option<bool>,
-        /// File of the opposite face, relative to the scene file; the spectra of both faces add.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        opposite: Option<String>,
-        /// Row of a map used as the profile, from 1.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        row: Option<u64>,
-        /// Column of a map used as the profile, from 1.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        column: Option<u64>,
-        /// Part removed from the heights; `None`: the tilt for an equivalent line, nothing for `as_line`.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        detrend: Option<Detrend>,
-        /// True if the surface repeats itself at its borders: its spectrum is then estimated without a window.
-        #[serde(default, skip_serializing_if = "is_false")]
-        periodic: bool,
-        /// Unit of lengths if the file states none; empty: unknown, or m for `as_line`.
-        #[serde(default, skip_serializing_if = "String::is_empty")]
-        unit: String,
-        /// Unit of heights if the file states none; empty: as `unit`.
-        #[serde(default, skip_serializing_if = "String::is_empty")]
-        height_unit: String,
-        /// Distance between points, m, if the file states none.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        spacing: Option<f64>,
-        /// True if missing heights are interpolated from their neighbours.
-        #[serde(default, skip_serializing_if = "is_false")]
-        interpolate: bool,
-        /// True if uneven profiles are resampled at their mean distance.
-        #[serde(default, skip_serializing_if = "is_false")]
-        resample: bool,
-        /// Number of the channel of a file with several.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        channel: Option<u64>,
-        /// Shortest wavelength, m, down to which the spectrum of the equivalent line continues as a power law;
-        /// `None`: the last resolved wavelength.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        continue_to: Option<f64>,
-        /// Seed of the random phases of the equivalent line.
-        #[serde(default = "default_seed", skip_serializing_if = "is_default_seed")]
-        seed: u64,
-    },
-}
-
-fn default_seed() -> u64 {
-    default("roughness.seed", Some("Measured"))
-}
-
-fn is_default_seed(seed: &u64) -> bool {
-    *seed == default_seed()
-}
-
-fn is_false(value: &bool) -> bool {
-    !value
+    Measured(Measured),
 }
 
 impl Roughness {
@@ -227,8 +165,8 @@ impl Scene {
             Roughness::SelfAffine { modes: (_, last), .. } => {
                 ("roughness.modes", self.numerics.points as f64 / *last as f64)
             }
-            Roughness::Measured { continue_to, .. } => {
-                ("roughness.continue_to", (*continue_to)? / self.spacing())
+            Roughness::Measured(measured) => {
+                ("roughness.continue_to", measured.continue_to? / self.spacing())
             }
         };
         (springs < SPRINGS_PER_WAVE as f64).then(|| {
@@ -241,32 +179,31 @@ impl Scene {
         })
     }
 
+    /// The measured surface, if there is one.
+    pub fn measured(&self) -> Option<&Measured> {
+        if let Some(Roughness::Measured(measured)) = &self.roughness { Some(measured) } else { None }
+    }
+
     /// Returns true if a measured profile is the line itself.
     pub fn measured_as_line(&self) -> bool {
-        let Some(Roughness::Measured { as_line, .. }) = &self.roughness else { return false };
-        as_line.unwrap_or(self.version < 2)
+        self.measured().is_some_and(|measured| measured.as_line.unwrap_or(self.version < 2))
     }
 
     /// Files of the measured surfaces, relative to the scene file.
     pub fn measured_files(&self) -> Vec<&str> {
-        let Some(Roughness::Measured { file, further_files, opposite, .. }) = &self.roughness else {
-            return Vec::new();
-        };
-        std::iter::once(file).chain(further_files).chain(opposite).map(String::as_str).collect()
+        self.measured().map_or_else(Vec::new, |measured| measured.faces().concat())
     }
 
     /// Paths of the files of each face, with names relative to `folder`.
     pub fn measured_paths(&self, folder: &Path) -> Vec<Vec<PathBuf>> {
-        let Some(Roughness::Measured { file, further_files, opposite, .. }) = &self.roughness else {
-            return Vec::new();
-        };
-        let face = std::iter::once(file).chain(further_files).map(|file| folder.join(file)).collect();
-        std::iter::once(face).chain(opposite.iter().map(|file| vec![folder.join(file)])).collect()
+        let faces = self.measured().map_or_else(Vec::new, Measured::faces);
+        faces.into_iter().map(|face| face.into_iter().map(|file| folder.join(file)).collect()).collect()
     }
 
     /// Renames the files of the measured surfaces.
     pub fn rename_measured_files(&mut self, rename: impl Fn(&str) -> String) {
-        if let Some(Roughness::Measured { file, further_files, opposite, .. }) = &mut self.roughness {
+        if let Some(Roughness::Measured(Measured { file, further_files, opposite, .. })) = &mut self.roughness
+        {
             for name in std::iter::once(file).chain(further_files).chain(opposite) {
                 *name = rename(name);
             }
@@ -275,16 +212,15 @@ impl Scene {
 
     /// Seed of the random phases; `None` if the profile has none.
     pub fn seed(&self) -> Option<u64> {
-        match &self.roughness {
-            Some(Roughness::Measured { .. }) if self.measured_as_line() => None,
-            Some(Roughness::SelfAffine { seed, .. } | Roughness::Measured { seed, .. }) => Some(*seed),
-            None => None,
+        match self.roughness.as_ref()? {
+            Roughness::Measured(_) if self.measured_as_line() => None,
+            Roughness::SelfAffine { seed, .. } | Roughness::Measured(Measured { seed, .. }) => Some(*seed),
         }
     }
 
     /// Sets the seed of the random phases, if there are any.
     pub fn set_seed(&mut self, wanted: u64) {
-        if let Some(Roughness::SelfAffine { seed, .. } | Roughness::Measured { seed, .. }) =
+        if let Some(Roughness::SelfAffine { seed, .. } | Roughness::Measured(Measured { seed, .. })) =
             &mut self.roughness
         {
             *seed = wanted;

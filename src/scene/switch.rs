@@ -9,7 +9,8 @@ use super::document::{Document, pair};
 use super::effects::{Effect, adhesion_text, by_work, pressing};
 use super::errors::{Origin, SceneError, SceneErrors};
 use super::field::Field;
-use super::model::Roughness;
+use super::fields::fields_inside;
+use super::model::{Roughness, Scene};
 use super::range::choice_key;
 use super::text::ron_float;
 use super::tree::{Tree, in_ron};
@@ -94,34 +95,39 @@ impl Document {
         restored.map_or_else(|| self.set(effect.path(), &effect.suited(self.scene())), Ok)
     }
 
-    /// This document with adhesion of this work, J/m². Sets the field of adhesion by work; any other
-    /// adhesion, and none, becomes adhesion by work.
+    /// This document with adhesion of this work, J/m². Adhesion by a parameter, and none, becomes adhesion by work.
     ///
     /// # Errors
     /// An invalid work of adhesion.
     pub fn with_work_of_adhesion(&self, work: f64) -> Result<Document, SceneErrors> {
-        match self.scene().adhesion {
-            Some(Adhesion::Work { .. }) => self.set("adhesion.work", &ron_float(work)),
-            _ => self.set("adhesion", &adhesion_text(self.scene(), by_work(self.scene(), work))),
-        }
+        self.with_adhesion(by_work(self.scene(), work))
     }
 
-    /// This document with adhesion of this κ or e_el/γ. Sets the field of adhesion by this parameter; any other
-    /// adhesion, and none, becomes adhesion by the parameter. A work of adhesion that sets the amplitude of the
-    /// roughness together with the other parameter is kept.
+    /// This document with adhesion of this κ or e_el/γ. Adhesion by work, and none, becomes adhesion by the parameter, but
+    /// a work of adhesion that sets the amplitude of the roughness together with a parameter is kept.
     ///
     /// # Errors
     /// An invalid value, or a scene without roughness.
     pub fn with_parameter(&self, parameter: RoughnessParameter, value: f64) -> Result<Document, SceneErrors> {
-        let present = self.scene().adhesion;
-        if present.and_then(|adhesion| adhesion.parameter()).is_some_and(|(given, _)| given == parameter) {
-            return self.set(parameter.path(), &ron_float(value));
+        let changed =
+            self.scene().adhesion.map_or(Ok(Adhesion::by_parameter(parameter, value)), |adhesion| {
+                adhesion.with_parameter(parameter, value)
+            });
+        self.with_adhesion(changed.map_err(|reason| SceneError::whole(Origin::Scene, reason))?)
+    }
+
+    /// This document with this adhesion: its numbers change one by one if the same ones are given, else their group.
+    fn with_adhesion(&self, adhesion: Adhesion) -> Result<Document, SceneErrors> {
+        let scenes = [self.scene(), &Scene { adhesion: Some(adhesion), ..self.scene().clone() }];
+        let [here, there] = scenes.map(Tree::of);
+        let values =
+            || fields_inside("adhesion", None).map(|field| (here.value(field), there.value(field), field));
+        if values().any(|(here, there, _)| here.is_some() != there.is_some()) {
+            return self.set("adhesion", &adhesion_text(self.scene(), adhesion));
         }
-        let changed = present.map_or(Ok(Adhesion::by_parameter(parameter, value)), |adhesion| {
-            adhesion.with_parameter(parameter, value)
-        });
-        let changed = changed.map_err(|reason| SceneError::whole(Origin::Scene, reason))?;
-        self.set("adhesion", &adhesion_text(self.scene(), changed))
+        let changed = values().filter(|(here, there, _)| here != there);
+        let text = changed.map(|(.., field)| pair(field.path, there.written(field).unwrap_or_default()));
+        self.set_all(&text.collect::<Vec<_>>())
     }
 
     /// This document with the next choice of a field in this direction that the scene allows; `None` if there is no
@@ -184,9 +190,7 @@ impl Document {
     fn known(&self, value: Option<f64>, field: &str, what: &str) -> Result<f64, SceneErrors> {
         value.ok_or_else(|| {
             let message = format!("{what} is not known yet: compute the scene first");
-            let value = self.value(field).unwrap_or_default().to_string();
-            let error = SceneError::whole(Origin::Scene, message);
-            SceneError { field: field.to_string(), value, ..error }.into()
+            SceneError::of(field, self.value(field).unwrap_or_default(), "", &message).into()
         })
     }
 }
