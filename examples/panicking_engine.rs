@@ -3,7 +3,7 @@
 //! any load of the engine, or else restores the terminal.
 
 use asperity::contact::ContactError;
-use asperity::explorer::model::Model;
+use asperity::explorer::app::App;
 use asperity::explorer::worker::Engine;
 use asperity::explorer::{Options, open_with, view};
 use asperity::scene::{DEFAULT, Roughness, Scene, open};
@@ -46,9 +46,9 @@ fn beware(scene: &Scene) {
     }
 }
 
-fn draw(frame: &mut Frame<'_>, model: &Model) {
-    beware(model.document.scene());
-    view::draw(frame, model);
+fn draw(frame: &mut Frame<'_>, app: &App) {
+    beware(app.edit.document.scene());
+    view::draw(frame, app);
 }
 
 fn main() -> ExitCode {

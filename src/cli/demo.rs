@@ -116,12 +116,12 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
     let mut demo = Demo::new(document, script, size, appearance, fps);
     if let Some(at) = arguments.at {
         while demo.advance().is_some_and(|seconds| seconds + 1e-9 < at) {}
-        let model = demo.model();
+        let app = demo.app();
         return match &arguments.picture {
             Some(file) => {
-                Ok(write_new(file, arguments.force, |out| out.write_all(screenshot(model).as_bytes()))?)
+                Ok(write_new(file, arguments.force, |out| out.write_all(screenshot(app).as_bytes()))?)
             }
-            None => Ok(stdout_.write_all(text(&picture_of(model)).as_bytes())?),
+            None => Ok(stdout_.write_all(text(&picture_of(app)).as_bytes())?),
         };
     }
     if let Some(file) = &arguments.cast {
@@ -132,7 +132,7 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
     }
     while let Some(seconds) = demo.advance() {
         writeln!(stdout_, "== {seconds:.2} s ==")?;
-        stdout_.write_all(text(&picture_of(demo.model())).as_bytes())?;
+        stdout_.write_all(text(&picture_of(demo.app())).as_bytes())?;
     }
     Ok(())
 }
@@ -142,7 +142,7 @@ fn record(out: &mut dyn Write, demo: &mut Demo, size: (u16, u16), name: &str) ->
     let mut cast = Cast::new(out, size.0, size.1, &format!("Asperity: {name}"))?;
     let mut screen = Screen::new(size)?;
     while let Some(seconds) = demo.advance() {
-        let FrameBytes(bytes) = screen.draw(demo.model())?;
+        let FrameBytes(bytes) = screen.draw(demo.app())?;
         cast.frame(seconds, &bytes)?;
     }
     cast.finish().map(drop)

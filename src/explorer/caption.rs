@@ -1,7 +1,7 @@
 //! Words for the event at the shown state of the contact: first contact, spreading, preload, detachment, pull-off,
 //! separation.
 
-use super::model::Model;
+use super::app::App;
 use super::snapshot::Drive;
 use crate::contact::{CurvePoint, Direction, LegRecord};
 
@@ -11,11 +11,11 @@ const NEAR: f64 = 0.01;
 /// Event at the shown state, short enough for the title of a pane of 34 columns; `None` before the first result and
 /// where the body rests.
 #[must_use]
-pub fn caption(model: &Model) -> Option<&'static str> {
-    let snapshot = model.present()?;
+pub fn caption(app: &App) -> Option<&'static str> {
+    let snapshot = app.present()?;
     match snapshot.drive {
         Drive::Manual => Some("manual loading"),
-        Drive::Leg(index) => event(model.legs().get(index)?, snapshot.point),
+        Drive::Leg(index) => event(app.legs().get(index)?, snapshot.point),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Commands of the user: the functions of the keys, by their names.
 
+use super::app::App;
 use super::effect::Effect;
-use super::model::Model;
 use std::fmt;
 
 /// A command of the user. Each is a row of the table in [`super::keys`].
@@ -18,13 +18,13 @@ pub struct Command {
 #[derive(Clone, Copy)]
 pub enum Handler {
     /// Changes the model without effects.
-    Silent(fn(&mut Model)),
+    Silent(fn(&mut App)),
     /// Changes the shown part or state of the contact: a snapshot is requested.
-    View(fn(&mut Model)),
+    View(fn(&mut App)),
     /// Changes the model and returns the effects.
-    Act(fn(&mut Model) -> Vec<Effect>),
+    Act(fn(&mut App) -> Vec<Effect>),
     /// As `Act`, for a row with several keys, with the character of the key.
-    Character(fn(&mut Model, char) -> Vec<Effect>),
+    Character(fn(&mut App, char) -> Vec<Effect>),
 }
 
 impl Command {
@@ -47,16 +47,16 @@ impl Command {
     }
 
     /// Changes the model and returns the effects.
-    pub(super) fn run(self, model: &mut Model) -> Vec<Effect> {
+    pub(super) fn run(self, app: &mut App) -> Vec<Effect> {
         match self.handler {
-            Handler::Silent(change) => change(model),
+            Handler::Silent(change) => change(app),
             Handler::View(change) => {
-                change(model);
+                change(app);
                 return vec![Effect::Ask];
             }
-            Handler::Act(act) => return act(model),
+            Handler::Act(act) => return act(app),
             Handler::Character(act) => {
-                return self.character.map_or_else(Vec::new, |character| act(model, character));
+                return self.character.map_or_else(Vec::new, |character| act(app, character));
             }
         }
         Vec::new()

@@ -1,6 +1,6 @@
 //! Places of the panes: all four in a large window, fewer in a small one.
 
-use super::model::{Model, Pane};
+use super::app::{App, Pane};
 use ratatui::layout::Rect;
 
 /// Columns of the histogram beside the profile, its frame line included.
@@ -22,13 +22,13 @@ pub struct Layout {
 impl Layout {
     /// The layout of a model in its own window.
     #[must_use]
-    pub fn of(model: &Model) -> Self {
-        Layout::within(model, model.size)
+    pub fn of(app: &App) -> Self {
+        Layout::within(app, app.view.size)
     }
 
     /// The layout of a model in a window of so many columns and rows.
     #[must_use]
-    pub fn within(model: &Model, (width, height): (u16, u16)) -> Self {
+    pub fn within(app: &App, (width, height): (u16, u16)) -> Self {
         let row = |y: u16| Rect::new(0, y, width, 1).intersection(Rect::new(0, 0, width, height));
         // The frame of the panes gives way before the panes.
         let footer = height >= 6;
@@ -37,7 +37,7 @@ impl Layout {
         let body = Rect::new(0, top, width, height.saturating_sub(top + bottom));
         Layout {
             title: (top > 0).then(|| Rect { height: top, ..row(0) }),
-            panes: panes(model, body),
+            panes: panes(app, body),
             status: row(height.saturating_sub(bottom)),
             footer: footer.then(|| row(height - 1)),
         }
@@ -86,19 +86,19 @@ pub fn split_profile(area: Rect) -> (Rect, Option<Rect>) {
     (Rect { width, ..area }, Some(histogram))
 }
 
-fn panes(model: &Model, body: Rect) -> Vec<(Pane, Rect)> {
+fn panes(app: &App, body: Rect) -> Vec<(Pane, Rect)> {
     if body.is_empty() {
         return Vec::new();
     }
-    if model.zoomed {
-        return vec![(model.pane, body)];
+    if app.view.zoomed {
+        return vec![(app.view.pane, body)];
     }
     if body.width >= 72 && body.height >= 14 {
         // Beyond 1129 columns the product exceeds 16 bits.
         let left = (u32::from(body.width) * 58 / 100) as u16;
         let upper = body.height / 2;
         let part = |x: u16, y: u16, width: u16, height: u16| Rect::new(body.x + x, body.y + y, width, height);
-        if let Some(pane) = model.large {
+        if let Some(pane) = app.view.large {
             return vec![
                 (pane, part(0, 0, left, body.height)),
                 (Pane::Force, part(left, 0, body.width - left, upper)),
@@ -108,13 +108,13 @@ fn panes(model: &Model, body: Rect) -> Vec<(Pane, Rect)> {
         return vec![
             (Pane::Profile, part(0, 0, left, upper)),
             (Pane::Force, part(left, 0, body.width - left, upper)),
-            (model.lower, part(0, upper, left, body.height - upper)),
+            (app.view.lower, part(0, upper, left, body.height - upper)),
             (Pane::Parameters, part(left, upper, body.width - left, body.height - upper)),
         ];
     }
     // Too small for four: the most important ones, side by side or one above the other.
-    let second = match model.pane {
-        Pane::Force => model.large.unwrap_or(Pane::Profile),
+    let second = match app.view.pane {
+        Pane::Force => app.view.large.unwrap_or(Pane::Profile),
         chosen => chosen,
     };
     if body.width >= 36 && body.height >= 6 {
@@ -131,5 +131,5 @@ fn panes(model: &Model, body: Rect) -> Vec<(Pane, Rect)> {
             (second, Rect { y: body.y + upper, height: body.height - upper, ..body }),
         ];
     }
-    vec![(model.pane, body)]
+    vec![(app.view.pane, body)]
 }

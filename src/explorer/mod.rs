@@ -3,6 +3,7 @@
 
 pub mod action;
 pub mod adhesion_spread;
+pub mod app;
 pub mod appraisal;
 pub mod autosave;
 mod caption;
@@ -19,7 +20,6 @@ pub mod keys;
 pub mod layout;
 mod manual_body;
 pub mod mode;
-pub mod model;
 mod opening;
 mod palette;
 pub mod panes;

@@ -2,10 +2,10 @@
 //! own, or at once: the same actions then lead to the same screens.
 
 use super::action::Action;
+use super::app::App;
 use super::completion::complete;
 use super::config::remember;
 use super::mode::ModeKind;
-use super::model::Model;
 use super::opening::Opening;
 use super::study::{Accuracy, Appraiser, Found, PaneData, Study, Task, perform};
 use super::update::{Effect, request, study_tasks, update};
@@ -135,7 +135,7 @@ fn is_short(task: &Task) -> bool {
 /// The explorer and all that its effects need.
 pub struct Runtime {
     /// The state of the explorer.
-    pub model: Model,
+    pub app: App,
     /// Solver of the scenes.
     pub solver: Solver,
     /// Solver of the studies.
@@ -154,7 +154,7 @@ impl Runtime {
     /// # Errors
     /// When the terminal refuses.
     pub fn act(&mut self, action: Action, console: &mut dyn Console) -> io::Result<()> {
-        let effects = update(&mut self.model, action);
+        let effects = update(&mut self.app, action);
         self.perform(effects, console)
     }
 
@@ -163,7 +163,7 @@ impl Runtime {
     /// # Errors
     /// When the terminal refuses.
     pub fn command(&mut self, name: &str, console: &mut dyn Console) -> io::Result<()> {
-        let (bindings, here) = (&self.model.bindings, self.model.keys());
+        let (bindings, here) = (&self.app.config.bindings, self.app.keys());
         let elsewhere = || bindings.named(name, ModeKind::Explore).filter(|_| here.is_exploring());
         match bindings.named(name, here).or_else(elsewhere) {
             Some(command) => self.act(Action::Command(command), console),
@@ -179,7 +179,7 @@ impl Runtime {
         let mut waiting = VecDeque::from(effects);
         while let Some(effect) = waiting.pop_front() {
             for action in self.answer(effect, console)? {
-                waiting.extend(update(&mut self.model, action));
+                waiting.extend(update(&mut self.app, action));
             }
         }
         Ok(())
@@ -190,10 +190,10 @@ impl Runtime {
     /// # Errors
     /// When the terminal refuses.
     pub fn answer(&mut self, effect: Effect, console: &mut dyn Console) -> io::Result<Vec<Action>> {
-        let Runtime { model, solver, studies, folder, asked, .. } = self;
+        let Runtime { app, solver, studies, folder, asked, .. } = self;
         let action = match effect {
             Effect::Ask => {
-                let request = request(model);
+                let request = request(app);
                 if request.generation != *asked {
                     // Estimates of the former scene are of no use, and take time from this one.
                     studies.stop();
@@ -201,9 +201,9 @@ impl Runtime {
                 }
                 return Ok(solver.ask(request));
             }
-            Effect::Study => return Ok(studies.ask(model.generation, study_tasks(model))),
+            Effect::Study => return Ok(studies.ask(app.edit.generation, study_tasks(app))),
             Effect::DrawSeed => Action::SetSeed((self.draw_seed)()),
-            Effect::Write(file) => writing::write(model, folder, file),
+            Effect::Write(file) => writing::write(app, folder, file),
             Effect::Remember { path, appearance } => {
                 let remembered = remember(&folder.join(&path), appearance).map_err(|error| error.to_string());
                 Action::Remembered(remembered.map(|()| path))

@@ -1,6 +1,6 @@
 //! A screen without a terminal: returns the bytes for a terminal.
 
-use super::model::Model;
+use super::app::App;
 use super::terminal::FrameWriter;
 use super::view;
 use ratatui::backend::CrosstermBackend;
@@ -52,8 +52,8 @@ impl Screen {
     ///
     /// # Errors
     /// None known.
-    pub fn draw(&mut self, model: &Model) -> io::Result<FrameBytes> {
-        self.terminal.draw(|frame| view::draw(frame, model))?;
+    pub fn draw(&mut self, app: &App) -> io::Result<FrameBytes> {
+        self.terminal.draw(|frame| view::draw(frame, app))?;
         Ok(FrameBytes(self.sent.0.take()))
     }
 }

@@ -1,10 +1,10 @@
 //! A session: input, worker and terminal around one model.
 
 use super::action::{Action, Traffic};
+use super::app::App;
 use super::autosave::{self, Autosave};
 use super::config::Config;
 use super::input;
-use super::model::Model;
 use super::opening::Opening;
 use super::runtime::{Console, Runtime, Solver, Studies};
 use super::signals::{SystemSignal, watch_for_signals};
@@ -73,7 +73,7 @@ pub struct SessionEnd {
 }
 
 /// Function that draws a model, as [`view::draw`].
-pub type Draw = fn(&mut Frame<'_>, &Model);
+pub type Draw = fn(&mut Frame<'_>, &App);
 
 /// Message from outside: input of the user, its end, a signal, or a report.
 enum Message {
@@ -145,24 +145,24 @@ pub fn open_with(
         marker: options.marker.or(options.config.marker).unwrap_or(environment.marker),
     };
     let frame_rate = options.config.frame_rate.unwrap_or(FRAME_RATE);
-    let mut model = Model::new(document, (size.width, size.height), appearance);
-    model.opens_beside = beside;
+    let mut app = App::new(document, (size.width, size.height), appearance);
+    app.opens_beside = beside;
     if let Some(study_map) = study_map {
-        model.show_study(study_map);
+        app.show_study(study_map);
     }
-    model.configure(options.config);
+    app.config = options.config;
     if let Some(warning) = options.warning {
-        model.set_error(warning);
+        app.set_error(warning);
     }
     if let Some((_, documents)) = &options.restored {
-        model.restore(documents);
+        app.restore(documents);
     } else if let Some(folder) = &options.unsaved {
-        model.offer(&autosave::left_behind(folder));
+        app.offer(&autosave::left_behind(folder));
     }
     let restored = options.restored.map(|(path, _)| path);
     let worker = Worker::new(requests, newest);
     let runtime = Runtime {
-        model,
+        app,
         solver: Solver::Thread(worker),
         studies: Studies::Thread(study),
         asked: 0,
@@ -183,13 +183,13 @@ pub fn open_with(
         kept: (0, 0),
     };
     let signal = session.run()?;
-    let model = session.runtime.model;
-    if let Some(autosave) = session.autosave.as_mut().filter(|_| model.finished) {
+    let app = session.runtime.app;
+    if let Some(autosave) = session.autosave.as_mut().filter(|_| app.finished) {
         // The user was asked about the changes.
         let _ = autosave.keep(&[]);
     }
-    let computed = model.current().cloned();
-    Ok(SessionEnd { document: model.document, computed, signal })
+    let computed = app.current().cloned();
+    Ok(SessionEnd { document: app.edit.document, computed, signal })
 }
 
 /// A function for another thread, which sends messages and returns false once nobody listens.
@@ -271,7 +271,7 @@ impl<W: Write> Session<'_, W> {
         // Over SSH nothing is drawn before this time: a held key or a dragged mouse would fill the line
         // with frames that nobody sees in time.
         let mut due = moved;
-        while !self.runtime.model.finished {
+        while !self.runtime.app.finished {
             if changed && Instant::now() >= due {
                 if std::mem::take(&mut self.console.redraw) {
                     // Unlike `clear` this does not query the position of the cursor on the input that
@@ -284,11 +284,11 @@ impl<W: Write> Session<'_, W> {
                     due = Instant::now() + frame_time;
                 }
                 let Session { runtime, console, draw, .. } = self;
-                console.terminal.draw(|frame| draw(frame, &runtime.model))?;
+                console.terminal.draw(|frame| draw(frame, &runtime.app))?;
                 changed = false;
             }
-            let model = &self.runtime.model;
-            let playing = model.player.playing && model.is_current() && model.manual.is_none();
+            let app = &self.runtime.app;
+            let playing = app.play.playing && app.is_current() && app.manual.is_none();
             if !playing {
                 moved = Instant::now();
             }
@@ -313,8 +313,8 @@ impl<W: Write> Session<'_, W> {
                     Message::Resized => Some(self.console.resize()?),
                     // In the present mode: the key before may have changed it.
                     Message::Input(event) => {
-                        let model = &self.runtime.model;
-                        input::action_of(&event, &model.bindings, model.keys())
+                        let app = &self.runtime.app;
+                        input::action_of(&event, &app.config.bindings, app.keys())
                     }
                     Message::Act(action) => Some(*action),
                 };
@@ -350,13 +350,13 @@ impl<W: Write> Session<'_, W> {
     /// Applies an action and keeps unsaved changes before they are drawn.
     fn act(&mut self, action: Action) -> io::Result<()> {
         self.runtime.act(action, &mut self.console)?;
-        let model = &mut self.runtime.model;
-        let now = (model.generation, model.saves);
+        let app = &mut self.runtime.app;
+        let now = (app.edit.generation, app.edit.saves);
         if let Some(autosave) = self.autosave.as_mut().filter(|_| now != self.kept) {
             self.kept = now;
-            if let Err(error) = autosave.keep(&model.unsaved()) {
+            if let Err(error) = autosave.keep(&app.unsaved()) {
                 self.autosave = None;
-                model.set_error(format!("unsaved changes are not kept for another session: {error}"));
+                app.set_error(format!("unsaved changes are not kept for another session: {error}"));
             }
         }
         Ok(())
@@ -366,13 +366,13 @@ impl<W: Write> Session<'_, W> {
     fn measure_traffic(&mut self, frames: u32) {
         let (since, before) = self.traffic;
         let elapsed = since.elapsed();
-        let model = &mut self.runtime.model;
-        if model.traffic.is_some() && elapsed < Duration::from_secs(1) {
+        let app = &mut self.runtime.app;
+        if app.view.traffic.is_some() && elapsed < Duration::from_secs(1) {
             return;
         }
         let written = self.written.get();
         let bytes = (written - before) as f64 / elapsed.as_secs_f64().max(1.0);
         self.traffic = (Instant::now(), written);
-        model.traffic = Some(Traffic { frames, bytes: bytes as u64 });
+        app.view.traffic = Some(Traffic { frames, bytes: bytes as u64 });
     }
 }

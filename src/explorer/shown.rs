@@ -1,22 +1,22 @@
 //! Shown panes, the selected one, and its valid keys and exports.
 
 use super::action::Content;
+use super::app::App;
 use super::layout::Layout;
 use super::mode::ModeKind;
-use super::model::Model;
 use super::panes::{Pane, Place};
 use crate::draw::Figure;
 use crate::export::Format;
 use crate::study::map::StudyMap;
 use std::sync::Arc;
 
-impl Model {
+impl App {
     /// The selectable panes, the most important first.
     #[must_use]
     pub fn panes(&self) -> Vec<Pane> {
-        match self.large {
+        match self.view.large {
             Some(large) => vec![Pane::Force, large, Pane::Parameters],
-            None => vec![Pane::Force, Pane::Profile, Pane::Parameters, self.lower],
+            None => vec![Pane::Force, Pane::Profile, Pane::Parameters, self.view.lower],
         }
     }
 
@@ -29,35 +29,35 @@ impl Model {
     /// Shows a pane in its place. A pane in the place of the close-up is selected where that was or where the pane
     /// would be out of sight, any other always.
     pub fn show(&mut self, pane: Pane) {
-        let is_same_place = self.pane == self.lower;
+        let is_same_place = self.view.pane == self.view.lower;
         match pane.row().place {
             Place::Own => {}
-            Place::CloseUp => (self.large, self.lower) = (None, pane),
-            Place::Large => (self.large, self.edited) = (Some(pane), false),
+            Place::CloseUp => (self.view.large, self.view.lower) = (None, pane),
+            Place::Large => (self.view.large, self.studies.edited) = (Some(pane), false),
         }
         // A small window has room for the selected pane alone.
         let has_room = Layout::of(self).pane(pane).is_some();
         if pane.row().place != Place::CloseUp || is_same_place || !has_room {
-            self.pane = pane;
+            self.view.pane = pane;
         }
         self.keep_selection();
     }
 
     /// Hides a pane and restores the panes in its place.
     pub fn hide(&mut self, pane: Pane) {
-        if self.large == Some(pane) {
-            self.large = None;
-        } else if self.lower == pane {
-            self.lower = Pane::CloseUp;
-            self.pane = if self.pane == pane { Pane::CloseUp } else { self.pane };
+        if self.view.large == Some(pane) {
+            self.view.large = None;
+        } else if self.view.lower == pane {
+            self.view.lower = Pane::CloseUp;
+            self.view.pane = if self.view.pane == pane { Pane::CloseUp } else { self.view.pane };
         }
         self.keep_selection();
     }
 
     /// Selects the force curve where the selected pane is no longer shown.
     fn keep_selection(&mut self) {
-        if !self.is_shown(self.pane) {
-            self.pane = Pane::Force;
+        if !self.is_shown(self.view.pane) {
+            self.view.pane = Pane::Force;
         }
     }
 
@@ -66,8 +66,8 @@ impl Model {
     #[must_use]
     pub fn keys(&self) -> ModeKind {
         match self.mode.kind() {
-            ModeKind::Explore => match self.pane.row().keys {
-                Some(ModeKind::Crosshair) if self.crosshair.is_none() => ModeKind::Explore,
+            ModeKind::Explore => match self.view.pane.row().keys {
+                Some(ModeKind::Crosshair) if self.view.crosshair.is_none() => ModeKind::Explore,
                 keys => keys.unwrap_or(ModeKind::Explore),
             },
             kind => kind,
@@ -77,13 +77,13 @@ impl Model {
     /// Contents that can be exported, by the extension of the file; those of the map while its pane is selected.
     #[must_use]
     pub fn exports(&self) -> &'static [(Format, Content)] {
-        if self.pane == Pane::Chart { Content::MAP_EXPORTS } else { Content::EXPORTS }
+        if self.view.pane == Pane::Chart { Content::MAP_EXPORTS } else { Content::EXPORTS }
     }
 
     /// The selected pane as a figure; the force curve while the parameters are selected.
     #[must_use]
     pub fn figure(&self) -> Option<Figure> {
-        let pane = if self.pane == Pane::Parameters { Pane::Force } else { self.pane };
+        let pane = if self.view.pane == Pane::Parameters { Pane::Force } else { self.view.pane };
         (pane.row().figure)(self)
     }
 

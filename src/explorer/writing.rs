@@ -1,12 +1,12 @@
 //! Files of the explorer: scenes, curves, figures of its panes, pictures of its screen.
 
 use super::action::{Action, Content, OutputFile, WriteFailure};
-use super::model::{Mode, Model, Notice};
+use super::app::{App, Message, Mode};
 use super::picture::{svg, text};
 use super::theme::Theme;
 use super::view;
 use crate::draw::Palette;
-use crate::export::{self, Format, RunReport, scene_provenance, write_map};
+use crate::export::{self, Format, RunReport, scene_provenance};
 use crate::io::{WriteError, check_file_name, write_new_file};
 use crate::scene::command_line;
 use ratatui::Terminal;
@@ -17,14 +17,14 @@ use std::path::Path;
 
 /// Writes a regular file, relative to a folder: a pipe would block. A name of a scene without an extension is checked
 /// before `.ron` makes it another name. Returns the file with its name, and the result.
-pub(super) fn write(model: &Model, folder: &Path, mut file: OutputFile) -> Action {
+pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
     let mut written = || {
         if file.content == Content::Scene && file.path.extension().is_none() {
             check_file_name(&folder.join(&file.path))?;
             file.path.set_extension("ron");
         }
         write_new_file(&folder.join(&file.path), file.overwrite, |out| {
-            write_content(out, model, &file.path, file.content)
+            write_content(out, app, &file.path, file.content)
         })
     };
     let result = written().map_err(|error| match error {
@@ -34,14 +34,14 @@ pub(super) fn write(model: &Model, folder: &Path, mut file: OutputFile) -> Actio
     Action::Written(file, result)
 }
 
-fn write_content(file: &mut dyn Write, model: &Model, path: &Path, content: Content) -> io::Result<()> {
+fn write_content(file: &mut dyn Write, app: &App, path: &Path, content: Content) -> io::Result<()> {
     let no_map = || io::Error::other("there is no map yet");
     let no_curve = || io::Error::other("the scene has no curve yet");
-    let computed = || model.current().ok_or_else(no_curve);
+    let computed = || app.current().ok_or_else(no_curve);
     match content {
-        Content::Scene => file.write_all(model.document.text().as_bytes()),
+        Content::Scene => file.write_all(app.edit.document.text().as_bytes()),
         Content::Outcome(format) => {
-            let (document, destination) = (&model.document, path.parent().unwrap_or(Path::new("")));
+            let (document, destination) = (&app.edit.document, path.parent().unwrap_or(Path::new("")));
             let (scene, folder) = (document.scene(), document.resolve(""));
             let command = command_line("asperity run", document.name(), document.overrides());
             let provenance = match format {
@@ -49,41 +49,41 @@ fn write_content(file: &mut dyn Write, model: &Model, path: &Path, content: Cont
                 _ => scene_provenance(&command, scene, &folder, destination).map_err(io::Error::other)?,
             };
             let (title, outcome) = (document.title(), &computed()?.outcome);
-            let estimate = model.appraisal.estimate();
+            let estimate = app.studies.appraisal.estimate();
             let report = RunReport { title, scene, outcome, choice: None, estimate };
             export::write(file, &report, format, &provenance)
         }
         Content::Figure(format) => {
-            let figure = model.figure().ok_or_else(|| io::Error::other("the pane is empty"))?;
+            let figure = app.figure().ok_or_else(|| io::Error::other("the pane is empty"))?;
             export::write(file, &figure, format, "")
         }
-        Content::MapCells => write_map(file, model.chart.grid().ok_or_else(no_map)?),
-        Content::Text => file.write_all(text(&picture_of(model)).as_bytes()),
+        Content::MapCells => export::write(file, app.chart.grid().ok_or_else(no_map)?, Format::Csv, ""),
+        Content::Text => file.write_all(text(&picture_of(app)).as_bytes()),
     }
 }
 
 /// The screen as an SVG document, on a background that suits its colours.
 #[must_use]
-pub fn screenshot(model: &Model) -> String {
-    let palette = if model.appearance.theme == Theme::Light { Palette::LIGHT } else { Palette::DARK };
-    let name = Path::new(model.document.name()).file_stem().unwrap_or_default();
-    svg(&picture_of(model), &palette, &format!("Asperity: {}", name.to_string_lossy()))
+pub fn screenshot(app: &App) -> String {
+    let palette = if app.view.appearance.theme == Theme::Light { Palette::LIGHT } else { Palette::DARK };
+    let name = Path::new(app.edit.document.name()).file_stem().unwrap_or_default();
+    svg(&picture_of(app), &palette, &format!("Asperity: {}", name.to_string_lossy()))
 }
 
 /// The screen without any question or line of text.
 #[must_use]
-pub fn picture_of(model: &Model) -> Buffer {
-    let mut model = model.clone();
-    model.mode = Mode::Explore;
-    if !matches!(model.notice, Some(Notice::Error(_))) {
-        model.notice = None;
+pub fn picture_of(app: &App) -> Buffer {
+    let mut app = app.clone();
+    app.mode = Mode::Explore;
+    if !matches!(app.message, Some(Message::Error(_))) {
+        app.message = None;
     }
-    let (columns, rows) = model.size;
+    let (columns, rows) = app.view.size;
     let mut terminal = match Terminal::new(TestBackend::new(columns, rows)) {
         Ok(terminal) => terminal,
         Err(never) => match never {},
     };
-    match terminal.draw(|frame| view::draw(frame, &model)) {
+    match terminal.draw(|frame| view::draw(frame, &app)) {
         Ok(_) => {}
         Err(never) => match never {},
     }

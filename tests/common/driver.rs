@@ -3,8 +3,8 @@
 
 use asperity::explorer::Opening;
 use asperity::explorer::action::Action;
+use asperity::explorer::app::App;
 use asperity::explorer::engine::Engine;
-use asperity::explorer::model::Model;
 use asperity::explorer::runtime::{Console, Runtime, Solver, Studies};
 use asperity::explorer::theme::{Appearance, Marker, Theme};
 use asperity::explorer::update::Effect;
@@ -77,15 +77,15 @@ impl Driver {
     /// Opens the explorer with another engine.
     pub fn open_with(opening: impl Into<Opening>, engine: Box<dyn Engine>) -> Self {
         let Opening { document, study_map, beside } = opening.into();
-        let mut model = Model::new(document, (120, 40), APPEARANCE);
-        model.opens_beside = beside;
+        let mut app = App::new(document, (120, 40), APPEARANCE);
+        app.opens_beside = beside;
         if let Some(study_map) = study_map {
-            model.show_study(study_map);
+            app.show_study(study_map);
         }
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join("folder")).unwrap();
         let runtime = Runtime {
-            model,
+            app,
             solver: Solver::inline(engine),
             studies: Studies::None,
             asked: 0,

@@ -3,8 +3,8 @@
 
 use super::driver::Driver;
 use asperity::explorer::action::Action;
+use asperity::explorer::app::App;
 use asperity::explorer::layout::Layout;
-use asperity::explorer::model::Model;
 use asperity::explorer::update::{Effect, update};
 use asperity::explorer::{Opening, view};
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
@@ -23,15 +23,15 @@ impl Driver {
 
     /// Performs an action and all its effects. Returns the effects of the action itself.
     pub fn act(&mut self, action: Action) -> Vec<Effect> {
-        let effects = update(&mut self.model, action);
+        let effects = update(&mut self.app, action);
         self.perform(effects.clone());
         effects
     }
 
     /// Runs a command of this name, and returns its effects, not performed.
     pub fn update(&mut self, name: &str) -> Vec<Effect> {
-        let command = self.model.bindings.named(name, self.model.keys()).expect("a valid command");
-        update(&mut self.model, Action::Command(command))
+        let command = self.app.config.bindings.named(name, self.app.keys()).expect("a valid command");
+        update(&mut self.app, Action::Command(command))
     }
 
     /// Presses keys, their names separated by blanks: `j`, `Ctrl+c`, `Enter`, `Shift+Left`. Returns the effects of the
@@ -40,7 +40,7 @@ impl Driver {
         let mut effects = Vec::new();
         for name in names.split_whitespace() {
             let event = key_event(name);
-            effects = match (self.model.bindings.command(&event, self.model.keys()), event.code) {
+            effects = match (self.app.config.bindings.command(&event, self.app.keys()), event.code) {
                 (Some(command), _) => self.act(Action::Command(command)),
                 (None, KeyCode::Char(character)) => self.act(Action::Type(character)),
                 (None, _) => Vec::new(),
@@ -63,19 +63,19 @@ impl Driver {
 
     /// Reason why the typed text was refused.
     pub fn refusal(&self) -> Option<&str> {
-        self.model.mode.prompt()?.refused.as_deref()
+        self.app.mode.prompt()?.refused.as_deref()
     }
 
     /// Selects the parameter of a field, by keys.
     pub fn select(&mut self, path: &str) {
         self.press("g");
-        for _ in 0..self.model.parameters.len() {
-            if self.model.parameter().is_some_and(|parameter| parameter.field.path == path) {
+        for _ in 0..self.app.edit.parameters.len() {
+            if self.app.parameter().is_some_and(|parameter| parameter.field.path == path) {
                 return;
             }
             self.press("j");
         }
-        panic!("no parameter {path}: {:?}", self.model.parameters);
+        panic!("no parameter {path}: {:?}", self.app.edit.parameters);
     }
 
     /// Advances the clock.
@@ -90,7 +90,7 @@ impl Driver {
 
     /// Present screen.
     pub fn screen(&self) -> Buffer {
-        draw(&self.model)
+        draw(&self.app)
     }
 
     /// The rows of the screen.
@@ -105,16 +105,16 @@ impl Driver {
 
     /// The row below the panes.
     pub fn status(&self) -> String {
-        let row = Layout::of(&self.model).status.y;
+        let row = Layout::of(&self.app).status.y;
         self.rows()[usize::from(row)].clone()
     }
 }
 
 /// Draws a model.
-pub fn draw(model: &Model) -> Buffer {
-    let (columns, rows) = model.size;
+pub fn draw(app: &App) -> Buffer {
+    let (columns, rows) = app.view.size;
     let mut terminal = Terminal::new(TestBackend::new(columns, rows)).unwrap();
-    terminal.draw(|frame| view::draw(frame, model)).unwrap();
+    terminal.draw(|frame| view::draw(frame, app)).unwrap();
     terminal.backend().buffer().clone()
 }
 

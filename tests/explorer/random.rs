@@ -21,7 +21,6 @@ use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::time::Duration;
 
 /// Sequences of events in a quick run.
@@ -161,7 +160,7 @@ impl Explorer {
     }
 
     fn act(&mut self, action: Action) {
-        for effect in update(&mut self.driver.model, action) {
+        for effect in update(&mut self.driver.app, action) {
             match effect {
                 // Of all waiting states, only the newest is computed.
                 Effect::Ask => {
@@ -211,9 +210,9 @@ impl Explorer {
 
     /// Presses a key that is valid in the present mode, by its number among them.
     fn press(&mut self, number: usize, times: usize) {
-        let bindings = Arc::clone(&self.driver.model.bindings);
+        let bindings = self.driver.app.config.bindings.clone();
         let row_keys = |row: &Binding| row.keys.iter().map(|key| row.command_of(key)).collect::<Vec<_>>();
-        let commands: Vec<_> = bindings.valid_in(self.driver.model.keys()).flat_map(row_keys).collect();
+        let commands: Vec<_> = bindings.valid_in(self.driver.app.keys()).flat_map(row_keys).collect();
         for _ in 0..times {
             self.act(Action::Command(commands[number % commands.len()]));
         }
@@ -221,8 +220,8 @@ impl Explorer {
 
     /// Runs a command, where it is valid in the present mode.
     fn command(&mut self, name: &str) {
-        let model = &self.driver.model;
-        if let Some(command) = model.bindings.named(name, model.keys()) {
+        let app = &self.driver.app;
+        if let Some(command) = app.config.bindings.named(name, app.keys()) {
             self.act(Action::Command(command));
         }
     }
@@ -236,8 +235,8 @@ impl Explorer {
             is_small && numerics.solver == Solver::Exact
         };
         let actions = match &effect {
-            Effect::Ask if !is_cheap(&self.driver.model.document) => {
-                let generation = self.driver.model.generation;
+            Effect::Ask if !is_cheap(&self.driver.app.edit.document) => {
+                let generation = self.driver.app.edit.generation;
                 vec![Action::Report(Report::Failed {
                     generation,
                     error: "too large for a test\nin two lines".to_owned(),
@@ -252,42 +251,42 @@ impl Explorer {
     /// Draws into a window of this size.
     fn draw(&self, (columns, rows): (u16, u16)) {
         let mut terminal = Terminal::new(TestBackend::new(columns, rows)).unwrap();
-        terminal.draw(|frame| view::draw(frame, &self.driver.model)).unwrap();
+        terminal.draw(|frame| view::draw(frame, &self.driver.app)).unwrap();
     }
 
     /// Checks conditions that always hold.
     fn judge(&mut self) {
-        let model = &self.driver.model;
-        assert!(model.generation >= self.judged, "generations only grow");
-        if model.generation > self.judged {
-            self.judged = model.generation;
-            let document = &model.document;
+        let app = &self.driver.app;
+        assert!(app.edit.generation >= self.judged, "generations only grow");
+        if app.edit.generation > self.judged {
+            self.judged = app.edit.generation;
+            let document = &app.edit.document;
             assert_eq!(check(document.scene()), []);
             let again = Document::parse(document.text(), document.name()).expect("the text is a scene");
             assert_eq!(again.scene(), document.scene());
-            assert_eq!(model.parameters, parameters(document));
-            assert!(model.refused.is_none(), "a changed scene is not refused");
+            assert_eq!(app.edit.parameters, parameters(document));
+            assert!(app.edit.refused.is_none(), "a changed scene is not refused");
         }
-        assert!(model.listed().contains(&model.selected), "the selected parameter is in no folded group");
-        assert!(model.refused.as_ref().is_none_or(|(row, _)| *row < model.parameters.len()));
-        assert!((0.0..=1.0).contains(&model.player.done), "{:?}", model.player);
-        assert!(model.indentation().is_finite());
-        if let Some(study) = model.chart.shown_study() {
+        assert!(app.listed().contains(&app.edit.selected), "the selected parameter is in no folded group");
+        assert!(app.edit.refused.as_ref().is_none_or(|(row, _)| *row < app.edit.parameters.len()));
+        assert!((0.0..=1.0).contains(&app.play.done), "{:?}", app.play);
+        assert!(app.indentation().is_finite());
+        if let Some(study) = app.chart.shown_study() {
             assert!(study.slice < study.study_map.slices());
         }
-        if let Some(grid) = model.chart.grid() {
-            let charted = model.chart.charted();
+        if let Some(grid) = app.chart.grid() {
+            let charted = app.chart.charted();
             let any = grid.quantities();
             assert!(any.contains(&charted) || any.is_empty() && charted == Quantity::Regime, "{charted:?}");
         }
-        if model.computed.as_ref().is_some_and(|computed| computed.generation == model.generation) {
-            assert!(model.player.leg < model.legs().len(), "{:?}", model.player);
-            assert!(!model.is_computing());
+        if app.solved.as_ref().is_some_and(|computed| computed.generation == app.edit.generation) {
+            assert!(app.play.leg < app.legs().len(), "{:?}", app.play);
+            assert!(!app.is_computing());
         }
-        if let Some(line) = self.driver.model.mode.line_mut() {
+        if let Some(line) = self.driver.app.mode.line_mut() {
             assert!(!line.text().contains(char::is_control));
         }
-        self.draw(self.driver.model.size);
+        self.draw(self.driver.app.view.size);
     }
 
     /// Lets the worker catch up: the explorer then shows the outcome of the scene, or an error.
@@ -295,15 +294,13 @@ impl Explorer {
         while !self.waiting.is_empty() {
             self.answer();
         }
-        let model = &self.driver.model;
-        assert!(!model.is_computing());
-        let current = |generation: u64| generation == model.generation;
-        if model.computed.as_ref().is_some_and(|computed| current(computed.generation)) {
-            assert!(model.snapshot.as_ref().is_some_and(|snapshot| current(snapshot.generation)));
+        let app = &self.driver.app;
+        assert!(!app.is_computing());
+        let current = |generation: u64| generation == app.edit.generation;
+        if app.solved.as_ref().is_some_and(|computed| current(computed.generation)) {
+            assert!(app.snapshot.as_ref().is_some_and(|snapshot| current(snapshot.generation)));
         } else {
-            assert!(
-                model.notice.is_some() || model.mode.kind() != asperity::explorer::model::ModeKind::Explore
-            );
+            assert!(app.message.is_some() || app.mode.kind() != asperity::explorer::app::ModeKind::Explore);
         }
     }
 }

@@ -30,7 +30,7 @@ mod typing;
 mod windows;
 
 use super::common::{self, driver::Driver, scenes::rough, script::rows};
-use asperity::explorer::model::Model;
+use asperity::explorer::app::App;
 use asperity::scene::{Document, open};
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::Modifier;
@@ -48,9 +48,9 @@ fn mid_retraction(document: Document) -> Driver {
     let mut driver = Driver::start(document);
     driver.press("Space >");
     driver.elapse(3.0);
-    assert_eq!((driver.model.player.leg, driver.model.player.playing), (1, false));
+    assert_eq!((driver.app.play.leg, driver.app.play.playing), (1, false));
     driver.press(".");
-    while driver.model.player.done < 0.5 {
+    while driver.app.play.done < 0.5 {
         driver.press(".");
     }
     driver
@@ -136,14 +136,14 @@ fn reversed(cells: &[Cell]) -> String {
 }
 
 fn generation(driver: &Driver) -> u64 {
-    driver.model.generation
+    driver.app.edit.generation
 }
 
 /// True if the outcome shown is that of the present scene.
-fn is_up_to_date(model: &Model) -> bool {
-    model.computed.as_ref().is_some_and(|computed| computed.generation == model.generation)
-        && model.snapshot.as_ref().is_some_and(|snapshot| snapshot.generation == model.generation)
-        && !model.is_computing()
+fn is_up_to_date(app: &App) -> bool {
+    app.solved.as_ref().is_some_and(|computed| computed.generation == app.edit.generation)
+        && app.snapshot.as_ref().is_some_and(|snapshot| snapshot.generation == app.edit.generation)
+        && !app.is_computing()
 }
 
 /// Compares the screens with the kept picture, beside those of the other tests.

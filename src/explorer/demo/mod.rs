@@ -7,8 +7,8 @@ pub use script::{Cue, ONE_SCENE, TOUR};
 pub use watch::play;
 
 use super::action::Action;
+use super::app::App;
 use super::mode::Mode;
-use super::model::Model;
 use super::runtime::{Runtime, Solver, Studies};
 use super::theme::Appearance;
 use super::update::Effect;
@@ -46,15 +46,15 @@ impl Demo {
         appearance: Appearance,
         frames_per_second: f64,
     ) -> Self {
-        let mut model = Model::new(document, size, appearance);
+        let mut app = App::new(document, size, appearance);
         // Times differ from run to run.
-        model.shows_times = false;
-        model.demo = Some("");
+        app.view.shows_times = false;
+        app.view.demo = Some("");
         let solver = Solver::inline(Box::new(Simulation::default()));
         let mut seeds = 1..;
         let draw_seed = Box::new(move || seeds.next().unwrap_or_default());
         let explorer =
-            Runtime { model, solver, studies: Studies::Demo, asked: 0, folder: PathBuf::new(), draw_seed };
+            Runtime { app, solver, studies: Studies::Demo, asked: 0, folder: PathBuf::new(), draw_seed };
         let mut demo = Demo {
             explorer,
             cues: script.iter().copied().collect(),
@@ -91,7 +91,7 @@ impl Demo {
             if let Some(character) = self.typing.pop_front() {
                 self.act(Action::Type(character));
                 self.pause = TYPING;
-            } else if let Mode::Prompt(prompt) = &self.explorer.model.mode {
+            } else if let Mode::Prompt(prompt) = &self.explorer.app.mode {
                 // A refused value stays in the editor.
                 let is_refused = prompt.refused.is_some();
                 self.command(if is_refused { "cancel" } else { "accept" });
@@ -108,8 +108,8 @@ impl Demo {
 
     /// The explorer.
     #[must_use]
-    pub fn model(&self) -> &Model {
-        &self.explorer.model
+    pub fn app(&self) -> &App {
+        &self.explorer.app
     }
 
     /// Resizes the window.
@@ -119,13 +119,13 @@ impl Demo {
 
     /// Shows a line in place of the keys.
     pub fn set_note(&mut self, note: &'static str) {
-        self.explorer.model.demo = Some(note);
+        self.explorer.app.view.demo = Some(note);
     }
 
     /// Plays for a time.
     fn play(&mut self, seconds: f64) {
         self.seconds += seconds;
-        if seconds > 0.0 && self.explorer.model.manual.is_none() {
+        if seconds > 0.0 && self.explorer.app.manual.is_none() {
             self.act(Action::Elapse(Duration::from_secs_f64(seconds)));
         }
     }
@@ -142,7 +142,7 @@ impl Demo {
             }
             Cue::Select(path) => {
                 self.command("select-end false");
-                let place = self.explorer.model.parameters.iter().position(|one| one.path == path);
+                let place = self.explorer.app.edit.parameters.iter().position(|one| one.path == path);
                 (0..place.unwrap_or(0)).for_each(|_| self.command("select 1"));
             }
             Cue::Enter(value) => {

@@ -27,7 +27,7 @@ pub fn play(demo: &mut Demo, frames_per_second: f64) -> io::Result<()> {
     let begun = Instant::now();
     let mut frames = 0;
     while demo.advance().is_some() {
-        terminal.draw(|area| view::draw(area, demo.model()))?;
+        terminal.draw(|area| view::draw(area, demo.app()))?;
         frames += 1;
         let due = begun + frame * frames;
         loop {

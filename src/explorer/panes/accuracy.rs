@@ -3,8 +3,8 @@
 use super::{Pane, PaneRow};
 use crate::accuracy::{CostTable, Estimate, Evidence, Knob};
 use crate::draw::{Chart, Figure, Ink, Layer, Shape, Sign, Span, legend};
+use crate::explorer::app::{App, Estimated};
 use crate::explorer::layout::inside;
-use crate::explorer::model::{Estimated, Model};
 use crate::explorer::study::{PaneData, Task};
 use crate::explorer::theme::{Appearance, Meaning};
 use crate::explorer::view::lines::{draw_around, draw_reason};
@@ -23,19 +23,19 @@ use std::sync::Arc;
 pub static ROW: PaneRow = PaneRow {
     title: |_| " Accuracy: error over time, log–log ".to_owned(),
     draw,
-    figure: |model| {
-        let table = model.appraisal.costs.table.as_deref()?;
-        let figure = work_precision(model.document.title(), table);
+    figure: |app| {
+        let table = app.studies.appraisal.costs.table.as_deref()?;
+        let figure = work_precision(app.edit.document.title(), table);
         Some(figure).filter(|figure| !figure.legend().is_empty())
     },
-    task: |model, computed| {
-        let costs = Some(model.appraisal.costs.clone()).filter(|costs| !costs.is_whole)?;
+    task: |app, computed| {
+        let costs = Some(app.studies.appraisal.costs.clone()).filter(|costs| !costs.is_whole)?;
         let data = PaneData::Costs(Arc::clone(&computed.scene), costs);
         Some(Task::Extend { data, waits: true })
     },
-    take_in: |model, data| {
+    take_in: |app, data| {
         if let PaneData::Costs(_, costs) = data {
-            model.appraisal.costs = costs;
+            app.studies.appraisal.costs = costs;
         }
     },
     help: &[(
@@ -56,41 +56,42 @@ const LOWEST: f64 = 1e-8;
 const FEWEST_PLOT_ROWS: u16 = 4;
 
 /// Draws plot, answers and stages, as far as there is room.
-fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
     let area = inside(area);
-    let table = model.appraisal.costs.table.as_deref();
+    let table = app.studies.appraisal.costs.table.as_deref();
     let figure = table.map(|table| work_precision("", table));
     let figure = figure.filter(|figure| !figure.legend().is_empty());
     let shown = table.zip(figure.as_ref());
-    let legend =
-        shown.map(|(table, figure)| entries(table, figure, area.width, model.appearance)).unwrap_or_default();
-    let below = texts(model, shown.map(|(table, _)| table), area);
+    let legend = shown
+        .map(|(table, figure)| entries(table, figure, area.width, app.view.appearance))
+        .unwrap_or_default();
+    let below = texts(app, shown.map(|(table, _)| table), area);
     let plot_rows = if shown.is_none() { 1 } else { FEWEST_PLOT_ROWS + 1 };
     let plot = draw_around(frame, area, (legend, below), plot_rows);
     match shown {
         Some((table, figure)) => {
             for chart in &figure.charts {
-                let chart = with_scene(chart.clone(), model, table);
-                plot::draw_chart(frame, plot, &chart, model.appearance);
+                let chart = with_scene(chart.clone(), app, table);
+                plot::draw_chart(frame, plot, &chart, app.view.appearance);
             }
         }
-        None => draw_reason(frame, plot, &nothing_yet(model), model.appearance.theme),
+        None => draw_reason(frame, plot, &nothing_yet(app), app.view.appearance.theme),
     }
 }
 
 /// Reason why there is no plot.
-fn nothing_yet(model: &Model) -> String {
-    let costs = &model.appraisal.costs;
-    if model.is_computing() {
+fn nothing_yet(app: &App) -> String {
+    let costs = &app.studies.appraisal.costs;
+    if app.is_computing() {
         return "first the scene itself…".to_owned();
     }
-    match (model.failures.get(&Pane::Accuracy), costs.is_whole) {
-        _ if !model.is_current() => "the scene has no curve to estimate an error of".to_owned(),
+    match (app.studies.failures.get(&Pane::Accuracy), costs.is_whole) {
+        _ if !app.is_current() => "the scene has no curve to estimate an error of".to_owned(),
         (Some(why), _) => format!("nothing is measured: {why}"),
         (None, true) => {
             "nothing to show: no force in this scene whose error depends on springs or steps".to_owned()
         }
-        (None, _) if !model.shows_times => {
+        (None, _) if !app.view.shows_times => {
             "times are not measured here: they differ from run to run".to_owned()
         }
         (None, _) => "measuring: each knob from coarse to fine, as often as 10 s allow…".to_owned(),
@@ -98,7 +99,7 @@ fn nothing_yet(model: &Model) -> String {
 }
 
 /// The chart with the target errors and the scene itself, down to errors of interest.
-fn with_scene(mut chart: Chart, model: &Model, table: &CostTable) -> Chart {
+fn with_scene(mut chart: Chart, app: &App, table: &CostTable) -> Chart {
     let Span { low, high } = chart.y.span;
     chart.y.span = Span { low: low.max(LOWEST.log10()).min(high - 1.0), high };
     let lowest = 10_f64.powf(chart.y.span.low);
@@ -109,7 +110,7 @@ fn with_scene(mut chart: Chart, model: &Model, table: &CostTable) -> Chart {
     }
     let targets = TARGETS.map(|target| Layer::unnamed(Ink::Quiet, Shape::Level(target)));
     chart.layers.splice(0..0, targets);
-    if let Some((seconds, error)) = present(&model.document.scene().numerics, table) {
+    if let Some((seconds, error)) = present(&app.edit.document.scene().numerics, table) {
         let points = vec![(seconds, error.max(lowest))];
         let shape = Shape::signs(points, Sign::Diamond);
         chart.layers.push(Layer::unnamed(Ink::Cursor, shape));
@@ -163,34 +164,34 @@ fn entries(table: &CostTable, figure: &Figure, width: u16, appearance: Appearanc
 }
 
 /// Lines below the plot, the most important first.
-fn texts(model: &Model, table: Option<&CostTable>, area: Rect) -> Vec<Line<'static>> {
-    let theme = model.appearance.theme;
+fn texts(app: &App, table: Option<&CostTable>, area: Rect) -> Vec<Line<'static>> {
+    let theme = app.view.appearance.theme;
     let mut lines = Vec::new();
     let mut say = |line: Line<'static>| lines.extend(wrapped(&line, area.width));
-    if model.is_current() {
-        say(now(model, table));
+    if app.is_current() {
+        say(now(app, table));
     }
     if let Some(table) = table {
         for bound in TARGETS {
             let percent = format!("{} %", 100.0 * bound);
-            if let Some(answer) = answer(table, bound, model.appraisal.costs.is_whole) {
+            if let Some(answer) = answer(table, bound, app.studies.appraisal.costs.is_whole) {
                 let percent = Text::styled(format!("{percent}: "), theme.style(Meaning::Title));
                 say(Line::from(vec![percent, Text::raw(answer)]));
             }
         }
     }
-    if let Some((tolerance, trying)) = model.appraisal.choosing {
+    if let Some((tolerance, trying)) = app.studies.appraisal.choosing {
         let trying = trying.map_or_else(String::new, |points| format!(", {} springs", grouped(points)));
         say(Line::styled(format!("trying for {tolerance:e}{trying}…"), theme.style(Meaning::Key)));
     }
-    if let Some(trying) = &model.appraisal.costs.trying {
+    if let Some(trying) = &app.studies.appraisal.costs.trying {
         say(Line::styled(format!("trying {trying}…"), theme.style(Meaning::Key)));
     }
-    if let Some(answer) = &model.appraisal.answer {
+    if let Some(answer) = &app.studies.appraisal.answer {
         say(Line::raw(answer.clone()));
     }
     let rows = if area.height >= 12 { 2 } else { 1 };
-    lines.extend(stages::strip(model, area.width, rows));
+    lines.extend(stages::strip(app, area.width, rows));
     if let Some(table) = table.filter(|_| area.height >= 24) {
         let from = if table.reference.closed_form {
             "Errors of F_a are counted from its closed form".to_owned()
@@ -207,17 +208,17 @@ fn texts(model: &Model, table: Option<&CostTable>, area: Rect) -> Vec<Line<'stat
 }
 
 /// The setting of the scene, and its error.
-fn now(model: &Model, table: Option<&CostTable>) -> Line<'static> {
-    let theme = model.appearance.theme;
-    let numerics = model.document.scene().numerics;
+fn now(app: &App, table: Option<&CostTable>) -> Line<'static> {
+    let theme = app.view.appearance.theme;
+    let numerics = app.edit.document.scene().numerics;
     let springs = grouped(numerics.points);
     let setting = match setting_of(&numerics) {
         (Knob::Step, step) => format!("{springs} springs, step {}", format_quantity(step, "m")),
         (Knob::GridSprings, _) => format!("{springs} springs, edges Grid"),
         _ => format!("{springs} springs, edges SubCell"),
     };
-    let error = match &model.appraisal.estimated {
-        Estimated::Waiting if model.shows_times => ", error …".to_owned(),
+    let error = match &app.studies.appraisal.estimated {
+        Estimated::Waiting if app.view.shows_times => ", error …".to_owned(),
         Estimated::Waiting => String::new(),
         Estimated::Known(Estimate { near_step: true, .. }) => ", near a step of F_a(F_n)".to_owned(),
         Estimated::Known(Estimate { error, evidence, .. }) => {
@@ -233,7 +234,7 @@ fn now(model: &Model, table: Option<&CostTable>) -> Line<'static> {
         Estimated::Unknown => ", error unknown".to_owned(),
     };
     let absent = table.is_some_and(|table| {
-        model.appraisal.costs.is_whole && !table.rows.is_empty() && present(&numerics, table).is_none()
+        app.studies.appraisal.costs.is_whole && !table.rows.is_empty() && present(&numerics, table).is_none()
     });
     let absent = if absent { "; not among those tried" } else { "" };
     Line::from(vec![

@@ -3,9 +3,9 @@
 use super::curves::draw_chart;
 use super::{PaneRow, chart_words as words};
 use crate::draw::{CellPlot, Chart, Figure, Ink, Layer, Shape, Sign};
+use crate::explorer::app::App;
 use crate::explorer::layout::inside;
 use crate::explorer::mode::ModeKind;
-use crate::explorer::model::Model;
 use crate::explorer::study::{PaneData, Task};
 use crate::explorer::theme::{Meaning, Theme};
 use crate::explorer::update::{self, Effect, scene_of};
@@ -22,24 +22,25 @@ use ratatui::widgets::Paragraph;
 pub static ROW: PaneRow = PaneRow {
     title: words::title,
     draw,
-    figure: |model| model.chart.grid().map(|grid| figure(model, grid)),
+    figure: |app| app.chart.grid().map(|grid| figure(app, grid)),
     keys: Some(ModeKind::Chart),
-    press: |model, area, here| {
-        model.chart.moving = false;
-        put(model, area, here)
+    press: |app, area, here| {
+        app.chart.moving = false;
+        put(app, area, here)
     },
-    drag: |model, area, here| if model.chart.moving { put(model, area, here) } else { Vec::new() },
-    task: |model, computed| {
-        let map = model.chart.wanted(&computed.scene).ok().flatten();
-        let is_live = model.chart.shown_study().is_none();
-        map.filter(|_| is_live).map(|map| Task::Extend { data: PaneData::Map(map), waits: model.edited })
+    drag: |app, area, here| if app.chart.moving { put(app, area, here) } else { Vec::new() },
+    task: |app, computed| {
+        let map = app.chart.wanted(&computed.scene).ok().flatten();
+        let is_live = app.chart.shown_study().is_none();
+        map.filter(|_| is_live)
+            .map(|map| Task::Extend { data: PaneData::Map(map), waits: app.studies.edited })
     },
-    take_in: |model, data| {
+    take_in: |app, data| {
         if let PaneData::Map(map) = data {
-            model.chart.take_in(map);
+            app.chart.take_in(map);
         }
     },
-    renew: |model| model.chart.renew(&scene_of(&model.document)),
+    renew: |app| app.chart.renew(&scene_of(&app.edit.document)),
     help: &[
         (
             "Map",
@@ -72,10 +73,10 @@ fn chart(grid: &Grid, charted: Quantity) -> Option<Chart> {
 }
 
 /// Curves over the only axis of a map, with the mark of the scene.
-fn curves(model: &Model, grid: &Grid) -> Vec<Chart> {
-    let quantities = words::shown_quantities(model.chart.charted(), grid);
+fn curves(app: &App, grid: &Grid) -> Vec<Chart> {
+    let quantities = words::shown_quantities(app.chart.charted(), grid);
     let curves = quantities.into_iter().filter(|quantity| *quantity != Quantity::Regime);
-    let mark = model.place().map(|(across, _)| across);
+    let mark = app.place().map(|(across, _)| across);
     let chart = |quantity| {
         let mut chart = Chart { inset: None, ..study_curves(grid, quantity) };
         if let Some(mark) = mark {
@@ -90,16 +91,16 @@ fn curves(model: &Model, grid: &Grid) -> Vec<Chart> {
 
 /// Figure of the pane: the map, with the quantities behind the regimes while these are mapped, or curves over the only
 /// axis.
-fn figure(model: &Model, grid: &Grid) -> Figure {
+fn figure(app: &App, grid: &Grid) -> Figure {
     let charts = match grid.up {
-        None => curves(model, grid),
+        None => curves(app, grid),
         Some(_) => {
-            let shown = words::shown_quantities(model.chart.charted(), grid).into_iter();
+            let shown = words::shown_quantities(app.chart.charted(), grid).into_iter();
             shown.filter_map(|quantity| study_map(grid, quantity, false)).collect()
         }
     };
-    let study = model.chart.shown_study();
-    let title = study.map_or(&model.document.scene().title, |study| &study.study_map.plan().title);
+    let study = app.chart.shown_study();
+    let title = study.map_or(&app.edit.document.scene().title, |study| &study.study_map.plan().title);
     let fixed = study.map_or_else(Vec::new, |study| study.study_map.fixed_values(study.slice));
     study_figure(title, &fixed, charts)
 }
@@ -112,10 +113,10 @@ struct Parts {
     below: Vec<Line<'static>>,
 }
 
-fn parts(model: &Model, grid: &Grid, area: Rect) -> Option<Parts> {
-    let chart = chart(grid, model.chart.charted())?;
-    let mut legend = words::legend(model, &chart, area.width);
-    let mut below = words::below(model, area);
+fn parts(app: &App, grid: &Grid, area: Rect) -> Option<Parts> {
+    let chart = chart(grid, app.chart.charted())?;
+    let mut legend = words::legend(app, &chart, area.width);
+    let mut below = words::below(app, area);
     // The map comes first, then the values at the mark, then the legend.
     let room = usize::from(area.height.saturating_sub(FEWEST_ROWS + 1));
     below.truncate(room.min(usize::from(area.height / 3)));
@@ -126,45 +127,45 @@ fn parts(model: &Model, grid: &Grid, area: Rect) -> Option<Parts> {
 }
 
 /// Puts the mark under the mouse.
-fn put(model: &mut Model, area: Rect, here: Position) -> Vec<Effect> {
-    match place_at(model, area, here) {
-        Some(place) => update::chart::move_to(model, place),
+fn put(app: &mut App, area: Rect, here: Position) -> Vec<Effect> {
+    match place_at(app, area, here) {
+        Some(place) => update::chart::move_to(app, place),
         None => vec![Effect::Ask],
     }
 }
 
 /// Place on the map under a place on the screen.
-fn place_at(model: &Model, area: Rect, here: Position) -> Option<Place> {
-    let Parts { chart, plot, .. } = parts(model, model.chart.grid()?, area)?;
+fn place_at(app: &App, area: Rect, here: Position) -> Option<Place> {
+    let Parts { chart, plot, .. } = parts(app, app.chart.grid()?, area)?;
     let (across, up) = plot.values_at(chart.map()?, here.into())?;
     Some((across, Some(up)))
 }
 
 /// Draws legend, map, and the values at the mark, as far as there is room.
-fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
     let area = inside(area);
-    let theme = model.appearance.theme;
-    let Some(grid) = model.chart.grid() else {
-        return draw_reason(frame, area, &words::nothing_yet(model), theme);
+    let theme = app.view.appearance.theme;
+    let Some(grid) = app.chart.grid() else {
+        return draw_reason(frame, area, &words::nothing_yet(app), theme);
     };
     if grid.up.is_none() {
-        let mut charts = curves(model, grid);
-        let mut rest = draw_around(frame, area, (Vec::new(), words::below(model, area)), FEWEST_ROWS);
+        let mut charts = curves(app, grid);
+        let mut rest = draw_around(frame, area, (Vec::new(), words::below(app, area)), FEWEST_ROWS);
         if rest.height < 2 * FEWEST_ROWS_OF_CURVES {
             charts.truncate(1);
         }
         for (number, chart) in charts.iter().enumerate() {
             let height = rest.height.div_ceil((charts.len() - number) as u16);
-            draw_chart(frame, Rect { height, ..rest }, model, chart);
+            draw_chart(frame, Rect { height, ..rest }, app, chart);
             rest = Rect { y: rest.y + height, height: rest.height - height, ..rest };
         }
         return;
     }
-    let Some(Parts { chart, legend, plot, below }) = parts(model, grid, area) else { return };
+    let Some(Parts { chart, legend, plot, below }) = parts(app, grid, area) else { return };
     draw_around(frame, area, (legend, below), 0);
-    plot::in_theme(model.appearance, |style| plot.draw(frame.buffer_mut(), &chart, style));
-    if let Some((across, Some(up))) = model.place() {
-        let marker = model.appearance.marker.symbols();
+    plot::in_theme(app.view.appearance, |style| plot.draw(frame.buffer_mut(), &chart, style));
+    if let Some((across, Some(up))) = app.place() {
+        let marker = app.view.appearance.marker.symbols();
         if let Some(cell) = plot.cell(&chart, marker, (across, up)) {
             mark(frame, area, plot.plot, cell, theme);
         }

@@ -3,7 +3,7 @@
 use super::Pane;
 use crate::analysis::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
 use crate::draw::{Chart, Colours, SHADES, key, legend as entries};
-use crate::explorer::model::{Model, OpenStudy};
+use crate::explorer::app::{App, OpenStudy};
 use crate::explorer::theme::Meaning;
 use crate::explorer::view::plot;
 use crate::explorer::view::wrap::{filled, wrapped};
@@ -18,15 +18,15 @@ use ratatui::text::{Line, Span as Text};
 const ROOMY: u16 = 24;
 
 /// Title of the pane: the mapped quantity, the axes, and the number of profiles of the mean.
-pub fn title(model: &Model) -> String {
-    let template = Template::of(model.document.scene());
-    let Some((across, up)) = model.chart.axes(model.document.scene()) else { return " Map ".to_owned() };
+pub fn title(app: &App) -> String {
+    let template = Template::of(app.edit.document.scene());
+    let Some((across, up)) = app.chart.axes(app.edit.document.scene()) else { return " Map ".to_owned() };
     let axes: Vec<&str> =
         [Some(&across), up.as_ref()].into_iter().flatten().map(Axis::symbol_or_name).collect();
     let over = axes.join(", ");
-    let charted = model.chart.grid().map(|grid| name_of(grid, model.chart.charted()));
+    let charted = app.chart.grid().map(|grid| name_of(grid, app.chart.charted()));
     let quantity = charted.unwrap_or_else(|| "regime".to_owned());
-    let study = model.chart.shown_study().map(|study| (&study.study_map, study.study_map.plan().lines));
+    let study = app.chart.shown_study().map(|study| (&study.study_map, study.study_map.plan().lines));
     match (study, template) {
         (Some((study_map, count)), _) => {
             format!(" Study {}: {quantity} over {over}, {} ", study_map.name(), profiles(count))
@@ -41,17 +41,17 @@ fn profiles(count: u64) -> String {
 }
 
 /// Reason why there is no map.
-pub fn nothing_yet(model: &Model) -> String {
-    if let Err(why) = Template::of(model.document.scene()) {
+pub fn nothing_yet(app: &App) -> String {
+    if let Err(why) = Template::of(app.edit.document.scene()) {
         return why.to_string();
     }
-    if let Some(why) = model.failures.get(&Pane::Chart) {
+    if let Some(why) = app.studies.failures.get(&Pane::Chart) {
         return format!("no map: {why}");
     }
-    match (model.is_computing(), model.is_current()) {
+    match (app.is_computing(), app.is_current()) {
         (true, _) => "first the scene itself…".to_owned(),
         (false, false) => "the scene cannot be computed, so there is no map around it".to_owned(),
-        _ if !model.shows_times => "a map of so many springs is not computed here".to_owned(),
+        _ if !app.view.shows_times => "a map of so many springs is not computed here".to_owned(),
         _ => "computing the map, from coarse to fine…".to_owned(),
     }
 }
@@ -64,18 +64,18 @@ fn name_of(grid: &Grid, quantity: Quantity) -> String {
 }
 
 /// Axes, shades and their values, classes, and the slice of a study.
-pub fn legend(model: &Model, chart: &Chart, width: u16) -> Vec<Line<'static>> {
-    let theme = model.appearance.theme;
+pub fn legend(app: &App, chart: &Chart, width: u16) -> Vec<Line<'static>> {
+    let theme = app.view.appearance.theme;
     let width = usize::from(width);
-    let (Some(grid), Some(map)) = (model.chart.grid(), chart.map()) else { return Vec::new() };
+    let (Some(grid), Some(map)) = (app.chart.grid(), chart.map()) else { return Vec::new() };
     let up = format!("↑ {}", chart.y.label_with_unit());
     let mut parts = vec![vec![Text::styled(up, theme.style(Meaning::Title))]];
-    match model.chart.charted() {
+    match app.chart.charted() {
         Quantity::Regime => {
             // From the densest: the regimes, and cells whose profiles are in one and the next.
             for (class, shade) in map.class_names.iter().zip(SHADES.iter().rev().step_by(2)) {
                 let shade =
-                    Text::styled(*shade, plot::in_theme(model.appearance, |style| (style.ink)(class.ink)));
+                    Text::styled(*shade, plot::in_theme(app.view.appearance, |style| (style.ink)(class.ink)));
                 parts.push(vec![shade, Text::raw(format!(" {}", class.name))]);
             }
             if grid.is_split() {
@@ -88,19 +88,19 @@ pub fn legend(model: &Model, chart: &Chart, width: u16) -> Vec<Line<'static>> {
             parts.push(
                 std::iter::once(name).chain(scale.into_iter().map(|(text, _)| Text::raw(text))).collect(),
             );
-            parts.extend(plot::in_theme(model.appearance, |style| {
+            parts.extend(plot::in_theme(app.view.appearance, |style| {
                 entries(std::slice::from_ref(chart), style)
             }));
         }
     }
-    let mut lines = model.chart.shown_study().map_or_else(Vec::new, |study| slice(model, study, width));
+    let mut lines = app.chart.shown_study().map_or_else(Vec::new, |study| slice(app, study, width));
     lines.extend(filled(parts, "  ", width));
     lines
 }
 
 /// Slice of a study with several maps.
-fn slice(model: &Model, study: &OpenStudy, width: usize) -> Vec<Line<'static>> {
-    let (theme, slices) = (model.appearance.theme, study.study_map.slices());
+fn slice(app: &App, study: &OpenStudy, width: usize) -> Vec<Line<'static>> {
+    let (theme, slices) = (app.view.appearance.theme, study.study_map.slices());
     if slices == 1 {
         // Axes of one value.
         let at = study.study_map.fixed_values(0).into_iter();
@@ -132,23 +132,23 @@ fn on_axes(grid: &Grid, (across, up): Place) -> String {
 }
 
 /// Lines below the map, the most important first.
-pub fn below(model: &Model, area: Rect) -> Vec<Line<'static>> {
-    let Some(grid) = model.chart.grid() else { return Vec::new() };
-    let theme = model.appearance.theme;
+pub fn below(app: &App, area: Rect) -> Vec<Line<'static>> {
+    let Some(grid) = app.chart.grid() else { return Vec::new() };
+    let theme = app.view.appearance.theme;
     let mut lines = Vec::new();
     let mut say = |line: Line<'static>| lines.extend(wrapped(&line, area.width));
-    let study = model.chart.shown_study();
-    match model.place() {
+    let study = app.chart.shown_study();
+    match app.place() {
         Some(place) => {
-            say(here(model, grid, place));
+            say(here(app, grid, place));
             if let Some((cell, column, row)) = grid.nearest(place) {
-                say(Line::raw(there(model, grid, place, (cell, column, row))));
+                say(Line::raw(there(app, grid, place, (cell, column, row))));
             } else if study.is_some() {
                 say(Line::raw("the study was merged without this cell"));
             }
         }
         None if study.is_some() => {
-            let why = Template::of(model.document.scene()).err();
+            let why = Template::of(app.edit.document.scene()).err();
             let no_mark = "no mark: the scene lacks a quantity of the axes".to_owned();
             let why = why.map_or(no_mark, |why| why.to_string().replacen("no map", "no mark", 1));
             say(Line::styled(why, theme.style(Meaning::Quiet)));
@@ -156,26 +156,26 @@ pub fn below(model: &Model, area: Rect) -> Vec<Line<'static>> {
         None => {}
     }
     match study {
-        Some(study) if !study.study_map.is_of(study.slice, model.document.scene()) => say(Line::styled(
+        Some(study) if !study.study_map.is_of(study.slice, app.edit.document.scene()) => say(Line::styled(
             "the scene is no longer that of the study: more differs than the quantities of the axes",
             theme.style(Meaning::Key),
         )),
         Some(_) => {}
-        None => computed_so_far(model, &mut say),
+        None => computed_so_far(app, &mut say),
     }
     if area.height >= ROOMY {
-        let note = study.map_or_else(|| note_of_computed(model), |study| note_of_study(study, grid));
+        let note = study.map_or_else(|| note_of_computed(app), |study| note_of_study(study, grid));
         lines.extend(wrapped(&Line::styled(note, theme.style(Meaning::Quiet)), area.width));
     }
     lines
 }
 
 /// Progress of the live map.
-fn computed_so_far(model: &Model, say: &mut impl FnMut(Line<'static>)) {
-    let Some(map) = &model.chart.map else { return };
-    let theme = model.appearance.theme;
+fn computed_so_far(app: &App, say: &mut impl FnMut(Line<'static>)) {
+    let Some(map) = &app.chart.map else { return };
+    let theme = app.view.appearance.theme;
     let sides = |level: Level| format!("{} × {} cells", level.columns().count(), map.rows_of(level).len());
-    match (map.level(), model.failures.get(&Pane::Chart)) {
+    match (map.level(), app.studies.failures.get(&Pane::Chart)) {
         (_, Some(why)) => say(Line::styled(format!("the map ends here: {why}"), theme.style(Meaning::Error))),
         (Some(_), None) if LiveMap::is_whole(map) => {}
         (Some(level), None) => {
@@ -185,14 +185,14 @@ fn computed_so_far(model: &Model, say: &mut impl FnMut(Line<'static>)) {
     }
 }
 
-fn note_of_computed(model: &Model) -> String {
-    let cells = Template::of(model.document.scene()).map_or_else(
+fn note_of_computed(app: &App) -> String {
+    let cells = Template::of(app.edit.document.scene()).map_or_else(
         |_| String::new(),
         |template| {
             format!("Each cell: {} of {} springs. ", profiles(template.lines()), grouped(template.springs()))
         },
     );
-    let parameter = match model.chart.parameter() {
+    let parameter = match app.chart.parameter() {
         RoughnessParameter::Kappa => {
             "κ ≈ 0.6 is the boundary of eq. (15) in the paper: with smaller κ bodies adhere without a preload, with larger κ \
              only once pressed."
@@ -228,13 +228,13 @@ fn note_of_study(study: &OpenStudy, grid: &Grid) -> String {
 }
 
 /// The scene itself.
-fn here(model: &Model, grid: &Grid, place: Place) -> Line<'static> {
+fn here(app: &App, grid: &Grid, place: Place) -> Line<'static> {
     let outside = if grid.contains(place) { "" } else { ", outside the map" };
-    let regime = model.current();
+    let regime = app.current();
     let regime = regime.and_then(|computed| computed.outcome.regime);
     let regime = regime.map_or_else(String::new, |regime| format!(": {}", regime.name()));
     Line::from(vec![
-        Text::styled("◆ ", model.appearance.theme.style(Meaning::Cursor)),
+        Text::styled("◆ ", app.view.appearance.theme.style(Meaning::Cursor)),
         Text::raw(format!("{}{outside}{regime}", on_axes(grid, place))),
     ])
 }
@@ -254,12 +254,12 @@ pub fn shown_quantities(charted: Quantity, grid: &Grid) -> Vec<Quantity> {
 
 /// Values of the map at a cell, with its place unless the cell is at the mark.
 fn there(
-    model: &Model,
+    app: &App,
     grid: &Grid,
     mark: Place,
     (cell, column, row): (&Result<Cell, String>, usize, usize),
 ) -> String {
-    let whose = if model.chart.shown_study().is_some() { "study" } else { "map" };
+    let whose = if app.chart.shown_study().is_some() { "study" } else { "map" };
     let place = (grid.across.values[column], grid.up.as_ref().map(|up| up.values[row]));
     let (at, marked) = (on_axes(grid, place), on_axes(grid, mark));
     let at = if at == marked { whose.to_owned() } else { format!("{whose} at {at}") };
@@ -274,7 +274,7 @@ fn there(
     };
     let regime = cell.regime.map(|cell| format!("{}{agree}", cell.regime.name()));
     // Quantities of the regime are shown together, so that the map keeps its place.
-    let charted = model.chart.charted();
+    let charted = app.chart.charted();
     let charted = if WITH_REGIME.contains(&charted) { Quantity::Regime } else { charted };
     let shown = shown_quantities(charted, grid);
     let known = grid.layers.iter().zip(&cell.estimates).filter(|(layer, _)| shown.contains(&layer.quantity));

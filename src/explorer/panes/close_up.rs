@@ -4,9 +4,9 @@
 use super::position::zoom_at;
 use super::{PaneRow, Place, section};
 use crate::draw::{CellPlot, Chart, Ink, Layer, Shape, Sign, Span};
+use crate::explorer::app::App;
 use crate::explorer::layout::inside;
 use crate::explorer::mode::ModeKind;
-use crate::explorer::model::Model;
 use crate::explorer::snapshot::{ContactSnapshot, FragmentFacts, Section};
 use crate::explorer::theme::{Meaning, Theme};
 use crate::explorer::view::lines::draw_lines;
@@ -22,10 +22,10 @@ pub static ROW: PaneRow = PaneRow {
     place: Place::CloseUp,
     title,
     draw,
-    figure: |model| {
-        let snapshot = model.snapshot.as_deref()?;
+    figure: |app| {
+        let snapshot = app.snapshot.as_deref()?;
         let shown = &snapshot.close_up.section;
-        let mut figure = section::figure(model.document.title(), shown, snapshot, heights(shown));
+        let mut figure = section::figure(app.edit.document.title(), shown, snapshot, heights(shown));
         let ends = Shape::signs(patch_ends(snapshot).collect(), Sign::Ring);
         figure.charts[0].layers.push(Layer::new("patch end".into(), Ink::Contact, ends));
         Some(figure)
@@ -42,8 +42,8 @@ pub static ROW: PaneRow = PaneRow {
 };
 
 /// Title of the pane.
-fn title(model: &Model) -> String {
-    let Some(snapshot) = model.snapshot.as_ref() else { return " Fragments ".to_owned() };
+fn title(app: &App) -> String {
+    let Some(snapshot) = app.snapshot.as_ref() else { return " Fragments ".to_owned() };
     let shown = &snapshot.close_up.section;
     let from = (snapshot.line.first + shown.first) as f64 * snapshot.line.spacing;
     let width = shown.springs as f64 * snapshot.line.spacing;
@@ -52,39 +52,39 @@ fn title(model: &Model) -> String {
 }
 
 /// Names of the lines and signs, for the lower edge of the frame.
-fn names(model: &Model, area: Rect) -> Option<Line<'static>> {
-    let snapshot = model.snapshot.as_ref()?;
+fn names(app: &App, area: Rect) -> Option<Line<'static>> {
+    let snapshot = app.snapshot.as_ref()?;
     let shown = &snapshot.close_up.section;
     let chart = section::chart(shown, snapshot.line, heights(shown));
-    let ring = Text::styled("○", model.appearance.theme.style(Meaning::Contact));
+    let ring = Text::styled("○", app.view.appearance.theme.style(Meaning::Contact));
     let ring = vec![ring, Text::raw(" patch end")];
-    Some(section::names(snapshot, &chart, [ring], model.appearance, area.width))
+    Some(section::names(snapshot, &chart, [ring], app.view.appearance, area.width))
 }
 
 /// The section in the close-up, with its chart and place.
-fn section_at(model: &Model, area: Rect) -> Option<(&Section, Chart, CellPlot)> {
-    let snapshot = model.snapshot.as_deref()?;
+fn section_at(app: &App, area: Rect) -> Option<(&Section, Chart, CellPlot)> {
+    let snapshot = app.snapshot.as_deref()?;
     let (chart, place) = placed(snapshot, area);
     Some((&snapshot.close_up.section, chart, place))
 }
 
 /// Draws the close-up and the values of its fragment.
-fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
     let area = inside(area);
-    let Some(snapshot) = model.snapshot.as_ref() else { return };
-    let theme = model.appearance.theme;
+    let Some(snapshot) = app.snapshot.as_ref() else { return };
+    let theme = app.view.appearance.theme;
     let close_up = &snapshot.close_up;
     let section = &close_up.section;
     let (strip_rows, text_rows) = rows_below(area);
     let (chart, place) = placed(snapshot, area);
-    plot::in_theme(model.appearance, |style| place.draw(frame.buffer_mut(), &chart, style));
+    plot::in_theme(app.view.appearance, |style| place.draw(frame.buffer_mut(), &chart, style));
     for at in patch_ends(snapshot) {
-        if let Some(cell) = place.cell(&chart, model.appearance.marker.symbols(), at) {
+        if let Some(cell) = place.cell(&chart, app.view.appearance.marker.symbols(), at) {
             frame.buffer_mut()[cell].set_symbol("○").set_style(theme.style(Meaning::Contact));
         }
     }
     if strip_rows > 0 {
-        let springs = model.computed.as_ref().map_or(1, |computed| computed.outcome.history.work.springs);
+        let springs = app.solved.as_ref().map_or(1, |computed| computed.outcome.history.work.springs);
         let line = strip(&snapshot.strip, section, springs as usize, theme);
         frame.render_widget(
             Paragraph::new(line),

@@ -3,13 +3,11 @@
 use super::{PaneRow, Place};
 use crate::analysis::{LEAST_TABOR_NUMBER, Mark, marks};
 use crate::contact::{CurvePoint, Direction, LegRecord};
-use crate::draw::{
-    Axis, AxisScale, CellPlot, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, glyph, legend,
-};
+use crate::draw::{CellPlot, Chart, Figure, Ink, Label, Layer, Shape, Sign, Stroke, glyph, legend};
+use crate::explorer::app::{App, Ghost};
 use crate::explorer::caption::caption;
 use crate::explorer::layout::inside;
 use crate::explorer::mode::ModeKind;
-use crate::explorer::model::{Ghost, Model, Quantities};
 use crate::explorer::request::ManualMove;
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::theme::{Meaning, Theme};
@@ -17,7 +15,7 @@ use crate::explorer::update::{Effect, movement};
 use crate::explorer::view::lines::{draw_lines, draw_reason};
 use crate::explorer::view::plot;
 use crate::explorer::view::wrap::fitting;
-use crate::export::{mark_name, sign};
+use crate::export::{ForceLoop, LoopQuantities, LoopUnits, loop_chart, sign};
 use crate::scene::format_rounded;
 use ratatui::Frame;
 use ratatui::layout::{Position, Rect};
@@ -42,20 +40,20 @@ pub static ROW: PaneRow = PaneRow {
 };
 
 /// Title of the pane.
-fn title(model: &Model) -> String {
-    let units = model.computed.as_ref().map(|computed| Units::of(model, computed));
-    let name = match units.filter(Units::is_normalised) {
-        Some(units) => units.title(),
-        None => match model.curve.quantities {
-            Quantities::ForceIndentation => "Force F(d)".to_owned(),
-            Quantities::LengthForce => "Contact length l(F)".to_owned(),
-            Quantities::FragmentsIndentation => "Fragments n(d)".to_owned(),
-        },
+fn title(app: &App) -> String {
+    let name = match app.view.curve.quantities {
+        LoopQuantities::ForceIndentation => "Force",
+        LoopQuantities::LengthForce => "Contact length",
+        LoopQuantities::FragmentsIndentation => "Fragments",
     };
-    let loss = if model.curve.loss && model.curve.quantities == Quantities::ForceIndentation {
-        match model.computed.as_ref().and_then(|computed| computed.outcome.figures.dissipated_energy) {
+    // Not every scene has an h or an F_a,max.
+    let (x, y) = units(app).symbols();
+    let is_normalised = [&x, &y].iter().any(|symbol| symbol.contains('/'));
+    let name = if is_normalised { format!("{name} {y} over {x}") } else { format!("{name} {y}({x})") };
+    let loss = if app.view.curve.loss && app.view.curve.quantities == LoopQuantities::ForceIndentation {
+        match app.solved.as_ref().and_then(|computed| computed.outcome.figures.dissipated_energy) {
             Some(energy) => {
-                let number = model.computed.as_ref().and_then(|computed| computed.outcome.tabor_number);
+                let number = app.solved.as_ref().and_then(|computed| computed.outcome.tabor_number);
                 let number = number.map_or_else(String::new, |number| {
                     let low = if number < LEAST_TABOR_NUMBER {
                         format!(" < {LEAST_TABOR_NUMBER}")
@@ -71,186 +69,92 @@ fn title(model: &Model) -> String {
     } else {
         String::new()
     };
-    let event = match caption(model) {
-        _ if model.is_computing() => " · computing".to_owned(),
+    let event = match caption(app) {
+        _ if app.is_computing() => " · computing".to_owned(),
         Some(event) => format!(" · {event}"),
         None => String::new(),
     };
     format!(" {name}{loss}{event} ")
 }
 
-/// Units of the axes: metres and newtons, or parameters of the scene.
-#[derive(Clone, Copy)]
-struct Units {
-    quantities: Quantities,
-    indentation: Option<f64>,
-    force: Option<f64>,
-    /// Contact length of one spring, m.
-    spring: f64,
-    in_lengths: bool,
-}
-
-impl Units {
-    fn of(model: &Model, computed: &SolvedScene) -> Self {
-        let outcome = &computed.outcome;
-        let normalised = model.curve.normalised;
-        let positive = |value: f64| Some(value).filter(|value| normalised && *value > 0.0);
-        let height = outcome.governing.amplitude.map(|amplitude| amplitude.rms_height);
-        Units {
-            quantities: model.curve.quantities,
-            indentation: height.and_then(positive),
-            force: outcome.ideal_adhesion_force.and_then(positive),
-            spring: outcome.line.spacing / if normalised { outcome.line.length } else { 1.0 },
-            in_lengths: normalised,
-        }
-    }
-
-    /// Returns true if any axis has other units than SI.
-    fn is_normalised(&self) -> bool {
-        match self.quantities {
-            Quantities::ForceIndentation => self.indentation.is_some() || self.force.is_some(),
-            Quantities::LengthForce => self.in_lengths,
-            Quantities::FragmentsIndentation => self.indentation.is_some(),
-        }
-    }
-
-    /// Quantities of the axes with their units: not every scene has an h or an F_a,max.
-    fn title(&self) -> String {
-        let indentation = if self.indentation.is_some() { "d/h" } else { "d" };
-        let force = if self.force.is_some() { "F/F_a,max" } else { "F" };
-        match self.quantities {
-            Quantities::ForceIndentation => format!("Force {force} over {indentation}"),
-            Quantities::LengthForce => format!("Contact length l/L over {force}"),
-            Quantities::FragmentsIndentation => format!("Fragments n over {indentation}"),
-        }
-    }
-
-    fn place(&self, point: &CurvePoint) -> (f64, f64) {
-        let indentation = point.indentation / self.indentation.unwrap_or(1.0);
-        let force = point.force / self.force.unwrap_or(1.0);
-        match self.quantities {
-            Quantities::ForceIndentation => (indentation, force),
-            Quantities::LengthForce => (force, point.springs as f64 * self.spring),
-            Quantities::FragmentsIndentation => (indentation, point.fragments as f64),
-        }
-    }
-
-    fn axes(&self, x: Span, y: Span) -> (Axis, Axis) {
-        let axis = |span, symbol: &str, over: &str, unit: &str, normalised: bool| {
-            let (symbol, unit) =
-                if normalised { (format!("{symbol}/{over}"), "1") } else { (symbol.to_owned(), unit) };
-            Axis::new(AxisScale::Linear, span, "", &symbol, unit)
-        };
-        let indentation = |span| axis(span, "d", "h", "m", self.indentation.is_some());
-        let force = |span| axis(span, "F", "F_a,max", "N", self.force.is_some());
-        match self.quantities {
-            Quantities::ForceIndentation => (indentation(x), force(y)),
-            Quantities::LengthForce => (force(x), axis(y, "l", "L", "m", self.in_lengths)),
-            Quantities::FragmentsIndentation => (indentation(x), axis(y, "n", "", "1", false)),
-        }
-    }
-}
-
-/// Ranges of the pane: the curve, kept curves and the path of manual loading.
-fn spans(model: &Model, units: Units) -> (Span, Span) {
-    let ghosts = model.ghosts.iter().flat_map(|ghost| &ghost.computed.outcome.history.legs);
-    let tried = model.tried_outcome().into_iter().flat_map(|outcome| &outcome.history.legs);
-    let points = model.legs().iter().chain(ghosts).chain(tried).flat_map(|leg| &leg.curve);
-    let manual = model.manual.iter().flat_map(|manual| &manual.path);
-    let places: Vec<(f64, f64)> = points.chain(manual).map(|point| units.place(point)).collect();
-    let x = Span::around(places.iter().map(|place| place.0), 0.06);
-    let y = Span::around(places.iter().map(|place| place.1).chain([0.0]), 0.08);
-    match units.quantities {
-        Quantities::ForceIndentation => (x, y),
-        // There is no negative length or number.
-        _ => (x, Span { low: 0.0, ..y }),
+/// Units of the axes.
+fn units(app: &App) -> LoopUnits {
+    let quantities = app.view.curve.quantities;
+    match app.solved.as_ref().filter(|_| app.view.curve.normalised) {
+        Some(computed) => LoopUnits::of_scene(quantities, &computed.outcome),
+        None => LoopUnits::si(quantities),
     }
 }
 
 /// Rows of text above the plot.
-fn rows_above(model: &Model, area: Rect) -> u16 {
+fn rows_above(app: &App, area: Rect) -> u16 {
     match area.height {
         0..8 => 0,
         8..12 => 1,
-        height => 2 + (model.ghosts.len() as u16).min(height / 5),
+        height => 2 + (app.ghosts.len() as u16).min(height / 5),
     }
 }
 
 /// The indentation under a column of the pane, m; `None` where that axis is not shown.
-pub fn indentation_at(model: &Model, area: Rect, column: u16) -> Option<f64> {
-    let computed = model.computed.as_ref()?;
-    if model.curve.quantities == Quantities::LengthForce || model.indentations().is_none() {
-        return None;
-    }
-    let units = Units::of(model, computed);
-    let (x, y) = spans(model, units);
-    let (x, y) = units.axes(x, y);
-    let chart = Chart::new(x, y, Vec::new());
-    let at = CellPlot::within(below(area, rows_above(model, area)), &chart).number_at(&chart.x, column);
-    Some(at * units.indentation.unwrap_or(1.0))
+pub fn indentation_at(app: &App, area: Rect, column: u16) -> Option<f64> {
+    let chart = shown_chart(app)?;
+    let at = CellPlot::within(below(area, rows_above(app, area)), &chart).number_at(&chart.x, column);
+    units(app).indentation(at)
 }
 
 /// Loading stage and indentation, m, of the point of the curves nearest to a cell.
-pub fn stage_at(model: &Model, area: Rect, here: Position) -> Option<(usize, f64)> {
-    let computed = model.computed.as_ref()?;
-    let units = Units::of(model, computed);
-    let (x, y) = spans(model, units);
-    let (x, y) = units.axes(x, y);
-    let chart = Chart::new(x, y, Vec::new());
-    let place = CellPlot::within(below(area, rows_above(model, area)), &chart);
+pub fn stage_at(app: &App, area: Rect, here: Position) -> Option<(usize, f64)> {
+    let (chart, units) = (shown_chart(app)?, units(app));
+    let place = CellPlot::within(below(area, rows_above(app, area)), &chart);
     let distance = |point: &CurvePoint| {
-        let (column, row) = place.cell(&chart, model.appearance.marker.symbols(), units.place(point))?;
+        let (column, row) = place.cell(&chart, app.view.appearance.marker.symbols(), units.place(point))?;
         // A row is about as high as two columns are wide.
         let (across, down) = (f64::from(column.abs_diff(here.x)), 2.0 * f64::from(row.abs_diff(here.y)));
         Some(across.hypot(down))
     };
-    let points = model
-        .legs()
-        .iter()
-        .enumerate()
-        .flat_map(|(leg, record)| record.curve.iter().map(move |at| (leg, at)));
+    let points =
+        app.legs().iter().enumerate().flat_map(|(leg, record)| record.curve.iter().map(move |at| (leg, at)));
     let near = points.filter_map(|(leg, point)| Some((distance(point)?, leg, point.indentation)));
     let nearest = near.min_by(|a, b| a.0.total_cmp(&b.0))?;
     Some((nearest.1, nearest.2))
 }
 
 /// Drags the body to the indentation under the mouse.
-fn drag(model: &mut Model, area: Rect, here: Position) -> Vec<Effect> {
-    if indentation_at(model, area, here.x).is_none() {
+fn drag(app: &mut App, area: Rect, here: Position) -> Vec<Effect> {
+    if indentation_at(app, area, here.x).is_none() {
         return vec![Effect::Ask];
     }
     // Manual loading begins first: its axis may reach further than that of the loading, and the body is to be under
     // the mouse.
-    let mut effects = if model.manual.is_none() { movement::take(model, None) } else { Vec::new() };
+    let mut effects = if app.manual.is_none() { movement::take(app, None) } else { Vec::new() };
     effects.retain(|effect| *effect != Effect::Ask);
-    if let Some(indentation) = indentation_at(model, area, here.x) {
-        effects.extend(movement::take(model, Some(ManualMove::To(indentation))));
+    if let Some(indentation) = indentation_at(app, area, here.x) {
+        effects.extend(movement::take(app, Some(ManualMove::To(indentation))));
     }
     effects
 }
 
 /// Lower edge of the frame: readings of the crosshair, or the label of the force axis where no row above the plot
 /// has the label.
-fn edge(model: &Model, area: Rect) -> Option<Line<'static>> {
-    let is_read = model.crosshair.is_some() && model.present().is_some();
-    let line = if is_read { reading(model)? } else { label(model, inside(area))? };
+fn edge(app: &App, area: Rect) -> Option<Line<'static>> {
+    let is_read = app.view.crosshair.is_some() && app.present().is_some();
+    let line = if is_read { reading(app)? } else { label(app, inside(area))? };
     Some(plot::on_frame(line, area.width))
 }
 
 /// Label of the vertical axis with its unit, in a pane without rows of text.
-fn label(model: &Model, area: Rect) -> Option<Vec<Vec<Text<'static>>>> {
-    let computed = model.computed.as_ref().filter(|_| rows_above(model, area) == 0)?;
-    model.indentations()?;
-    let units = Units::of(model, computed);
-    let (x, y) = spans(model, units);
-    let (_, y) = units.axes(x, y);
-    let style = model.appearance.theme.style(Meaning::Quiet);
+fn label(app: &App, area: Rect) -> Option<Vec<Vec<Text<'static>>>> {
+    if rows_above(app, area) > 0 {
+        return None;
+    }
+    let y = shown_chart(app)?.y;
+    let style = app.view.appearance.theme.style(Meaning::Quiet);
     Some(vec![vec![Text::styled(y.label_with_unit().to_string(), style)]])
 }
 
 /// Readings of the crosshair.
-fn reading(model: &Model) -> Option<Vec<Vec<Text<'static>>>> {
-    let point = model.present()?.point;
+fn reading(app: &App) -> Option<Vec<Vec<Text<'static>>>> {
+    let point = app.present()?.point;
     let [d, length] = [point.indentation, point.contact_length].map(|value| format_rounded(value, 3, "m"));
     let mut parts = vec![
         format!("d {d}"),
@@ -258,10 +162,10 @@ fn reading(model: &Model) -> Option<Vec<Vec<Text<'static>>>> {
         format!("l {length}"),
         format!("n {}", point.fragments),
     ];
-    if model.manual.is_none() {
-        parts.push(format!("stage {} of {}", model.player.leg + 1, model.legs().len()));
+    if app.manual.is_none() {
+        parts.push(format!("stage {} of {}", app.play.leg + 1, app.legs().len()));
     }
-    let style = model.appearance.theme.style(Meaning::Cursor);
+    let style = app.view.appearance.theme.style(Meaning::Cursor);
     Some(parts.into_iter().map(|text| vec![Text::styled(text, style)]).collect())
 }
 
@@ -271,32 +175,32 @@ fn below(area: Rect, rows: u16) -> Rect {
 }
 
 /// Draws the curve with its axes.
-fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
     let area = inside(area);
-    let theme = model.appearance.theme;
-    let shown = model.computed.as_ref().filter(|_| model.indentations().is_some());
-    let Some(computed) = shown else {
-        let text = if model.is_computing() { "computing…" } else { "no curve" };
+    let theme = app.view.appearance.theme;
+    let Some(chart) = shown_chart(app) else {
+        let text = if app.is_computing() { "computing…" } else { "no curve" };
         return draw_reason(frame, area, text, theme);
     };
-    let above = rows_above(model, area);
-    let units = Units::of(model, computed);
-    let chart = chart(model, units);
-    let place = plot::draw_chart(frame, below(area, above), &chart, model.appearance);
-    draw_letters(frame, &place, &chart, model, units);
-    if model.is_current() {
-        let marks = marks(model.legs());
+    let above = rows_above(app, area);
+    let units = units(app);
+    let place = plot::draw_chart(frame, below(area, above), &chart, app.view.appearance);
+    draw_letters(frame, &place, &chart, app, units);
+    if app.is_current() {
+        let marks = marks(app.legs());
         let names: Vec<_> = marks.iter().map(|(mark, point)| (units.place(point), mark.name())).collect();
-        plot::in_theme(model.appearance, |style| place.draw_names(frame.buffer_mut(), &chart, style, &names));
+        plot::in_theme(app.view.appearance, |style| {
+            place.draw_names(frame.buffer_mut(), &chart, style, &names)
+        });
     }
-    let legend = plot::in_theme(model.appearance, |style| legend(std::slice::from_ref(&chart), style));
+    let legend = plot::in_theme(app.view.appearance, |style| legend(std::slice::from_ref(&chart), style));
     let mut parts =
         vec![vec![Text::styled(chart.y.label_with_unit().to_string(), theme.style(Meaning::Quiet))]];
     parts.extend(legend);
     let rows = [plot::spaced(parts, usize::from(area.width))];
-    let values = model.is_current().then(|| values(model.legs(), area.width, theme));
-    let ghosts = model.ghosts.iter().enumerate().rev().map(|(number, ghost)| {
-        let force = adhesion(model, ghost).map_or_else(String::new, |force| format!(" {force} ·"));
+    let values = app.is_current().then(|| values(app.legs(), area.width, theme));
+    let ghosts = app.ghosts.iter().enumerate().rev().map(|(number, ghost)| {
+        let force = adhesion(app, ghost).map_or_else(String::new, |force| format!(" {force} ·"));
         let style = theme.style(plot::meaning(Ink::Compared(number)));
         Line::styled(format!("{}{force} {}", letter(number), ghost.differs), style)
     });
@@ -304,84 +208,78 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     draw_lines(frame, above, rows.into_iter().chain(values).chain(ghosts));
 }
 
-/// The chart with names for the marks and the compared curves, which the pane writes beside it.
-fn figure(model: &Model) -> Option<Figure> {
-    let computed = model.computed.as_ref().filter(|_| model.indentations().is_some())?;
-    let mut chart = chart(model, Units::of(model, computed));
-    let mut marks = marks(model.legs()).into_iter();
-    for layer in chart.layers.iter_mut().filter(|layer| layer.name.is_empty()) {
-        layer.name = match (layer.ink, &layer.shape) {
-            (Ink::Compared(number), _) => {
-                let ghost = model.ghosts.get(number)?;
-                Label::plain(&format!("{}: {}", letter(number), ghost.differs))
-            }
-            (Ink::Text, Shape::Curve { sign: Some(_), .. }) => {
-                let (mark, point) = marks.next()?;
-                mark_name(mark, point.force)
-            }
+/// The figure of the chart.
+fn figure(app: &App) -> Option<Figure> {
+    Some(Figure::of_chart(app.edit.document.title(), chart(app)?))
+}
+
+/// The chart without names that the pane writes elsewhere: those of marks and ghosts, and those of the axes.
+fn shown_chart(app: &App) -> Option<Chart> {
+    let mut chart = chart(app)?;
+    // A ghost beside the scene is named with the curves; the others have their letters.
+    let beside = app.beside().map(|_| app.ghosts.len() - 1);
+    for layer in &mut chart.layers {
+        layer.name = match layer.ink {
+            Ink::Text => Label::default(),
+            Ink::Compared(number) if beside == Some(number) => letter(number).into(),
+            Ink::Compared(_) => Label::default(),
             _ => continue,
         };
     }
-    Some(Figure::of_chart(model.document.title(), chart))
+    for axis in [&mut chart.x, &mut chart.y] {
+        axis.label = axis.label.without_name();
+    }
+    Some(chart)
 }
 
 /// The curve, curves compared with it, the path of manual loading, and marks.
-fn chart(model: &Model, units: Units) -> Chart {
+fn chart(app: &App) -> Option<Chart> {
+    app.indentations()?;
+    let units = units(app);
+    let unmarked = |legs| ForceLoop { marks: Vec::new(), ..ForceLoop::new(legs) };
+    let ghosts = app.ghosts.iter().enumerate().map(|(number, ghost)| ForceLoop {
+        name: Some(Label::plain(&format!("{}: {}", letter(number), ghost.differs))),
+        ink: Some(Ink::Compared(number)),
+        stroke: Some(Stroke::Sparse),
+        ..unmarked(&ghost.computed.outcome.history.legs)
+    });
+    let tried = app.tried_outcome().map(|outcome| ForceLoop {
+        name: Some("preview".into()),
+        ink: Some(Ink::Kept),
+        stroke: Some(Stroke::Dashed),
+        ..unmarked(&outcome.history.legs)
+    });
+    let legs = app.legs();
     // A curve of a scene changed since stays in the background until the new one is there.
-    let stale = !model.is_current();
-    let ink = |ink| if stale { Ink::Quiet } else { ink };
-    let legs = model.legs();
-    let along =
-        |points: &[CurvePoint]| -> Vec<(f64, f64)> { points.iter().map(|p| units.place(p)).collect() };
-    let line = Shape::line;
-    let point = |at, sign| Shape::signs(vec![at], sign);
-    let mut layers = vec![Layer::unnamed(Ink::Quiet, Shape::Level(0.0))];
-    if model.curve.loss && units.quantities == Quantities::ForceIndentation {
-        let border = legs.iter().flat_map(|leg| along(&leg.curve)).collect();
-        layers.push(Layer::unnamed(Ink::Quiet, Shape::Inside(border)));
+    let present = match app.is_current() {
+        true => ForceLoop::new(legs),
+        false => ForceLoop { ink: Some(Ink::Quiet), ..unmarked(legs) },
+    };
+    let manual = app.manual.as_ref().map(|manual| ForceLoop {
+        curves: vec![(Direction::Unloading, &manual.path)],
+        name: Some("manual".into()),
+        ink: Some(Ink::Manual),
+        stroke: Some(Stroke::Dashed),
+        ..unmarked(&[])
+    });
+    let loops: Vec<ForceLoop<'_>> = ghosts.chain(tried).chain([present]).chain(manual).collect();
+    let mut chart = loop_chart(&loops, units);
+    // Below the curves, which stay whole.
+    if app.view.curve.loss && app.view.curve.quantities == LoopQuantities::ForceIndentation {
+        let border = legs.iter().flat_map(|leg| &leg.curve).map(|point| units.place(point)).collect();
+        chart.layers.insert(1, Layer::unnamed(Ink::Quiet, Shape::Inside(border)));
     }
-    for (number, ghost) in model.ghosts.iter().enumerate() {
-        // A ghost beside the scene is named with the curves; the others have their letters.
-        let is_beside = model.beside().is_some() && number + 1 == model.ghosts.len();
-        let name = if is_beside { letter(number).into() } else { Label::default() };
-        for leg in &ghost.computed.outcome.history.legs {
-            layers.push(Layer::new(
-                name.clone(),
-                Ink::Compared(number),
-                line(along(&leg.curve), Stroke::Sparse),
-            ));
-        }
-    }
-    for leg in model.tried_outcome().into_iter().flat_map(|outcome| &outcome.history.legs) {
-        layers.push(Layer::new("preview".into(), Ink::Kept, line(along(&leg.curve), Stroke::Dashed)));
-    }
-    let (x, y) = spans(model, units);
-    for (direction, name, of, stroke) in [
-        (Direction::Loading, "loading", Ink::Loading, Stroke::Dotted),
-        (Direction::Unloading, "unloading", Ink::Unloading, Stroke::Solid),
-    ] {
-        for leg in legs.iter().filter(|leg| leg.direction == direction) {
-            layers.push(Layer::new(name.into(), ink(of), line(along(&leg.curve), stroke)));
-        }
-    }
-    if let Some(manual) = &model.manual {
-        layers.push(Layer::new("manual".into(), Ink::Manual, line(along(&manual.path), Stroke::Dashed)));
-    }
-    let marks = marks(legs).into_iter().filter(|_| !stale);
-    layers.extend(marks.map(|(mark, at)| Layer::unnamed(Ink::Text, point(units.place(&at), sign(mark)))));
-    if let Some(snapshot) = model.present() {
-        let (at, value) = units.place(&snapshot.point);
-        let at = (at.clamp(x.low, x.high), value.clamp(y.low, y.high));
-        if model.crosshair.is_some() {
+    if let Some(snapshot) = app.present() {
+        let (x, y) = units.place(&snapshot.point);
+        let at = (x.clamp(chart.x.span.low, chart.x.span.high), y.clamp(chart.y.span.low, chart.y.span.high));
+        if app.view.crosshair.is_some() {
             let lines = [Shape::Upright(at.0), Shape::Level(at.1)];
-            // Below the curves, which stay whole.
-            layers.splice(0..0, lines.map(|line| Layer::unnamed(Ink::Cursor, line)));
+            chart.layers.splice(0..0, lines.map(|line| Layer::unnamed(Ink::Cursor, line)));
         }
-        let name = if model.manual.is_some() { "manual" } else { "now" };
-        layers.push(Layer::new(Label::plain(name), Ink::Cursor, point(at, Sign::Diamond)));
+        let name = if app.manual.is_some() { "manual" } else { "now" };
+        chart.layers.push(Layer::new(name.into(), Ink::Cursor, Shape::signs(vec![at], Sign::Diamond)));
     }
-    let (x, y) = units.axes(x, y);
-    Chart::new(x, y, layers)
+    Some(chart)
 }
 
 /// Share of the largest force below which a force is rounding.
@@ -421,10 +319,10 @@ fn marked(ghost: &Ghost) -> Option<CurvePoint> {
 }
 
 /// Adhesion force of a ghost, and its difference from that of the present scene: `F_a 12 µN (+3 µN)`.
-fn adhesion(model: &Model, ghost: &Ghost) -> Option<String> {
+fn adhesion(app: &App, ghost: &Ghost) -> Option<String> {
     let of = |computed: &SolvedScene| computed.outcome.figures.adhesion_force;
     let force = of(&ghost.computed)?;
-    let present = model.current().and_then(|one| of(one));
+    let present = app.current().and_then(|one| of(one));
     let difference = present.map_or_else(String::new, |present| {
         let sign = if force > present { "+" } else { "" };
         format!(" ({sign}{})", format_rounded(force - present, 3, "N"))
@@ -433,29 +331,29 @@ fn adhesion(model: &Model, ghost: &Ghost) -> Option<String> {
 }
 
 /// Draws the letters of ghosts, each in the nearest cell of its row without a sign.
-fn draw_letters(frame: &mut Frame<'_>, place: &CellPlot, chart: &Chart, model: &Model, units: Units) {
-    let marker = model.appearance.marker.symbols();
+fn draw_letters(frame: &mut Frame<'_>, place: &CellPlot, chart: &Chart, app: &App, units: LoopUnits) {
+    let marker = app.view.appearance.marker.symbols();
     let signs = chart.layers.iter().filter_map(|layer| match &layer.shape {
         Shape::Curve { points, sign: Some(_), .. } => points.first(),
         _ => None,
     });
     let mut taken: Vec<(u16, u16)> = signs.filter_map(|at| place.cell(chart, marker, *at)).collect();
     let columns = place.plot.x..place.plot.right();
-    for (number, ghost) in model.ghosts.iter().enumerate() {
+    for (number, ghost) in app.ghosts.iter().enumerate() {
         let at = marked(ghost).and_then(|point| place.cell(chart, marker, units.place(&point)));
         let Some((column, row)) = at else { continue };
         let beside = (0..place.plot.width).flat_map(|step| [column + step, column.wrapping_sub(step)]);
         let mut free = beside.filter(|column| columns.contains(column)).map(|column| (column, row));
         let cell = free.find(|cell| !taken.contains(cell)).unwrap_or((column, row));
         taken.push(cell);
-        let style = model.appearance.theme.style(plot::meaning(Ink::Compared(number)));
+        let style = app.view.appearance.theme.style(plot::meaning(Ink::Compared(number)));
         frame.buffer_mut()[cell].set_symbol(letter(number)).set_style(style);
     }
 }
 
 /// Letter of the newest ghost.
-pub fn newest_letter(model: &Model) -> &'static str {
-    letter(model.ghosts.len().saturating_sub(1))
+pub fn newest_letter(app: &App) -> &'static str {
+    letter(app.ghosts.len().saturating_sub(1))
 }
 
 fn letter(number: usize) -> &'static str {

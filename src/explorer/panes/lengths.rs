@@ -2,8 +2,8 @@
 
 use super::{PaneRow, Place};
 use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Layer, Shape, Sign, Span, Stroke};
+use crate::explorer::app::App;
 use crate::explorer::layout::inside;
-use crate::explorer::model::Model;
 use crate::explorer::theme::Meaning;
 use crate::explorer::view::lines::{draw_lines, draw_reason};
 use crate::explorer::view::plot;
@@ -16,7 +16,7 @@ pub static ROW: PaneRow = PaneRow {
     place: Place::CloseUp,
     title: |_| " Fragments by length, log–log ".to_owned(),
     draw,
-    figure: |model| Some(Figure::of_chart(model.document.title(), chart(model)?)),
+    figure: |app| Some(Figure::of_chart(app.edit.document.title(), chart(app)?)),
     help: &[(
         "Lengths",
         "D: number n of contact patches over their length δx, both logarithmic; ○ is the patches in a step of length by √2 \
@@ -26,16 +26,16 @@ pub static ROW: PaneRow = PaneRow {
 };
 
 /// Draws the distribution: one point for each bin with fragments.
-fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
     let area = inside(area);
-    let theme = model.appearance.theme;
-    let Some(bins) = model.snapshot.as_ref().and_then(|snapshot| snapshot.lengths.as_ref()) else { return };
-    let Some(chart) = chart(model) else {
+    let theme = app.view.appearance.theme;
+    let Some(bins) = app.snapshot.as_ref().and_then(|snapshot| snapshot.lengths.as_ref()) else { return };
+    let Some(chart) = chart(app) else {
         return draw_reason(frame, area, "nothing is in contact", theme);
     };
     let text_rows = u16::from(area.height >= 6);
     let plot = Rect { height: area.height - text_rows, ..area };
-    plot::draw_chart(frame, plot, &chart, model.appearance);
+    plot::draw_chart(frame, plot, &chart, app.view.appearance);
     if text_rows > 0 {
         let count: u64 = bins.values().sum();
         let text = format!("○ n, {count} in all, in steps of δx by √2");
@@ -45,9 +45,9 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
 }
 
 /// The distribution; `None` without contact.
-fn chart(model: &Model) -> Option<Chart> {
-    let bins = model.snapshot.as_ref()?.lengths.as_ref().filter(|bins| !bins.is_empty())?;
-    let spacing = model.computed.as_ref()?.outcome.line.spacing;
+fn chart(app: &App) -> Option<Chart> {
+    let bins = app.snapshot.as_ref()?.lengths.as_ref().filter(|bins| !bins.is_empty())?;
+    let spacing = app.solved.as_ref()?.outcome.line.spacing;
     // The fewest springs whose square has this binary logarithm.
     let least = |square: u32| 2_f64.powf(f64::from(square) / 2.0).ceil();
     let points = bins.iter().map(|(&square, &count)| {

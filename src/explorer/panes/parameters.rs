@@ -1,9 +1,9 @@
 //! The list of parameters and the meaning of the selected one.
 
 use super::{PaneRow, Place};
+use crate::explorer::app::{App, Mode, Pane};
 use crate::explorer::layout::{Layout, inside};
 use crate::explorer::mode::ModeKind;
-use crate::explorer::model::{Mode, Model, Pane};
 use crate::explorer::parameters::{Parameter, Setting, spelled};
 use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::search::letters_found;
@@ -26,9 +26,9 @@ pub static ROW: PaneRow = PaneRow {
     draw,
     keys: Some(ModeKind::Parameters),
     press,
-    wheel: |model, _, _, turns| {
-        begin(model);
-        edit::move_selection(model, -turns)
+    wheel: |app, _, _, turns| {
+        begin(app);
+        edit::move_selection(app, -turns)
     },
     help: &[(
         "Parameters",
@@ -54,18 +54,18 @@ struct Places {
 }
 
 impl Places {
-    fn within(area: Rect, model: &Model) -> Self {
+    fn within(area: Rect, app: &App) -> Self {
         let help_rows = if area.height >= 9 { 3 } else { u16::from(area.height >= 3) };
-        let derived_rows = if area.height >= 12 { derived(model, area.width).len() as u16 } else { 0 };
+        let derived_rows = if area.height >= 12 { derived(app, area.width).len() as u16 } else { 0 };
         let list = Rect { height: area.height - help_rows - derived_rows, ..area };
-        let (rows, selected, first) = match &model.mode {
+        let (rows, selected, first) = match &app.mode {
             Mode::Prompt(Prompt { purpose: Purpose::Parameter { .. }, found, selected, .. }) => {
                 (found.clone(), *selected, 0)
             }
             _ => {
-                let rows = model.listed();
-                let selected = rows.iter().position(|index| *index == model.selected).unwrap_or(0);
-                (rows, selected, model.first_listed)
+                let rows = app.listed();
+                let selected = rows.iter().position(|index| *index == app.edit.selected).unwrap_or(0);
+                (rows, selected, app.view.first_listed)
             }
         };
         // A row above and one below the selected row are visible, if any.
@@ -86,36 +86,36 @@ impl Places {
 }
 
 /// Place of the first visible row; the list scrolls no further than the selected row needs.
-pub fn first_listed(model: &Model) -> usize {
-    let pane = Layout::of(model).pane(Pane::Parameters);
-    pane.map_or(model.first_listed, |area| Places::within(inside(area), model).first)
+pub fn first_listed(app: &App) -> usize {
+    let pane = Layout::of(app).pane(Pane::Parameters);
+    pane.map_or(app.view.first_listed, |area| Places::within(inside(area), app).first)
 }
 
 /// Selects the parameter under the mouse. A second press on the first row of a group folds the group.
-fn press(model: &mut Model, area: Rect, here: Position) -> Vec<Effect> {
-    if let Some(row) = parameter_at(model, area, here.y) {
-        let again = row == model.selected && model.parameters[row].is_head();
-        edit::select(model, row);
+fn press(app: &mut App, area: Rect, here: Position) -> Vec<Effect> {
+    if let Some(row) = parameter_at(app, area, here.y) {
+        let again = row == app.edit.selected && app.edit.parameters[row].is_head();
+        edit::select(app, row);
         if again {
-            return edit::toggle_fold(model);
+            return edit::toggle_fold(app);
         }
     }
     vec![Effect::Ask]
 }
 
 /// The parameter in a row of the screen.
-fn parameter_at(model: &Model, area: Rect, row: u16) -> Option<usize> {
-    let Places { list, first, rows, .. } = Places::within(area, model);
+fn parameter_at(app: &App, area: Rect, row: u16) -> Option<usize> {
+    let Places { list, first, rows, .. } = Places::within(area, app);
     let below = row.checked_sub(list.y).filter(|below| *below < list.height)?;
     rows.get(first + usize::from(below)).copied()
 }
 
 /// Draws the list, scrolled so that the selected row shows, derived values, and a line or two of explanation below. A
 /// scroll bar in the last column of the frame indicates hidden rows.
-fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
     let edge = area.right().saturating_sub(1);
     let area = inside(area);
-    let places = Places::within(area, model);
+    let places = Places::within(area, app);
     let Places { mut list, derived: below, help, .. } = places;
     if places.is_scrolled() {
         let bar = Rect { x: edge, width: 1, ..list }.intersection(frame.area());
@@ -123,7 +123,7 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         let mut state =
             ScrollbarState::new(places.rows.len() - usize::from(list.height) + 1).position(places.first);
         state = state.viewport_content_length(usize::from(list.height));
-        let style = model.appearance.theme.style(Meaning::Quiet);
+        let style = app.view.appearance.theme.style(Meaning::Quiet);
         let scroll_bar = Scrollbar::new(ScrollbarOrientation::VerticalRight).style(style);
         let scroll_bar =
             scroll_bar.begin_symbol(None).end_symbol(None).track_symbol(Some("│")).thumb_symbol("█");
@@ -131,34 +131,36 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     }
     for (row, place) in (list.y..list.bottom()).zip(places.first..places.rows.len()) {
         let (index, selected) = (places.rows[place], place == places.selected);
-        let line = parameter_line(model, index, selected, usize::from(list.width));
+        let line = parameter_line(app, index, selected, usize::from(list.width));
         frame.render_widget(Paragraph::new(line), Rect { y: row, height: 1, ..list });
     }
-    frame.render_widget(Paragraph::new(derived(model, below.width)), below);
+    frame.render_widget(Paragraph::new(derived(app, below.width)), below);
     let explained = match places.rows.get(places.selected) {
-        Some(index) => explanation(model, *index),
-        None => Line::styled("no parameter of this scene fits", model.appearance.theme.style(Meaning::Quiet)),
+        Some(index) => explanation(app, *index),
+        None => {
+            Line::styled("no parameter of this scene fits", app.view.appearance.theme.style(Meaning::Quiet))
+        }
     };
     frame.render_widget(Paragraph::new(wrapped_within(&explained, help)), help);
 }
 
-fn parameter_line(model: &Model, index: usize, selected: bool, width: usize) -> Line<'static> {
-    let theme = model.appearance.theme;
-    let parameter = &model.parameters[index];
-    let typed = model.mode.prompt().filter(|prompt| selected && prompt.purpose == Purpose::Value);
-    let refused = model.refused.as_ref().is_some_and(|(row, _)| *row == index)
+fn parameter_line(app: &App, index: usize, selected: bool, width: usize) -> Line<'static> {
+    let theme = app.view.appearance.theme;
+    let parameter = &app.edit.parameters[index];
+    let typed = app.mode.prompt().filter(|prompt| selected && prompt.purpose == Purpose::Value);
+    let refused = app.edit.refused.as_ref().is_some_and(|(row, _)| *row == index)
         || typed.is_some_and(|prompt| prompt.refused.is_some());
     let mark = match (refused, selected) {
         (true, _) => "!",
         (false, true) => "›",
         (false, false) => " ",
     };
-    let lead = format!("{mark}{}", lead(model, parameter));
+    let lead = format!("{mark}{}", lead(app, parameter));
     if let Some(prompt) = typed {
-        return editor(model, parameter, &prompt.line, &lead, width);
+        return editor(app, parameter, &prompt.line, &lead, width);
     }
     // The name makes room for the value, which matters more.
-    let value = value(model, parameter);
+    let value = value(app, parameter);
     let symbol = parameter.field.symbol;
     let least = columns(&lead) + if symbol.is_empty() { FEWEST_LETTERS } else { columns(symbol) } + 1;
     let value = cut(&value, width.saturating_sub(least).max(width / 3));
@@ -171,14 +173,14 @@ fn parameter_line(model: &Model, index: usize, selected: bool, width: usize) -> 
         (false, true) => theme.style(Meaning::Selected),
         (false, false) => theme.style(Meaning::Text),
     };
-    let letters = found_in(model, parameter, &name, lead.chars().count());
+    let letters = found_in(app, parameter, &name, lead.chars().count());
     let name = marked(&name, &letters, style, theme);
     Line::from_iter(name.into_iter().chain([Span::styled(rest, style)])).style(style)
 }
 
 /// Indices of the characters of the shown name and symbol found by the search; `lead` characters come before.
-fn found_in(model: &Model, parameter: &Parameter, shown: &str, lead: usize) -> Vec<usize> {
-    let Mode::Prompt(Prompt { purpose: Purpose::Parameter { .. }, line, .. }) = &model.mode else {
+fn found_in(app: &App, parameter: &Parameter, shown: &str, lead: usize) -> Vec<usize> {
+    let Mode::Prompt(Prompt { purpose: Purpose::Parameter { .. }, line, .. }) = &app.mode else {
         return Vec::new();
     };
     let (query, name) = (line.text(), parameter.name());
@@ -199,15 +201,15 @@ fn found_in(model: &Model, parameter: &Parameter, shown: &str, lead: usize) -> V
 }
 
 /// Marks before a name: first row of a group folded or not, effect on or off; other rows are indented.
-fn lead(model: &Model, parameter: &Parameter) -> &'static str {
-    let is_on = parameter.effect.map(|effect| effect.is_on(model.document.scene()));
+fn lead(app: &App, parameter: &Parameter) -> &'static str {
+    let is_on = parameter.effect.map(|effect| effect.is_on(app.edit.document.scene()));
     match parameter.setting {
         Setting::Switch(_) if is_on == Some(true) => return " ●",
         Setting::Switch(_) => return " ○",
         _ if !parameter.is_head() => return "  ",
         _ => {}
     }
-    match (model.folded.contains(parameter.group), is_on) {
+    match (app.edit.folded.contains(parameter.group), is_on) {
         (false, None) => "▾",
         (true, None) => "▸",
         (false, Some(true)) => "▾●",
@@ -218,7 +220,7 @@ fn lead(model: &Model, parameter: &Parameter) -> &'static str {
 }
 
 /// The row of a value being typed: its name, symbol and SI unit, as far as there is room, and the typed text.
-fn editor(model: &Model, parameter: &Parameter, line: &TextLine, lead: &str, width: usize) -> Line<'static> {
+fn editor(app: &App, parameter: &Parameter, line: &TextLine, lead: &str, width: usize) -> Line<'static> {
     let (name, symbol) = (parameter.name(), parameter.field.symbol);
     let unit = match parameter.field.unit {
         "" | "1" => String::new(),
@@ -236,7 +238,7 @@ fn editor(model: &Model, parameter: &Parameter, line: &TextLine, lead: &str, wid
     let fits = |label: &&String| columns(label) + TYPED_COLUMNS.max(columns(&line.text()) + 1) <= width;
     let label = Span::raw(labels.iter().find(fits).unwrap_or(&labels[labels.len() - 1]).clone());
     let room = width.saturating_sub(label.width());
-    Line::from_iter([label].into_iter().chain(typed(line, room, model.appearance.theme)))
+    Line::from_iter([label].into_iter().chain(typed(line, room, app.view.appearance.theme)))
 }
 
 /// Name and symbol in so many columns: the name is cut, or left out where little of it would remain.
@@ -266,37 +268,37 @@ fn cut(text: &str, room: usize) -> String {
 }
 
 /// A value in the format for people; one that follows from others is marked.
-fn value(model: &Model, parameter: &Parameter) -> String {
+fn value(app: &App, parameter: &Parameter) -> String {
     if !parameter.shown.is_empty() || parameter.setting == Setting::Heading {
         return parameter.shown.clone();
     }
-    let written = model.written(parameter).and_then(|written| written.parse::<f64>().ok());
+    let written = app.written(parameter).and_then(|written| written.parse::<f64>().ok());
     match written {
         Some(value) => format!("= {}", format_quantity(value, parameter.field.unit)),
         // A smooth body has no κ; before the computation κ is unknown.
-        None if model.governing().is_some() => "none".to_owned(),
+        None if app.governing().is_some() => "none".to_owned(),
         None => "= …".to_owned(),
     }
 }
 
 /// Derived values, in as many lines as needed.
-fn derived(model: &Model, width: u16) -> Vec<Line<'static>> {
-    let style = model.appearance.theme.style(Meaning::Quiet);
+fn derived(app: &App, width: u16) -> Vec<Line<'static>> {
+    let style = app.view.appearance.theme.style(Meaning::Quiet);
     let part = |(name, value): (&str, String)| vec![Span::styled(format!("{name} = {value}"), style)];
-    filled(derived_values(model).into_iter().map(part).collect(), "  ", usize::from(width))
+    filled(derived_values(app).into_iter().map(part).collect(), "  ", usize::from(width))
 }
 
-fn derived_values(model: &Model) -> Vec<(&'static str, String)> {
-    let Some(computed) = &model.computed else { return Vec::new() };
+fn derived_values(app: &App) -> Vec<(&'static str, String)> {
+    let Some(computed) = &app.solved else { return Vec::new() };
     let outcome = &computed.outcome;
-    let governing = model.governing().unwrap_or(outcome.governing);
+    let governing = app.governing().unwrap_or(outcome.governing);
     let mut values = vec![("E*", format_quantity(governing.effective_modulus, "Pa"))];
     if let Some(amplitude) = governing.amplitude {
         values.push(("h", format_quantity(amplitude.rms_height, "m")));
         values.push(("⟨∇z⟩", format_quantity(amplitude.rms_gradient, "1")));
     }
     // A failed scene has no further values.
-    if !model.is_current() && !model.is_computing() {
+    if !app.is_current() && !app.is_computing() {
         return values;
     }
     if let Some(force) = outcome.ideal_adhesion_force {
@@ -309,17 +311,17 @@ fn derived_values(model: &Model) -> Vec<(&'static str, String)> {
 }
 
 /// Error of a value, or its meaning and allowed range.
-fn explanation(model: &Model, index: usize) -> Line<'static> {
-    let typed = model.mode.prompt().filter(|prompt| prompt.purpose == Purpose::Value);
+fn explanation(app: &App, index: usize) -> Line<'static> {
+    let typed = app.mode.prompt().filter(|prompt| prompt.purpose == Purpose::Value);
     let typed = typed.and_then(|prompt| prompt.refused.as_ref());
-    if let Some(error) = typed.or(model.refused.as_ref().map(|(_, error)| error)) {
-        return Line::styled(format!("! {error}"), model.appearance.theme.style(Meaning::Error));
+    if let Some(error) = typed.or(app.edit.refused.as_ref().map(|(_, error)| error)) {
+        return Line::styled(format!("! {error}"), app.view.appearance.theme.style(Meaning::Error));
     }
-    let Some(parameter) = model.parameters.get(index) else { return Line::default() };
+    let Some(parameter) = app.edit.parameters.get(index) else { return Line::default() };
     let text = match parameter.setting {
         Setting::Switch(effect) => format!("{}: observed or not; t switches it", effect.name()),
         Setting::Heading => format!("{}; Enter folds the group", parameter.field.meaning),
         _ => format!("{}. Allowed: {}", parameter.field.meaning, parameter.field.allowed()),
     };
-    Line::styled(text, model.appearance.theme.style(Meaning::Quiet))
+    Line::styled(text, app.view.appearance.theme.style(Meaning::Quiet))
 }

@@ -4,8 +4,8 @@
 use super::curves::draw_chart;
 use super::{Pane, PaneRow, PreloadCurve};
 use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Layer, Shape, Sign};
+use crate::explorer::app::App;
 use crate::explorer::layout::inside;
-use crate::explorer::model::Model;
 use crate::explorer::study::{PaneData, Task};
 use crate::explorer::view::lines::draw_reason;
 use crate::export::{preload_axes, preload_layers};
@@ -17,22 +17,22 @@ use std::sync::Arc;
 pub static ROW: PaneRow = PaneRow {
     title: |_| " Adhesion against preload ".to_owned(),
     draw,
-    figure: |model| {
-        let curve = model.preloads.as_deref().filter(|curve| !curve.own.is_empty())?;
-        Some(Figure::of_chart(model.document.title(), chart(model, curve)))
+    figure: |app| {
+        let curve = app.studies.preloads.as_deref().filter(|curve| !curve.own.is_empty())?;
+        Some(Figure::of_chart(app.edit.document.title(), chart(app, curve)))
     },
-    task: |model, computed| {
-        let begun = model.preloads.clone();
+    task: |app, computed| {
+        let begun = app.studies.preloads.clone();
         let curve = begun.or_else(|| PreloadCurve::new(computed).ok().map(Arc::new));
         let curve = curve.filter(|one| !one.is_whole());
-        curve.map(|curve| Task::Extend { data: PaneData::Preloads(curve), waits: model.edited })
+        curve.map(|curve| Task::Extend { data: PaneData::Preloads(curve), waits: app.studies.edited })
     },
-    take_in: |model, data| {
+    take_in: |app, data| {
         if let PaneData::Preloads(curve) = data {
-            model.preloads = Some(curve);
+            app.studies.preloads = Some(curve);
         }
     },
-    renew: |model| model.preloads = None,
+    renew: |app| app.studies.preloads = None,
     help: &[(
         "Preloads",
         "i: adhesion force over preload, of this profile and the mean of random profiles with its 95 % confidence; the \
@@ -42,22 +42,22 @@ pub static ROW: PaneRow = PaneRow {
 };
 
 /// Draws the pane.
-fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
     let area = inside(area);
-    let curve = model.preloads.as_deref().filter(|curve| !curve.own.is_empty());
+    let curve = app.studies.preloads.as_deref().filter(|curve| !curve.own.is_empty());
     let Some(curve) = curve else {
-        let why = match (model.failures.get(&Pane::Preloads), model.current()) {
+        let why = match (app.studies.failures.get(&Pane::Preloads), app.current()) {
             (Some(why), _) => why.clone(),
             (None, Some(computed)) => {
                 PreloadCurve::new(computed).map_or_else(str::to_owned, |_| "computing …".to_owned())
             }
             (None, None) => "computing …".to_owned(),
         };
-        return draw_reason(frame, area, &why, model.appearance.theme);
+        return draw_reason(frame, area, &why, app.view.appearance.theme);
     };
-    let chart = chart(model, curve);
+    let chart = chart(app, curve);
     let heading = chart.y.label_with_unit().then(format!("  {}", progress(curve)).trim_end());
-    draw_chart(frame, area, model, &Chart { heading, ..chart });
+    draw_chart(frame, area, app, &Chart { heading, ..chart });
 }
 
 /// Progress, in words.
@@ -68,14 +68,14 @@ fn progress(curve: &PreloadCurve) -> String {
     format!("{} of {} profiles", curve.profiles(), curve.wanted)
 }
 
-fn chart(model: &Model, curve: &PreloadCurve) -> Chart {
+fn chart(app: &App, curve: &PreloadCurve) -> Chart {
     // The statistics have fewer preloads than the curve of the profile.
     let mut layers = preload_layers(curve.coarse(), &curve.statistics);
     if let Some(own) = preload_layers(&curve.own, &[]).pop() {
         layers.pop();
         layers.push(own);
     }
-    let figures = model.current().map(|one| one.outcome.figures);
+    let figures = app.current().map(|one| one.outcome.figures);
     let present = figures.and_then(|figures| figures.preload.zip(figures.adhesion_force));
     if let Some((preload, force)) = present {
         layers.push(Layer::unnamed(Ink::Cursor, Shape::Upright(preload)));

@@ -3,9 +3,9 @@
 use super::position::zoom_at;
 use super::{PaneRow, Place, histogram, section};
 use crate::draw::{CellPlot, Chart, Span};
+use crate::explorer::app::App;
 use crate::explorer::layout::{inside, split_profile};
 use crate::explorer::mode::ModeKind;
-use crate::explorer::model::Model;
 use crate::explorer::snapshot::{ContactSnapshot, Section};
 use crate::explorer::theme::{Appearance, Meaning, Theme};
 use crate::explorer::view::lines::draw_reason;
@@ -21,9 +21,9 @@ use ratatui::widgets::Paragraph;
 pub static ROW: PaneRow = PaneRow {
     title,
     draw,
-    figure: |model| {
-        let snapshot = model.snapshot.as_deref()?;
-        Some(section::figure(model.document.title(), &snapshot.profile, snapshot, heights(model, snapshot)))
+    figure: |app| {
+        let snapshot = app.snapshot.as_deref()?;
+        Some(section::figure(app.edit.document.title(), &snapshot.profile, snapshot, heights(app, snapshot)))
     },
     edge: names,
     place: Place::Own,
@@ -39,15 +39,15 @@ pub static ROW: PaneRow = PaneRow {
 };
 
 /// Title of the pane.
-fn title(model: &Model) -> String {
-    let length = format_quantity(model.document.scene().length, "m");
-    if model.beside().is_some() {
+fn title(app: &App) -> String {
+    let length = format_quantity(app.edit.document.scene().length, "m");
+    if app.beside().is_some() {
         return format!(" Profile z(x) of this scene, x to {length} ");
     }
-    let follows = if model.profile.follow { " · follows" } else { "" };
-    let Some(snapshot) = model.snapshot.as_ref() else { return format!(" Profile z(x), x to {length} ") };
+    let follows = if app.view.profile.follow { " · follows" } else { "" };
+    let Some(snapshot) = app.snapshot.as_ref() else { return format!(" Profile z(x), x to {length} ") };
     let shown = &snapshot.profile;
-    if model.profile.share >= 1.0 {
+    if app.view.profile.share >= 1.0 {
         return format!(" Profile z(x), x to {length}{follows} ");
     }
     let from = (snapshot.line.first + shown.first) as f64 * snapshot.line.spacing;
@@ -57,9 +57,9 @@ fn title(model: &Model) -> String {
 }
 
 /// Names of the lines and signs, for the lower edge of the frame.
-fn names(model: &Model, area: Rect) -> Option<Line<'static>> {
-    let snapshot = model.snapshot.as_ref()?;
-    Some(scene_names(snapshot, heights(model, snapshot), area, model.appearance))
+fn names(app: &App, area: Rect) -> Option<Line<'static>> {
+    let snapshot = app.snapshot.as_ref()?;
+    Some(scene_names(snapshot, heights(app, snapshot), area, app.view.appearance))
 }
 
 /// Names of the lines and signs of a scene at one snapshot, heights within `z`.
@@ -71,20 +71,20 @@ pub fn scene_names(snapshot: &ContactSnapshot, z: Span, area: Rect, appearance: 
 }
 
 /// The shown part of the profile, with its chart and place.
-fn section_at(model: &Model, area: Rect) -> Option<(&Section, Chart, CellPlot)> {
-    let snapshot = model.snapshot.as_deref()?;
-    let (chart, place) = placed(snapshot, area, heights(model, snapshot));
+fn section_at(app: &App, area: Rect) -> Option<(&Section, Chart, CellPlot)> {
+    let snapshot = app.snapshot.as_deref()?;
+    let (chart, place) = placed(snapshot, area, heights(app, snapshot));
     Some((&snapshot.profile, chart, place))
 }
 
 /// Draws the profile with the histogram of its heights on the same axis.
-fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
     let area = inside(area);
-    let Some(snapshot) = model.snapshot.as_ref() else {
-        return draw_reason(frame, area, "…", model.appearance.theme);
+    let Some(snapshot) = app.snapshot.as_ref() else {
+        return draw_reason(frame, area, "…", app.view.appearance.theme);
     };
-    let histogram = model.computed.as_ref().and_then(|computed| computed.outcome.histogram.as_ref());
-    draw_scene(frame, area, (snapshot, histogram), heights(model, snapshot), model.appearance);
+    let histogram = app.solved.as_ref().and_then(|computed| computed.outcome.histogram.as_ref());
+    draw_scene(frame, area, (snapshot, histogram), heights(app, snapshot), app.view.appearance);
 }
 
 /// Draws the profile of a scene at one snapshot with its histogram, heights within `z`.
@@ -124,13 +124,13 @@ fn placed(snapshot: &ContactSnapshot, area: Rect, z: Span) -> (Chart, CellPlot) 
 }
 
 /// The axis of heights: the whole line, and the surface unless far away. Two scenes side by side share the axis.
-pub fn heights(model: &Model, snapshot: &ContactSnapshot) -> Span {
+pub fn heights(app: &App, snapshot: &ContactSnapshot) -> Span {
     let ends = |section: &Section| {
         let (low, high) = section.heights;
         let far = high + 0.5 * (high - low);
         [low, high, section.level.min(far)]
     };
-    let beside = model.beside().and_then(|ghost| ghost.snapshot.as_deref());
+    let beside = app.beside().and_then(|ghost| ghost.snapshot.as_deref());
     let beside = beside.into_iter().flat_map(|beside| ends(&beside.profile));
     Span::around(ends(&snapshot.profile).into_iter().chain(beside), 0.05)
 }

@@ -1,8 +1,8 @@
 //! The row of a pane: all properties of the pane for layout, drawing, keys, mouse and data.
 
 use crate::draw::{CellPlot, Chart, Figure};
+use crate::explorer::app::App;
 use crate::explorer::mode::ModeKind;
-use crate::explorer::model::Model;
 use crate::explorer::snapshot::{Section, SolvedScene};
 use crate::explorer::study::{PaneData, Task};
 use crate::explorer::update::Effect;
@@ -23,10 +23,10 @@ pub enum Place {
 }
 
 /// Reply of a pane to the mouse at a position inside of its frame.
-pub type Reply = fn(&mut Model, Rect, Position) -> Vec<Effect>;
+pub type Reply = fn(&mut App, Rect, Position) -> Vec<Effect>;
 
 /// Section of the profile in a pane, as a chart and its place on the screen.
-pub type PlacedSection = for<'m> fn(&'m Model, Rect) -> Option<(&'m Section, Chart, CellPlot)>;
+pub type PlacedSection = for<'m> fn(&'m App, Rect) -> Option<(&'m Section, Chart, CellPlot)>;
 
 /// Properties of one pane. Drawing, title and edge get the area of the whole pane, all others the area inside of the
 /// frame.
@@ -34,13 +34,13 @@ pub struct PaneRow {
     /// Place in a window with room for all.
     pub place: Place,
     /// Title in the frame.
-    pub title: fn(&Model) -> String,
+    pub title: fn(&App) -> String,
     /// Draws the inside.
-    pub draw: fn(&mut Frame<'_>, Rect, &Model),
+    pub draw: fn(&mut Frame<'_>, Rect, &App),
     /// Content as a figure for a file; `None` while there is nothing to draw.
-    pub figure: fn(&Model) -> Option<Figure>,
+    pub figure: fn(&App) -> Option<Figure>,
     /// Text in the lower edge of the frame.
-    pub edge: fn(&Model, Rect) -> Option<Line<'static>>,
+    pub edge: fn(&App, Rect) -> Option<Line<'static>>,
     /// Keys of the selected pane; those of the crosshair, while this is shown.
     pub keys: Option<ModeKind>,
     /// Section of the profile in the pane.
@@ -50,15 +50,15 @@ pub struct PaneRow {
     /// Reply to a movement with the button down.
     pub drag: Reply,
     /// Reply to turns of the wheel, up positive.
-    pub wheel: fn(&mut Model, Rect, Position, i32) -> Vec<Effect>,
+    pub wheel: fn(&mut App, Rect, Position, i32) -> Vec<Effect>,
     /// True if the pane needs the spectra of the scene, computed only then.
     pub needs_spectra: bool,
     /// Computation that the shown pane waits for.
-    pub task: fn(&Model, &Arc<SolvedScene>) -> Option<Task>,
+    pub task: fn(&App, &Arc<SolvedScene>) -> Option<Task>,
     /// Stores an addition to the data of the pane.
-    pub take_in: fn(&mut Model, PaneData),
+    pub take_in: fn(&mut App, PaneData),
     /// Drops data of the former scene.
-    pub renew: fn(&mut Model),
+    pub renew: fn(&mut App),
     /// Paragraphs of the help: a name and the meaning of the signs in the pane.
     pub help: &'static [(&'static str, &'static str)],
 }

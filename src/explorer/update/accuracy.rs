@@ -2,7 +2,7 @@
 
 use super::{Effect, edit};
 use crate::accuracy::{Choice, ChoiceError, Target, parse_tolerance};
-use crate::explorer::model::{Estimated, Model};
+use crate::explorer::app::{App, Estimated};
 use crate::explorer::prompt::Purpose;
 use crate::explorer::study::{Finding, Found, Task};
 use crate::explorer::text_line::TextLine;
@@ -11,70 +11,70 @@ use crate::text::grouped;
 
 /// Remaining studies of the present scene, in this order.
 #[must_use]
-pub fn study_tasks(model: &Model) -> Vec<Task> {
-    let Some(computed) = model.current() else { return Vec::new() };
-    let appraisal = &model.appraisal;
+pub fn study_tasks(app: &App) -> Vec<Task> {
+    let Some(computed) = app.current() else { return Vec::new() };
+    let appraisal = &app.studies.appraisal;
     if let Some((tolerance, _)) = appraisal.choosing {
         return vec![Task::Choose(computed.scene.clone(), tolerance)];
     }
     let estimate =
         (appraisal.estimated == Estimated::Waiting).then(|| Task::Estimate(std::sync::Arc::clone(computed)));
-    let shown = model.large.filter(|pane| !model.failures.contains_key(pane));
-    let shown = shown.and_then(|pane| (pane.row().task)(model, computed));
+    let shown = app.view.large.filter(|pane| !app.studies.failures.contains_key(pane));
+    let shown = shown.and_then(|pane| (pane.row().task)(app, computed));
     estimate.into_iter().chain(shown).collect()
 }
 
 const NOT_COMPUTED: &str = "not before the scene is computed";
 
 /// Asks for a tolerance.
-pub fn type_tolerance(model: &mut Model) {
-    if model.is_current() {
-        model.ask(Purpose::Tolerance, TextLine::default());
+pub fn type_tolerance(app: &mut App) {
+    if app.is_current() {
+        app.ask(Purpose::Tolerance, TextLine::default());
     } else {
-        model.set_error(NOT_COMPUTED);
+        app.set_error(NOT_COMPUTED);
     }
 }
 
 /// Searches springs for a typed tolerance.
-pub fn accept_tolerance(model: &mut Model, typed: &str) -> Result<Vec<Effect>, String> {
+pub fn accept_tolerance(app: &mut App, typed: &str) -> Result<Vec<Effect>, String> {
     let tolerance = parse_tolerance(typed)?;
-    if !model.is_current() {
+    if !app.is_current() {
         return Err(NOT_COMPUTED.to_owned());
     }
-    model.appraisal.choosing = Some((tolerance, None));
-    model.appraisal.answer = None;
+    app.studies.appraisal.choosing = Some((tolerance, None));
+    app.studies.appraisal.answer = None;
     // The search ends a measurement.
-    model.appraisal.costs.trying = None;
+    app.studies.appraisal.costs.trying = None;
     Ok(vec![Effect::Study])
 }
 
 /// Stores a finding.
-pub fn found(model: &mut Model, found: Found) -> Vec<Effect> {
-    if found.generation != model.generation {
+pub fn found(app: &mut App, found: Found) -> Vec<Effect> {
+    if found.generation != app.edit.generation {
         // The scene has been changed since.
         return Vec::new();
     }
     match found.finding {
         Finding::Chosen(tolerance, result) => {
             // Without a search under way the choice is no longer wanted.
-            if model.appraisal.choosing.take().is_none() {
+            if app.studies.appraisal.choosing.take().is_none() {
                 return Vec::new();
             }
             match result {
-                Ok(choice) => return take_over(model, &choice),
+                Ok(choice) => return take_over(app, &choice),
                 Err(error) => {
-                    refuse(model, tolerance, &error);
+                    refuse(app, tolerance, &error);
                     return vec![Effect::Study];
                 }
             }
         }
-        Finding::Extended(data) => (data.pane().row().take_in)(model, data),
-        Finding::NotExtended(pane, why) => drop(model.failures.insert(pane, why)),
+        Finding::Extended(data) => (data.pane().row().take_in)(app, data),
+        Finding::NotExtended(pane, why) => drop(app.studies.failures.insert(pane, why)),
         Finding::Estimated(estimate) => {
-            model.appraisal.estimated = estimate.map_or(Estimated::Unknown, Estimated::Known);
+            app.studies.appraisal.estimated = estimate.map_or(Estimated::Unknown, Estimated::Known);
         }
         Finding::Choosing(points) => {
-            if let Some((_, trying)) = &mut model.appraisal.choosing {
+            if let Some((_, trying)) = &mut app.studies.appraisal.choosing {
                 *trying = Some(points);
             }
         }
@@ -83,9 +83,9 @@ pub fn found(model: &mut Model, found: Found) -> Vec<Effect> {
 }
 
 /// Makes a choice an edit.
-fn take_over(model: &mut Model, choice: &Choice) -> Vec<Effect> {
+fn take_over(app: &mut App, choice: &Choice) -> Vec<Effect> {
     let sentence = choice.sentence();
-    let numerics = model.document.scene().numerics;
+    let numerics = app.edit.document.scene().numerics;
     let short = format!(
         "{} springs, edges {}: {} within {}",
         grouped(choice.points),
@@ -99,23 +99,23 @@ fn take_over(model: &mut Model, choice: &Choice) -> Vec<Effect> {
         let points = choice.points.to_string();
         let fields = [("numerics.points", points.as_str()), ("numerics.edges", choice.edges.name())];
         let fields = fields.map(|(path, value)| (path.to_owned(), value.to_owned()));
-        effects = edit::take_over(model, model.document.set_all(&fields));
-        if let Some((_, why)) = &model.refused {
-            model.appraisal.answer = Some(why.clone());
+        effects = edit::take_over(app, app.edit.document.set_all(&fields));
+        if let Some((_, why)) = &app.edit.refused {
+            app.studies.appraisal.answer = Some(why.clone());
             return effects;
         }
     }
     // From finer solutions than those of an estimate.
-    model.appraisal.estimated = Estimated::Known(choice.estimate());
+    app.studies.appraisal.estimated = Estimated::Known(choice.estimate());
     let already = if is_so { "as it is: " } else { "" };
-    let text = fitting(model, format!("{already}{sentence}"), format!("{already}{short}"));
-    model.set_done(text);
-    model.appraisal.answer = Some(sentence);
+    let text = fitting(app, format!("{already}{sentence}"), format!("{already}{short}"));
+    app.set_done(text);
+    app.studies.appraisal.answer = Some(sentence);
     effects
 }
 
 /// States the accuracy within reach instead.
-fn refuse(model: &mut Model, tolerance: f64, error: &ChoiceError) {
+fn refuse(app: &mut App, tolerance: f64, error: &ChoiceError) {
     let sentence = error.to_string();
     let short = match error {
         ChoiceError::Unreached { best: Some(best), .. } => format!(
@@ -130,14 +130,14 @@ fn refuse(model: &mut Model, tolerance: f64, error: &ChoiceError) {
         ChoiceError::Stepwise => "a tolerance needs numerics.solver: Exact".to_owned(),
         ChoiceError::Run(_) | ChoiceError::Stopped => sentence.clone(),
     };
-    let why = fitting(model, sentence.clone(), short);
-    model.set_error(why);
-    model.appraisal.answer = Some(sentence);
+    let why = fitting(app, sentence.clone(), short);
+    app.set_error(why);
+    app.studies.appraisal.answer = Some(sentence);
 }
 
 /// The long text where the status line has room, else the short one.
-fn fitting(model: &Model, long: String, short: String) -> String {
-    if long.chars().count() + 2 <= usize::from(model.size.0) { long } else { short }
+fn fitting(app: &App, long: String, short: String) -> String {
+    if long.chars().count() + 2 <= usize::from(app.view.size.0) { long } else { short }
 }
 
 /// A share in per cent.

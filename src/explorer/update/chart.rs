@@ -1,8 +1,8 @@
 //! Commands of the map and of the scene as its mark.
 
 use super::{Effect, edit};
+use crate::explorer::app::App;
 use crate::explorer::command::Command;
-use crate::explorer::model::Model;
 use crate::explorer::opening::Opening;
 use crate::explorer::panes::Pane;
 use crate::scene::{Document, SceneErrors};
@@ -16,12 +16,12 @@ pub fn is_move(command: Command) -> bool {
 }
 
 /// Explores a scene or a study opened by its path.
-pub fn open(model: &mut Model, opening: Opening) -> Vec<Effect> {
+pub fn open(app: &mut App, opening: Opening) -> Vec<Effect> {
     let Opening { document, study_map, beside } = opening;
-    model.opens_beside = beside;
-    let effects = edit::open(model, document);
+    app.opens_beside = beside;
+    let effects = edit::open(app, document);
     if let Some(study_map) = study_map {
-        model.show_study(study_map);
+        app.show_study(study_map);
     }
     effects
 }
@@ -30,65 +30,65 @@ pub fn open(model: &mut Model, opening: Opening) -> Vec<Effect> {
 const NO_STUDY: &str = "no study is open; o and the path of its folder open one";
 
 /// Shows the map of the study, or the live map.
-pub fn toggle_study(model: &mut Model) -> Vec<Effect> {
-    if model.chart.study.is_none() {
-        model.set_error(NO_STUDY);
+pub fn toggle_study(app: &mut App) -> Vec<Effect> {
+    if app.chart.study.is_none() {
+        app.set_error(NO_STUDY);
         return Vec::new();
     }
-    model.chart.of_study = !model.chart.of_study;
-    model.edited = false;
+    app.chart.of_study = !app.chart.of_study;
+    app.studies.edited = false;
     vec![Effect::Study]
 }
 
 /// Maps over the other parameter of roughness.
-pub fn next_parameter(model: &mut Model) -> Vec<Effect> {
-    if model.chart.shown_study().is_some() {
-        model.set_error("a study has its own axes; W shows the map that is computed here");
+pub fn next_parameter(app: &mut App) -> Vec<Effect> {
+    if app.chart.shown_study().is_some() {
+        app.set_error("a study has its own axes; W shows the map that is computed here");
         return Vec::new();
     }
-    model.chart.next_parameter();
-    model.failures.remove(&Pane::Chart);
-    model.edited = false;
+    app.chart.next_parameter();
+    app.studies.failures.remove(&Pane::Chart);
+    app.studies.edited = false;
     vec![Effect::Study]
 }
 
 /// Shows another map of the study. A scene that belongs to the former map follows.
-pub fn step_slice(model: &mut Model, steps: i32) -> Vec<Effect> {
-    let Some(study) = model.chart.shown_study() else {
-        let why = if model.chart.study.is_some() {
+pub fn step_slice(app: &mut App, steps: i32) -> Vec<Effect> {
+    let Some(study) = app.chart.shown_study() else {
+        let why = if app.chart.study.is_some() {
             "this is the map that is computed here; W shows the study's"
         } else {
             NO_STUDY
         };
-        model.set_error(why);
+        app.set_error(why);
         return Vec::new();
     };
     if study.study_map.slices() == 1 {
-        model.set_done("this study has one map");
+        app.set_done("this study has one map");
         return Vec::new();
     }
     let next = study.stepped(steps);
-    let goes_with = study.study_map.is_of(study.slice, model.document.scene());
-    let followed = goes_with.then(|| study.study_map.follow(next, &model.document));
+    let goes_with = study.study_map.is_of(study.slice, app.edit.document.scene());
+    let followed = goes_with.then(|| study.study_map.follow(next, &app.edit.document));
     let study_map = Arc::clone(&study.study_map);
-    model.chart.open_study(study_map, next);
-    followed.map_or_else(Vec::new, |followed| edit::take_over(model, followed))
+    app.chart.open_study(study_map, next);
+    followed.map_or_else(Vec::new, |followed| edit::take_over(app, followed))
 }
 
 /// Moves the mark by columns and rows of the map.
-pub fn step(model: &mut Model, columns: i32, rows: i32) -> Vec<Effect> {
-    let Some((at_across, at_up)) = model.place() else {
-        let why = match Template::of(model.document.scene()) {
+pub fn step(app: &mut App, columns: i32, rows: i32) -> Vec<Effect> {
+    let Some((at_across, at_up)) = app.place() else {
+        let why = match Template::of(app.edit.document.scene()) {
             Err(why) => why.to_string(),
-            Ok(_) if model.chart.shown_study().is_some() => NO_PLACE.to_owned(),
+            Ok(_) if app.chart.shown_study().is_some() => NO_PLACE.to_owned(),
             Ok(_) => "not before the scene is computed: its κ and e_el/γ follow from its profile".to_owned(),
         };
-        model.set_error(why);
+        app.set_error(why);
         return Vec::new();
     };
-    let Some((across, up)) = model.chart.axes(model.document.scene()) else { return Vec::new() };
+    let Some((across, up)) = app.chart.axes(app.edit.document.scene()) else { return Vec::new() };
     if rows != 0 && up.is_none() {
-        model.set_error(format!("this map has one axis, {}", across.symbol_or_name()));
+        app.set_error(format!("this map has one axis, {}", across.symbol_or_name()));
         return Vec::new();
     }
     let next = |at: f64, steps: i32, axis: &Axis| {
@@ -99,9 +99,9 @@ pub fn step(model: &mut Model, columns: i32, rows: i32) -> Vec<Effect> {
         _ => Some(None),
     };
     match (next(at_across, columns, &across), to_up) {
-        (Some(across), Some(up)) => move_to(model, (across, up)),
+        (Some(across), Some(up)) => move_to(app, (across, up)),
         _ => {
-            model.set_done("here the map ends");
+            app.set_done("here the map ends");
             Vec::new()
         }
     }
@@ -111,25 +111,25 @@ pub fn step(model: &mut Model, columns: i32, rows: i32) -> Vec<Effect> {
 const NO_PLACE: &str = "the scene has no place on this map: it lacks a quantity of the axes";
 
 /// Sets the scene to the values of a place on the map. Successive moves are one edit.
-pub fn move_to(model: &mut Model, place: Place) -> Vec<Effect> {
-    let goes_on = model.chart.moving;
-    let effects = match moved_to(model, place) {
-        Ok(document) if goes_on => edit::replace(model, document),
-        moved => edit::take_over(model, moved),
+pub fn move_to(app: &mut App, place: Place) -> Vec<Effect> {
+    let goes_on = app.chart.moving;
+    let effects = match moved_to(app, place) {
+        Ok(document) if goes_on => edit::replace(app, document),
+        moved => edit::take_over(app, moved),
     };
-    model.chart.moving = model.refused.is_none();
+    app.chart.moving = app.edit.refused.is_none();
     effects
 }
 
 /// The scene at a place on the map. A preload in units of E* h L may change with the place.
-fn moved_to(model: &Model, (to_across, to_up): Place) -> Result<Document, SceneErrors> {
-    let axes = model.chart.axes(model.document.scene());
+fn moved_to(app: &App, (to_across, to_up): Place) -> Result<Document, SceneErrors> {
+    let axes = app.chart.axes(app.edit.document.scene());
     let (across, up) = axes.as_ref().map_or((None, None), |(across, up)| (Some(across), up.as_ref()));
     let values: Vec<(&Axis, f64)> = across.zip(Some(to_across)).into_iter().chain(up.zip(to_up)).collect();
-    let moved = moved(&model.document, &values)?;
-    match model.chart.shown_study() {
+    let moved = moved(&app.edit.document, &values)?;
+    match app.chart.shown_study() {
         Some(study)
-            if study.study_map.is_of(study.slice, model.document.scene())
+            if study.study_map.is_of(study.slice, app.edit.document.scene())
                 && !study.study_map.is_of(study.slice, moved.scene()) =>
         {
             study.study_map.follow(study.slice, &moved)

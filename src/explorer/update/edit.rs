@@ -2,9 +2,9 @@
 
 use super::ghosts::name_ghosts;
 use super::{Effect, scene_of, show};
+use crate::explorer::app::{App, Appraisal, CloseUpTarget, Pane, Player};
 use crate::explorer::layout::Layout;
 use crate::explorer::mode::Mode;
-use crate::explorer::model::{Appraisal, CloseUpTarget, Model, Pane, Player};
 use crate::explorer::panes::first_listed;
 use crate::explorer::parameters::{Parameter, Setting, parameters, text_of};
 use crate::explorer::prompt::{Prompt, Purpose};
@@ -18,110 +18,110 @@ use crate::scene::{
 const UNDO_DEPTH: usize = 1000;
 
 /// Moves the selection in the list of parameters.
-pub fn move_selection(model: &mut Model, rows: i32) -> Vec<Effect> {
-    let listed = model.listed();
-    let place = listed.iter().position(|index| *index == model.selected).unwrap_or(0);
+pub fn move_selection(app: &mut App, rows: i32) -> Vec<Effect> {
+    let listed = app.listed();
+    let place = listed.iter().position(|index| *index == app.edit.selected).unwrap_or(0);
     let last = listed.len().saturating_sub(1);
     let next = listed.get(place.saturating_add_signed(rows as isize).min(last));
-    select(model, next.copied().unwrap_or(0));
-    show_parameters(model)
+    select(app, next.copied().unwrap_or(0));
+    show_parameters(app)
 }
 
 /// Selects the first or last parameter.
-pub fn select_end(model: &mut Model, last: bool) -> Vec<Effect> {
-    let listed = model.listed();
+pub fn select_end(app: &mut App, last: bool) -> Vec<Effect> {
+    let listed = app.listed();
     let end = if last { listed.last() } else { listed.first() };
-    select(model, end.copied().unwrap_or(0));
-    show_parameters(model)
+    select(app, end.copied().unwrap_or(0));
+    show_parameters(app)
 }
 
 /// Folds the group of the selected parameter, or unfolds it.
-pub fn toggle_fold(model: &mut Model) -> Vec<Effect> {
-    let is_folded = model.parameter().is_some_and(|one| model.folded.contains(one.group));
-    fold(model, !is_folded);
-    show_parameters(model)
+pub fn toggle_fold(app: &mut App) -> Vec<Effect> {
+    let is_folded = app.parameter().is_some_and(|one| app.edit.folded.contains(one.group));
+    fold(app, !is_folded);
+    show_parameters(app)
 }
 
 /// Opens the built-in scene of a digit.
-pub fn open_built_in(model: &mut Model, digit: char) -> Vec<Effect> {
+pub fn open_built_in(app: &mut App, digit: char) -> Vec<Effect> {
     let place = digit.to_digit(10).and_then(|digit| (digit as usize).checked_sub(1));
     let Some(preset) = place.and_then(|place| presets().get(place)) else { return Vec::new() };
-    open_read(model, Document::parse(preset.text, preset.name))
+    open_read(app, Document::parse(preset.text, preset.name))
 }
 
 /// Explores a scene just read, or states the reason why it is not allowed.
-pub fn open_read(model: &mut Model, read: Result<Document, SceneErrors>) -> Vec<Effect> {
+pub fn open_read(app: &mut App, read: Result<Document, SceneErrors>) -> Vec<Effect> {
     match read {
-        Ok(document) => open(model, document),
+        Ok(document) => open(app, document),
         Err(errors) => {
-            model.set_error(errors.to_string());
+            app.set_error(errors.to_string());
             Vec::new()
         }
     }
 }
 
 /// Explores another scene from its beginning.
-pub fn open(model: &mut Model, document: Document) -> Vec<Effect> {
-    if model.is_unsaved() {
-        model.left.insert(model.document.name().to_owned(), model.document.clone());
-        model.set_done("the changed scene is kept: undo brings it back");
+pub fn open(app: &mut App, document: Document) -> Vec<Effect> {
+    if app.is_unsaved() {
+        app.edit.left.insert(app.edit.document.name().to_owned(), app.edit.document.clone());
+        app.set_done("the changed scene is kept: undo brings it back");
     }
-    model.player = Player::START;
-    model.look = CloseUpTarget { focus: Focus::Summit, springs: CloseUpTarget::springs_shown(&document) };
-    model.profile = LineView::WHOLE;
+    app.play = Player::START;
+    app.view.look = CloseUpTarget { focus: Focus::Summit, springs: CloseUpTarget::springs_shown(&document) };
+    app.view.profile = LineView::WHOLE;
     // The shown map is that of the scene; a study stays loaded.
-    model.chart.of_study = false;
-    let effects = adopt(model, document);
-    model.set_saved();
+    app.chart.of_study = false;
+    let effects = adopt(app, document);
+    app.set_saved();
     effects
 }
 
 /// Selects a parameter, or the last one, and unfolds its group.
-pub fn select(model: &mut Model, row: usize) {
-    model.selected = row.min(model.parameters.len().saturating_sub(1));
-    model.refused = None;
-    let hidden = model.parameter().filter(|parameter| !parameter.is_head()).map(|parameter| parameter.group);
+pub fn select(app: &mut App, row: usize) {
+    app.edit.selected = row.min(app.edit.parameters.len().saturating_sub(1));
+    app.edit.refused = None;
+    let hidden = app.parameter().filter(|parameter| !parameter.is_head()).map(|parameter| parameter.group);
     if let Some(group) = hidden {
-        model.folded.remove(group);
+        app.edit.folded.remove(group);
     }
-    model.first_listed = first_listed(model);
+    app.view.first_listed = first_listed(app);
 }
 
 /// Folds the group of the selected parameter and selects its first row, or unfolds the group.
-fn fold(model: &mut Model, folds: bool) {
-    let Some(group) = model.parameter().map(|parameter| parameter.group) else { return };
+fn fold(app: &mut App, folds: bool) {
+    let Some(group) = app.parameter().map(|parameter| parameter.group) else { return };
     if folds {
-        model.selected = row_of(model, group);
-        model.refused = None;
-        model.folded.insert(group);
+        app.edit.selected = row_of(app, group);
+        app.edit.refused = None;
+        app.edit.folded.insert(group);
     } else {
-        model.folded.remove(group);
+        app.edit.folded.remove(group);
     }
-    model.first_listed = first_listed(model);
+    app.view.first_listed = first_listed(app);
 }
 
 /// Opens the editor on the selected value, which the first typed character replaces.
-pub fn edit_value(model: &mut Model, first: Option<char>) -> Vec<Effect> {
-    if let Some(parameter) = model.parameter() {
+pub fn edit_value(app: &mut App, first: Option<char>) -> Vec<Effect> {
+    if let Some(parameter) = app.parameter() {
         match parameter.setting {
             _ if first.is_some() && !parameter.takes_number() => {
                 let way = way_of_changing(parameter);
-                model.set_done(way);
+                app.set_done(way);
             }
-            Setting::Switch(_) => return switch(model),
-            Setting::Heading => return toggle_fold(model),
+            Setting::Switch(_) => return switch(app),
+            Setting::Heading => return toggle_fold(app),
             Setting::Field | Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion => {
-                let mut line = TextLine::selected(&editable(model, parameter));
+                let mut line = TextLine::selected(&editable(app, parameter));
                 first.into_iter().for_each(|character| line.insert(&character.to_string()));
-                model.ask(Purpose::Value, line);
-                model.refused = None;
+                app.ask(Purpose::Value, line);
+                app.edit.refused = None;
                 // No preview of an earlier edit.
-                (model.tried, model.preview) = (None, None);
+                (app.tried, app.preview) = (None, None);
             }
         }
     }
-    let mut effects = show_parameters(model);
-    effects.extend(preview(model));
+    let mut effects = show_parameters(app);
+    effects.extend(preview(app));
     effects
 }
 
@@ -137,51 +137,51 @@ fn way_of_changing(parameter: &Parameter) -> String {
 }
 
 /// Chooses the list of parameters where a small window hides it: no value changes unseen.
-pub fn show_parameters(model: &mut Model) -> Vec<Effect> {
-    if Layout::of(model).pane(Pane::Parameters).is_some() {
+pub fn show_parameters(app: &mut App) -> Vec<Effect> {
+    if Layout::of(app).pane(Pane::Parameters).is_some() {
         return Vec::new();
     }
-    show::choose(model, Pane::Parameters)
+    show::choose(app, Pane::Parameters)
 }
 
 /// Steps the selected value.
-pub fn step_value(model: &mut Model, steps: i32, coarse: bool) -> Vec<Effect> {
-    [show_parameters(model), stepped(model, steps, coarse)].concat()
+pub fn step_value(app: &mut App, steps: i32, coarse: bool) -> Vec<Effect> {
+    [show_parameters(app), stepped(app, steps, coarse)].concat()
 }
 
-fn stepped(model: &mut Model, steps: i32, coarse: bool) -> Vec<Effect> {
-    let Some(parameter) = model.parameter() else { return Vec::new() };
+fn stepped(app: &mut App, steps: i32, coarse: bool) -> Vec<Effect> {
+    let Some(parameter) = app.parameter() else { return Vec::new() };
     match parameter.setting {
-        Setting::Switch(_) => return switch(model),
+        Setting::Switch(_) => return switch(app),
         Setting::Heading => {
-            fold(model, steps < 0);
+            fold(app, steps < 0);
             return Vec::new();
         }
         Setting::Field if matches!(parameter.field.range, Range::Text { .. }) => {
-            return refuse(model, way_of_changing(parameter));
+            return refuse(app, way_of_changing(parameter));
         }
         Setting::Field | Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion => {}
     }
     let no_step = format!("no further step; allowed: {}", parameter.field.allowed());
     if parameter.field.step == Step::Choice {
-        return match model.document.with_next_choice(parameter.field, steps > 0, &computed(model)) {
-            Ok(Some(document)) => take_over(model, Ok(document)),
-            Ok(None) => refuse(model, no_step),
-            Err(errors) => take_over(model, Err(errors)),
+        return match app.edit.document.with_next_choice(parameter.field, steps > 0, &computed(app)) {
+            Ok(Some(document)) => take_over(app, Ok(document)),
+            Ok(None) => refuse(app, no_step),
+            Err(errors) => take_over(app, Err(errors)),
         };
     }
-    let Some(written) = model.written(parameter) else {
-        return refuse(model, "not before the scene is computed".to_owned());
+    let Some(written) = app.written(parameter) else {
+        return refuse(app, "not before the scene is computed".to_owned());
     };
     match parameter.field.stepped(&written, steps, coarse) {
-        Some(next) => set_selected(model, &next),
-        None => refuse(model, no_step),
+        Some(next) => set_selected(app, &next),
+        None => refuse(app, no_step),
     }
 }
 
 /// The value of a parameter at the start of the editor: in the shown unit, to the last digit.
-fn editable(model: &Model, parameter: &Parameter) -> String {
-    let written = model.written(parameter).unwrap_or_default();
+fn editable(app: &App, parameter: &Parameter) -> String {
+    let written = app.written(parameter).unwrap_or_default();
     match (parameter.field.range, written.parse()) {
         (Range::Real { .. }, Ok(value)) => exact_quantity(value, parameter.field.unit),
         (Range::Text { .. }, _) => text_of(&written),
@@ -190,37 +190,37 @@ fn editable(model: &Model, parameter: &Parameter) -> String {
 }
 
 /// Sets the selected parameter to the typed value.
-pub fn accept_value(model: &mut Model, typed: &str) -> Result<Vec<Effect>, String> {
-    let Some(parameter) = model.parameter() else { return Ok(Vec::new()) };
-    if typed == editable(model, parameter) {
+pub fn accept_value(app: &mut App, typed: &str) -> Result<Vec<Effect>, String> {
+    let Some(parameter) = app.parameter() else { return Ok(Vec::new()) };
+    if typed == editable(app, parameter) {
         return Ok(Vec::new());
     }
     let allowed = parameter.field.allowed();
     let written =
         parameter.field.read_typed(typed).map_err(|error| format!("{error}; allowed: {allowed}"))?;
-    let document = with_selected(model, &written)?;
-    Ok(take_over(model, Ok(document)))
+    let document = with_selected(app, &written)?;
+    Ok(take_over(app, Ok(document)))
 }
 
 /// Sets the selected parameter to a value in the notation of the scene.
-fn set_selected(model: &mut Model, written: &str) -> Vec<Effect> {
-    match with_selected(model, written) {
-        Ok(document) => take_over(model, Ok(document)),
-        Err(why) => refuse(model, why),
+fn set_selected(app: &mut App, written: &str) -> Vec<Effect> {
+    match with_selected(app, written) {
+        Ok(document) => take_over(app, Ok(document)),
+        Err(why) => refuse(app, why),
     }
 }
 
 /// The scene with another value of the selected parameter, in the notation of the scene; or why there is none.
-fn with_selected(model: &Model, written: &str) -> Result<Document, String> {
-    let parameter = model.parameter().ok_or("no parameter is selected")?;
-    let document = &model.document;
+fn with_selected(app: &App, written: &str) -> Result<Document, String> {
+    let parameter = app.parameter().ok_or("no parameter is selected")?;
+    let document = &app.edit.document;
     let number = || parse_quantity(written, parameter.field.unit).map_err(|error| error.to_string());
     let changed = match parameter.setting {
         Setting::Field | Setting::Switch(_) | Setting::Heading => document.set(&parameter.path, written),
         Setting::WorkOfAdhesion => document.with_work_of_adhesion(number()?),
         Setting::RoughnessParameter(parameter) => {
             let value = number()?;
-            match (document.scene().adhesion, model.governing()) {
+            match (document.scene().adhesion, app.governing()) {
                 // The scene has γ alone, which follows from the parameter.
                 (Some(Adhesion::Work { amplitude: None, .. }), Some(governing)) => {
                     let undefined = || format!("{} is not defined without roughness", parameter.symbol());
@@ -252,19 +252,19 @@ fn is_previewed(document: &Document) -> bool {
 }
 
 /// Requests the curve with the value typed so far, or none where that is not an allowed value.
-pub fn preview(model: &mut Model) -> Vec<Effect> {
-    let tried = match &model.mode {
+pub fn preview(app: &mut App) -> Vec<Effect> {
+    let tried = match &app.mode {
         Mode::Prompt(Prompt { purpose: Purpose::Value, line, .. }) => {
-            let written = model.parameter().and_then(|one| one.field.read_typed(&line.text()).ok());
-            written.and_then(|written| with_selected(model, &written).ok())
+            let written = app.parameter().and_then(|one| one.field.read_typed(&line.text()).ok());
+            written.and_then(|written| with_selected(app, &written).ok())
         }
         _ => None,
     };
-    let tried = tried.filter(|tried| tried.text() != model.document.text() && is_previewed(tried));
-    if tried.as_ref().map(Document::text) == model.tried.as_ref().map(|tried| tried.text.as_str()) {
+    let tried = tried.filter(|tried| tried.text() != app.edit.document.text() && is_previewed(tried));
+    if tried.as_ref().map(Document::text) == app.tried.as_ref().map(|tried| tried.text.as_str()) {
         return Vec::new();
     }
-    model.tried = tried.as_ref().map(tried_of);
+    app.tried = tried.as_ref().map(tried_of);
     vec![Effect::Ask]
 }
 
@@ -274,26 +274,26 @@ pub fn tried_of(document: &Document) -> Tried {
 }
 
 /// Switches the effect of the selected row on or off.
-pub fn toggle_effect(model: &mut Model) -> Vec<Effect> {
-    [show_parameters(model), switch(model)].concat()
+pub fn toggle_effect(app: &mut App) -> Vec<Effect> {
+    [show_parameters(app), switch(app)].concat()
 }
 
-fn switch(model: &mut Model) -> Vec<Effect> {
-    let Some(effect) = model.parameter().and_then(|parameter| parameter.effect) else {
-        return refuse(model, "no effect to switch; form, roughness, adhesion, loading have one".to_owned());
+fn switch(app: &mut App) -> Vec<Effect> {
+    let Some(effect) = app.parameter().and_then(|parameter| parameter.effect) else {
+        return refuse(app, "no effect to switch; form, roughness, adhesion, loading have one".to_owned());
     };
-    let document = &model.document;
+    let document = &app.edit.document;
     let changed = if effect.is_on(document.scene()) {
-        document.without(effect, &computed(model))
+        document.without(effect, &computed(app))
     } else {
         document.with(effect)
     };
-    take_over(model, changed)
+    take_over(app, changed)
 }
 
 /// Values of the computed scene, which may replace others in the scene.
-fn computed(model: &Model) -> Computed {
-    let governing = model.governing();
+fn computed(app: &App) -> Computed {
+    let governing = app.governing();
     Computed {
         work_of_adhesion: governing.and_then(|governing| governing.work_of_adhesion),
         kappa: governing.and_then(|governing| governing.kappa),
@@ -302,93 +302,99 @@ fn computed(model: &Model) -> Computed {
     }
 }
 
-fn refuse(model: &mut Model, why: String) -> Vec<Effect> {
-    model.refused = Some((model.selected, why));
+fn refuse(app: &mut App, why: String) -> Vec<Effect> {
+    app.edit.refused = Some((app.edit.selected, why));
     Vec::new()
 }
 
 /// Sets a field; an invalid value leaves the scene unchanged.
-pub fn change(model: &mut Model, path: &str, value: &str) -> Vec<Effect> {
-    let changed = model.document.set(path, value);
-    take_over(model, changed)
+pub fn change(app: &mut App, path: &str, value: &str) -> Vec<Effect> {
+    let changed = app.edit.document.set(path, value);
+    take_over(app, changed)
 }
 
 /// Makes a changed document the explored one, or states the reason why it is not allowed.
-pub fn take_over(model: &mut Model, changed: Result<Document, SceneErrors>) -> Vec<Effect> {
+pub fn take_over(app: &mut App, changed: Result<Document, SceneErrors>) -> Vec<Effect> {
     match changed {
         Ok(document) => {
-            let lost = model.document.comments().saturating_sub(document.comments());
-            let effects = adopt(model, document);
+            let lost = app.edit.document.comments().saturating_sub(document.comments());
+            let effects = adopt(app, document);
             if lost > 0 {
                 let gone = if lost == 1 { "a comment is" } else { "comments are" };
-                model.set_done(format!("{gone} gone with what was replaced: undo brings it all back"));
+                app.set_done(format!("{gone} gone with what was replaced: undo brings it all back"));
             }
             effects
         }
-        Err(errors) => refuse(model, reasons(&errors)),
+        Err(errors) => refuse(app, reasons(&errors)),
     }
 }
 
 /// Makes a document the explored one; undo returns to the former one.
-pub fn adopt(model: &mut Model, document: Document) -> Vec<Effect> {
-    let before = std::mem::replace(&mut model.document, document);
-    model.undo.push(before);
-    if model.undo.len() > UNDO_DEPTH {
-        model.undo.remove(0);
+pub fn adopt(app: &mut App, document: Document) -> Vec<Effect> {
+    let before = std::mem::replace(&mut app.edit.document, document);
+    app.edit.past.push(before);
+    if app.edit.past.len() > UNDO_DEPTH {
+        app.edit.past.remove(0);
     }
-    model.redo.clear();
-    renew(model)
+    app.edit.future.clear();
+    renew(app)
 }
 
 /// Continues the last edit: its new result replaces the former one.
-pub fn replace(model: &mut Model, document: Document) -> Vec<Effect> {
-    model.document = document;
-    model.redo.clear();
-    renew(model)
+pub fn replace(app: &mut App, document: Document) -> Vec<Effect> {
+    app.edit.document = document;
+    app.edit.future.clear();
+    renew(app)
 }
 
 /// Undoes the last edit, or redoes it.
-pub fn undo(model: &mut Model, back: bool) -> Vec<Effect> {
-    let (from, to) =
-        if back { (&mut model.undo, &mut model.redo) } else { (&mut model.redo, &mut model.undo) };
+pub fn undo(app: &mut App, back: bool) -> Vec<Effect> {
+    let (from, to) = if back {
+        (&mut app.edit.past, &mut app.edit.future)
+    } else {
+        (&mut app.edit.future, &mut app.edit.past)
+    };
     let Some(document) = from.pop() else { return Vec::new() };
-    let before = std::mem::replace(&mut model.document, document);
+    let before = std::mem::replace(&mut app.edit.document, document);
     to.push(before.clone());
-    if before.name() != model.document.name() && model.is_changed(&before) {
-        model.left.insert(before.name().to_owned(), before);
+    if before.name() != app.edit.document.name() && app.is_changed(&before) {
+        app.edit.left.insert(before.name().to_owned(), before);
     }
-    renew(model)
+    renew(app)
 }
 
 /// Row of the field at a path, or of the group around it: the selection stays in place when rows come and go, and the
 /// row that switched an effect off can switch the effect on again.
-fn row_of(model: &Model, path: &str) -> usize {
+fn row_of(app: &App, path: &str) -> usize {
     let around = std::iter::successors(Some(path), |path| path.rsplit_once('.').map(|(group, _)| group));
-    let row = |path: &str| model.parameters.iter().position(|parameter| parameter.path == path);
-    around.filter_map(row).next().unwrap_or(model.selected).min(model.parameters.len().saturating_sub(1))
+    let row = |path: &str| app.edit.parameters.iter().position(|parameter| parameter.path == path);
+    around
+        .filter_map(row)
+        .next()
+        .unwrap_or(app.edit.selected)
+        .min(app.edit.parameters.len().saturating_sub(1))
 }
 
 /// Requests the computation of the changed scene.
-fn renew(model: &mut Model) -> Vec<Effect> {
-    let selected = model.parameter().map(|parameter| parameter.path.clone()).unwrap_or_default();
+fn renew(app: &mut App) -> Vec<Effect> {
+    let selected = app.parameter().map(|parameter| parameter.path.clone()).unwrap_or_default();
     // A scene left before is the present one again.
-    let document = &model.document;
-    model.left.retain(|_, left| left.name() != document.name() || left.scene() != document.scene());
-    model.parameters = parameters(&model.document);
-    select(model, row_of(model, &selected));
-    model.generation += 1;
-    model.progress = Some(0);
-    model.edited = true;
-    model.failures.clear();
-    model.appraisal = Appraisal::default();
+    let document = &app.edit.document;
+    app.edit.left.retain(|_, left| left.name() != document.name() || left.scene() != document.scene());
+    app.edit.parameters = parameters(&app.edit.document);
+    select(app, row_of(app, &selected));
+    app.edit.generation += 1;
+    app.progress = Some(0);
+    app.studies.edited = true;
+    app.studies.failures.clear();
+    app.studies.appraisal = Appraisal::default();
     for pane in Pane::ALL {
-        (pane.row().renew)(model);
+        (pane.row().renew)(app);
     }
     // Manual loading belongs to the former profile and contact.
-    if model.manual.take().is_some() {
-        model.set_done("the body is back on the scene's loading");
+    if app.manual.take().is_some() {
+        app.set_done("the body is back on the scene's loading");
     }
-    name_ghosts(model);
-    model.moves.clear();
+    name_ghosts(app);
     vec![Effect::Ask]
 }

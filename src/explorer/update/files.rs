@@ -2,8 +2,8 @@
 
 use super::{Effect, edit};
 use crate::explorer::action::{Content, OutputFile, WriteFailure};
+use crate::explorer::app::App;
 use crate::explorer::mode::Mode;
-use crate::explorer::model::Model;
 use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::text_line::TextLine;
 use crate::export::check_extension;
@@ -12,11 +12,11 @@ use crate::text::is_control;
 use std::path::{Path, PathBuf};
 
 /// Asks for the file to save to.
-pub fn ask_save(model: &mut Model, then_quit: bool) {
-    let name = model.document.name();
+pub fn ask_save(app: &mut App, then_quit: bool) {
+    let name = app.edit.document.name();
     let is_file = Path::new(name).extension().is_some_and(|extension| extension == "ron");
     let file = if is_file { name.to_owned() } else { format!("{name}.ron") };
-    model.ask(Purpose::Save { then_quit }, TextLine::new(&file));
+    app.ask(Purpose::Save { then_quit }, TextLine::new(&file));
 }
 
 /// Saves the scene.
@@ -33,33 +33,33 @@ fn write(path: PathBuf, content: Content, then_quit: bool) -> Result<Vec<Effect>
 }
 
 /// Asks for the file of the scene or, where that is saved, of one left with unsaved changes.
-pub fn save_before_leaving(model: &mut Model) -> Vec<Effect> {
+pub fn save_before_leaving(app: &mut App) -> Vec<Effect> {
     let mut effects = Vec::new();
-    if !model.is_unsaved()
-        && let Some(document) = model.unsaved().first().map(|document| Document::clone(document))
+    if !app.is_unsaved()
+        && let Some(document) = app.unsaved().first().map(|document| Document::clone(document))
     {
-        effects = edit::adopt(model, document);
+        effects = edit::adopt(app, document);
     }
-    ask_save(model, true);
+    ask_save(app, true);
     effects
 }
 
 /// Asks for the name of the file to export to.
-pub fn ask_export(model: &mut Model) {
-    let name = Path::new(model.document.name());
+pub fn ask_export(app: &mut App) {
+    let name = Path::new(app.edit.document.name());
     let stem = name.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
-    model.ask(Purpose::Export, TextLine::new(&format!("{stem}.csv")));
+    app.ask(Purpose::Export, TextLine::new(&format!("{stem}.csv")));
 }
 
 /// Exports to a file; the extension of its name selects the content.
-pub fn export(model: &Model, path: PathBuf) -> Result<Vec<Effect>, String> {
-    let content = content_for(model, &path)?;
+pub fn export(app: &App, path: PathBuf) -> Result<Vec<Effect>, String> {
+    let content = content_for(app, &path)?;
     write(path, content, false)
 }
 
 /// Content for an exported file; or why there is none.
-fn content_for(model: &Model, path: &Path) -> Result<Content, String> {
-    let exports = model.exports();
+fn content_for(app: &App, path: &Path) -> Result<Content, String> {
+    let exports = app.exports();
     let extensions: Vec<_> = exports.iter().map(|(format, _)| format.extension()).collect();
     let content = match check_extension(path, &extensions) {
         Ok(Some(place)) => exports[place].1,
@@ -71,59 +71,58 @@ fn content_for(model: &Model, path: &Path) -> Result<Content, String> {
         Err(error) => return Err(error.to_string()),
     };
     match content {
-        Content::MapCells if model.chart.grid().is_none() => Err("there is no map yet to export".to_owned()),
-        Content::Figure(_) if model.figure().is_none() => {
+        Content::MapCells if app.chart.grid().is_none() => Err("there is no map yet to export".to_owned()),
+        Content::Figure(_) if app.figure().is_none() => {
             Err("the selected pane is empty; there is no figure to export".to_owned())
         }
-        Content::Outcome(_) if !model.is_current() => Err("the scene has no curve yet to export".to_owned()),
+        Content::Outcome(_) if !app.is_current() => Err("the scene has no curve yet to export".to_owned()),
         content => Ok(content),
     }
 }
 
 /// Handles the result of writing.
-pub fn written(model: &mut Model, file: OutputFile, result: Result<(), WriteFailure>) {
+pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>) {
     let path = file.path.display();
     match result {
         Ok(()) => {
             let how = if file.content == Content::Scene { "saved" } else { "exported" };
-            model.set_done(format!("{how} to {path}"));
+            app.set_done(format!("{how} to {path}"));
             if file.content == Content::Scene {
-                model.set_saved_as(&file.path);
+                app.set_saved_as(&file.path);
             }
             if file.then_quit {
-                ask_quit(model);
+                ask_quit(app);
             }
         }
-        Err(WriteFailure::Exists) => model.mode = Mode::Overwrite(file),
+        Err(WriteFailure::Exists) => app.mode = Mode::Overwrite(file),
         Err(WriteFailure::Refused(error)) => {
             let is_scene = file.content == Content::Scene;
             let purpose =
                 if is_scene { Purpose::Save { then_quit: file.then_quit } } else { Purpose::Export };
-            let prompt = Prompt::refused(purpose, &path.to_string(), &error, &model.parameters);
-            model.mode = Mode::Prompt(prompt);
+            let prompt = Prompt::refused(purpose, &path.to_string(), &error, &app.edit.parameters);
+            app.mode = Mode::Prompt(prompt);
         }
     }
 }
 
 /// Leaves the explorer, or asks about unsaved changes first.
-pub fn ask_quit(model: &mut Model) {
-    if model.unsaved().is_empty() {
-        model.finished = true;
+pub fn ask_quit(app: &mut App) {
+    if app.unsaved().is_empty() {
+        app.finished = true;
     } else {
-        model.mode = Mode::Quit;
+        app.mode = Mode::Quit;
     }
 }
 
 /// Copies the command that opens the present scene.
-pub fn copy_command(model: &mut Model) -> Vec<Effect> {
-    let command = command_line("asperity", model.document.name(), model.document.overrides());
+pub fn copy_command(app: &mut App) -> Vec<Effect> {
+    let command = command_line("asperity", app.edit.document.name(), app.edit.document.overrides());
     if command.contains(is_control) {
         // Pasted into a shell they would act on its terminal.
-        model
-            .set_error("not copied: control characters in the name of the file; allowed: a name without any");
+        app.set_error("not copied: control characters in the name of the file; allowed: a name without any");
         return Vec::new();
     }
     // The terminal does not confirm a copy, so the notice has the command too.
-    model.set_done(format!("copy: {command}"));
+    app.set_done(format!("copy: {command}"));
     vec![Effect::Copy(command)]
 }

@@ -1,12 +1,12 @@
 //! Names of kept loops: their differences from the present scene.
 
-use crate::explorer::model::Model;
+use crate::explorer::app::App;
 use crate::scene::Change;
 
 /// Names the differences between each ghost and the present scene anew.
-pub fn name_ghosts(model: &mut Model) {
-    let document = &model.document;
-    for ghost in &mut model.ghosts {
+pub fn name_ghosts(app: &mut App) {
+    let document = &app.edit.document;
+    for ghost in &mut app.ghosts {
         let changes = ghost.document.changes_to(document);
         let join = |part: &dyn Fn(&Change) -> String| {
             let parts: Vec<String> = changes.iter().map(part).collect();

@@ -2,8 +2,8 @@
 
 use super::Effect;
 use crate::analysis::pull_off_point;
+use crate::explorer::app::{App, ManualState, Player};
 use crate::explorer::config::Animation;
-use crate::explorer::model::{ManualState, Model, Player};
 use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{Focus, ManualMove};
 use crate::explorer::snapshot::{ContactSnapshot, Refusal};
@@ -23,97 +23,95 @@ const HAND_STEPS: (f64, f64) = (400.0, 40.0);
 const PATH_KEPT: usize = 20_000;
 
 /// Begins manual loading, or returns to the loading of the scene.
-pub fn toggle_manual(model: &mut Model) -> Vec<Effect> {
-    if model.manual.is_some() { animate(model, |_| ()) } else { take(model, None) }
+pub fn toggle_manual(app: &mut App) -> Vec<Effect> {
+    if app.manual.is_some() { animate(app, |_| ()) } else { take(app, None) }
 }
 
 /// Presses (positive) or pulls the body by so many steps of manual loading.
-pub fn push(model: &mut Model, steps: i32, coarse: bool) -> Vec<Effect> {
-    let (low, high) = model.indentations().unwrap_or_default();
+pub fn push(app: &mut App, steps: i32, coarse: bool) -> Vec<Effect> {
+    let (low, high) = app.indentations().unwrap_or_default();
     let step = (high - low) / if coarse { HAND_STEPS.1 } else { HAND_STEPS.0 };
-    take(model, Some(ManualMove::By(f64::from(steps) * step)))
+    take(app, Some(ManualMove::By(f64::from(steps) * step)))
 }
 
 /// Pulls the body until nothing touches.
-pub fn separate(model: &mut Model) -> Vec<Effect> {
-    take(model, Some(ManualMove::Separate))
+pub fn separate(app: &mut App) -> Vec<Effect> {
+    take(app, Some(ManualMove::Separate))
 }
 
 /// Asks for a target force.
-pub fn type_force(model: &mut Model) {
-    model.ask(Purpose::Force, TextLine::default());
+pub fn type_force(app: &mut App) {
+    app.ask(Purpose::Force, TextLine::default());
 }
 
 /// Plays or pauses the animation; at its end it begins again.
-pub fn toggle_play(model: &mut Model) -> Vec<Effect> {
-    animate(model, |model| {
-        let at_end = model.player.done >= 1.0 && model.player.leg + 1 >= model.legs().len();
-        if at_end && !model.player.playing {
-            model.player = Player::START;
+pub fn toggle_play(app: &mut App) -> Vec<Effect> {
+    animate(app, |app| {
+        let at_end = app.play.done >= 1.0 && app.play.leg + 1 >= app.legs().len();
+        if at_end && !app.play.playing {
+            app.play = Player::START;
         } else {
-            model.player.playing = !model.player.playing;
+            app.play.playing = !app.play.playing;
         }
     })
 }
 
 /// Moves the paused animation by steps.
-pub fn step(model: &mut Model, steps: i32) -> Vec<Effect> {
-    animate(model, |model| {
-        model.player.playing = false;
-        let legs = model.legs().len();
-        advance(&mut model.player, f64::from(steps) / STEPS, legs);
+pub fn step(app: &mut App, steps: i32) -> Vec<Effect> {
+    animate(app, |app| {
+        app.play.playing = false;
+        let legs = app.legs().len();
+        advance(&mut app.play, f64::from(steps) / STEPS, legs);
     })
 }
 
 /// Begins the animation again.
-pub fn restart(model: &mut Model) -> Vec<Effect> {
-    animate(model, |model| model.player = Player::START)
+pub fn restart(app: &mut App) -> Vec<Effect> {
+    animate(app, |app| app.play = Player::START)
 }
 
 /// Goes to the start of the leg `legs` after this one; back from inside a leg, to its own start first.
-pub fn go_to_leg(model: &mut Model, legs: i32) -> Vec<Effect> {
-    animate(model, |model| {
-        let back = legs < 0 && model.player.done > 0.0;
-        let leg = model.player.leg.saturating_add_signed(if back { 0 } else { legs as isize });
-        model.player.leg = leg.min(model.legs().len().saturating_sub(1));
-        model.player.done = 0.0;
+pub fn go_to_leg(app: &mut App, legs: i32) -> Vec<Effect> {
+    animate(app, |app| {
+        let back = legs < 0 && app.play.done > 0.0;
+        let leg = app.play.leg.saturating_add_signed(if back { 0 } else { legs as isize });
+        app.play.leg = leg.min(app.legs().len().saturating_sub(1));
+        app.play.done = 0.0;
     })
 }
 
 /// Goes to the pull-off, while the contact still holds.
-pub fn go_to_pull_off(model: &mut Model) -> Vec<Effect> {
-    let legs = model.legs();
+pub fn go_to_pull_off(app: &mut App) -> Vec<Effect> {
+    let legs = app.legs();
     let Some((leg, point)) = pull_off_point(legs).filter(|(_, point)| point.force < 0.0) else {
-        model
-            .set_error("there is no pull-off: the force does not fall below 0 N in the last unloading stage");
+        app.set_error("there is no pull-off: the force does not fall below 0 N in the last unloading stage");
         return Vec::new();
     };
     let indentation = point.indentation;
     // Rounding must not pass the indentation: below it springs detach.
-    let done = model.done_at(leg, indentation);
+    let done = app.done_at(leg, indentation);
     let paused = |done| Player { leg, done, playing: false };
     let ulps = (0..8).map(|ulps| paused(done - f64::from(ulps) * f64::EPSILON));
     let holds = ulps.into_iter().find(|player| player.indentation(legs) >= indentation);
     let player = holds.unwrap_or(paused(done));
-    animate(model, |model| model.player = player)
+    animate(app, |app| app.play = player)
 }
 
 /// Changes the animation, which ends manual loading: the animation is the loading of the scene.
-fn animate(model: &mut Model, change: impl FnOnce(&mut Model)) -> Vec<Effect> {
-    model.manual = None;
-    model.moves.clear();
-    change(model);
+fn animate(app: &mut App, change: impl FnOnce(&mut App)) -> Vec<Effect> {
+    app.manual = None;
+    change(app);
     vec![Effect::Ask]
 }
 
 /// Advances the animation by a time.
-pub fn elapse(model: &mut Model, time: Duration) -> Vec<Effect> {
-    if !model.player.playing || model.legs().is_empty() || !model.is_current() {
+pub fn elapse(app: &mut App, time: Duration) -> Vec<Effect> {
+    if !app.play.playing || app.legs().is_empty() || !app.is_current() {
         return Vec::new();
     }
-    let legs = model.legs().len();
-    let player = &mut model.player;
-    let Animation { speed, repeats } = model.animation;
+    let legs = app.legs().len();
+    let player = &mut app.play;
+    let Animation { speed, repeats } = app.config.animation;
     player.done += speed * time.as_secs_f64() / LEG_TIME.as_secs_f64();
     // The distance does not depend on the frame rate: its rest continues on the next leg.
     while player.done > 1.0 && player.leg + 1 < legs {
@@ -144,13 +142,13 @@ fn advance(player: &mut Player, share: f64, legs: usize) {
 }
 
 /// Stores a snapshot from the worker.
-pub fn shown(model: &mut Model, snapshot: Arc<ContactSnapshot>) {
+pub fn shown(app: &mut App, snapshot: Arc<ContactSnapshot>) {
     // Another snapshot may have been on its way when the fragment was requested.
-    if snapshot.focus == model.look.focus && model.look.focus.is_question() {
+    if snapshot.focus == app.view.look.focus && app.view.look.focus.is_question() {
         let middle = snapshot.close_up.fragment.map(|facts| facts.patch.middle());
-        model.look.focus = middle.map_or(Focus::Summit, Focus::Spring);
+        app.view.look.focus = middle.map_or(Focus::Summit, Focus::Spring);
     }
-    if let Some((manual, travel)) = model.manual.as_mut().zip(snapshot.manual.as_ref()) {
+    if let Some((manual, travel)) = app.manual.as_mut().zip(snapshot.manual.as_ref()) {
         manual.path.extend(&travel.path);
         let old = manual.path.len().saturating_sub(PATH_KEPT);
         manual.path.drain(..old);
@@ -159,10 +157,11 @@ pub fn shown(model: &mut Model, snapshot: Arc<ContactSnapshot>) {
         }
         manual.released_energy = travel.released_energy;
         if let Some(error) = &travel.refused {
-            model.set_error(refusal(error, &model.typed_force));
+            let why = refusal(error, &manual.typed_force);
+            app.set_error(why);
         }
     }
-    model.snapshot = Some(snapshot);
+    app.snapshot = Some(snapshot);
 }
 
 /// Reason why the body was not moved, with forces in the unit of the typed one, rounded into the allowed range.
@@ -190,25 +189,31 @@ fn rounded_up(value: f64) -> f64 {
 }
 
 /// Begins manual loading where it has not begun, and moves the body.
-pub fn take(model: &mut Model, order: Option<ManualMove>) -> Vec<Effect> {
-    if !model.is_current() || model.legs().is_empty() {
+pub fn take(app: &mut App, order: Option<ManualMove>) -> Vec<Effect> {
+    if !app.is_current() || app.legs().is_empty() {
         return Vec::new();
     }
-    if model.manual.is_none() {
-        let (leg, indentation) = (model.player.leg, model.indentation());
-        let start = model.present().map(|snapshot| snapshot.point);
-        model.player.playing = false;
-        model.manual = Some(ManualState { path: start.into_iter().collect(), ..ManualState::default() });
-        model.moves.push(ManualMove::Take { leg, indentation });
+    if app.manual.is_none() {
+        let (leg, indentation) = (app.play.leg, app.indentation());
+        let start = app.present().map(|snapshot| snapshot.point);
+        app.play.playing = false;
+        let moves = vec![ManualMove::Take { leg, indentation }];
+        let path = start.into_iter().collect();
+        app.manual = Some(ManualState { path, moves, ..ManualState::default() });
     }
-    model.moves.extend(order);
+    if let Some(manual) = &mut app.manual {
+        manual.moves.extend(order);
+    }
     vec![Effect::Ask]
 }
 
 /// Moves the body to a typed force.
-pub fn accept_force(model: &mut Model, typed: &str) -> Result<Vec<Effect>, String> {
+pub fn accept_force(app: &mut App, typed: &str) -> Result<Vec<Effect>, String> {
     let force = parse_quantity(typed.trim(), "N");
     let force = force.map_err(|error| format!("{error}; for example 10 µN, or -2e-6 to pull"))?;
-    model.typed_force = typed.trim().to_owned();
-    Ok(take(model, Some(ManualMove::ToForce(force))))
+    let effects = take(app, Some(ManualMove::ToForce(force)));
+    if let Some(manual) = &mut app.manual {
+        manual.typed_force = typed.trim().to_owned();
+    }
+    Ok(effects)
 }

@@ -1,27 +1,23 @@
 //! Panes shown and hidden by a key.
 
 use super::Effect;
-use crate::explorer::model::{Model, Pane};
+use crate::explorer::app::{App, Pane};
 
 /// Shows and selects a pane, or hides it again. A pane with keys of its own is selected before it is hidden: a user in
 /// another pane wants these keys.
-pub fn toggle(model: &mut Model, pane: Pane) -> Vec<Effect> {
-    let is_in_use = model.pane == pane || pane.row().keys.is_none();
-    if model.is_shown(pane) && is_in_use {
-        change(model, |model| model.hide(pane))
-    } else {
-        choose(model, pane)
-    }
+pub fn toggle(app: &mut App, pane: Pane) -> Vec<Effect> {
+    let is_in_use = app.view.pane == pane || pane.row().keys.is_none();
+    if app.is_shown(pane) && is_in_use { change(app, |app| app.hide(pane)) } else { choose(app, pane) }
 }
 
 /// Shows and selects a pane.
-pub fn choose(model: &mut Model, pane: Pane) -> Vec<Effect> {
-    change(model, |model| model.show(pane))
+pub fn choose(app: &mut App, pane: Pane) -> Vec<Effect> {
+    change(app, |app| app.show(pane))
 }
 
 /// Changes the shown panes and returns the effects: other data are computed.
-pub fn change(model: &mut Model, change: impl FnOnce(&mut Model)) -> Vec<Effect> {
-    let before = model.large;
-    change(model);
-    if before == model.large { vec![Effect::Ask] } else { vec![Effect::Study, Effect::Ask] }
+pub fn change(app: &mut App, change: impl FnOnce(&mut App)) -> Vec<Effect> {
+    let before = app.view.large;
+    change(app);
+    if before == app.view.large { vec![Effect::Ask] } else { vec![Effect::Study, Effect::Ask] }
 }

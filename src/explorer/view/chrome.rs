@@ -6,8 +6,8 @@ use super::wrap::{fitted, fitting, wrapped_within};
 use crate::analysis::SteepWaves;
 use crate::contact::CurvePoint;
 use crate::explorer::action::{Content, Traffic};
+use crate::explorer::app::{App, Estimated, ManualState, Message, Mode, ModeKind};
 use crate::explorer::keys::{self, Binding};
-use crate::explorer::model::{Estimated, ManualState, Mode, ModeKind, Model, Notice};
 use crate::explorer::parameters::Parameter;
 use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::snapshot::ContactSnapshot;
@@ -24,24 +24,24 @@ use std::f64::consts::PI;
 use std::path::is_separator;
 
 /// Name of the scene, a sign of unsaved changes, and the notice.
-pub fn title(frame: &mut Frame<'_>, area: Rect, model: &Model) {
-    let scene = model.document.scene();
-    let name = if scene.title.is_empty() { model.document.name() } else { &scene.title };
-    let changed = if model.is_unsaved() { " [changed]" } else { "" };
+pub fn title(frame: &mut Frame<'_>, area: Rect, app: &App) {
+    let scene = app.edit.document.scene();
+    let name = if scene.title.is_empty() { app.edit.document.name() } else { &scene.title };
+    let changed = if app.is_unsaved() { " [changed]" } else { "" };
     let notice = scene.notice.split_whitespace().collect::<Vec<_>>().join(" ");
     let line = Line::from(vec![
-        Span::styled(format!("{name}{changed}  "), model.appearance.theme.style(Meaning::Title)),
-        Span::styled(notice, model.appearance.theme.style(Meaning::Quiet)),
+        Span::styled(format!("{name}{changed}  "), app.view.appearance.theme.style(Meaning::Title)),
+        Span::styled(notice, app.view.appearance.theme.style(Meaning::Quiet)),
     ]);
     frame.render_widget(Paragraph::new(wrapped_within(&line, area)), area);
 }
 
 /// The headline figures, or a question, an error, or the typed text.
-pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
-    let theme = model.appearance.theme;
+pub fn status(frame: &mut Frame<'_>, area: Rect, app: &App) {
+    let theme = app.view.appearance.theme;
     let stated = |line: Line<'static>| fitted(line, area.width);
     let error = |text: String| stated(Line::styled(text, theme.style(Meaning::Error)));
-    let line = match (&model.mode, &model.notice) {
+    let line = match (&app.mode, &app.message) {
         (Mode::Prompt(prompt), _) if prompt.refused.is_some() || prompt.line.left_out().is_some() => {
             let why = prompt.refused.as_deref().or(prompt.line.left_out()).unwrap_or_default();
             let why = why.replace('\n', " · ");
@@ -58,24 +58,24 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
             }
         }
         (Mode::Prompt(prompt), _) if prompt.purpose != Purpose::Value => {
-            prompted(Line::raw(label(prompt, model, area.width)), &prompt.line, area.width, theme)
+            prompted(Line::raw(label(prompt, app, area.width)), &prompt.line, area.width, theme)
         }
         (Mode::Overwrite(file), _) => error(format!("{} exists. Overwrite it?", file.path.display())),
-        (Mode::Quit, _) => error(match model.unsaved()[..] {
+        (Mode::Quit, _) => error(match app.unsaved()[..] {
             [] | [_] => "The scene has unsaved changes. Leave?".to_owned(),
             ref several => {
                 let names: Vec<&str> = several.iter().map(|document| document.name()).collect();
                 format!("{} scenes have unsaved changes: {}. Leave?", several.len(), names.join(", "))
             }
         }),
-        (_, Some(Notice::Error(text))) => error(format!("! {}", text.replace('\n', " · "))),
-        (Mode::Explore, None) if model.refused.is_some() => {
-            let text = model.refused.as_ref().map_or("", |(_, text)| text);
+        (_, Some(Message::Error(text))) => error(format!("! {}", text.replace('\n', " · "))),
+        (Mode::Explore, None) if app.edit.refused.is_some() => {
+            let text = app.edit.refused.as_ref().map_or("", |(_, text)| text);
             error(format!("! {text}"))
         }
-        (_, Some(Notice::Done(text))) => stated(Line::raw(text.clone())),
-        (Mode::Explore, None) if model.appraisal.choosing.is_some() => choosing(model),
-        _ => headline(model, area.width),
+        (_, Some(Message::Done(text))) => stated(Line::raw(text.clone())),
+        (Mode::Explore, None) if app.studies.appraisal.choosing.is_some() => choosing(app),
+        _ => headline(app, area.width),
     };
     frame.render_widget(Paragraph::new(line), area);
 }
@@ -90,7 +90,7 @@ fn prompted(label: Line<'static>, line: &TextLine, width: u16, theme: Theme) -> 
 }
 
 /// Label of a prompt; a short one where the typed text would be out of sight.
-fn label(prompt: &Prompt, model: &Model, width: u16) -> String {
+fn label(prompt: &Prompt, app: &App, width: u16) -> String {
     let is_narrow = width < 60;
     match &prompt.purpose {
         Purpose::Value => String::new(),
@@ -100,7 +100,7 @@ fn label(prompt: &Prompt, model: &Model, width: u16) -> String {
         Purpose::Save { .. } => "Save as: ".to_owned(),
         Purpose::Export if is_narrow => "Export to: ".to_owned(),
         Purpose::Export => {
-            let exports = model.exports();
+            let exports = app.exports();
             let what = if exports == Content::MAP_EXPORTS { "Export the map" } else { "Export" };
             let extensions: Vec<String> =
                 exports.iter().map(|(format, _)| format!(".{}", format.extension())).collect();
@@ -116,23 +116,23 @@ fn label(prompt: &Prompt, model: &Model, width: u16) -> String {
 const WITH_ERROR: u16 = 48;
 
 /// F_a, regime, the state of the contact and its cost, the most important first, as far as there is room.
-fn headline(model: &Model, width: u16) -> Line<'static> {
-    let Some(computed) = &model.computed else { return Line::raw("computing…") };
-    let theme = model.appearance.theme;
+fn headline(app: &App, width: u16) -> Line<'static> {
+    let Some(computed) = &app.solved else { return Line::raw("computing…") };
+    let theme = app.view.appearance.theme;
     let outcome = &computed.outcome;
     let mut parts = Vec::new();
     let mut part = |apart: &'static str, text: String, meaning: Meaning| {
         let apart = if parts.is_empty() { "" } else { apart };
         parts.push(vec![Span::raw(apart), Span::styled(text, theme.style(meaning))]);
     };
-    if let Some(tried) = model.tried_outcome().filter(|_| model.mode.is_typing_value()) {
+    if let Some(tried) = app.tried_outcome().filter(|_| app.mode.is_typing_value()) {
         let force =
             tried.figures.adhesion_force.map_or("none".to_owned(), |force| format_quantity(force, "N"));
-        let shown = if model.is_tried() { format!("F_a {force}") } else { "computing…".to_owned() };
+        let shown = if app.is_tried() { format!("F_a {force}") } else { "computing…".to_owned() };
         part("", format!("preview: {shown}"), Meaning::Title);
         part(" · ", "Enter accepts".to_owned(), Meaning::Quiet);
     }
-    let is_manual = model.present().is_some() && model.manual.is_some();
+    let is_manual = app.present().is_some() && app.manual.is_some();
     let adhesion = outcome.figures.adhesion_force.filter(|force| *force != 0.0);
     if let Some(adhesion) = adhesion {
         part("  ", format!("F_a {}", format_quantity(adhesion, "N")), Meaning::Title);
@@ -142,24 +142,24 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
     }
     // In a narrow window the state of the contact comes first.
     let is_narrow = width < WITH_ERROR;
-    let error = error(model).filter(|_| !is_narrow);
+    let error = error(app).filter(|_| !is_narrow);
     if let Some(error) = error.as_ref().filter(|_| !is_manual) {
         part(" ", error.clone(), Meaning::Title);
     }
-    let state = match (model.present(), &model.manual) {
-        _ if model.shows_work => work(model),
+    let state = match (app.present(), &app.manual) {
+        _ if app.view.shows_work => work(app),
         (Some(snapshot), Some(state)) => {
             let of = if adhesion.is_some() { "F_a " } else { "" };
             let error = error.map(|error| (" · ", format!("{of}{error}"), Meaning::Text));
             let title = if is_narrow { "" } else { "manual: " };
-            manual(model, snapshot, state, title).into_iter().chain(error).collect()
+            manual(app, snapshot, state, title).into_iter().chain(error).collect()
         }
-        (snapshot, _) => mechanics(model, snapshot),
+        (snapshot, _) => mechanics(app, snapshot),
     };
     state.into_iter().for_each(|(apart, text, meaning)| part(apart, text, meaning));
-    if model.is_computing() {
-        let legs = model.document.scene().loading.len();
-        part("  ", format!("computing, stage {} of {legs}", model.progress.unwrap_or(0) + 1), Meaning::Quiet);
+    if app.is_computing() {
+        let legs = app.edit.document.scene().loading.len();
+        part("  ", format!("computing, stage {} of {legs}", app.progress.unwrap_or(0) + 1), Meaning::Quiet);
     }
     fitting(parts, "", usize::from(width))
 }
@@ -168,7 +168,7 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
 type Part = (&'static str, String, Meaning);
 
 /// The state under manual loading: the changes by the move come before the resulting contact.
-fn manual(model: &Model, snapshot: &ContactSnapshot, state: &ManualState, title: &str) -> Vec<Part> {
+fn manual(app: &App, snapshot: &ContactSnapshot, state: &ManualState, title: &str) -> Vec<Part> {
     let released = format!("released {}", format_rounded(state.released_energy, 2, "J"));
     let mut parts = vec![
         ("  ", format!("{title}{}", place(snapshot.point)), Meaning::Text),
@@ -176,13 +176,13 @@ fn manual(model: &Model, snapshot: &ContactSnapshot, state: &ManualState, title:
         (" · ", contact(snapshot.point), Meaning::Text),
         (" · ", released, Meaning::Text),
     ];
-    parts.extend(response(model, snapshot));
+    parts.extend(response(app, snapshot));
     parts
 }
 
 /// The present state in mechanical quantities, and those of the whole loop.
-fn mechanics(model: &Model, snapshot: Option<&ContactSnapshot>) -> Vec<Part> {
-    let Some(computed) = &model.computed else { return Vec::new() };
+fn mechanics(app: &App, snapshot: Option<&ContactSnapshot>) -> Vec<Part> {
+    let Some(computed) = &app.solved else { return Vec::new() };
     let outcome = &computed.outcome;
     let mut parts = Vec::new();
     if let Some(snapshot) = snapshot {
@@ -202,7 +202,7 @@ fn mechanics(model: &Model, snapshot: Option<&ContactSnapshot>) -> Vec<Part> {
         parts.push((" · ", format!("F_a/F_n {}", format_quantity(coefficient, "1")), Meaning::Title));
     }
     if let Some(snapshot) = snapshot {
-        parts.extend(response(model, snapshot));
+        parts.extend(response(app, snapshot));
     }
     if let Some(energy) = outcome.figures.dissipated_energy {
         parts.push((" · ", format!("ΔW {}", format_rounded(energy, 2, "J")), Meaning::Text));
@@ -215,8 +215,8 @@ fn mechanics(model: &Model, snapshot: Option<&ContactSnapshot>) -> Vec<Part> {
 
 /// Stiffness E* l of the present contact with its edges in place (Popov and Filippov 2012, eq. (1)), and the mean pressure
 /// on a circle of its radius.
-fn response(model: &Model, snapshot: &ContactSnapshot) -> Vec<Part> {
-    let Some(computed) = &model.computed else { return Vec::new() };
+fn response(app: &App, snapshot: &ContactSnapshot) -> Vec<Part> {
+    let Some(computed) = &app.solved else { return Vec::new() };
     let stiffness = computed.outcome.governing.effective_modulus * snapshot.point.contact_length;
     let mut parts = vec![(" · ", format!("E*l {}", format_rounded(stiffness, 2, "N/m")), Meaning::Text)];
     let radius = snapshot.contact_radius;
@@ -228,20 +228,20 @@ fn response(model: &Model, snapshot: &ContactSnapshot) -> Vec<Part> {
 }
 
 /// Springs in contact, the cost of the last manual move, and the times of the computing stages.
-fn work(model: &Model) -> Vec<Part> {
+fn work(app: &App) -> Vec<Part> {
     let mut parts = Vec::new();
-    if let Some(snapshot) = model.present() {
+    if let Some(snapshot) = app.present() {
         parts.push(("  ", contact(snapshot.point), Meaning::Text));
     }
-    if let Some(computed) = &model.computed {
+    if let Some(computed) = &app.solved {
         parts.push((" of ", grouped(computed.outcome.line.points as u64), Meaning::Text));
     }
-    if let Some(state) = &model.manual {
+    if let Some(state) = &app.manual {
         parts.push((" · ", format!("{} changed", counted(state.changed, "spring")), Meaning::Text));
     }
     // Times of the last run only: a kept profile and tree take none.
-    if model.shows_times && !model.is_computing() {
-        let stages = stages::times(model).into_iter();
+    if app.view.shows_times && !app.is_computing() {
+        let stages = stages::times(app).into_iter();
         parts.extend(stages.map(|(name, time)| (" · ", format!("{name} {time}"), Meaning::Quiet)));
     }
     parts
@@ -253,21 +253,21 @@ fn place(point: CurvePoint) -> String {
 }
 
 /// The estimated error of the headline: `…` while awaited, `None` without an estimate.
-fn error(model: &Model) -> Option<String> {
-    match &model.appraisal.estimated {
+fn error(app: &App) -> Option<String> {
+    match &app.studies.appraisal.estimated {
         Estimated::Known(estimate) => Some(estimate.words()),
-        Estimated::Waiting if model.shows_times => Some("± …".to_owned()),
+        Estimated::Waiting if app.view.shows_times => Some("± …".to_owned()),
         Estimated::Waiting => None,
         Estimated::Unknown => {
-            let pulls = model.computed.as_ref()?.outcome.figures.adhesion_force.is_some();
+            let pulls = app.solved.as_ref()?.outcome.figures.adhesion_force.is_some();
             pulls.then(|| "error unknown".to_owned())
         }
     }
 }
 
 /// Progress of the search of springs for a tolerance.
-fn choosing(model: &Model) -> Line<'static> {
-    let Some((tolerance, trying)) = model.appraisal.choosing else { return Line::default() };
+fn choosing(app: &App) -> Line<'static> {
+    let Some((tolerance, trying)) = app.studies.appraisal.choosing else { return Line::default() };
     let trying = trying.map_or_else(String::new, |points| format!(": {} springs", grouped(points)));
     Line::raw(format!("trying for {tolerance:e}{trying}…"))
 }
@@ -289,34 +289,36 @@ const TRAFFIC_FROM: u16 = 80;
 const TRAFFIC_WITH_FRAMES: u16 = 100;
 
 /// The valid keys, and the traffic of the connection: the line above is full.
-pub fn footer(frame: &mut Frame<'_>, area: Rect, model: &Model) {
-    let traffic = model.traffic.filter(|_| area.width >= TRAFFIC_FROM).map(|Traffic { frames, bytes }| {
+pub fn footer(frame: &mut Frame<'_>, area: Rect, app: &App) {
+    let traffic = app.view.traffic.filter(|_| area.width >= TRAFFIC_FROM).map(|Traffic { frames, bytes }| {
         let bytes = format_rounded(bytes as f64, 2, "B/s");
         let most =
             if area.width < TRAFFIC_WITH_FRAMES { "" } else { &format!(", at most {frames} frames/s") };
         let text = format!("{bytes}{most}");
-        Line::styled(text, model.appearance.theme.style(Meaning::Quiet)).right_aligned()
+        Line::styled(text, app.view.appearance.theme.style(Meaning::Quiet)).right_aligned()
     });
-    if let Some(note) = model.demo {
-        return frame
-            .render_widget(Paragraph::new(note).style(model.appearance.theme.style(Meaning::Quiet)), area);
+    if let Some(note) = app.view.demo {
+        return frame.render_widget(
+            Paragraph::new(note).style(app.view.appearance.theme.style(Meaning::Quiet)),
+            area,
+        );
     }
-    if let Mode::Prompt(prompt) = &model.mode
+    if let Mode::Prompt(prompt) = &app.mode
         && !prompt.paths.is_empty()
     {
-        return frame.render_widget(candidates(&prompt.paths, area.width, model.appearance.theme), area);
+        return frame.render_widget(candidates(&prompt.paths, area.width, app.view.appearance.theme), area);
     }
     let mut spans = Vec::new();
     // Two columns apart.
     let mut room =
         usize::from(area.width).saturating_sub(traffic.as_ref().map_or(0, |line| line.width() + 2));
-    for (keys, label) in footer_items(model) {
+    for (keys, label) in footer_items(app) {
         let width = keys.chars().count() + label.chars().count() + 3;
         if width > room + 2 {
             break;
         }
         room = room.saturating_sub(width);
-        spans.push(Span::styled(keys, model.appearance.theme.style(Meaning::Key)));
+        spans.push(Span::styled(keys, app.view.appearance.theme.style(Meaning::Key)));
         spans.push(Span::raw(format!(" {label}  ")));
     }
     frame.render_widget(Paragraph::new(Line::from(spans)), area);
@@ -336,15 +338,15 @@ fn candidates(paths: &[String], width: u16, theme: Theme) -> Line<'static> {
 }
 
 /// Valid keys with their labels, the most important first; adjacent rows with the same label are one item.
-fn footer_items(model: &Model) -> Vec<(String, &'static str)> {
+fn footer_items(app: &App) -> Vec<(String, &'static str)> {
     let is_shown = |row: &&Binding| match row.command.name {
         "toggle-manual" => true,
-        "complete" => can_complete(model),
-        "start-value" => model.parameter().is_some_and(Parameter::takes_number),
-        _ => !row.label.is_empty() && (model.manual.is_some() || !keys::is_manual(row)),
+        "complete" => can_complete(app),
+        "start-value" => app.parameter().is_some_and(Parameter::takes_number),
+        _ => !row.label.is_empty() && (app.manual.is_some() || !keys::is_manual(row)),
     };
-    let mut rows: Vec<&Binding> = model.bindings.valid_in(model.keys()).filter(is_shown).collect();
-    rows.sort_by_key(|row| rank(row, model));
+    let mut rows: Vec<&Binding> = app.config.bindings.valid_in(app.keys()).filter(is_shown).collect();
+    rows.sort_by_key(|row| rank(row, app));
     let items = rows.chunk_by(|one, next| one.label == next.label);
     items
         .map(|rows| {
@@ -356,10 +358,10 @@ fn footer_items(model: &Model) -> Vec<(String, &'static str)> {
 
 /// Place of a key in the footer: help and quit, which show in the smallest window; keys of the present mode only; the
 /// main keys for panes, scenes and loops; the rest.
-fn rank(row: &Binding, model: &Model) -> u8 {
+fn rank(row: &Binding, app: &App) -> u8 {
     match row.command.name {
         "help" | "close-help" | "quit" => 0,
-        _ if model.manual.is_some() && keys::is_manual(row) => 1,
+        _ if app.manual.is_some() && keys::is_manual(row) => 1,
         _ if !row.modes.contains(&ModeKind::Explore) => 1,
         "next-pane" | "toggle-chart" | "open-library" | "save" | "pin" | "open-palette" => 2,
         _ => 3,

@@ -1,7 +1,7 @@
 //! The help: the notice of the scene, the contents of the panes, and the table of keys by section.
 
+use crate::explorer::app::App;
 use crate::explorer::keys::names;
-use crate::explorer::model::Model;
 use crate::explorer::panes::Pane;
 use crate::explorer::theme::{Meaning, Theme};
 use ratatui::Frame;
@@ -16,16 +16,16 @@ const BESIDE_FROM: u16 = 56;
 const INDENT: usize = 4;
 
 /// Draws the help.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model, scroll: u16) {
-    let (theme, lines) = (model.appearance.theme, lines(inside(area).width, model));
+pub fn draw(frame: &mut Frame<'_>, area: Rect, app: &App, scroll: u16) {
+    let (theme, lines) = (app.view.appearance.theme, lines(inside(area).width, app));
     let last = end(lines.len(), area);
     let block = Block::bordered().border_style(theme.style(Meaning::Quiet)).title(" Help ");
     frame.render_widget(Paragraph::new(lines).block(block).scroll((scroll.min(last), 0)), area);
 }
 
 /// Lines that the help can be scrolled down in an area.
-pub fn last_scroll(area: Rect, model: &Model) -> u16 {
-    end(lines(inside(area).width, model).len(), area)
+pub fn last_scroll(area: Rect, app: &App) -> u16 {
+    end(lines(inside(area).width, app).len(), area)
 }
 
 fn inside(area: Rect) -> Rect {
@@ -37,12 +37,12 @@ fn end(lines: usize, area: Rect) -> u16 {
 }
 
 /// All lines, none of them wider than so many columns.
-fn lines(width: u16, model: &Model) -> Vec<Line<'static>> {
-    let theme = model.appearance.theme;
+fn lines(width: u16, app: &App) -> Vec<Line<'static>> {
+    let theme = app.view.appearance.theme;
     let title = |text| Line::styled(text, theme.style(Meaning::Title));
     let mut lines = vec![title("What you see")];
     // A small window has no room for the notice above the panes.
-    let notice = model.document.scene().notice.split_whitespace().collect::<Vec<_>>().join(" ");
+    let notice = app.edit.document.scene().notice.split_whitespace().collect::<Vec<_>>().join(" ");
     if !notice.is_empty() {
         entry(&mut lines, "This scene", &notice, width, theme);
     }
@@ -50,7 +50,7 @@ fn lines(width: u16, model: &Model) -> Vec<Line<'static>> {
         entry(&mut lines, name, meaning, width, theme);
     }
     let mut section = "";
-    for row in model.bindings.rows().filter(|row| !row.help.is_empty()) {
+    for row in app.config.bindings.rows().filter(|row| !row.help.is_empty()) {
         if row.section != section {
             section = row.section;
             lines.push(Line::default());

@@ -1,7 +1,7 @@
 //! Stages of the scene with their times; skipped ones are dimmed.
 
 use super::wrap::filled;
-use crate::explorer::model::Model;
+use crate::explorer::app::App;
 use crate::explorer::theme::Meaning;
 use crate::scene::format_rounded;
 use crate::simulation::{Plan, Stage, Timings};
@@ -28,8 +28,8 @@ const PARTS: [Part; 5] = [
 ];
 
 /// Names and times of the parts that ran.
-pub fn times(model: &Model) -> Vec<(&'static str, String)> {
-    let Some(computed) = model.current() else { return Vec::new() };
+pub fn times(app: &App) -> Vec<(&'static str, String)> {
+    let Some(computed) = app.current() else { return Vec::new() };
     let plan = Plan::of(&computed.scene);
     let ran = PARTS.iter().filter(|part| part.runs(&plan));
     ran.map(|part| (part.name(&plan), part.time(&computed.outcome.timings))).collect()
@@ -50,18 +50,18 @@ impl Part {
 }
 
 /// The stages in as many lines as needed, as far as there is room.
-pub fn strip(model: &Model, width: u16, rows: usize) -> Vec<Line<'static>> {
-    let Some(computed) = model.current() else { return Vec::new() };
-    let theme = model.appearance.theme;
+pub fn strip(app: &App, width: u16, rows: usize) -> Vec<Line<'static>> {
+    let Some(computed) = app.current() else { return Vec::new() };
+    let theme = app.view.appearance.theme;
     let plan = Plan::of(&computed.scene);
     let timings = &computed.outcome.timings;
     let total = format_rounded(timings.total(), 2, "s");
-    let ran = if model.shows_times { format!("ran {total}:") } else { "ran:".to_owned() };
+    let ran = if app.view.shows_times { format!("ran {total}:") } else { "ran:".to_owned() };
     let mut parts: Vec<Vec<Span<'static>>> = vec![vec![Span::styled(ran, theme.style(Meaning::Quiet))]];
     for part in PARTS {
         let name = part.name(&plan);
         parts.push(match part.runs(&plan) {
-            true if model.shows_times => {
+            true if app.view.shows_times => {
                 let time = part.time(timings);
                 vec![Span::raw(format!("{name} ")), Span::styled(time, theme.style(Meaning::Title))]
             }

@@ -10,7 +10,7 @@ use asperity::accuracy::{
     Timing,
 };
 use asperity::explorer::action::Action;
-use asperity::explorer::model::{Estimated, Notice, Pane};
+use asperity::explorer::app::{Estimated, Message, Pane};
 use asperity::explorer::panes::Costs;
 use asperity::explorer::runtime::Studies;
 use asperity::explorer::study::{Finding, Found, PaneData, Study, Task};
@@ -123,10 +123,10 @@ fn what_accuracy_costs_is_shown_beside_what_can_be_changed() {
         }
         keep("screen_of_what_accuracy_costs", &screens);
         driver.press("A");
-        assert_eq!((driver.model.large, driver.model.pane), (None, Pane::Force));
+        assert_eq!((driver.app.view.large, driver.app.view.pane), (None, Pane::Force));
         assert!(driver.text().contains("Profile"), "{}", driver.text());
         // Costs are not measured twice.
-        assert!(driver.model.appraisal.costs.is_whole);
+        assert!(driver.app.studies.appraisal.costs.is_whole);
         assert_eq!(driver.press("A"), [Effect::Study, Effect::Ask]);
         assert!(driver.text().contains("order 2.0"));
     });
@@ -155,14 +155,14 @@ fn a_scene_with_nothing_to_show_says_so() {
 fn an_edit_forgets_what_was_found_out() {
     within(60, || {
         let mut driver = measured(rough());
-        let before = driver.model.generation;
+        let before = driver.app.edit.generation;
         // No answers any more.
         driver.studies = Studies::None;
         driver.select("roughness.hurst");
         assert_eq!(driver.press("l"), [Effect::Ask]);
-        assert!(driver.model.is_shown(Pane::Accuracy));
-        assert_eq!(driver.model.appraisal.estimated, Estimated::Waiting);
-        assert_eq!(driver.model.appraisal.costs, Costs::default());
+        assert!(driver.app.is_shown(Pane::Accuracy));
+        assert_eq!(driver.app.studies.appraisal.estimated, Estimated::Waiting);
+        assert_eq!(driver.app.studies.appraisal.costs, Costs::default());
         assert!(driver.status().contains("± …"), "{}", driver.status());
         assert!(driver.text().contains("measuring"), "{}", driver.text());
         // Late answers change nothing.
@@ -194,12 +194,12 @@ fn the_headline_has_its_error_and_its_time() {
         driver.press("I");
         assert!(driver.status().trim_end().ends_with(" 0 s"), "{}", driver.status());
         // Reproducible pictures have no times, and wait for nothing.
-        driver.model.shows_times = false;
+        driver.app.view.shows_times = false;
         assert!(driver.status().contains("N grid ± 0.4 % "), "{}", driver.status());
         assert!(!driver.status().trim_end().ends_with(" 0 s"), "{}", driver.status());
-        driver.model.appraisal.estimated = Estimated::Waiting;
+        driver.app.studies.appraisal.estimated = Estimated::Waiting;
         assert!(!driver.status().contains('±'), "{}", driver.status());
-        driver.model.shows_times = true;
+        driver.app.view.shows_times = true;
         assert!(
             driver.status().contains("± …") && driver.status().trim_end().ends_with(" 0 s"),
             "{}",
@@ -226,24 +226,26 @@ fn ask(driver: &mut Driver, tolerance: &str) {
 fn a_tolerance_is_an_edit_that_can_be_taken_back() {
     within(60, || {
         let mut driver = measured(changed(&rough(), &[("numerics.edges", "Grid")]));
-        let before = driver.model.document.scene().numerics;
+        let before = driver.app.edit.document.scene().numerics;
         ask(&mut driver, "0.1 %");
-        let after = driver.model.document.scene().numerics;
+        let after = driver.app.edit.document.scene().numerics;
         assert_eq!((after.points, after.edges), (2048, Edges::SubCell));
-        assert!(is_up_to_date(&driver.model) && driver.model.appraisal.choosing.is_none());
+        assert!(is_up_to_date(&driver.app) && driver.app.studies.appraisal.choosing.is_none());
         assert!(driver.status().contains("2 048 springs"), "{}", driver.status());
-        let answer = driver.model.appraisal.answer.clone().unwrap();
+        let answer = driver.app.studies.appraisal.answer.clone().unwrap();
         assert!(answer.contains("the fewest found to keep the adhesion force within 1e-3"), "{answer}");
         assert!(driver.text().contains("2 048 springs with edges SubCell: the fewest"), "{}", driver.text());
         // The known error is from finer solutions than an estimate.
-        assert!(matches!(&driver.model.appraisal.estimated, Estimated::Known(known) if known.error == 4e-4));
-        let generation = driver.model.generation;
+        assert!(
+            matches!(&driver.app.studies.appraisal.estimated, Estimated::Known(known) if known.error == 4e-4)
+        );
+        let generation = driver.app.edit.generation;
         ask(&mut driver, "0.1 %");
-        assert_eq!(driver.model.generation, generation, "it is so already");
+        assert_eq!(driver.app.edit.generation, generation, "it is so already");
         assert!(driver.status().contains("as it is"), "{}", driver.status());
         driver.press("u");
-        assert_eq!(driver.model.document.scene().numerics, before);
-        assert!(driver.model.appraisal.answer.is_none());
+        assert_eq!(driver.app.edit.document.scene().numerics, before);
+        assert!(driver.app.studies.appraisal.answer.is_none());
     });
 }
 
@@ -252,9 +254,9 @@ fn a_tolerance_out_of_reach_changes_nothing() {
     within(60, || {
         let mut driver = measured(rough());
         driver.resize((80, 24));
-        let (text, generation) = (driver.model.document.text().to_owned(), driver.model.generation);
+        let (text, generation) = (driver.app.edit.document.text().to_owned(), driver.app.edit.generation);
         ask(&mut driver, "1e-6");
-        assert!(matches!(driver.model.notice, Some(Notice::Error(_))));
+        assert!(matches!(driver.app.message, Some(Message::Error(_))));
         let stated = "1e-6 is out of reach: 4.0e-4 with 2 048 springs, edges SubCell";
         assert!(driver.status().contains(stated), "{}", driver.status());
         for wrong in ["", "0", "2", "much", "-1 %"] {
@@ -262,8 +264,11 @@ fn a_tolerance_out_of_reach_changes_nothing() {
             assert!(driver.status().contains("allowed: a relative error"), "{wrong}: {}", driver.status());
         }
         driver.press("% 1 Esc");
-        assert!(driver.model.notice.is_none() && driver.model.appraisal.choosing.is_none());
-        assert_eq!((driver.model.document.text(), driver.model.generation), (text.as_str(), generation));
+        assert!(driver.app.message.is_none() && driver.app.studies.appraisal.choosing.is_none());
+        assert_eq!(
+            (driver.app.edit.document.text(), driver.app.edit.generation),
+            (text.as_str(), generation)
+        );
         // No choice for a missing scene.
         let mut driver = Driver::open(rough());
         driver.press("%");

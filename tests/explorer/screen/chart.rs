@@ -6,8 +6,8 @@ use super::common::scenes::{changed, rough, smooth, without_adhesion};
 use super::stand_in::{Reported, StandIn};
 use super::{is_up_to_date, keep};
 use asperity::explorer::action::{Action, Gesture, Mouse};
+use asperity::explorer::app::{ModeKind, Pane};
 use asperity::explorer::layout::{Layout, inside};
-use asperity::explorer::model::{ModeKind, Pane};
 use asperity::explorer::runtime::Studies;
 use asperity::explorer::study::{Finding, Found, PaneData, Study, Task};
 use asperity::explorer::theme::Marker;
@@ -72,7 +72,7 @@ pub fn charted(document: Document) -> Driver {
 
 /// κ and H of the mark, on a map with H across.
 fn place(driver: &Driver) -> (f64, f64) {
-    let (hurst, kappa) = driver.model.place().unwrap();
+    let (hurst, kappa) = driver.app.place().unwrap();
     (kappa.unwrap(), hurst)
 }
 
@@ -87,7 +87,7 @@ fn e_maps_over_the_elastic_energy() {
             assert!(driver.text().contains("over H, e_el/γ, 4 profiles"), "{}", driver.text());
             assert!(driver.text().contains("◆ H 0.7, e_el/γ "), "{}", driver.text());
         }
-        let ratio = driver.model.governing().unwrap().elastic_energy_ratio.unwrap();
+        let ratio = driver.app.governing().unwrap().elastic_energy_ratio.unwrap();
         assert_eq!(place(&driver), (ratio, over_kappa.1));
         // The mark moves to values of the map, and the scene with it.
         driver.press("k");
@@ -95,7 +95,7 @@ fn e_maps_over_the_elastic_energy() {
         let mut values =
             (0..COLUMNS).map(|column| parameter_value(RoughnessParameter::ElasticEnergyRatio, column));
         assert!(moved > ratio && values.any(|value| (moved / value - 1.0).abs() < 1e-9), "{moved}");
-        let kappa = driver.model.governing().unwrap().kappa.unwrap();
+        let kappa = driver.app.governing().unwrap().kappa.unwrap();
         assert!((kappa / over_kappa.0 - (moved / ratio).sqrt()).abs() < 1e-9, "{kappa}");
         driver.press("e");
         assert!(driver.text().contains("over H, κ, 4 profiles"), "{}", driver.text());
@@ -147,23 +147,23 @@ fn the_map_says_without_colours_what_it_says_with_them() {
         let words = driver.text().replace(['│', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(words.contains("κ ≈ 0.6 is the boundary of eq. (15)"), "{words}");
         driver.press("z");
-        driver.model.appearance.marker = Marker::Ascii;
+        driver.app.view.appearance.marker = Marker::Ascii;
         assert!(driver.text().is_ascii() && driver.text().contains("##"), "{}", driver.text());
-        driver.model.appearance.marker = Marker::Braille;
+        driver.app.view.appearance.marker = Marker::Braille;
         // Each quantity has a legend of its own, with the scale of the shades, and the regimes as letters.
         for (quantity, expected) in [
             (Quantity::ZeroLoadAdhesionShare, "F_a(0)/F_a,max "),
             (Quantity::AdhesionCoefficient, "F_a/F_n "),
         ] {
             driver.press("V");
-            assert_eq!(driver.model.chart.quantity, quantity);
+            assert_eq!(driver.app.chart.quantity, quantity);
             for expected in [expected, "···", "███", "i pressure-insensitive", "▁▕ F_a(0) = 0.05 F_a,max"]
             {
                 assert!(driver.text().contains(expected), "{expected}\n{}", driver.text());
             }
         }
         driver.press("V");
-        assert_eq!(driver.model.chart.quantity, Quantity::Regime);
+        assert_eq!(driver.app.chart.quantity, Quantity::Regime);
         assert!(driver.text().contains("█ pressure-insensitive"), "{}", driver.text());
     });
 }
@@ -221,28 +221,28 @@ fn the_map_is_exported_as_it_is_seen() {
 fn moves_in_a_row_are_one_edit() {
     within(60, || {
         let mut driver = charted(rough());
-        assert_eq!(driver.model.keys(), ModeKind::Chart);
-        let before = driver.model.document.clone();
-        let (edits, map) = (driver.model.undo.len(), driver.model.chart.map.clone());
+        assert_eq!(driver.app.keys(), ModeKind::Chart);
+        let before = driver.app.edit.document.clone();
+        let (edits, map) = (driver.app.edit.past.len(), driver.app.chart.map.clone());
         assert_eq!(driver.press("Down"), [Effect::Ask]);
         assert_eq!(place(&driver), (6.73, 0.7));
         driver.press("Down Left h k Shift+Down Right");
         assert_eq!(place(&driver), (3.36, 0.65));
-        assert_eq!(driver.model.undo.len(), edits + 1);
-        assert!(is_up_to_date(&driver.model));
+        assert_eq!(driver.app.edit.past.len(), edits + 1);
+        assert!(is_up_to_date(&driver.app));
         // The map is that of all of them.
-        assert_eq!(driver.model.chart.map, map);
+        assert_eq!(driver.app.chart.map, map);
         assert!(driver.text().contains("◆ H 0.65, κ 3.36"), "{}", driver.text());
         // Any other key ends the row.
         driver.press("V Up");
-        assert_eq!((place(&driver).0, driver.model.undo.len()), (4.0, edits + 2));
+        assert_eq!((place(&driver).0, driver.app.edit.past.len()), (4.0, edits + 2));
         driver.press("u");
         assert_eq!(place(&driver), (3.36, 0.65));
         driver.press("Down u u");
-        assert_eq!(driver.model.document, before);
+        assert_eq!(driver.app.edit.document, before);
         driver.press("U");
         assert_eq!(place(&driver), (3.36, 0.65));
-        assert_eq!(driver.model.chart.map, map);
+        assert_eq!(driver.app.chart.map, map);
     });
 }
 
@@ -252,13 +252,13 @@ fn the_mark_stays_on_the_map() {
         let mut driver = charted(rough());
         driver.press(&"Shift+Right Shift+Up ".repeat(9));
         assert_eq!(place(&driver), (32.0, 0.95));
-        let generation = driver.model.generation;
+        let generation = driver.app.edit.generation;
         driver.press("Up");
         assert!(driver.status().contains("here the map ends"), "{}", driver.status());
-        assert_eq!(driver.model.generation, generation);
+        assert_eq!(driver.app.edit.generation, generation);
         // A scene beyond it comes back with the first step.
         driver.press("Tab Tab");
-        assert_eq!(driver.model.keys(), ModeKind::Explore);
+        assert_eq!(driver.app.keys(), ModeKind::Explore);
         driver.select("adhesion.kappa");
         driver.enter("100");
         assert!(driver.text().contains("H 0.95, κ 100, outside the map"), "{}", driver.text());
@@ -272,13 +272,13 @@ fn adhesion_given_by_its_work_stays_so() {
     within(60, || {
         let mut driver = charted(changed(&rough(), &[("adhesion", "(work: 0.02)")]));
         driver.press("Right Up");
-        let adhesion = driver.model.document.scene().adhesion.unwrap();
+        let adhesion = driver.app.edit.document.scene().adhesion.unwrap();
         assert!(adhesion.parameter().is_none() && adhesion.work().is_some_and(|work| work != 0.02));
         let (at, hurst) = place(&driver);
         assert!((0..COLUMNS).any(|column| (kappa(column) / at - 1.0).abs() < 1e-9), "{at}");
         assert_eq!(hurst, 0.75);
         // The computed value agrees.
-        let computed = driver.model.computed.as_ref().unwrap().outcome.governing.kappa.unwrap();
+        let computed = driver.app.solved.as_ref().unwrap().outcome.governing.kappa.unwrap();
         assert!((computed / at - 1.0).abs() < 1e-9);
     });
 }
@@ -287,14 +287,14 @@ fn adhesion_given_by_its_work_stays_so() {
 fn the_mouse_moves_the_mark() {
     within(60, || {
         let mut driver = charted(rough());
-        let edits = driver.model.undo.len();
-        let area = inside(Layout::of(&driver.model).pane(Pane::Chart).unwrap());
+        let edits = driver.app.edit.past.len();
+        let area = inside(Layout::of(&driver.app).pane(Pane::Chart).unwrap());
         let mut mouse = |column, row, gesture| driver.act(Action::Mouse(Mouse { column, row, gesture }));
         mouse(area.x + 20, area.y + 10, Gesture::Press);
         for column in 20..30 {
             mouse(area.x + column, area.y + 12, Gesture::Drag);
         }
-        assert_eq!(driver.model.undo.len(), edits + 1);
+        assert_eq!(driver.app.edit.past.len(), edits + 1);
         // A cell of the map has two of the screen.
         let screen = driver.screen();
         let near = |x: u16, y: u16| screen[(area.x + x, area.y + y)].symbol() == "◆";
@@ -308,7 +308,7 @@ fn other_edits_begin_the_map_anew_and_wait_for_quiet() {
     within(60, || {
         let mut driver = charted(rough());
         let chart = |driver: &Driver| {
-            study_tasks(&driver.model).into_iter().find_map(|task| match task {
+            study_tasks(&driver.app).into_iter().find_map(|task| match task {
                 Task::Extend { data: PaneData::Map(map), waits } => Some((map.level(), waits)),
                 _ => None,
             })
@@ -319,21 +319,21 @@ fn other_edits_begin_the_map_anew_and_wait_for_quiet() {
         assert_eq!(chart(&driver), Some((None, true)));
         assert!(driver.text().contains("computing the map"), "{}", driver.text());
         // Late reports are dropped.
-        let generation = driver.model.generation - 1;
+        let generation = driver.app.edit.generation - 1;
         let late = empty();
         driver.act(Action::Found(Found { generation, finding: Finding::Extended(PaneData::Map(late)) }));
-        assert!(driver.model.chart.map.is_none());
+        assert!(driver.app.chart.map.is_none());
         // The map is hidden.
         driver.press("m m");
-        assert!(!driver.model.is_shown(Pane::Chart));
+        assert!(!driver.app.is_shown(Pane::Chart));
         assert_eq!(chart(&driver), None);
         assert_eq!(driver.press("m"), [Effect::Study, Effect::Ask]);
         assert_eq!(chart(&driver), Some((None, false)), "shown, it begins at once");
         // Accuracy takes the place of the map, and vice versa.
         driver.press("A");
-        assert_eq!(driver.model.large, Some(Pane::Accuracy));
+        assert_eq!(driver.app.view.large, Some(Pane::Accuracy));
         driver.press("m");
-        assert_eq!(driver.model.large, Some(Pane::Chart));
+        assert_eq!(driver.app.view.large, Some(Pane::Chart));
     });
 }
 
@@ -343,9 +343,9 @@ fn a_scene_without_a_map_says_why() {
         for (document, why) in [(smooth(), "a smooth body has"), (without_adhesion(), "has no adhesion")] {
             let mut driver = charted(document);
             assert!(driver.text().contains(why), "{}", driver.text());
-            let generation = driver.model.generation;
+            let generation = driver.app.edit.generation;
             driver.press("Left Up");
-            assert_eq!(driver.model.generation, generation);
+            assert_eq!(driver.app.edit.generation, generation);
         }
     });
 }

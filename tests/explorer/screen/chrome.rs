@@ -4,9 +4,9 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{punch, rough, smooth};
 use super::{SIZES, default_scene, everywhere, mid_retraction, pressed};
+use asperity::explorer::app::{Mode, ModeKind};
 use asperity::explorer::keys::{self, BINDINGS};
 use asperity::explorer::layout::Layout;
-use asperity::explorer::model::{Mode, ModeKind};
 use asperity::scene::format_quantity;
 
 #[test]
@@ -16,11 +16,11 @@ fn an_unfinished_scene_says_that_it_computes() {
         assert!(driver.text().contains("computing"), "{}", driver.text());
         // Later the old curve remains until the new one arrives.
         let mut driver = pressed("");
-        let document = driver.model.document.set("roughness.seed", "2").unwrap();
+        let document = driver.app.edit.document.set("roughness.seed", "2").unwrap();
         let before = driver.text();
-        driver.model.document = document;
-        driver.model.generation += 1;
-        driver.model.progress = Some(0);
+        driver.app.edit.document = document;
+        driver.app.edit.generation += 1;
+        driver.app.progress = Some(0);
         let text = driver.text();
         assert!(text.contains("computing") && !before.contains("computing"), "{text}");
         let curve = |text: &str| text.chars().filter(|c| ('\u{2801}'..='\u{28ff}').contains(c)).count();
@@ -33,13 +33,13 @@ fn the_headline_is_that_of_the_computed_curve() {
     within(60, || {
         for document in [default_scene(), rough(), smooth(), punch()] {
             let mut driver = mid_retraction(document);
-            let outcome = driver.model.computed.clone().unwrap().outcome.clone();
+            let outcome = driver.app.solved.clone().unwrap().outcome.clone();
             let force = format_quantity(outcome.figures.adhesion_force.unwrap(), "N");
             for size in &SIZES[..4] {
                 driver.resize(*size);
                 assert!(driver.text().contains(&format!("F_a {force}")), "{size:?}: {}", driver.text());
             }
-            let point = driver.model.snapshot.as_ref().unwrap().point;
+            let point = driver.app.snapshot.as_ref().unwrap().point;
             let present = format!(
                 "d {} F {}",
                 format_quantity(point.indentation, "m"),
@@ -61,7 +61,7 @@ fn the_headline_is_that_of_the_computed_curve() {
 
 /// The keys of the footer, each with its word.
 fn footer(driver: &Driver) -> Vec<String> {
-    let area = Layout::of(&driver.model).footer.expect("there is a footer");
+    let area = Layout::of(&driver.app).footer.expect("there is a footer");
     let row = &driver.rows()[usize::from(area.y)];
     row.split("  ").map(|one| one.trim().to_owned()).filter(|one| !one.is_empty()).collect()
 }
@@ -70,7 +70,7 @@ fn footer(driver: &Driver) -> Vec<String> {
 fn the_footer_shows_keys_of_the_table_that_are_valid_now() {
     within(30, || {
         for mut driver in everywhere() {
-            let mode = driver.model.keys();
+            let mode = driver.app.keys();
             let bindings = keys::Bindings::default();
             let labels: Vec<&str> =
                 bindings.valid_in(mode).map(|row| row.label).filter(|label| !label.is_empty()).collect();
@@ -113,7 +113,7 @@ fn the_footer_has_the_keys_of_the_present_pane_and_of_manual_loading() {
             driver.press("d");
             shows(&driver, &["d manual", "] [ press/pull", "} { large step", "F force", "S separate"]);
             driver.press("d Tab Tab");
-            assert_eq!(driver.model.keys(), ModeKind::Parameters);
+            assert_eq!(driver.app.keys(), ModeKind::Parameters);
             shows(&driver, &["0–9 type"]);
         }
     });
@@ -124,8 +124,8 @@ fn the_status_line_has_mechanics_or_the_work_of_the_computation() {
     within(30, || {
         let mut driver = mid_retraction(smooth());
         driver.resize((160, 40));
-        let computed = driver.model.computed.clone().unwrap();
-        let snapshot = driver.model.snapshot.clone().unwrap();
+        let computed = driver.app.solved.clone().unwrap();
+        let snapshot = driver.app.snapshot.clone().unwrap();
         // A circle of the contact's radius: that of one patch, and of no more than half the diameter.
         let radius = 0.5 * snapshot.point.contact_length;
         assert!(
@@ -240,6 +240,6 @@ fn the_help_scrolls_to_its_end_and_no_further() {
         (0..200).for_each(|_| drop(driver.press("k")));
         assert_eq!(driver.text(), top);
         driver.press("Esc");
-        assert_eq!(driver.model.mode, Mode::Explore);
+        assert_eq!(driver.app.mode, Mode::Explore);
     });
 }

@@ -5,8 +5,8 @@ use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::{is_up_to_date, pressed};
 use asperity::explorer::Opening;
+use asperity::explorer::app::{Message, Pane};
 use asperity::explorer::layout::Layout;
-use asperity::explorer::model::{Notice, Pane};
 use asperity::explorer::snapshot::SolvedScene;
 use asperity::explorer::update::Effect;
 use asperity::scene::{Document, format_quantity};
@@ -15,17 +15,17 @@ use ratatui::style::Color;
 
 /// The scenes of the ghosts, the newest last.
 fn kept(driver: &Driver) -> Vec<Document> {
-    driver.model.ghosts.iter().map(|ghost| ghost.document.clone()).collect()
+    driver.app.ghosts.iter().map(|ghost| ghost.document.clone()).collect()
 }
 
 /// Outcome computed for the scene.
 fn outcome(driver: &Driver) -> Outcome {
-    driver.model.computed.as_deref().map(|SolvedScene { outcome, .. }| outcome.clone()).unwrap()
+    driver.app.solved.as_deref().map(|SolvedScene { outcome, .. }| outcome.clone()).unwrap()
 }
 
 fn message(driver: &Driver) -> String {
-    match &driver.model.notice {
-        Some(Notice::Done(text) | Notice::Error(text)) => text.clone(),
+    match &driver.app.message {
+        Some(Message::Done(text) | Message::Error(text)) => text.clone(),
         None => String::new(),
     }
 }
@@ -80,7 +80,7 @@ fn ghosts_have_letters_and_say_where_they_differ() {
             assert_eq!(plot.matches(letter).count(), 1, "{letter}\n{}", driver.text());
         }
         driver.press("C");
-        assert!(driver.model.ghosts.is_empty());
+        assert!(driver.app.ghosts.is_empty());
         assert!(!driver.text().contains("κ 8"), "{}", driver.text());
     });
 }
@@ -103,16 +103,16 @@ fn the_plot_has_room_for_its_ghosts() {
 fn one_loop_is_kept_once_and_eight_at_most() {
     within(60, || {
         let mut driver = pressed("c c");
-        assert_eq!(driver.model.ghosts.len(), 1);
+        assert_eq!(driver.app.ghosts.len(), 1);
         assert!(message(&driver).contains("kept already"), "{}", message(&driver));
         // Also after another scene in between.
         driver.press("l c h c");
-        assert_eq!(driver.model.ghosts.len(), 2);
+        assert_eq!(driver.app.ghosts.len(), 2);
         driver.press("C");
         let mut scenes = Vec::new();
         for _ in 0..10 {
             driver.press("l c");
-            scenes.push(driver.model.document.clone());
+            scenes.push(driver.app.edit.document.clone());
         }
         assert_eq!(kept(&driver), scenes[2..], "the oldest are dropped");
         driver.screen();
@@ -125,23 +125,24 @@ fn two_exchanges_are_none() {
         let mut driver = pressed("c L");
         driver.select("adhesion.kappa");
         driver.press("c L L");
-        let (document, ghosts, computed) = (driver.model.document.clone(), kept(&driver), outcome(&driver));
+        let (document, ghosts, computed) =
+            (driver.app.edit.document.clone(), kept(&driver), outcome(&driver));
         driver.press("x");
-        assert_eq!(driver.model.document, ghosts[1]);
+        assert_eq!(driver.app.edit.document, ghosts[1]);
         assert_eq!(kept(&driver), [ghosts[0].clone(), document.clone()]);
-        assert!(is_up_to_date(&driver.model));
+        assert!(is_up_to_date(&driver.app));
         assert_ne!(outcome(&driver).history, computed.history);
         driver.press("x");
-        assert_eq!(driver.model.document, document);
+        assert_eq!(driver.app.edit.document, document);
         assert_eq!(kept(&driver), ghosts);
         assert_eq!(outcome(&driver).history, computed.history);
         // An exchange is undone like any other edit, and the ghosts remain.
         driver.press("x u");
-        assert_eq!(driver.model.document, document);
+        assert_eq!(driver.app.edit.document, document);
         assert_eq!(outcome(&driver).history, computed.history);
-        assert_eq!(driver.model.ghosts.len(), 2);
+        assert_eq!(driver.app.ghosts.len(), 2);
         driver.press("U");
-        assert_eq!(driver.model.document, ghosts[1]);
+        assert_eq!(driver.app.edit.document, ghosts[1]);
     });
 }
 
@@ -150,26 +151,26 @@ fn what_cannot_be_kept_or_exchanged_says_why() {
     within(30, || {
         let mut driver = Driver::open(rough());
         driver.press("c");
-        assert!(driver.model.ghosts.is_empty() && message(&driver).contains("no curve yet"));
+        assert!(driver.app.ghosts.is_empty() && message(&driver).contains("no curve yet"));
         let mut driver = pressed("");
-        let before = driver.model.document.clone();
+        let before = driver.app.edit.document.clone();
         driver.press("x");
         assert!(message(&driver).contains("nothing to exchange"), "{}", message(&driver));
-        assert_eq!(driver.model.document, before);
+        assert_eq!(driver.app.edit.document, before);
         driver.select("loading");
         driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
         driver.press("c");
-        assert!(driver.model.ghosts.is_empty(), "a scene that failed has no loop");
+        assert!(driver.app.ghosts.is_empty(), "a scene that failed has no loop");
     });
 }
 
 /// The rows of the pane that holds the close-up or the scene beside.
 fn lower_pane(driver: &Driver) -> Vec<String> {
-    rows_of(driver, driver.model.lower)
+    rows_of(driver, driver.app.view.lower)
 }
 
 fn rows_of(driver: &Driver, pane: Pane) -> Vec<String> {
-    let area = Layout::of(&driver.model).pane(pane).unwrap();
+    let area = Layout::of(&driver.app).pane(pane).unwrap();
     let row = |row: &String| row.chars().skip(usize::from(area.x)).take(usize::from(area.width)).collect();
     driver.rows()[usize::from(area.y)..usize::from(area.bottom())].iter().map(row).collect()
 }
@@ -186,13 +187,13 @@ fn two_scenes_are_shown_side_by_side() {
         for size in [(120, 40), (80, 24)] {
             let mut driver = pressed("&");
             driver.resize(size);
-            assert_eq!(driver.model.ghosts.len(), 1, "the present scene is the one to compare with");
+            assert_eq!(driver.app.ghosts.len(), 1, "the present scene is the one to compare with");
             let text = lower_pane(&driver).join("\n");
             assert!(text.contains("A → this scene: the same scene") && text.contains("ratio 1 "), "{text}");
             driver.press("L");
-            let now = driver.model.snapshot.clone().unwrap();
-            let before = driver.model.ghosts[0].snapshot.clone().unwrap();
-            let ghost = driver.model.ghosts[0].computed.outcome.clone();
+            let now = driver.app.snapshot.clone().unwrap();
+            let before = driver.app.ghosts[0].snapshot.clone().unwrap();
+            let ghost = driver.app.ghosts[0].computed.outcome.clone();
             assert_eq!(before.line, ghost.line);
             assert_ne!(before.profile.columns, now.profile.columns);
             let pane = lower_pane(&driver);
@@ -228,24 +229,24 @@ fn two_scenes_that_are_opened_are_shown_side_by_side() {
         let mut driver = Driver::start(opening);
         let scenes: Vec<_> = kept(&driver).iter().map(|document| document.scene().clone()).collect();
         assert_eq!(scenes, [rough().scene().clone()]);
-        assert_eq!(driver.model.document.scene(), second.scene());
-        assert!(!driver.model.is_unsaved() && driver.model.undo.is_empty());
+        assert_eq!(driver.app.edit.document.scene(), second.scene());
+        assert!(!driver.app.is_unsaved() && driver.app.edit.past.is_empty());
         let text = driver.text();
         assert!(text.contains("Stickier") && text.contains("A → this scene: κ 8 → 4"), "{text}");
         // After the exchange, the other scene is beside.
         driver.press("x");
-        assert!(is_up_to_date(&driver.model));
+        assert!(is_up_to_date(&driver.app));
         assert!(driver.text().contains("A → this scene: κ 4 → 8"), "{}", driver.text());
         // Another pane in its place hides the ghost.
         for keys in ["A", "m", "m", "D"] {
             driver.press(keys);
             driver.screen();
         }
-        assert!(!driver.model.is_shown(Pane::Beside));
+        assert!(!driver.app.is_shown(Pane::Beside));
         driver.press("&");
-        assert!(driver.model.is_shown(Pane::Beside));
+        assert!(driver.app.is_shown(Pane::Beside));
         driver.press("C");
-        assert!(!driver.model.is_shown(Pane::Beside));
+        assert!(!driver.app.is_shown(Pane::Beside));
     });
 }
 
@@ -258,8 +259,8 @@ fn ghosts_have_their_force_and_its_difference_in_colours_of_their_own() {
         driver.press("c");
         driver.enter("2");
         let force = |computed: &SolvedScene| computed.outcome.figures.adhesion_force.unwrap();
-        let present = force(driver.model.computed.as_ref().unwrap());
-        let kept: Vec<f64> = driver.model.ghosts.iter().map(|ghost| force(&ghost.computed)).collect();
+        let present = force(driver.app.solved.as_ref().unwrap());
+        let kept: Vec<f64> = driver.app.ghosts.iter().map(|ghost| force(&ghost.computed)).collect();
         assert!(kept[0] < kept[1] && kept[1] < present);
         let three = |value: f64| format_quantity(format!("{value:.2e}").parse().unwrap(), "N");
         for (letter, force) in ["A", "B"].into_iter().zip(kept) {

@@ -5,14 +5,14 @@ use super::common::driver::Driver;
 use super::common::scenes::{punch, rough};
 use super::{default_scene, mid_retraction, pressed};
 use asperity::explorer::action::{Action, Gesture, Mouse};
+use asperity::explorer::app::{ModeKind, Pane};
 use asperity::explorer::layout::{Layout, inside};
-use asperity::explorer::model::{ModeKind, Pane};
 use asperity::explorer::snapshot::{ContactSnapshot, Probe};
 use asperity::scene::format_quantity;
 use ratatui::layout::Rect;
 
 fn snapshot(driver: &Driver) -> &ContactSnapshot {
-    driver.model.snapshot.as_deref().unwrap()
+    driver.app.snapshot.as_deref().unwrap()
 }
 
 fn probe(driver: &Driver) -> Probe {
@@ -21,13 +21,13 @@ fn probe(driver: &Driver) -> Probe {
 
 /// The lower edge of the frame of a pane.
 fn edge(driver: &Driver, pane: Pane) -> String {
-    let area = Layout::of(&driver.model).pane(pane).unwrap();
+    let area = Layout::of(&driver.app).pane(pane).unwrap();
     let row = &driver.rows()[usize::from(area.bottom() - 1)];
     row.chars().skip(usize::from(area.x)).take(usize::from(area.width)).collect()
 }
 
 fn place(driver: &Driver, pane: Pane) -> Rect {
-    inside(Layout::of(&driver.model).pane(pane).unwrap())
+    inside(Layout::of(&driver.app).pane(pane).unwrap())
 }
 
 fn mouse(driver: &mut Driver, (column, row): (u16, u16), gesture: Gesture) {
@@ -47,7 +47,7 @@ fn the_crosshair_reads_the_state_that_all_panes_show() {
             driver.resize(size);
             assert!(!edge(&driver, Pane::Force).contains(" d "));
             driver.press("*");
-            assert_eq!(driver.model.keys(), ModeKind::Crosshair);
+            assert_eq!(driver.app.keys(), ModeKind::Crosshair);
             assert!(driver.rows().last().unwrap().contains("hide"), "{}", driver.text());
             for keys in ["", "Right", "Shift+Left", "Up", "Left Left", "Down", "Home", "End"] {
                 driver.press(keys);
@@ -57,14 +57,14 @@ fn the_crosshair_reads_the_state_that_all_panes_show() {
                 assert!(text.contains(&format!("d {d}")), "{keys}: {d}\n{text}");
                 assert!(text.contains(&format!("F {force}")), "{keys}: {force}\n{text}");
                 // The body of profile and close-up is at the same indentation.
-                let level = driver.model.computed.as_ref().unwrap().outcome.line.summit - point.indentation;
+                let level = driver.app.solved.as_ref().unwrap().outcome.line.summit - point.indentation;
                 let shown = snapshot(&driver);
                 assert!((shown.profile.level - level).abs() < 1e-18);
                 assert!((shown.close_up.section.level - level).abs() < 1e-18);
-                assert!(!driver.model.player.playing);
+                assert!(!driver.app.play.playing);
             }
             driver.press("Esc");
-            assert_eq!(driver.model.keys(), ModeKind::Explore);
+            assert_eq!(driver.app.keys(), ModeKind::Explore);
             assert!(!edge(&driver, Pane::Force).contains(" d "));
         }
     });
@@ -75,7 +75,7 @@ fn the_crosshair_moves_along_a_stage_and_to_the_other_one_at_the_same_indentatio
     within(30, || {
         let mut driver = mid_retraction(rough());
         driver.press("*");
-        let at = |driver: &Driver| (driver.model.player.leg, snapshot(driver).point);
+        let at = |driver: &Driver| (driver.app.play.leg, snapshot(driver).point);
         let (leg, before) = at(&driver);
         driver.press("Right");
         let (_, right) = at(&driver);
@@ -93,7 +93,7 @@ fn the_crosshair_moves_along_a_stage_and_to_the_other_one_at_the_same_indentatio
         assert_eq!(at(&driver).0, 1);
         // Up to the ends of the stage.
         let ends = |driver: &Driver| {
-            let leg = &driver.model.legs()[1];
+            let leg = &driver.app.legs()[1];
             (leg.end().min(leg.start()), leg.end().max(leg.start()))
         };
         driver.press("End");
@@ -104,7 +104,7 @@ fn the_crosshair_moves_along_a_stage_and_to_the_other_one_at_the_same_indentatio
         assert!(at(&driver).1.indentation <= ends(&driver).0);
         // In manual loading the crosshair moves the body.
         driver.press("End d Left");
-        assert!(driver.model.manual.is_some() && snapshot(&driver).point.indentation < ends(&driver).1);
+        assert!(driver.app.manual.is_some() && snapshot(&driver).point.indentation < ends(&driver).1);
         assert!(!edge(&driver, Pane::Force).contains("stage"));
     });
 }
@@ -115,7 +115,7 @@ fn on_the_profile_the_crosshair_reads_position_height_and_state() {
         for document in [rough(), punch()] {
             let mut driver = mid_retraction(document);
             driver.press("* Tab");
-            assert_eq!(driver.model.pane, Pane::Profile);
+            assert_eq!(driver.app.view.pane, Pane::Profile);
             let mut states = Vec::new();
             driver.press("Home");
             let first = probe(&driver).spring;
@@ -172,7 +172,7 @@ fn the_mouse_moves_the_crosshair_of_the_pane_it_is_in() {
                     springs.push(probe(&driver).spring);
                 }
                 assert!(springs.windows(2).all(|pair| pair[0] < pair[1]), "{springs:?}");
-                assert_eq!(driver.model.pane, pane);
+                assert_eq!(driver.app.view.pane, pane);
                 mouse(&mut driver, (area.x + 9, area.y + 2), Gesture::Drag);
                 assert!(probe(&driver).spring < springs[1]);
             }
@@ -186,12 +186,12 @@ fn the_mouse_moves_the_crosshair_of_the_pane_it_is_in() {
             };
             let pull_off = sign(&driver, "▼");
             mouse(&mut driver, pull_off, Gesture::Press);
-            assert!(driver.model.manual.is_none() && driver.model.player.leg == 1);
-            let force = driver.model.legs()[1].smallest.force;
+            assert!(driver.app.manual.is_none() && driver.app.play.leg == 1);
+            let force = driver.app.legs()[1].smallest.force;
             assert!(snapshot(&driver).point.force < 0.8 * force, "{} {force}", snapshot(&driver).point.force);
             let preload = sign(&driver, "▲");
             mouse(&mut driver, preload, Gesture::Press);
-            assert!(snapshot(&driver).point.force > 0.8 * driver.model.legs()[0].largest.force);
+            assert!(snapshot(&driver).point.force > 0.8 * driver.app.legs()[0].largest.force);
         }
     });
 }
@@ -209,11 +209,11 @@ fn crosshairs_of_profile_and_close_up_are_at_one_position() {
         assert_eq!(reading(&profile), reading(&close_up));
         assert!(reading(&profile).contains(&format!("patch {} of", patch.number + 1)), "{profile}");
         // With the parameters selected the arrows act on these.
-        let before = driver.model.selected;
-        while driver.model.pane != Pane::Parameters {
+        let before = driver.app.edit.selected;
+        while driver.app.view.pane != Pane::Parameters {
             driver.press("Tab");
         }
         driver.press("Down");
-        assert_ne!(driver.model.selected, before);
+        assert_ne!(driver.app.edit.selected, before);
     });
 }

@@ -3,8 +3,8 @@
 use super::common::deadline::within;
 use super::common::driver::APPEARANCE;
 use super::common::scenes::rough;
+use asperity::explorer::app::Pane;
 use asperity::explorer::demo::{Cue, Demo, ONE_SCENE, TOUR};
-use asperity::explorer::model::Pane;
 use asperity::explorer::theme::{Appearance, Theme};
 use asperity::explorer::{FrameBytes, Screen, picture, picture_of};
 use asperity::scene::{Document, open, presets};
@@ -31,7 +31,7 @@ fn frames(size: (u16, u16), frames_per_second: f64) -> Vec<(f64, u64)> {
     let mut demo = Demo::new(first(), TOUR, size, APPEARANCE, frames_per_second);
     std::iter::from_fn(|| {
         let seconds = demo.advance()?;
-        Some((seconds, hash(&picture::text(&picture_of(demo.model())))))
+        Some((seconds, hash(&picture::text(&picture_of(demo.app())))))
     })
     .collect()
 }
@@ -69,8 +69,8 @@ fn the_tour_goes_on_in_another_window() {
             if demo.advance().is_none() {
                 break;
             }
-            assert_eq!(demo.model().size, size);
-            assert_eq!(picture_of(demo.model()).area.width, size.0);
+            assert_eq!(demo.app().view.size, size);
+            assert_eq!(picture_of(demo.app()).area.width, size.0);
         }
     });
 }
@@ -81,21 +81,21 @@ fn the_tour_shows_what_it_is_to_show() {
         let mut demo = Demo::new(first(), TOUR, LARGE, APPEARANCE, 2.0);
         let (mut scenes, mut seen) = (Vec::new(), [false; 6]);
         while demo.advance().is_some() {
-            let model = demo.model();
-            let name = model.document.name().to_owned();
+            let app = demo.app();
+            let name = app.edit.document.name().to_owned();
             if !scenes.contains(&name) {
                 scenes.push(name);
             }
             let shown = [
-                model.manual.as_ref().is_some_and(|manual| manual.path.len() > 100),
-                !model.ghosts.is_empty(),
-                model.curve.loss,
-                model.lower == Pane::Lengths,
-                model.mode.is_typing_value(),
-                model.is_unsaved() && model.document.scene().roughness.is_none(),
+                app.manual.as_ref().is_some_and(|manual| manual.path.len() > 100),
+                !app.ghosts.is_empty(),
+                app.view.curve.loss,
+                app.view.lower == Pane::Lengths,
+                app.mode.is_typing_value(),
+                app.is_unsaved() && app.edit.document.scene().roughness.is_none(),
             ];
             seen.iter_mut().zip(shown).for_each(|(seen, shown)| *seen |= shown);
-            assert!(model.refused.is_none() && !model.is_computing(), "{:?}", model.refused);
+            assert!(app.edit.refused.is_none() && !app.is_computing(), "{:?}", app.edit.refused);
         }
         assert_eq!(seen, [true; 6]);
         let expected = [0, 1, 2, 5, 8].map(|index| presets()[index].name);
@@ -110,7 +110,7 @@ fn cues_are_followed_in_time() {
         let mut demo = Demo::new(rough(), &cues, LARGE, APPEARANCE, 20.0);
         let mut kappa = Vec::new();
         while let Some(seconds) = demo.advance() {
-            kappa.push((seconds, demo.model().document.value("adhesion.kappa").unwrap().to_owned()));
+            kappa.push((seconds, demo.app().edit.document.value("adhesion.kappa").unwrap().to_owned()));
         }
         // Two characters take 0.15 s each, and so does the time before them.
         for (seconds, value) in &kappa {
@@ -133,11 +133,11 @@ fn a_frame_costs_no_more_than_it_must() {
                 let mut demo = Demo::new(document, ONE_SCENE, LARGE, appearance, WATCHED);
                 let mut screen = Screen::new(LARGE).unwrap();
                 let (mut changed, mut total, mut last) = (Vec::new(), 0, 0.0);
-                let mut seen = picture_of(demo.model());
+                let mut seen = picture_of(demo.app());
                 while let Some(seconds) = demo.advance() {
-                    let FrameBytes(bytes) = screen.draw(demo.model()).unwrap();
+                    let FrameBytes(bytes) = screen.draw(demo.app()).unwrap();
                     // The first frame is the whole screen.
-                    let shown = picture_of(demo.model());
+                    let shown = picture_of(demo.app());
                     if seconds > 0.0 && shown != seen {
                         changed.push(bytes.len());
                     }

@@ -4,8 +4,8 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{rough, smooth};
 use super::{SIZES, is_up_to_date, mid_retraction, pressed};
+use asperity::explorer::app::{Message, Pane};
 use asperity::explorer::layout::Layout;
-use asperity::explorer::model::{Notice, Pane};
 use asperity::explorer::update::Effect;
 use asperity::scene::presets;
 
@@ -16,8 +16,8 @@ fn keys_step_a_value_finely_and_coarsely() {
         driver.select("roughness.hurst");
         let mut hurst = |keys: &str| {
             driver.press(keys);
-            assert!(is_up_to_date(&driver.model));
-            driver.model.document.value("roughness.hurst").unwrap().to_owned()
+            assert!(is_up_to_date(&driver.app));
+            driver.app.edit.document.value("roughness.hurst").unwrap().to_owned()
         };
         for (keys, value) in [
             ("l", "0.71"),
@@ -40,12 +40,12 @@ fn a_step_beyond_the_range_says_what_is_allowed() {
     within(30, || {
         let mut driver = pressed("");
         driver.select("material.poisson_ratio");
-        let before = driver.model.document.clone();
+        let before = driver.app.edit.document.clone();
         assert!(driver.press("l").is_empty());
-        assert_eq!(driver.model.document, before);
+        assert_eq!(driver.app.edit.document, before);
         assert!(driver.text().contains("0.5"), "{}", driver.text());
-        let (row, error) = driver.model.refused.clone().expect("it is refused");
-        assert_eq!(row, driver.model.selected);
+        let (row, error) = driver.app.edit.refused.clone().expect("it is refused");
+        assert_eq!(row, driver.app.edit.selected);
         assert!(error.contains("allowed"), "{error}");
     });
 }
@@ -54,38 +54,38 @@ fn a_step_beyond_the_range_says_what_is_allowed() {
 fn edits_are_taken_back_and_done_again() {
     within(30, || {
         let mut driver = pressed("");
-        let mut texts = vec![driver.model.document.text().to_owned()];
-        let first = driver.model.computed.clone().unwrap().outcome.figures;
+        let mut texts = vec![driver.app.edit.document.text().to_owned()];
+        let first = driver.app.solved.clone().unwrap().outcome.figures;
         driver.select("roughness.hurst");
         for keys in ["l", "L", "h"] {
             driver.press(keys);
-            texts.push(driver.model.document.text().to_owned());
+            texts.push(driver.app.edit.document.text().to_owned());
         }
-        let last = driver.model.computed.clone().unwrap().outcome.figures;
+        let last = driver.app.solved.clone().unwrap().outcome.figures;
         assert_ne!(first, last);
         for text in texts.iter().rev().skip(1) {
             driver.press("u");
-            assert_eq!(driver.model.document.text(), text);
-            assert!(is_up_to_date(&driver.model));
+            assert_eq!(driver.app.edit.document.text(), text);
+            assert!(is_up_to_date(&driver.app));
         }
-        assert!(!driver.model.is_unsaved());
-        assert_eq!(driver.model.computed.clone().unwrap().outcome.figures, first);
+        assert!(!driver.app.is_unsaved());
+        assert_eq!(driver.app.solved.clone().unwrap().outcome.figures, first);
         driver.press("u");
-        assert_eq!(driver.model.document.text(), texts[0], "there is no more to take back");
+        assert_eq!(driver.app.edit.document.text(), texts[0], "there is no more to take back");
         for (text, key) in texts.iter().skip(1).zip(["U", "Ctrl+r", "U"]) {
             driver.press(key);
-            assert_eq!(driver.model.document.text(), text);
+            assert_eq!(driver.app.edit.document.text(), text);
         }
-        assert_eq!(driver.model.computed.clone().unwrap().outcome.figures, last);
+        assert_eq!(driver.app.solved.clone().unwrap().outcome.figures, last);
         // A new edit clears the redo list.
         driver.press("u l");
-        let text = driver.model.document.text().to_owned();
+        let text = driver.app.edit.document.text().to_owned();
         driver.press("U");
-        assert_eq!(driver.model.document.text(), text);
+        assert_eq!(driver.app.edit.document.text(), text);
         // A refused value is no edit.
         driver.enter("7");
         driver.press("Esc u");
-        assert_eq!(driver.model.document.text(), texts[2]);
+        assert_eq!(driver.app.edit.document.text(), texts[2]);
     });
 }
 
@@ -95,15 +95,12 @@ fn number_keys_open_the_built_in_scenes() {
         let mut driver = Driver::start(rough());
         for (index, preset) in presets().iter().take(9).enumerate() {
             driver.press(&(index + 1).to_string());
-            assert_eq!(driver.model.document.text(), preset.text, "{}", preset.name);
-            assert!(is_up_to_date(&driver.model));
-            let title = &driver.model.document.scene().title;
+            assert_eq!(driver.app.edit.document.text(), preset.text, "{}", preset.name);
+            assert!(is_up_to_date(&driver.app));
+            let title = &driver.app.edit.document.scene().title;
             assert!(driver.rows()[0].contains(title.as_str()), "{title}: {}", driver.text());
-            assert!(!driver.model.is_unsaved());
-            assert!(
-                driver.model.player.playing && driver.model.player.done == 0.0,
-                "it plays from its start"
-            );
+            assert!(!driver.app.is_unsaved());
+            assert!(driver.app.play.playing && driver.app.play.done == 0.0, "it plays from its start");
         }
     });
 }
@@ -114,20 +111,20 @@ fn a_built_in_scene_can_be_taken_back_like_any_edit() {
         let mut driver = Driver::start(rough());
         driver.select("roughness.hurst");
         driver.press("l");
-        let text = driver.model.document.text().to_owned();
+        let text = driver.app.edit.document.text().to_owned();
         driver.press("4");
         assert!(
-            matches!(driver.model.notice, Some(Notice::Done(_))),
+            matches!(driver.app.message, Some(Message::Done(_))),
             "the notice states that the change is kept"
         );
         driver.press("u");
-        assert_eq!(driver.model.document.text(), text);
-        assert!(driver.model.is_unsaved());
+        assert_eq!(driver.app.edit.document.text(), text);
+        assert!(driver.app.is_unsaved());
         driver.press("u");
-        assert_eq!(driver.model.document.text(), rough().text());
-        assert!(!driver.model.is_unsaved(), "the scene is as it was opened");
+        assert_eq!(driver.app.edit.document.text(), rough().text());
+        assert!(!driver.app.is_unsaved(), "the scene is as it was opened");
         driver.press("q");
-        assert!(driver.model.finished);
+        assert!(driver.app.finished);
     });
 }
 
@@ -135,16 +132,16 @@ fn a_built_in_scene_can_be_taken_back_like_any_edit() {
 fn reseeding_gives_another_line_that_is_stated() {
     within(30, || {
         let mut driver = pressed("");
-        let before = driver.model.computed.clone().unwrap();
+        let before = driver.app.solved.clone().unwrap();
         driver.draw_seed = Box::new(|| 123_456);
         driver.select("roughness.seed");
         assert_eq!(driver.press("R"), [Effect::DrawSeed]);
-        assert!(driver.model.document.text().contains("seed: 123456"));
+        assert!(driver.app.edit.document.text().contains("seed: 123456"));
         assert!(driver.text().contains("123456"), "{}", driver.text());
-        assert!(is_up_to_date(&driver.model));
-        assert_ne!(driver.model.computed.clone().unwrap().outcome.history, before.outcome.history);
+        assert!(is_up_to_date(&driver.app));
+        assert_ne!(driver.app.solved.clone().unwrap().outcome.history, before.outcome.history);
         driver.press("u");
-        assert_eq!(driver.model.computed.clone().unwrap().outcome.history, before.outcome.history);
+        assert_eq!(driver.app.solved.clone().unwrap().outcome.history, before.outcome.history);
     });
 }
 
@@ -152,13 +149,13 @@ fn reseeding_gives_another_line_that_is_stated() {
 fn a_smooth_scene_has_no_line_to_draw_anew() {
     within(30, || {
         let mut driver = mid_retraction(smooth());
-        let before = driver.model.document.clone();
+        let before = driver.app.edit.document.clone();
         driver.press("R");
-        assert_eq!(driver.model.document, before);
-        assert!(is_up_to_date(&driver.model));
+        assert_eq!(driver.app.edit.document, before);
+        assert!(is_up_to_date(&driver.app));
         // No other field is marked for that error.
-        assert_eq!(driver.model.refused, None);
-        let status = Layout::of(&driver.model).status;
+        assert_eq!(driver.app.edit.refused, None);
+        let status = Layout::of(&driver.app).status;
         let row = driver.rows()[usize::from(status.y)].clone();
         assert!(row.contains("no random line"), "{row}");
     });
@@ -169,8 +166,8 @@ fn the_selection_stays_on_its_field_when_rows_come_and_go() {
     within(30, || {
         let mut driver = pressed("");
         driver.select("numerics.samples");
-        let path = |driver: &Driver| driver.model.parameter().unwrap().field.path;
-        let rows = |driver: &Driver| driver.model.parameters.len();
+        let path = |driver: &Driver| driver.app.parameter().unwrap().field.path;
+        let rows = |driver: &Driver| driver.app.edit.parameters.len();
         let before = rows(&driver);
         for (field, value) in [("form", "Cone(angle: 0.1)"), ("adhesion", "None"), ("roughness", "None")] {
             let count = rows(&driver);
@@ -195,8 +192,8 @@ fn a_field_that_goes_leaves_another_one_selected() {
         let mut driver = pressed("");
         driver.select("roughness.seed");
         driver.press("7");
-        assert!(driver.model.document.scene().roughness.is_none(), "the seventh scene is smooth");
-        assert!(driver.model.selected < driver.model.parameters.len());
+        assert!(driver.app.edit.document.scene().roughness.is_none(), "the seventh scene is smooth");
+        assert!(driver.app.edit.selected < driver.app.edit.parameters.len());
         let marked = driver.rows().iter().filter(|row| row.contains('›')).count();
         assert_eq!(marked, 1, "{}", driver.text());
     });
@@ -207,15 +204,15 @@ fn the_selection_stays_in_the_list() {
     within(30, || {
         let mut driver = pressed("");
         driver.press("g k Up");
-        assert_eq!(driver.model.selected, 0);
+        assert_eq!(driver.app.edit.selected, 0);
         driver.press("G j Down");
-        let last = driver.model.parameters.len() - 1;
-        assert_eq!(driver.model.selected, last);
+        let last = driver.app.edit.parameters.len() - 1;
+        assert_eq!(driver.app.edit.selected, last);
         for size in SIZES {
             driver.resize(size);
-            driver.model.pane = Pane::Parameters;
-            for _ in 0..driver.model.parameters.len() {
-                let parameter = driver.model.parameter().unwrap();
+            driver.app.view.pane = Pane::Parameters;
+            for _ in 0..driver.app.edit.parameters.len() {
+                let parameter = driver.app.parameter().unwrap();
                 let name: String = parameter.name().chars().take(3).collect();
                 let is_named = |row: &&String| row.contains(&name) || row.contains(parameter.field.symbol);
                 let rows = driver.rows();

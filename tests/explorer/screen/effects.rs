@@ -9,10 +9,10 @@ use asperity::scene::{Adhesion, Effect, RoughnessParameter};
 /// Selects a row by its path.
 fn select(driver: &mut Driver, path: &str) {
     driver.press("g");
-    while driver.model.parameter().is_some_and(|parameter| parameter.path != path) {
-        let before = driver.model.selected;
+    while driver.app.parameter().is_some_and(|parameter| parameter.path != path) {
+        let before = driver.app.edit.selected;
         driver.press("j");
-        assert_ne!(driver.model.selected, before, "no row {path}");
+        assert_ne!(driver.app.edit.selected, before, "no row {path}");
     }
 }
 
@@ -22,7 +22,7 @@ fn row(driver: &Driver) -> String {
 }
 
 fn is_on(driver: &Driver, effect: Effect) -> bool {
-    effect.is_on(driver.model.document.scene())
+    effect.is_on(driver.app.edit.document.scene())
 }
 
 /// The scene with every effect, each in another form than its switch makes.
@@ -50,18 +50,18 @@ fn an_effect_goes_and_comes_back_as_it_was() {
     within(60, || {
         for (path, effect) in ROWS {
             let mut driver = full();
-            let before = driver.model.document.clone();
+            let before = driver.app.edit.document.clone();
             select(&mut driver, path);
             assert!(is_on(&driver, effect) && row(&driver).contains('●'), "{path}: {}", row(&driver));
             driver.press("t");
-            assert!(!is_on(&driver, effect) && is_up_to_date(&driver.model), "{path}");
+            assert!(!is_on(&driver, effect) && is_up_to_date(&driver.app), "{path}");
             assert!(row(&driver).contains('○'), "{path}: {}", row(&driver));
-            assert_eq!(driver.model.parameter().unwrap().path, path, "its row stays selected");
+            assert_eq!(driver.app.parameter().unwrap().path, path, "its row stays selected");
             driver.press("t");
-            assert!(is_on(&driver, effect) && is_up_to_date(&driver.model), "{path}");
-            assert_eq!(driver.model.document.scene(), before.scene(), "{path}");
+            assert!(is_on(&driver, effect) && is_up_to_date(&driver.app), "{path}");
+            assert_eq!(driver.app.edit.document.scene(), before.scene(), "{path}");
             driver.press("u u");
-            assert_eq!(driver.model.document, before, "{path}");
+            assert_eq!(driver.app.edit.document, before, "{path}");
         }
     });
 }
@@ -85,15 +85,15 @@ fn a_row_of_an_effect_switches_the_same_effect_off_and_on() {
                     &[("loading", "[ToForce(1.0e-5), ToSeparation, ToForce(2.0e-5), ToForce(1.0e-6)]")],
                 ));
             }
-            let text = driver.model.document.text().to_owned();
+            let text = driver.app.edit.document.text().to_owned();
             select(&mut driver, path);
             driver.press("t");
             let off: Vec<Effect> =
                 Effect::ALL.into_iter().filter(|effect| !is_on(&driver, *effect)).collect();
-            assert_eq!(driver.model.parameter().unwrap().path, head, "{path}: {off:?}");
+            assert_eq!(driver.app.parameter().unwrap().path, head, "{path}: {off:?}");
             driver.press("t");
-            assert_eq!(driver.model.document.text(), text, "{path}: {off:?}");
-            assert!(is_up_to_date(&driver.model), "{path}");
+            assert_eq!(driver.app.edit.document.text(), text, "{path}: {off:?}");
+            assert!(is_up_to_date(&driver.app), "{path}");
         }
     });
 }
@@ -102,32 +102,32 @@ fn a_row_of_an_effect_switches_the_same_effect_off_and_on() {
 fn adhesion_given_the_other_way_is_the_same() {
     within(60, || {
         let mut driver = pressed("");
-        let text = driver.model.document.text().to_owned();
+        let text = driver.app.edit.document.text().to_owned();
         let (kappa, work, _) = governing(&driver);
         let force =
-            |driver: &Driver| driver.model.computed.as_ref().unwrap().outcome.figures.adhesion_force.unwrap();
+            |driver: &Driver| driver.app.solved.as_ref().unwrap().outcome.figures.adhesion_force.unwrap();
         let before = force(&driver);
         select(&mut driver, "adhesion");
         driver.press("h");
-        let adhesion = driver.model.document.scene().adhesion.unwrap();
+        let adhesion = driver.app.edit.document.scene().adhesion.unwrap();
         assert_eq!(adhesion, Adhesion::by_work(work));
         assert!(near(governing(&driver).0, kappa) && near(force(&driver), before));
         driver.press("l");
-        assert_eq!(driver.model.document.text(), text, "κ is the one that was typed");
+        assert_eq!(driver.app.edit.document.text(), text, "κ is the one that was typed");
         assert!(near(force(&driver), before));
         // By e_el/γ the result is the same.
         driver.press("l");
-        let adhesion = driver.model.document.scene().adhesion.unwrap();
+        let adhesion = driver.app.edit.document.scene().adhesion.unwrap();
         let ratio = adhesion.parameter().filter(|_| adhesion.work().is_none());
         assert!(ratio.is_some_and(|(parameter, _)| parameter == RoughnessParameter::ElasticEnergyRatio));
         assert!(near(governing(&driver).0, kappa) && near(force(&driver), before));
         driver.press("h");
-        assert_eq!(driver.model.document.text(), text);
+        assert_eq!(driver.app.edit.document.text(), text);
         // Beyond the last form there is no adhesion, and back it is the same again.
         driver.press("h h");
         assert!(!is_on(&driver, Effect::Adhesion));
         driver.press("l l");
-        assert_eq!(driver.model.document.text(), text);
+        assert_eq!(driver.app.edit.document.text(), text);
     });
 }
 
@@ -136,12 +136,12 @@ fn steps_of_the_roughness_lead_to_scenes_that_can_be_computed() {
     within(60, || {
         for keys in ["l", "h", "l l", "h h", "l l l"] {
             let mut driver = pressed("");
-            let text = driver.model.document.text().to_owned();
+            let text = driver.app.edit.document.text().to_owned();
             select(&mut driver, "roughness");
             driver.press(keys);
-            assert!(is_up_to_date(&driver.model), "{keys}: {:?}", driver.model.notice);
+            assert!(is_up_to_date(&driver.app), "{keys}: {:?}", driver.app.message);
             let is_back = keys.split(' ').count() % 2 == 0;
-            assert_eq!(driver.model.document.text() == text, is_back, "{keys}");
+            assert_eq!(driver.app.edit.document.text() == text, is_back, "{keys}");
             assert_eq!(is_on(&driver, Effect::Roughness), is_back, "{keys}");
         }
     });
@@ -159,7 +159,7 @@ fn an_effect_that_never_was_comes_as_it_suits() {
             // Enter and steps also act on a switch.
             driver.press(if path.starts_with("observe") { "Enter" } else { "t" });
             assert!(is_on(&driver, effect), "{path}");
-            assert!(is_up_to_date(&driver.model), "{path}: {:?}", driver.model.notice);
+            assert!(is_up_to_date(&driver.app), "{path}: {:?}", driver.app.message);
         }
     });
 }
@@ -168,11 +168,11 @@ fn an_effect_that_never_was_comes_as_it_suits() {
 fn a_switch_that_cannot_be_made_says_why() {
     within(30, || {
         let mut driver = Driver::start(one_spring());
-        let before = driver.model.document.clone();
+        let before = driver.app.edit.document.clone();
         select(&mut driver, "roughness");
         driver.press("t");
-        assert_eq!(driver.model.document, before);
-        let (_, why) = driver.model.refused.clone().expect("it is refused");
+        assert_eq!(driver.app.edit.document, before);
+        let (_, why) = driver.app.edit.refused.clone().expect("it is refused");
         assert!(!why.is_empty() && driver.status().starts_with("! "), "{why}: {}", driver.status());
         // Rows without an effect have no switch.
         let mut driver = pressed("");
@@ -194,18 +194,18 @@ fn a_switch_that_cannot_be_made_says_why() {
 fn without_roughness_the_same_adhesion_is_left() {
     within(30, || {
         let mut driver = pressed("");
-        let work = driver.model.computed.as_ref().unwrap().outcome.governing.work_of_adhesion.unwrap();
+        let work = driver.app.solved.as_ref().unwrap().outcome.governing.work_of_adhesion.unwrap();
         select(&mut driver, "roughness");
         driver.press("t");
-        let left = driver.model.document.scene().adhesion.unwrap();
+        let left = driver.app.edit.document.scene().adhesion.unwrap();
         assert_eq!(left, Adhesion::by_work(work));
     });
 }
 
 /// κ and γ of the computed scene, and γ by eq. (11): h⟨∇z⟩E*/κ².
 fn governing(driver: &Driver) -> (f64, f64, f64) {
-    assert!(is_up_to_date(&driver.model), "{:?}", driver.model.notice);
-    let governing = driver.model.computed.as_ref().unwrap().outcome.governing;
+    assert!(is_up_to_date(&driver.app), "{:?}", driver.app.message);
+    let governing = driver.app.solved.as_ref().unwrap().outcome.governing;
     let amplitude = governing.amplitude.unwrap();
     let (kappa, work) = (governing.kappa.unwrap(), governing.work_of_adhesion.unwrap());
     let stiffness = amplitude.rms_height * amplitude.rms_gradient * governing.effective_modulus;
@@ -228,7 +228,7 @@ fn kappa_is_solved_for_where_the_scene_gives_the_work() {
         let (kappa_now, work_now, expected) = governing(&driver);
         assert!(near(kappa_now, 2.8) && near(work_now, expected), "{kappa_now} {work_now}");
         assert!(near(work_now, work * (kappa / 2.8).powi(2)));
-        let adhesion = driver.model.document.scene().adhesion.unwrap();
+        let adhesion = driver.app.edit.document.scene().adhesion.unwrap();
         assert_eq!(adhesion, Adhesion::by_work(work_now), "the scene still gives γ");
         // Steps start from the derived value.
         driver.press("l");
@@ -249,7 +249,7 @@ fn a_scene_that_gives_kappa_may_be_given_the_work() {
         driver.enter("20 mJ/m²");
         let (kappa, work, expected) = governing(&driver);
         assert!(work == 0.02 && near(work, expected), "{kappa} {work} {expected}");
-        let adhesion = driver.model.document.scene().adhesion.unwrap();
+        let adhesion = driver.app.edit.document.scene().adhesion.unwrap();
         assert_eq!(adhesion, Adhesion::by_work(0.02), "now the scene gives γ");
         driver.press("u");
         assert_eq!(governing(&driver).0, 8.0);
@@ -267,11 +267,11 @@ fn a_scene_that_gives_kappa_may_be_given_the_work() {
 fn kappa_says_nothing_of_a_smooth_body() {
     within(30, || {
         let mut driver = Driver::start(smooth());
-        let before = driver.model.document.clone();
+        let before = driver.app.edit.document.clone();
         select(&mut driver, "adhesion.kappa");
         assert!(row(&driver).contains("none"), "it does not wait for a value: {}", row(&driver));
         driver.enter("3");
-        assert_eq!(driver.model.document, before);
+        assert_eq!(driver.app.edit.document, before);
         assert!(driver.text().contains("without roughness"), "{}", driver.text());
     });
 }

@@ -17,8 +17,7 @@ use asperity::surface::Line;
 fn reports_of_another_scene_change_nothing() {
     within(30, || {
         let mut driver = pressed("");
-        let (computed, snapshot) =
-            (driver.model.computed.clone().unwrap(), driver.model.snapshot.clone().unwrap());
+        let (computed, snapshot) = (driver.app.solved.clone().unwrap(), driver.app.snapshot.clone().unwrap());
         driver.select("roughness.hurst");
         driver.press("l");
         let screen = driver.screen();
@@ -41,7 +40,7 @@ fn a_scene_that_fails_is_stated_and_the_next_edit_mends_it() {
         let mut driver = pressed("");
         driver.select("loading");
         driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
-        assert!(!driver.model.is_computing());
+        assert!(!driver.app.is_computing());
         let text = driver.text();
         assert!(text.contains("the contact detaches above that force"), "{text}");
         // Figures of the former scene are no longer shown.
@@ -53,7 +52,7 @@ fn a_scene_that_fails_is_stated_and_the_next_edit_mends_it() {
         driver.press("u");
         let text = driver.text();
         assert!(text.contains("F_a ") && !text.contains("detaches above"), "{text}");
-        assert!(is_up_to_date(&driver.model));
+        assert!(is_up_to_date(&driver.app));
     });
 }
 
@@ -95,7 +94,7 @@ fn a_panic_of_the_worker_is_a_line_and_the_explorer_goes_on() {
             driver.screen();
         }
         driver.enter("14");
-        assert!(is_up_to_date(&driver.model));
+        assert!(is_up_to_date(&driver.app));
         assert!(driver.text().contains("F_a "), "{}", driver.text());
     });
 }
@@ -108,6 +107,6 @@ fn an_interrupted_run_is_no_failure() {
         let of_before = generation(&driver);
         driver.press("l l l");
         assert_eq!(generation(&driver), of_before + 3);
-        assert!(driver.model.notice.is_none());
+        assert!(driver.app.message.is_none());
     });
 }

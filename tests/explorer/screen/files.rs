@@ -5,7 +5,7 @@ use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::pressed;
 use asperity::explorer::action::{Content, OutputFile};
-use asperity::explorer::model::Mode;
+use asperity::explorer::app::Mode;
 use asperity::explorer::panes::Pane;
 use asperity::explorer::theme::{Marker, Theme};
 use asperity::explorer::update::Effect;
@@ -53,9 +53,9 @@ fn the_ending_of_a_name_shows_what_is_exported() {
                     then_quit: false
                 })]
             );
-            assert_eq!(driver.model.mode, Mode::Explore);
+            assert_eq!(driver.app.mode, Mode::Explore);
             assert!(driver.status().contains(&format!("exported to {name}")), "{}", driver.status());
-            assert!(!driver.model.is_unsaved() && !driver.model.finished);
+            assert!(!driver.app.is_unsaved() && !driver.app.finished);
         }
         let unknown = |extension| {
             format!("unsupported file extension .{extension}; use .csv, .npy, .json, .svg, .png or .txt")
@@ -95,7 +95,7 @@ fn a_file_that_is_there_is_asked_about() {
         export(&mut driver, &path);
         driver.press("y");
         assert!(fs::read_to_string(&path).unwrap().contains("\nleg,indentation"));
-        assert_eq!(driver.model.mode, Mode::Explore);
+        assert_eq!(driver.app.mode, Mode::Explore);
         // An error of the system is shown.
         export(&mut driver, &folder.path().join("no/such/folder/a.csv"));
         assert!(
@@ -110,11 +110,11 @@ fn a_file_that_is_there_is_asked_about() {
 fn the_curve_and_the_figures_are_those_of_the_command_line() {
     within(30, || {
         let mut driver = pressed("");
-        let outcome = driver.model.computed.as_ref().unwrap().outcome.clone();
-        let scene = driver.model.document.scene().clone();
-        let command = command_line("asperity run", driver.model.document.name(), &[]);
+        let outcome = driver.app.solved.as_ref().unwrap().outcome.clone();
+        let scene = driver.app.edit.document.scene().clone();
+        let command = command_line("asperity run", driver.app.edit.document.name(), &[]);
         let provenance = scene_provenance(&command, &scene, Path::new(""), Path::new("")).unwrap();
-        let estimate = driver.model.appraisal.estimate();
+        let estimate = driver.app.studies.appraisal.estimate();
         let report = RunReport { title: "", scene: &scene, outcome: &outcome, choice: None, estimate };
         let (mut curve, mut figures) = (Vec::new(), Vec::new());
         write(&mut curve, &report, Format::Csv, &provenance).unwrap();
@@ -140,7 +140,7 @@ fn the_text_is_the_screen_without_the_prompt() {
     within(30, || {
         for marker in [Marker::Braille, Marker::HalfBlock, Marker::Ascii] {
             let mut driver = pressed("c L d { j");
-            driver.model.appearance.marker = marker;
+            driver.app.view.appearance.marker = marker;
             let seen = picture::text(&driver.screen());
             let written = exported(&mut driver, "a.txt");
             assert_eq!(written, seen);
@@ -196,7 +196,7 @@ fn every_pane_is_exported_as_a_figure() {
             ("c L", Pane::Force, &["A: ", "loading"]),
         ] {
             let mut driver = pressed(keys);
-            driver.model.pane = pane;
+            driver.app.view.pane = pane;
             let figure = exported(&mut driver, "a.svg");
             let (names, text) = elements(&figure);
             assert_eq!(names[0], "svg");
@@ -206,14 +206,14 @@ fn every_pane_is_exported_as_a_figure() {
             assert_eq!(exported(&mut driver, "a.svg"), figure, "{pane:?}");
         }
         let mut driver = super::preloads::computed_preloads(rough());
-        driver.model.pane = Pane::Preloads;
+        driver.app.view.pane = Pane::Preloads;
         assert!(exported(&mut driver, "a.svg").contains("present preload"));
         let mut driver = pressed("");
-        driver.model.pane = Pane::Spectrum;
+        driver.app.view.pane = Pane::Spectrum;
         assert!(export(&mut driver, Path::new("a.svg")).is_empty());
         assert!(driver.status().contains("there is no figure to export"), "{}", driver.status());
         let folder = tempfile::tempdir().unwrap();
-        driver.model.pane = Pane::Force;
+        driver.app.view.pane = Pane::Force;
         export(&mut driver, &folder.path().join("a.png"));
         assert!(fs::read(folder.path().join("a.png")).unwrap().starts_with(b"\x89PNG"));
     });
@@ -229,9 +229,9 @@ fn the_picture_of_the_screen_is_sound_and_shows_the_panes() {
             (Marker::Ascii, Theme::Plain),
         ] {
             let mut driver = pressed("c L E");
-            driver.model.appearance.marker = marker;
-            driver.model.appearance.theme = theme;
-            let (names, text) = elements(&screenshot(&driver.model));
+            driver.app.view.appearance.marker = marker;
+            driver.app.view.appearance.theme = theme;
+            let (names, text) = elements(&screenshot(&driver.app));
             assert!(names.len() > 20, "{names:?}");
             for expected in ["Asperity: rough-line", "Force F(d)", "Profile z(x)", "Parameters", "Fragments"]
             {
@@ -287,12 +287,12 @@ fn the_copied_command_opens_the_scene_as_it_is() {
             assert_eq!(effects, [Effect::Copy(format!("asperity {}", preset.name))]);
             for path in ["form", "adhesion", "observe.contact fragments"] {
                 driver.press("g");
-                while driver.model.parameter().is_some_and(|parameter| parameter.path != path) {
+                while driver.app.parameter().is_some_and(|parameter| parameter.path != path) {
                     driver.press("j");
                 }
                 driver.press("t y");
                 let command = driver.console.copied.last().unwrap();
-                assert_eq!(opened(command).scene(), driver.model.document.scene(), "{command}");
+                assert_eq!(opened(command).scene(), driver.app.edit.document.scene(), "{command}");
                 assert!(driver.status().starts_with("copy: asperity "), "{}", driver.status());
             }
             driver.select("loading");
@@ -300,7 +300,7 @@ fn the_copied_command_opens_the_scene_as_it_is() {
             driver.select("length");
             driver.press("L y");
             let command = driver.console.copied.last().unwrap();
-            assert_eq!(opened(command).scene(), driver.model.document.scene(), "{command}");
+            assert_eq!(opened(command).scene(), driver.app.edit.document.scene(), "{command}");
         }
     });
 }
@@ -322,23 +322,23 @@ fn a_saved_scene_goes_on_under_its_new_name() {
         let mut driver = pressed("l s Ctrl+u");
         driver.type_text(&path.display().to_string());
         driver.press("Enter");
-        assert_eq!(driver.model.document.name(), path.display().to_string());
-        assert!(!driver.model.is_unsaved());
+        assert_eq!(driver.app.edit.document.name(), path.display().to_string());
+        assert!(!driver.app.is_unsaved());
         // The command opens the file, without options for the saved changes.
         driver.press("y");
         let command = driver.console.copied.last().unwrap().clone();
         assert_eq!(words(&command), ["asperity".to_owned(), path.display().to_string()]);
-        assert_eq!(opened(&command).scene(), driver.model.document.scene());
+        assert_eq!(opened(&command).scene(), driver.app.edit.document.scene());
         driver.press("l y");
         let command = driver.console.copied.last().unwrap().clone();
-        assert_eq!(opened(&command).scene(), driver.model.document.scene(), "{command}");
+        assert_eq!(opened(&command).scene(), driver.app.edit.document.scene(), "{command}");
         // At the next save the name is proposed, with a question.
         driver.press("s Enter");
         assert!(driver.status().contains("Overwrite it?"), "{}", driver.status());
         driver.press("y");
-        assert_eq!(fs::read_to_string(&path).unwrap(), driver.model.document.text());
-        assert_eq!(opened(&command).scene(), driver.model.document.scene());
+        assert_eq!(fs::read_to_string(&path).unwrap(), driver.app.edit.document.text());
+        assert_eq!(opened(&command).scene(), driver.app.edit.document.scene());
         driver.press("q");
-        assert!(driver.model.finished);
+        assert!(driver.app.finished);
     });
 }

@@ -6,7 +6,7 @@ use super::common::scenes::rough;
 use super::pressed;
 use asperity::contact::Patch;
 use asperity::explorer::action::Action;
-use asperity::explorer::model::Pane;
+use asperity::explorer::app::Pane;
 use asperity::explorer::snapshot::FragmentFacts;
 use asperity::explorer::update::Effect;
 use asperity::explorer::worker::Report;
@@ -16,15 +16,14 @@ fn the_close_up_goes_round_all_fragments() {
     within(60, || {
         let mut driver = Driver::start(rough());
         driver.press("> f");
-        let count = driver.model.snapshot.as_ref().unwrap().point.fragments as usize;
+        let count = driver.app.snapshot.as_ref().unwrap().point.fragments as usize;
         assert!(count > 3, "{count} fragments");
         for closer in ["", "+ +", "- - - -"] {
             driver.press(closer);
             for key in ["n", "p"] {
                 driver.press("f");
-                let number = |driver: &Driver| {
-                    driver.model.snapshot.as_ref().unwrap().close_up.fragment.unwrap().number
-                };
+                let number =
+                    |driver: &Driver| driver.app.snapshot.as_ref().unwrap().close_up.fragment.unwrap().number;
                 let start = number(&driver);
                 let mut seen = Vec::new();
                 for _ in 0..count {
@@ -46,8 +45,8 @@ fn a_moment_on_its_way_does_not_take_the_chosen_fragment_away() {
     within(30, || {
         let mut driver = pressed("f");
         let number =
-            |driver: &Driver| driver.model.snapshot.as_ref().unwrap().close_up.fragment.unwrap().number;
-        let before = driver.model.snapshot.clone().unwrap();
+            |driver: &Driver| driver.app.snapshot.as_ref().unwrap().close_up.fragment.unwrap().number;
+        let before = driver.app.snapshot.clone().unwrap();
         let first = number(&driver);
         // The fragment is requested just after a snapshot requested by the animation.
         let effects = driver.update("fragment next");
@@ -64,7 +63,7 @@ fn a_moment_on_its_way_does_not_take_the_chosen_fragment_away() {
 fn the_close_up_is_looked_at_from_near_and_from_far() {
     within(30, || {
         let mut driver = pressed("");
-        let springs = |driver: &Driver| driver.model.snapshot.as_ref().unwrap().close_up.section.springs;
+        let springs = |driver: &Driver| driver.app.snapshot.as_ref().unwrap().close_up.section.springs;
         let before = springs(&driver);
         driver.press("+");
         assert_eq!(springs(&driver), before / 2);
@@ -79,14 +78,14 @@ fn the_close_up_is_looked_at_from_near_and_from_far() {
 
 /// Contact patches, from a picture with a column for each spring.
 fn fragments(driver: &mut Driver) -> Vec<Patch> {
-    let (size, pane) = (driver.model.size, driver.model.pane);
-    driver.model.pane = Pane::Profile;
+    let (size, pane) = (driver.app.view.size, driver.app.view.pane);
+    driver.app.view.pane = Pane::Profile;
     driver.press("z");
     // So wide that each spring has columns of its own.
     driver.resize((1100, 40));
-    let section = driver.model.snapshot.as_ref().unwrap().profile.clone();
+    let section = driver.app.snapshot.as_ref().unwrap().profile.clone();
     driver.press("z");
-    driver.model.pane = pane;
+    driver.app.view.pane = pane;
     driver.resize(size);
     Patch::of_springs((0..section.springs).map(|spring| {
         let column = (spring * section.columns.len()).div_ceil(section.springs);
@@ -95,7 +94,7 @@ fn fragments(driver: &mut Driver) -> Vec<Patch> {
 }
 
 fn facts(driver: &Driver) -> FragmentFacts {
-    driver.model.snapshot.as_ref().unwrap().close_up.fragment.unwrap()
+    driver.app.snapshot.as_ref().unwrap().close_up.fragment.unwrap()
 }
 
 #[test]
@@ -116,15 +115,15 @@ fn the_close_up_goes_to_the_longest_and_the_most_loaded() {
                 forces.push(facts(&driver).force);
             }
             let total: f64 = forces.iter().sum();
-            let force = driver.model.snapshot.as_ref().unwrap().point.force;
+            let force = driver.app.snapshot.as_ref().unwrap().point.force;
             assert!((total / force - 1.0).abs() < 1e-9, "together they carry all: {total} {force}");
             let most = forces.iter().map(|force| force.abs()).fold(0.0, f64::max);
             driver.press("B");
             assert_eq!(facts(&driver).force.abs(), most);
             driver.press("f");
-            let summit = driver.model.snapshot.as_ref().unwrap().close_up.section.clone();
+            let summit = driver.app.snapshot.as_ref().unwrap().close_up.section.clone();
             let highest = summit.columns.iter().map(|column| column.line.1).fold(f64::MIN, f64::max);
-            assert_eq!(highest, driver.model.snapshot.as_ref().unwrap().profile.heights.1);
+            assert_eq!(highest, driver.app.snapshot.as_ref().unwrap().profile.heights.1);
         }
     });
 }
@@ -133,12 +132,12 @@ fn the_close_up_goes_to_the_longest_and_the_most_loaded() {
 fn the_distribution_of_lengths_counts_every_fragment() {
     within(30, || {
         let mut driver = pressed("");
-        assert!(driver.model.snapshot.as_ref().unwrap().lengths.is_none(), "it is not made unseen");
+        assert!(driver.app.snapshot.as_ref().unwrap().lengths.is_none(), "it is not made unseen");
         driver.press("D");
         for keys in ["", ". . . .", "d { {", "Space"] {
             driver.press(keys);
             let all = fragments(&mut driver);
-            let snapshot = driver.model.snapshot.clone().unwrap();
+            let snapshot = driver.app.snapshot.clone().unwrap();
             let bins = snapshot.lengths.clone().unwrap();
             let counted: u64 = bins.values().sum();
             assert_eq!((counted, all.len() as u64), (snapshot.point.fragments, snapshot.point.fragments));

@@ -4,7 +4,7 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{rough, smooth};
 use super::{is_up_to_date, pressed};
-use asperity::explorer::model::Mode;
+use asperity::explorer::app::Mode;
 use asperity::explorer::prompt::{Prompt, Purpose};
 use asperity::scene::presets;
 use std::fs;
@@ -25,7 +25,7 @@ fn opened() -> (TempDir, Driver) {
 }
 
 fn library(driver: &Driver) -> &Prompt {
-    driver.model.mode.prompt().expect("a prompt")
+    driver.app.mode.prompt().expect("a prompt")
 }
 
 /// Names of the found scenes, in order.
@@ -75,9 +75,9 @@ fn the_selected_scene_is_seen_before_it_is_opened() {
         let (_folder, mut driver) = opened();
         driver.type_text("mine");
         assert!(driver.text().contains("smooth-sphere"), "{}", driver.text());
-        assert_eq!(driver.model.document.scene(), rough().scene(), "looking is not opening");
+        assert_eq!(driver.app.edit.document.scene(), rough().scene(), "looking is not opening");
         driver.press("Enter");
-        assert_eq!(driver.model.document.scene(), smooth().scene());
+        assert_eq!(driver.app.edit.document.scene(), smooth().scene());
     });
 }
 
@@ -85,22 +85,22 @@ fn the_selected_scene_is_seen_before_it_is_opened() {
 fn enter_opens_and_escape_leaves() {
     within(30, || {
         let (folder, mut driver) = opened();
-        let before = driver.model.document.clone();
+        let before = driver.app.edit.document.clone();
         driver.press("Down Down Esc");
-        assert_eq!((&driver.model.mode, &driver.model.document), (&Mode::Explore, &before));
+        assert_eq!((&driver.app.mode, &driver.app.edit.document), (&Mode::Explore, &before));
         driver.press("o Down");
         assert_eq!(library(&driver).scene().unwrap().name, presets()[1].name);
         driver.press("Up Up");
         assert_eq!(library(&driver).selected, 0, "the list has an end");
         driver.type_text("mine");
         driver.press("Enter");
-        assert_eq!(driver.model.mode, Mode::Explore);
-        assert!(is_up_to_date(&driver.model));
-        assert_eq!(driver.model.document.text(), smooth().text());
-        assert_eq!(driver.model.document.name(), folder.path().join("mine.ron").display().to_string());
-        assert!(!driver.model.is_unsaved() && driver.model.player.playing);
+        assert_eq!(driver.app.mode, Mode::Explore);
+        assert!(is_up_to_date(&driver.app));
+        assert_eq!(driver.app.edit.document.text(), smooth().text());
+        assert_eq!(driver.app.edit.document.name(), folder.path().join("mine.ron").display().to_string());
+        assert!(!driver.app.is_unsaved() && driver.app.play.playing);
         driver.press("u");
-        assert_eq!(driver.model.document, before);
+        assert_eq!(driver.app.edit.document, before);
         // The smallest window shows the whole list by scrolling.
         driver.resize((20, 5));
         driver.press("o");
@@ -116,7 +116,7 @@ fn enter_opens_and_escape_leaves() {
 fn a_broken_file_is_listed_with_its_error_and_not_opened() {
     within(30, || {
         let (_folder, mut driver) = opened();
-        let before = driver.model.document.clone();
+        let before = driver.app.edit.document.clone();
         driver.type_text("broken");
         let entry = library(&driver).scene().unwrap().clone();
         let error = entry.error().expect("it is no scene");
@@ -125,7 +125,7 @@ fn a_broken_file_is_listed_with_its_error_and_not_opened() {
         let start: String = error.chars().take(30).collect();
         assert!(text.contains(&start), "{start}\n{text}");
         driver.press("Enter");
-        assert_eq!(driver.model.document, before);
+        assert_eq!(driver.app.edit.document, before);
         assert!(
             driver.status().starts_with("! ") && driver.status().contains("broken.ron"),
             "{}",
@@ -143,6 +143,6 @@ fn a_file_that_has_changed_since_is_listed_anew() {
         driver.press("o");
         driver.type_text("broken");
         driver.press("Enter");
-        assert_eq!(driver.model.document.text(), rough().text());
+        assert_eq!(driver.app.edit.document.text(), rough().text());
     });
 }

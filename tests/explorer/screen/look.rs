@@ -5,14 +5,14 @@ use super::common::driver::Driver;
 use super::common::scenes::{rough, smooth, without_adhesion};
 use super::{default_scene, mid_retraction, pressed};
 use asperity::contact::CurvePoint;
+use asperity::explorer::app::Pane;
 use asperity::explorer::layout::{Layout, inside};
-use asperity::explorer::model::Pane;
 use asperity::explorer::panes::indentation_at;
 use asperity::explorer::snapshot::Section;
 use asperity::scene::format_quantity;
 
 fn profile(driver: &Driver) -> Section {
-    driver.model.snapshot.as_ref().unwrap().profile.clone()
+    driver.app.snapshot.as_ref().unwrap().profile.clone()
 }
 
 fn seen(driver: &Driver) -> (usize, usize) {
@@ -24,7 +24,7 @@ fn seen(driver: &Driver) -> (usize, usize) {
 fn the_profile_is_looked_at_from_near_and_moved_along() {
     within(30, || {
         let mut driver = pressed("Tab");
-        assert_eq!((driver.model.pane, seen(&driver)), (Pane::Profile, (0, 1024)));
+        assert_eq!((driver.app.view.pane, seen(&driver)), (Pane::Profile, (0, 1024)));
         assert!(driver.text().contains("x to 100 µm"), "{}", driver.text());
         // There is nothing beside the whole line.
         driver.press(") (");
@@ -88,7 +88,7 @@ fn the_profile_follows_the_close_up() {
         let mut firsts = Vec::new();
         for _ in 0..6 {
             driver.press("n");
-            let close_up = driver.model.snapshot.as_ref().unwrap().close_up.section.clone();
+            let close_up = driver.app.snapshot.as_ref().unwrap().close_up.section.clone();
             let (first, springs) = seen(&driver);
             let middle = close_up.first + close_up.springs / 2;
             assert!((first..first + springs).contains(&middle), "{middle} not in {first} + {springs}");
@@ -113,9 +113,9 @@ fn the_profile_follows_the_close_up() {
 fn the_close_up_is_moved_along_where_the_profile_is_not_chosen() {
     within(30, || {
         let mut driver = pressed("f");
-        let first = |driver: &Driver| driver.model.snapshot.as_ref().unwrap().close_up.section.first;
+        let first = |driver: &Driver| driver.app.snapshot.as_ref().unwrap().close_up.section.first;
         let before = first(&driver);
-        let springs = driver.model.look.springs;
+        let springs = driver.app.view.look.springs;
         driver.press(")");
         assert_eq!(first(&driver), before + springs / 4);
         driver.press("(");
@@ -140,7 +140,7 @@ fn curve(driver: &mut Driver) -> String {
 fn the_curve_has_three_views_in_two_units() {
     within(30, || {
         let mut driver = pressed("");
-        let outcome = driver.model.computed.clone().unwrap().outcome.clone();
+        let outcome = driver.app.solved.clone().unwrap().outcome.clone();
         let largest = |value: fn(&CurvePoint) -> f64| {
             let points = outcome.history.legs.iter().flat_map(|leg| &leg.curve);
             points.map(value).fold(f64::NEG_INFINITY, f64::max)
@@ -161,12 +161,11 @@ fn the_curve_has_three_views_in_two_units() {
         let (f_low, f_high) = (smallest(|point| point.force), largest(|point| point.force));
         let height = outcome.governing.amplitude.unwrap().rms_height;
         let ideal = outcome.ideal_adhesion_force.unwrap();
-        let springs = largest(|point| point.springs as f64);
-        let spacing = outcome.line.spacing;
+        let contact = largest(|point| point.contact_length);
         let length = outcome.line.length;
         let fragments = largest(|point| point.fragments as f64);
         let (d, f) = ((d_low, d_high), (f_low, f_high));
-        let (l, n) = ((0.0, springs * spacing), (0.0, fragments));
+        let (l, n) = ((0.0, contact), (0.0, fragments));
         let views = [
             ("Force F(d)", end("d", d, 0.06, 1.0, "m"), end("F", f, 0.08, 1.0, "N")),
             (
@@ -193,7 +192,7 @@ fn the_curve_has_three_views_in_two_units() {
             let number: f64 = number.unwrap().trim_start_matches('│').parse().unwrap();
             assert!(number <= y.1 && number >= 0.45 * y.1, "{number} {y:?}\n{text}");
             driver.press("N");
-            if driver.model.curve.normalised {
+            if driver.app.view.curve.normalised {
                 continue;
             }
             driver.press("v");
@@ -249,17 +248,17 @@ fn the_loss_is_shaded_inside_the_loop_and_nowhere_else() {
             let before = dots(&driver);
             let unshaded = driver.screen();
             driver.press("a");
-            let energy = driver.model.computed.as_ref().unwrap().outcome.figures.dissipated_energy.unwrap();
+            let energy = driver.app.solved.as_ref().unwrap().outcome.figures.dissipated_energy.unwrap();
             let energy: f64 = format!("{energy:.2e}").parse().unwrap();
             let title = format!("loss {}", format_quantity(energy, "J"));
             assert!(driver.text().contains(&title), "{title}\n{}", driver.text());
             let new: Vec<_> = dots(&driver).into_iter().filter(|dot| !before.contains(dot)).collect();
             // In each column every other dot between the branches, so their number follows the distance.
-            let area = inside(Layout::of(&driver.model).panes[0].1);
-            let legs = driver.model.legs();
+            let area = inside(Layout::of(&driver.app).panes[0].1);
+            let legs = driver.app.legs();
             let last = area.right();
             let apart = |column: u16| {
-                let at = indentation_at(&driver.model, area, column).unwrap();
+                let at = indentation_at(&driver.app, area, column).unwrap();
                 (force_at(&legs[0].curve, at) - force_at(&legs[1].curve, at)).max(0.0)
             };
             // The first columns are those of the axis.
@@ -300,7 +299,7 @@ fn marked_forces_are_stated_with_their_values() {
         let labelled = |force: f64| format_quantity(format!("{force:.2e}").parse().unwrap(), "N");
         let mut driver = mid_retraction(smooth());
         let text = curve(&mut driver);
-        let legs = driver.model.legs();
+        let legs = driver.app.legs();
         for expected in [
             format!("▲ preload {}", labelled(legs[0].largest.force)),
             format!("▼ pull-off {}", labelled(legs[1].smallest.force)),
@@ -331,7 +330,7 @@ fn exponent(digits: std::str::Chars<'_>) -> Option<i32> {
 
 /// Numbers on the scale beside the plot of a pane, from the top.
 fn scale(driver: &Driver, pane: Pane) -> Vec<f64> {
-    let area = inside(Layout::of(&driver.model).pane(pane).unwrap());
+    let area = inside(Layout::of(&driver.app).pane(pane).unwrap());
     let screen = driver.screen();
     let row = |y| (area.x..area.right()).map(|x| screen[(x, y)].symbol()).collect::<String>();
     let number = |y| {
@@ -352,7 +351,7 @@ fn profile_and_close_up_have_scales_of_position_and_height() {
             driver.resize(size);
             for (pane, section) in [
                 (Pane::Profile, profile(&driver)),
-                (Pane::CloseUp, driver.model.snapshot.as_ref().unwrap().close_up.section.clone()),
+                (Pane::CloseUp, driver.app.snapshot.as_ref().unwrap().close_up.section.clone()),
             ] {
                 // In nm, as in the frame.
                 let numbers = scale(&driver, pane);
@@ -361,7 +360,7 @@ fn profile_and_close_up_have_scales_of_position_and_height() {
                 let inside = |number: &f64| (1.2e9 * low..=1.2e9 * high.max(section.level)).contains(number);
                 assert!(numbers.iter().all(inside), "{numbers:?} {low} {high}");
                 let rows = driver.rows();
-                let area = Layout::of(&driver.model).pane(pane).unwrap();
+                let area = Layout::of(&driver.app).pane(pane).unwrap();
                 let text = |row: u16| -> String {
                     let columns = rows[usize::from(row)].chars().skip(usize::from(area.x));
                     columns.take(usize::from(area.width)).collect()
@@ -372,7 +371,7 @@ fn profile_and_close_up_have_scales_of_position_and_height() {
                 let below = below.unwrap_or_else(|| panic!("{pane:?}\n{}", driver.text()));
                 let marked = |word: &str| word.parse::<f64>().ok().map(|x| 1e-6 * x);
                 let positions: Vec<f64> = below.split_whitespace().filter_map(marked).collect();
-                let spacing = driver.model.snapshot.as_ref().unwrap().line.spacing;
+                let spacing = driver.app.snapshot.as_ref().unwrap().line.spacing;
                 let ends = [section.first, section.first + section.springs].map(|at| at as f64 * spacing);
                 let within = |x: &&f64| (ends[0] - 1e-12..=ends[1] + 1e-12).contains(*x);
                 // The last ones are those of the histogram.

@@ -42,7 +42,7 @@ fn the_plain_theme_has_no_colours_and_the_others_only_the_sixteen() {
                 driver.resize(size);
                 for (theme, used) in Theme::value_variants().iter().zip(&mut used) {
                     for marker in Marker::value_variants() {
-                        driver.model.appearance = Appearance { theme: *theme, marker: *marker };
+                        driver.app.view.appearance = Appearance { theme: *theme, marker: *marker };
                         let found = colours(&driver.screen());
                         let sixteen = |colour: &Color| !matches!(colour, Color::Rgb(..) | Color::Indexed(_));
                         assert!(found.iter().all(sixteen), "{theme:?} {marker:?}: {found:?}");
@@ -67,14 +67,14 @@ fn the_plain_theme_has_no_colours_and_the_others_only_the_sixteen() {
 fn strong_contrast_is_bold_and_nothing_in_it_is_dim() {
     within(60, || {
         for mut driver in everywhere() {
-            driver.model.appearance.theme = Theme::HighContrast;
+            driver.app.view.appearance.theme = Theme::HighContrast;
             let screen = driver.screen();
             assert!(screen.content.iter().all(|cell| !cell.modifier.contains(Modifier::DIM)));
             assert!(screen.content.iter().all(|cell| cell.modifier.contains(Modifier::BOLD)));
         }
         // Elsewhere only elements in the background are dim, and without colours only.
         let driver = pressed("T T T T");
-        assert_eq!(driver.model.appearance.theme, Theme::Plain);
+        assert_eq!(driver.app.view.appearance.theme, Theme::Plain);
         let screen = driver.screen();
         let dim = screen.content.iter().filter(|cell| cell.modifier.contains(Modifier::DIM));
         assert!(dim.clone().any(|cell| cell.symbol() == "│") && dim.clone().all(|cell| cell.symbol() != "◆"));
@@ -85,7 +85,7 @@ fn strong_contrast_is_bold_and_nothing_in_it_is_dim() {
 fn in_ascii_every_cell_is_ascii() {
     within(120, || {
         for mut driver in everywhere() {
-            driver.model.appearance.marker = Marker::Ascii;
+            driver.app.view.appearance.marker = Marker::Ascii;
             for size in SIZES {
                 driver.resize(size);
                 for cell in &driver.screen().content {
@@ -105,7 +105,7 @@ fn plots_are_made_of_the_marker_that_is_chosen() {
             for size in SIZES {
                 driver.resize(size);
                 for marker in [Marker::Octant, Marker::HalfBlock] {
-                    driver.model.appearance.marker = marker;
+                    driver.app.view.appearance.marker = marker;
                     let text = driver.text();
                     let braille = |character: char| ('\u{2800}'..='\u{28ff}').contains(&character);
                     assert!(!text.contains(braille), "{marker:?} {size:?}\n{text}");
@@ -118,7 +118,7 @@ fn plots_are_made_of_the_marker_that_is_chosen() {
             (Marker::HalfBlock, '▀'..='▄'),
         ] {
             let mut driver = pressed("");
-            driver.model.appearance.marker = marker;
+            driver.app.view.appearance.marker = marker;
             let dots = driver.text().chars().filter(|character| range.contains(character)).count();
             assert!(dots > 100, "{marker:?}: {dots}\n{}", driver.text());
         }
@@ -129,7 +129,7 @@ fn plots_are_made_of_the_marker_that_is_chosen() {
 fn half_blocks_lose_no_half_where_two_colours_meet() {
     within(60, || {
         let mut driver = pressed("c L d {");
-        driver.model.appearance.marker = Marker::HalfBlock;
+        driver.app.view.appearance.marker = Marker::HalfBlock;
         let halves = |driver: &Driver| -> Vec<[bool; 2]> {
             let screen = driver.screen();
             let filled = |cell: &Cell| match cell.symbol() {
@@ -140,10 +140,10 @@ fn half_blocks_lose_no_half_where_two_colours_meet() {
             };
             screen.content.iter().map(filled).collect()
         };
-        driver.model.appearance.theme = Theme::Plain;
+        driver.app.view.appearance.theme = Theme::Plain;
         let plain = halves(&driver);
         for theme in Theme::value_variants() {
-            driver.model.appearance.theme = *theme;
+            driver.app.view.appearance.theme = *theme;
             assert_eq!(halves(&driver), plain, "{theme:?}");
         }
     });
@@ -184,16 +184,16 @@ fn keys_change_colours_and_markers_and_say_so() {
         let mut driver = pressed("");
         for theme in [Theme::Dark, Theme::Light, Theme::HighContrast, Theme::Plain, Theme::Neutral] {
             driver.press("T");
-            assert_eq!(driver.model.appearance.theme, theme);
+            assert_eq!(driver.app.view.appearance.theme, theme);
             assert!(driver.status().contains(&theme.name()), "{}", driver.status());
         }
         for marker in [Marker::Octant, Marker::HalfBlock, Marker::Ascii, Marker::Braille] {
             driver.press("M");
-            assert_eq!(driver.model.appearance.marker, marker);
+            assert_eq!(driver.app.view.appearance.marker, marker);
             assert!(driver.status().contains(&marker.name()), "{}", driver.status());
             // The worker was asked for the present number of columns.
-            let cells = Layout::of(&driver.model).profile_cells();
-            let columns = driver.model.snapshot.as_ref().unwrap().profile.columns.len();
+            let cells = Layout::of(&driver.app).profile_cells();
+            let columns = driver.app.snapshot.as_ref().unwrap().profile.columns.len();
             assert_eq!(columns, cells * marker.columns());
         }
     });
@@ -204,10 +204,10 @@ fn the_selected_row_is_marked_by_a_glyph_and_by_style() {
     within(30, || {
         for theme in Theme::value_variants() {
             let mut driver = pressed("");
-            driver.model.appearance.theme = *theme;
+            driver.app.view.appearance.theme = *theme;
             for path in ["length", "roughness.hurst", "numerics.samples"] {
                 driver.select(path);
-                let name = driver.model.parameter().unwrap().field.name;
+                let name = driver.app.parameter().unwrap().field.name;
                 let screen = driver.screen();
                 let row = row_with(&screen, "›");
                 assert!(reversed(row).contains(name), "{name}: {:?}", reversed(row));

@@ -5,16 +5,16 @@ use super::common::driver::Driver;
 use super::common::scenes::{changed, rough, smooth, without_adhesion};
 use super::{is_up_to_date, mid_retraction, pressed};
 use asperity::contact::CurvePoint;
-use asperity::explorer::model::ManualState;
+use asperity::explorer::app::ManualState;
 use asperity::explorer::snapshot::Drive;
 use asperity::explorer::update::Effect;
 
 fn point(driver: &Driver) -> CurvePoint {
-    driver.model.snapshot.as_ref().unwrap().point
+    driver.app.snapshot.as_ref().unwrap().point
 }
 
 fn manual(driver: &Driver) -> &ManualState {
-    driver.model.manual.as_ref().expect("manual loading")
+    driver.app.manual.as_ref().expect("manual loading")
 }
 
 /// Types a target force.
@@ -33,11 +33,11 @@ fn the_body_is_taken_at_its_place() {
                 driver.press(keys);
                 let at_first = point(&driver);
                 driver.press("d");
-                assert_eq!(driver.model.snapshot.as_ref().unwrap().drive, Drive::Manual);
-                assert_eq!(point(&driver), at_first, "{}", driver.model.document.name());
+                assert_eq!(driver.app.snapshot.as_ref().unwrap().drive, Drive::Manual);
+                assert_eq!(point(&driver), at_first, "{}", driver.app.edit.document.name());
                 assert_eq!(manual(&driver).path, [at_first]);
                 driver.press("d");
-                assert!(driver.model.manual.is_none());
+                assert!(driver.app.manual.is_none());
                 assert_eq!(point(&driver), at_first, "and given back there");
             }
         }
@@ -67,7 +67,7 @@ fn a_body_of_the_stepwise_solver_is_moved_by_the_exact_one() {
 fn small_and_large_steps_press_and_pull() {
     within(30, || {
         let mut driver = pressed("d");
-        let (low, high) = driver.model.indentations().unwrap();
+        let (low, high) = driver.app.indentations().unwrap();
         for (keys, share) in [("]", 1.0 / 400.0), ("[", -1.0 / 400.0), ("}", 1.0 / 40.0), ("{", -1.0 / 40.0)]
         {
             let before = point(&driver).indentation;
@@ -79,9 +79,9 @@ fn small_and_large_steps_press_and_pull() {
         // These keys begin manual loading.
         for keys in ["]", "[", "}", "{", "S"] {
             let mut driver = pressed(keys);
-            assert!(driver.model.manual.is_some(), "{keys}");
+            assert!(driver.app.manual.is_some(), "{keys}");
             driver.press("d");
-            assert!(driver.model.manual.is_none(), "{keys}");
+            assert!(driver.app.manual.is_none(), "{keys}");
         }
     });
 }
@@ -100,7 +100,7 @@ fn a_minor_loop_closes_on_itself() {
                 driver.press("[ [ [");
                 assert!(point(&driver).indentation < turn.indentation);
                 driver.press("] ] ]");
-                assert_eq!(point(&driver), turn, "{}", driver.model.document.name());
+                assert_eq!(point(&driver), turn, "{}", driver.app.edit.document.name());
             }
             assert!(manual(&driver).released_energy >= energy, "no loop gives energy back");
         }
@@ -147,7 +147,7 @@ fn pulled_off_by_hand_it_loses_what_the_leg_loses() {
     within(30, || {
         let mut driver = mid_retraction(rough());
         driver.press("< d S");
-        let leg = &driver.model.legs()[1];
+        let leg = &driver.app.legs()[1];
         let (lost, expected) = (manual(&driver).released_energy, leg.released_energy);
         assert!(expected > 0.0 && (lost / expected - 1.0).abs() < 1e-9, "{lost}, not {expected}");
         assert_eq!((point(&driver).springs, point(&driver).force), (0, 0.0));
@@ -173,7 +173,7 @@ fn a_force_is_gone_to() {
             go(&mut driver, typed);
             let reached = point(&driver).force;
             assert!((reached / force - 1.0).abs() < 1e-9, "{typed}: {reached}");
-            assert!(driver.model.notice.is_none(), "{:?}", driver.model.notice);
+            assert!(driver.app.message.is_none(), "{:?}", driver.app.message);
         }
         // Under adhesion the contact may jump past the force, but not stop short of it.
         let mut driver = pressed("");
@@ -207,15 +207,15 @@ fn a_force_out_of_reach_is_stated_and_nothing_is_lost() {
         go(&mut driver, &format!("{beyond:.digits$} mN"));
         assert!(driver.status().contains("the contact detaches before"), "{}", driver.status());
         go(&mut driver, &format!("{least} mN"));
-        assert!(driver.model.notice.is_none(), "{:?}", driver.model.notice);
+        assert!(driver.app.message.is_none(), "{:?}", driver.app.message);
         let after = point(&driver);
-        assert!(driver.model.manual.is_some() && after.springs > 0, "{after:?}");
+        assert!(driver.app.manual.is_some() && after.springs > 0, "{after:?}");
         assert!(after.force <= 1e-3 * least * (1.0 - 1e-9), "{} {least}", after.force);
         driver.press("d d");
         // The body can be moved as before.
         let after = point(&driver);
         driver.press("]");
-        assert!(driver.model.notice.is_none());
+        assert!(driver.app.message.is_none());
         assert!(point(&driver).indentation > after.indentation);
         driver.press("S");
         go(&mut driver, "-1 µN");
@@ -228,7 +228,7 @@ fn a_force_out_of_reach_is_stated_and_nothing_is_lost() {
             driver.press("Esc");
         }
         driver.press("F Esc");
-        assert!(driver.model.notice.is_none());
+        assert!(driver.app.message.is_none());
     });
 }
 
@@ -246,8 +246,8 @@ fn a_force_far_beyond_full_contact_is_refused() {
             // The bound itself is allowed, and there all springs are in contact.
             let largest = status.rsplit("at most ").next().unwrap().to_owned();
             go(&mut driver, &largest);
-            assert!(driver.model.notice.is_none(), "{largest}: {:?}", driver.model.notice);
-            let springs = driver.model.computed.as_ref().unwrap().outcome.line.points as u64;
+            assert!(driver.app.message.is_none(), "{largest}: {:?}", driver.app.message);
+            let springs = driver.app.solved.as_ref().unwrap().outcome.line.points as u64;
             assert_eq!(point(&driver).springs, springs);
         }
     });
@@ -259,16 +259,16 @@ fn an_edit_puts_the_body_back_and_says_so() {
         for keys in ["l", "u", "R"] {
             let mut driver = pressed("l d { [");
             driver.press(keys);
-            assert!(driver.model.manual.is_none(), "{keys}");
-            assert!(is_up_to_date(&driver.model));
-            assert_eq!(driver.model.drive(), Drive::Leg(1), "{keys}");
+            assert!(driver.app.manual.is_none(), "{keys}");
+            assert!(is_up_to_date(&driver.app));
+            assert_eq!(driver.app.drive(), Drive::Leg(1), "{keys}");
             assert!(driver.status().contains("the body is back"), "{keys}: {}", driver.status());
         }
         // A change of the view alone does not.
         let mut driver = pressed("d {");
         let at_first = point(&driver);
         driver.press("j n v N a D T M z Tab + 0");
-        assert!(driver.model.manual.is_some());
+        assert!(driver.app.manual.is_some());
         assert_eq!(point(&driver), at_first);
     });
 }
@@ -278,14 +278,14 @@ fn playing_gives_it_back() {
     within(30, || {
         for keys in ["Space", ".", ",", "r", ">", "<"] {
             let mut driver = pressed("");
-            let leg = driver.model.player.leg;
+            let leg = driver.app.play.leg;
             driver.press("d { [");
             let effects = driver.press(keys);
             assert_eq!(effects, [Effect::Ask], "{keys}");
-            assert!(driver.model.manual.is_none(), "{keys}");
-            assert!(matches!(driver.model.snapshot.as_ref().unwrap().drive, Drive::Leg(_)), "{keys}");
+            assert!(driver.app.manual.is_none(), "{keys}");
+            assert!(matches!(driver.app.snapshot.as_ref().unwrap().drive, Drive::Leg(_)), "{keys}");
             if keys == "Space" {
-                assert!(driver.model.player.playing && driver.model.player.leg == leg);
+                assert!(driver.app.play.playing && driver.app.play.leg == leg);
                 assert!(!driver.elapse(0.1).is_empty());
             }
         }
@@ -298,13 +298,13 @@ fn without_a_curve_there_is_nothing_to_take() {
         let mut driver = Driver::open(rough());
         for keys in ["d", "]", "{", "S"] {
             assert!(driver.press(keys).is_empty(), "{keys}");
-            assert!(driver.model.manual.is_none(), "{keys}");
+            assert!(driver.app.manual.is_none(), "{keys}");
         }
         let mut driver = pressed("");
         driver.select("loading");
         driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
         driver.press("d ]");
-        assert!(driver.model.manual.is_none());
+        assert!(driver.app.manual.is_none());
     });
 }
 

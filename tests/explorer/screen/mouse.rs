@@ -4,8 +4,8 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::{default_scene, mid_retraction, pressed};
 use asperity::explorer::action::{Action, Gesture, Mouse};
+use asperity::explorer::app::{Mode, Pane};
 use asperity::explorer::layout::{Layout, inside};
-use asperity::explorer::model::{Mode, Pane};
 use asperity::explorer::panes::{indentation_at, share_at};
 use asperity::explorer::theme::Marker;
 use asperity::explorer::update::Effect;
@@ -16,7 +16,7 @@ fn mouse(driver: &mut Driver, column: u16, row: u16, gesture: Gesture) -> Vec<Ef
 }
 
 fn place(driver: &Driver, pane: Pane) -> Rect {
-    inside(Layout::of(&driver.model).pane(pane).expect("the pane is shown"))
+    inside(Layout::of(&driver.app).pane(pane).expect("the pane is shown"))
 }
 
 #[test]
@@ -26,7 +26,7 @@ fn a_press_chooses_the_pane_and_the_row() {
         for pane in [Pane::Profile, Pane::CloseUp, Pane::Parameters, Pane::Force] {
             let area = place(&driver, pane);
             mouse(&mut driver, area.x + 1, area.y, Gesture::Press);
-            assert_eq!(driver.model.pane, pane);
+            assert_eq!(driver.app.view.pane, pane);
         }
         // Each visible row, also in a scrolled list.
         for keys in ["g", "G"] {
@@ -36,10 +36,10 @@ fn a_press_chooses_the_pane_and_the_row() {
                 driver.press(keys);
                 let rows = driver.rows();
                 let text: String = rows[usize::from(row)].chars().skip(usize::from(area.x)).collect();
-                let before = driver.model.selected;
+                let before = driver.app.edit.selected;
                 mouse(&mut driver, area.x + 3, row, Gesture::Press);
-                if driver.model.selected != before || text.contains('›') {
-                    let name = driver.model.parameter().unwrap().name();
+                if driver.app.edit.selected != before || text.contains('›') {
+                    let name = driver.app.parameter().unwrap().name();
                     assert!(text.contains(&name), "{name}: {text}");
                     chosen += 1;
                 }
@@ -50,16 +50,13 @@ fn a_press_chooses_the_pane_and_the_row() {
         driver.press("g");
         let area = place(&driver, Pane::Parameters);
         let loading = driver.rows().iter().position(|row| row.contains("▾●loading")).unwrap() as u16;
-        let all = driver.model.listed().len();
+        let all = driver.app.listed().len();
         mouse(&mut driver, area.x + 5, loading, Gesture::Press);
-        assert_eq!(driver.model.listed().len(), all);
+        assert_eq!(driver.app.listed().len(), all);
         mouse(&mut driver, area.x + 5, loading, Gesture::Press);
-        assert_eq!(
-            (driver.model.listed().len(), driver.model.parameter().unwrap().group),
-            (all - 1, "loading")
-        );
+        assert_eq!((driver.app.listed().len(), driver.app.parameter().unwrap().group), (all - 1, "loading"));
         mouse(&mut driver, area.x + 5, loading, Gesture::Press);
-        assert_eq!(driver.model.listed().len(), all);
+        assert_eq!(driver.app.listed().len(), all);
         assert!(mouse(&mut driver, 500, 500, Gesture::Press).is_empty(), "nothing is there");
     });
 }
@@ -84,14 +81,14 @@ fn a_drag_takes_the_body_to_where_the_mouse_is() {
             for (number, column) in columns.into_iter().enumerate() {
                 let gesture = if number == 0 { Gesture::Press } else { Gesture::Drag };
                 mouse(&mut driver, column, area.y + 5, gesture);
-                let wanted = indentation_at(&driver.model, area, column).unwrap();
-                let next = indentation_at(&driver.model, area, column + 1).unwrap();
-                let found = driver.model.snapshot.as_ref().unwrap().point.indentation;
-                assert!(driver.model.manual.is_some());
+                let wanted = indentation_at(&driver.app, area, column).unwrap();
+                let next = indentation_at(&driver.app, area, column + 1).unwrap();
+                let found = driver.app.snapshot.as_ref().unwrap().point.indentation;
+                assert!(driver.app.manual.is_some());
                 // The view may change a little as the path of manual loading grows.
                 assert!((found - wanted).abs() <= next - wanted, "{found}, not {wanted}");
                 let screen = driver.screen();
-                let seen: Vec<u16> = (0..driver.model.size.1)
+                let seen: Vec<u16> = (0..driver.app.view.size.1)
                     .filter(|row| *row >= area.y + above && *row < area.bottom())
                     .flat_map(|row| (area.x..area.right()).map(move |column| (column, row)))
                     .filter(|&(column, row)| screen[(column, row)].symbol() == "◆")
@@ -108,7 +105,7 @@ fn a_drag_takes_the_body_to_where_the_mouse_is() {
         let mut driver = pressed("v");
         let area = place(&driver, Pane::Force);
         mouse(&mut driver, area.x + 20, area.y + 5, Gesture::Press);
-        assert!(driver.model.manual.is_none() && driver.model.pane == Pane::Force);
+        assert!(driver.app.manual.is_none() && driver.app.view.pane == Pane::Force);
     });
 }
 
@@ -118,44 +115,44 @@ fn the_wheel_looks_closer_and_scrolls() {
         let mut driver = pressed("");
         let area = place(&driver, Pane::Profile);
         mouse(&mut driver, area.x, area.y, Gesture::Wheel(1));
-        assert_eq!(driver.model.profile.share, 0.5);
+        assert_eq!(driver.app.view.profile.share, 0.5);
         mouse(&mut driver, area.x, area.y, Gesture::Wheel(-1));
-        assert_eq!(driver.model.profile.share, 1.0);
+        assert_eq!(driver.app.view.profile.share, 1.0);
         // The place under the pointer remains there.
         let (column, row) = (area.x + 3 * area.width / 4, area.y + 2);
         let at = |driver: &Driver| {
-            let share = share_at(&driver.model, Pane::Profile, place(driver, Pane::Profile), column).unwrap();
-            driver.model.profile.centre + (share - 0.5) * driver.model.profile.share
+            let share = share_at(&driver.app, Pane::Profile, place(driver, Pane::Profile), column).unwrap();
+            driver.app.view.profile.centre + (share - 0.5) * driver.app.view.profile.share
         };
         let before = at(&driver);
         for turns in [1, 1, 1, -1] {
             mouse(&mut driver, column, row, Gesture::Wheel(turns));
             assert!(
-                (at(&driver) - before).abs() < 0.02 * driver.model.profile.share + 1e-3,
+                (at(&driver) - before).abs() < 0.02 * driver.app.view.profile.share + 1e-3,
                 "{} {before}",
                 at(&driver)
             );
         }
-        assert_eq!(driver.model.profile.share, 0.25);
+        assert_eq!(driver.app.view.profile.share, 0.25);
         driver.press("0");
-        let (area, springs) = (place(&driver, Pane::CloseUp), driver.model.look.springs);
+        let (area, springs) = (place(&driver, Pane::CloseUp), driver.app.view.look.springs);
         mouse(&mut driver, area.x, area.y, Gesture::Wheel(1));
-        assert_eq!((driver.model.look.springs, driver.model.pane), (springs / 2, Pane::CloseUp));
+        assert_eq!((driver.app.view.look.springs, driver.app.view.pane), (springs / 2, Pane::CloseUp));
         driver.press("g");
         let area = place(&driver, Pane::Parameters);
         mouse(&mut driver, area.x, area.y, Gesture::Wheel(-1));
-        assert_eq!(driver.model.selected, 1);
+        assert_eq!(driver.app.edit.selected, 1);
         mouse(&mut driver, area.x, area.y, Gesture::Wheel(1));
-        assert_eq!(driver.model.selected, 0);
+        assert_eq!(driver.app.edit.selected, 0);
         driver.resize((80, 24));
         driver.press("?");
         mouse(&mut driver, 3, 3, Gesture::Wheel(-1));
-        assert_eq!(driver.model.mode, Mode::Help { scroll: 1 });
+        assert_eq!(driver.app.mode, Mode::Help { scroll: 1 });
         mouse(&mut driver, 3, 3, Gesture::Press);
-        assert_eq!(driver.model.mode, Mode::Help { scroll: 1 }, "a press does nothing there");
+        assert_eq!(driver.app.mode, Mode::Help { scroll: 1 }, "a press does nothing there");
         driver.press("Esc o");
         mouse(&mut driver, 3, 3, Gesture::Wheel(-1));
-        assert!(driver.model.mode.prompt().is_some_and(|prompt| prompt.selected == 1));
+        assert!(driver.app.mode.prompt().is_some_and(|prompt| prompt.selected == 1));
     });
 }
 
@@ -165,7 +162,7 @@ fn no_place_and_no_window_is_too_strange_for_it() {
         for keys in ["", "z", "?", "o", "e", "s", "l q", "D", "v"] {
             for size in [(120, 40), (80, 24), (40, 12), (20, 5), (1, 1), (0, 0)] {
                 let mut driver = pressed(keys);
-                driver.model.appearance.marker = Marker::HalfBlock;
+                driver.app.view.appearance.marker = Marker::HalfBlock;
                 driver.resize(size);
                 for (column, row) in [(0, 0), (19, 3), (70, 5), (79, 23), (u16::MAX, u16::MAX)] {
                     for gesture in

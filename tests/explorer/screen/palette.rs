@@ -4,9 +4,9 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::{SIZES, mid_retraction, pressed, row_with};
+use asperity::explorer::app::{ModeKind, Pane};
 use asperity::explorer::keys::{self, BINDINGS};
 use asperity::explorer::layout::Layout;
-use asperity::explorer::model::{ModeKind, Pane};
 use asperity::explorer::theme::Theme;
 use asperity::scene::presets;
 use ratatui::buffer::Cell;
@@ -80,12 +80,12 @@ fn a_command_is_found_by_words_and_runs_as_its_key_does() {
         let mut driver = pressed("");
         query(&mut driver, "another quantity");
         driver.press("Enter");
-        assert!(driver.model.is_shown(Pane::Chart));
-        assert_eq!(driver.model.pane, Pane::Chart);
+        assert!(driver.app.is_shown(Pane::Chart));
+        assert_eq!(driver.app.view.pane, Pane::Chart);
         let mut driver = mid_retraction(rough());
         query(&mut driver, "switch effect");
         driver.press("Enter");
-        assert!(driver.model.is_unsaved(), "{}", driver.text());
+        assert!(driver.app.is_unsaved(), "{}", driver.text());
     });
 }
 
@@ -97,7 +97,7 @@ fn the_list_is_moved_through_and_left_at_every_size() {
             driver.resize(size);
             let before = driver.text();
             driver.press("Ctrl+p");
-            assert_eq!(driver.model.keys(), ModeKind::List);
+            assert_eq!(driver.app.keys(), ModeKind::List);
             for _ in 0..100 {
                 driver.press("Down");
                 let rows = driver.rows();
@@ -132,7 +132,7 @@ fn a_path_is_completed() {
                     driver.type_text(text);
                 }
                 driver.press(keys);
-                let typed = driver.model.mode.line_mut().unwrap().text();
+                let typed = driver.app.mode.line_mut().unwrap().text();
                 (typed.trim_start_matches(&base).to_owned(), footer(&driver))
             };
             let start = format!("{base}al");
@@ -166,7 +166,7 @@ fn letters_that_are_found_are_marked_in_every_list() {
         for size in [(120, 40), (80, 24), (60, 20)] {
             for theme in [Theme::Neutral, Theme::Plain] {
                 let mut driver = pressed("");
-                driver.model.appearance.theme = theme;
+                driver.app.view.appearance.theme = theme;
                 driver.resize(size);
                 query(&mut driver, "");
                 driver.type_text("loop area");
@@ -188,6 +188,6 @@ fn letters_that_are_found_are_marked_in_every_list() {
 
 /// The row of the keys.
 fn footer(driver: &Driver) -> String {
-    let area = Layout::of(&driver.model).footer.expect("there is a footer");
+    let area = Layout::of(&driver.app).footer.expect("there is a footer");
     driver.rows()[usize::from(area.y)].clone()
 }

@@ -20,10 +20,10 @@ fn screens(driver: &mut Driver) -> String {
         driver.resize(size);
         let text = picture::text(&driver.screen());
         for theme in Theme::value_variants() {
-            driver.model.appearance.theme = *theme;
+            driver.app.view.appearance.theme = *theme;
             assert_eq!(picture::text(&driver.screen()), text, "{size:?} {theme:?}");
         }
-        driver.model.appearance.theme = Theme::Neutral;
+        driver.app.view.appearance.theme = Theme::Neutral;
         let (columns, rows) = size;
         all += &format!("── {columns} × {rows} ──\n{text}");
     }
@@ -129,7 +129,7 @@ screens!(screen_in_ascii, marked(Marker::Ascii));
 /// The screen with other markers, a ghost in it and manual loading.
 fn marked(marker: Marker) -> Driver {
     let mut driver = pressed("c L L d { ] ] ]");
-    while driver.model.appearance.marker != marker {
+    while driver.app.view.appearance.marker != marker {
         driver.press("M");
     }
     driver.press("j");

@@ -4,13 +4,13 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{changed, punch, rough, smooth, without_adhesion};
 use super::{SIZES, default_scene, mid_retraction, pressed};
+use asperity::explorer::app::{App, ModeKind, Pane};
 use asperity::explorer::layout::{Layout, inside};
-use asperity::explorer::model::{ModeKind, Model, Pane};
 use asperity::scene::Document;
 
 /// The rows of the pane of parameters, or of the column of its scroll bar.
 fn pane(driver: &Driver) -> Vec<String> {
-    let area = inside(Layout::of(&driver.model).pane(Pane::Parameters).expect("the pane is shown"));
+    let area = inside(Layout::of(&driver.app).pane(Pane::Parameters).expect("the pane is shown"));
     let (from, width) = (usize::from(area.x), usize::from(area.width));
     let rows = driver.rows();
     let row = |y: u16| rows[usize::from(y)].chars().skip(from).take(width).collect();
@@ -19,13 +19,13 @@ fn pane(driver: &Driver) -> Vec<String> {
 
 /// Rows of the thumb of the scroll bar.
 fn thumb(driver: &Driver) -> Vec<u16> {
-    let area = Layout::of(&driver.model).pane(Pane::Parameters).expect("the pane is shown");
+    let area = Layout::of(&driver.app).pane(Pane::Parameters).expect("the pane is shown");
     let screen = driver.screen();
     (area.y..area.bottom()).filter(|y| screen[(area.right() - 1, *y)].symbol() == "█").collect()
 }
 
-fn selected(model: &Model) -> &str {
-    &model.parameter().expect("a parameter is selected").path
+fn selected(app: &App) -> &str {
+    &app.parameter().expect("a parameter is selected").path
 }
 
 fn scenes() -> [Document; 5] {
@@ -46,14 +46,14 @@ fn what_is_changed_first_comes_first() {
         assert!(shown.contains("Hurst exponent H") && shown.contains("seed"), "{shown}");
         for scene in scenes() {
             let driver = Driver::start(scene);
-            let groups: Vec<&str> = driver.model.parameters.iter().map(|one| one.group).collect();
+            let groups: Vec<&str> = driver.app.edit.parameters.iter().map(|one| one.group).collect();
             let mut distinct = groups.clone();
             distinct.dedup();
             let all =
                 ["adhesion", "loading", "roughness", "numerics", "form", "material", "observe", "title"];
             assert_eq!(distinct, all);
             let heads: Vec<&str> =
-                driver.model.parameters.iter().filter(|one| one.is_head()).map(|one| one.group).collect();
+                driver.app.edit.parameters.iter().filter(|one| one.is_head()).map(|one| one.group).collect();
             assert_eq!(heads, all, "each group has one first row");
         }
     });
@@ -63,34 +63,35 @@ fn what_is_changed_first_comes_first() {
 fn a_group_folds_to_its_first_row_and_unfolds_for_what_is_selected() {
     within(30, || {
         let mut driver = pressed("");
-        let all = driver.model.listed().len();
-        assert_eq!(all, driver.model.parameters.len());
+        let all = driver.app.listed().len();
+        assert_eq!(all, driver.app.edit.parameters.len());
         // Rows of a group except the first.
-        let rows = |group: &str| driver.model.parameters.iter().filter(|one| one.group == group).count() - 1;
+        let rows =
+            |group: &str| driver.app.edit.parameters.iter().filter(|one| one.group == group).count() - 1;
         let (roughness, title, adhesion) = (rows("roughness"), rows("title"), rows("adhesion"));
         driver.press("Z");
-        assert_eq!(selected(&driver.model), "roughness", "the first row takes the selection");
-        assert_eq!(driver.model.listed().len(), all - roughness);
+        assert_eq!(selected(&driver.app), "roughness", "the first row takes the selection");
+        assert_eq!(driver.app.listed().len(), all - roughness);
         assert!(pane(&driver).iter().any(|row| row.contains("▸●roughness")), "{}", driver.text());
         assert!(!pane(&driver).iter().any(|row| row.contains("Hurst")), "{}", driver.text());
         // Keys of motion skip folded rows.
         driver.press("j");
-        assert_eq!(selected(&driver.model), "numerics");
+        assert_eq!(selected(&driver.app), "numerics");
         driver.press("k k");
-        assert_eq!(selected(&driver.model), "loading.0.0");
+        assert_eq!(selected(&driver.app), "loading.0.0");
         // An edit and its undoing leave the group folded.
         driver.press("l u");
-        assert_eq!(driver.model.listed().len(), all - roughness);
+        assert_eq!(driver.app.listed().len(), all - roughness);
         driver.press("j Z");
-        assert_eq!(driver.model.listed().len(), all);
+        assert_eq!(driver.app.listed().len(), all);
         driver.press("Z G Z g Z");
-        assert_eq!(driver.model.listed().len(), all - roughness - title - adhesion);
+        assert_eq!(driver.app.listed().len(), all - roughness - title - adhesion);
         driver.press("G");
-        assert_eq!(selected(&driver.model), "title");
+        assert_eq!(selected(&driver.app), "title");
         // A search also finds folded rows.
         driver.press("/ h u r s t Enter");
         assert_eq!(
-            (selected(&driver.model), driver.model.listed().len()),
+            (selected(&driver.app), driver.app.listed().len()),
             ("roughness.hurst", all - title - adhesion)
         );
     });
@@ -101,14 +102,14 @@ fn a_heading_folds_by_its_own_keys() {
     within(30, || {
         let mut driver = pressed("");
         driver.select("numerics");
-        let text = driver.model.document.text().to_owned();
-        let all = driver.model.listed().len();
+        let text = driver.app.edit.document.text().to_owned();
+        let all = driver.app.listed().len();
         for (key, folded) in
             [("Enter", true), ("Enter", false), ("h", true), ("h", true), ("l", false), ("t", false)]
         {
             driver.press(key);
-            assert_eq!(driver.model.listed().len() < all, folded, "{key}");
-            assert_eq!(driver.model.document.text(), text);
+            assert_eq!(driver.app.listed().len() < all, folded, "{key}");
+            assert_eq!(driver.app.edit.document.text(), text);
         }
     });
 }
@@ -119,7 +120,7 @@ fn a_scroll_bar_says_that_rows_are_out_of_sight() {
         for size in [(120, 40), (80, 24), (60, 20), (40, 12)] {
             let mut driver = mid_retraction(rough());
             driver.resize(size);
-            driver.model.pane = Pane::Parameters;
+            driver.app.view.pane = Pane::Parameters;
             driver.press("g");
             let top = thumb(&driver);
             assert!(!top.is_empty(), "{size:?}\n{}", driver.text());
@@ -130,7 +131,7 @@ fn a_scroll_bar_says_that_rows_are_out_of_sight() {
         // No scroll bar if all rows are visible.
         let mut driver = mid_retraction(rough());
         driver.resize((120, 60));
-        driver.model.pane = Pane::Parameters;
+        driver.app.view.pane = Pane::Parameters;
         driver.press("z g");
         assert!(thumb(&driver).is_empty(), "{}", driver.text());
     });
@@ -147,10 +148,10 @@ fn values_are_whole_in_narrow_panes() {
             for size in SIZES {
                 let mut driver = mid_retraction(scene.clone());
                 driver.resize(size);
-                driver.model.pane = Pane::Parameters;
+                driver.app.view.pane = Pane::Parameters;
                 driver.press("g");
-                for _ in 0..driver.model.parameters.len() {
-                    let parameter = driver.model.parameter().unwrap();
+                for _ in 0..driver.app.edit.parameters.len() {
+                    let parameter = driver.app.parameter().unwrap();
                     // A list of stages is in the rows below, the name of a group of choices in its text.
                     if parameter.field.unit.is_empty() {
                         driver.press("j");
@@ -195,8 +196,8 @@ fn a_parameter_is_found_by_words_of_its_name_or_symbol() {
             driver.type_text(typed);
             assert!(driver.status().contains(&format!("Find: {typed}")), "{}", driver.status());
             driver.press("Enter");
-            assert_eq!(selected(&driver.model), path, "{typed}");
-            assert_eq!(driver.model.keys(), ModeKind::Parameters, "a value can be typed at once");
+            assert_eq!(selected(&driver.app), path, "{typed}");
+            assert_eq!(driver.app.keys(), ModeKind::Parameters, "a value can be typed at once");
         }
     });
 }
@@ -208,21 +209,21 @@ fn a_search_is_moved_through_and_left() {
             for before in ["", "Tab", "Tab Tab Tab"] {
                 let mut driver = pressed(before);
                 driver.resize(size);
-                let (pane_before, document) = (driver.model.pane, driver.model.document.clone());
+                let (pane_before, document) = (driver.app.view.pane, driver.app.edit.document.clone());
                 driver.press("/ m o d");
-                let found = driver.model.keys();
+                let found = driver.app.keys();
                 assert_eq!(found, ModeKind::List);
                 assert!(driver.text().contains('›'), "{size:?}\n{}", driver.text());
                 driver.press("Down Esc");
-                assert_eq!((driver.model.pane, selected(&driver.model)), (pane_before, "roughness.hurst"));
-                assert_eq!(driver.model.document, document);
+                assert_eq!((driver.app.view.pane, selected(&driver.app)), (pane_before, "roughness.hurst"));
+                assert_eq!(driver.app.edit.document, document);
             }
         }
         // A search without a match moves nothing.
         let mut driver = pressed("/ q q q Enter");
-        assert_eq!(driver.model.keys(), ModeKind::List);
+        assert_eq!(driver.app.keys(), ModeKind::List);
         assert!(driver.text().contains("no parameter"), "{}", driver.text());
         driver.press("Backspace Ctrl+u Down Up Down Enter");
-        assert_eq!(driver.model.selected, 1);
+        assert_eq!(driver.app.edit.selected, 1);
     });
 }

@@ -12,24 +12,24 @@ use std::path::Path;
 fn the_animation_plays_to_its_end_and_stops() {
     within(60, || {
         let mut driver = Driver::start(rough());
-        assert!(driver.model.player.playing);
-        let ends: Vec<f64> = driver.model.legs().iter().map(|leg| leg.end()).collect();
+        assert!(driver.app.play.playing);
+        let ends: Vec<f64> = driver.app.legs().iter().map(|leg| leg.end()).collect();
         let (mut last, mut elapsed) = (f64::NEG_INFINITY, 0);
-        while driver.model.player.playing {
-            let leg = driver.model.player.leg;
+        while driver.app.play.playing {
+            let leg = driver.app.play.leg;
             assert_eq!(driver.elapse(0.1), [Effect::Ask]);
-            if driver.model.player.leg != leg {
+            if driver.app.play.leg != leg {
                 last = ends[0];
             }
-            let d = driver.model.snapshot.as_ref().unwrap().point.indentation;
+            let d = driver.app.snapshot.as_ref().unwrap().point.indentation;
             // The direction turns at the end of the first leg.
-            let forwards = if driver.model.player.leg == 0 { last <= d && d <= ends[0] } else { d <= last };
+            let forwards = if driver.app.play.leg == 0 { last <= d && d <= ends[0] } else { d <= last };
             assert!(forwards, "{last} to {d}");
             last = d;
             elapsed += 1;
             assert!(elapsed < 1000, "it never ends");
         }
-        assert_eq!(driver.model.player.leg, 1);
+        assert_eq!(driver.app.play.leg, 1);
         assert!((last - ends[1]).abs() < 1e-12, "{last}");
         // Then nothing changes any more.
         let screen = driver.screen();
@@ -39,7 +39,7 @@ fn the_animation_plays_to_its_end_and_stops() {
         assert_eq!(driver.screen(), screen);
         // Playing again starts from the beginning.
         driver.press("Space");
-        assert!(driver.model.player.playing && driver.model.player.leg == 0);
+        assert!(driver.app.play.playing && driver.app.play.leg == 0);
     });
 }
 
@@ -47,10 +47,10 @@ fn the_animation_plays_to_its_end_and_stops() {
 fn a_scene_that_ends_in_separation_is_shown_separated() {
     within(30, || {
         let mut driver = pressed("");
-        while driver.model.player.done < 1.0 {
+        while driver.app.play.done < 1.0 {
             driver.press(".");
         }
-        let point = driver.model.snapshot.as_ref().unwrap().point;
+        let point = driver.app.snapshot.as_ref().unwrap().point;
         assert_eq!((point.springs, point.force), (0, 0.0), "{}", driver.text());
     });
 }
@@ -75,39 +75,35 @@ fn the_animation_is_paused_stepped_and_begun_again() {
     within(30, || {
         let mut driver = Driver::start(rough());
         driver.elapse(1.0);
-        let before = driver.model.player;
+        let before = driver.app.play;
         assert!(before.done > 0.0);
         driver.press("Space");
         assert!(driver.elapse(1.0).is_empty(), "nothing moves while it is paused");
-        assert_eq!(driver.model.player.done, before.done);
-        let force = |driver: &Driver| driver.model.snapshot.as_ref().unwrap().point;
+        assert_eq!(driver.app.play.done, before.done);
+        let force = |driver: &Driver| driver.app.snapshot.as_ref().unwrap().point;
         let here = force(&driver);
         driver.press(".");
         assert!(force(&driver).indentation > here.indentation);
         driver.press(",");
         assert!((force(&driver).indentation - here.indentation).abs() < 1e-15);
         driver.press("Space .");
-        assert!(!driver.model.player.playing, "a step pauses");
+        assert!(!driver.app.play.playing, "a step pauses");
         driver.press("> >");
-        assert_eq!((driver.model.player.leg, driver.model.player.done), (1, 0.0));
+        assert_eq!((driver.app.play.leg, driver.app.play.done), (1, 0.0));
         driver.press("<");
-        assert_eq!((driver.model.player.leg, driver.model.player.done), (0, 0.0));
+        assert_eq!((driver.app.play.leg, driver.app.play.done), (0, 0.0));
         driver.press(". . <");
-        assert_eq!(
-            (driver.model.player.leg, driver.model.player.done),
-            (0, 0.0),
-            "first to the start of this leg"
-        );
+        assert_eq!((driver.app.play.leg, driver.app.play.done), (0, 0.0), "first to the start of this leg");
         driver.press(",");
-        assert_eq!((driver.model.player.leg, driver.model.player.done), (0, 0.0), "there is nothing before");
+        assert_eq!((driver.app.play.leg, driver.app.play.done), (0, 0.0), "there is nothing before");
         driver.press("> . r");
-        assert_eq!((driver.model.player.leg, driver.model.player.done), (0, 0.0));
-        assert!(driver.model.player.playing);
+        assert_eq!((driver.app.play.leg, driver.app.play.done), (0, 0.0));
+        assert!(driver.app.play.playing);
         // Steps go from leg to leg in both directions.
         driver.press("> ,");
-        assert_eq!((driver.model.player.leg, driver.model.player.done), (0, 1.0));
+        assert_eq!((driver.app.play.leg, driver.app.play.done), (0, 1.0));
         driver.press(".");
-        assert_eq!(driver.model.player.leg, 1);
+        assert_eq!(driver.app.play.leg, 1);
     });
 }
 
@@ -124,16 +120,16 @@ fn a_key_goes_to_the_pull_off_of_the_loading() {
             let mut driver = Driver::start(document);
             driver.resize(size);
             driver.press("d ] !");
-            let expected = -driver.model.computed.as_ref().unwrap().outcome.figures.adhesion_force.unwrap();
-            let point = driver.model.snapshot.as_ref().unwrap().point;
+            let expected = -driver.app.solved.as_ref().unwrap().outcome.figures.adhesion_force.unwrap();
+            let point = driver.app.snapshot.as_ref().unwrap().point;
             assert!(expected < 0.0 && (point.force / expected - 1.0).abs() < 1e-9, "{point:?}, {expected} N");
-            assert!(driver.model.manual.is_none() && !driver.model.player.playing);
+            assert!(driver.app.manual.is_none() && !driver.app.play.playing);
         }
         let mut driver = Driver::start(without_adhesion());
-        let before = driver.model.player;
+        let before = driver.app.play;
         driver.press("!");
         assert!(driver.status().contains("there is no pull-off"), "{}", driver.status());
-        assert_eq!(driver.model.player, before);
+        assert_eq!(driver.app.play, before);
     });
 }
 
@@ -141,15 +137,15 @@ fn a_key_goes_to_the_pull_off_of_the_loading() {
 fn an_edit_keeps_the_place_of_the_animation() {
     within(30, || {
         let mut driver = pressed("");
-        let before = driver.model.player;
+        let before = driver.app.play;
         driver.select("roughness.hurst");
         driver.press("l");
-        assert_eq!(driver.model.player, before);
+        assert_eq!(driver.app.play, before);
         // Unless the leg is gone.
         driver.select("loading");
         driver.enter("[ToForce(2.0e-5)]");
-        assert_eq!((driver.model.player.leg, driver.model.player.playing), (0, false));
-        assert!(is_up_to_date(&driver.model));
+        assert_eq!((driver.app.play.leg, driver.app.play.playing), (0, false));
+        assert!(is_up_to_date(&driver.app));
     });
 }
 
@@ -160,7 +156,7 @@ fn the_animation_is_as_far_however_often_it_is_drawn() {
         let place = |steps: u32, seconds: f64| {
             let mut driver = Driver::start(rough().set("loading", three).unwrap());
             (0..steps).for_each(|_| drop(driver.elapse(seconds / f64::from(steps))));
-            (driver.model.player, driver.model.snapshot.clone().unwrap().point)
+            (driver.app.play, driver.app.snapshot.clone().unwrap().point)
         };
         for seconds in [1.0, 5.9, 6.3, 11.0, 13.0, 17.9, 18.1, 100.0] {
             let (player, point) = place(1, seconds);
@@ -181,10 +177,10 @@ fn the_configuration_sets_speed_end_and_keys() {
         let config = |text: &str| Config::parse(text, Path::new("config.ron")).unwrap();
         let place = |config: Config, seconds: u32| {
             let mut driver = Driver::start(rough());
-            driver.model.configure(config);
+            driver.app.config = config;
             driver.press("r");
             (0..10 * seconds).for_each(|_| drop(driver.elapse(0.1)));
-            let player = driver.model.player;
+            let player = driver.app.play;
             (player.leg, (10.0 * player.done).round(), player.playing)
         };
         assert_eq!(place(Config::default(), 3), (0, 5.0, true));
@@ -194,14 +190,12 @@ fn the_configuration_sets_speed_end_and_keys() {
         assert!(leg == 0 && playing, "it begins again");
         // Other keys are shown in the help.
         let mut driver = Driver::start(rough());
-        driver
-            .model
-            .configure(config("(version: 1, keys: [(action: \"toggle-play\", keys: [\"_\", \"F5\"])])"));
-        assert!(driver.model.player.playing);
+        driver.app.config = config("(version: 1, keys: [(action: \"toggle-play\", keys: [\"_\", \"F5\"])])");
+        assert!(driver.app.play.playing);
         driver.press("Space");
-        assert!(driver.model.player.playing, "its key is another one");
+        assert!(driver.app.play.playing, "its key is another one");
         driver.press("_");
-        assert!(!driver.model.player.playing);
+        assert!(!driver.app.play.playing);
         driver.press("?");
         driver.resize((120, 200));
         assert!(driver.text().contains("_ F5"), "{}", driver.text());
@@ -215,9 +209,9 @@ fn colours_and_markers_are_kept_when_asked() {
         driver.press("T M Ctrl+s");
         assert!(driver.status().contains("! there is no configuration file"), "{}", driver.status());
         let config = Config { path: Some("my/config.ron".into()), ..Config::default() };
-        driver.model.configure(config);
+        driver.app.config = config;
         let effects = driver.press("Ctrl+s");
-        let appearance = driver.model.appearance;
+        let appearance = driver.app.view.appearance;
         assert_eq!(effects, [Effect::Remember { path: "my/config.ron".into(), appearance }]);
         assert!(driver.status().contains("are kept in my/config.ron"), "{}", driver.status());
     });

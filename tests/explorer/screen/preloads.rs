@@ -5,7 +5,7 @@ use super::common::driver::Driver;
 use super::common::scenes::{rough, without_adhesion};
 use super::keep;
 use super::stand_in::StandIn;
-use asperity::explorer::model::Pane;
+use asperity::explorer::app::Pane;
 use asperity::explorer::panes::PROFILES;
 use asperity::explorer::runtime::Studies;
 use asperity::explorer::study::{PaneData, Task};
@@ -69,17 +69,17 @@ fn adhesion_against_preload_is_shown_beside_the_curve() {
 fn the_pane_takes_the_place_of_map_and_accuracy_and_gives_it_back() {
     within(60, || {
         let mut driver = shown(rough(), 1);
-        assert_eq!(driver.model.panes(), [Pane::Force, Pane::Preloads, Pane::Parameters]);
+        assert_eq!(driver.app.panes(), [Pane::Force, Pane::Preloads, Pane::Parameters]);
         // No map and no table is computed.
         driver.studies = Studies::None;
         for (keys, pane) in
             [("m", Some(Pane::Chart)), ("i", Some(Pane::Preloads)), ("A", Some(Pane::Accuracy))]
         {
             driver.press(keys);
-            assert_eq!(driver.model.large, pane, "{keys}");
+            assert_eq!(driver.app.view.large, pane, "{keys}");
         }
         driver.press("i i");
-        assert_eq!((driver.model.large, driver.model.pane), (None, Pane::Force));
+        assert_eq!((driver.app.view.large, driver.app.view.pane), (None, Pane::Force));
     });
 }
 
@@ -87,11 +87,11 @@ fn the_pane_takes_the_place_of_map_and_accuracy_and_gives_it_back() {
 fn an_edit_begins_a_new_curve_and_a_scene_without_one_says_why() {
     within(60, || {
         let mut driver = shown(rough(), 2);
-        let before = driver.model.preloads.clone().unwrap();
+        let before = driver.app.studies.preloads.clone().unwrap();
         assert_eq!(before.profiles(), 2);
         // The computation continues from the present data.
         let goes_on = |driver: &Driver| {
-            study_tasks(&driver.model).into_iter().find_map(|task| match task {
+            study_tasks(&driver.app).into_iter().find_map(|task| match task {
                 Task::Extend { data: PaneData::Preloads(curve), waits } => Some((curve.profiles(), waits)),
                 _ => None,
             })
@@ -100,7 +100,7 @@ fn an_edit_begins_a_new_curve_and_a_scene_without_one_says_why() {
         driver.studies = Studies::None;
         driver.select("roughness.hurst");
         driver.press("l");
-        assert_eq!(driver.model.preloads, None);
+        assert_eq!(driver.app.studies.preloads, None);
         assert_eq!(goes_on(&driver), Some((0, true)));
         let driver = shown(without_adhesion(), 2);
         assert_eq!(goes_on(&driver), None);

@@ -5,8 +5,8 @@ use super::common::driver::{Driver, REFUSED};
 use super::common::scenes::rough;
 use super::pressed;
 use asperity::explorer::action::{Content, OutputFile};
+use asperity::explorer::app::{Mode, ModeKind};
 use asperity::explorer::autosave::{Autosave, left_behind};
-use asperity::explorer::model::{Mode, ModeKind};
 use asperity::explorer::update::Effect;
 use asperity::scene::Document;
 use std::path::Path;
@@ -30,12 +30,12 @@ fn a_saved_scene_is_read_back_as_it_is() {
         );
         let text = &driver.file("folder/mine.ron");
         let again = Document::parse(text, "mine.ron").unwrap();
-        assert_eq!(again.scene(), driver.model.document.scene());
+        assert_eq!(again.scene(), driver.app.edit.document.scene());
         assert!(text.contains("// soft"), "the comments are kept");
         assert!(driver.text().contains("saved to folder/mine.ron"), "{}", driver.text());
-        assert!(!driver.model.is_unsaved());
+        assert!(!driver.app.is_unsaved());
         driver.press("q");
-        assert!(driver.model.finished, "nothing is left to be asked");
+        assert!(driver.app.finished, "nothing is left to be asked");
     });
 }
 
@@ -49,10 +49,10 @@ fn a_file_is_overwritten_only_when_asked() {
         assert!(driver.text().contains("Overwrite"), "{}", driver.text());
         driver.press("n");
         assert_eq!(driver.files()[&name], rough().text());
-        assert!(driver.model.is_unsaved());
+        assert!(driver.app.is_unsaved());
         driver.press("s Enter y");
-        assert_eq!(driver.files()[&name], driver.model.document.text());
-        assert!(!driver.model.is_unsaved());
+        assert_eq!(driver.files()[&name], driver.app.edit.document.text());
+        assert!(!driver.app.is_unsaved());
     });
 }
 
@@ -64,7 +64,7 @@ fn what_could_not_be_saved_is_stated_and_not_forgotten() {
         driver.press("Enter");
         let status = driver.status();
         assert!(status.starts_with("! ") && status.ends_with(REFUSED), "{status}");
-        assert!(driver.model.is_unsaved());
+        assert!(driver.app.is_unsaved());
         // The typed name stays, and can be corrected.
         driver.press("Home Delete");
         assert!(driver.status().starts_with(&format!("Save as: {}", &REFUSED[1..])), "{}", driver.status());
@@ -84,9 +84,9 @@ fn an_empty_name_saves_nothing() {
     within(30, || {
         let mut driver = pressed("s Ctrl+u");
         assert!(driver.press("Enter").is_empty() && driver.files().is_empty());
-        assert_eq!(driver.model.mode.kind(), ModeKind::Prompt);
+        assert_eq!(driver.app.mode.kind(), ModeKind::Prompt);
         driver.press("Esc");
-        assert_eq!(driver.model.mode, Mode::Explore);
+        assert_eq!(driver.app.mode, Mode::Explore);
     });
 }
 
@@ -96,7 +96,7 @@ fn an_unchanged_scene_is_left_without_a_question() {
         within(30, move || {
             let mut driver = Driver::start(rough());
             driver.press(key);
-            assert!(driver.model.finished);
+            assert!(driver.app.finished);
         });
     }
 }
@@ -106,8 +106,8 @@ fn a_changed_scene_asks_before_it_is_left() {
     within(30, || {
         let asked = |keys: &str| {
             let mut driver = pressed("l q");
-            assert_eq!(driver.model.mode, Mode::Quit);
-            assert!(!driver.model.finished);
+            assert_eq!(driver.app.mode, Mode::Quit);
+            assert!(!driver.app.finished);
             assert!(driver.text().contains("unsaved"), "{}", driver.text());
             assert!(driver.rows()[0].contains("changed"), "{}", driver.text());
             driver.press(keys);
@@ -115,25 +115,25 @@ fn a_changed_scene_asks_before_it_is_left() {
         };
         for keys in ["n", "Esc"] {
             let driver = asked(keys);
-            assert!(!driver.model.finished && driver.model.mode == Mode::Explore, "{keys}");
+            assert!(!driver.app.finished && driver.app.mode == Mode::Explore, "{keys}");
         }
         for keys in ["q", "y", "Ctrl+c"] {
             let driver = asked(keys);
-            assert!(driver.model.finished && driver.files().is_empty(), "{keys}");
+            assert!(driver.app.finished && driver.files().is_empty(), "{keys}");
         }
         let driver = asked("s Enter");
-        assert!(driver.model.finished);
+        assert!(driver.app.finished);
         assert_eq!(driver.files().len(), 1);
         // Cancelling the save prompt also cancels leaving.
         for keys in ["s Esc", "s Ctrl+u Enter Esc"] {
-            assert!(!asked(keys).model.finished, "{keys}");
+            assert!(!asked(keys).app.finished, "{keys}");
         }
         let mut driver = asked("n");
         std::fs::write(driver.folder.join("rough-line.ron"), "theirs").unwrap();
         driver.press("q s Enter");
-        assert!(!driver.model.finished, "first it is asked about the file");
+        assert!(!driver.app.finished, "first it is asked about the file");
         driver.press("y");
-        assert!(driver.model.finished);
+        assert!(driver.app.finished);
         assert_ne!(driver.file("rough-line.ron"), "theirs");
     });
 }
@@ -142,9 +142,9 @@ fn a_changed_scene_asks_before_it_is_left() {
 fn taking_back_all_edits_leaves_nothing_to_save() {
     within(30, || {
         let mut driver = pressed("l l u u q");
-        assert!(driver.model.finished);
+        assert!(driver.app.finished);
         driver = pressed("l l u q");
-        assert!(!driver.model.finished);
+        assert!(!driver.app.finished);
     });
 }
 
@@ -157,10 +157,10 @@ fn a_comment_that_goes_with_what_is_replaced_is_stated() {
         let mut driver = Driver::start(document);
         driver.select("loading");
         driver.enter("[ToForce(1.0e-5), ToSeparation]");
-        assert_eq!(driver.model.document.comments(), comments - 1);
+        assert_eq!(driver.app.edit.document.comments(), comments - 1);
         assert!(driver.text().contains("a comment is gone"), "{}", driver.text());
         driver.press("u");
-        assert_eq!(driver.model.document.text(), text);
+        assert_eq!(driver.app.edit.document.text(), text);
         driver.select("roughness.hurst");
         driver.press("l");
         assert!(!driver.text().contains("gone"), "{}", driver.text());
@@ -183,7 +183,7 @@ fn title_and_notice_are_rows_and_the_name_gets_its_extension() {
         let scene = saved.scene();
         assert_eq!((scene.title.as_str(), scene.notice.as_str()), ("My \"own\" line", "Look here."));
         assert_eq!(saved.comments(), rough().comments());
-        assert!(!driver.model.is_unsaved() && driver.model.document.name() == "mine.ron");
+        assert!(!driver.app.is_unsaved() && driver.app.edit.document.name() == "mine.ron");
     });
 }
 
@@ -191,27 +191,27 @@ fn title_and_notice_are_rows_and_the_name_gets_its_extension() {
 fn scenes_in_whose_place_others_were_opened_are_not_forgotten() {
     within(30, || {
         let mut driver = pressed("l 1 q");
-        assert_eq!(driver.model.mode, Mode::Quit, "the first scene is unsaved");
+        assert_eq!(driver.app.mode, Mode::Quit, "the first scene is unsaved");
         driver.press("n l q");
         assert!(driver.status().contains("2 scenes have unsaved changes"), "{}", driver.status());
         driver.press("n u u");
-        assert_eq!(driver.model.document.name(), "rough-line");
-        assert_eq!(driver.model.unsaved().len(), 1, "it is the explored scene again");
+        assert_eq!(driver.app.edit.document.name(), "rough-line");
+        assert_eq!(driver.app.unsaved().len(), 1, "it is the explored scene again");
         // Each is saved before the explorer ends.
         driver.press("l 1 l q s Ctrl+u");
         driver.type_text("first");
         driver.press("Enter");
         for _ in 0..3 {
-            if driver.model.mode.kind() == ModeKind::Quit {
+            if driver.app.mode.kind() == ModeKind::Quit {
                 driver.press("s Enter");
             }
         }
-        assert!(driver.model.finished, "{}", driver.text());
+        assert!(driver.app.finished, "{}", driver.text());
         let saved: Vec<_> = driver.files().into_keys().collect();
         assert_eq!(saved, [Path::new("first.ron"), Path::new("rough-line.ron")]);
         // A second q leaves without saving.
         let driver = pressed("l 1 q q");
-        assert!(driver.model.finished && driver.files().is_empty());
+        assert!(driver.app.finished && driver.files().is_empty());
     });
 }
 
@@ -221,9 +221,9 @@ fn what_changes_only_the_view_or_the_writing_of_a_number_is_no_change() {
         let mut driver = pressed("v N a n + - A A m t X m z z M T D d d");
         driver.select("roughness.hurst");
         driver.press("l h");
-        assert!(driver.model.unsaved().is_empty(), "{}", driver.model.document.text());
+        assert!(driver.app.unsaved().is_empty(), "{}", driver.app.edit.document.text());
         driver.press("q");
-        assert!(driver.model.finished);
+        assert!(driver.app.finished);
     });
 }
 
@@ -236,7 +236,7 @@ fn unsaved_changes_of_another_session_are_offered_and_restored() {
         let mut session = Autosave::new(folder.path(), None);
         session.keep(&[&mine, &rough()]).unwrap();
         drop(session);
-        driver.model.offer(&left_behind(folder.path()));
+        driver.app.offer(&left_behind(folder.path()));
         assert!(
             driver.status().contains("unsaved changes of mine.ron, rough-line are kept"),
             "{}",
@@ -247,8 +247,8 @@ fn unsaved_changes_of_another_session_are_offered_and_restored() {
         let changed = rough().set("roughness.hurst", "0.5").unwrap();
         let other = Document::parse(rough().text(), "other").unwrap().set("length", "2.0e-4").unwrap();
         let mut driver = Driver::start(changed.clone());
-        driver.model.restore(&[changed, other]);
-        let names: Vec<&str> = driver.model.unsaved().iter().map(|document| document.name()).collect();
+        driver.app.restore(&[changed, other]);
+        let names: Vec<&str> = driver.app.unsaved().iter().map(|document| document.name()).collect();
         assert_eq!(names, ["rough-line", "other"]);
         driver.press("q");
         assert!(driver.status().contains("2 scenes have unsaved changes"), "{}", driver.status());

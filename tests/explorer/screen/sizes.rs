@@ -9,8 +9,8 @@ use super::crosshair::read;
 use super::preloads::computed_preloads;
 use super::{SIZES, default_scene, is_up_to_date, mid_retraction, pressed};
 use asperity::explorer::action::{Action, Gesture, Mouse};
+use asperity::explorer::app::{Mode, Pane};
 use asperity::explorer::layout::{Layout, inside, is_framed};
-use asperity::explorer::model::{Mode, Pane};
 use asperity::explorer::theme::{Marker, Theme};
 use asperity::scene::{Effect, format_quantity, open};
 use std::collections::BTreeSet;
@@ -37,7 +37,7 @@ fn marks_are_at_their_curve() {
                 driver.resize(size);
                 // The axis of zero force would lie beside any mark.
                 let rows: Vec<Vec<char>> = driver.rows().iter().map(|row| row.chars().collect()).collect();
-                let area = Layout::of(&driver.model).pane(Pane::Force).unwrap();
+                let area = Layout::of(&driver.app).pane(Pane::Force).unwrap();
                 let at = |column: usize, row: usize| rows.get(row).and_then(|row| row.get(column)).copied();
                 for row in usize::from(area.y) + 3..usize::from(area.bottom()) {
                     for column in usize::from(area.x)..usize::from(area.right()) {
@@ -98,7 +98,7 @@ fn titles_notices_and_explanations_are_whole_or_end_in_an_ellipsis() {
                 let notice = document.scene().notice.clone();
                 let mut driver = Driver::start(document);
                 driver.resize(size);
-                let layout = Layout::of(&driver.model);
+                let layout = Layout::of(&driver.app);
                 let rows = driver.rows();
                 if let Some(title) = layout.title {
                     let head = rows[..usize::from(title.height)].join(" ");
@@ -106,7 +106,7 @@ fn titles_notices_and_explanations_are_whole_or_end_in_an_ellipsis() {
                     assert!(head.trim_end().ends_with(end) || head.contains('…'), "{size:?}: {head}");
                 }
                 driver.press("Tab Tab");
-                for (pane, area) in Layout::of(&driver.model).panes {
+                for (pane, area) in Layout::of(&driver.app).panes {
                     let frame: String = driver.rows()[usize::from(area.y)]
                         .chars()
                         .skip(area.x.into())
@@ -119,7 +119,7 @@ fn titles_notices_and_explanations_are_whole_or_end_in_an_ellipsis() {
                     );
                 }
                 driver.select("adhesion");
-                driver.model.pane = Pane::Parameters;
+                driver.app.view.pane = Pane::Parameters;
                 let text = driver.text();
                 let is_explained = text.contains("Allowed:") || text.contains('…') || size.1 < 6;
                 assert!(is_explained, "{size:?}\n{text}");
@@ -140,7 +140,7 @@ fn the_help_has_the_whole_notice() {
                 driver.press("j");
                 seen += &driver.text();
             }
-            let notice = driver.model.document.scene().notice.clone();
+            let notice = driver.app.edit.document.scene().notice.clone();
             let missing = notice.split_whitespace().find(|word| !seen.contains(word));
             assert_eq!(missing, None, "{size:?}\n{seen}");
         }
@@ -152,12 +152,12 @@ fn ends_of_contact_patches_are_seen_where_a_scene_observes_them() {
     within(60, || {
         for size in SIZES {
             let mut driver = Driver::start(open("fragment-closeup").unwrap());
-            driver.model.pane = Pane::CloseUp;
+            driver.app.view.pane = Pane::CloseUp;
             driver.resize(size);
             driver.elapse(30.0);
-            let close_up = &driver.model.snapshot.as_ref().unwrap().close_up;
+            let close_up = &driver.app.snapshot.as_ref().unwrap().close_up;
             assert!(close_up.boundaries.len() >= 2, "{size:?}: {:?}", close_up.boundaries);
-            let area = Layout::of(&driver.model).pane(Pane::CloseUp).unwrap();
+            let area = Layout::of(&driver.app).pane(Pane::CloseUp).unwrap();
             let inside = |row: &String| -> String {
                 row.chars().skip(area.x.into()).take(area.width.into()).collect()
             };
@@ -175,13 +175,13 @@ fn an_effect_is_switched_off_and_on_and_its_row_stays_selected() {
         for size in SIZES {
             let mut driver = pressed("");
             driver.resize(size);
-            let before = driver.model.document.text().to_owned();
+            let before = driver.app.edit.document.text().to_owned();
             driver.select("roughness.hurst");
             driver.press("t");
-            assert!(!Effect::Roughness.is_on(driver.model.document.scene()));
+            assert!(!Effect::Roughness.is_on(driver.app.edit.document.scene()));
             assert!(driver.rows().iter().any(|row| row.contains("›▾○")), "{size:?}\n{}", driver.text());
             driver.press("t");
-            assert_eq!(driver.model.document.text(), before, "{size:?}");
+            assert_eq!(driver.app.edit.document.text(), before, "{size:?}");
         }
     });
 }
@@ -193,10 +193,11 @@ fn keys_of_the_footer_are_apart_from_what_the_connection_carries() {
             for keys in ["", "e", "d", "m", "s", "/", ":", "Tab Tab Tab", "q"] {
                 let mut driver = pressed(keys);
                 driver.resize(*size);
-                let area = Layout::of(&driver.model).footer.unwrap();
+                let area = Layout::of(&driver.app).footer.unwrap();
                 let footer = |driver: &Driver| driver.rows()[usize::from(area.y)].clone();
                 let alone = footer(&driver);
-                driver.model.traffic = Some(asperity::explorer::action::Traffic { frames: 12, bytes: 4321 });
+                driver.app.view.traffic =
+                    Some(asperity::explorer::action::Traffic { frames: 12, bytes: 4321 });
                 let both = footer(&driver);
                 let Some((of_keys, _)) = both.split_once("4.3 kB/s") else {
                     assert_eq!(both, alone, "{size:?} {keys}: no room");
@@ -218,7 +219,7 @@ fn completion_is_offered_only_where_a_path_is_typed() {
             for (keys, is_path) in [("e", false), ("s", true), ("E", true), ("o", true)] {
                 let mut driver = pressed(keys);
                 driver.resize(*size);
-                let area = Layout::of(&driver.model).footer.unwrap();
+                let area = Layout::of(&driver.app).footer.unwrap();
                 let footer = driver.rows()[usize::from(area.y)].clone();
                 let offers = footer.contains("Tab complete");
                 assert!(offers == is_path || is_path && size.0 < 60, "{size:?} {keys}: {footer}");
@@ -233,20 +234,20 @@ fn another_way_to_give_the_adhesion_and_another_roughness_can_be_computed() {
         for size in SIZES {
             let mut driver = pressed("");
             driver.resize(size);
-            let work = |driver: &Driver| driver.model.governing().unwrap().work_of_adhesion.unwrap();
-            let (before, ways) = (work(&driver), driver.model.document.scene().adhesion);
+            let work = |driver: &Driver| driver.app.governing().unwrap().work_of_adhesion.unwrap();
+            let (before, ways) = (work(&driver), driver.app.edit.document.scene().adhesion);
             driver.select("adhesion");
             driver.press("Right");
-            assert_ne!(driver.model.document.scene().adhesion, ways, "{size:?}");
+            assert_ne!(driver.app.edit.document.scene().adhesion, ways, "{size:?}");
             assert!((work(&driver) / before - 1.0).abs() < 1e-9, "{size:?}: {before} {}", work(&driver));
             driver.select("roughness");
             for _ in 0..3 {
-                let before = driver.model.document.scene().roughness.clone();
+                let before = driver.app.edit.document.scene().roughness.clone();
                 driver.press("Right");
-                let is_changed = driver.model.document.scene().roughness != before;
+                let is_changed = driver.app.edit.document.scene().roughness != before;
                 let status = driver.status();
                 assert!(
-                    is_up_to_date(&driver.model) && (is_changed || status.starts_with('!')),
+                    is_up_to_date(&driver.app) && (is_changed || status.starts_with('!')),
                     "{size:?} {status}"
                 );
             }
@@ -265,8 +266,8 @@ fn zoomed(pane: Pane, size: (u16, u16)) -> Driver {
         Pane::Beside => pressed("c & Tab Tab"),
         _ => pressed(""),
     };
-    driver.model.pane = pane;
-    driver.model.zoomed = true;
+    driver.app.view.pane = pane;
+    driver.app.view.zoomed = true;
     driver.resize(size);
     driver.press(".");
     driver
@@ -288,7 +289,7 @@ fn axes_have_numbers_quantities_and_units_in_every_pane() {
                 (Pane::Chart, " H", "κ"),
             ] {
                 let driver = zoomed(pane, size);
-                let area = Layout::of(&driver.model).pane(pane).unwrap();
+                let area = Layout::of(&driver.app).pane(pane).unwrap();
                 if !is_framed(area) {
                     continue;
                 }
@@ -307,9 +308,9 @@ fn the_force_axis_has_its_unit_wherever_it_is_drawn() {
         for size in SIZES {
             for keys in ["", "z", "N", "v", "v v"] {
                 let mut driver = pressed(keys);
-                driver.model.pane = Pane::Force;
+                driver.app.view.pane = Pane::Force;
                 driver.resize(size);
-                let area = Layout::of(&driver.model).pane(Pane::Force).unwrap();
+                let area = Layout::of(&driver.app).pane(Pane::Force).unwrap();
                 let rows: Vec<String> = driver.rows()[usize::from(area.y)..usize::from(area.bottom())]
                     .iter()
                     .map(|row| row.chars().skip(area.x.into()).take(area.width.into()).collect())
@@ -332,14 +333,14 @@ fn the_crosshair_reads_the_curve() {
     within(60, || {
         for size in SIZES {
             let mut driver = pressed("*");
-            driver.model.pane = Pane::Force;
+            driver.app.view.pane = Pane::Force;
             driver.resize(size);
-            let point = |driver: &Driver| driver.model.snapshot.as_ref().unwrap().point;
+            let point = |driver: &Driver| driver.app.snapshot.as_ref().unwrap().point;
             let before = point(&driver);
             driver.press("Right Right");
             assert_ne!(point(&driver).indentation, before.indentation, "{size:?}");
             let read = format!("d {}", read(point(&driver).indentation, 2, "m"));
-            let has_edge = is_framed(Layout::of(&driver.model).pane(Pane::Force).unwrap());
+            let has_edge = is_framed(Layout::of(&driver.app).pane(Pane::Force).unwrap());
             assert!(!has_edge || driver.text().contains(&read), "{size:?} {read}\n{}", driver.text());
         }
     });
@@ -352,12 +353,12 @@ fn scenes_are_saved_under_an_extension_and_kept_when_others_are_opened() {
             let mut driver = pressed("");
             driver.resize(size);
             driver.press("q");
-            assert!(driver.model.finished, "{size:?}: nothing has changed");
+            assert!(driver.app.finished, "{size:?}: nothing has changed");
             let mut driver = pressed("");
             driver.resize(size);
             driver.select("roughness.hurst");
             driver.press("l q");
-            assert!(!driver.model.finished && driver.status().starts_with("The scene has"), "{size:?}");
+            assert!(!driver.app.finished && driver.status().starts_with("The scene has"), "{size:?}");
             driver.press("Esc s Ctrl+u");
             driver.type_text("mine");
             assert!(driver.status().contains("mine"), "{size:?}: {}", driver.status());
@@ -369,13 +370,13 @@ fn scenes_are_saved_under_an_extension_and_kept_when_others_are_opened() {
             );
             driver.select("roughness.hurst");
             driver.press("l");
-            let changed = driver.model.document.text().to_owned();
-            driver.model.pane = Pane::Force;
+            let changed = driver.app.edit.document.text().to_owned();
+            driver.app.view.pane = Pane::Force;
             driver.press("1");
-            assert_ne!(driver.model.document.text(), changed, "{size:?}");
+            assert_ne!(driver.app.edit.document.text(), changed, "{size:?}");
             assert!(driver.status().starts_with("the changed scene"), "{size:?}: {}", driver.status());
             driver.press("u");
-            assert_eq!(driver.model.document.text(), changed, "{size:?}");
+            assert_eq!(driver.app.edit.document.text(), changed, "{size:?}");
         }
     });
 }
@@ -387,12 +388,13 @@ fn the_map_has_hurst_exponents_across_and_is_exported() {
             let mut driver = charted(rough());
             driver.resize(size);
             let scene = |driver: &Driver| {
-                let hurst = driver.model.document.value("roughness.hurst").unwrap().parse::<f64>().unwrap();
-                let kappa = driver.model.governing().unwrap().kappa.unwrap();
+                let hurst =
+                    driver.app.edit.document.value("roughness.hurst").unwrap().parse::<f64>().unwrap();
+                let kappa = driver.app.governing().unwrap().kappa.unwrap();
                 (hurst, Some(kappa))
             };
             let near = |one: f64, other: f64| (one / other - 1.0).abs() < 1e-9;
-            let (hurst, kappa) = driver.model.place().unwrap();
+            let (hurst, kappa) = driver.app.place().unwrap();
             assert!(near(hurst, scene(&driver).0) && near(kappa.unwrap(), scene(&driver).1.unwrap()));
             driver.press("Right");
             assert!(scene(&driver).0 > hurst && near(scene(&driver).1.unwrap(), kappa.unwrap()), "{size:?}");
@@ -416,9 +418,9 @@ fn ghosts_have_letters_and_forces_and_titles_name_quantities() {
             let mut driver = pressed("c");
             driver.select("adhesion.work");
             driver.press("L");
-            driver.model.pane = Pane::Force;
+            driver.app.view.pane = Pane::Force;
             driver.resize(size);
-            let area = Layout::of(&driver.model).pane(Pane::Force).unwrap();
+            let area = Layout::of(&driver.app).pane(Pane::Force).unwrap();
             let rows = &driver.rows()[usize::from(area.y)..usize::from(area.bottom())];
             let cell =
                 |row: &str| -> String { row.chars().skip(area.x.into()).take(area.width.into()).collect() };
@@ -439,10 +441,10 @@ fn the_wheel_zooms_at_the_pointer_and_strong_contrast_keeps_profile_and_surface_
     within(60, || {
         for size in SIZES {
             let mut driver = pressed("");
-            driver.model.pane = Pane::Profile;
-            driver.model.appearance.theme = Theme::HighContrast;
+            driver.app.view.pane = Pane::Profile;
+            driver.app.view.appearance.theme = Theme::HighContrast;
             driver.resize(size);
-            let area = inside(Layout::of(&driver.model).pane(Pane::Profile).unwrap());
+            let area = inside(Layout::of(&driver.app).pane(Pane::Profile).unwrap());
             let screen = driver.screen();
             let inks: BTreeSet<String> = (area.y..area.bottom())
                 .flat_map(|row| (area.x..area.right()).map(move |column| (column, row)))
@@ -451,7 +453,7 @@ fn the_wheel_zooms_at_the_pointer_and_strong_contrast_keeps_profile_and_surface_
                 .collect();
             assert!(inks.len() >= 2, "{size:?}: {inks:?}\n{}", driver.text());
             let shown = |driver: &Driver| {
-                let section = &driver.model.snapshot.as_ref().unwrap().profile;
+                let section = &driver.app.snapshot.as_ref().unwrap().profile;
                 (section.first, section.springs)
             };
             let (first, all) = shown(&driver);
@@ -470,7 +472,7 @@ fn a_digit_on_a_choice_says_how_choices_are_changed() {
     within(60, || {
         for size in SIZES {
             let switch = |driver: &Driver| {
-                let switches = driver.model.parameters.iter().find(|one| one.path.starts_with("observe."));
+                let switches = driver.app.edit.parameters.iter().find(|one| one.path.starts_with("observe."));
                 switches.map(|one| (one.path.clone(), format!("{} is a switch: t changes it", one.name())))
             };
             let (switch, says_of_switch) = switch(&pressed("")).unwrap();
@@ -483,17 +485,17 @@ fn a_digit_on_a_choice_says_how_choices_are_changed() {
                 (&switch, &says_of_switch),
             ] {
                 let mut driver = pressed("");
-                driver.model.selected =
-                    driver.model.parameters.iter().position(|one| one.path == path).unwrap();
-                driver.model.pane = Pane::Parameters;
+                driver.app.edit.selected =
+                    driver.app.edit.parameters.iter().position(|one| one.path == path).unwrap();
+                driver.app.view.pane = Pane::Parameters;
                 driver.resize(size);
-                let before = driver.model.document.text().to_owned();
+                let before = driver.app.edit.document.text().to_owned();
                 driver.press("2");
                 let status = driver.status();
                 let start = status.strip_suffix('…').unwrap_or(&status);
                 assert!(expected.starts_with(start) && start.len() > 8, "{size:?} {path}: {status}");
                 assert_eq!(
-                    (driver.model.mode == Mode::Explore, driver.model.document.text()),
+                    (driver.app.mode == Mode::Explore, driver.app.edit.document.text()),
                     (true, &*before)
                 );
             }
@@ -519,7 +521,7 @@ fn indentation_and_force_are_in_the_status_line() {
             for keys in ["", "d ]"] {
                 let mut driver = pressed(keys);
                 driver.resize(*size);
-                let point = driver.model.snapshot.as_ref().unwrap().point;
+                let point = driver.app.snapshot.as_ref().unwrap().point;
                 let [d, force] = [(point.indentation, "m"), (point.force, "N")]
                     .map(|(value, unit)| format_quantity(value, unit));
                 assert!(
@@ -545,9 +547,9 @@ fn a_key_of_a_pane_shows_the_pane() {
                 ("m", Pane::Chart),
             ] {
                 let mut driver = pressed("");
-                driver.model.pane = Pane::Force;
+                driver.app.view.pane = Pane::Force;
                 driver.resize(size);
-                let is_shown = |driver: &Driver| Layout::of(&driver.model).pane(pane).is_some();
+                let is_shown = |driver: &Driver| Layout::of(&driver.app).pane(pane).is_some();
                 assert!(!is_shown(&driver));
                 driver.press(keys);
                 assert!(is_shown(&driver), "{size:?} {keys}\n{}", driver.text());
@@ -566,7 +568,7 @@ fn ascii_has_a_sign_for_plus_or_minus_and_for_the_normal_distribution() {
             driver.press("A");
             driver.resize(size);
             let (has_error, has_normal) = (driver.text().contains("± "), driver.text().contains('¦'));
-            driver.model.appearance.marker = Marker::Ascii;
+            driver.app.view.appearance.marker = Marker::Ascii;
             let text = driver.text();
             assert!(text.is_ascii() && !text.replace("? help", "").contains('?'), "{size:?}\n{text}");
             assert_eq!(text.contains("+-"), has_error, "{size:?}\n{text}");
@@ -581,7 +583,7 @@ fn a_force_of_rounding_is_zero() {
     within(60, || {
         let document = rough().set("loading", "[ToZeroForce, ToSeparation]").unwrap();
         let mut driver = Driver::start(document);
-        let history = &driver.model.computed.as_ref().unwrap().outcome.history;
+        let history = &driver.app.solved.as_ref().unwrap().outcome.history;
         assert!(history.legs[0].curve.last().unwrap().force.abs() < 1e-15);
         for size in &SIZES[..3] {
             driver.resize(*size);

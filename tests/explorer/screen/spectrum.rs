@@ -5,7 +5,7 @@ use super::common::driver::Driver;
 use super::common::scenes::{changed, rough};
 use super::pressed;
 use asperity::explorer::adhesion_spread::PROFILES;
-use asperity::explorer::model::{Notice, Pane};
+use asperity::explorer::app::{Message, Pane};
 use asperity::explorer::runtime::Studies;
 use asperity::explorer::study::Accuracy;
 use asperity::explorer::update::{Effect, study_tasks};
@@ -16,20 +16,20 @@ use std::path::Path;
 fn q_shows_the_spectrum_in_place_of_the_line() {
     within(60, || {
         let mut driver = pressed("Q");
-        assert_eq!((driver.model.pane, driver.model.large), (Pane::Spectrum, Some(Pane::Spectrum)));
+        assert_eq!((driver.app.view.pane, driver.app.view.large), (Pane::Spectrum, Some(Pane::Spectrum)));
         driver.press("Q");
-        assert_eq!((driver.model.pane, driver.model.large), (Pane::Force, None));
+        assert_eq!((driver.app.view.pane, driver.app.view.large), (Pane::Force, None));
         // One pane at a time in that place.
         for (keys, pane) in
             [("Q A", Pane::Accuracy), ("Q", Pane::Spectrum), ("m", Pane::Chart), ("Q", Pane::Spectrum)]
         {
             driver.press(keys);
-            assert_eq!(driver.model.large, Some(pane), "{keys}");
+            assert_eq!(driver.app.view.large, Some(pane), "{keys}");
         }
         // Another scene has another spectrum.
-        let before = driver.model.present().unwrap().spectra.clone().unwrap();
+        let before = driver.app.present().unwrap().spectra.clone().unwrap();
         driver.press("R");
-        let after = driver.model.present().unwrap().spectra.clone().unwrap();
+        let after = driver.app.present().unwrap().spectra.clone().unwrap();
         assert_eq!(before.spectra.line, after.spectra.line);
         assert!(!after.spectra.heights.is_empty() && before.spectra.measured.is_empty());
     });
@@ -55,10 +55,10 @@ fn the_spread_over_lines_is_beside_that_of_the_fit() {
         driver.studies = Studies::Inline(Box::new(Accuracy));
         driver.perform(vec![Effect::Ask]);
         // Not before the pane is shown.
-        assert_eq!(driver.model.adhesion_spread, None);
+        assert_eq!(driver.app.studies.adhesion_spread, None);
         driver.press("Q");
-        assert_eq!(driver.model.adhesion_spread.as_ref().unwrap().found.profiles.len(), PROFILES);
-        assert!(study_tasks(&driver.model).is_empty());
+        assert_eq!(driver.app.studies.adhesion_spread.as_ref().unwrap().found.profiles.len(), PROFILES);
+        assert!(study_tasks(&driver.app).is_empty());
         driver.press("z");
         for size in [(120, 40), (80, 24)] {
             driver.resize(size);
@@ -70,7 +70,7 @@ fn the_spread_over_lines_is_beside_that_of_the_fit() {
         }
         driver.studies = Studies::None;
         driver.press("R");
-        assert_eq!(driver.model.adhesion_spread, None);
+        assert_eq!(driver.app.studies.adhesion_spread, None);
         assert!(driver.text().contains("0 of 16 profiles"), "{}", driver.text());
     });
 }
@@ -84,9 +84,9 @@ fn the_profile_itself_is_kept_beside_its_equivalent_line() {
         let document = measured(&file)
             .set_all(&[("length".to_owned(), "512 µm".to_owned()), ("form".to_owned(), "None".to_owned())]);
         let mut driver = Driver::start(document.unwrap());
-        let equivalent = driver.model.document.clone();
+        let equivalent = driver.app.edit.document.clone();
         driver.press("|");
-        let ghost = driver.model.ghosts.last().unwrap();
+        let ghost = driver.app.ghosts.last().unwrap();
         assert!(ghost.document.scene().measured_as_line());
         let profile = ghost.computed.outcome.figures.adhesion_force;
         assert!(profile.is_some() && ghost.computed.outcome.governing.kappa.is_some());
@@ -97,23 +97,23 @@ fn the_profile_itself_is_kept_beside_its_equivalent_line() {
         assert!(driver.text().contains("profile as line true"), "{}", driver.text());
         driver.press("z");
         driver.resize((120, 40));
-        assert_eq!(driver.model.document.scene(), equivalent.scene());
+        assert_eq!(driver.app.edit.document.scene(), equivalent.scene());
         driver.press("|");
-        assert_eq!(driver.model.ghosts.len(), 1);
+        assert_eq!(driver.app.ghosts.len(), 1);
         // And the other way round.
         driver.press("x");
-        assert_eq!(driver.model.computed.as_ref().unwrap().outcome.figures.adhesion_force, profile);
+        assert_eq!(driver.app.solved.as_ref().unwrap().outcome.figures.adhesion_force, profile);
         driver.press("C |");
-        assert!(!driver.model.ghosts[0].document.scene().measured_as_line());
+        assert!(!driver.app.ghosts[0].document.scene().measured_as_line());
         // A missing file, and roughness that is not measured.
         let mut driver = Driver::start(equivalent);
         std::fs::remove_file(&file).unwrap();
         driver.press("|");
-        let message = |driver: &Driver| match &driver.model.notice {
-            Some(Notice::Error(text)) => text.clone(),
+        let message = |driver: &Driver| match &driver.app.message {
+            Some(Message::Error(text)) => text.clone(),
             other => panic!("{other:?}"),
         };
-        assert!(message(&driver).contains("stylus.txt") && driver.model.ghosts.is_empty());
+        assert!(message(&driver).contains("stylus.txt") && driver.app.ghosts.is_empty());
         let mut other = Driver::start(rough());
         other.press("|");
         assert!(message(&other).contains("not measured"));
@@ -166,20 +166,20 @@ fn a_measured_surface_is_the_roughness_by_its_path_alone() {
             // The typed text replaces the value.
             driver.type_text(&format!("{}/sty", folder.path().display()));
             driver.press("Tab");
-            let typed = driver.model.mode.line_mut().map(|line| line.text());
+            let typed = driver.app.mode.line_mut().map(|line| line.text());
             assert_eq!(typed.as_deref(), file.to_str());
             driver.press("Enter");
-            let scene = driver.model.document.scene();
+            let scene = driver.app.edit.document.scene();
             let named = vec![file.to_str().unwrap()];
             assert_eq!((scene.measured_files(), scene.measured_as_line()), (named, false));
-            let computed = driver.model.computed.as_ref().unwrap();
+            let computed = driver.app.solved.as_ref().unwrap();
             assert!(computed.outcome.governing.kappa.is_some_and(|kappa| kappa > 0.0));
             assert!(computed.outcome.figures.adhesion_force.is_some_and(|force| force > 0.0));
             let screen = driver.text();
             assert!(screen.contains("F_a"), "{screen}");
             driver.studies = Studies::Inline(Box::new(Accuracy));
             driver.press("Q");
-            assert_eq!(driver.model.adhesion_spread.as_ref().unwrap().found.profiles.len(), PROFILES);
+            assert_eq!(driver.app.studies.adhesion_spread.as_ref().unwrap().found.profiles.len(), PROFILES);
             driver.press("z");
             let screen = driver.text();
             // The smallest screen has room for the spectra only.
@@ -199,8 +199,8 @@ fn the_path_of_a_measured_surface_is_completed_beside_the_scene() {
         let scene = rough();
         let name = folder.path().join("scene.ron");
         let mut driver = Driver::start(Document::parse(scene.text(), name.to_str().unwrap()).unwrap());
-        let typed = |driver: &Driver| driver.model.mode.prompt().expect("a prompt").line.text();
-        let paths = |driver: &Driver| driver.model.mode.prompt().expect("a prompt").paths.len();
+        let typed = |driver: &Driver| driver.app.mode.prompt().expect("a prompt").line.text();
+        let paths = |driver: &Driver| driver.app.mode.prompt().expect("a prompt").paths.len();
         driver.select("roughness");
         driver.press("Enter Ctrl+u");
         driver.type_text("Measured(file: \"st");

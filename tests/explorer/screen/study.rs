@@ -7,8 +7,8 @@ use super::common::study::{PLAN, begun, merged};
 use super::{is_up_to_date, keep, pressed};
 use asperity::explorer::Opening;
 use asperity::explorer::action::{Action, Gesture, Mouse};
+use asperity::explorer::app::{ModeKind, Pane};
 use asperity::explorer::layout::{Layout, inside};
-use asperity::explorer::model::{ModeKind, Pane};
 use asperity::explorer::study::Task;
 use asperity::explorer::update::{Effect, study_tasks};
 use asperity::scene::{Move, Roughness};
@@ -32,12 +32,12 @@ pub fn opened() -> (TempDir, Driver) {
 
 /// κ and H of the mark, on a map with H across.
 fn place(driver: &Driver) -> (f64, f64) {
-    let (hurst, kappa) = driver.model.place().unwrap();
+    let (hurst, kappa) = driver.app.place().unwrap();
     (kappa.unwrap(), hurst)
 }
 
 fn preload(driver: &Driver) -> f64 {
-    match driver.model.document.scene().loading[..] {
+    match driver.app.edit.document.scene().loading[..] {
         [Move::ToForce(force), Move::ToSeparation] => force,
         ref other => panic!("{other:?}"),
     }
@@ -64,15 +64,15 @@ fn a_study_is_shown_as_a_map() {
 fn glyphs_show_all_that_was_recorded() {
     within(60, || {
         let (_folder, mut driver) = opened();
-        assert_eq!(driver.model.keys(), ModeKind::Chart);
-        assert_eq!(driver.model.chart.charted(), Quantity::Regime);
+        assert_eq!(driver.app.keys(), ModeKind::Chart);
+        assert_eq!(driver.app.chart.charted(), Quantity::Regime);
         for (quantity, text) in [
             (Quantity::ZeroLoadAdhesionShare, "F_a(0)/F_a,max over H, κ"),
             (Quantity::AdhesionCoefficient, "F_a/F_n over H, κ"),
             (Quantity::AdhesionForce, "F_a (mN) "),
         ] {
             driver.press("V");
-            assert_eq!(driver.model.chart.charted(), quantity);
+            assert_eq!(driver.app.chart.charted(), quantity);
             assert!(driver.text().contains(text), "{text}\n{}", driver.text());
         }
         // The map computed here does not have this quantity, and shows its own.
@@ -81,7 +81,7 @@ fn glyphs_show_all_that_was_recorded() {
         driver.press("W");
         assert!(driver.text().contains("F_a (mN) "), "{}", driver.text());
         driver.press("V");
-        assert_eq!(driver.model.chart.charted(), Quantity::Regime);
+        assert_eq!(driver.app.chart.charted(), Quantity::Regime);
         for text in ["█ pressure-insensitive", "· non-adhesive", "▓ ░ profiles disagree", "of 12 profiles"]
         {
             assert!(driver.text().contains(text), "{text}\n{}", driver.text());
@@ -93,19 +93,19 @@ fn glyphs_show_all_that_was_recorded() {
 fn the_mark_goes_from_cell_to_cell_and_beyond_the_map_stays_at_its_edge() {
     within(60, || {
         let (_folder, mut driver) = opened();
-        let before = driver.model.document.clone();
+        let before = driver.app.edit.document.clone();
         assert_eq!(place(&driver), (1.0, 0.5));
         driver.press("Up Right k L");
         // Values of the study: 12 digits, other than those of the map computed here.
         assert_eq!(place(&driver), (2.0, 0.9));
         assert!(driver.text().contains("◆ H 0.9, κ 2"), "{}", driver.text());
-        assert!(is_up_to_date(&driver.model));
+        assert!(is_up_to_date(&driver.app));
         driver.press(&"K ".repeat(4));
         assert_eq!(place(&driver), (16.0, 0.9));
         driver.press("k");
         assert!(driver.status().contains("here the map ends"), "{}", driver.status());
         driver.press("u u");
-        assert_eq!(driver.model.document, before);
+        assert_eq!(driver.app.edit.document, before);
         for (kappa, hurst, back) in [("100", "0.5", (16.0, 0.5)), ("0.01", "0.97", (0.25, 0.9))] {
             driver.press("Tab Tab");
             driver.select("adhesion.kappa");
@@ -136,13 +136,13 @@ fn the_scene_follows_to_the_next_preload() {
         let (_folder, mut driver) = opened();
         let first = preload(&driver);
         assert!(driver.text().contains("F_n/(E* h L) = 0.01  1 of 3, P: the next"), "{}", driver.text());
-        let mut regimes = vec![driver.model.chart.grid().cloned()];
+        let mut regimes = vec![driver.app.chart.grid().cloned()];
         for (times, share) in [(10.0, "0.1  2 of 3"), (100.0, "1  3 of 3"), (1.0, "0.01  1 of 3")] {
             driver.press("P");
             assert!((preload(&driver) / first / times - 1.0).abs() < 1e-9);
             assert!(driver.text().contains(&format!("F_n/(E* h L) = {share}")), "{}", driver.text());
-            assert!(is_up_to_date(&driver.model));
-            regimes.push(driver.model.chart.grid().cloned());
+            assert!(is_up_to_date(&driver.app));
+            regimes.push(driver.app.chart.grid().cloned());
         }
         assert!(regimes[0] != regimes[1] && regimes[0] == regimes[3]);
         driver.press("PageUp");
@@ -152,9 +152,9 @@ fn the_scene_follows_to_the_next_preload() {
         driver.select("material.youngs_modulus");
         driver.press("L");
         assert!(driver.text().contains("no longer that of the study"), "{}", driver.text());
-        let other = driver.model.document.clone();
+        let other = driver.app.edit.document.clone();
         driver.press("m P P");
-        assert_eq!(driver.model.document, other);
+        assert_eq!(driver.app.edit.document, other);
         assert!(driver.text().contains("0.1  2 of 3"), "{}", driver.text());
     });
 }
@@ -174,9 +174,8 @@ fn a_preload_in_units_that_follow_from_h_goes_with_the_mark() {
 fn the_computed_map_can_be_had_instead() {
     within(60, || {
         let (_folder, mut driver) = opened();
-        let charts = |driver: &Driver| {
-            study_tasks(&driver.model).iter().any(|task| matches!(task, Task::Extend { .. }))
-        };
+        let charts =
+            |driver: &Driver| study_tasks(&driver.app).iter().any(|task| matches!(task, Task::Extend { .. }));
         assert!(!charts(&driver), "nothing is computed that is not shown");
         assert_eq!(driver.press("W"), [Effect::Study]);
         assert!(charts(&driver));
@@ -208,7 +207,7 @@ fn the_computed_map_can_be_had_instead() {
 fn the_mouse_puts_the_mark_on_a_cell() {
     within(60, || {
         let (_folder, mut driver) = opened();
-        let area = inside(Layout::of(&driver.model).pane(Pane::Chart).unwrap());
+        let area = inside(Layout::of(&driver.app).pane(Pane::Chart).unwrap());
         let press = Mouse { column: area.right() - 1, row: area.y + 3, gesture: Gesture::Press };
         driver.act(Action::Mouse(press));
         assert_eq!(place(&driver), (16.0, 0.9));
@@ -225,7 +224,7 @@ fn a_scene_without_kappa_has_no_mark() {
         assert!(driver.text().contains("no mark: the scene has no adhesion"), "{}", driver.text());
         assert!(driver.text().contains("Study small"));
         driver.press("m Left X");
-        assert!(driver.model.document.scene().adhesion.is_none());
+        assert!(driver.app.edit.document.scene().adhesion.is_none());
         driver.screen();
     });
 }
@@ -257,7 +256,7 @@ fn studies_of_other_quantities_open_as_maps_and_curves() {
         );
         assert!(driver.text().contains("◆ H 0.5, L 100 µm"), "{}", driver.text());
         driver.press("Up");
-        assert_eq!(driver.model.document.scene().length, 2.0e-4);
+        assert_eq!(driver.app.edit.document.scene().length, 2.0e-4);
         assert!(!driver.text().contains("no longer"), "{}", driver.text());
         // H alone: curves with the confidence of the mean.
         let alone = PLAN.replace(&format!("{kappa},"), "");
@@ -270,7 +269,7 @@ fn studies_of_other_quantities_open_as_maps_and_curves() {
             driver.text()
         );
         driver.press("Right");
-        assert_eq!(driver.model.place(), Some((0.6, None)));
+        assert_eq!(driver.app.place(), Some((0.6, None)));
         driver.press("Up");
         assert!(driver.status().contains("this map has one axis, H"), "{}", driver.status());
         for size in [(80, 24), (40, 12), (20, 5), (1, 1)] {
@@ -289,7 +288,7 @@ fn a_study_is_opened_by_its_path() {
         begun(&folder.path().join("begun"), PLAN);
         std::fs::create_dir(folder.path().join("another")).unwrap();
         let mut driver = pressed("");
-        let before = driver.model.document.clone();
+        let before = driver.app.edit.document.clone();
         for (name, expected) in [
             ("begun", "has not been merged yet; asperity sweep merge"),
             ("another", "this folder is not that of a study"),
@@ -299,29 +298,29 @@ fn a_study_is_opened_by_its_path() {
             driver.act(Action::Paste(path(name)));
             assert!(driver.text().contains("Enter tries it as a path"), "{}", driver.text());
             driver.press("Enter");
-            assert_eq!(driver.model.document, before);
+            assert_eq!(driver.app.edit.document, before);
             let refusal = driver.refusal().unwrap_or_default();
             assert!(refusal.contains(expected), "{refusal}");
             driver.press("Esc");
-            assert!(driver.model.chart.study.is_none());
+            assert!(driver.app.chart.study.is_none());
         }
         driver.press("o");
         driver.act(Action::Paste(path("small")));
         driver.press("Enter");
         assert!(driver.text().contains("Study small: regime over H, κ, 12 profiles"), "{}", driver.text());
-        assert!(is_up_to_date(&driver.model) && !driver.model.is_unsaved());
-        let Some(Roughness::SelfAffine { modes, .. }) = driver.model.document.scene().roughness else {
+        assert!(is_up_to_date(&driver.app) && !driver.app.is_unsaved());
+        let Some(Roughness::SelfAffine { modes, .. }) = driver.app.edit.document.scene().roughness else {
             panic!()
         };
         assert_eq!(modes, (1, 32));
         driver.press("u");
-        assert_eq!(driver.model.document.scene(), rough().scene());
+        assert_eq!(driver.app.edit.document.scene(), rough().scene());
         // A scene file opens in the same way.
         std::fs::write(folder.path().join("mine.ron"), rough().text()).unwrap();
         driver.press("o");
         driver.act(Action::Paste(path("mine.ron")));
         driver.press("Enter");
-        assert_eq!(driver.model.document.name(), path("mine.ron"));
-        assert!(driver.model.chart.shown_study().is_none());
+        assert_eq!(driver.app.edit.document.name(), path("mine.ron"));
+        assert!(driver.app.chart.shown_study().is_none());
     });
 }

@@ -5,8 +5,8 @@ use super::common::driver::Driver;
 use super::common::scenes::{changed, rough};
 use super::{SIZES, generation, is_up_to_date, mid_retraction, pressed, reversed, row_with};
 use asperity::explorer::action::Action;
+use asperity::explorer::app::ModeKind;
 use asperity::explorer::layout::Layout;
-use asperity::explorer::model::ModeKind;
 use asperity::explorer::snapshot::Preview;
 use asperity::explorer::theme::Theme;
 use asperity::explorer::update::{Effect, update};
@@ -32,18 +32,18 @@ fn values_are_typed_with_prefix_and_unit() {
         ] {
             driver.select(path);
             driver.enter(typed);
-            let written: f64 = driver.model.document.value(path).unwrap().parse().unwrap();
+            let written: f64 = driver.app.edit.document.value(path).unwrap().parse().unwrap();
             assert_eq!(written, value, "{path}: {typed}");
-            assert!(is_up_to_date(&driver.model));
+            assert!(is_up_to_date(&driver.app));
         }
         driver.select("numerics.points");
         driver.enter("2Ki");
-        assert_eq!(driver.model.document.scene().numerics.points, 2048);
+        assert_eq!(driver.app.edit.document.scene().numerics.points, 2048);
         // The force of a leg is a parameter as well.
         driver.select("loading");
         driver.press("j");
         driver.enter("30 µN");
-        assert_eq!(driver.model.document.scene().loading, [Move::ToForce(3e-5), Move::ToSeparation]);
+        assert_eq!(driver.app.edit.document.scene().loading, [Move::ToForce(3e-5), Move::ToSeparation]);
     });
 }
 
@@ -57,10 +57,10 @@ fn the_editor_opens_with_the_value_selected_and_keeps_what_is_refused() {
             |driver: &Driver| driver.rows().into_iter().find(|row| row.contains('›')).unwrap_or_default();
         assert!(row(&driver).contains("apparent diameter L (m): 100 µm"), "{}", row(&driver));
         assert_eq!(reversed(&driver.screen().content), "100 µm");
-        let before = driver.model.document.clone();
+        let before = driver.app.edit.document.clone();
         driver.type_text("10 kg");
         driver.press("Enter");
-        assert_eq!((&driver.model.document, driver.model.mode.kind()), (&before, ModeKind::Prompt));
+        assert_eq!((&driver.app.edit.document, driver.app.mode.kind()), (&before, ModeKind::Prompt));
         let refused = "kg is not a unit of length: use m, mm, µm, nm";
         assert!(driver.status().contains(refused), "{}", driver.status());
         let line = driver.rows().into_iter().find(|row| row.contains("10 kg")).unwrap_or_default();
@@ -70,16 +70,19 @@ fn the_editor_opens_with_the_value_selected_and_keeps_what_is_refused() {
         driver.press("Backspace");
         driver.type_text("mm");
         driver.press("Enter");
-        assert_eq!(driver.model.mode.kind(), ModeKind::Explore);
-        assert_eq!(driver.model.document.scene().length, 0.01);
+        assert_eq!(driver.app.mode.kind(), ModeKind::Explore);
+        assert_eq!(driver.app.edit.document.scene().length, 0.01);
         // Neither the unchanged value nor leaving the editor changes the text.
-        let text = driver.model.document.text().to_owned();
+        let text = driver.app.edit.document.text().to_owned();
         for path in
             ["length", "roughness.rms_height", "material.youngs_modulus", "adhesion.work", "loading.0.0"]
         {
             driver.select(path.trim_end_matches(".0.0"));
             driver.press(if path.ends_with(".0.0") { "j e Enter" } else { "e Enter" });
-            assert_eq!((driver.model.document.text(), driver.model.mode.kind()), (&*text, ModeKind::Explore));
+            assert_eq!(
+                (driver.app.edit.document.text(), driver.app.mode.kind()),
+                (&*text, ModeKind::Explore)
+            );
         }
     });
 }
@@ -94,19 +97,19 @@ fn what_is_typed_can_be_edited_pasted_and_left() {
         driver.press("End");
         driver.act(Action::Paste("\n".to_owned()));
         driver.press("Enter");
-        assert_eq!(driver.model.document.scene().length, 3e-4);
-        let before = driver.model.document.clone();
+        assert_eq!(driver.app.edit.document.scene().length, 3e-4);
+        let before = driver.app.edit.document.clone();
         driver.press("e Ctrl+u 7 Esc");
-        assert_eq!((&driver.model.document, driver.model.mode.kind()), (&before, ModeKind::Explore));
+        assert_eq!((&driver.app.edit.document, driver.app.mode.kind()), (&before, ModeKind::Explore));
         // In a value, letters are typed.
         driver.press("e Ctrl+u q u");
-        assert_eq!(driver.model.mode.kind(), ModeKind::Prompt);
+        assert_eq!(driver.app.mode.kind(), ModeKind::Prompt);
         assert!(driver.text().contains("qu"), "{}", driver.text());
         driver.press("Ctrl+c");
-        assert_eq!((&driver.model.document, driver.model.mode.kind()), (&before, ModeKind::Explore));
+        assert_eq!((&driver.app.edit.document, driver.app.mode.kind()), (&before, ModeKind::Explore));
         // Typing the present value changes nothing.
         driver.press("e Enter");
-        assert_eq!(driver.model.document.scene(), before.scene());
+        assert_eq!(driver.app.edit.document.scene(), before.scene());
     });
 }
 
@@ -156,7 +159,7 @@ fn the_cursor_of_what_is_typed_is_on_the_screen() {
                 "/a/folder/with/a/name/that/is/longer/than/many/windows/are/wide/and/then/some/more.ron",
             );
             let screen = driver.screen();
-            let status = Layout::of(&driver.model).status;
+            let status = Layout::of(&driver.app).status;
             let from = usize::from(status.y) * usize::from(status.width);
             let status = &screen.content[from..from + usize::from(status.width)];
             assert_eq!(reversed(status).chars().count(), 1, "{size:?}\n{}", driver.text());
@@ -169,14 +172,14 @@ fn a_value_that_is_refused_says_so_beside_its_field_and_leaves_the_scene() {
     within(30, || {
         for theme in [Theme::Plain, Theme::Neutral] {
             let mut driver = pressed("");
-            driver.model.appearance.theme = theme;
-            let before = driver.model.document.clone();
+            driver.app.view.appearance.theme = theme;
+            let before = driver.app.edit.document.clone();
             let of_before = generation(&driver);
             driver.select("roughness.hurst");
             driver.enter("1.5");
-            assert_eq!(driver.model.document, before);
+            assert_eq!(driver.app.edit.document, before);
             assert_eq!(generation(&driver), of_before);
-            assert!(is_up_to_date(&driver.model), "the curve is kept");
+            assert!(is_up_to_date(&driver.app), "the curve is kept");
             let screen = driver.screen();
             let row = row_with(&screen, "Hurst exponent");
             let text: String = row.iter().map(Cell::symbol).collect();
@@ -220,13 +223,13 @@ fn wide_and_combining_characters_are_drawn_in_windows_of_any_width() {
 fn digits_begin_a_value_while_the_pane_of_parameters_is_selected() {
     within(30, || {
         let mut driver = pressed("Tab Tab");
-        assert_eq!(driver.model.pane, asperity::explorer::model::Pane::Parameters);
+        assert_eq!(driver.app.view.pane, asperity::explorer::app::Pane::Parameters);
         driver.press(". 6 5 Enter");
-        assert_eq!(driver.model.document.value("roughness.hurst"), Some(".65"), "{}", driver.text());
+        assert_eq!(driver.app.edit.document.value("roughness.hurst"), Some(".65"), "{}", driver.text());
         driver.press("0");
-        assert_eq!(driver.model.mode.line_mut().map(|line| line.text()).as_deref(), Some("0"));
+        assert_eq!(driver.app.mode.line_mut().map(|line| line.text()).as_deref(), Some("0"));
         driver.press(". 7 Enter");
-        assert_eq!(driver.model.document.scene().roughness, rough().scene().roughness);
+        assert_eq!(driver.app.edit.document.scene().roughness, rough().scene().roughness);
         driver.select("loading");
         driver.press("j - 2");
         assert!(driver.text().contains("F (N): -2"), "{}", driver.text());
@@ -234,10 +237,10 @@ fn digits_begin_a_value_while_the_pane_of_parameters_is_selected() {
         // A switch and a group have no number.
         driver.select("numerics");
         driver.press("3");
-        assert_eq!(driver.model.mode.kind(), ModeKind::Explore);
+        assert_eq!(driver.app.mode.kind(), ModeKind::Explore);
         // In the other panes a digit opens a scene.
         driver.press("Tab 3");
-        assert_eq!(driver.model.document.name(), asperity::scene::presets()[2].name);
+        assert_eq!(driver.app.edit.document.name(), asperity::scene::presets()[2].name);
     });
 }
 
@@ -248,33 +251,32 @@ fn a_value_that_is_typed_shows_its_curve_before_it_is_taken() {
             let mut driver = pressed("");
             driver.resize(size);
             driver.select("roughness.rms_height");
-            let (document, computed) =
-                (driver.model.document.clone(), driver.model.computed.clone().unwrap());
+            let (document, computed) = (driver.app.edit.document.clone(), driver.app.solved.clone().unwrap());
             let before = driver.text();
             driver.press("e");
-            assert!(driver.model.tried_outcome().is_none(), "the value as it is needs no preview");
+            assert!(driver.app.tried_outcome().is_none(), "the value as it is needs no preview");
             driver.type_text("300 nm");
-            let tried = driver.model.tried_outcome().expect("a preview").figures;
+            let tried = driver.app.tried_outcome().expect("a preview").figures;
             assert_ne!(tried.adhesion_force, computed.outcome.figures.adhesion_force);
             let alone = document.set("roughness.rms_height", "3.0e-7").unwrap();
-            let alone = Driver::start(alone).model.computed.clone().unwrap();
+            let alone = Driver::start(alone).app.solved.clone().unwrap();
             assert_eq!(tried, alone.outcome.figures);
             let force = asperity::scene::format_quantity(tried.adhesion_force.unwrap(), "N");
             assert!(driver.status().starts_with(&format!("preview: F_a {force}")), "{}", driver.status());
             // The scene itself is unchanged, also after Esc.
-            assert_eq!((&driver.model.document, is_up_to_date(&driver.model)), (&document, true));
+            assert_eq!((&driver.app.edit.document, is_up_to_date(&driver.app)), (&document, true));
             // A text that is no value has no preview.
             driver.type_text("kg");
-            assert!(driver.model.tried_outcome().is_none() && driver.model.tried.is_none());
+            assert!(driver.app.tried_outcome().is_none() && driver.app.tried.is_none());
             driver.press("Backspace Backspace");
-            assert!(driver.model.tried_outcome().is_some());
+            assert!(driver.app.tried_outcome().is_some());
             let effects = driver.press("Esc");
-            assert_eq!((effects, driver.model.tried.is_none()), (vec![Effect::Ask], true));
+            assert_eq!((effects, driver.app.tried.is_none()), (vec![Effect::Ask], true));
             assert_eq!(driver.text(), before);
             driver.press("e Ctrl+u");
             driver.type_text("300 nm");
             driver.press("Enter");
-            assert_eq!(driver.model.computed.as_ref().unwrap().outcome.figures, tried);
+            assert_eq!(driver.app.solved.as_ref().unwrap().outcome.figures, tried);
         }
     });
 }
@@ -286,12 +288,12 @@ fn no_older_curve_is_shown_between_a_preview_and_the_next_one() {
         driver.select("roughness.rms_height");
         driver.press("e Ctrl+u");
         driver.type_text("300 nm");
-        let force = |driver: &Driver| driver.model.tried_outcome().and_then(|one| one.figures.adhesion_force);
+        let force = |driver: &Driver| driver.app.tried_outcome().and_then(|one| one.figures.adhesion_force);
         let first = force(&driver).expect("a preview");
-        let older = driver.model.preview.clone().unwrap();
+        let older = driver.app.preview.clone().unwrap();
         // The next value is typed, and its curve is not there yet: the previous one remains.
         driver.press("Home Delete");
-        let waiting = update(&mut driver.model, Action::Type('4'));
+        let waiting = update(&mut driver.app, Action::Type('4'));
         assert_eq!(waiting, [Effect::Ask]);
         // "00 nm" is no allowed height, and has no curve.
         assert!(driver.status().starts_with("preview: computing…") || force(&driver).is_none());
@@ -307,10 +309,10 @@ fn no_older_curve_is_shown_between_a_preview_and_the_next_one() {
         // After acceptance the curve remains until the scene itself is computed.
         let accepted = driver.update("accept");
         assert_eq!(accepted, [Effect::Ask]);
-        assert_eq!((driver.model.is_computing(), force(&driver)), (true, Some(second)));
+        assert_eq!((driver.app.is_computing(), force(&driver)), (true, Some(second)));
         assert!(driver.text().contains("preview"), "{}", driver.text());
         driver.perform(accepted);
-        assert_eq!(driver.model.tried_outcome(), None);
-        assert_eq!(driver.model.computed.as_ref().unwrap().outcome.figures.adhesion_force, Some(second));
+        assert_eq!(driver.app.tried_outcome(), None);
+        assert_eq!(driver.app.solved.as_ref().unwrap().outcome.figures.adhesion_force, Some(second));
     });
 }

@@ -4,24 +4,24 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::script::draw;
 use super::{SIZES, everywhere, pressed};
+use asperity::explorer::app::Pane;
 use asperity::explorer::layout::Layout;
-use asperity::explorer::model::Pane;
 use asperity::scene::format_quantity;
 
 #[test]
 fn every_pane_can_have_the_whole_screen() {
     within(30, || {
         let mut driver = pressed("");
-        let all = Layout::of(&driver.model).panes.len();
+        let all = Layout::of(&driver.app).panes.len();
         assert_eq!(all, 4);
         for _ in 0..4 {
             driver.press("z");
-            assert_eq!(Layout::of(&driver.model).panes.len(), 1);
-            assert_eq!(Layout::of(&driver.model).panes[0].0, driver.model.pane);
+            assert_eq!(Layout::of(&driver.app).panes.len(), 1);
+            assert_eq!(Layout::of(&driver.app).panes[0].0, driver.app.view.pane);
             driver.press("z Tab");
-            assert_eq!(Layout::of(&driver.model).panes.len(), 4);
+            assert_eq!(Layout::of(&driver.app).panes.len(), 4);
         }
-        assert_eq!(driver.model.pane, Pane::Force);
+        assert_eq!(driver.app.view.pane, Pane::Force);
     });
 }
 
@@ -32,8 +32,8 @@ fn a_small_window_keeps_the_chosen_pane() {
             let mut driver = pressed("");
             driver.resize(size);
             for _ in 0..4 {
-                let layout = Layout::of(&driver.model);
-                let shown = layout.pane(driver.model.pane).expect("the chosen pane is shown");
+                let layout = Layout::of(&driver.app);
+                let shown = layout.pane(driver.app.view.pane).expect("the chosen pane is shown");
                 assert!(shown.width > 0 && shown.height > 0);
                 driver.press("Tab");
             }
@@ -45,8 +45,8 @@ fn a_small_window_keeps_the_chosen_pane() {
 fn panes_have_the_same_shares_of_windows_of_any_width() {
     let mut driver = pressed("");
     for columns in [100, 1100, 1200, 3000] {
-        driver.model.size = (columns, 40);
-        let layout = Layout::of(&driver.model);
+        driver.app.view.size = (columns, 40);
+        let layout = Layout::of(&driver.app);
         assert_eq!(layout.pane(Pane::Profile).map(|area| area.width), Some(columns / 50 * 29), "{columns}");
     }
 }
@@ -72,16 +72,16 @@ fn a_pane_that_has_just_come_is_drawn_before_its_picture_is_there() {
             let mut driver = pressed("");
             driver.resize(small);
             // The window grows, and is drawn before the answer of the worker.
-            driver.model.size = large;
-            draw(&driver.model);
+            driver.app.view.size = large;
+            draw(&driver.app);
             for _ in 0..4 {
-                let panes = driver.model.panes();
-                let place = panes.iter().position(|pane| *pane == driver.model.pane).unwrap();
-                driver.model.pane = panes[(place + 1) % panes.len()];
-                driver.model.size = small;
-                draw(&driver.model);
-                driver.model.zoomed = !driver.model.zoomed;
-                draw(&driver.model);
+                let panes = driver.app.panes();
+                let place = panes.iter().position(|pane| *pane == driver.app.view.pane).unwrap();
+                driver.app.view.pane = panes[(place + 1) % panes.len()];
+                driver.app.view.size = small;
+                draw(&driver.app);
+                driver.app.view.zoomed = !driver.app.view.zoomed;
+                draw(&driver.app);
             }
         }
     });
@@ -122,8 +122,8 @@ fn a_window_that_has_shrunk_is_drawn_before_the_explorer_knows() {
             for size in [(80, 24), (40, 12), (20, 5), (1, 1)] {
                 let backend = ratatui::backend::TestBackend::new(size.0, size.1);
                 let mut terminal = ratatui::Terminal::new(backend).unwrap();
-                driver.model.size = (120, 40);
-                terminal.draw(|frame| asperity::explorer::view::draw(frame, &driver.model)).unwrap();
+                driver.app.view.size = (120, 40);
+                terminal.draw(|frame| asperity::explorer::view::draw(frame, &driver.app)).unwrap();
             }
         }
     });
@@ -138,7 +138,7 @@ fn all_panes_are_seen_in_a_window_of_80_by_24() {
         for title in ["Force F(d)", "Profile z(x)", "Fragments", "Parameters"] {
             assert!(text.contains(title), "{title}\n{text}");
         }
-        assert!(Layout::of(&driver.model).footer.is_some());
+        assert!(Layout::of(&driver.app).footer.is_some());
     });
 }
 
@@ -147,7 +147,7 @@ fn the_smallest_window_says_what_is_true() {
     within(30, || {
         let mut driver = pressed("");
         driver.resize((20, 5));
-        let outcome = driver.model.computed.clone().unwrap().outcome.clone();
+        let outcome = driver.app.solved.clone().unwrap().outcome.clone();
         let force = format_quantity(outcome.figures.adhesion_force.unwrap(), "N");
         let assert_shows = |driver: &Driver, text: &str| {
             assert!(driver.text().contains(text), "{text}\n{}", driver.text());
@@ -159,7 +159,7 @@ fn the_smallest_window_says_what_is_true() {
         driver.press("Tab");
         assert_shows(&driver, "›");
         driver.press("Tab");
-        let facts = driver.model.snapshot.as_ref().unwrap().close_up.fragment.unwrap();
+        let facts = driver.app.snapshot.as_ref().unwrap().close_up.fragment.unwrap();
         assert_shows(&driver, &format!("fragment {}", facts.number + 1));
     });
 }

@@ -4,8 +4,7 @@ use super::action::Traffic;
 use super::adhesion_spread::AdhesionSpread;
 pub use super::appraisal::{Appraisal, Estimated};
 pub use super::chart::{Chart, OpenStudy};
-use super::config::{Animation, Config};
-use super::keys::Bindings;
+use super::config::Config;
 pub use super::mode::{Mode, ModeKind};
 pub use super::panes::Pane;
 use super::panes::PreloadCurve;
@@ -19,6 +18,7 @@ use super::text_line::TextLine;
 use super::theme::Appearance;
 use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
+use crate::export::LoopQuantities;
 use crate::scene::{Adhesion, Document, Observer, Scene, ron_float};
 use crate::simulation::Outcome;
 use crate::study::{Axis, Place};
@@ -54,41 +54,21 @@ pub struct ManualState {
     pub changed: u64,
     /// Elastic energy released since manual loading began, J.
     pub released_energy: f64,
+    /// Moves not yet requested.
+    pub moves: Vec<ManualMove>,
+    /// Target force as last typed.
+    pub typed_force: String,
 }
 
 /// Content of the pane of the curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CurveLook {
     /// Quantities.
-    pub quantities: Quantities,
+    pub quantities: LoopQuantities,
     /// True for units of F_a,max, h and the whole line, false for SI units.
     pub normalised: bool,
     /// True if the dissipated energy is shaded.
     pub loss: bool,
-}
-
-/// Two quantities, one over the other.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Quantities {
-    /// Force over indentation.
-    #[default]
-    ForceIndentation,
-    /// Contact length over force.
-    LengthForce,
-    /// Number of fragments over indentation.
-    FragmentsIndentation,
-}
-
-impl Quantities {
-    /// The next pair.
-    #[must_use]
-    pub fn next(self) -> Self {
-        match self {
-            Quantities::ForceIndentation => Quantities::LengthForce,
-            Quantities::LengthForce => Quantities::FragmentsIndentation,
-            Quantities::FragmentsIndentation => Quantities::ForceIndentation,
-        }
-    }
 }
 
 /// Lines through the state shown on the force curve, and through one position on profile and close-up.
@@ -115,78 +95,80 @@ pub struct Ghost {
 
 /// A line for the user, below the panes.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Notice {
+pub enum Message {
     /// Success.
     Done(String),
     /// Failure.
     Error(String),
 }
 
-/// The state of the explorer.
+/// The scene as edited, its history, and its list of parameters.
 #[derive(Clone, Debug)]
-pub struct Model {
+pub struct Editor {
     /// The scene as edited.
     pub document: Document,
+    /// Documents before each edit.
+    pub past: Vec<Document>,
+    /// Documents after each undone edit.
+    pub future: Vec<Document>,
     /// Document on disk or as opened, for each scene by its name.
     pub saved: BTreeMap<String, Document>,
     /// Number of times that a scene was saved or opened.
     pub saves: u64,
     /// Scenes left with unsaved changes, by their names.
     pub left: BTreeMap<String, Document>,
-    /// Documents before each edit.
-    pub undo: Vec<Document>,
-    /// Documents after each undone edit.
-    pub redo: Vec<Document>,
     /// Number of the newest requested scene.
     pub generation: u64,
     /// The parameters of the scene.
     pub parameters: Vec<Parameter>,
     /// Index of the selected parameter, which is never in a folded group.
     pub selected: usize,
-    /// Place of the first visible row of the list of parameters, unless the selected row would be hidden.
-    pub first_listed: usize,
     /// Groups of parameters of which only the first row is listed.
     pub folded: BTreeSet<&'static str>,
     /// Error of a refused value, and the index of its parameter.
     pub refused: Option<(usize, String)>,
-    /// Present mode.
-    pub mode: Mode,
-    /// The newest computed scene.
-    pub computed: Option<Arc<SolvedScene>>,
-    /// The newest snapshot of its animation.
-    pub snapshot: Option<Arc<ContactSnapshot>>,
-    /// Legs done of the scene being computed.
-    pub progress: Option<usize>,
-    /// State of the animation.
-    pub player: Player,
-    /// Manual loading, while active.
-    pub manual: Option<ManualState>,
-    /// Target force as last typed.
-    pub typed_force: String,
-    /// True if the status line has springs and times in place of mechanical quantities.
-    pub shows_work: bool,
-    /// Target of the close-up.
-    pub look: CloseUpTarget,
+}
+
+/// Shown panes, their parts, and their appearance.
+#[derive(Clone, Debug)]
+pub struct View {
+    /// The chosen pane.
+    pub pane: Pane,
     /// Pane in the place of profile and close-up; `None`: these.
     pub large: Option<Pane>,
     /// Pane in the place of the close-up, or the close-up.
     pub lower: Pane,
+    /// True if the chosen pane has the whole screen.
+    pub zoomed: bool,
+    /// Columns and rows of the terminal.
+    pub size: (u16, u16),
+    /// Colours and markers.
+    pub appearance: Appearance,
+    /// Place of the first visible row of the list of parameters, unless the selected row would be hidden.
+    pub first_listed: usize,
+    /// Target of the close-up.
+    pub look: CloseUpTarget,
     /// Part of the line in the profile pane.
     pub profile: LineView,
     /// Content of the pane of the curve.
     pub curve: CurveLook,
     /// The crosshair, while shown.
     pub crosshair: Option<Crosshair>,
-    /// Loops kept for comparison, the newest last.
-    pub ghosts: Vec<Ghost>,
-    /// Scene that becomes a ghost once computed.
-    pub next_ghost: Option<Document>,
-    /// Scene to open beside the present one once that is computed.
-    pub opens_beside: Option<Document>,
+    /// True if the status line has springs and times in place of mechanical quantities.
+    pub shows_work: bool,
+    /// True if times are shown: they differ from run to run.
+    pub shows_times: bool,
+    /// Traffic of the connection, over SSH.
+    pub traffic: Option<Traffic>,
+    /// Line in place of the keys, which have no effect while a script plays.
+    pub demo: Option<&'static str>,
+}
+
+/// Results that follow the solution of a scene.
+#[derive(Clone, Debug, Default)]
+pub struct StudyResults {
     /// Accuracy of the scene and the cost of accuracy.
     pub appraisal: Appraisal,
-    /// The map over κ and H.
-    pub chart: Chart,
     /// Adhesion against preload, so far.
     pub preloads: Option<Arc<PreloadCurve>>,
     /// Adhesion of random profiles of a measured surface, so far.
@@ -195,127 +177,128 @@ pub struct Model {
     pub failures: BTreeMap<Pane, String>,
     /// True if the scene was edited after the last pane was shown: its data wait while a key is held down.
     pub edited: bool,
-    /// The newest preview: of the scene selected in the library, or of the value being typed.
-    pub preview: Option<Arc<Preview>>,
+}
+
+/// The state of the explorer.
+#[derive(Clone, Debug)]
+pub struct App {
+    /// The scene and its history.
+    pub edit: Editor,
+    /// State of the animation.
+    pub play: Player,
+    /// Manual loading, while active.
+    pub manual: Option<ManualState>,
+    /// Shown panes and their appearance.
+    pub view: View,
+    /// The newest computed scene.
+    pub solved: Option<Arc<SolvedScene>>,
+    /// The newest snapshot of its animation.
+    pub snapshot: Option<Arc<ContactSnapshot>>,
+    /// Legs done of the scene being computed.
+    pub progress: Option<usize>,
+    /// Results that follow.
+    pub studies: StudyResults,
+    /// The map over κ and H.
+    pub chart: Chart,
+    /// Loops kept for comparison, the newest last.
+    pub ghosts: Vec<Ghost>,
+    /// Scene that becomes a ghost once computed.
+    pub next_ghost: Option<Document>,
+    /// Scene to open beside the present one once that is computed.
+    pub opens_beside: Option<Document>,
     /// Scene whose outcome is awaited: with the value being typed, or to be kept as a ghost.
     pub tried: Option<Tried>,
-    /// Manual moves not yet requested.
-    pub moves: Vec<ManualMove>,
-    /// The chosen pane.
-    pub pane: Pane,
-    /// True if the chosen pane has the whole screen.
-    pub zoomed: bool,
-    /// Columns and rows of the terminal.
-    pub size: (u16, u16),
-    /// Colours and markers.
-    pub appearance: Appearance,
-    /// Keys.
-    pub bindings: Arc<Bindings>,
-    /// Speed and end of the animation.
-    pub animation: Animation,
-    /// The configuration file; `None` if none is written.
-    pub config_path: Option<std::path::PathBuf>,
-    /// Traffic of the connection, over SSH.
-    pub traffic: Option<Traffic>,
-    /// True if times are shown: they differ from run to run.
-    pub shows_times: bool,
+    /// The newest outcome of a tried scene.
+    pub preview: Option<Arc<Preview>>,
+    /// Present mode.
+    pub mode: Mode,
     /// A line for the user.
-    pub notice: Option<Notice>,
-    /// Line in place of the keys, which have no effect while a script plays.
-    pub demo: Option<&'static str>,
+    pub message: Option<Message>,
+    /// Keys, speed of the animation, and file of the configuration.
+    pub config: Config,
     /// True if the explorer is to end.
     pub finished: bool,
 }
 
-impl Model {
+impl App {
     /// The explorer just opened on a scene.
     #[must_use]
     pub fn new(document: Document, size: (u16, u16), appearance: Appearance) -> Self {
         let springs = CloseUpTarget::springs_shown(&document);
-        Model {
-            saved: BTreeMap::from([(document.name().to_owned(), document.clone())]),
-            saves: 0,
-            left: BTreeMap::new(),
-            parameters: parameters(&document),
-            document,
-            undo: Vec::new(),
-            redo: Vec::new(),
-            generation: 1,
-            selected: 0,
-            first_listed: 0,
-            folded: BTreeSet::new(),
-            refused: None,
-            mode: Mode::Explore,
-            computed: None,
+        App {
+            edit: Editor {
+                saved: BTreeMap::from([(document.name().to_owned(), document.clone())]),
+                parameters: parameters(&document),
+                document,
+                past: Vec::new(),
+                future: Vec::new(),
+                saves: 0,
+                left: BTreeMap::new(),
+                generation: 1,
+                selected: 0,
+                folded: BTreeSet::new(),
+                refused: None,
+            },
+            play: Player::START,
+            manual: None,
+            view: View {
+                pane: Pane::Force,
+                large: None,
+                lower: Pane::CloseUp,
+                zoomed: false,
+                size,
+                appearance,
+                first_listed: 0,
+                look: CloseUpTarget { focus: Focus::Summit, springs },
+                profile: LineView::WHOLE,
+                curve: CurveLook::default(),
+                crosshair: None,
+                shows_work: false,
+                shows_times: true,
+                traffic: None,
+                demo: None,
+            },
+            solved: None,
             snapshot: None,
             progress: Some(0),
-            player: Player::START,
-            manual: None,
-            typed_force: String::new(),
-            shows_work: false,
-            look: CloseUpTarget { focus: Focus::Summit, springs },
-            large: None,
-            lower: Pane::CloseUp,
-            profile: LineView::WHOLE,
-            curve: CurveLook::default(),
-            crosshair: None,
+            studies: StudyResults::default(),
+            chart: Chart::default(),
             ghosts: Vec::new(),
             next_ghost: None,
             opens_beside: None,
-            appraisal: Appraisal::default(),
-            chart: Chart::default(),
-            preloads: None,
-            adhesion_spread: None,
-            failures: BTreeMap::new(),
-            edited: false,
-            preview: None,
             tried: None,
-            moves: Vec::new(),
-            pane: Pane::Force,
-            zoomed: false,
-            size,
-            appearance,
-            bindings: Arc::default(),
-            animation: Animation::default(),
-            config_path: None,
-            traffic: None,
-            shows_times: true,
-            notice: None,
-            demo: None,
+            preview: None,
+            mode: Mode::Explore,
+            message: None,
+            config: Config::default(),
             finished: false,
         }
     }
 
     /// Shows a success.
     pub(super) fn set_done(&mut self, text: impl Into<String>) {
-        self.notice = Some(Notice::Done(text.into()));
+        self.message = Some(Message::Done(text.into()));
     }
 
     /// Shows the reason of a failure.
     pub(super) fn set_error(&mut self, why: impl Into<String>) {
-        self.notice = Some(Notice::Error(why.into()));
+        self.message = Some(Message::Error(why.into()));
     }
 
     /// Opens a prompt.
     pub(super) fn ask(&mut self, purpose: Purpose, line: TextLine) {
-        self.mode = Mode::Prompt(Prompt::new(purpose, line, &self.parameters));
-    }
-
-    /// Takes over keys and animation of a configuration; colours and markers depend on options as well.
-    pub fn configure(&mut self, config: Config) {
-        self.bindings = Arc::new(config.bindings);
-        (self.animation, self.config_path) = (config.animation, config.path);
+        self.mode = Mode::Prompt(Prompt::new(purpose, line, &self.edit.parameters));
     }
 
     /// Governing parameters of the present scene from the newest computation, which must have the same line; its
     /// adhesion may differ.
     #[must_use]
     pub fn governing(&self) -> Option<Governing> {
-        let computed = self.computed.as_ref()?;
-        let (before, now) = (computed.scene.as_ref(), self.document.scene());
+        let computed = self.solved.as_ref()?;
+        let (before, now) = (computed.scene.as_ref(), self.edit.document.scene());
         // The computed scene names files from the working folder.
         let mut named = now.clone();
-        named.rename_measured_files(|file| self.document.resolve(file).to_string_lossy().into_owned());
+        named.rename_measured_files(|file| self.edit.document.resolve(file).to_string_lossy().into_owned());
         let same_line = before.roughness == named.roughness
             && before.length == now.length
             && before.form == now.form
@@ -337,7 +320,7 @@ impl Model {
     /// The computed scene, if this is the present one.
     #[must_use]
     pub fn current(&self) -> Option<&Arc<SolvedScene>> {
-        self.computed.as_ref().filter(|computed| computed.generation == self.generation)
+        self.solved.as_ref().filter(|computed| computed.generation == self.edit.generation)
     }
 
     /// Returns true while a newer scene than the shown one is computed.
@@ -353,7 +336,7 @@ impl Model {
         let preview = self.preview.as_ref()?;
         let is_shown = match self.mode {
             Mode::Prompt(_) => self.mode.is_typing_value() && self.tried.is_some(),
-            Mode::Explore => self.is_computing() && preview.text == self.document.text(),
+            Mode::Explore => self.is_computing() && preview.text == self.edit.document.text(),
             _ => false,
         };
         preview.outcome.as_ref().ok().filter(|_| is_shown)
@@ -370,7 +353,7 @@ impl Model {
     /// is not known yet.
     #[must_use]
     pub fn place(&self) -> Option<Place> {
-        let scene = self.document.scene();
+        let scene = self.edit.document.scene();
         let (across, up) = self.chart.axes(scene)?;
         let governing = self.governing();
         let value = |axis: &Axis| axis.value_in(scene, governing.as_ref());
@@ -381,26 +364,26 @@ impl Model {
     /// The ghost shown beside the scene.
     #[must_use]
     pub fn beside(&self) -> Option<&Ghost> {
-        self.ghosts.last().filter(|_| self.lower == Pane::Beside)
+        self.ghosts.last().filter(|_| self.view.lower == Pane::Beside)
     }
 
     /// Drive of the body.
     #[must_use]
     pub fn drive(&self) -> Drive {
-        if self.manual.is_some() { Drive::Manual } else { Drive::Leg(self.player.leg) }
+        if self.manual.is_some() { Drive::Manual } else { Drive::Leg(self.play.leg) }
     }
 
     /// The newest snapshot, where it belongs to the present scene and kind of loading.
     #[must_use]
     pub fn present(&self) -> Option<&ContactSnapshot> {
         let snapshot = self.snapshot.as_deref()?;
-        (snapshot.generation == self.generation && snapshot.drive == self.drive()).then_some(snapshot)
+        (snapshot.generation == self.edit.generation && snapshot.drive == self.drive()).then_some(snapshot)
     }
 
     /// The legs of the shown scene.
     #[must_use]
     pub fn legs(&self) -> &[LegRecord] {
-        self.computed.as_ref().map_or(&[], |computed| &computed.outcome.history.legs)
+        self.solved.as_ref().map_or(&[], |computed| &computed.outcome.history.legs)
     }
 
     /// A parameter's value in the notation of the scene; computed where the value follows from others.
@@ -420,14 +403,15 @@ impl Model {
     /// Indices of the listed parameters: of a folded group only the first.
     #[must_use]
     pub fn listed(&self) -> Vec<usize> {
-        let is_listed = |parameter: &Parameter| parameter.is_head() || !self.folded.contains(parameter.group);
-        (0..self.parameters.len()).filter(|index| is_listed(&self.parameters[*index])).collect()
+        let is_listed =
+            |parameter: &Parameter| parameter.is_head() || !self.edit.folded.contains(parameter.group);
+        (0..self.edit.parameters.len()).filter(|index| is_listed(&self.edit.parameters[*index])).collect()
     }
 
     /// The selected parameter.
     #[must_use]
     pub fn parameter(&self) -> Option<&Parameter> {
-        self.parameters.get(self.selected)
+        self.edit.parameters.get(self.edit.selected)
     }
 
     /// Lowest and highest indentation of the curves shown, m; `None` when there is no curve.
@@ -439,10 +423,10 @@ impl Model {
     /// The indentation of the animation, m.
     #[must_use]
     pub fn indentation(&self) -> f64 {
-        self.player.indentation(self.legs())
+        self.play.indentation(self.legs())
     }
 
-    /// Part of a loading stage done at an indentation, 0 to 1: the inverse of [`Model::indentation`].
+    /// Part of a loading stage done at an indentation, 0 to 1: the inverse of [`App::indentation`].
     #[must_use]
     pub fn done_at(&self, leg: usize, indentation: f64) -> f64 {
         let Some(end) = self.legs().get(leg).map(LegRecord::end) else { return 0.0 };
