@@ -11,7 +11,7 @@ use super::field::Field;
 use super::fields::{FIELDS, field};
 use super::model::Scene;
 use super::range::Range;
-use super::read::{read, read_contradictory};
+use super::read::read;
 use super::text::{Text, is_within, line_column};
 use super::tree::{Tree, to_ron};
 
@@ -102,18 +102,14 @@ impl Document {
         let mut errors = Vec::new();
         for (path, value) in overrides {
             match spliced(&new.text, path, value) {
-                Ok(text) => {
-                    new.text = text;
+                Ok((text, scene)) => {
+                    (new.text, new.scene) = (text, scene);
                     remember(&mut new.overrides, path, value);
                 }
                 Err(error) => errors.push(*error),
             }
         }
         SceneErrors::result(errors, |error| error.origin.clone())?;
-        new.scene = read(new.text.as_str()).map_err(|unread| {
-            let origin = overrides_behind(&unread.1, overrides);
-            unread.1.at(origin)
-        })?;
         SceneErrors::result(as_written(check(&new.scene), &new.text), |error| {
             overrides_behind(error, overrides)
         })?;
@@ -209,8 +205,8 @@ impl Document {
     }
 }
 
-/// The text with another value of a field. Fields may contradict each other until further overrides.
-fn spliced(text: &Text, path: &str, value: &str) -> Result<Text, Box<SceneError>> {
+/// The text with another value of a field, and its unchecked scene.
+fn spliced(text: &Text, path: &str, value: &str) -> Result<(Text, Scene), Box<SceneError>> {
     let origin = || Origin::Overrides(vec![format!("{path}={value}")]);
     let refused = |message| Box::new(SceneError::whole(origin(), message));
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
@@ -223,8 +219,8 @@ fn spliced(text: &Text, path: &str, value: &str) -> Result<Text, Box<SceneError>
     };
     let text = set(text, path, &typed).map_err(refused)?;
     check_length(text.as_str()).map_err(refused)?;
-    read_contradictory(text.as_str()).map_err(|unread| unread.1.at(origin()))?;
-    Ok(text)
+    let scene = read(text.as_str()).map_err(|unread| unread.1.at(origin()))?;
+    Ok((text, scene))
 }
 
 /// An override: a path and a value in RON.

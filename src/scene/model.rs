@@ -49,70 +49,39 @@ pub struct Scene {
     pub observe: Vec<Observer>,
 }
 
-/// Elastic constants of the half-space.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged, try_from = "MaterialText")]
-pub enum Material {
-    /// Elastic half-space under a rigid body.
-    Isotropic {
-        /// Young's modulus E, Pa.
-        youngs_modulus: f64,
-        /// Poisson's ratio ν.
-        poisson_ratio: f64,
-    },
-    /// Two elastic bodies.
-    Effective {
-        /// Effective modulus E* of eq. (2), Pa.
-        effective_modulus: f64,
-    },
+/// Elastic constants of the half-space, as written: E and ν of a half-space under a rigid body, or E* of two elastic bodies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Young's modulus E, Pa.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub youngs_modulus: Option<f64>,
+    /// Poisson's ratio ν.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub poisson_ratio: Option<f64>,
+    /// Effective modulus E* of eq. (2), Pa.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub effective_modulus: Option<f64>,
 }
 
 impl Material {
     /// Material of this effective modulus E*, Pa.
     pub fn effective(effective_modulus: f64) -> Self {
-        Material::Effective { effective_modulus }
+        Material { effective_modulus: Some(effective_modulus), ..Material::default() }
     }
 
     /// Isotropic material under a rigid body, of Young's modulus E (Pa) and Poisson's ratio ν: E* = E/(1 − ν²).
     pub fn isotropic(youngs_modulus: f64, poisson_ratio: f64) -> Self {
-        Material::Isotropic { youngs_modulus, poisson_ratio }
+        let [youngs_modulus, poisson_ratio] = [youngs_modulus, poisson_ratio].map(Some);
+        Material { youngs_modulus, poisson_ratio, effective_modulus: None }
     }
 
-    /// Effective modulus E* of eq. (2), Pa.
+    /// Effective modulus E* of eq. (2), Pa; NaN if a constant is missing.
     pub fn effective_modulus(&self) -> f64 {
-        match *self {
-            Material::Effective { effective_modulus } => effective_modulus,
-            // (1 − ν)(1 + ν) keeps its digits for ν close to −1; 1 − ν² does not.
-            Material::Isotropic { youngs_modulus, poisson_ratio } => {
-                youngs_modulus / ((1.0 - poisson_ratio) * (1.0 + poisson_ratio))
-            }
-        }
-    }
-}
-
-/// Material as written.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename = "Material")]
-struct MaterialText {
-    youngs_modulus: Option<f64>,
-    poisson_ratio: Option<f64>,
-    effective_modulus: Option<f64>,
-}
-
-impl TryFrom<MaterialText> for Material {
-    type Error = &'static str;
-
-    fn try_from(text: MaterialText) -> Result<Material, &'static str> {
-        Err(match (text.effective_modulus, text.youngs_modulus, text.poisson_ratio) {
-            (Some(modulus), None, None) => return Ok(Material::effective(modulus)),
-            (None, Some(modulus), Some(ratio)) => return Ok(Material::isotropic(modulus, ratio)),
-            (Some(_), ..) => {
-                "material: effective_modulus replaces youngs_modulus and poisson_ratio: give one or the other"
-            }
-            (None, Some(_), None) => "material: youngs_modulus requires poisson_ratio, which is missing",
-            (None, None, Some(_)) => "material: poisson_ratio requires youngs_modulus, which is missing",
-            (None, None, None) => "material: give youngs_modulus with poisson_ratio, or effective_modulus",
-        })
+        let [modulus, ratio] =
+            [self.youngs_modulus, self.poisson_ratio].map(|value| value.unwrap_or(f64::NAN));
+        // (1 − ν)(1 + ν) keeps its digits for ν close to −1; 1 − ν² does not.
+        self.effective_modulus.unwrap_or(modulus / ((1.0 - ratio) * (1.0 + ratio)))
     }
 }
 

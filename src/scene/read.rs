@@ -24,14 +24,6 @@ pub(super) fn read(text: &str) -> Result<Scene, Box<(usize, SceneError)>> {
     read_ron(text).map_err(|error| Box::new(explain(text, &error)))
 }
 
-/// Reads a scene whose fields may contradict each other.
-pub(super) fn read_contradictory(text: &str) -> Result<(), Box<(usize, SceneError)>> {
-    match read_ron::<Scene>(text) {
-        Err(error) if !matches!(error.code, Error::Message(_)) => Err(Box::new(explain(text, &error))),
-        _ => Ok(()),
-    }
-}
-
 /// Reads RON text with optional values that need no `Some`, and a variant of one group without brackets around it.
 pub(crate) fn read_ron<T: DeserializeOwned>(text: &str) -> Result<T, SpannedError> {
     let extensions = Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES;
@@ -92,14 +84,6 @@ fn explain(source: &str, error: &SpannedError) -> (usize, SceneError) {
 }
 
 fn explain_at(text: &Text, offset: usize, error: &Error) -> (usize, SceneError) {
-    // Fields that contradict each other: the message starts with the path of their group.
-    if let Error::Message(message) = error
-        && let Some((path, reason)) = message.split_once(": ")
-        && field(path, None).is_some()
-    {
-        let value = text.value(path).filter(|value| !value.contains('(')).unwrap_or_default();
-        return (text.nearest_value(path), SceneError::of(path, value, "", reason));
-    }
     let path = text.path_at(offset);
     let error = match error {
         Error::MissingStructField { field: name, .. } => {

@@ -6,8 +6,8 @@
 
 use super::adhesion::{Adhesion, RoughnessParameter};
 use super::document::{Document, pair};
-use super::effects::{Effect, adhesion_text, by_work, pressing};
-use super::errors::{Origin, SceneError, SceneErrors};
+use super::effects::{Effect, adhesion_text, pressing};
+use super::errors::{SceneError, SceneErrors};
 use super::field::Field;
 use super::fields::fields_inside;
 use super::model::{Roughness, Scene};
@@ -43,14 +43,15 @@ impl Document {
         if !effect.is_on(scene) {
             return Ok(self.clone());
         }
-        let replaced = match (effect, scene.adhesion) {
-            (Effect::Roughness, Some(Adhesion::Work { amplitude: Some((parameter, _)), .. })) => {
+        let adhesion = scene.adhesion.unwrap_or_default();
+        let replaced = match (effect, adhesion.parameter()) {
+            (Effect::Roughness, Some((parameter, _))) if adhesion.work.is_some() => {
                 Some(pair(parameter.path(), "None"))
             }
-            (Effect::Roughness, Some(Adhesion::Parameter { parameter, .. })) => {
+            (Effect::Roughness, Some((parameter, _))) => {
                 let what = format!("{} requires roughness, and the work of adhesion", parameter.symbol());
                 let work = self.known(computed.work_of_adhesion, "adhesion", &what)?;
-                Some(pair("adhesion", adhesion_text(scene, by_work(scene, work))))
+                Some(pair("adhesion", adhesion_text(scene, adhesion.with_work(work))))
             }
             (Effect::Adhesion, _) if !scene.roughness.as_ref().is_none_or(Roughness::has_amplitude) => {
                 let what = "adhesion sets its amplitude, and the rms height";
@@ -95,29 +96,11 @@ impl Document {
         restored.map_or_else(|| self.set(effect.path(), &effect.suited(self.scene())), Ok)
     }
 
-    /// This document with adhesion of this work, J/m². Adhesion by a parameter, and none, becomes adhesion by work.
+    /// This document with another adhesion: its numbers change one by one if the same ones are given, else their group.
     ///
     /// # Errors
-    /// An invalid work of adhesion.
-    pub fn with_work_of_adhesion(&self, work: f64) -> Result<Document, SceneErrors> {
-        self.with_adhesion(by_work(self.scene(), work))
-    }
-
-    /// This document with adhesion of this κ or e_el/γ. Adhesion by work, and none, becomes adhesion by the parameter, but
-    /// a work of adhesion that sets the amplitude of the roughness together with a parameter is kept.
-    ///
-    /// # Errors
-    /// An invalid value, or a scene without roughness.
-    pub fn with_parameter(&self, parameter: RoughnessParameter, value: f64) -> Result<Document, SceneErrors> {
-        let changed =
-            self.scene().adhesion.map_or(Ok(Adhesion::by_parameter(parameter, value)), |adhesion| {
-                adhesion.with_parameter(parameter, value)
-            });
-        self.with_adhesion(changed.map_err(|reason| SceneError::whole(Origin::Scene, reason))?)
-    }
-
-    /// This document with this adhesion: its numbers change one by one if the same ones are given, else their group.
-    fn with_adhesion(&self, adhesion: Adhesion) -> Result<Document, SceneErrors> {
+    /// An invalid value.
+    pub fn with_adhesion(&self, adhesion: Adhesion) -> Result<Document, SceneErrors> {
         let scenes = [self.scene(), &Scene { adhesion: Some(adhesion), ..self.scene().clone() }];
         let [here, there] = scenes.map(Tree::of);
         let values =
@@ -175,15 +158,16 @@ impl Document {
         // A typed value comes back from a conversion to another one without digits of rounding.
         let typed =
             |value| if round_to(value, 10) == round_to(value, 14) { round_to(value, 10) } else { value };
-        let by = |parameter, value: Option<f64>| Some(self.with_parameter(parameter, typed(value?)));
-        let changed = match choice_key(next) {
+        let adhesion = self.scene().adhesion.unwrap_or_default();
+        let by = |parameter, value: Option<f64>| Some(adhesion.with_parameter(parameter, typed(value?)));
+        let same = match choice_key(next) {
             "(kappa" => by(RoughnessParameter::Kappa, computed.kappa),
             "(elastic_energy_ratio" => {
                 by(RoughnessParameter::ElasticEnergyRatio, computed.elastic_energy_ratio)
             }
-            _ => computed.work_of_adhesion.map(|work| self.with_work_of_adhesion(work)),
+            _ => computed.work_of_adhesion.map(|work| adhesion.with_work(work)),
         };
-        changed.unwrap_or_else(|| self.set("adhesion", next))
+        same.map_or_else(|| self.set("adhesion", next), |same| self.with_adhesion(same))
     }
 
     /// A value of the computed scene for a field.
@@ -236,7 +220,7 @@ mod tests {
         document
             .scene()
             .adhesion
-            .map_or((None, None), |adhesion| (adhesion.work(), adhesion.parameter().map(|(_, value)| value)))
+            .map_or((None, None), |adhesion| (adhesion.work, adhesion.parameter().map(|(_, value)| value)))
     }
 
     fn next(document: &Document, path: &str, forwards: bool) -> Document {
@@ -281,7 +265,7 @@ mod tests {
     fn what_was_changed_meanwhile_stays_changed() {
         let back = |smooth: &Document| smooth.with(Effect::Roughness).unwrap();
         let smooth = off(&document(), Effect::Roughness);
-        let stickier = back(&smooth.with_work_of_adhesion(0.2).unwrap());
+        let stickier = back(&smooth.with_adhesion(Adhesion::by_work(0.2)).unwrap());
         assert_eq!(
             (adhesion(&stickier), stickier.value("roughness.hurst")),
             ((Some(0.2), None), Some("0.70"))
