@@ -144,8 +144,6 @@ pub struct View {
     pub size: (u16, u16),
     /// Colours and markers.
     pub appearance: Appearance,
-    /// Place of the first visible row of the list of parameters, unless the selected row would be hidden.
-    pub first_listed: usize,
     /// Target of the close-up.
     pub look: CloseUpTarget,
     /// Part of the line in the profile pane.
@@ -248,7 +246,6 @@ impl App {
                 zoomed: false,
                 size,
                 appearance,
-                first_listed: 0,
                 look: CloseUpTarget { focus: Focus::Summit, springs },
                 profile: LineView::WHOLE,
                 curve: CurveLook::default(),

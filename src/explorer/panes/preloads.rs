@@ -1,26 +1,23 @@
 //! Adhesion against preload: the curve of the profile, the mean over random profiles with its confidence, and the
 //! preload of the scene.
 
-use super::curves::draw_chart;
 use super::{Pane, PaneRow, PreloadCurve};
-use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Layer, Shape, Sign};
+use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Sign};
 use crate::explorer::app::App;
-use crate::explorer::layout::inside;
+use crate::explorer::mode::ModeKind;
+use crate::explorer::panel::{Panel, names};
 use crate::explorer::study::{PaneData, Task};
-use crate::explorer::view::lines::draw_reason;
+use crate::explorer::theme::Meaning;
+use crate::explorer::view::text::filled;
 use crate::export::{preload_axes, preload_layers};
-use ratatui::Frame;
-use ratatui::layout::Rect;
+use ratatui::layout::Size;
+use ratatui::text::Span as Text;
 use std::sync::Arc;
 
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
-    title: |_| " Adhesion against preload ".to_owned(),
-    draw,
-    figure: |app| {
-        let curve = app.studies.preloads.as_deref().filter(|curve| !curve.own.is_empty())?;
-        Some(Figure::of_chart(app.edit.document.title(), chart(app, curve)))
-    },
+    panel,
+    keys: Some(ModeKind::Crosshair),
     task: |app, computed| {
         let begun = app.studies.preloads.clone();
         let curve = begun.or_else(|| PreloadCurve::new(computed).ok().map(Arc::new));
@@ -41,11 +38,9 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Draws the pane.
-fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
-    let area = inside(area);
-    let curve = app.studies.preloads.as_deref().filter(|curve| !curve.own.is_empty());
-    let Some(curve) = curve else {
+fn panel(app: &App, size: Size) -> Panel {
+    let title = "Adhesion against preload".to_owned();
+    let Some(curve) = app.studies.preloads.as_deref().filter(|curve| !curve.own.is_empty()) else {
         let why = match (app.studies.failures.get(&Pane::Preloads), app.current()) {
             (Some(why), _) => why.clone(),
             (None, Some(computed)) => {
@@ -53,19 +48,15 @@ fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
             }
             (None, None) => "computing …".to_owned(),
         };
-        return draw_reason(frame, area, &why, app.view.appearance.theme);
+        return Panel::of_text(title, &why);
     };
     let chart = chart(app, curve);
-    let heading = chart.y.label_with_unit().then(format!("  {}", progress(curve)).trim_end());
-    draw_chart(frame, area, app, &Chart { heading, ..chart });
-}
-
-/// Progress, in words.
-fn progress(curve: &PreloadCurve) -> String {
-    if curve.is_whole() || curve.profiles() < 2 {
-        return String::new();
+    let mut parts = names(&chart, app.view.appearance);
+    if !curve.is_whole() && curve.profiles() >= 2 {
+        let progress = format!("{} of {} profiles", curve.profiles(), curve.wanted);
+        parts.insert(1, vec![Text::styled(progress, app.view.appearance.theme.style(Meaning::Title))]);
     }
-    format!("{} of {} profiles", curve.profiles(), curve.wanted)
+    Panel { head: filled(parts, "  ", size.width.into()), ..Panel::of_chart(title, chart) }
 }
 
 fn chart(app: &App, curve: &PreloadCurve) -> Chart {
