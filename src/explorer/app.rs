@@ -18,7 +18,7 @@ use super::theme::Appearance;
 use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
 use crate::export::LoopQuantities;
-use crate::scene::{Adhesion, Document, Observer, Scene, ron_float};
+use crate::scene::{Document, Observer, Scene, ron_float};
 use crate::simulation::Outcome;
 use crate::study::{Axis, Place};
 use std::collections::{BTreeMap, BTreeSet};
@@ -314,7 +314,7 @@ impl App {
             && before.form == now.form
             && before.material == now.material;
         // An rms height that follows from γ and κ or e_el/γ changes with them.
-        let both = |scene: &Scene| matches!(scene.adhesion, Some(Adhesion::Work { amplitude: Some(_), .. }));
+        let both = |scene: &Scene| scene.adhesion.is_some_and(|adhesion| adhesion.sets_amplitude());
         if !same_line || ((both(before) || both(now)) && before.adhesion != now.adhesion) {
             return None;
         }

@@ -9,7 +9,7 @@ use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{Focus, LineView, Tried};
 use crate::explorer::text_line::TextLine;
 use crate::scene::{
-    Adhesion, Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, parse_quantity, presets,
+    Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, parse_quantity, presets,
 };
 
 /// Most edits that can be undone.
@@ -209,22 +209,23 @@ fn with_selected(app: &App, written: &str) -> Result<Document, String> {
     let parameter = app.parameter().ok_or("no parameter is selected")?;
     let document = &app.edit.document;
     let number = || parse_quantity(written, parameter.field.unit).map_err(|error| error.to_string());
+    let adhesion = document.scene().adhesion.unwrap_or_default();
     let changed = match parameter.setting {
         Setting::Field | Setting::Switch(_) | Setting::Heading => document.set(&parameter.path, written),
-        Setting::WorkOfAdhesion => document.with_work_of_adhesion(number()?),
+        Setting::WorkOfAdhesion => document.with_adhesion(adhesion.with_work(number()?)),
         Setting::RoughnessParameter(parameter) => {
             let value = number()?;
-            match (document.scene().adhesion, app.governing()) {
+            match app.governing() {
+                _ if adhesion.work.is_none() || adhesion.sets_amplitude() => {
+                    document.with_adhesion(adhesion.with_parameter(parameter, value))
+                }
                 // The scene has γ alone, which follows from the parameter.
-                (Some(Adhesion::Work { amplitude: None, .. }), Some(governing)) => {
+                Some(governing) => {
                     let undefined = || format!("{} is not defined without roughness", parameter.symbol());
                     let work = governing.work_for(parameter, value).ok_or_else(undefined)?;
-                    document.with_work_of_adhesion(work)
+                    document.with_adhesion(adhesion.with_work(work))
                 }
-                (Some(Adhesion::Work { amplitude: None, .. }), None) => {
-                    return Err("not before the scene is computed".to_owned());
-                }
-                _ => document.with_parameter(parameter, value),
+                None => return Err("not before the scene is computed".to_owned()),
             }
         }
     };

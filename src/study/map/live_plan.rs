@@ -41,14 +41,11 @@ pub enum NoMap {
 /// When the scene has no κ.
 pub fn live_plan(scene: &Scene, parameter: RoughnessParameter) -> Result<Plan, NoMap> {
     let adhesion = scene.adhesion.ok_or(NoMap::NoAdhesion)?;
+    if adhesion.closing_work.is_some() {
+        return Err(NoMap::TwoWorks);
+    }
     // Without a given amplitude the amplitude follows from γ and κ. The range of the attraction changes no map.
-    let adhesion = match adhesion.with_parameter(parameter, ANY.0).map_err(|_| NoMap::TwoWorks)? {
-        Adhesion::Work { work, closing_work: None, amplitude, .. } => {
-            Adhesion::Work { work, closing_work: None, amplitude, range: None }
-        }
-        Adhesion::Work { .. } => return Err(NoMap::TwoWorks),
-        Adhesion::Parameter { .. } => Adhesion::by_parameter(parameter, ANY.0),
-    };
+    let adhesion = Adhesion { range: None, ..adhesion.with_parameter(parameter, ANY.0) };
     let mut scene = scene.clone();
     let (points, has_hurst) = match &mut scene.roughness {
         None => return Err(NoMap::Smooth),

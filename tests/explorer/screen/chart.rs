@@ -266,7 +266,7 @@ fn adhesion_given_by_its_work_stays_so() {
         let mut driver = charted(changed(&rough(), &[("adhesion", "(work: 0.02)")]));
         driver.press("Right Up");
         let adhesion = driver.app.edit.document.scene().adhesion.unwrap();
-        assert!(adhesion.parameter().is_none() && adhesion.work().is_some_and(|work| work != 0.02));
+        assert!(adhesion.parameter().is_none() && adhesion.work.is_some_and(|work| work != 0.02));
         let (at, hurst) = place(&driver);
         assert!((0..COLUMNS).any(|column| (kappa(column) / at - 1.0).abs() < 1e-9), "{at}");
         assert_eq!(hurst, 0.75);
