@@ -65,7 +65,7 @@ mod target;
 
 pub use axis::{Axis, MOST_VALUES, Spacing};
 pub use boundary::{Boundaries, Boundary, Crossing, DEFINITIONS, USUAL_LEVELS, boundaries, protocol_name};
-pub use builtin::{BuiltInPlan, find, plans};
+pub use builtin::{find, plans};
 pub use error::StudyError;
 pub use grid::{Cell, Estimate, Grid, Layer, Place};
 pub use measured_adhesion::{MeasuredAdhesion, ProfileAdhesion};

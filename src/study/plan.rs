@@ -133,8 +133,7 @@ impl Plan {
     /// # Errors
     /// The path of an axis over a number that the scene does not have.
     pub fn scene_of(&self, cell: u64) -> Result<Scene, String> {
-        let values = self.axes.iter().zip(self.values(cell));
-        scene_with(&self.scene, values.map(|(axis, value)| (axis.path.as_str(), axis.target, value)))
+        scene_with(&self.scene, self.axes.iter().zip(self.values(cell)))
     }
 
     /// Seed of a profile.

@@ -1,5 +1,6 @@
 //! Quantities that an axis may vary: the numbers of a scene by their paths, and others that follow from several.
 
+use super::axis::Axis;
 use crate::analysis::Governing;
 use crate::scene::{FIELDS, Field, Move, Range, Roughness, RoughnessParameter, Scene, Tree, field, nearest};
 use crate::simulation::FEW_SAMPLES;
@@ -138,12 +139,13 @@ impl Target {
 /// The path of a number that the scene does not have, and the reason.
 pub(super) fn scene_with<'a>(
     base: &Scene,
-    values: impl Iterator<Item = (&'a str, Target, f64)>,
+    values: impl Iterator<Item = (&'a Axis, f64)>,
 ) -> Result<Scene, String> {
     let mut tree = Tree::of(base);
     let (mut parameter, mut springs) = (None, None);
-    for (path, target, value) in values {
-        match target {
+    for (axis, value) in values {
+        let path = axis.path.as_str();
+        match axis.target {
             Target::Preload => {}
             Target::RoughnessParameter(of) => parameter = Some((of, value)),
             Target::SpringsPerWave => springs = Some((path, value)),
@@ -172,16 +174,6 @@ fn set(tree: &mut Tree, path: &str, axis: &str, value: f64, base: &Scene) -> Res
     Err(format!("axis {axis}: the scene has no {path}{counted}"))
 }
 
-/// Value of a quantity in a scene, if stated by the scene: κ and the preload depend on several numbers.
-pub(super) fn value_in(scene: &Scene, path: &str, target: Target) -> Option<f64> {
-    let tree = Tree::of(scene);
-    match target {
-        Target::RoughnessParameter(_) | Target::Preload => None,
-        Target::SpringsPerWave => Some(scene.numerics.points as f64 / tree.get("roughness.modes.1")?),
-        Target::Number(_) | Target::Stage(_) => tree.get(path),
-    }
-}
-
 /// Removes all that changes no recorded result: texts, what is observed, and the samples of the curve, as all recorded
 /// quantities are at the ends of loading stages or exact extremes.
 pub(super) fn strip(scene: &mut Scene) {
@@ -202,11 +194,13 @@ pub(super) fn governing(scene: &Scene) -> Option<Governing> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::axis::Spacing;
     use super::*;
     use crate::scene::open;
 
     fn with(base: &Scene, path: &str, value: f64) -> Result<Scene, String> {
-        scene_with(base, [(path, Target::of(path)?, value)].into_iter())
+        let axis = Axis::new(path, Spacing::List, Vec::new(), base)?;
+        scene_with(base, [(&axis, value)].into_iter())
     }
 
     #[test]
@@ -219,18 +213,15 @@ mod tests {
             ("rough-sphere", "kappa", 1.5, ("adhesion", "(kappa: 1.5)")),
             ("rough-sphere", "elastic_energy_ratio", 0.5, ("adhesion", "(elastic_energy_ratio: 0.5)")),
             ("rough-sphere", "adhesion.work", 0.015, ("adhesion.work", "0.015")),
+            ("rough-sphere", "springs_per_wave", 8.0, ("roughness.modes.1", "2048")),
             ("kendall-punch", "form.radius", 2.5e-5, ("form.radius", "2.5e-5")),
         ] {
             let document = open(base).unwrap();
             let scene = with(document.scene(), path, value).unwrap();
             assert_eq!(&scene, document.set(overrides.0, overrides.1).unwrap().scene(), "{path}");
-            let target = Target::of(path).unwrap();
-            let stated = !matches!(target, Target::RoughnessParameter(_));
-            assert_eq!(value_in(&scene, path, target), stated.then_some(value), "{path}");
+            let axis = Axis::new(path, Spacing::List, Vec::new(), &scene).unwrap();
+            assert_eq!(axis.value_in(&scene, None), Some(value), "{path}");
         }
-        let rough = open("rough-sphere").unwrap();
-        let scene = with(rough.scene(), "springs_per_wave", 8.0).unwrap();
-        assert_eq!(value_in(&scene, "springs_per_wave", Target::SpringsPerWave), Some(8.0));
     }
 
     #[test]

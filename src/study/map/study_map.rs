@@ -147,9 +147,8 @@ impl StudyMap {
         scene.set_seed(plan.seed);
         let at = self.at(slice).map(|(axis, place)| (axis, axis.values[place]));
         let values: Vec<(&Axis, f64)> = at.chain(over.iter().copied()).collect();
-        let numbers = values.iter().map(|(axis, value)| (axis.path.as_str(), axis.target, *value));
         // The plan has been checked with these values.
-        scene = scene_with(&scene, numbers).unwrap_or(scene);
+        scene = scene_with(&scene, values.iter().copied()).unwrap_or(scene);
         let preload = values.iter().find(|(axis, _)| axis.path == PRELOAD).map(|(_, value)| *value);
         let preload = preload.or_else(|| Some(plan.preloads()?.values[0]));
         if let Some((preload, unit)) = preload.zip(force_unit(&scene)) {
