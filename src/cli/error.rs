@@ -1,6 +1,5 @@
 //! Errors of commands.
 
-use crate::explorer::config::ConfigError;
 use crate::export::{FormatError, MeasuredFileError};
 use crate::io::WriteError;
 use crate::scene::SceneErrors;
@@ -23,8 +22,6 @@ pub enum CliError {
     Format(#[from] FormatError),
     #[error(transparent)]
     Measured(#[from] MeasuredFileError),
-    #[error(transparent)]
-    Config(#[from] ConfigError),
     #[error(transparent)]
     Sweep(#[from] StudyError),
     #[error(transparent)]

@@ -19,7 +19,6 @@ pub mod keys;
 pub mod layout;
 mod manual_body;
 mod opening;
-mod palette;
 pub mod panel;
 pub mod panes;
 pub mod parameters;

@@ -8,7 +8,7 @@ use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_a
 use super::common::study::PLAN;
 use super::common::study::merged;
 use asperity::explorer::action::Action;
-use asperity::explorer::keys::Binding;
+use asperity::explorer::keys::Command;
 use asperity::explorer::parameters::parameters;
 use asperity::explorer::update::{Effect, update};
 use asperity::explorer::worker::Report;
@@ -211,10 +211,10 @@ impl Explorer {
     /// Presses a key that is valid in the present mode, by its number among them.
     fn press(&mut self, number: usize, times: usize) {
         let bindings = self.driver.app.config.bindings.clone();
-        let row_keys = |row: &Binding| row.keys.iter().map(|key| row.command_of(key)).collect::<Vec<_>>();
-        let commands: Vec<_> = bindings.valid_in(self.driver.app.keys()).flat_map(row_keys).collect();
+        let rows: Vec<_> = bindings.valid_in(self.driver.app.keys()).map(|binding| binding.row).collect();
+        let character = char::from_digit(number as u32 % 10, 10);
         for _ in 0..times {
-            self.act(Action::Command(commands[number % commands.len()]));
+            self.act(Action::Command(Command { row: rows[number % rows.len()], character }));
         }
     }
 

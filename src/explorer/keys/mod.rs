@@ -4,8 +4,8 @@
 mod bindings;
 mod key;
 
-pub use bindings::{Binding, Bindings, RebindError, markdown};
-pub use key::{Key, names};
+pub use bindings::{Binding, Bindings, markdown};
+pub use key::Key;
 
 use super::app::App;
 use super::effect::Effect;
@@ -42,7 +42,7 @@ pub enum Context {
 
 /// A row of the table: keys, the contexts in which they are valid, and their function.
 pub struct Row {
-    /// Names of the keys, apart by blanks.
+    /// Names of the keys, apart by blanks: `Shift+← H`, `1–9`.
     pub keys: &'static str,
     /// The contexts in which they are valid.
     pub contexts: &'static [Context],
@@ -80,19 +80,16 @@ enum Run {
     Edit(InputRequest),
 }
 
-/// A row of the table, with the character of the key where its keys differ in meaning.
+/// A row of the table, with the character of the key where it has one.
 #[derive(Clone, Copy)]
 pub struct Command {
     /// The row.
     pub row: &'static Row,
-    character: Option<char>,
+    /// Character of the key.
+    pub character: Option<char>,
 }
 
 impl Command {
-    pub(super) const fn of(row: &'static Row) -> Self {
-        Command { row, character: None }
-    }
-
     /// Changes the state and returns the effects.
     pub(super) fn run(self, app: &mut App) -> Vec<Effect> {
         match (self.row.run, self.character) {
@@ -230,7 +227,7 @@ pub const TABLE: &[Row] = &[
     row("Shift+← H", LIST, "decrease-coarse", Act(|app| edit::step_value(app, -1, true)), "", "decrease the value by a large step", PARAMETERS),
     row("Shift+→ L", LIST, "increase-coarse", Act(|app| edit::step_value(app, 1, true)), "", "increase the value by a large step", PARAMETERS),
     row("Enter e", LIST, "edit-value", Act(|app| edit::edit_value(app, None)), "type", "type a value, with an optional prefix and unit: 2.5 MPa, 10 µm, 50m", PARAMETERS),
-    row("0 1 2 3 4 5 6 7 8 9 - .", VALUES, "start-value", Character(|app, first| edit::edit_value(app, Some(first))), "type", "type a number, while the pane of parameters is selected; not for a choice, a switch or a group", PARAMETERS).unlisted().shown_if(takes_number),
+    row("0–9 - .", VALUES, "start-value", Character(|app, first| edit::edit_value(app, Some(first))), "type", "type a number, while the pane of parameters is selected; not for a choice, a switch or a group", PARAMETERS).unlisted().shown_if(takes_number),
     row("/", EXPLORE, "find-parameter", Act(dialogue::find_parameter), "find", "find a parameter by words of its name, symbol or meaning", PARAMETERS),
     row("Z", LIST, "toggle-fold", Act(edit::toggle_fold), "", "fold the group of the selected parameter, or unfold it", PARAMETERS),
     row("t", LIST, "toggle-effect", Act(edit::toggle_effect), "on/off", "switch the effect of the selected row on or off", PARAMETERS),
@@ -298,7 +295,7 @@ pub const TABLE: &[Row] = &[
     row("PageUp", MAP_PANE, "previous-slice", Act(|app| chart::step_slice(app, -1)), "", "show the previous one", MAP),
 
     row("o", EXPLORE, "open-library", Act(dialogue::open_library), "open", "open a scene: built-in, your own, or by path; or the folder of a study", SCENE).rank(2),
-    row("1 2 3 4 5 6 7 8 9", OTHER_PANES, "preset", Character(edit::open_built_in), "", "open a built-in scene by its number, unless the pane of parameters is selected", SCENE),
+    row("1–9", OTHER_PANES, "preset", Character(edit::open_built_in), "", "open a built-in scene by its number, unless the pane of parameters is selected", SCENE).unlisted(),
     row("s", EXPLORE, "save", Silent(|app| files::ask_save(app, false)), "save", "save the scene to a file", SCENE).rank(2),
     row("E", EXPLORE, "export", Silent(files::ask_export), "export", "export curve (.csv, .npy), figures (.json), selected pane (.svg, .png) or screen (.txt)", SCENE),
     row("y", EXPLORE, "copy-command", Act(files::copy_command), "copy", "copy the command that opens the present scene", SCENE),

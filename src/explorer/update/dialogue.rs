@@ -5,7 +5,6 @@ use crate::explorer::action::OutputFile;
 use crate::explorer::app::App;
 use crate::explorer::completion::common_start;
 use crate::explorer::keys::{Command, Context};
-use crate::explorer::palette::commands;
 use crate::explorer::panes::Pane;
 use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::text_line::TextLine;
@@ -26,7 +25,7 @@ pub fn find_parameter(app: &mut App) -> Vec<Effect> {
 
 /// Opens the list of all commands.
 pub fn open_palette(app: &mut App) {
-    app.ask(Purpose::Command(commands(&app.config.bindings)), TextLine::default());
+    app.ask(Purpose::Command(app.config.bindings.listed()), TextLine::default());
 }
 
 /// Opens the list of scenes.
@@ -109,7 +108,7 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<Vec<Effect>, String> 
         }
         Purpose::Command(commands) => {
             let listed = prompt.choice().and_then(|index| commands.get(index)).ok_or_else(nothing)?;
-            Ok(run_listed(app, listed.command))
+            Ok(run_listed(app, Command { row: listed.row, character: None }))
         }
         Purpose::Overwrite(file) => Ok(vec![Effect::Write(OutputFile { overwrite: true, ..file.clone() })]),
         Purpose::Leave | Purpose::Help => Ok(Vec::new()),
