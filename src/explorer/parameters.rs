@@ -2,6 +2,7 @@
 
 use crate::scene::{
     Document, Effect, Field, Move, Range, RoughnessParameter, field, format_quantity, ron_float,
+    stage_targets,
 };
 
 /// Groups in the order of the list. The parameters that are varied most come first: adhesion, load, roughness, and the
@@ -133,7 +134,7 @@ pub fn parameters(document: &Document) -> Vec<Parameter> {
             continue;
         }
         let shown = match field.path {
-            "loading" => stages(&document.scene().loading),
+            "loading" => stage_targets(&document.scene().loading, format_quantity),
             _ => shown(field, written),
         };
         let written = written.to_owned();
@@ -149,18 +150,6 @@ pub fn parameters(document: &Document) -> Vec<Parameter> {
         (group, !parameter.is_head(), first.unwrap_or(FIRST.len()))
     });
     parameters
-}
-
-/// The loading history in short: `10 µN, separation`.
-fn stages(loading: &[Move]) -> String {
-    let stage = |leg: &Move| match leg {
-        Move::ToForce(force) => format_quantity(*force, "N"),
-        Move::ToIndentation(indentation) => format_quantity(*indentation, "m"),
-        Move::ToTouch => "touch".to_owned(),
-        Move::ToZeroForce => "0 N".to_owned(),
-        Move::ToSeparation => "separation".to_owned(),
-    };
-    loading.iter().map(stage).collect::<Vec<_>>().join(", ")
 }
 
 /// The effect that a field belongs to.

@@ -6,6 +6,7 @@ use super::fields::fields_inside;
 use super::model::{Move, Roughness, Scene};
 use super::quantity::format_quantity;
 use super::tree::{Tree, in_ron};
+use std::fmt;
 
 /// A field with different values in two scenes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,6 +27,12 @@ impl Change {
         });
         let name = if field.symbol.is_empty() { field.name } else { field.symbol };
         Change { name: name.to_owned(), from, to }
+    }
+}
+
+impl fmt::Display for Change {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "{} {} → {}", self.name, self.from, self.to)
     }
 }
 

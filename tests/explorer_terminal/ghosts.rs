@@ -11,7 +11,7 @@ fn a_loop_is_kept_compared_and_exchanged() {
         terminal.send("x");
         terminal.wait_for("nothing to exchange with: c keeps a loop");
         terminal.send("c");
-        terminal.wait_for("kept; now change something");
+        terminal.wait_for("kept as ghost A");
         terminal.send("c");
         terminal.wait_for("this loop is kept already");
         select(&mut terminal, "κ");

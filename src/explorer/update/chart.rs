@@ -95,7 +95,7 @@ pub fn step(app: &mut App, columns: i32, rows: i32) -> Vec<Effect> {
     match (next(at_across, columns, &across), to_up) {
         (Some(across), Some(up)) => move_to(app, (across, up)),
         _ => {
-            app.set_done("here the map ends");
+            app.set_done("edge of the map");
             Vec::new()
         }
     }

@@ -3,6 +3,7 @@
 use super::ghosts::name_ghosts;
 use super::{Effect, edit, show};
 use crate::explorer::app::{App, Ghost, Pane};
+use crate::explorer::panes::newest_letter;
 use crate::explorer::snapshot::{Preview, SolvedScene};
 use crate::scene::{Document, Roughness};
 use std::sync::Arc;
@@ -64,7 +65,8 @@ pub fn pin(app: &mut App) -> Vec<Effect> {
         return Vec::new();
     };
     if keep(app, ghost) {
-        app.set_done("kept; now change something, x exchanges the two");
+        let name = newest_letter(app);
+        app.set_done(format!("kept as ghost {name}; x swaps it with the scene"));
     }
     vec![Effect::Ask]
 }

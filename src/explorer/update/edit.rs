@@ -9,7 +9,8 @@ use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{Focus, LineView, Tried};
 use crate::explorer::text_line::TextLine;
 use crate::scene::{
-    Adhesion, Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, parse_quantity, presets,
+    Adhesion, Change, Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, parse_quantity,
+    presets, stage_targets,
 };
 
 /// Most edits that can be undone.
@@ -62,7 +63,7 @@ pub fn open_read(app: &mut App, read: Result<Document, SceneErrors>) -> Vec<Effe
 pub fn open(app: &mut App, document: Document) -> Vec<Effect> {
     if app.is_unsaved() {
         app.edit.left.insert(app.edit.document.name().to_owned(), app.edit.document.clone());
-        app.set_done("the changed scene is kept: undo brings it back");
+        app.set_done("unsaved changes kept; u returns to them");
     }
     app.play = Player::START;
     app.view.look = CloseUpTarget { focus: Focus::Summit, springs: CloseUpTarget::springs_shown(&document) };
@@ -177,6 +178,7 @@ fn stepped(app: &mut App, steps: i32, coarse: bool) -> Vec<Effect> {
 fn editable(app: &App, parameter: &Parameter) -> String {
     let written = app.written(parameter).unwrap_or_default();
     match (parameter.field.range, written.parse()) {
+        _ if parameter.path == "loading" => stage_targets(&app.edit.document.scene().loading, exact_quantity),
         (Range::Real { .. }, Ok(value)) => exact_quantity(value, parameter.field.unit),
         (Range::Text { .. }, _) => text_of(&written),
         _ => written,
@@ -312,8 +314,8 @@ pub fn take_over(app: &mut App, changed: Result<Document, SceneErrors>) -> Vec<E
             let lost = app.edit.document.comments().saturating_sub(document.comments());
             let effects = adopt(app, document);
             if lost > 0 {
-                let gone = if lost == 1 { "a comment is" } else { "comments are" };
-                app.set_done(format!("{gone} gone with what was replaced: undo brings it all back"));
+                let (comments, them) = if lost == 1 { ("comment", "it") } else { ("comments", "them") };
+                app.set_done(format!("{lost} {comments} removed with the replaced value; u restores {them}"));
             }
             effects
         }
@@ -346,13 +348,22 @@ pub fn undo(app: &mut App, back: bool) -> Vec<Effect> {
     } else {
         (&mut app.edit.future, &mut app.edit.past)
     };
-    let Some(document) = from.pop() else { return Vec::new() };
+    let what = if back { "undo" } else { "redo" };
+    let Some(document) = from.pop() else {
+        app.set_done(format!("nothing to {what}"));
+        return Vec::new();
+    };
     let before = std::mem::replace(&mut app.edit.document, document);
     to.push(before.clone());
-    if before.name() != app.edit.document.name() && app.is_changed(&before) {
+    let changes: Vec<String> = before.changes_to(&app.edit.document).iter().map(Change::to_string).collect();
+    let is_other = before.name() != app.edit.document.name();
+    if is_other && app.is_changed(&before) {
         app.edit.left.insert(before.name().to_owned(), before);
     }
-    renew(app)
+    let effects = renew(app);
+    let changed = if is_other { app.edit.document.name().to_owned() } else { changes.join(", ") };
+    app.set_done(format!("{what}: {changed}"));
+    effects
 }
 
 /// Row of the field at a path, or of the group around it: the selection stays in place when rows come and go, and the

@@ -13,6 +13,6 @@ pub fn name_ghosts(app: &mut App) {
             if parts.is_empty() { "the same scene".to_owned() } else { parts.join(", ") }
         };
         ghost.differs = join(&|change| format!("{} {}", change.name, change.from));
-        ghost.changes = join(&|change| format!("{} {} → {}", change.name, change.from, change.to));
+        ghost.changes = join(&Change::to_string);
     }
 }

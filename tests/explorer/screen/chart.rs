@@ -247,7 +247,7 @@ fn the_mark_stays_on_the_map() {
         assert_eq!(place(&driver), (32.0, 0.95));
         let generation = driver.app.edit.generation;
         driver.press("Up");
-        assert!(driver.status().contains("here the map ends"), "{}", driver.status());
+        assert!(driver.status().contains("edge of the map"), "{}", driver.status());
         assert_eq!(driver.app.edit.generation, generation);
         // A scene beyond it comes back with the first step.
         driver.press("Tab Tab");

@@ -159,7 +159,7 @@ fn a_comment_that_goes_with_what_is_replaced_is_stated() {
         driver.select("loading");
         driver.enter("[ToForce(1.0e-5), ToSeparation]");
         assert_eq!(driver.app.edit.document.comments(), comments - 1);
-        assert!(driver.text().contains("a comment is gone"), "{}", driver.text());
+        assert!(driver.text().contains("1 comment removed"), "{}", driver.text());
         driver.press("u");
         assert_eq!(driver.app.edit.document.text(), text);
         driver.select("roughness.hurst");

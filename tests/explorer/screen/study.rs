@@ -101,7 +101,7 @@ fn the_mark_goes_from_cell_to_cell_and_beyond_the_map_stays_at_its_edge() {
         driver.press(&"K ".repeat(4));
         assert_eq!(place(&driver), (16.0, 0.9));
         driver.press("k");
-        assert!(driver.status().contains("here the map ends"), "{}", driver.status());
+        assert!(driver.status().contains("edge of the map"), "{}", driver.status());
         driver.press("u u");
         assert_eq!(driver.app.edit.document, before);
         for (kappa, hurst, back) in [("100", "0.5", (16.0, 0.5)), ("0.01", "0.97", (0.25, 0.9))] {
