@@ -189,7 +189,7 @@ pub const BINDINGS: &[Binding] = &[
     row(&[shift(KeyCode::Down), char('J')], CHART, "move-up -4", Act(|app| chart::step(app, 0, -4)), "", "move by four values down: half the κ, a quarter of e_el/γ", MAP),
     row(&[shift(KeyCode::Up), char('K')], CHART, "move-up 4", Act(|app| chart::step(app, 0, 4)), "", "move by four values up: twice the κ, four times e_el/γ", MAP),
     row(&[char('e')], CHART, "next-map-parameter", Act(chart::next_parameter), "e_el/γ", "map over e_el/γ in place of κ, or over κ again", MAP),
-    row(&[char('V')], CHART, "next-charted", Silent(|app| app.chart.quantity = app.chart.next_charted()), "quantity", "map another quantity: regime, F_a(0)/F_a,max, F_a/F_n; all recorded ones of a study", MAP),
+    row(&[char('V')], CHART, "next-charted", Silent(|app| app.chart.quantity = app.next_charted()), "quantity", "map another quantity: regime, F_a(0)/F_a,max, F_a/F_n; all recorded ones of a study", MAP),
     row(&[char('W')], CHART, "toggle-study", Act(chart::toggle_study), "", "show the map of the opened study, or the live map", MAP),
     row(&[char('P'), key(KeyCode::PageDown)], CHART, "next-slice 1", Act(|app| chart::step_slice(app, 1)), "", "show the next preload of the study, or value of a further axis; the scene follows", MAP),
     row(&[key(KeyCode::PageUp)], CHART, "next-slice -1", Act(|app| chart::step_slice(app, -1)), "", "show the previous one", MAP),

@@ -4,11 +4,11 @@ use super::curves::draw_chart;
 use super::{PaneRow, chart_words as words};
 use crate::draw::{CellPlot, Chart, Figure, Ink, Layer, Shape, Sign};
 use crate::explorer::app::App;
+use crate::explorer::chart;
 use crate::explorer::layout::inside;
 use crate::explorer::mode::ModeKind;
-use crate::explorer::study::{PaneData, Task};
 use crate::explorer::theme::{Meaning, Theme};
-use crate::explorer::update::{self, Effect, scene_of};
+use crate::explorer::update::{self, Effect};
 use crate::explorer::view::lines::{draw_around, draw_reason};
 use crate::explorer::view::plot;
 use crate::export::{study_curves, study_figure, study_map};
@@ -22,25 +22,17 @@ use ratatui::widgets::Paragraph;
 pub static ROW: PaneRow = PaneRow {
     title: words::title,
     draw,
-    figure: |app| app.chart.grid().map(|grid| figure(app, grid)),
+    figure: |app| app.grid().map(|grid| figure(app, grid)),
     keys: Some(ModeKind::Chart),
     press: |app, area, here| {
         app.chart.moving = false;
         put(app, area, here)
     },
     drag: |app, area, here| if app.chart.moving { put(app, area, here) } else { Vec::new() },
-    task: |app, computed| {
-        let map = app.chart.wanted(&computed.scene).ok().flatten();
-        let is_live = app.chart.shown_study().is_none();
-        map.filter(|_| is_live)
-            .map(|map| Task::Extend { data: PaneData::Map(map), waits: app.studies.edited })
+    studies: |app, computed| match app.chart.shown_study() {
+        Some(_) => Vec::new(),
+        None => chart::study(app, computed).into_iter().collect(),
     },
-    take_in: |app, data| {
-        if let PaneData::Map(map) = data {
-            app.chart.take_in(map);
-        }
-    },
-    renew: |app| app.chart.renew(&scene_of(&app.edit.document)),
     help: &[
         (
             "Map",
@@ -74,7 +66,7 @@ fn chart(grid: &Grid, charted: Quantity) -> Option<Chart> {
 
 /// Curves over the only axis of a map, with the mark of the scene.
 fn curves(app: &App, grid: &Grid) -> Vec<Chart> {
-    let quantities = words::shown_quantities(app.chart.charted(), grid);
+    let quantities = words::shown_quantities(app.charted(), grid);
     let curves = quantities.into_iter().filter(|quantity| *quantity != Quantity::Regime);
     let mark = app.place().map(|(across, _)| across);
     let chart = |quantity| {
@@ -95,7 +87,7 @@ fn figure(app: &App, grid: &Grid) -> Figure {
     let charts = match grid.up {
         None => curves(app, grid),
         Some(_) => {
-            let shown = words::shown_quantities(app.chart.charted(), grid).into_iter();
+            let shown = words::shown_quantities(app.charted(), grid).into_iter();
             shown.filter_map(|quantity| study_map(grid, quantity, false)).collect()
         }
     };
@@ -114,7 +106,7 @@ struct Parts {
 }
 
 fn parts(app: &App, grid: &Grid, area: Rect) -> Option<Parts> {
-    let chart = chart(grid, app.chart.charted())?;
+    let chart = chart(grid, app.charted())?;
     let mut legend = words::legend(app, &chart, area.width);
     let mut below = words::below(app, area);
     // The map comes first, then the values at the mark, then the legend.
@@ -136,7 +128,7 @@ fn put(app: &mut App, area: Rect, here: Position) -> Vec<Effect> {
 
 /// Place on the map under a place on the screen.
 fn place_at(app: &App, area: Rect, here: Position) -> Option<Place> {
-    let Parts { chart, plot, .. } = parts(app, app.chart.grid()?, area)?;
+    let Parts { chart, plot, .. } = parts(app, app.grid()?, area)?;
     let (across, up) = plot.values_at(chart.map()?, here.into())?;
     Some((across, Some(up)))
 }
@@ -145,7 +137,7 @@ fn place_at(app: &App, area: Rect, here: Position) -> Option<Place> {
 fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
     let area = inside(area);
     let theme = app.view.appearance.theme;
-    let Some(grid) = app.chart.grid() else {
+    let Some(grid) = app.grid() else {
         return draw_reason(frame, area, &words::nothing_yet(app), theme);
     };
     if grid.up.is_none() {

@@ -1,14 +1,14 @@
 //! Words of the map: its title, its legend, and the values at the mark.
 
-use super::Pane;
 use crate::analysis::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
 use crate::draw::{Chart, Colours, SHADES, key, legend as entries};
-use crate::explorer::app::{App, OpenStudy};
+use crate::explorer::app::App;
+use crate::explorer::chart::{Live, OpenStudy};
 use crate::explorer::theme::Meaning;
 use crate::explorer::view::plot;
 use crate::explorer::view::wrap::{filled, wrapped};
 use crate::scene::{RoughnessParameter, format_rounded};
-use crate::study::map::{Level, LiveMap, Template};
+use crate::study::map::{Level, Template};
 use crate::study::{Axis, Cell, Estimate, Grid, Place, Quantity};
 use crate::text::grouped;
 use ratatui::layout::Rect;
@@ -20,11 +20,11 @@ const ROOMY: u16 = 24;
 /// Title of the pane: the mapped quantity, the axes, and the number of profiles of the mean.
 pub fn title(app: &App) -> String {
     let template = Template::of(app.edit.document.scene());
-    let Some((across, up)) = app.chart.axes(app.edit.document.scene()) else { return " Map ".to_owned() };
+    let Some((across, up)) = app.map_axes() else { return " Map ".to_owned() };
     let axes: Vec<&str> =
         [Some(&across), up.as_ref()].into_iter().flatten().map(Axis::symbol_or_name).collect();
     let over = axes.join(", ");
-    let charted = app.chart.grid().map(|grid| name_of(grid, app.chart.charted()));
+    let charted = app.grid().map(|grid| name_of(grid, app.charted()));
     let quantity = charted.unwrap_or_else(|| "regime".to_owned());
     let study = app.chart.shown_study().map(|study| (&study.study_map, study.study_map.plan().lines));
     match (study, template) {
@@ -45,7 +45,7 @@ pub fn nothing_yet(app: &App) -> String {
     if let Err(why) = Template::of(app.edit.document.scene()) {
         return why.to_string();
     }
-    if let Some(why) = app.studies.failures.get(&Pane::Chart) {
+    if let Some(why) = app.studies.failure::<Live>() {
         return format!("no map: {why}");
     }
     match (app.is_computing(), app.is_current()) {
@@ -67,10 +67,10 @@ fn name_of(grid: &Grid, quantity: Quantity) -> String {
 pub fn legend(app: &App, chart: &Chart, width: u16) -> Vec<Line<'static>> {
     let theme = app.view.appearance.theme;
     let width = usize::from(width);
-    let (Some(grid), Some(map)) = (app.chart.grid(), chart.map()) else { return Vec::new() };
+    let (Some(grid), Some(map)) = (app.grid(), chart.map()) else { return Vec::new() };
     let up = format!("↑ {}", chart.y.label_with_unit());
     let mut parts = vec![vec![Text::styled(up, theme.style(Meaning::Title))]];
-    match app.chart.charted() {
+    match app.charted() {
         Quantity::Regime => {
             // From the densest: the regimes, and cells whose profiles are in one and the next.
             for (class, shade) in map.class_names.iter().zip(SHADES.iter().rev().step_by(2)) {
@@ -133,7 +133,7 @@ fn on_axes(grid: &Grid, (across, up): Place) -> String {
 
 /// Lines below the map, the most important first.
 pub fn below(app: &App, area: Rect) -> Vec<Line<'static>> {
-    let Some(grid) = app.chart.grid() else { return Vec::new() };
+    let Some(grid) = app.grid() else { return Vec::new() };
     let theme = app.view.appearance.theme;
     let mut lines = Vec::new();
     let mut say = |line: Line<'static>| lines.extend(wrapped(&line, area.width));
@@ -172,12 +172,12 @@ pub fn below(app: &App, area: Rect) -> Vec<Line<'static>> {
 
 /// Progress of the live map.
 fn computed_so_far(app: &App, say: &mut impl FnMut(Line<'static>)) {
-    let Some(map) = &app.chart.map else { return };
+    let Some(Live { map, .. }) = app.studies.value() else { return };
     let theme = app.view.appearance.theme;
     let sides = |level: Level| format!("{} × {} cells", level.columns().count(), map.rows_of(level).len());
-    match (map.level(), app.studies.failures.get(&Pane::Chart)) {
+    match (map.level(), app.studies.failure::<Live>()) {
         (_, Some(why)) => say(Line::styled(format!("the map ends here: {why}"), theme.style(Meaning::Error))),
-        (Some(_), None) if LiveMap::is_whole(map) => {}
+        (Some(_), None) if map.is_whole() => {}
         (Some(level), None) => {
             say(Line::styled(format!("{} so far…", sides(level)), theme.style(Meaning::Key)))
         }
@@ -192,7 +192,7 @@ fn note_of_computed(app: &App) -> String {
             format!("Each cell: {} of {} springs. ", profiles(template.lines()), grouped(template.springs()))
         },
     );
-    let parameter = match app.chart.parameter() {
+    let parameter = match app.chart.parameter {
         RoughnessParameter::Kappa => {
             "κ ≈ 0.6 is the boundary of eq. (15) in the paper: with smaller κ bodies adhere without a preload, with larger κ \
              only once pressed."
@@ -274,7 +274,7 @@ fn there(
     };
     let regime = cell.regime.map(|cell| format!("{}{agree}", cell.regime.name()));
     // Quantities of the regime are shown together, so that the map keeps its place.
-    let charted = app.chart.charted();
+    let charted = app.charted();
     let charted = if WITH_REGIME.contains(&charted) { Quantity::Regime } else { charted };
     let shown = shown_quantities(charted, grid);
     let known = grid.layers.iter().zip(&cell.estimates).filter(|(layer, _)| shown.contains(&layer.quantity));

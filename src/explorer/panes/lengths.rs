@@ -29,7 +29,7 @@ pub static ROW: PaneRow = PaneRow {
 fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
     let area = inside(area);
     let theme = app.view.appearance.theme;
-    let Some(bins) = app.snapshot.as_ref().and_then(|snapshot| snapshot.lengths.as_ref()) else { return };
+    let Some(bins) = app.snapshot.as_ref().map(|snapshot| &snapshot.lengths) else { return };
     let Some(chart) = chart(app) else {
         return draw_reason(frame, area, "nothing is in contact", theme);
     };
@@ -46,7 +46,7 @@ fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
 
 /// The distribution; `None` without contact.
 fn chart(app: &App) -> Option<Chart> {
-    let bins = app.snapshot.as_ref()?.lengths.as_ref().filter(|bins| !bins.is_empty())?;
+    let bins = Some(&app.snapshot.as_ref()?.lengths).filter(|bins| !bins.is_empty())?;
     let spacing = app.solved.as_ref()?.outcome.line.spacing;
     // The fewest springs whose square has this binary logarithm.
     let least = |square: u32| 2_f64.powf(f64::from(square) / 2.0).ceil();

@@ -2,11 +2,11 @@
 //! preload of the scene.
 
 use super::curves::draw_chart;
-use super::{Pane, PaneRow, PreloadCurve};
+use super::{PaneRow, PreloadCurve};
 use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Layer, Shape, Sign};
 use crate::explorer::app::App;
 use crate::explorer::layout::inside;
-use crate::explorer::study::{PaneData, Task};
+use crate::explorer::studies::Study;
 use crate::explorer::view::lines::draw_reason;
 use crate::export::{preload_axes, preload_layers};
 use ratatui::Frame;
@@ -18,21 +18,17 @@ pub static ROW: PaneRow = PaneRow {
     title: |_| " Adhesion against preload ".to_owned(),
     draw,
     figure: |app| {
-        let curve = app.studies.preloads.as_deref().filter(|curve| !curve.own.is_empty())?;
+        let curve = app.studies.value::<PreloadCurve>()?;
         Some(Figure::of_chart(app.edit.document.title(), chart(app, curve)))
     },
-    task: |app, computed| {
-        let begun = app.studies.preloads.clone();
-        let curve = begun.or_else(|| PreloadCurve::new(computed).ok().map(Arc::new));
-        let curve = curve.filter(|one| !one.is_whole());
-        curve.map(|curve| Task::Extend { data: PaneData::Preloads(curve), waits: app.studies.edited })
+    studies: |app, computed| {
+        let (begun, computed) = (app.studies.value::<PreloadCurve>().cloned(), Arc::clone(computed));
+        vec![Study::new(computed.generation, false, move |simulation, stop, report| {
+            let mut curve = begun.map_or_else(|| PreloadCurve::new(&computed), Ok)?;
+            let done = curve.compute(&computed.scene, simulation, stop, &mut |curve| report(curve.clone()));
+            done.map(|()| curve).map_err(|error| error.to_string())
+        })]
     },
-    take_in: |app, data| {
-        if let PaneData::Preloads(curve) = data {
-            app.studies.preloads = Some(curve);
-        }
-    },
-    renew: |app| app.studies.preloads = None,
     help: &[(
         "Preloads",
         "i: adhesion force over preload, of this profile and the mean of random profiles with its 95 % confidence; the \
@@ -44,16 +40,9 @@ pub static ROW: PaneRow = PaneRow {
 /// Draws the pane.
 fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
     let area = inside(area);
-    let curve = app.studies.preloads.as_deref().filter(|curve| !curve.own.is_empty());
-    let Some(curve) = curve else {
-        let why = match (app.studies.failures.get(&Pane::Preloads), app.current()) {
-            (Some(why), _) => why.clone(),
-            (None, Some(computed)) => {
-                PreloadCurve::new(computed).map_or_else(str::to_owned, |_| "computing …".to_owned())
-            }
-            (None, None) => "computing …".to_owned(),
-        };
-        return draw_reason(frame, area, &why, app.view.appearance.theme);
+    let Some(curve) = app.studies.value::<PreloadCurve>() else {
+        let why = app.studies.failure::<PreloadCurve>().unwrap_or("computing …");
+        return draw_reason(frame, area, why, app.view.appearance.theme);
     };
     let chart = chart(app, curve);
     let heading = chart.y.label_with_unit().then(format!("  {}", progress(curve)).trim_end());
@@ -62,10 +51,10 @@ fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
 
 /// Progress, in words.
 fn progress(curve: &PreloadCurve) -> String {
-    if curve.is_whole() || curve.profiles() < 2 {
+    if curve.is_whole() || curve.profiles.len() < 2 {
         return String::new();
     }
-    format!("{} of {} profiles", curve.profiles(), curve.wanted)
+    format!("{} of {} profiles", curve.profiles.len(), curve.wanted)
 }
 
 fn chart(app: &App, curve: &PreloadCurve) -> Chart {

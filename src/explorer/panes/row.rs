@@ -4,7 +4,7 @@ use crate::draw::{CellPlot, Chart, Figure};
 use crate::explorer::app::App;
 use crate::explorer::mode::ModeKind;
 use crate::explorer::snapshot::{Section, SolvedScene};
-use crate::explorer::study::{PaneData, Task};
+use crate::explorer::studies::Study;
 use crate::explorer::update::Effect;
 use ratatui::Frame;
 use ratatui::layout::{Position, Rect};
@@ -51,14 +51,8 @@ pub struct PaneRow {
     pub drag: Reply,
     /// Reply to turns of the wheel, up positive.
     pub wheel: fn(&mut App, Rect, Position, i32) -> Vec<Effect>,
-    /// True if the pane needs the spectra of the scene, computed only then.
-    pub needs_spectra: bool,
-    /// Computation that the shown pane waits for.
-    pub task: fn(&App, &Arc<SolvedScene>) -> Option<Task>,
-    /// Stores an addition to the data of the pane.
-    pub take_in: fn(&mut App, PaneData),
-    /// Drops data of the former scene.
-    pub renew: fn(&mut App),
+    /// Studies of a computed scene whose values the shown pane needs.
+    pub studies: fn(&App, &Arc<SolvedScene>) -> Vec<Study>,
     /// Paragraphs of the help: a name and the meaning of the signs in the pane.
     pub help: &'static [(&'static str, &'static str)],
 }
@@ -76,10 +70,7 @@ impl PaneRow {
         press: |_, _, _| vec![Effect::Ask],
         drag: |_, _, _| Vec::new(),
         wheel: |_, _, _, _| Vec::new(),
-        needs_spectra: false,
-        task: |_, _| None,
-        take_in: |_, _| (),
-        renew: |_| (),
+        studies: |_, _| Vec::new(),
         help: &[],
     };
 }

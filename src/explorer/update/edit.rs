@@ -2,13 +2,14 @@
 
 use super::ghosts::name_ghosts;
 use super::{Effect, scene_of, show};
-use crate::explorer::app::{App, Appraisal, CloseUpTarget, Pane, Player};
+use crate::explorer::app::{App, CloseUpTarget, Pane, Player};
 use crate::explorer::layout::Layout;
 use crate::explorer::mode::Mode;
 use crate::explorer::panes::first_listed;
 use crate::explorer::parameters::{Parameter, Setting, parameters, text_of};
 use crate::explorer::prompt::{Prompt, Purpose};
-use crate::explorer::request::{Focus, LineView, Tried};
+use crate::explorer::request::{Focus, LineView};
+use crate::explorer::snapshot::Preview;
 use crate::explorer::text_line::TextLine;
 use crate::scene::{
     Adhesion, Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, parse_quantity, presets,
@@ -116,7 +117,8 @@ pub fn edit_value(app: &mut App, first: Option<char>) -> Vec<Effect> {
                 app.ask(Purpose::Value, line);
                 app.edit.refused = None;
                 // No preview of an earlier edit.
-                (app.tried, app.preview) = (None, None);
+                app.tried = None;
+                app.studies.forget::<Preview>();
             }
         }
     }
@@ -261,16 +263,11 @@ pub fn preview(app: &mut App) -> Vec<Effect> {
         _ => None,
     };
     let tried = tried.filter(|tried| tried.text() != app.edit.document.text() && is_previewed(tried));
-    if tried.as_ref().map(Document::text) == app.tried.as_ref().map(|tried| tried.text.as_str()) {
+    if tried.as_ref().map(Document::text) == app.tried.as_ref().map(Document::text) {
         return Vec::new();
     }
-    app.tried = tried.as_ref().map(tried_of);
-    vec![Effect::Ask]
-}
-
-/// A document whose outcome alone is of interest.
-pub fn tried_of(document: &Document) -> Tried {
-    Tried { text: document.text().to_owned(), scene: scene_of(document) }
+    app.tried = tried;
+    vec![Effect::Study]
 }
 
 /// Switches the effect of the selected row on or off.
@@ -385,12 +382,9 @@ fn renew(app: &mut App) -> Vec<Effect> {
     select(app, row_of(app, &selected));
     app.edit.generation += 1;
     app.progress = Some(0);
-    app.studies.edited = true;
-    app.studies.failures.clear();
-    app.studies.appraisal = Appraisal::default();
-    for pane in Pane::ALL {
-        (pane.row().renew)(app);
-    }
+    app.chart.moving = false;
+    let map = app.chart.key(&scene_of(&app.edit.document)).unwrap_or_default();
+    app.studies.keep(&[&map, app.edit.document.text()]);
     // Manual loading belongs to the former profile and contact.
     if app.manual.take().is_some() {
         app.set_done("the body is back on the scene's loading");

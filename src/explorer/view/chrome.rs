@@ -3,17 +3,18 @@
 use super::stages;
 use super::typed::typed;
 use super::wrap::{fitted, fitting, wrapped_within};
+use crate::accuracy::Estimate;
 use crate::analysis::SteepWaves;
 use crate::contact::CurvePoint;
 use crate::explorer::action::{Content, Traffic};
-use crate::explorer::app::{App, Estimated, ManualState, Message, Mode, ModeKind};
+use crate::explorer::app::{App, ManualState, Message, Mode, ModeKind};
 use crate::explorer::keys::{self, Binding};
 use crate::explorer::parameters::Parameter;
 use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::{Meaning, Theme};
-use crate::explorer::update::can_complete;
+use crate::explorer::update::{Choosing, can_complete};
 use crate::scene::{format_quantity, format_rounded};
 use crate::text::grouped;
 use ratatui::Frame;
@@ -74,7 +75,7 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, app: &App) {
             error(format!("! {text}"))
         }
         (_, Some(Message::Done(text))) => stated(Line::raw(text.clone())),
-        (Mode::Explore, None) if app.studies.appraisal.choosing.is_some() => choosing(app),
+        (Mode::Explore, None) if app.studies.value::<Choosing>().is_some() => choosing(app),
         _ => headline(app, area.width),
     };
     frame.render_widget(Paragraph::new(line), area);
@@ -254,11 +255,10 @@ fn place(point: CurvePoint) -> String {
 
 /// The estimated error of the headline: `…` while awaited, `None` without an estimate.
 fn error(app: &App) -> Option<String> {
-    match &app.studies.appraisal.estimated {
-        Estimated::Known(estimate) => Some(estimate.words()),
-        Estimated::Waiting if app.view.shows_times => Some("± …".to_owned()),
-        Estimated::Waiting => None,
-        Estimated::Unknown => {
+    match app.studies.value::<Estimate>() {
+        Some(estimate) => Some(estimate.words()),
+        None if app.studies.failure::<Estimate>().is_none() => app.view.shows_times.then(|| "± …".to_owned()),
+        None => {
             let pulls = app.solved.as_ref()?.outcome.figures.adhesion_force.is_some();
             pulls.then(|| "error unknown".to_owned())
         }
@@ -267,9 +267,9 @@ fn error(app: &App) -> Option<String> {
 
 /// Progress of the search of springs for a tolerance.
 fn choosing(app: &App) -> Line<'static> {
-    let Some((tolerance, trying)) = app.studies.appraisal.choosing else { return Line::default() };
-    let trying = trying.map_or_else(String::new, |points| format!(": {} springs", grouped(points)));
-    Line::raw(format!("trying for {tolerance:e}{trying}…"))
+    let Some(Choosing { tolerance, tried, .. }) = app.studies.value() else { return Line::default() };
+    let tried = tried.map_or_else(String::new, |points| format!(": {} springs", grouped(points)));
+    Line::raw(format!("trying for {tolerance:e}{tried}…"))
 }
 
 /// Springs and patches in contact.

@@ -5,12 +5,8 @@ use super::common::driver::Driver;
 use super::common::scenes::{one_spring, punch, rough, smooth, without_adhesion};
 use super::{SIZES, default_scene, keep, mid_retraction, pressed};
 use asperity::contact::ContactError;
-use asperity::explorer::engine::Engine;
 use asperity::explorer::picture;
 use asperity::explorer::theme::{Marker, Theme};
-use asperity::scene::Scene;
-use asperity::simulation::{AfterLeg, Outcome, RunError};
-use asperity::surface::Line;
 use clap::ValueEnum;
 
 /// The screen in all windows, one below the other. The text is the same in all colours and without any.
@@ -42,20 +38,10 @@ macro_rules! screens {
     };
 }
 
-/// An engine without a result.
-struct Waiting;
-
-impl Engine for Waiting {
-    fn run(&mut self, _: &Scene, _: &dyn Fn() -> bool, _: &mut AfterLeg<'_>) -> Result<Outcome, RunError> {
-        Err(ContactError::Interrupted.into())
-    }
-
-    fn line(&self) -> Option<&Line> {
-        None
-    }
-}
-
-screens!(screen_before_the_first_result, Driver::open_with(default_scene(), Box::new(Waiting)));
+screens!(
+    screen_before_the_first_result,
+    Driver::open_with(default_scene(), |_, _, _, _| Err(ContactError::Interrupted.into()), |_| false)
+);
 screens!(screen_mid_retraction, mid_retraction(default_scene()));
 screens!(screen_of_a_smooth_scene, mid_retraction(smooth()));
 screens!(screen_without_adhesion, mid_retraction(without_adhesion()));
