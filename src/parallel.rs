@@ -3,6 +3,7 @@
 use std::cell::Cell;
 use std::io;
 use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, Scope, ScopedJoinHandle, scope};
 
@@ -34,6 +35,43 @@ pub(crate) fn begin_threads<'scope>(
     };
     let begun: Vec<_> = (0..count).map(begin).collect();
     if begun.iter().any(Result::is_ok) { Ok(()) } else { begun.into_iter().collect() }
+}
+
+/// Results for the numbers below `count`, in their order, computed on `jobs` threads, each with its own `worker`; on
+/// fewer threads if the system starts fewer. Results of numbers that precede a failed one are not affected by it.
+///
+/// # Errors
+/// Of several numbers that fail, the error of the first.
+pub(crate) fn on_threads<R: Send, E: Send, W: FnMut(u64) -> Result<R, E>>(
+    count: u64,
+    jobs: usize,
+    worker: impl Fn() -> W + Sync,
+) -> Result<Vec<R>, E> {
+    let (next, found) = (AtomicU64::new(0), Mutex::new(Vec::new()));
+    let work = &|| {
+        let mut worker = worker();
+        loop {
+            let number = next.fetch_add(1, Ordering::SeqCst);
+            if number >= count {
+                return;
+            }
+            let result = worker(number);
+            if result.is_err() {
+                // Numbers that follow are not needed; those before are under way or done.
+                next.store(count, Ordering::SeqCst);
+            }
+            found.lock().unwrap_or_else(PoisonError::into_inner).push((number, result));
+        }
+    };
+    let threads = jobs.min(usize::try_from(count).unwrap_or(usize::MAX));
+    scope(|scope| {
+        // Without further threads this one does all the work.
+        let _ = begin_threads(scope, threads.saturating_sub(1), work);
+        on_this_thread(work);
+    });
+    let mut found = found.into_inner().unwrap_or_else(PoisonError::into_inner);
+    found.sort_by_key(|(number, _)| *number);
+    found.into_iter().map(|(_, result)| result).collect()
 }
 
 /// Number of threads for work of this thread: one for each core, or this one alone.

@@ -70,6 +70,9 @@ impl Regime {
         }
     }
 
+    /// Characters of the longest name.
+    pub const LONGEST_NAME: usize = "pressure-insensitive".len();
+
     /// The name in words.
     #[must_use]
     pub fn name(self) -> &'static str {

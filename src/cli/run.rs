@@ -11,7 +11,7 @@ use crate::export::{
     ContactSets, Format, LinesReport, PreloadReport, Report, RunReport, check_measured_files, force_figure,
 };
 use crate::scene::{Document, Scene, open_argument};
-use crate::study::{self, Preloaded, Preloads};
+use crate::study::{self, Preloaded, Preloads, Results};
 use crate::text::wrap;
 use clap::Args;
 use std::io::{self, Write};
@@ -136,9 +136,10 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
         return write(&PreloadReport::new(title, &scene, choice, results));
     }
     if let Some(lines) = arguments.lines {
-        let results = study::solve_lines(&scene, &folder, lines as usize, threads(arguments.jobs))
+        let (lines, jobs) = (u64::from(lines), threads(arguments.jobs));
+        let results = Results::of_profiles(&scene, &folder, LinesReport::RECORD, lines, jobs)
             .map_err(|error| CliError::named(document.name(), error))?;
-        return write(&LinesReport::new(&scene, choice, &results));
+        return write(&LinesReport { choice, results: &results });
     }
     let outcome = compute(&document, &scene)?;
     let estimate = match choice {
@@ -193,7 +194,7 @@ fn over_preloads(
     let forces = preloads.forces();
     if let Some(lines) = arguments.lines {
         let (folder, jobs) = (document.resolve(""), threads(arguments.jobs));
-        let solved = study::solve_preloads_on_lines(scene, &folder, &forces, lines as usize, jobs)
+        let solved = study::solve_preloads_on_lines(scene, &folder, &forces, u64::from(lines), jobs)
             .map_err(|error| CliError::named(document.name(), error))?;
         return Ok(solved.into_iter().map(|(seed, line)| (Some(seed), line)).collect());
     }

@@ -17,6 +17,7 @@ use super::text_line::TextLine;
 use super::theme::Appearance;
 use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
+use crate::export::LoopQuantities;
 use crate::scene::{Adhesion, Document, Observer, Scene, ron_float};
 use crate::simulation::Outcome;
 use crate::study::{Axis, Place};
@@ -62,35 +63,11 @@ pub struct ManualState {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CurveLook {
     /// Quantities.
-    pub quantities: Quantities,
+    pub quantities: LoopQuantities,
     /// True for units of F_a,max, h and the whole line, false for SI units.
     pub normalised: bool,
     /// True if the dissipated energy is shaded.
     pub loss: bool,
-}
-
-/// Two quantities, one over the other.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Quantities {
-    /// Force over indentation.
-    #[default]
-    ForceIndentation,
-    /// Contact length over force.
-    LengthForce,
-    /// Number of fragments over indentation.
-    FragmentsIndentation,
-}
-
-impl Quantities {
-    /// The next pair.
-    #[must_use]
-    pub fn next(self) -> Self {
-        match self {
-            Quantities::ForceIndentation => Quantities::LengthForce,
-            Quantities::LengthForce => Quantities::FragmentsIndentation,
-            Quantities::FragmentsIndentation => Quantities::ForceIndentation,
-        }
-    }
 }
 
 /// Lines through the state shown on the force curve, and through one position on profile and close-up.
@@ -166,8 +143,6 @@ pub struct View {
     pub size: (u16, u16),
     /// Colours and markers.
     pub appearance: Appearance,
-    /// Place of the first visible row of the list of parameters, unless the selected row would be hidden.
-    pub first_listed: usize,
     /// Target of the close-up.
     pub look: CloseUpTarget,
     /// Part of the line in the profile pane.
@@ -254,7 +229,6 @@ impl App {
                 zoomed: false,
                 size,
                 appearance,
-                first_listed: 0,
                 look: CloseUpTarget { focus: Focus::Summit, springs },
                 profile: LineView::WHOLE,
                 curve: CurveLook::default(),

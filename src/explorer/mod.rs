@@ -19,6 +19,7 @@ mod manual_body;
 pub mod mode;
 mod opening;
 mod palette;
+pub mod panel;
 pub mod panes;
 pub mod parameters;
 pub mod picture;

@@ -84,7 +84,7 @@ impl App {
     #[must_use]
     pub fn figure(&self) -> Option<Figure> {
         let pane = if self.view.pane == Pane::Parameters { Pane::Force } else { self.view.pane };
-        (pane.row().figure)(self)
+        pane.figure(self)
     }
 
     /// Shows the map of a study, the first of them.

@@ -6,7 +6,7 @@ use super::picture::{svg, text};
 use super::theme::Theme;
 use super::view;
 use crate::draw::Palette;
-use crate::export::{self, Format, RunReport, scene_provenance, write_map};
+use crate::export::{self, Format, RunReport, scene_provenance};
 use crate::io::{WriteError, check_file_name, write_new_file};
 use crate::scene::command_line;
 use ratatui::Terminal;
@@ -57,7 +57,7 @@ fn write_content(file: &mut dyn Write, app: &App, path: &Path, content: Content)
             let figure = app.figure().ok_or_else(|| io::Error::other("the pane is empty"))?;
             export::write(file, &figure, format, "")
         }
-        Content::MapCells => write_map(file, app.grid().ok_or_else(no_map)?),
+        Content::MapCells => export::write(file, app.grid().ok_or_else(no_map)?, Format::Csv, ""),
         Content::Text => file.write_all(text(&picture_of(app)).as_bytes()),
     }
 }

@@ -1,7 +1,7 @@
 //! Two scenes in words: titles, differences, both adhesion forces.
 
+use super::loop_chart::force_figure;
 use super::report::Report;
-use super::scene_figure::force_figure;
 use crate::draw::Figure;
 use crate::scene::{Document, format_quantity};
 use crate::simulation::Outcome;

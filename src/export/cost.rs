@@ -2,10 +2,10 @@
 
 use super::report::{Json, Report};
 use super::sheet::Sheet;
-use super::table::{Kind, Table};
 use super::work_precision::work_precision;
 use crate::accuracy::{CostTable, ErrorFigure, Knob, QUANTITIES, Row};
 use crate::draw::Figure;
+use crate::io::{Kind, Table};
 use crate::scene::{Scene, format_quantity, format_rounded};
 use crate::text::grouped;
 use serde::Serialize;

@@ -3,98 +3,153 @@
 use super::report::{Json, Report};
 use super::sheet::Sheet;
 use super::summary::tabor_number;
-use super::table::{Kind, Table};
 use crate::accuracy::Choice;
 use crate::analysis::Regime;
-use crate::scene::{Scene, format_quantity, format_rounded};
-use crate::study::{LineResult, LinesSummary, Statistics, quartiles};
+use crate::io::{Kind, Table, object};
+use crate::scene::{format_quantity, format_rounded};
+use crate::study::{Quantity, RegimeCounts, Results, Statistics, quartiles};
 use crate::text::grouped;
-use serde::Serialize;
 
-/// Results of a scene on random profiles; JSON has its fields in this order.
-#[derive(Clone, Debug, Serialize)]
+/// Results of a scene on random profiles: a study of one cell.
+#[derive(Clone, Copy, Debug)]
 pub struct LinesReport<'a> {
-    scene: &'a Scene,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    choice: Option<&'a Choice>,
-    #[serde(flatten)]
-    summary: LinesSummary,
-    lines: &'a [LineResult],
+    /// Choice of springs for a tolerance, if one was given.
+    pub choice: Option<&'a Choice>,
+    /// The records of [`LinesReport::RECORD`].
+    pub results: &'a Results,
 }
 
-impl<'a> LinesReport<'a> {
-    /// The results, with the choice of springs for a tolerance if there is one.
-    #[must_use]
-    pub fn new(scene: &'a Scene, choice: Option<&'a Choice>, lines: &'a [LineResult]) -> LinesReport<'a> {
-        LinesReport { scene, choice, summary: LinesSummary::of(lines), lines }
+impl LinesReport<'_> {
+    /// Quantities of the report.
+    pub const RECORD: &'static [Quantity] = &[
+        Quantity::AdhesionForce,
+        Quantity::PreloadIndentation,
+        Quantity::DissipatedEnergy,
+        Quantity::ContactFraction,
+        Quantity::Regime,
+        Quantity::Skewness,
+        Quantity::ExcessKurtosis,
+        Quantity::TaborNumber,
+    ];
+
+    /// Numbers of the profiles.
+    fn lines(&self) -> std::ops::Range<u64> {
+        0..self.results.plan().lines
+    }
+
+    fn statistics(&self, quantity: Quantity) -> Option<Statistics> {
+        self.results.statistics(0, quantity)
+    }
+
+    fn regime(&self, line: u64) -> Option<Regime> {
+        self.results.regime(0, line)
+    }
+
+    fn regimes(&self) -> RegimeCounts {
+        RegimeCounts::of(self.lines().map(|line| self.regime(line)))
+    }
+
+    /// Root mean square of a quantity over the profiles.
+    fn rms(&self, quantity: Quantity) -> Option<f64> {
+        let values = self.results.values(0, quantity);
+        let squares: f64 = values.iter().map(|value| value.powi(2)).sum();
+        (!values.is_empty()).then(|| (squares / values.len() as f64).sqrt())
     }
 }
 
 impl Report for LinesReport<'_> {
     fn text(&self) -> Option<String> {
-        Some(text(self))
+        let plan = self.results.plan();
+        let mut sheet = Sheet::default();
+        sheet.paragraph(&plan.scene.title);
+        let (count, springs) = (grouped(plan.lines), grouped(plan.scene.numerics.points));
+        let last = plan.seed_of(plan.lines - 1);
+        sheet.heading(&format!("{count} random lines of {springs} springs, seeds {} to {last}", plan.seed));
+        let mut rows = vec![
+            ["", "mean", "standard deviation", "standard error", "95 % confidence", "lines"]
+                .map(String::from),
+        ];
+        for (name, quantity) in [
+            ("adhesion force F_a", Quantity::AdhesionForce),
+            ("preload indentation", Quantity::PreloadIndentation),
+            ("dissipated energy", Quantity::DissipatedEnergy),
+            ("contact fraction", Quantity::ContactFraction),
+        ] {
+            let Some(all) = self.statistics(quantity) else { continue };
+            let number = |value| format_quantity(value, quantity.unit());
+            let (low, high) = all.confidence_interval;
+            rows.push([
+                name.into(),
+                number(all.mean),
+                number(all.standard_deviation),
+                number(all.standard_error),
+                format!("{} to {}", number(low), number(high)),
+                grouped(all.count as u64),
+            ]);
+        }
+        sheet.table(&rows);
+        sheet.row_of("F_a", profiles_text(self.results.values(0, Quantity::AdhesionForce)));
+        // Profiles of one spectrum have one Tabor number, which limits the dissipated energy.
+        let value = |line, quantity| self.results.value(0, line, quantity);
+        let dissipating = self.lines().filter(|line| value(*line, Quantity::DissipatedEnergy).is_some());
+        let number = dissipating.into_iter().find_map(|line| value(line, Quantity::TaborNumber));
+        sheet.row_of("Tabor number μ", number.map(tabor_number));
+        sheet.heading("Regimes");
+        for (name, count) in self.regimes().present() {
+            sheet.row(name, grouped(count as u64));
+        }
+        sheet.heading("Heights of single lines; both would be 0 if they averaged themselves");
+        sheet.quantity("rms skewness", self.rms(Quantity::Skewness), "1");
+        sheet.quantity("rms excess kurtosis", self.rms(Quantity::ExcessKurtosis), "1");
+        if let Some(choice) = self.choice {
+            sheet.heading(&choice.sentence());
+        }
+        Some(sheet.into_text())
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        Some(Box::new(self))
+        let lines = self.lines().map(|line| {
+            let value = |quantity| self.results.value(0, line, quantity);
+            let heights = value(Quantity::Skewness).zip(value(Quantity::ExcessKurtosis));
+            object! {
+                "seed": self.results.plan().seed_of(line),
+                "adhesion_force": value(Quantity::AdhesionForce),
+                "preload_indentation": value(Quantity::PreloadIndentation),
+                "dissipated_energy": value(Quantity::DissipatedEnergy),
+                "tabor_number": value(Quantity::TaborNumber),
+                "contact_fraction": value(Quantity::ContactFraction),
+                "regime": self.regime(line),
+                "heights": heights.map(|(skewness, kurtosis)| object! {
+                    "skewness": skewness, "excess_kurtosis": kurtosis,
+                }),
+            }
+        });
+        Some(Box::new(object! {
+            "scene": &self.results.plan().scene,
+            "choice"?: self.choice,
+            "adhesion_force": self.statistics(Quantity::AdhesionForce),
+            "preload_indentation": self.statistics(Quantity::PreloadIndentation),
+            "dissipated_energy": self.statistics(Quantity::DissipatedEnergy),
+            "contact_fraction": self.statistics(Quantity::ContactFraction),
+            "regimes": self.regimes(),
+            "rms_skewness": self.rms(Quantity::Skewness),
+            "rms_excess_kurtosis": self.rms(Quantity::ExcessKurtosis),
+            "lines": lines.collect::<Vec<_>>(),
+        }))
     }
 
     fn table(&self) -> Option<Table<'_>> {
-        let table = Table::of(|| self.lines.iter())
-            .whole("seed", |line| line.seed)
-            .real("adhesion_force", |line| line.adhesion_force)
-            .real("preload_indentation", |line| line.preload_indentation)
-            .real("dissipated_energy", |line| line.dissipated_energy)
-            .real("contact_fraction", |line| line.contact_fraction)
-            .with("regime", Kind::Text("pressure-insensitive".len()), |line| {
-                line.regime.map_or("", Regime::name)
-            })
-            .real("skewness", |line| line.heights.map(|shape| shape.skewness))
-            .real("excess_kurtosis", |line| line.heights.map(|shape| shape.excess_kurtosis))
-            .real("tabor_number", |line| line.tabor_number);
+        let mut table = Table::of(|| self.lines()).whole("seed", |line| self.results.plan().seed_of(*line));
+        for quantity in Self::RECORD {
+            table = match quantity {
+                Quantity::Regime => table.with("regime", Kind::Text(Regime::LONGEST_NAME), |line| {
+                    self.regime(*line).map_or("", Regime::name)
+                }),
+                _ => table.real(quantity.name(), |line| self.results.value(0, *line, *quantity)),
+            };
+        }
         Some(table.done())
     }
-}
-
-/// Statistics over the profiles.
-fn text(report: &LinesReport<'_>) -> String {
-    let LinesReport { scene, choice, ref summary, lines } = *report;
-    let mut sheet = Sheet::default();
-    sheet.paragraph(&scene.title);
-    let seeds = lines.first().zip(lines.last());
-    let seeds =
-        seeds.map_or_else(String::new, |(first, last)| format!(", seeds {} to {}", first.seed, last.seed));
-    let (count, springs) = (grouped(lines.len() as u64), grouped(scene.numerics.points));
-    sheet.heading(&format!("{count} random lines of {springs} springs{seeds}"));
-    let mut rows = vec![
-        ["", "mean", "standard deviation", "standard error", "95 % confidence", "lines"].map(String::from),
-    ];
-    for (name, unit, statistics) in [
-        ("adhesion force F_a", "N", summary.adhesion_force),
-        ("preload indentation", "m", summary.preload_indentation),
-        ("dissipated energy", "J", summary.dissipated_energy),
-        ("contact fraction", "1", summary.contact_fraction),
-    ] {
-        rows.extend(statistics.map(|statistics| cells(name, unit, &statistics)));
-    }
-    sheet.table(&rows);
-    let forces = lines.iter().filter_map(|line| line.adhesion_force).collect();
-    sheet.row_of("F_a", profiles_text(forces));
-    // Profiles of one spectrum have one Tabor number.
-    let number =
-        lines.iter().filter(|line| line.dissipated_energy.is_some()).find_map(|line| line.tabor_number);
-    sheet.row_of("Tabor number μ", number.map(tabor_number));
-    sheet.heading("Regimes");
-    for (name, count) in summary.regimes.present() {
-        sheet.row(name, grouped(count as u64));
-    }
-    sheet.heading("Heights of single lines; both would be 0 if they averaged themselves");
-    sheet.quantity("rms skewness", summary.rms_skewness, "1");
-    sheet.quantity("rms excess kurtosis", summary.rms_excess_kurtosis, "1");
-    if let Some(choice) = choice {
-        sheet.heading(&choice.sentence());
-    }
-    sheet.into_text()
 }
 
 /// Median and quartiles of the adhesion forces of several profiles, N; `None` for fewer than two.
@@ -102,18 +157,4 @@ pub(super) fn profiles_text(forces: Vec<f64>) -> Option<String> {
     let count = Some(forces.len()).filter(|&count| count >= 2)?;
     let [lower, median, upper] = quartiles(forces)?.map(|force| format_rounded(force, 2, "N"));
     Some(format!("{count} profiles: median {median} (quartiles {lower} to {upper})"))
-}
-
-fn cells(name: &str, unit: &str, statistics: &Statistics) -> [String; 6] {
-    let quantity = |value| format_quantity(value, unit);
-    let Statistics { count, mean, standard_deviation, standard_error, confidence_interval: (low, high) } =
-        *statistics;
-    [
-        name.into(),
-        quantity(mean),
-        quantity(standard_deviation),
-        quantity(standard_error),
-        format!("{} to {}", quantity(low), quantity(high)),
-        grouped(count as u64),
-    ]
 }

@@ -1,36 +1,38 @@
-//! Cells of a map as comma-separated values after one header line.
+//! Cells of a map as a table.
 
-use crate::study::Grid;
-use std::io::{self, Write};
+use super::report::Report;
+use crate::analysis::Regime;
+use crate::io::{Kind, Table};
+use crate::study::{Cell, Grid};
 
-/// Writes the computed cells of a map: values of the axes by their paths, profiles, regime, and the mean of each
-/// quantity with the ends of its 95 % confidence, in SI units; unknown values are empty.
-///
-/// # Errors
-/// Errors of `out`.
-pub fn write_map(out: &mut (impl Write + ?Sized), grid: &Grid) -> io::Result<()> {
-    let axes: Vec<_> = [Some(&grid.across), grid.up.as_ref()].into_iter().flatten().collect();
-    let mut header: Vec<String> = axes.iter().map(|axis| axis.path.clone()).collect();
-    header.extend(["lines", "regime"].map(String::from));
-    for layer in &grid.layers {
-        header.extend(["mean", "low", "high"].map(|of| format!("{}_{of}", layer.quantity.name())));
-    }
-    writeln!(out, "{}", header.join(","))?;
-    for (index, cell) in grid.cells.iter().enumerate() {
-        let Some(Ok(cell)) = cell else { continue };
-        let columns = grid.across.values.len();
-        for (axis, place) in axes.iter().zip([index % columns, index / columns]) {
-            write!(out, "{:?},", axis.values[place])?;
+impl Report for Grid {
+    /// The computed cells: values of the axes by their paths, profiles, regime, and the mean of each quantity with the
+    /// ends of its 95 % confidence, in SI units.
+    fn table(&self) -> Option<Table<'_>> {
+        let columns = self.across.values.len();
+        let mut table = Table::of(move || {
+            let cells = self.cells.iter().enumerate();
+            cells.filter_map(|(index, cell)| Some((index, cell.as_ref()?.as_ref().ok()?)))
+        });
+        table = table.with(self.across.path.clone(), Kind::Real, move |(index, _): &(usize, &Cell)| {
+            self.across.values[index % columns]
+        });
+        if let Some(up) = &self.up {
+            table = table.with(up.path.clone(), Kind::Real, move |(index, _)| up.values[index / columns]);
         }
-        write!(out, "{},{}", cell.lines, cell.regime.map_or("", |cell| cell.regime.name()))?;
-        for estimate in &cell.estimates {
-            let mean = estimate.map(|estimate| estimate.mean);
-            let interval = estimate.and_then(|estimate| estimate.interval);
-            for value in [mean, interval.map(|ends| ends.0), interval.map(|ends| ends.1)] {
-                write!(out, ",{}", value.map_or_else(String::new, |value| format!("{value:?}")))?;
-            }
+        table = table.whole("lines", |(_, cell)| cell.lines).with(
+            "regime",
+            Kind::Text(Regime::LONGEST_NAME),
+            |(_, cell)| cell.regime.map(|cell| cell.regime.name()),
+        );
+        for (place, layer) in self.layers.iter().enumerate() {
+            let name = |of: &str| format!("{}_{of}", layer.quantity.name());
+            let interval = move |cell: &Cell| cell.estimates[place]?.interval;
+            table = table
+                .with(name("mean"), Kind::Real, move |(_, cell)| Some(cell.estimates[place]?.mean))
+                .with(name("low"), Kind::Real, move |(_, cell)| Some(interval(cell)?.0))
+                .with(name("high"), Kind::Real, move |(_, cell)| Some(interval(cell)?.1));
         }
-        writeln!(out)?;
+        Some(table.done())
     }
-    Ok(())
 }

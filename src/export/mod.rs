@@ -2,10 +2,12 @@
 //!
 //! Numbers are written in SI units and in the shortest form that reads back as the same number.
 
+mod boundary;
 mod check;
 mod comparison;
 mod cost;
 mod ensemble;
+mod loop_chart;
 mod map;
 mod preloads;
 mod provenance;
@@ -19,13 +21,12 @@ mod spectrum_figure;
 mod study_figure;
 mod summary;
 mod surface;
-mod table;
 mod work_precision;
 
 pub use comparison::{Comparison, adhesion_forces};
 pub use cost::CostReport;
 pub use ensemble::LinesReport;
-pub use map::write_map;
+pub use loop_chart::{ForceLoop, LoopQuantities, LoopUnits, force_figure, loop_chart, sign};
 pub use preloads::{PreloadReport, preload_axes, preload_layers};
 pub use provenance::{
     MeasuredFileError, check_measured_files, files_provenance, named_from, scene_provenance,
@@ -35,11 +36,9 @@ pub use report::write;
 pub use report::{Format, FormatError, Json, Report, check_extension};
 pub use reversals::ReversalReport;
 pub use run::RunReport;
-pub(crate) use scene_figure::mark_name;
-pub use scene_figure::{ContactSets, force_figure, sign};
+pub use scene_figure::ContactSets;
 pub use spectrum_figure::{Spectra, SpectrumPoint};
 pub use study_figure::{study_curves, study_figure, study_map};
 pub use summary::brief_summary;
 pub use surface::{MeasuredFace, SurfaceFile, SurfaceReport, measured_adhesion_text};
-pub use table::{Kind, Table, TableOf};
 pub use work_precision::work_precision;

@@ -2,10 +2,9 @@
 
 use super::report::{Json, Report};
 use super::sheet::{Sheet, thinned};
-use super::table::Table;
 use crate::accuracy::Choice;
 use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
-use crate::io::object;
+use crate::io::{Table, object};
 use crate::scene::{Scene, format_quantity};
 use crate::study::{Preloaded, Statistics, preload_statistics};
 use crate::text::grouped;

@@ -1,8 +1,7 @@
 //! A result in up to four shapes, and the formats in which these are written.
 
-use super::table::Table;
 use crate::draw::Figure;
-use crate::io::write_json_value;
+use crate::io::{Table, write_json_value};
 use crate::text::{path_name, printable};
 use serde::Serialize;
 use std::io::{self, Write};

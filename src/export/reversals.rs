@@ -3,10 +3,9 @@
 use super::preloads::{preload_axes, preload_layers, unloadings};
 use super::report::{Json, Report};
 use super::sheet::{Sheet, thinned};
-use super::table::Table;
 use crate::analysis::{MinorLoops, ReversalMap};
 use crate::draw::{Axis, AxisScale, Chart, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Span};
-use crate::io::object;
+use crate::io::{Table, object};
 use crate::scene::{Scene, format_quantity};
 use crate::study::Preloaded;
 use crate::text::grouped;

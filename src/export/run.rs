@@ -1,12 +1,11 @@
 //! A computed scene: one JSON object, the force curve as a table and as a figure; and the table of a profile.
 
+use super::loop_chart::force_figure;
 use super::report::{Json, Report};
-use super::scene_figure::force_figure;
 use super::summary::summary;
-use super::table::Table;
 use crate::accuracy::{Choice, Estimate};
 use crate::draw::Figure;
-use crate::io::object;
+use crate::io::{Table, object};
 use crate::scene::{Observer, Scene};
 use crate::simulation::Outcome;
 use crate::surface::Line;

@@ -1,10 +1,8 @@
-//! Figures of computed scenes: force curves, the profile with its contact, contact patches over the indentation.
+//! Figures of the contact: the profile with its contact, contact patches over the indentation.
 
-use crate::analysis::{Mark, marks, preload_point};
+use crate::analysis::preload_point;
 use crate::contact::{CurvePoint, Direction, Leg, LegRecord, Patch};
-use crate::draw::{
-    Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label,
-};
+use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Span, value_label};
 use crate::export::section::{Column, Contact, LineColumns, Part};
 use crate::simulation::Outcome;
 use crate::surface::Line;
@@ -21,76 +19,6 @@ const LEAST_GAP: f64 = 5e-4;
 
 /// Frame of contact patches over the position, px.
 const PATCHES: (f64, f64) = (400.0, 300.0);
-
-/// Force curves of computed scenes with their titles: loading and unloading of one scene in two colours, each of
-/// several scenes in one.
-#[must_use]
-pub fn force_figure(scenes: &[(&str, &Outcome)]) -> Figure {
-    let mut layers = vec![Layer::unnamed(Ink::Quiet, Shape::Level(0.0))];
-    for (number, (title, outcome)) in scenes.iter().enumerate() {
-        let alone = scenes.len() == 1;
-        let legs = &outcome.history.legs;
-        for (direction, name, ink, stroke) in [
-            (Direction::Loading, "loading", Ink::Loading, Stroke::Dashed),
-            (Direction::Unloading, "unloading", Ink::Unloading, Stroke::Solid),
-        ] {
-            let (name, ink) = match (alone, direction) {
-                (true, _) => (Label::plain(name), ink),
-                (false, Direction::Unloading) => (Label::plain(title), Ink::Series(number)),
-                (false, Direction::Loading) => (Label::default(), Ink::Series(number)),
-            };
-            for leg in legs.iter().filter(|leg| leg.direction == direction) {
-                let points = leg.curve.iter().map(|point| (point.indentation, point.force)).collect();
-                layers.push(Layer::new(name.clone(), ink, Shape::line(points, stroke)));
-            }
-        }
-        // A scene without unloading has no curve with its title.
-        let unloads = legs.iter().any(|leg| leg.direction == Direction::Unloading);
-        if let Some(first) = layers
-            .iter_mut()
-            .find(|layer| !alone && !unloads && layer.ink == Ink::Series(number) && layer.name.is_empty())
-        {
-            first.name = Label::plain(title);
-        }
-        for (mark, point) in marks(legs) {
-            let name = if alone { mark_name(mark, point.force) } else { Label::default() };
-            let ink = if alone { Ink::Text } else { Ink::Series(number) };
-            let place = vec![(point.indentation, point.force)];
-            layers.push(Layer::new(name, ink, Shape::signs(place, sign(mark))));
-        }
-    }
-    let points = || scenes.iter().flat_map(|(_, outcome)| &outcome.history.legs).flat_map(|leg| &leg.curve);
-    let x = Span::around(points().map(|point| point.indentation), 0.04);
-    let y = Span::around(points().map(|point| point.force).chain([0.0]), 0.06);
-    let (title, notes) = match scenes {
-        [(title, _)] => (*title, Vec::new()),
-        _ => ("", vec![Label::plain("dashed: loading, solid: unloading")]),
-    };
-    let x = Axis::new(AxisScale::Linear, x, "indentation", "d", "m");
-    let y = Axis::new(AxisScale::Linear, y, "force", "F", "N");
-    Figure { notes, ..Figure::of_chart(title, Chart::new(x, y, layers)) }
-}
-
-/// Sign of a mark.
-#[must_use]
-pub fn sign(mark: Mark) -> Sign {
-    match mark {
-        Mark::JumpIn => Sign::HollowDiamond,
-        Mark::Preload => Sign::Up,
-        Mark::PullOff => Sign::Down,
-        Mark::JumpOut => Sign::Ring,
-    }
-}
-
-/// Name of a mark with its force.
-pub(crate) fn mark_name(mark: Mark, force: f64) -> Label {
-    let (symbol, value) = match mark {
-        Mark::Preload => ("F_n", force),
-        Mark::PullOff => ("F_a", -force),
-        Mark::JumpIn | Mark::JumpOut => ("F", force),
-    };
-    Label::plain(mark.name()).then(" ").join(&value_label("", symbol, "N", value))
-}
 
 /// Contact patches at an indentation, m.
 struct Patches {
@@ -219,7 +147,6 @@ fn position(outcome: &Outcome) -> Axis {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draw::parsed;
     use crate::scene::Document;
     use crate::simulation::Simulation;
 
@@ -252,33 +179,6 @@ mod tests {
 
     fn names(figure: &Figure) -> Vec<String> {
         figure.legend().iter().map(|entry| entry.name.to_string()).collect()
-    }
-
-    #[test]
-    fn a_force_curve_has_its_marks_where_the_figures_are() {
-        let (outcome, ..) = computed(&[]);
-        let figure = force_figure(&[("Rough <&>", &outcome)]);
-        let named = names(&figure);
-        assert_eq!(named[..2], ["loading", "unloading"]);
-        assert!(named.contains(&"preload F_n = 10 µN".to_owned()), "{named:?}");
-        let figures = &outcome.figures;
-        let point = |mark: Mark| {
-            let layer = figure.charts[0].layers.iter().find(|layer| match layer.shape {
-                Shape::Curve { sign: Some(one), stroke: None, .. } => one == sign(mark),
-                _ => false,
-            });
-            match &layer.unwrap().shape {
-                Shape::Curve { points, .. } => points[0],
-                other => panic!("{other:?}"),
-            }
-        };
-        assert_eq!(point(Mark::Preload), (figures.preload_indentation.unwrap(), figures.preload.unwrap()));
-        assert_eq!(
-            point(Mark::PullOff),
-            (figures.pull_off_indentation.unwrap(), -figures.adhesion_force.unwrap())
-        );
-        let text = parsed(&figure.svg()).1;
-        assert!(text.contains("Rough <&>") && text.contains("indentation d (nm)"), "{text}");
     }
 
     #[test]

@@ -1,10 +1,11 @@
-//! Files: reading within limits, atomic writing, JSON text and arrays of NumPy.
+//! Files: reading within limits, atomic writing, JSON text, tables and arrays of NumPy.
 
 mod hash;
 mod json;
 pub(crate) mod npy;
 mod object;
 mod read;
+mod table;
 mod write;
 
 /// First characters of CSV that begins with its scene.
@@ -14,6 +15,7 @@ pub(crate) use hash::{hexadecimal, sha256_of};
 pub use json::write_json_value;
 pub(crate) use object::{Entry, Object, Optional, object};
 pub(crate) use read::*;
+pub use table::{Kind, Table, TableOf};
 #[cfg(feature = "tui")]
 pub(crate) use write::check_file_name;
 pub(crate) use write::sync_folder;

@@ -134,7 +134,7 @@ impl Axis {
     }
 
     /// Returns true for an axis over whole numbers.
-    pub(super) fn is_whole(&self) -> bool {
+    pub fn is_whole(&self) -> bool {
         self.target.is_whole()
     }
 
@@ -157,6 +157,11 @@ impl Axis {
     /// Symbol, or the name of a quantity without one.
     pub fn symbol_or_name(&self) -> &str {
         if self.symbol.is_empty() { &self.name } else { self.symbol }
+    }
+
+    /// Symbol, or the path of a quantity without one.
+    pub fn symbol_or_path(&self) -> String {
+        if self.symbol.is_empty() { self.path.clone() } else { self.symbol.to_owned() }
     }
 
     /// Places of the values in ascending order.

@@ -68,8 +68,8 @@ impl Crossing {
 pub struct Boundaries {
     /// Parameter of the boundaries.
     pub over: RoughnessParameter,
-    /// Names of the axes other than κ or e_el/γ, with symbols.
-    pub others: Vec<String>,
+    /// The axes other than κ or e_el/γ.
+    pub others: Vec<Axis>,
     /// Random profiles of each cell.
     pub lines: u64,
     /// Boundaries in the order of the cells, then of protocols, then of levels.
@@ -135,8 +135,7 @@ pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Resu
         }
     }
     let others = plan.axes.iter().enumerate().filter(|(axis, _)| *axis != along);
-    let name = |axis: &Axis| if axis.symbol.is_empty() { axis.path.clone() } else { axis.symbol.to_owned() };
-    let others = others.map(|(_, axis)| name(axis)).collect();
+    let others = others.map(|(_, axis)| axis.clone()).collect();
     Ok(Boundaries { over, others, lines: plan.lines, found })
 }
 
@@ -144,11 +143,9 @@ pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Resu
 /// any share are left out.
 fn curve(study: &Results, first: u64, along: usize, protocol: Quantity) -> Curve {
     let plan = study.plan();
-    let Some(column) = plan.column(protocol) else { return Vec::new() };
     let step: u64 = plan.axes[along + 1..].iter().map(Axis::count).product();
     let cells = (0..).map(|place| first + place * step).zip(&plan.axes[along].values);
-    let share =
-        |cell, line| study.record(cell, line).map(|values| values[column]).filter(|one| !one.is_nan());
+    let share = |cell, line| study.value(cell, line, protocol);
     let cells: Vec<_> =
         cells.filter(|(cell, _)| (0..plan.lines).any(|line| share(*cell, line).is_some())).collect();
     let is_common = |line: &u64| cells.iter().all(|(cell, _)| share(*cell, *line).is_some());

@@ -31,10 +31,17 @@ pub(super) struct Cells<'p> {
 /// Runs on one profile.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Unit {
-    /// Index of the profile, from 0.
-    pub line: u64,
+    line: u64,
     group: u64,
     steps: Range<u64>,
+}
+
+/// One loading on one profile.
+pub(super) struct Run {
+    /// Cells of the run, one for each preload.
+    pub cells: Range<u64>,
+    /// Index of the profile, from 0.
+    pub line: u64,
 }
 
 impl<'p> Cells<'p> {
@@ -73,9 +80,9 @@ impl<'p> Cells<'p> {
         Unit { group, line, steps: 0..self.count(&self.inner) }
     }
 
-    /// The cells of each run of a unit, one for each preload, in the most efficient order.
-    pub fn runs_of(&self, unit: &Unit) -> impl Iterator<Item = Range<u64>> + use<'_> {
-        let group = unit.group;
+    /// The runs of a unit in the most efficient order.
+    pub fn runs_of(&self, unit: &Unit) -> impl Iterator<Item = Run> + use<'_> {
+        let Unit { group, line, .. } = *unit;
         unit.steps.clone().map(move |step| {
             let mut places = vec![0; self.plan.axes.len()];
             for (axes, number) in [(&self.outer, group), (&self.inner, step)] {
@@ -87,7 +94,7 @@ impl<'p> Cells<'p> {
                 }
             }
             let first = self.plan.cell_at(&places);
-            first..first + self.preloads
+            Run { cells: first..first + self.preloads, line }
         })
     }
 

@@ -41,6 +41,14 @@ pub enum StudyError {
         /// Error of the run.
         error: RunError,
     },
+    /// A random profile could not be computed.
+    #[error("seed {seed}: {error}")]
+    Profile {
+        /// Seed of the profile.
+        seed: u64,
+        /// Error of the run.
+        error: RunError,
+    },
     /// Records are missing, or two records of one cell and profile differ.
     #[error("{0}")]
     Records(String),

@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::quantity::Quantity;
-use super::statistics::{Statistics, StudentT};
+use super::statistics::Statistics;
 use crate::analysis::{CellRegime, Regime};
 use crate::draw::AxisScale;
 use crate::scene::{RoughnessParameter, format_quantity};
@@ -23,10 +23,10 @@ pub struct Estimate {
 
 impl Estimate {
     /// Estimate of a quantity from its values on profiles; `None` without values.
-    pub(super) fn of(quantity: Quantity, values: &[f64], quantiles: &mut StudentT) -> Option<Estimate> {
+    pub(super) fn of(quantity: Quantity, values: &[f64]) -> Option<Estimate> {
         let range =
             values.iter().map(|value| (*value, *value)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))?;
-        let all = Statistics::with(values, quantity.bounds(), quantiles);
+        let all = Statistics::of(values, quantity.bounds());
         let mean = all.map_or(range.0, |all| all.mean);
         Some(Estimate { mean, interval: all.map(|all| all.confidence_interval), range })
     }

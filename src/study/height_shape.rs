@@ -1,10 +1,8 @@
 //! Deviation of the heights of one profile from a normal distribution.
 
-use serde::Serialize;
-
 /// Shape of a profile's own distribution of heights; both values are zero for the ensemble's normal distribution.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct HeightShape {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct HeightShape {
     /// ⟨z³⟩/⟨z²⟩^(3/2), heights counted from their mean.
     pub skewness: f64,
     /// ⟨z⁴⟩/⟨z²⟩² − 3.

@@ -5,11 +5,13 @@
 //! direction drawn from the uncertainty of the fit. Forces on the fitted spectrum differ from profile to profile; the two
 //! forces of a profile differ by the spectrum alone.
 
-use super::lines::{LinesError, RegimeCounts, on_profiles};
+use super::error::StudyError;
 use super::quantity::Quantity;
+use super::regime_counts::RegimeCounts;
 use super::statistics::Statistics;
 use super::target::strip;
 use crate::analysis::Regime;
+use crate::parallel::on_threads;
 use crate::scene::Scene;
 use crate::simulation::{RunError, Simulation};
 use crate::surface::{EquivalentLine, MeasuredRoughness};
@@ -79,12 +81,16 @@ impl MeasuredAdhesion {
     /// profiles; no bit of a result depends on their number.
     ///
     /// # Errors
-    /// [`LinesError`]; of several profiles that fail, the first.
-    pub fn solve(scene: &Scene, line: &EquivalentLine, count: u32, jobs: usize) -> Result<Self, LinesError> {
-        let solved = on_profiles(scene, count as usize, jobs, || {
-            |scene: Scene| ProfileAdhesion::solve(&scene, line, scene.seed().unwrap_or(0), &|| false)
+    /// The first profile that fails.
+    pub fn solve(scene: &Scene, line: &EquivalentLine, count: u32, jobs: usize) -> Result<Self, StudyError> {
+        let profiles = on_threads(u64::from(count), jobs, || {
+            |number| {
+                let seed = scene.seed().unwrap_or(0).wrapping_add(number);
+                let solved = ProfileAdhesion::solve(scene, line, seed, &|| false);
+                solved.map_err(|error| StudyError::Profile { seed, error })
+            }
         })?;
-        Ok(MeasuredAdhesion { profiles: solved.into_iter().map(|(_, one)| one).collect() })
+        Ok(MeasuredAdhesion { profiles })
     }
 
     /// Adhesion forces of the profiles of the fitted spectrum, N.

@@ -38,7 +38,6 @@ mod cells;
 mod error;
 mod grid;
 mod height_shape;
-mod lines;
 pub mod map;
 mod measured;
 mod measured_adhesion;
@@ -52,12 +51,12 @@ mod preloads;
 mod quantity;
 mod record;
 mod recorder;
+mod regime_counts;
 mod results;
 mod run;
 mod select;
 mod shard;
 pub mod slurm;
-mod solve;
 mod statistics;
 mod status;
 mod store;
@@ -69,8 +68,6 @@ pub use boundary::{Boundaries, Boundary, Crossing, DEFINITIONS, USUAL_LEVELS, bo
 pub use builtin::{BuiltInPlan, find, plans};
 pub use error::StudyError;
 pub use grid::{Cell, Estimate, Grid, Layer, Place};
-pub use height_shape::HeightShape;
-pub use lines::{LineResult, LinesError, LinesSummary, RegimeCounts, solve_lines};
 pub use measured_adhesion::{MeasuredAdhesion, ProfileAdhesion};
 pub use memory::Memory;
 #[cfg(feature = "parquet")]
@@ -83,6 +80,7 @@ pub use preloads::{
 };
 pub use quantity::Quantity;
 pub use record::Key;
+pub use regime_counts::RegimeCounts;
 pub use results::{Merged, Results};
 pub use run::{Options, Progress, run};
 pub use select::{FigureError, Selected, Selection};

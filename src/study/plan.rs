@@ -110,9 +110,15 @@ impl Plan {
         places.iter().zip(&self.axes).fold(0, |cell, (place, axis)| cell * axis.count() + *place as u64)
     }
 
+    /// Value of an axis, by its number, in a cell.
+    pub(super) fn value(&self, cell: u64, axis: usize) -> f64 {
+        let faster: u64 = self.axes[axis + 1..].iter().map(Axis::count).product();
+        self.axes[axis].values[(cell / faster % self.axes[axis].count()) as usize]
+    }
+
     /// Values of the axes in a cell.
     pub fn values(&self, cell: u64) -> Vec<f64> {
-        self.places(cell).into_iter().zip(&self.axes).map(|(place, axis)| axis.values[place]).collect()
+        (0..self.axes.len()).map(|axis| self.value(cell, axis)).collect()
     }
 
     /// Coordinates of a cell for readers.

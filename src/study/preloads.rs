@@ -1,9 +1,11 @@
 //! Adhesion against preload: the adhesion force of one profile for many preloads, and its mean over random profiles.
 
-use super::lines::{LinesError, on_profiles};
+use super::error::StudyError;
+use super::plan::ONE_PROFILE;
 use super::quantity::Quantity;
-use super::statistics::{Statistics, StudentT};
+use super::statistics::Statistics;
 use crate::contact::Reversal;
+use crate::parallel::on_threads;
 use crate::scene::{Move, Scene};
 use crate::simulation::{RunError, Simulation};
 use serde::Serialize;
@@ -93,20 +95,23 @@ pub fn solve_preloads(
 /// share the profiles; no bit of a result depends on their number. The seed of each profile comes with its results.
 ///
 /// # Errors
-/// [`LinesError`]; of several profiles that fail, the first.
+/// A scene with a single profile, or the first profile that fails.
 pub fn solve_preloads_on_lines(
     scene: &Scene,
     folder: &Path,
     forces: &[f64],
-    lines: usize,
+    lines: u64,
     jobs: usize,
-) -> Result<Vec<(u64, Vec<Preloaded>)>, LinesError> {
-    on_profiles(scene, lines, jobs, || {
-        let mut simulation = Simulation::new(folder.to_path_buf());
-        move |scene| {
-            let mut found = Vec::with_capacity(forces.len());
-            solve_preloads(&mut simulation, &scene, forces, &|| false, &mut |one| found.push(one))?;
-            Ok(found)
+) -> Result<Vec<(u64, Vec<Preloaded>)>, StudyError> {
+    let first = scene.seed().ok_or_else(|| StudyError::Records(ONE_PROFILE.into()))?;
+    on_threads(lines, jobs, || {
+        let (mut simulation, mut scene) = (Simulation::new(folder.to_path_buf()), scene.clone());
+        move |line| {
+            let (seed, mut found) = (first.wrapping_add(line), Vec::with_capacity(forces.len()));
+            scene.set_seed(seed);
+            solve_preloads(&mut simulation, &scene, forces, &|| false, &mut |one| found.push(one))
+                .map_err(|error| StudyError::Profile { seed, error })?;
+            Ok((seed, found))
         }
     })
 }
@@ -115,15 +120,10 @@ pub fn solve_preloads_on_lines(
 /// N, so that the mean is the mean adhesion force. `None` for fewer than two profiles.
 pub fn preload_statistics(lines: &[Vec<Preloaded>]) -> Vec<Option<Statistics>> {
     let count = lines.iter().map(Vec::len).min().unwrap_or(0);
-    let mut quantiles = StudentT::default();
-    let mut values = Vec::with_capacity(lines.len());
-    (0..count)
-        .map(|index| {
-            values.clear();
-            values.extend(lines.iter().map(|line| line[index].adhesion_force.unwrap_or(0.0)));
-            Statistics::with(&values, Quantity::AdhesionForce.bounds(), &mut quantiles)
-        })
-        .collect()
+    let forces = |index: usize| lines.iter().map(move |line| line[index].adhesion_force.unwrap_or(0.0));
+    let statistics =
+        |index| Statistics::of(&forces(index).collect::<Vec<_>>(), Quantity::AdhesionForce.bounds());
+    (0..count).map(statistics).collect()
 }
 
 #[cfg(test)]
@@ -166,7 +166,7 @@ mod tests {
     fn smooth_bodies_have_but_one_profile() {
         let smooth = open("jkr-sphere").unwrap();
         let failed = solve_preloads_on_lines(smooth.scene(), &smooth.resolve(""), &[1e-6], 2, 1);
-        assert_eq!(failed, Err(LinesError::OneLine));
+        assert_eq!(failed.unwrap_err().to_string(), ONE_PROFILE);
         assert_eq!(preload_statistics(&[vec![]]), vec![]);
     }
 }

@@ -230,8 +230,7 @@ impl Quantity {
     }
 }
 
-/// The regime of a recorded value, if the quantity is the regime and known.
-pub(super) fn regime_of(quantity: Quantity, value: f64) -> Option<Regime> {
-    let place = Some(value as usize).filter(|_| quantity == Quantity::Regime && !value.is_nan());
-    Regime::ALL.get(place?).copied()
+/// The regime of a recorded value; `None` for NaN.
+pub(super) fn regime_of(value: f64) -> Option<Regime> {
+    Regime::ALL.get(Some(value as usize).filter(|_| !value.is_nan())?).copied()
 }

@@ -1,9 +1,11 @@
-//! Recorder of a case: solves its loadings on one profile and reads the recorded quantities.
+//! Recorder of a run: solves its loadings on one profile and reads the recorded quantities.
 
 use super::case_outcome::{CaseOutcome, LoadingOutcome, ProfileRecord};
+use super::cells::Run;
 use super::height_shape::HeightShape;
 use super::plan::{Plan, StiffnessRange};
 use super::quantity::Needs;
+use super::target::strip;
 use crate::analysis::Governing;
 use crate::scene::{Move, Roughness, Scene, Solver};
 use crate::simulation::{Outcome, RunError, Simulation};
@@ -27,17 +29,16 @@ impl<'p> Recorder<'p> {
         Recorder { plan, simulation, profile: None, stop }
     }
 
-    /// The plan.
-    pub fn plan(&self) -> &'p Plan {
-        self.plan
-    }
-
-    /// Solves a scene of the plan with the seed of a profile.
+    /// Solves a run.
     ///
     /// # Errors
     /// A failure of the profile or the contact, or a stop.
-    pub fn record(&mut self, mut scene: Scene) -> Result<Records, RunError> {
+    pub fn record(&mut self, run: &Run) -> Result<Records, RunError> {
         let plan = self.plan;
+        // The scene of every cell has been checked.
+        let mut scene = plan.scene_of(run.cells.start).unwrap_or_else(|_| plan.scene.clone());
+        strip(&mut scene);
+        scene.set_seed(plan.seed_of(run.line));
         let profile = self.profile_record(&scene)?;
         let (_, _, governing) = self.simulation.make_line(&scene)?;
         let mut loops = Vec::new();

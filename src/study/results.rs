@@ -1,16 +1,22 @@
 //! All records of a study: from its shard files, from its merged table, or computed in memory.
 
 use super::StudyError;
+use super::cells::Run;
 use super::grid::{Cell, Estimate, Grid, Layer};
-use super::plan::Plan;
-use super::quantity::Quantity;
+use super::plan::{ONE_PROFILE, Plan};
+use super::quantity::{Quantity, regime_of};
 use super::record::{Done, Key};
-use super::statistics::{StudentT, mean};
+use super::recorder::Recorder;
+use super::statistics::{Statistics, mean};
 use super::store::{Folder, ShardFile};
-use crate::analysis::CellRegime;
+use crate::analysis::{CellRegime, Regime};
 use crate::draw::AxisScale;
+use crate::parallel::on_threads;
+use crate::scene::Scene;
+use crate::simulation::Simulation;
 use crate::text::path_name;
 use std::collections::BTreeSet;
+use std::path::Path;
 
 /// Most missing cells that are named.
 const MOST_NAMED: usize = 8;
@@ -75,6 +81,36 @@ impl Results {
         values.try_reserve_exact(count).map_err(|_| StudyError::OutOfMemory { records })?;
         values.resize(count, f64::NAN);
         Ok(Results { plan, values, done: Done::none(records) })
+    }
+
+    /// Computes a checked scene on so many random profiles in memory: one cell. Its files are relative to `folder`.
+    /// `jobs` threads share the profiles; no bit of a result depends on their number.
+    ///
+    /// # Errors
+    /// A scene with a single profile, or the first profile that fails.
+    pub fn of_profiles(
+        scene: &Scene,
+        folder: &Path,
+        record: &[Quantity],
+        lines: u64,
+        jobs: usize,
+    ) -> Result<Results, StudyError> {
+        if scene.seed().is_none() {
+            return Err(StudyError::Records(ONE_PROFILE.into()));
+        }
+        let mut results = Results::empty(Plan::of_scene(scene, lines, record))?;
+        let plan = &results.plan;
+        let solved = on_threads(lines, jobs, || {
+            let mut recorder = Recorder::new(plan, Simulation::new(folder.to_path_buf()), &|| false);
+            move |line| {
+                let solved = recorder.record(&Run { cells: 0..1, line });
+                solved.map_err(|error| StudyError::Profile { seed: plan.seed_of(line), error })
+            }
+        })?;
+        for (line, values) in (0..).zip(&solved) {
+            results.set(line, &values.concat());
+        }
+        Ok(results)
     }
 
     /// Reads all shard files of a study.
@@ -144,31 +180,52 @@ impl Results {
         self.done.has(place).then_some(values)
     }
 
+    /// A recorded quantity of a cell on a profile, if it has a value.
+    pub fn value(&self, cell: u64, line: u64, quantity: Quantity) -> Option<f64> {
+        let column = self.plan.column(quantity)?;
+        self.record(cell, line).map(|values| values[column]).filter(|value| !value.is_nan())
+    }
+
+    /// The recorded regime of a cell on a profile.
+    pub fn regime(&self, cell: u64, line: u64) -> Option<Regime> {
+        regime_of(self.value(cell, line, Quantity::Regime)?)
+    }
+
     /// Existing records of a cell: the number of the profile and the values.
     pub fn records_of(&self, cell: u64) -> impl Iterator<Item = (u64, &[f64])> {
         (0..self.plan.lines).filter_map(move |line| Some((line, self.record(cell, line)?)))
     }
 
-    /// Returns true for a cell with all records.
-    pub fn is_whole(&self, cell: u64) -> bool {
-        (0..self.plan.lines).all(|line| self.done.has(cell * self.plan.lines + line))
+    /// Returns true for the existing record of a cell on a profile.
+    pub(super) fn has(&self, cell: u64, line: u64) -> bool {
+        self.done.has(cell * self.plan.lines + line)
     }
 
-    /// Values of a quantity, by its place among the recorded ones, on all profiles of a cell that have one.
-    pub(super) fn values_of(&self, cell: u64, column: usize) -> Vec<f64> {
+    /// Returns true for a cell with all records.
+    pub fn is_whole(&self, cell: u64) -> bool {
+        (0..self.plan.lines).all(|line| self.has(cell, line))
+    }
+
+    /// A recorded quantity on all profiles of a cell that have a value of it.
+    pub fn values(&self, cell: u64, quantity: Quantity) -> Vec<f64> {
+        let Some(column) = self.plan.column(quantity) else { return Vec::new() };
         self.records_of(cell).map(|(_, values)| values[column]).filter(|value| !value.is_nan()).collect()
+    }
+
+    /// Statistics of a quantity over the profiles of a cell; `None` for fewer than two values.
+    pub fn statistics(&self, cell: u64, quantity: Quantity) -> Option<Statistics> {
+        Statistics::of(&self.values(cell, quantity), quantity.bounds())
     }
 
     /// A recorded quantity over the profiles of a cell; `None` without values.
     pub fn estimate(&self, cell: u64, quantity: Quantity) -> Option<Estimate> {
-        let column = self.plan.column(quantity)?;
-        Estimate::of(quantity, &self.values_of(cell, column), &mut StudentT::default())
+        Estimate::of(quantity, &self.values(cell, quantity))
     }
 
     /// Shares of the profiles of a cell in each regime, in the order of [`crate::analysis::Regime::ALL`]; `None` where no
     /// regime is known.
     pub fn regimes(&self, cell: u64) -> Option<[f64; 3]> {
-        let places = self.values_of(cell, self.plan.column(Quantity::Regime)?);
+        let places = self.values(cell, Quantity::Regime);
         let share = |regime: usize| places.iter().filter(|place| **place as usize == regime).count() as f64;
         (!places.is_empty()).then(|| [0, 1, 2].map(|regime| share(regime) / places.len() as f64))
     }
@@ -182,7 +239,7 @@ impl Results {
     /// A recorded quantity on one scale for the whole study: that one, or by the range of all its means.
     pub(super) fn layer(&self, quantity: Quantity, scale: Option<AxisScale>) -> Layer {
         let mean = |cell| {
-            let values = self.values_of(cell, self.plan.column(quantity)?);
+            let values = self.values(cell, quantity);
             (!values.is_empty()).then(|| mean(&values))
         };
         let means: Vec<f64> = (0..self.plan.cells()).filter_map(mean).collect();
@@ -197,7 +254,6 @@ impl Results {
         layers: Vec<Layer>,
     ) -> Grid {
         let axes = &self.plan.axes;
-        let mut quantiles = StudentT::default();
         let mut cells = Vec::new();
         for row in up.map_or(vec![0], |up| axes[up].order()) {
             if let Some(up) = up {
@@ -205,20 +261,16 @@ impl Results {
             }
             for column in axes[across].order() {
                 places[across] = column;
-                cells.push(self.cell(self.plan.cell_at(&places), &layers, &mut quantiles).map(Ok));
+                cells.push(self.cell(self.plan.cell_at(&places), &layers).map(Ok));
             }
         }
         Grid::new(axes[across].ascending(), up.map(|up| axes[up].ascending()), layers, cells)
     }
 
     /// A cell with these quantities; `None` without any record.
-    pub(super) fn cell(&self, cell: u64, layers: &[Layer], quantiles: &mut StudentT) -> Option<Cell> {
+    pub(super) fn cell(&self, cell: u64, layers: &[Layer]) -> Option<Cell> {
         let lines = self.records_of(cell).count() as u64;
-        let estimates = layers.iter().map(|layer| {
-            let column = self.plan.column(layer.quantity)?;
-            Estimate::of(layer.quantity, &self.values_of(cell, column), quantiles)
-        });
-        let estimates = estimates.collect();
+        let estimates = layers.iter().map(|layer| self.estimate(cell, layer.quantity)).collect();
         let regime = self.regimes(cell).and_then(CellRegime::from_shares);
         (lines > 0).then_some(Cell { estimates, regime, lines })
     }
@@ -242,6 +294,33 @@ fn first_with(folder: &Folder, files: &[ShardFile], key: Key) -> Result<String, 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::open;
+
+    #[test]
+    fn profiles_do_not_depend_on_how_many_threads_share_them() {
+        let document = open("rough-sphere").unwrap();
+        let mut scene = document.scene().clone();
+        scene.numerics.points = 1024;
+        scene.set_seed(u64::MAX - 2);
+        let record = [Quantity::AdhesionForce, Quantity::DissipatedEnergy];
+        let of = |jobs| Results::of_profiles(&scene, &document.resolve(""), &record, 7, jobs).unwrap();
+        let alone = of(1);
+        assert_eq!((of(3), of(64)), (alone.clone(), alone.clone()));
+        assert_eq!([0, 3].map(|line| alone.plan().seed_of(line)), [u64::MAX - 2, 0]);
+        // Each record is that of the scene itself with that seed.
+        scene.set_seed(0);
+        let outcome =
+            Simulation::new(document.resolve("")).run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+        for (quantity, expected) in
+            record.into_iter().zip([outcome.figures.adhesion_force, outcome.figures.dissipated_energy])
+        {
+            assert_eq!(alone.value(0, 3, quantity), expected);
+        }
+        assert_eq!(alone.statistics(0, record[0]).unwrap().count, 7);
+        let smooth = open("jkr-sphere").unwrap();
+        let failed = Results::of_profiles(smooth.scene(), &smooth.resolve(""), &record, 2, 1);
+        assert_eq!(failed.unwrap_err().to_string(), ONE_PROFILE);
+    }
 
     #[test]
     fn records_agree_bit_by_bit_but_for_the_kind_of_nan() {

@@ -3,20 +3,21 @@
 use super::StudyError;
 use super::cells::Cells;
 use super::measured::profile;
-use super::record::{Done, Key, encode};
-use super::recorder::{Recorder, Records};
+use super::record::{Key, encode};
+use super::recorder::Recorder;
 use super::shard::Shard;
-use super::solve::{Case, Next, SharedWork, Sink};
 use super::status::{count, rate};
 use super::store::Folder;
-use crate::parallel::begin_threads;
-use crate::simulation::{RunError, Simulation};
+use crate::parallel::on_threads;
+use crate::simulation::Simulation;
 use std::fs::File;
 use std::io::{self, Write};
-use std::ops::ControlFlow;
+use std::panic::resume_unwind;
 use std::path::PathBuf;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
+use std::thread::Builder;
 use std::time::{Duration, Instant};
 
 /// Longest wait of written records for the disk; records lost by a power cut are computed again. One sync costs
@@ -26,8 +27,6 @@ use std::time::{Duration, Instant};
 const SYNC: Duration = Duration::from_millis(50);
 /// Records on their way to the file.
 const WAITING: usize = 4096;
-/// Bytes gathered before they are written.
-const BUFFER: usize = 1 << 16;
 /// Interval between reports of progress.
 const TICK: Duration = Duration::from_millis(200);
 
@@ -71,20 +70,6 @@ impl Progress {
     }
 }
 
-/// Shared state of all threads of a run.
-struct Shared<'a> {
-    folder: &'a Folder,
-    done: Done,
-    error: Mutex<Option<StudyError>>,
-    stop: &'a (dyn Fn() -> bool + Sync),
-}
-
-impl Shared<'_> {
-    fn error(&self) -> MutexGuard<'_, Option<StudyError>> {
-        self.error.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
 /// Computes the missing records of a part of the plan. `stop` is polled after each run; `report` is called now and
 /// then and at the end.
 ///
@@ -96,7 +81,8 @@ pub fn run(
     stop: &(dyn Fn() -> bool + Sync),
     report: &mut dyn FnMut(&Progress),
 ) -> Result<Progress, StudyError> {
-    let cells = Cells::of(folder.plan());
+    let plan = folder.plan();
+    let cells = Cells::of(plan);
     let done = folder.done()?;
     let (total, before) = count(folder, &cells, &done, options.shard);
     let mut progress = Progress { done: before, before, total, elapsed: Duration::ZERO };
@@ -105,30 +91,50 @@ pub fn run(
         return Ok(progress);
     }
     // Read once, so that all threads compute from the same bytes, even if the file changes meanwhile.
-    let profile = profile(folder.plan(), folder.path())?;
+    let profile = profile(plan, folder.path())?;
     let clock = Instant::now();
     let (path, mut file) = folder.new_file(options.shard)?;
-    let work = &SharedWork::new(&cells, options.shard.units(cells.units()).map(|unit| cells.unit(unit)));
-    let shared = &Shared { folder, done, error: Mutex::new(None), stop };
-    let written = std::thread::scope(|scope| {
-        let (sender, receiver) = sync_channel(WAITING);
-        let begun = begin_threads(scope, options.jobs.max(1), move || {
-            let simulation = Simulation::new(PathBuf::new());
-            let simulation = match profile {
-                Some(profile) => simulation.with_measured(profile),
-                None => simulation,
-            };
-            let recorder = Recorder::new(folder.plan(), simulation, &|| false);
-            work.solve(recorder, &mut FolderSink { shared, sender });
-        });
-        // If the system starts fewer threads than requested, those do all the work.
-        begun.map_err(StudyError::NoThread)?;
-        write(&mut file, receiver, clock, &mut progress, report).map_err(StudyError::unwritable(&path))
-    });
-    if let Some(error) = shared.error().take() {
-        return Err(error);
-    }
-    written?;
+    let units: &Vec<u64> = &options.shard.units(cells.units()).collect();
+    let (cells, done, profile, ended) = (&cells, &done, &profile, &AtomicBool::new(false));
+    let (sender, receiver) = sync_channel(WAITING);
+    let worker = move || {
+        let simulation = Simulation::new(PathBuf::new());
+        let simulation = match profile {
+            Some(profile) => simulation.with_measured(Arc::clone(profile)),
+            None => simulation,
+        };
+        let (mut recorder, sender) = (Recorder::new(plan, simulation, &|| false), sender.clone());
+        move |number: u64| -> Result<(), StudyError> {
+            for run in cells.runs_of(&cells.unit(units[number as usize])) {
+                let is_missing = |cell: u64| !done.has(cell * plan.lines + run.line);
+                if !run.cells.clone().any(is_missing) {
+                    continue;
+                }
+                if stop() || ended.load(Ordering::SeqCst) {
+                    break;
+                }
+                let (cell, seed) = (run.cells.start, plan.seed_of(run.line));
+                let records = recorder.record(&run).map_err(|error| {
+                    ended.store(true, Ordering::SeqCst);
+                    StudyError::Run { cell, coordinates: plan.coordinates(cell), seed, error }
+                })?;
+                let mut text = String::new();
+                for (cell, values) in run.cells.zip(&records).filter(|(cell, _)| is_missing(*cell)) {
+                    encode(Key { cell, seed }, values, &mut text);
+                }
+                // The text has no receiver once the file cannot be written.
+                ended.fetch_or(sender.send(text).is_err(), Ordering::SeqCst);
+            }
+            Ok(())
+        }
+    };
+    std::thread::scope(|scope| {
+        let work = move || on_threads(units.len() as u64, options.jobs, worker).map(drop);
+        let threads = Builder::new().spawn_scoped(scope, work).map_err(StudyError::NoThread)?;
+        let written = write(&mut file, receiver, clock, &mut progress, report);
+        threads.join().unwrap_or_else(|panic| resume_unwind(panic))?;
+        written.map_err(StudyError::unwritable(&path))
+    })?;
     report(&progress);
     Ok(progress)
 }
@@ -144,19 +150,12 @@ fn write(
 ) -> io::Result<()> {
     let (mut synced, mut reported) = (Instant::now(), Instant::now());
     let (mut pending, mut elapsed) = (0, Duration::ZERO);
-    let mut text = String::with_capacity(BUFFER);
     loop {
         let wait = if pending > 0 { SYNC.saturating_sub(synced.elapsed()) } else { TICK };
-        let first = receiver.recv_timeout(wait.min(TICK));
-        let ended = matches!(first, Err(RecvTimeoutError::Disconnected));
-        text.clear();
+        let first = receiver.recv_timeout(wait);
+        let ended = first == Err(RecvTimeoutError::Disconnected);
         if let Ok(first) = first {
-            text.push_str(&first);
-            while text.len() < BUFFER
-                && let Ok(next) = receiver.try_recv()
-            {
-                text.push_str(&next);
-            }
+            let text: String = std::iter::once(first).chain(receiver.try_iter().take(WAITING)).collect();
             file.write_all(text.as_bytes())?;
             elapsed = clock.elapsed();
             pending += text.bytes().filter(|&byte| byte == b'\n').count() as u64;
@@ -173,47 +172,5 @@ fn write(
         if ended {
             return Ok(());
         }
-    }
-}
-
-/// Sink of one thread: lines of text for the file of the run.
-struct FolderSink<'a> {
-    shared: &'a Shared<'a>,
-    sender: SyncSender<String>,
-}
-
-impl FolderSink<'_> {
-    fn is_missing(&self, cell: u64, line: u64) -> bool {
-        !self.shared.done.has(cell * self.shared.folder.plan().lines + line)
-    }
-}
-
-impl Sink for FolderSink<'_> {
-    fn next(&mut self, case: &Case) -> Next {
-        match case.cells.clone().any(|cell| self.is_missing(cell, case.line)) {
-            false => Next::Skip,
-            true if (self.shared.stop)() || self.shared.error().is_some() => Next::End,
-            true => Next::Solve,
-        }
-    }
-
-    fn take(&mut self, case: Case, records: Result<Records, RunError>) -> ControlFlow<()> {
-        let plan = self.shared.folder.plan();
-        let seed = plan.seed_of(case.line);
-        let records = match records {
-            Ok(records) => records,
-            Err(error) => {
-                let (cell, coordinates) = (case.cells.start, plan.coordinates(case.cells.start));
-                let error = StudyError::Run { cell, coordinates, seed, error };
-                self.shared.error().get_or_insert(error);
-                return ControlFlow::Break(());
-            }
-        };
-        let mut text = String::new();
-        for (cell, values) in case.cells.zip(&records).filter(|(cell, _)| self.is_missing(*cell, case.line)) {
-            encode(Key { cell, seed }, values, &mut text);
-        }
-        // The writer has ended if the text has no receiver.
-        if self.sender.send(text).is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     }
 }

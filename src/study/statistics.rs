@@ -1,6 +1,7 @@
 //! Mean, spread and confidence of a sample.
 
 use serde::Serialize;
+use std::cell::Cell;
 use std::f64::consts::FRAC_2_PI;
 
 /// Share of samples whose confidence interval holds the true mean.
@@ -27,12 +28,7 @@ impl Statistics {
     ///
     /// The confidence interval is cut at the bounds: the true mean cannot lie beyond them, so the interval contains the
     /// mean as often as before.
-    pub fn of(values: &[f64], bounds: (f64, f64)) -> Option<Self> {
-        Statistics::with(values, bounds, &mut StudentT::default())
-    }
-
-    /// The same for one of many samples of equal size, whose quantile is computed once.
-    pub(crate) fn with(values: &[f64], (least, most): (f64, f64), quantiles: &mut StudentT) -> Option<Self> {
+    pub fn of(values: &[f64], (least, most): (f64, f64)) -> Option<Self> {
         if values.len() < 2 {
             return None;
         }
@@ -42,7 +38,7 @@ impl Statistics {
         let squares = values.iter().map(|value| (value / unit - mean).powi(2)).sum::<f64>();
         let (mean, standard_deviation) = (mean * unit, (squares / (count - 1.0)).sqrt() * unit);
         let standard_error = standard_deviation / count.sqrt();
-        let half = quantiles.of(values.len() as u32 - 1) * standard_error;
+        let half = quantile(values.len() as u32 - 1) * standard_error;
         // Rounding may have carried the mean itself across a bound.
         let confidence_interval = ((mean - half).max(least.min(mean)), (mean + half).min(most.max(mean)));
         Some(Statistics {
@@ -83,19 +79,16 @@ pub fn quartiles(mut values: Vec<f64>) -> Option<[f64; 3]> {
     }))
 }
 
-/// Quantiles of Student's distribution; the last one is kept.
-#[derive(Default)]
-pub(crate) struct StudentT {
-    known: Option<(u32, f64)>,
+thread_local! {
+    /// The last quantile of Student's distribution: most samples in a row have the same size.
+    static KNOWN: Cell<(u32, f64)> = const { Cell::new((0, f64::NAN)) };
 }
 
-impl StudentT {
-    fn of(&mut self, freedom: u32) -> f64 {
-        match self.known {
-            Some((known, t)) if known == freedom => t,
-            _ => self.known.insert((freedom, student_t(freedom))).1,
-        }
+fn quantile(freedom: u32) -> f64 {
+    if KNOWN.get().0 != freedom {
+        KNOWN.set((freedom, student_t(freedom)));
     }
+    KNOWN.get().1
 }
 
 /// The two-sided 5 % quantile of Student's distribution: the t that |t| exceeds with a probability of 5 %.

@@ -1,7 +1,7 @@
 //! Progress of a study and of the processes that work on it.
 
 use super::StudyError;
-use super::cells::Cells;
+use super::cells::{Cells, Run};
 use super::record::Done;
 use super::shard::Shard;
 use super::store::Folder;
@@ -108,8 +108,8 @@ pub(super) fn count(folder: &Folder, cells: &Cells<'_>, done: &Done, shard: Shar
     for unit in shard.units(cells.units()) {
         let unit = cells.unit(unit);
         total += cells.records_of(&unit);
-        for cell in cells.runs_of(&unit).flatten() {
-            there += u64::from(done.has(cell * folder.plan().lines + unit.line));
+        for Run { cells, line } in cells.runs_of(&unit) {
+            there += cells.filter(|cell| done.has(cell * folder.plan().lines + line)).count() as u64;
         }
     }
     (total, there)

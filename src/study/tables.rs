@@ -5,13 +5,12 @@ use super::axis::Axis;
 use super::plan::Plan;
 use super::quantity::{Quantity, regime_of};
 use super::results::{Merged, Results};
-use super::statistics::{CONFIDENCE, Statistics, StudentT};
+use super::statistics::CONFIDENCE;
 use super::store::{Folder, LONGEST_LINE};
 use crate::analysis::Regime;
-use crate::io::{ReadError, object, open_regular, write_json_value, write_new_file};
+use crate::io::{Kind, ReadError, Table, TableOf, object, open_regular, write_json_value, write_new_file};
 use serde::Serialize;
-use std::fmt::Write as _;
-use std::io::{self, BufRead, BufReader, Read, Write};
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
 /// Version of the merged files.
@@ -54,98 +53,10 @@ pub fn merge(folder: &Folder, partial: bool) -> Result<Merged, StudyError> {
     if parquet.exists() {
         std::fs::remove_file(&parquet).map_err(StudyError::unwritable(&parquet))?;
     }
-    write_new_file(&path(RESULTS), true, |out| write_results(&results, out))?;
-    write_new_file(&path(SUMMARY), true, |out| write_summary(&results, out))?;
+    write_new_file(&path(RESULTS), true, |out| results.table().write_csv(out, ""))?;
+    write_new_file(&path(SUMMARY), true, |out| results.summary().write_csv(out, ""))?;
     write_new_file(&path(SIDECAR), true, |out| write_json_value(out, &sidecar(plan, &merged)))?;
     Ok(merged)
-}
-
-/// A number in the shortest form that is read back bit for bit; empty for NaN and `None`.
-fn number(value: impl Into<Option<f64>>) -> String {
-    value.into().filter(|value| !value.is_nan()).map_or_else(String::new, |value| format!("{value:?}"))
-}
-
-/// Start of a row: cell, axes and preload.
-fn row_start(plan: &Plan, cell: u64) -> String {
-    let mut row = cell.to_string();
-    for (axis, value) in plan.axes.iter().zip(plan.values(cell)) {
-        let value = if axis.is_whole() { format!("{}", value as u64) } else { format!("{value:?}") };
-        row.extend([",", &value]);
-    }
-    if plan.preloads().is_none() {
-        row.push(',');
-    }
-    row
-}
-
-/// Names of the columns before the quantities; `profiles` is the last of them.
-fn leading_columns(plan: &Plan, profiles: &str) -> Vec<String> {
-    let axes = plan.scene_axes().iter().map(|axis| axis.path.as_str());
-    ["cell"].into_iter().chain(axes).chain(["preload", profiles]).map(String::from).collect()
-}
-
-/// Names of the columns of the results.
-pub(super) fn columns(plan: &Plan) -> Vec<String> {
-    let quantities = plan.record.iter().map(|quantity| quantity.name().to_owned());
-    leading_columns(plan, "seed").into_iter().chain(quantities).collect()
-}
-
-fn write_results(results: &Results, out: &mut dyn Write) -> io::Result<()> {
-    let plan = results.plan();
-    writeln!(out, "{}", columns(plan).join(","))?;
-    for cell in 0..plan.cells() {
-        let start = row_start(plan, cell);
-        for (line, values) in results.records_of(cell) {
-            write!(out, "{start},{}", plan.seed_of(line))?;
-            for (quantity, value) in plan.record.iter().zip(values) {
-                match regime_of(*quantity, *value) {
-                    Some(regime) => write!(out, ",{}", regime.name())?,
-                    None => write!(out, ",{}", number(*value))?,
-                }
-            }
-            writeln!(out)?;
-        }
-    }
-    Ok(())
-}
-
-/// Writes the number of profiles of each cell and, for each quantity, mean, standard deviation and confidence interval.
-fn write_summary(results: &Results, out: &mut dyn Write) -> io::Result<()> {
-    let plan = results.plan();
-    let mut header = leading_columns(plan, "lines");
-    for quantity in &plan.record {
-        let of = |of| format!("{}_{of}", quantity.name());
-        match quantity {
-            Quantity::Regime => header.extend(REGIME_COLUMNS.map(String::from)),
-            _ => header.extend(["mean", "sd", "low", "high"].map(of)),
-        }
-    }
-    writeln!(out, "{}", header.join(","))?;
-    let mut quantiles = StudentT::default();
-    for cell in 0..plan.cells() {
-        let lines = results.records_of(cell).count();
-        if lines == 0 {
-            continue;
-        }
-        let mut row = format!("{},{lines}", row_start(plan, cell));
-        for (column, quantity) in plan.record.iter().enumerate() {
-            if *quantity == Quantity::Regime {
-                let shares = results.regimes(cell).map_or([None; 3], |shares| shares.map(Some));
-                shares.into_iter().for_each(|share| row.extend([",", &number(share)]));
-                continue;
-            }
-            let values = results.values_of(cell, column);
-            let all = Statistics::with(&values, quantity.bounds(), &mut quantiles);
-            let mean = all.map(|all| all.mean).or(values.first().copied());
-            let interval = all.map(|all| all.confidence_interval);
-            let (low, high) = (interval.map(|ends| ends.0), interval.map(|ends| ends.1));
-            for value in [mean, all.map(|all| all.standard_deviation), low, high] {
-                let _ = write!(row, ",{}", number(value));
-            }
-        }
-        writeln!(out, "{row}")?;
-    }
-    Ok(())
 }
 
 /// The meanings of the columns, with the plan and the contents found by a merge.
@@ -188,7 +99,71 @@ fn sidecar<'a>(plan: &'a Plan, merged: &'a Merged) -> impl Serialize + 'a {
     }
 }
 
+/// Adds the cell, its values on the axes and the preload.
+fn with_cell<'a, T: 'a>(plan: &'a Plan, rows: TableOf<'a, T>, cell: fn(&T) -> u64) -> TableOf<'a, T> {
+    let mut table = rows.whole("cell", cell);
+    for (number, axis) in plan.scene_axes().iter().enumerate() {
+        let (name, value) = (axis.path.clone(), move |row: &T| plan.value(cell(row), number));
+        table = match axis.is_whole() {
+            true => table.with(name, Kind::Whole, move |row| value(row) as u64),
+            false => table.with(name, Kind::Real, value),
+        };
+    }
+    let preload = plan.preloads().map(|_| plan.axes.len() - 1);
+    table.real("preload", move |row| preload.map(|axis| plan.value(cell(row), axis)))
+}
+
 impl Results {
+    /// The records, one row for each.
+    pub(super) fn table(&self) -> Table<'_> {
+        let rows = || {
+            let of_cell = |cell| self.records_of(cell).map(move |(line, values)| (cell, line, values));
+            (0..self.plan.cells()).flat_map(of_cell)
+        };
+        let mut table = with_cell(&self.plan, Table::of(rows), |row| row.0);
+        table = table.whole("seed", |row| self.plan.seed_of(row.1));
+        for (column, quantity) in self.plan.record.iter().enumerate() {
+            table = match quantity {
+                Quantity::Regime => table.with("regime", Kind::Text(Regime::LONGEST_NAME), move |row| {
+                    regime_of(row.2[column]).map(Regime::name)
+                }),
+                _ => table.real(quantity.name(), move |row| row.2[column]),
+            };
+        }
+        table.done()
+    }
+
+    /// The cells with records: number of profiles and, for each quantity, mean, standard deviation and confidence
+    /// interval.
+    fn summary(&self) -> Table<'_> {
+        let numbers = |cell: u64, quantity: &Quantity| -> Vec<Option<f64>> {
+            if *quantity == Quantity::Regime {
+                let shares = self.regimes(cell);
+                return (0..REGIME_COLUMNS.len()).map(|regime| Some(shares?[regime])).collect();
+            }
+            let (values, all) = (self.values(cell, *quantity), self.statistics(cell, *quantity));
+            let interval = all.map(|all| all.confidence_interval);
+            let deviation = all.map(|all| all.standard_deviation);
+            let mean = all.map(|all| all.mean).or(values.first().copied());
+            vec![mean, deviation, interval.map(|ends| ends.0), interval.map(|ends| ends.1)]
+        };
+        let row = move |cell| (cell, self.records_of(cell).count() as u64);
+        let of_cell = move |(cell, lines)| {
+            let numbers = self.plan.record.iter().flat_map(|quantity| numbers(cell, quantity));
+            (cell, lines, numbers.collect::<Vec<_>>())
+        };
+        let rows = move || (0..self.plan.cells()).map(row).filter(|row| row.1 > 0).map(of_cell);
+        let mut table = with_cell(&self.plan, Table::of(rows), |row| row.0).whole("lines", |row| row.1);
+        let names = self.plan.record.iter().flat_map(|quantity| match quantity {
+            Quantity::Regime => REGIME_COLUMNS.map(String::from).to_vec(),
+            _ => ["mean", "sd", "low", "high"].map(|of| format!("{}_{of}", quantity.name())).to_vec(),
+        });
+        for (column, name) in names.enumerate() {
+            table = table.with(name, Kind::Real, move |row| row.2[column]);
+        }
+        table.done()
+    }
+
     /// Reads the results of a merged study.
     ///
     /// # Errors
@@ -206,8 +181,9 @@ impl Results {
             }
             error => wrong(error.to_string()),
         })?;
-        let mut reader = BufReader::new(file);
-        let (mut line, mut start) = (Vec::new(), (u64::MAX, String::new()));
+        let header =
+            results.table().columns().iter().map(|(name, _)| name.as_ref()).collect::<Vec<_>>().join(",");
+        let (mut reader, mut line) = (BufReader::new(file), Vec::new());
         for number in 1.. {
             line.clear();
             let read = reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line);
@@ -218,25 +194,29 @@ impl Results {
             let text = line.strip_suffix(b"\n").and_then(|line| std::str::from_utf8(line).ok());
             let text = text.unwrap_or_default().trim_end_matches('\r');
             if number == 1 {
-                if text != columns(&results.plan).join(",") {
+                if text != header {
                     return Err(wrong("its columns are not those of the plan".into()));
                 }
-            } else if results.add_row(text, &mut start).is_none() {
+            } else if results.add_row(text).is_none() {
                 return Err(wrong(format!("line {number} is not a row of this study")));
             }
         }
         Ok(results)
     }
 
-    /// Adds a row of the results; `start` is the cell of the row before and the start of its rows.
-    fn add_row(&mut self, row: &str, start: &mut (u64, String)) -> Option<()> {
-        let cell = row.split(',').next()?.parse().ok().filter(|cell| *cell < self.plan.cells())?;
-        if start.0 != cell {
-            *start = (cell, row_start(&self.plan, cell) + ",");
-        }
+    /// Adds a row of the results; `None` if the row is not one of this study.
+    fn add_row(&mut self, row: &str) -> Option<()> {
+        let plan = &self.plan;
+        let mut columns = row.split(',');
+        let cell = columns.next()?.parse().ok().filter(|cell| *cell < plan.cells())?;
         // The values of the axes are those of the plan.
-        let mut columns = row.strip_prefix(start.1.as_str())?.split(',');
-        let line = columns.next()?.parse::<u64>().ok()?.wrapping_sub(self.plan.seed);
+        for axis in 0..plan.axes.len() {
+            columns.next()?.parse::<f64>().ok().filter(|value| plan.value(cell, axis) == *value)?;
+        }
+        if plan.preloads().is_none() {
+            columns.next().filter(|preload| preload.is_empty())?;
+        }
+        let line = columns.next()?.parse::<u64>().ok()?.wrapping_sub(plan.seed);
         let value = |(quantity, text): (&Quantity, &str)| match quantity {
             _ if text.is_empty() => Some(f64::NAN),
             Quantity::Regime => {
@@ -244,9 +224,9 @@ impl Results {
             }
             _ => text.parse().ok(),
         };
-        let values: Option<Vec<f64>> = self.plan.record.iter().zip(&mut columns).map(value).collect();
-        let values = values.filter(|values| values.len() == self.plan.record.len())?;
-        if columns.next().is_some() || line >= self.plan.lines {
+        let values: Option<Vec<f64>> = plan.record.iter().zip(&mut columns).map(value).collect();
+        let values = values.filter(|values| values.len() == plan.record.len())?;
+        if columns.next().is_some() || line >= plan.lines {
             return None;
         }
         self.set(cell * self.plan.lines + line, &values);

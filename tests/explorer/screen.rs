@@ -20,7 +20,7 @@ mod palette;
 mod panes;
 mod parameters;
 mod play;
-mod preloads;
+pub mod preloads;
 mod saving;
 mod sizes;
 mod spectrum;

@@ -78,8 +78,3 @@ pub(super) fn sweep(arguments: &SweepArguments, stdout: &mut dyn Write) -> Resul
         None => run::run(&arguments.run, stdout),
     }
 }
-
-/// Rows as comma-separated values.
-fn csv<R: AsRef<[String]>>(rows: &[R]) -> String {
-    rows.iter().map(|row| row.as_ref().join(",") + "\n").collect()
-}

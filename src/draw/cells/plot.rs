@@ -58,11 +58,21 @@ impl CellPlot {
         self.below.then(|| self.plot.bottom() + u16::from(self.line))
     }
 
-    /// Number on the horizontal axis at the middle of a column of the screen, within the plot.
+    /// Numbers on both axes at a cell of the screen: on a map those of the value behind the cell, if any, else those of
+    /// the middle of the nearest cell of the plot.
     #[must_use]
-    pub fn number_at(&self, x: &Axis, column: u16) -> f64 {
-        let share = (f64::from(column) + 0.5 - f64::from(self.plot.x)) / f64::from(self.plot.width.max(1));
-        x.scale.number(x.span.low + share.clamp(0.0, 1.0) * x.span.width())
+    pub fn data_at(&self, chart: &Chart, (column, row): (u16, u16)) -> Option<(f64, f64)> {
+        if let Some(map) = chart.map() {
+            return self.values_at(map, (column, row));
+        }
+        let number = |axis: &Axis, at: u16, from: u16, cells: u16, is_down: bool| {
+            let share = (f64::from(at) + 0.5 - f64::from(from)) / f64::from(cells.max(1));
+            let share = share.clamp(0.0, 1.0);
+            let share = if is_down { 1.0 - share } else { share };
+            axis.scale.number(axis.span.low + share * axis.span.width())
+        };
+        let x = number(&chart.x, column, self.plot.x, self.plot.width, false);
+        Some((x, number(&chart.y, row, self.plot.y, self.plot.height, true)))
     }
 
     /// Cell of a point; `None` outside the chart. On a map all values have equal columns and rows, and a point
@@ -85,8 +95,7 @@ impl CellPlot {
     }
 
     /// Values on both axes for the cell of a map behind a cell of the screen; `None` outside the map.
-    #[must_use]
-    pub fn values_at(&self, map: &HeatMap, (column, row): (u16, u16)) -> Option<(f64, f64)> {
+    fn values_at(&self, map: &HeatMap, (column, row): (u16, u16)) -> Option<(f64, f64)> {
         if !self.plot.contains((column, row).into()) {
             return None;
         }
@@ -130,10 +139,10 @@ impl CellPlot {
         buffer: &mut Buffer,
         chart: &Chart,
         style: &CellStyle<'_>,
-        names: &[((f64, f64), &'n str)],
+        names: &[((f64, f64), &'n str, Ink)],
     ) -> Vec<&'n str> {
         let mut written = Vec::new();
-        for &(point, name) in names {
+        for &(point, name, ink) in names {
             let width = name.chars().count() as u16;
             let Some(cell) = self.cell(chart, style.marker, point) else { continue };
             let free = self.beside(cell, width).into_iter().find(|&(x, y)| {
@@ -143,7 +152,7 @@ impl CellPlot {
                 columns.filter(|column| (*column, y) != cell).all(is_blank)
             });
             if let Some((x, y)) = free {
-                buffer.set_string(x, y, name, (style.ink)(Ink::Quiet));
+                buffer.set_string(x, y, name, (style.ink)(ink));
                 written.push(name);
             }
         }
@@ -452,6 +461,7 @@ mod tests {
             let mut after = before.clone();
             let style = CellStyle { marker, ink: &|_| Style::new(), colours: Colours::None };
             let names = [(points[9], "preload"), (points[30], "pull-off"), ((1.0, 0.0), "outside")];
+            let names = names.map(|(at, name)| (at, name, Ink::Quiet));
             let written = place.draw_names(&mut after, &chart, &style, &names);
             assert!(!written.contains(&"outside"));
             found += written.len();
@@ -459,7 +469,7 @@ mod tests {
                 let is_blank = [" ", "\u{2800}"].contains(&old.symbol());
                 assert!(cell.symbol() == old.symbol() || is_blank, "{size:?} {marker}");
             }
-            for (point, name) in names.into_iter().filter(|(_, name)| written.contains(name)) {
+            for (point, name, _) in names.into_iter().filter(|(_, name, _)| written.contains(name)) {
                 let (column, row) = place.cell(&chart, marker, point).unwrap();
                 let near = (row.saturating_sub(1).max(after.area.y)..=(row + 1).min(after.area.bottom() - 1))
                     .any(|y| {
@@ -480,11 +490,14 @@ mod tests {
         for size in SIZES {
             let place = drawn(&empty, size, Marker::Braille).0;
             for column in place.plot.x..place.plot.right() {
-                let number = place.number_at(&empty.x, column);
+                let (number, _) = place.data_at(&empty, (column, place.plot.y)).unwrap();
                 let (back, _) = place.cell(&empty, Marker::Braille, (number, 0.0)).unwrap();
                 assert!(back.abs_diff(column) <= 1, "{size:?} {column} {back}");
             }
-            assert_eq!(place.number_at(&empty.x, u16::MAX), empty.x.span.high);
+            assert_eq!(
+                place.data_at(&empty, (u16::MAX, u16::MAX)),
+                Some((empty.x.span.high, empty.y.span.low))
+            );
         }
     }
 

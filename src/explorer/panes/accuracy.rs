@@ -2,31 +2,24 @@
 
 use super::{Costs, PaneRow, costs};
 use crate::accuracy::{CostTable, Estimate, Evidence, Knob};
-use crate::draw::{Chart, Figure, Ink, Layer, Shape, Sign, Span, legend};
+use crate::draw::{Chart, Ink, Layer, Shape, Sign, Span};
 use crate::explorer::app::App;
-use crate::explorer::layout::inside;
+use crate::explorer::mode::ModeKind;
+use crate::explorer::panel::{Panel, names};
 use crate::explorer::theme::{Appearance, Meaning};
 use crate::explorer::update::{Answer, Choosing};
-use crate::explorer::view::lines::{draw_around, draw_reason};
-use crate::explorer::view::plot;
 use crate::explorer::view::stages;
-use crate::explorer::view::wrap::{filled, wrapped};
+use crate::explorer::view::text::{filled, wrapped};
 use crate::export::work_precision;
 use crate::scene::{Edges, Numerics, Solver, format_quantity, format_rounded};
 use crate::text::grouped;
-use ratatui::Frame;
-use ratatui::layout::Rect;
+use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
-    title: |_| " Accuracy: error over time, log–log ".to_owned(),
-    draw,
-    figure: |app| {
-        let table = app.studies.value::<Costs>()?.table.as_ref()?;
-        let figure = work_precision(app.edit.document.title(), table);
-        Some(figure).filter(|figure| !figure.legend().is_empty())
-    },
+    panel,
+    keys: Some(ModeKind::Crosshair),
     studies: |_, computed| vec![costs::study(computed)],
     help: &[(
         "Accuracy",
@@ -42,37 +35,23 @@ const TARGETS: [f64; 2] = [0.01, 0.001];
 /// Lower limit of the plot; errors below are in the lowest row.
 const LOWEST: f64 = 1e-8;
 
-/// Fewest rows of a useful plot.
-const FEWEST_PLOT_ROWS: u16 = 4;
-
-/// Draws plot, answers and stages, as far as there is room.
-fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
-    let area = inside(area);
+fn panel(app: &App, size: Size) -> Panel {
+    let title = "Accuracy: error over time, log–log".to_owned();
     let table = app.studies.value::<Costs>().and_then(|costs| costs.table.as_ref());
-    let figure = table.map(|table| work_precision("", table));
-    let figure = figure.filter(|figure| !figure.legend().is_empty());
-    let shown = table.zip(figure.as_ref());
-    let legend = shown
-        .map(|(table, figure)| entries(table, figure, area.width, app.view.appearance))
-        .unwrap_or_default();
-    let below = texts(app, shown.map(|(table, _)| table), area);
-    let plot_rows = if shown.is_none() { 1 } else { FEWEST_PLOT_ROWS + 1 };
-    let plot = draw_around(frame, area, (legend, below), plot_rows);
-    match shown {
-        Some((table, figure)) => {
-            for chart in &figure.charts {
-                let chart = with_scene(chart.clone(), app, table);
-                plot::draw_chart(frame, plot, &chart, app.view.appearance);
-            }
-        }
-        None => draw_reason(frame, plot, &nothing_yet(app), app.view.appearance.theme),
-    }
+    let chart = table.and_then(|table| Some((table, work_precision("", table).charts.pop()?)));
+    let Some((table, chart)) = chart.filter(|(_, chart)| !chart.layers.is_empty()) else {
+        let foot = texts(app, None, size);
+        return Panel { foot, ..Panel::of_text(title, &nothing_yet(app)) };
+    };
+    let head = entries(table, &chart, size.width, app.view.appearance);
+    let chart = with_scene(chart, app, table);
+    Panel { head, foot: texts(app, Some(table), size), ..Panel::of_chart(title, chart) }
 }
 
 /// Reason why there is no plot.
 fn nothing_yet(app: &App) -> String {
     if app.is_computing() {
-        return "first the scene itself…".to_owned();
+        return "the scene is computed first…".to_owned();
     }
     match (app.studies.failure::<Costs>(), app.studies.is_done::<Costs>()) {
         _ if !app.is_current() => "the scene has no curve to estimate an error of".to_owned(),
@@ -83,7 +62,7 @@ fn nothing_yet(app: &App) -> String {
         (None, _) if !app.view.shows_times => {
             "times are not measured here: they differ from run to run".to_owned()
         }
-        (None, _) => "measuring: each knob from coarse to fine, as often as 10 s allow…".to_owned(),
+        (None, _) => "measuring: each setting from coarse to fine, as often as 10 s allow…".to_owned(),
     }
 }
 
@@ -141,8 +120,8 @@ fn present(numerics: &Numerics, table: &CostTable) -> Option<(f64, f64)> {
 }
 
 /// Legend: sign of each knob, with its observed order.
-fn entries(table: &CostTable, figure: &Figure, width: u16, appearance: Appearance) -> Vec<Line<'static>> {
-    let mut parts = plot::in_theme(appearance, |style| legend(&figure.charts, style));
+fn entries(table: &CostTable, chart: &Chart, width: u16, look: Appearance) -> Vec<Line<'static>> {
+    let mut parts = names(chart, look);
     for part in &mut parts {
         let is_of = |knob: &Knob| part.last().is_some_and(|name| name.content.trim_start() == knob.name());
         if let Some(order) = Knob::ALL.iter().find(|knob| is_of(knob)).and_then(|knob| table.order(*knob)) {
@@ -153,7 +132,7 @@ fn entries(table: &CostTable, figure: &Figure, width: u16, appearance: Appearanc
 }
 
 /// Lines below the plot, the most important first.
-fn texts(app: &App, table: Option<&CostTable>, area: Rect) -> Vec<Line<'static>> {
+fn texts(app: &App, table: Option<&CostTable>, area: Size) -> Vec<Line<'static>> {
     let theme = app.view.appearance.theme;
     let mut lines = Vec::new();
     let mut say = |line: Line<'static>| lines.extend(wrapped(&line, area.width));
@@ -184,7 +163,10 @@ fn texts(app: &App, table: Option<&CostTable>, area: Rect) -> Vec<Line<'static>>
         let from = if table.reference.closed_form {
             "Errors of F_a are counted from its closed form".to_owned()
         } else {
-            format!("Errors are counted from {} springs, edges SubCell", grouped(table.reference.springs))
+            format!(
+                "Errors are counted from {} springs, edges between them",
+                grouped(table.reference.springs)
+            )
         };
         let steps = table.rows_of(Knob::Step).next().map_or_else(String::new, |row| {
             format!("; of steps, from the exact solver on {} springs", grouped(row.springs))
@@ -202,8 +184,8 @@ fn now(app: &App, table: Option<&CostTable>) -> Line<'static> {
     let springs = grouped(numerics.points);
     let setting = match setting_of(&numerics) {
         (Knob::Step, step) => format!("{springs} springs, step {}", format_quantity(step, "m")),
-        (Knob::GridSprings, _) => format!("{springs} springs, edges Grid"),
-        _ => format!("{springs} springs, edges SubCell"),
+        (Knob::GridSprings, _) => format!("{springs} whole springs"),
+        _ => format!("{springs} springs, edges between springs"),
     };
     let error = match app.studies.value() {
         None if app.studies.failure::<Estimate>().is_some() => ", error unknown".to_owned(),
@@ -233,23 +215,22 @@ fn now(app: &App, table: Option<&CostTable>) -> Line<'static> {
 
 /// Requirements of a bound; `None` while they are unknown.
 fn answer(table: &CostTable, bound: f64, finished: bool) -> Option<String> {
-    let rows = [(Knob::SubCellSprings, "SubCell"), (Knob::GridSprings, "Grid")].into_iter().filter_map(
-        |(knob, edges)| {
-            let finest = table.rows_of(knob).next_back();
-            match (table.first_row_within(knob, bound), finest) {
-                (Some(row), _) => {
-                    let time = row.seconds.map_or_else(String::new, |time| {
-                        format!(", {}", format_rounded(time.minimum, 2, "s"))
-                    });
-                    Some(format!("{edges} {}{time}", grouped(row.springs)))
-                }
-                (None, Some(finest)) if finished => {
-                    Some(format!("{edges} not up to {}", grouped(finest.springs)))
-                }
-                _ => None,
+    let knobs = [(Knob::SubCellSprings, "edges between springs"), (Knob::GridSprings, "whole springs")];
+    let rows = knobs.into_iter().filter_map(|(knob, edges)| {
+        let finest = table.rows_of(knob).next_back();
+        match table.first_row_within(knob, bound) {
+            Some(row) => {
+                let time = row
+                    .seconds
+                    .map_or_else(String::new, |time| format!(", {}", format_rounded(time.minimum, 2, "s")));
+                Some(format!("{edges}: {}{time}", grouped(row.springs)))
             }
-        },
-    );
+            None if finished => {
+                finest.map(|finest| format!("{edges}: not up to {}", grouped(finest.springs)))
+            }
+            None => None,
+        }
+    });
     let rows: Vec<_> = rows.collect();
     (!rows.is_empty()).then(|| rows.join("; "))
 }

@@ -1,122 +1,61 @@
-//! The close-up of contact fragments, with their boundary points as the paper's white circles, and a strip
-//! of the whole contact.
+//! The close-up of contact patches, with their boundary points as the paper's white circles, and a strip of the whole
+//! contact.
 
-use super::position::zoom_at;
 use super::{PaneRow, Place, section};
-use crate::draw::{CellPlot, Chart, Ink, Layer, Shape, Sign, Span};
+use crate::draw::{Ink, Layer, Shape, Sign, Span};
 use crate::explorer::app::App;
-use crate::explorer::layout::inside;
 use crate::explorer::mode::ModeKind;
-use crate::explorer::snapshot::{ContactSnapshot, FragmentFacts, Section};
+use crate::explorer::panel::{Body, Panel};
+use crate::explorer::snapshot::{FragmentFacts, Section};
 use crate::explorer::theme::{Meaning, Theme};
-use crate::explorer::view::lines::draw_lines;
-use crate::explorer::view::plot;
 use crate::scene::format_quantity;
-use ratatui::Frame;
-use ratatui::layout::Rect;
+use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
-use ratatui::widgets::Paragraph;
 
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     place: Place::CloseUp,
-    title,
-    draw,
-    figure: |app| {
-        let snapshot = app.snapshot.as_deref()?;
-        let shown = &snapshot.close_up.section;
-        let mut figure = section::figure(app.edit.document.title(), shown, snapshot, heights(shown));
-        let ends = Shape::signs(patch_ends(snapshot).collect(), Sign::Ring);
-        figure.charts[0].layers.push(Layer::new("patch end".into(), Ink::Contact, ends));
-        Some(figure)
-    },
-    edge: names,
+    panel,
+    figure: |app, panel| section::figure(app.edit.document.title(), panel, app.snapshot.as_deref()?),
     keys: Some(ModeKind::Crosshair),
-    section: Some(section_at),
-    wheel: zoom_at,
     help: &[(
-        "Fragments",
+        "Contact patches",
         "close-up of a contact patch; ○ marks its edges. Below it the whole contact, [ ] around the close-up",
     )],
     ..PaneRow::EMPTY
 };
 
-/// Title of the pane.
-fn title(app: &App) -> String {
-    let Some(snapshot) = app.snapshot.as_ref() else { return " Fragments ".to_owned() };
-    let shown = &snapshot.close_up.section;
-    let from = (snapshot.line.first + shown.first) as f64 * snapshot.line.spacing;
-    let width = shown.springs as f64 * snapshot.line.spacing;
-    let [width, from] = [width, from].map(|x| format_quantity(x, "m"));
-    format!(" Fragments, {width} from x = {from} ")
-}
+/// Fewest rows with the strip of the whole contact.
+const WITH_STRIP: u16 = 9;
 
-/// Names of the lines and signs, for the lower edge of the frame.
-fn names(app: &App, area: Rect) -> Option<Line<'static>> {
-    let snapshot = app.snapshot.as_ref()?;
-    let shown = &snapshot.close_up.section;
-    let chart = section::chart(shown, snapshot.line, heights(shown));
-    let ring = Text::styled("○", app.view.appearance.theme.style(Meaning::Contact));
-    let ring = vec![ring, Text::raw(" patch end")];
-    Some(section::names(snapshot, &chart, [ring], app.view.appearance, area.width))
-}
-
-/// The section in the close-up, with its chart and place.
-fn section_at(app: &App, area: Rect) -> Option<(&Section, Chart, CellPlot)> {
-    let snapshot = app.snapshot.as_deref()?;
-    let (chart, place) = placed(snapshot, area);
-    Some((&snapshot.close_up.section, chart, place))
-}
-
-/// Draws the close-up and the values of its fragment.
-fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
-    let area = inside(area);
-    let Some(snapshot) = app.snapshot.as_ref() else { return };
-    let theme = app.view.appearance.theme;
-    let close_up = &snapshot.close_up;
-    let section = &close_up.section;
-    let (strip_rows, text_rows) = rows_below(area);
-    let (chart, place) = placed(snapshot, area);
-    plot::in_theme(app.view.appearance, |style| place.draw(frame.buffer_mut(), &chart, style));
-    for at in patch_ends(snapshot) {
-        if let Some(cell) = place.cell(&chart, app.view.appearance.marker.symbols(), at) {
-            frame.buffer_mut()[cell].set_symbol("○").set_style(theme.style(Meaning::Contact));
-        }
+fn panel(app: &App, size: Size) -> Panel {
+    let Some(snapshot) = app.snapshot.as_deref() else {
+        return Panel::of_text("Contact patches".to_owned(), "");
+    };
+    let (section, theme) = (&snapshot.close_up.section, app.view.appearance.theme);
+    let from = (snapshot.line.first + section.first) as f64 * snapshot.line.spacing;
+    let to = from + section.springs as f64 * snapshot.line.spacing;
+    let [from, to] = [from, to].map(|x| format_quantity(x, "m"));
+    let title = format!("Contact patches, x {from} to {to}");
+    let mut panel = section::panel(title, snapshot, section, heights(section), app.view.appearance);
+    if snapshot.probe.is_none() {
+        let ring = Text::styled("○", theme.style(Meaning::Contact));
+        panel.edge.push(vec![ring, Text::raw(" patch end")]);
     }
-    if strip_rows > 0 {
+    if let Body::Chart(plot) = &mut panel.body {
+        let ends = snapshot.close_up.boundaries.iter();
+        let ends = ends.map(|&(spring, height)| (section::position(snapshot.line, spring), height)).collect();
+        plot.chart.layers.push(Layer::new("patch end".into(), Ink::Contact, Shape::signs(ends, Sign::Ring)));
+    }
+    if size.height >= WITH_STRIP {
         let springs = app.solved.as_ref().map_or(1, |computed| computed.outcome.history.work.springs);
-        let line = strip(&snapshot.strip, section, springs as usize, theme);
-        frame.render_widget(
-            Paragraph::new(line),
-            Rect { y: area.bottom() - text_rows - strip_rows, height: 1, ..area },
-        );
+        panel.foot.push(strip(&snapshot.strip, section, springs as usize, theme));
     }
-    let lines = describe(close_up.fragment, snapshot.point.fragments, area.width);
-    draw_lines(frame, Rect { y: area.bottom() - text_rows, height: text_rows, ..area }, lines);
+    panel.foot.extend(describe(snapshot.close_up.fragment, snapshot.point.fragments).map(Line::raw));
+    panel
 }
 
-/// Positions and heights of the ends of contact patches, m.
-fn patch_ends(snapshot: &ContactSnapshot) -> impl Iterator<Item = (f64, f64)> {
-    let ends = snapshot.close_up.boundaries.iter();
-    ends.map(|&(spring, height)| (section::position(snapshot.line, spring), height))
-}
-
-/// Rows below the plot: those of the whole contact and those of the text.
-fn rows_below(area: Rect) -> (u16, u16) {
-    (u16::from(area.height >= 9), u16::from(area.height >= 4) + u16::from(area.height >= 7))
-}
-
-/// The chart of the close-up and its place in the pane.
-fn placed(snapshot: &ContactSnapshot, area: Rect) -> (Chart, CellPlot) {
-    let (strip, text) = rows_below(area);
-    let shown = &snapshot.close_up.section;
-    let mut chart = section::chart(shown, snapshot.line, heights(shown));
-    section::add_crosshair(&mut chart, snapshot);
-    let place = CellPlot::within(Rect { height: area.height - strip - text, ..area }, &chart);
-    (chart, place)
-}
-
-/// The axis of heights: the line, and the surface unless that is far above or below.
+/// The axis of heights: the profile, and the surface unless that is far above or below.
 fn heights(section: &Section) -> Span {
     let (low, high) = section.heights;
     let room = 0.4 * (high - low);
@@ -143,28 +82,18 @@ fn strip(strip: &str, section: &Section, springs: usize, theme: Theme) -> Line<'
 /// Share of a stretch below which a difference is rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// The fragment in words: its place, its force, and the margin of its most stretched spring before
-/// detachment.
-fn describe(fragment: Option<FragmentFacts>, fragments: u64, width: u16) -> [Line<'static>; 2] {
-    let Some(facts) = fragment else { return [Line::raw("○ nothing is in contact"), Line::default()] };
-    let length = format_quantity(facts.length, "m");
+/// The contact patch in words: its place and force, and the stretch of its most stretched spring.
+fn describe(patch: Option<FragmentFacts>, patches: u64) -> [String; 2] {
+    let Some(facts) = patch else { return ["○ nothing is in contact".to_owned(), String::new()] };
     let springs = facts.patch.springs().len();
     let plural = if springs == 1 { "" } else { "s" };
-    let mut first =
-        format!("○ fragment {} of {fragments}: {springs} spring{plural}, δx {length}", facts.number + 1);
-    let force = format!(", F {}", format_quantity(facts.force, "N"));
-    if first.chars().count() + force.chars().count() <= usize::from(width) {
-        first += &force;
-    }
-    let margin = facts.largest_stretch - facts.most_stretched;
-    // At the very edge of detachment the margin is rounding.
-    let margin = if margin.abs() <= ROUNDING * facts.largest_stretch { 0.0 } else { margin };
-    let [bears, stretched, margin] =
-        [facts.largest_stretch, facts.most_stretched, margin].map(|value| format_quantity(value, "m"));
-    let second = if width >= 60 {
-        format!("  Δl_max {bears} · most stretched {stretched} · margin {margin}")
-    } else {
-        format!("  Δl {stretched} of Δl_max {bears}")
-    };
-    [Line::raw(first), Line::raw(second)]
+    let [length, force] =
+        [(facts.length, "m"), (facts.force, "N")].map(|(value, unit)| format_quantity(value, unit));
+    let number = facts.number + 1;
+    let first = format!("○ patch {number} of {patches}: {springs} spring{plural}, δx {length}, F {force}");
+    let (largest, stretch) = (facts.largest_stretch, facts.most_stretched.max(0.0));
+    let is_at_limit = stretch > 0.0 && largest - stretch <= ROUNDING * largest;
+    let limit = if is_at_limit { " (at its limit)" } else { "" };
+    let [stretch, largest] = [stretch, largest].map(|value| format_quantity(value, "m"));
+    [first, format!("  edge stretch {stretch} of at most {largest}{limit}")]
 }

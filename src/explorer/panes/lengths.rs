@@ -1,22 +1,18 @@
-//! Lengths of the contact fragments: their number over their length, both logarithmic.
+//! Lengths of the contact patches: their number over their length, both logarithmic.
 
 use super::{PaneRow, Place};
-use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Layer, Shape, Sign, Span, Stroke};
+use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Sign, Span, Stroke};
 use crate::explorer::app::App;
-use crate::explorer::layout::inside;
-use crate::explorer::theme::Meaning;
-use crate::explorer::view::lines::{draw_lines, draw_reason};
-use crate::explorer::view::plot;
-use ratatui::Frame;
-use ratatui::layout::Rect;
+use crate::explorer::mode::ModeKind;
+use crate::explorer::panel::Panel;
+use ratatui::layout::Size;
 use ratatui::text::Line;
 
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     place: Place::CloseUp,
-    title: |_| " Fragments by length, log–log ".to_owned(),
-    draw,
-    figure: |app| Some(Figure::of_chart(app.edit.document.title(), chart(app)?)),
+    panel,
+    keys: Some(ModeKind::Crosshair),
     help: &[(
         "Lengths",
         "D: number n of contact patches over their length δx, both logarithmic; ○ is the patches in a step of length by √2 \
@@ -25,34 +21,20 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Draws the distribution: one point for each bin with fragments.
-fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
-    let area = inside(area);
-    let theme = app.view.appearance.theme;
-    let Some(bins) = app.snapshot.as_ref().map(|snapshot| &snapshot.lengths) else { return };
-    let Some(chart) = chart(app) else {
-        return draw_reason(frame, area, "nothing is in contact", theme);
+fn panel(app: &App, _: Size) -> Panel {
+    let title = "Contact patches by length, log–log".to_owned();
+    let (Some(snapshot), Some(computed)) = (&app.snapshot, &app.solved) else {
+        return Panel::of_text(title, "");
     };
-    let text_rows = u16::from(area.height >= 6);
-    let plot = Rect { height: area.height - text_rows, ..area };
-    plot::draw_chart(frame, plot, &chart, app.view.appearance);
-    if text_rows > 0 {
-        let count: u64 = bins.values().sum();
-        let text = format!("○ n, {count} in all, in steps of δx by √2");
-        let row = Rect { y: area.bottom() - 1, height: 1, ..area };
-        draw_lines(frame, row, [Line::styled(text, theme.style(Meaning::Quiet))]);
+    let bins = &snapshot.lengths;
+    if bins.is_empty() {
+        return Panel::of_text(title, "nothing is in contact");
     }
-}
-
-/// The distribution; `None` without contact.
-fn chart(app: &App) -> Option<Chart> {
-    let bins = Some(&app.snapshot.as_ref()?.lengths).filter(|bins| !bins.is_empty())?;
-    let spacing = app.solved.as_ref()?.outcome.line.spacing;
     // The fewest springs whose square has this binary logarithm.
     let least = |square: u32| 2_f64.powf(f64::from(square) / 2.0).ceil();
     let points = bins.iter().map(|(&square, &count)| {
         let mean = (least(square) * (least(square + 1) - 1.0)).sqrt();
-        (mean * spacing, count as f64)
+        (mean * computed.outcome.line.spacing, count as f64)
     });
     let points: Vec<(f64, f64)> = points.collect();
     let axis = |numbers: &mut dyn Iterator<Item = f64>, symbol: &str, unit: &str| {
@@ -62,5 +44,8 @@ fn chart(app: &App) -> Option<Chart> {
     let x = axis(&mut points.iter().map(|point| point.0), "δx", "m");
     let y = axis(&mut points.iter().map(|point| point.1), "n", "1");
     let shape = Shape::Curve { points, stroke: Some(Stroke::Dotted), sign: Some(Sign::Ring) };
-    Some(Chart::new(x, y, vec![Layer::unnamed(Ink::Contact, shape)]))
+    let chart = Chart::new(x, y, vec![Layer::new("n".into(), Ink::Contact, shape)]);
+    let count: u64 = bins.values().sum();
+    let foot = vec![Line::raw(format!("○ n, {count} in all, in steps of δx by √2"))];
+    Panel { foot, ..Panel::of_chart(title, chart) }
 }

@@ -1,39 +1,43 @@
-//! The panes: one row each.
+//! The table of panes: one row each. A pane is one file with one function of the app, which returns its panel.
 
 mod accuracy;
 mod beside;
-mod chart;
-mod chart_words;
 mod close_up;
 mod costs;
-mod curves;
 mod force;
-mod histogram;
 mod lengths;
+mod map;
 mod parameters;
-mod position;
 mod preload_curve;
 mod preloads;
 mod profile;
-mod row;
 mod scene_spectra;
 mod section;
 mod spectrum;
 
 pub use costs::Costs;
-pub use force::{indentation_at, stage_at};
-pub use parameters::first_listed;
-pub use position::{position_at, share_at};
+pub use force::{indentation_at, nearest};
+pub use parameters::parameter_in;
 pub use preload_curve::{PROFILES, PreloadCurve};
-pub use row::{PaneRow, Place};
 pub use scene_spectra::SceneSpectra;
+pub use section::spring_at;
+
+use super::app::App;
+use super::layout::{Layout, inside};
+use super::mode::ModeKind;
+use super::panel::{self, Panel, Under};
+use super::snapshot::SolvedScene;
+use super::studies::Study;
+use crate::draw::Figure;
+use ratatui::layout::{Position, Size};
+use std::sync::Arc;
 
 /// The panes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Pane {
     /// The force curve.
     Force,
-    /// The profile with the histogram of its heights.
+    /// The profile with the distribution of its heights.
     Profile,
     /// The close-up of contact patches.
     CloseUp,
@@ -52,6 +56,48 @@ pub enum Pane {
     /// The list of parameters.
     Parameters,
 }
+
+/// Place of a pane in a window with room for all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A place of its own.
+    Own,
+    /// The place of the close-up.
+    CloseUp,
+    /// The place of profile and close-up.
+    Large,
+}
+
+/// Properties of one pane.
+pub struct PaneRow {
+    /// Place in a window with room for all.
+    pub place: Place,
+    /// Content for an area of this size within the frame.
+    pub panel: fn(&App, Size) -> Panel,
+    /// Content as a figure for a file, where this is more than the chart of the panel.
+    pub figure: fn(&App, &Panel) -> Option<Figure>,
+    /// Keys of the selected pane; those of the crosshair, while this is shown.
+    pub keys: Option<ModeKind>,
+    /// Studies of a computed scene whose values the shown pane needs.
+    pub studies: fn(&App, &Arc<SolvedScene>) -> Vec<Study>,
+    /// Paragraphs of the help: a name and the meaning of the signs in the pane.
+    pub help: &'static [(&'static str, &'static str)],
+}
+
+impl PaneRow {
+    /// An empty pane in the place of profile and close-up.
+    pub const EMPTY: PaneRow = PaneRow {
+        place: Place::Large,
+        panel: |_, _| Panel::of_text(String::new(), ""),
+        figure: |app, panel| Some(Figure::of_chart(app.edit.document.title(), panel.chart()?.clone())),
+        keys: None,
+        studies: |_, _| Vec::new(),
+        help: &[],
+    };
+}
+
+/// Size within the frame of a pane that is exported.
+const EXPORTED: Size = Size { width: 120, height: 40 };
 
 impl Pane {
     /// All panes, in the order of the help.
@@ -80,8 +126,46 @@ impl Pane {
             Pane::Accuracy => &accuracy::ROW,
             Pane::Spectrum => &spectrum::ROW,
             Pane::Preloads => &preloads::ROW,
-            Pane::Chart => &chart::ROW,
+            Pane::Chart => &map::ROW,
             Pane::Parameters => &parameters::ROW,
         }
     }
+
+    /// Content of the pane for an area of this size within the frame, with the crosshair.
+    #[must_use]
+    pub fn panel(self, app: &App, size: Size) -> Panel {
+        let mut panel = (self.row().panel)(app, size);
+        // The crosshairs of the other panes are at the shown state and at a spring.
+        if let (Some(crosshair), Place::Large) = (app.view.crosshair, self.row().place) {
+            panel.read_at(crosshair.position, app.view.appearance);
+        }
+        panel
+    }
+
+    /// The pane as a figure for a file; `None` while it has no chart.
+    #[must_use]
+    pub fn figure(self, app: &App) -> Option<Figure> {
+        (self.row().figure)(app, &(self.row().panel)(app, EXPORTED))
+    }
+}
+
+/// Returns the pane at a cell of the screen and what it shows there.
+#[must_use]
+pub fn under(app: &App, cell: Position) -> Option<(Pane, Under)> {
+    let layout = Layout::of(app);
+    let (pane, area) = layout.panes.into_iter().find(|(_, area)| area.contains(cell))?;
+    Some((pane, panel::under(&pane.panel(app, inside(area).as_size()), area, cell)))
+}
+
+/// Letter of a ghost.
+#[must_use]
+pub fn letter(number: usize) -> &'static str {
+    const LETTERS: [&str; 8] = ["A", "B", "C", "D", "E", "F", "G", "H"];
+    LETTERS[number % LETTERS.len()]
+}
+
+/// Letter of the newest ghost.
+#[must_use]
+pub fn newest_letter(app: &App) -> &'static str {
+    letter(app.ghosts.len().saturating_sub(1))
 }

@@ -1,35 +1,25 @@
 //! The list of parameters and the meaning of the selected one.
 
 use super::{PaneRow, Place};
-use crate::explorer::app::{App, Mode, Pane};
-use crate::explorer::layout::{Layout, inside};
+use crate::explorer::app::{App, Mode};
 use crate::explorer::mode::ModeKind;
+use crate::explorer::panel::{Body, Panel};
 use crate::explorer::parameters::{Parameter, Setting, spelled};
 use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::search::letters_found;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
-use crate::explorer::update::{Effect, begin, edit};
-use crate::explorer::view::lines::marked;
+use crate::explorer::view::text::{filled, fitted, marked, wrapped_within};
 use crate::explorer::view::typed::typed;
-use crate::explorer::view::wrap::{clipped, filled, wrapped_within};
 use crate::scene::format_quantity;
-use ratatui::Frame;
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::Size;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Paragraph, Scrollbar, ScrollbarOrientation, ScrollbarState};
 
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
-    title: |_| " Parameters ".to_owned(),
     place: Place::Own,
-    draw,
+    panel,
     keys: Some(ModeKind::Parameters),
-    press,
-    wheel: |app, _, _, turns| {
-        begin(app);
-        edit::move_selection(app, -turns)
-    },
     help: &[(
         "Parameters",
         "fields of the scene by use, in groups; ● marks an effect that is on, ▸ a folded group, = a derived value",
@@ -42,106 +32,40 @@ const TYPED_COLUMNS: usize = 12;
 /// Fewest letters of a shortened name.
 const FEWEST_LETTERS: usize = 4;
 
-/// Areas of the list, the derived values and the explanation, and the first visible row of the list.
-struct Places {
-    list: Rect,
-    derived: Rect,
-    help: Rect,
-    /// Indices of the parameters in the list, and the place of the selected one.
-    rows: Vec<usize>,
-    selected: usize,
-    first: usize,
-}
-
-impl Places {
-    fn within(area: Rect, app: &App) -> Self {
-        let help_rows = if area.height >= 9 { 3 } else { u16::from(area.height >= 3) };
-        let derived_rows = if area.height >= 12 { derived(app, area.width).len() as u16 } else { 0 };
-        let list = Rect { height: area.height - help_rows - derived_rows, ..area };
-        let (rows, selected, first) = match &app.mode {
-            Mode::Prompt(Prompt { purpose: Purpose::Parameter { .. }, found, selected, .. }) => {
-                (found.clone(), *selected, 0)
-            }
-            _ => {
-                let rows = app.listed();
-                let selected = rows.iter().position(|index| *index == app.edit.selected).unwrap_or(0);
-                (rows, selected, app.view.first_listed)
-            }
-        };
-        // A row above and one below the selected row are visible, if any.
-        let height = usize::from(list.height);
-        let margin = usize::from(height >= 5);
-        let lowest = (selected + 1 + margin).saturating_sub(height);
-        let first =
-            first.min(selected.saturating_sub(margin)).max(lowest).min(rows.len().saturating_sub(height));
-        let derived = Rect { y: list.bottom(), height: derived_rows, ..area };
-        let help = Rect { y: derived.bottom(), height: help_rows, ..area };
-        Places { list, derived, help, rows, selected, first }
-    }
-
-    /// Returns true if rows are hidden.
-    fn is_scrolled(&self) -> bool {
-        self.rows.len() > usize::from(self.list.height)
-    }
-}
-
-/// Place of the first visible row; the list scrolls no further than the selected row needs.
-pub fn first_listed(app: &App) -> usize {
-    let pane = Layout::of(app).pane(Pane::Parameters);
-    pane.map_or(app.view.first_listed, |area| Places::within(inside(area), app).first)
-}
-
-/// Selects the parameter under the mouse. A second press on the first row of a group folds the group.
-fn press(app: &mut App, area: Rect, here: Position) -> Vec<Effect> {
-    if let Some(row) = parameter_at(app, area, here.y) {
-        let again = row == app.edit.selected && app.edit.parameters[row].is_head();
-        edit::select(app, row);
-        if again {
-            return edit::toggle_fold(app);
-        }
-    }
-    vec![Effect::Ask]
-}
-
-/// The parameter in a row of the screen.
-fn parameter_at(app: &App, area: Rect, row: u16) -> Option<usize> {
-    let Places { list, first, rows, .. } = Places::within(area, app);
-    let below = row.checked_sub(list.y).filter(|below| *below < list.height)?;
-    rows.get(first + usize::from(below)).copied()
-}
-
-/// Draws the list, scrolled so that the selected row shows, derived values, and a line or two of explanation below. A
-/// scroll bar in the last column of the frame indicates hidden rows.
-fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
-    let edge = area.right().saturating_sub(1);
-    let area = inside(area);
-    let places = Places::within(area, app);
-    let Places { mut list, derived: below, help, .. } = places;
-    if places.is_scrolled() {
-        let bar = Rect { x: edge, width: 1, ..list }.intersection(frame.area());
-        list.width = list.width.min(edge.saturating_sub(list.x));
-        let mut state =
-            ScrollbarState::new(places.rows.len() - usize::from(list.height) + 1).position(places.first);
-        state = state.viewport_content_length(usize::from(list.height));
-        let style = app.view.appearance.theme.style(Meaning::Quiet);
-        let scroll_bar = Scrollbar::new(ScrollbarOrientation::VerticalRight).style(style);
-        let scroll_bar =
-            scroll_bar.begin_symbol(None).end_symbol(None).track_symbol(Some("│")).thumb_symbol("█");
-        frame.render_stateful_widget(scroll_bar, bar, &mut state);
-    }
-    for (row, place) in (list.y..list.bottom()).zip(places.first..places.rows.len()) {
-        let (index, selected) = (places.rows[place], place == places.selected);
-        let line = parameter_line(app, index, selected, usize::from(list.width));
-        frame.render_widget(Paragraph::new(line), Rect { y: row, height: 1, ..list });
-    }
-    frame.render_widget(Paragraph::new(derived(app, below.width)), below);
-    let explained = match places.rows.get(places.selected) {
+/// The list, and below it derived values and a few lines of explanation.
+fn panel(app: &App, size: Size) -> Panel {
+    let quiet = app.view.appearance.theme.style(Meaning::Quiet);
+    let (rows, selected) = shown(app);
+    let explained = match rows.get(selected) {
         Some(index) => explanation(app, *index),
-        None => {
-            Line::styled("no parameter of this scene fits", app.view.appearance.theme.style(Meaning::Quiet))
-        }
+        None => Line::styled("no parameter of this scene fits", quiet),
     };
-    frame.render_widget(Paragraph::new(wrapped_within(&explained, help)), help);
+    let help_rows = if size.height >= 9 { 3 } else { u16::from(size.height >= 3) };
+    let mut explained = wrapped_within(&explained, size.width, help_rows);
+    // The list keeps its place whatever the explanation.
+    explained.resize(help_rows.into(), Line::default());
+    let mut foot = if size.height >= 12 { derived(app, size.width) } else { Vec::new() };
+    foot.extend(explained);
+    let width = usize::from(size.width);
+    let lines = rows.iter().enumerate();
+    let lines = lines.map(|(place, index)| parameter_line(app, *index, place == selected, width)).collect();
+    let body = Body::Rows { rows: lines, selected };
+    Panel { body, foot, ..Panel::of_text("Parameters".to_owned(), "") }
+}
+
+/// Indices of the parameters in the list, and the place of the selected one.
+fn shown(app: &App) -> (Vec<usize>, usize) {
+    if let Mode::Prompt(Prompt { purpose: Purpose::Parameter { .. }, found, selected, .. }) = &app.mode {
+        return (found.clone(), *selected);
+    }
+    let rows = app.listed();
+    let selected = rows.iter().position(|index| *index == app.edit.selected).unwrap_or(0);
+    (rows, selected)
+}
+
+/// The parameter in a row of the list.
+pub fn parameter_in(app: &App, row: usize) -> Option<usize> {
+    shown(app).0.get(row).copied()
 }
 
 fn parameter_line(app: &App, index: usize, selected: bool, width: usize) -> Line<'static> {
@@ -261,10 +185,7 @@ fn columns(text: &str) -> usize {
 
 /// A text in so many columns, with `…` in place of the rest.
 fn cut(text: &str, room: usize) -> String {
-    if columns(text) <= room {
-        return text.to_owned();
-    }
-    clipped(Line::raw(text.to_owned()), room as u16).to_string()
+    fitted(Line::raw(text.to_owned()), room as u16).to_string()
 }
 
 /// A value in the format for people; one that follows from others is marked.

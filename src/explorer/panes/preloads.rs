@@ -1,26 +1,23 @@
 //! Adhesion against preload: the curve of the profile, the mean over random profiles with its confidence, and the
 //! preload of the scene.
 
-use super::curves::draw_chart;
 use super::{PaneRow, PreloadCurve};
-use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Layer, Shape, Sign};
+use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Sign};
 use crate::explorer::app::App;
-use crate::explorer::layout::inside;
+use crate::explorer::mode::ModeKind;
+use crate::explorer::panel::{Panel, names};
 use crate::explorer::studies::Study;
-use crate::explorer::view::lines::draw_reason;
+use crate::explorer::theme::Meaning;
+use crate::explorer::view::text::filled;
 use crate::export::{preload_axes, preload_layers};
-use ratatui::Frame;
-use ratatui::layout::Rect;
+use ratatui::layout::Size;
+use ratatui::text::Span as Text;
 use std::sync::Arc;
 
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
-    title: |_| " Adhesion against preload ".to_owned(),
-    draw,
-    figure: |app| {
-        let curve = app.studies.value::<PreloadCurve>()?;
-        Some(Figure::of_chart(app.edit.document.title(), chart(app, curve)))
-    },
+    panel,
+    keys: Some(ModeKind::Crosshair),
     studies: |app, computed| {
         let (begun, computed) = (app.studies.value::<PreloadCurve>().cloned(), Arc::clone(computed));
         vec![Study::new(computed.generation, false, move |simulation, stop, report| {
@@ -37,24 +34,18 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Draws the pane.
-fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
-    let area = inside(area);
+fn panel(app: &App, size: Size) -> Panel {
+    let title = "Adhesion against preload".to_owned();
     let Some(curve) = app.studies.value::<PreloadCurve>() else {
-        let why = app.studies.failure::<PreloadCurve>().unwrap_or("computing …");
-        return draw_reason(frame, area, why, app.view.appearance.theme);
+        return Panel::of_text(title, app.studies.failure::<PreloadCurve>().unwrap_or("computing …"));
     };
     let chart = chart(app, curve);
-    let heading = chart.y.label_with_unit().then(format!("  {}", progress(curve)).trim_end());
-    draw_chart(frame, area, app, &Chart { heading, ..chart });
-}
-
-/// Progress, in words.
-fn progress(curve: &PreloadCurve) -> String {
-    if curve.is_whole() || curve.profiles.len() < 2 {
-        return String::new();
+    let mut parts = names(&chart, app.view.appearance);
+    if !curve.is_whole() && curve.profiles.len() >= 2 {
+        let progress = format!("{} of {} profiles", curve.profiles.len(), curve.wanted);
+        parts.insert(1, vec![Text::styled(progress, app.view.appearance.theme.style(Meaning::Title))]);
     }
-    format!("{} of {} profiles", curve.profiles.len(), curve.wanted)
+    Panel { head: filled(parts, "  ", size.width.into()), ..Panel::of_chart(title, chart) }
 }
 
 fn chart(app: &App, curve: &PreloadCurve) -> Chart {

@@ -1,156 +1,133 @@
-//! The profile: the rigid line, the elastic surface above it, and their contact.
+//! The profile: the rigid profile, the elastic surface above it, their contact, and the distribution of heights.
 
-use super::position::zoom_at;
-use super::{PaneRow, Place, histogram, section};
-use crate::draw::{CellPlot, Chart, Span};
+use super::{PaneRow, Place, section};
+use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Span, Stroke, prefixed};
 use crate::explorer::app::App;
-use crate::explorer::layout::{inside, split_profile};
 use crate::explorer::mode::ModeKind;
-use crate::explorer::snapshot::{ContactSnapshot, Section};
-use crate::explorer::theme::{Appearance, Meaning, Theme};
-use crate::explorer::view::lines::draw_reason;
-use crate::explorer::view::plot;
+use crate::explorer::panel::{Body, Panel, names};
+use crate::explorer::snapshot::ContactSnapshot;
+use crate::explorer::theme::Appearance;
 use crate::scene::format_quantity;
 use crate::surface::Histogram;
-use ratatui::Frame;
-use ratatui::layout::Rect;
-use ratatui::text::{Line, Span as Text};
-use ratatui::widgets::Paragraph;
+use std::f64::consts::TAU;
 
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
-    title,
-    draw,
-    figure: |app| {
-        let snapshot = app.snapshot.as_deref()?;
-        Some(section::figure(app.edit.document.title(), &snapshot.profile, snapshot, heights(app, snapshot)))
+    panel: |app, _| {
+        let Some(snapshot) = app.snapshot.as_deref() else { return Panel::of_text(title(app), "…") };
+        let histogram = app.solved.as_ref().and_then(|computed| computed.outcome.histogram.as_ref());
+        let z = section::heights(app, snapshot);
+        of_scene(title(app), snapshot, histogram, z, app.view.appearance)
     },
-    edge: names,
+    figure: |app, panel| section::figure(app.edit.document.title(), panel, app.snapshot.as_deref()?),
     place: Place::Own,
     keys: Some(ModeKind::Crosshair),
-    section: Some(section_at),
-    wheel: zoom_at,
     help: &[(
         "Profile",
-        "rigid profile below, elastic surface above; ■ marks contact. Beside it the histogram of heights, and ¦ the \
+        "rigid profile below, elastic surface above; ■ marks contact. On the right the density of heights, and dotted the \
          normal distribution of the same rms height",
     )],
     ..PaneRow::EMPTY
 };
 
-/// Title of the pane.
 fn title(app: &App) -> String {
     let length = format_quantity(app.edit.document.scene().length, "m");
     if app.beside().is_some() {
-        return format!(" Profile z(x) of this scene, x to {length} ");
+        return format!("Profile z(x) of this scene, x to {length}");
     }
     let follows = if app.view.profile.follow { " · follows" } else { "" };
-    let Some(snapshot) = app.snapshot.as_ref() else { return format!(" Profile z(x), x to {length} ") };
+    let Some(snapshot) = app.snapshot.as_ref() else { return format!("Profile z(x), x to {length}") };
     let shown = &snapshot.profile;
     if app.view.profile.share >= 1.0 {
-        return format!(" Profile z(x), x to {length}{follows} ");
+        return format!("Profile z(x), x to {length}{follows}");
     }
     let from = (snapshot.line.first + shown.first) as f64 * snapshot.line.spacing;
     let to = from + shown.springs as f64 * snapshot.line.spacing;
     let [from, to] = [from, to].map(|x| format_quantity(x, "m"));
-    format!(" Profile z(x), x from {from} to {to} of {length}{follows} ")
+    format!("Profile z(x), x from {from} to {to} of {length}{follows}")
 }
 
-/// Names of the lines and signs, for the lower edge of the frame.
-fn names(app: &App, area: Rect) -> Option<Line<'static>> {
-    let snapshot = app.snapshot.as_ref()?;
-    Some(scene_names(snapshot, heights(app, snapshot), area, app.view.appearance))
-}
-
-/// Names of the lines and signs of a scene at one snapshot, heights within `z`.
-pub fn scene_names(snapshot: &ContactSnapshot, z: Span, area: Rect, appearance: Appearance) -> Line<'static> {
-    let chart = section::chart(&snapshot.profile, snapshot.line, z);
-    let bell = || vec![Text::styled("¦", appearance.theme.style(Meaning::Surface)), Text::raw(" normal")];
-    let beside = split_profile(inside(area)).1.map(|_| bell());
-    section::names(snapshot, &chart, beside, appearance, area.width)
-}
-
-/// The shown part of the profile, with its chart and place.
-fn section_at(app: &App, area: Rect) -> Option<(&Section, Chart, CellPlot)> {
-    let snapshot = app.snapshot.as_deref()?;
-    let (chart, place) = placed(snapshot, area, heights(app, snapshot));
-    Some((&snapshot.profile, chart, place))
-}
-
-/// Draws the profile with the histogram of its heights on the same axis.
-fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
-    let area = inside(area);
-    let Some(snapshot) = app.snapshot.as_ref() else {
-        return draw_reason(frame, area, "…", app.view.appearance.theme);
-    };
-    let histogram = app.solved.as_ref().and_then(|computed| computed.outcome.histogram.as_ref());
-    draw_scene(frame, area, (snapshot, histogram), heights(app, snapshot), app.view.appearance);
-}
-
-/// Draws the profile of a scene at one snapshot with its histogram, heights within `z`.
-pub fn draw_scene(
-    frame: &mut Frame<'_>,
-    area: Rect,
-    (snapshot, histogram): (&ContactSnapshot, Option<&Histogram>),
+/// Profile and distribution of heights of a scene at one state, heights within `z`.
+pub fn of_scene(
+    title: String,
+    snapshot: &ContactSnapshot,
+    histogram: Option<&Histogram>,
     z: Span,
-    appearance: Appearance,
-) {
-    let (chart, place) = placed(snapshot, area, z);
-    plot::in_theme(appearance, |style| place.draw(frame.buffer_mut(), &chart, style));
-    let (area, beside) = split_profile(area);
-    let plot = place.plot;
-    if strip_rows(area) > 0 {
-        let row = Rect { x: plot.x, width: plot.width, y: area.bottom() - 1, height: 1 };
-        contact_strip(frame, row, &snapshot.profile, appearance.theme);
+    look: Appearance,
+) -> Panel {
+    let mut panel = section::panel(title, snapshot, &snapshot.profile, z, look);
+    if let Body::Chart(plot) = &mut panel.body {
+        let beside = distribution(histogram, plot.chart.y.clone());
+        if snapshot.probe.is_none() {
+            panel.edge.extend(names(&beside, look).into_iter().skip(1));
+        }
+        plot.beside = Some(beside);
+        plot.contact = snapshot.profile.columns.iter().map(|column| column.contact.is_some()).collect();
     }
-    if let Some(beside) = beside {
-        let beside = Rect { y: plot.y, height: plot.height, ..beside };
-        histogram::draw(frame, beside, place.numbers(), histogram, z, appearance.theme);
-    }
+    panel
 }
 
-/// Rows of the contact strip below the plot.
-fn strip_rows(area: Rect) -> u16 {
-    u16::from(area.height >= 5)
-}
+/// Points of the normal distribution.
+const POINTS: usize = 65;
 
-/// The chart of the profile, heights within `z`, and its place in the pane.
-fn placed(snapshot: &ContactSnapshot, area: Rect, z: Span) -> (Chart, CellPlot) {
-    let (area, _) = split_profile(area);
-    let mut chart = section::chart(&snapshot.profile, snapshot.line, z);
-    section::add_crosshair(&mut chart, snapshot);
-    let place = CellPlot::within(Rect { height: area.height - strip_rows(area), ..area }, &chart);
-    (chart, place)
-}
-
-/// The axis of heights: the whole line, and the surface unless far away. Two scenes side by side share the axis.
-pub fn heights(app: &App, snapshot: &ContactSnapshot) -> Span {
-    let ends = |section: &Section| {
-        let (low, high) = section.heights;
-        let far = high + 0.5 * (high - low);
-        [low, high, section.level.min(far)]
+/// Density of heights in the bins of a histogram, and the normal distribution of the same mean and rms height.
+fn distribution(histogram: Option<&Histogram>, z: Axis) -> Chart {
+    let Some(histogram) = histogram.filter(|histogram| histogram.high > histogram.low) else {
+        return Chart::new(
+            Axis::new(AxisScale::Linear, Span { low: 0.0, high: 1.0 }, "", "", "1"),
+            z,
+            Vec::new(),
+        );
     };
-    let beside = app.beside().and_then(|ghost| ghost.snapshot.as_deref());
-    let beside = beside.into_iter().flat_map(|beside| ends(&beside.profile));
-    Span::around(ends(&snapshot.profile).into_iter().chain(beside), 0.05)
+    let count: u64 = histogram.counts.iter().sum();
+    let width = (histogram.high - histogram.low) / histogram.counts.len() as f64;
+    let bins = histogram.counts.iter().enumerate().map(|(index, &bin)| {
+        let low = histogram.low + width * index as f64;
+        (low, bin as f64 / count as f64)
+    });
+    let bins: Vec<(f64, f64)> = bins.collect();
+    let mean: f64 = bins.iter().map(|(low, share)| (low + 0.5 * width) * share).sum();
+    let square = |(low, share): &(f64, f64)| (low + 0.5 * width - mean).powi(2) * share;
+    let rms = bins.iter().map(square).sum::<f64>().sqrt();
+    let normal = |at: f64| (-0.5 * ((at - mean) / rms).powi(2)).exp() / (rms * TAU.sqrt());
+    let most = bins.iter().map(|(_, share)| share / width).chain([normal(mean)]).fold(0.0, f64::max);
+    // A unit of length that makes the largest density a number of few digits.
+    let (divisor, unit) = prefixed("m", 1e3 / most);
+    let boxes = bins.iter().map(|(low, share)| ((0.0, divisor * share / width), (*low, low + width)));
+    let step = z.span.width() / (POINTS - 1) as f64;
+    let heights = (0..POINTS).map(|index| z.span.low + step * index as f64);
+    let points = heights.map(|at| (divisor * normal(at), at)).collect();
+    let layers = vec![
+        Layer::new("normal".into(), Ink::Surface, Shape::line(points, Stroke::Dotted)),
+        Layer::unnamed(Ink::Profile, Shape::Boxes(boxes.collect())),
+    ];
+    let span = Span { low: 0.0, high: 1.05 * divisor * most };
+    Chart::new(Axis::new(AxisScale::Linear, span, &format!("1/{unit}"), "", "1"), z, layers)
 }
 
-/// Draws one row of glyphs for the contact along the section.
-fn contact_strip(frame: &mut Frame<'_>, row: Rect, section: &Section, theme: Theme) {
-    let (count, cells) = (section.columns.len(), usize::from(row.width));
-    if count == 0 {
-        return;
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn densities_have_an_area_of_one_and_the_normal_distribution_their_moments() {
+        let histogram = Histogram { low: -2e-6, high: 2e-6, counts: vec![10, 30, 30, 10] };
+        let z = Axis::new(AxisScale::Linear, Span { low: -8e-6, high: 8e-6 }, "", "z", "m");
+        let chart = distribution(Some(&histogram), z.clone());
+        let [Shape::Curve { points, .. }, Shape::Boxes(boxes)] =
+            [&chart.layers[0].shape, &chart.layers[1].shape]
+        else {
+            panic!("{chart:?}")
+        };
+        let area: f64 = boxes.iter().map(|((_, density), (low, high))| density * (high - low) * 1e6).sum();
+        assert!((area - 1.0).abs() < 1e-12 && chart.x.label.to_string() == "1/µm");
+        let moment = |power: i32| -> f64 {
+            points.iter().map(|(density, at)| density * (at * 1e6).powi(power)).sum::<f64>() * 0.25
+        };
+        assert!((moment(0) - 1.0).abs() < 1e-9 && moment(1).abs() < 1e-9);
+        // (20 · 1.5² + 60 · 0.5²) / 80
+        assert!((moment(2) - 0.75).abs() < 1e-4, "{}", moment(2));
+        let flat = Histogram { low: 1.0, high: 1.0, counts: vec![3] };
+        assert!(distribution(Some(&flat), z).layers.is_empty());
     }
-    let glyphs: String = (0..cells)
-        .map(|cell| {
-            let from = cell * count / cells;
-            let part = &section.columns[from..((cell + 1) * count / cells).max(from + 1)];
-            match part.iter().filter(|column| column.contact.is_some()).count() {
-                0 => '·',
-                held if held < part.len() => '▪',
-                _ => '■',
-            }
-        })
-        .collect();
-    frame.render_widget(Paragraph::new(Line::styled(glyphs, theme.style(Meaning::Contact))), row);
 }

@@ -1,15 +1,39 @@
-//! Part of the profile on its axes: rigid profile, elastic surface and contact, for profile and close-up.
+//! Part of the profile on its axes: rigid profile, elastic surface and contact, for profile, close-up and the scene beside.
 
-use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Layer, Shape, Span, legend, value_label};
+use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Layer, Shape, Span, value_label};
+use crate::explorer::app::App;
+use crate::explorer::panel::{Panel, names};
 use crate::explorer::snapshot::{Column, ContactSnapshot, Section};
-use crate::explorer::theme::{Appearance, Meaning, Theme};
-use crate::explorer::view::plot;
+use crate::explorer::theme::{Appearance, Meaning};
+use crate::explorer::view::text::Part;
 use crate::scene::format_quantity;
 use crate::simulation::LineFacts;
-use ratatui::text::{Line, Span as Text};
+use ratatui::text::Span as Text;
 
-/// Chart of a section over the position; heights within `z`.
-pub fn chart(section: &Section, line: LineFacts, z: Span) -> Chart {
+/// A section over the position, heights within `z`; on the lower edge the names of the lines, or readings of the crosshair.
+pub fn panel(
+    title: String,
+    snapshot: &ContactSnapshot,
+    section: &Section,
+    z: Span,
+    look: Appearance,
+) -> Panel {
+    let mut chart = chart(section, snapshot.line, z);
+    let mut edge = names(&chart, look);
+    // A row of signs shows the contact without colours.
+    if let Some(sample) = edge.last_mut().and_then(|contact| contact.first_mut()) {
+        sample.content = "■".into();
+    }
+    if let Some(probe) = snapshot.probe {
+        let lines = [Shape::Upright(position(snapshot.line, probe.spring)), Shape::Level(probe.height)];
+        // Below the curves, which remain complete.
+        chart.layers.splice(0..0, lines.map(|line| Layer::unnamed(Ink::Cursor, line)));
+        edge = reading(snapshot, look);
+    }
+    Panel { edge, ..Panel::of_chart(title, chart) }
+}
+
+fn chart(section: &Section, line: LineFacts, z: Span) -> Chart {
     let [low, high] =
         [section.first, section.first + section.springs.max(1)].map(|spring| edge(line, spring));
     let layer = |name: &str, ink, ends: &dyn Fn(&Column) -> Option<(f64, f64)>| {
@@ -25,14 +49,26 @@ pub fn chart(section: &Section, line: LineFacts, z: Span) -> Chart {
     Chart::new(axis(Span { low, high }, "x", "m"), axis(z, "z", "m"), layers)
 }
 
-/// Figure of a section with its indentation and force, heights within `z`.
-pub fn figure(title: &str, section: &Section, snapshot: &ContactSnapshot, z: Span) -> Figure {
-    let mut chart = chart(section, snapshot.line, z);
-    add_crosshair(&mut chart, snapshot);
+/// Figure of a panel of a section, with indentation and force.
+pub fn figure(title: &str, panel: &Panel, snapshot: &ContactSnapshot) -> Option<Figure> {
     let point = &snapshot.point;
     let force = value_label("", "F", "N", point.force).then(", ");
     let notes = vec![force.join(&value_label("", "d", "m", point.indentation))];
-    Figure { notes, size: Figure::LOW, ..Figure::of_chart(title, chart) }
+    Some(Figure { notes, size: Figure::LOW, ..Figure::of_chart(title, panel.chart()?.clone()) })
+}
+
+/// Axis of heights: the profile, and the surface over the whole loop unless far above. Two scenes side by side share it.
+pub fn heights(app: &App, snapshot: &ContactSnapshot) -> Span {
+    let ends = |snapshot: &ContactSnapshot| {
+        let (low, high) = snapshot.profile.heights;
+        let far = high + 0.5 * (high - low);
+        let now = snapshot.point.indentation;
+        let indentations = app.indentations().map_or([now; 2], |(low, high)| [low, high]);
+        let level = |indentation: f64| (snapshot.profile.level + now - indentation).min(far);
+        [low, high, level(now), level(indentations[0]), level(indentations[1])]
+    };
+    let beside = app.beside().and_then(|ghost| ghost.snapshot.as_deref());
+    Span::around(ends(snapshot).into_iter().chain(beside.into_iter().flat_map(ends)), 0.05)
 }
 
 /// Position of the left edge of a spring, m.
@@ -45,19 +81,17 @@ pub fn position(line: LineFacts, spring: usize) -> f64 {
     edge(line, spring) + 0.5 * line.spacing
 }
 
-/// Adds the crosshair to the chart of a section.
-pub fn add_crosshair(chart: &mut Chart, snapshot: &ContactSnapshot) {
-    let Some(probe) = snapshot.probe else { return };
-    let lines = [Shape::Upright(position(snapshot.line, probe.spring)), Shape::Level(probe.height)];
-    // Below the curves, which stay whole.
-    chart.layers.splice(0..0, lines.map(|line| Layer::unnamed(Ink::Cursor, line)));
+/// Spring at a position, within a section.
+pub fn spring_at(line: LineFacts, section: &Section, position: f64) -> usize {
+    let spring = ((position / line.spacing) as usize).saturating_sub(line.first);
+    spring.clamp(section.first, section.first + section.springs.saturating_sub(1))
 }
 
 /// Readings of the crosshair: position, height, and the gap or the stretch of the spring.
-fn reading(snapshot: &ContactSnapshot, theme: Theme) -> Vec<Vec<Text<'static>>> {
+fn reading(snapshot: &ContactSnapshot, look: Appearance) -> Vec<Part> {
     let Some(probe) = snapshot.probe else { return Vec::new() };
     let length = |value: f64| format_quantity(value, "m");
-    let part = |text: String| vec![Text::styled(text, theme.style(Meaning::Cursor))];
+    let part = |text: String| vec![Text::styled(text, look.theme.style(Meaning::Cursor))];
     let distance = probe.level - probe.height;
     let state = match probe.patch {
         None => format!("gap {}", length(distance)),
@@ -70,23 +104,4 @@ fn reading(snapshot: &ContactSnapshot, theme: Theme) -> Vec<Vec<Text<'static>>> 
         format!("z {}", length(probe.height)),
     ];
     at.into_iter().chain([state]).chain(patch).map(part).collect()
-}
-
-/// Readings of the crosshair, or label of the heights, names of the lines and further signs, as far as there is room
-/// on the frame.
-pub fn names(
-    snapshot: &ContactSnapshot,
-    chart: &Chart,
-    more: impl IntoIterator<Item = Vec<Text<'static>>>,
-    appearance: Appearance,
-    width: u16,
-) -> Line<'static> {
-    let mut parts = reading(snapshot, appearance.theme);
-    if parts.is_empty() {
-        let quiet = appearance.theme.style(Meaning::Quiet);
-        parts.push(vec![Text::styled(chart.y.label_with_unit().to_string(), quiet)]);
-        parts.extend(plot::in_theme(appearance, |style| legend(std::slice::from_ref(chart), style)));
-        parts.extend(more);
-    }
-    plot::on_frame(parts, width)
 }

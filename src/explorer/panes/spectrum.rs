@@ -1,15 +1,13 @@
 //! Spectra over the wave number, both logarithmic: as measured, fitted, and of the line.
 
 use super::{PaneRow, SceneSpectra};
-use crate::draw::legend;
 use crate::explorer::app::App;
-use crate::explorer::layout::inside;
+use crate::explorer::mode::ModeKind;
+use crate::explorer::panel::{Panel, names};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::theme::Meaning;
-use crate::explorer::view::lines::{draw_around, draw_lines};
-use crate::explorer::view::plot;
-use crate::explorer::view::wrap::{filled, wrapped};
+use crate::explorer::view::text::{filled, wrapped};
 use crate::export::measured_adhesion_text;
 use crate::scene::{Roughness, Scene, Solver, format_quantity};
 use crate::simulation::{RunError, measured_options};
@@ -17,20 +15,15 @@ use crate::spectrum::Moment;
 use crate::study::{MeasuredAdhesion, ProfileAdhesion};
 use crate::surface::{EquivalentLine, read_faces};
 use crate::text::per_cent;
-use ratatui::Frame;
-use ratatui::layout::Rect;
-use ratatui::text::{Line, Span};
+use ratatui::layout::Size;
+use ratatui::text::Line;
 use std::path::Path;
 use std::sync::Arc;
 
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
-    title: |_| " Spectrum: C over q, log–log ".to_owned(),
-    draw,
-    figure: |app| {
-        let spectra = &app.studies.value::<SceneSpectra>()?.spectra;
-        Some(spectra.figure(app.edit.document.title())).filter(|figure| !figure.legend().is_empty())
-    },
+    panel,
+    keys: Some(ModeKind::Crosshair),
     studies: |app, computed| {
         let solved = Arc::clone(computed);
         let spectra = Study::new(computed.generation, false, move |simulation, _, _| {
@@ -48,27 +41,18 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Fewest rows of a useful plot.
-const FEWEST_PLOT_ROWS: u16 = 5;
-
-/// Draws legend, chart and the moments with their errors, as far as there is room.
-fn draw(frame: &mut Frame<'_>, area: Rect, app: &App) {
-    let area = inside(area);
+fn panel(app: &App, size: Size) -> Panel {
+    let title = "Spectrum: C over q, log–log".to_owned();
     let shown = app.studies.value::<SceneSpectra>();
     let quiet = app.view.appearance.theme.style(Meaning::Quiet);
+    let words = words(app, shown).into_iter();
+    let words = words.flat_map(|text| wrapped(&Line::styled(text, quiet), size.width)).collect();
     let chart = shown.map(|shown| shown.spectra.chart()).filter(|chart| !chart.layers.is_empty());
-    let below = words(app, shown);
-    let below = below.iter().flat_map(|text| wrapped(&Line::styled(text.clone(), quiet), area.width));
-    let below: Vec<Line<'static>> = below.collect();
-    let Some(chart) = chart else { return draw_lines(frame, area, below) };
-    let mut parts = vec![vec![Span::styled(chart.y.symbol_with_unit().to_string(), quiet)]];
-    parts.extend(plot::in_theme(app.view.appearance, |style| legend(std::slice::from_ref(&chart), style)));
-    let mut above = filled(parts, "  ", usize::from(area.width));
-    above.truncate(
-        usize::from(area.height.saturating_sub(FEWEST_PLOT_ROWS)).saturating_sub(below.len()).max(1),
-    );
-    let plot = draw_around(frame, area, (above, below), FEWEST_PLOT_ROWS);
-    plot::draw_chart(frame, plot, &chart, app.view.appearance);
+    let Some(mut chart) = chart else { return Panel { head: words, ..Panel::of_text(title, "") } };
+    // The title has the names of both axes.
+    chart.y.label = chart.y.label.without_name();
+    let head = filled(names(&chart, app.view.appearance), "  ", size.width.into());
+    Panel { head, foot: words, ..Panel::of_chart(title, chart) }
 }
 
 /// Text below the chart: moments with their errors, else the reason why there is no chart.

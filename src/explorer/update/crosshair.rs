@@ -1,23 +1,28 @@
-//! The crosshair: on the force curve at the shown state, so that moving the crosshair moves the body; on profile
-//! and close-up at one position, to be read.
+//! The crosshair: on the force curve at the shown state, so that moving the crosshair moves the body; on profile and
+//! close-up at one spring, on other charts at a share of the horizontal axis, to be read.
 
 use super::{Effect, movement};
 use crate::explorer::app::{App, Crosshair, Pane};
-use crate::explorer::layout::inside;
 use crate::explorer::mode::ModeKind;
-use crate::explorer::panes::{position_at, stage_at};
+use crate::explorer::panes::{nearest, spring_at};
 use crate::explorer::snapshot::Section;
-use ratatui::layout::{Position, Rect};
 
 /// Small and large steps along a loading stage.
 const STEPS: (f64, f64) = (240.0, 24.0);
 /// Columns of dots in a large step along the profile.
 const COARSE: usize = 10;
+/// Small and large steps along the horizontal axis of a chart.
+const AXIS_STEPS: (f64, f64) = (100.0, 10.0);
 
 /// Moves the crosshair of the selected pane by steps, positive to the right; on the force curve the body moves with it.
 pub fn move_by(app: &mut App, steps: i32, coarse: bool) -> Vec<Effect> {
     if app.view.pane != Pane::Force {
-        step(app, steps, coarse);
+        if section(app).is_some() {
+            step(app, steps, coarse);
+        } else if let Some(crosshair) = &mut app.view.crosshair {
+            let share = f64::from(steps) / if coarse { AXIS_STEPS.1 } else { AXIS_STEPS.0 };
+            crosshair.position = (crosshair.position + share).clamp(0.0, 1.0);
+        }
     } else if app.manual.is_some() {
         return movement::push(app, steps, coarse);
     } else {
@@ -35,24 +40,28 @@ pub fn go_to_end(app: &mut App, right: bool) {
     } else if let Some((section, _)) = section(app) {
         let end = section.first + if right { section.springs.saturating_sub(1) } else { 0 };
         look_at(app, end);
+    } else if let Some(crosshair) = &mut app.view.crosshair {
+        crosshair.position = f64::from(u8::from(right));
     }
 }
 
-/// Moves the crosshair to the mouse; `None` for a pane without crosshair, or where the mouse moves the body manually.
-pub fn point_at(app: &mut App, pane: Pane, area: Rect, here: Position) -> Option<Vec<Effect>> {
-    app.view.crosshair?;
-    match pane {
-        Pane::Force if app.manual.is_none() => {
-            let (leg, indentation) = stage_at(app, inside(area), here)?;
+/// Moves the crosshair of the selected pane to numbers on the axes of its chart.
+pub fn point_at(app: &mut App, (x, y): (f64, f64)) {
+    if app.view.crosshair.is_none() {
+        return;
+    }
+    if app.view.pane == Pane::Force {
+        if let Some((leg, indentation)) = nearest(app, (x, y)) {
             put(app, leg, app.done_at(leg, indentation));
         }
-        Pane::Force => return None,
-        pane => {
-            let spring = position_at(app, pane, inside(area), here.x)?;
-            look_at(app, spring);
-        }
+    } else if let Some((section, _)) = section(app) {
+        let spring = app.snapshot.as_ref().map(|snapshot| spring_at(snapshot.line, section, x));
+        spring.into_iter().for_each(|spring| look_at(app, spring));
+    } else if let Some(figure) = app.view.pane.figure(app)
+        && let Some((crosshair, chart)) = app.view.crosshair.as_mut().zip(figure.charts.first())
+    {
+        crosshair.position = chart.x.share(x).clamp(0.0, 1.0);
     }
-    Some(vec![Effect::Ask])
 }
 
 /// Shows or hides the crosshair, which begins in the middle of the close-up.
@@ -94,10 +103,14 @@ pub fn go_to_stage(app: &mut App, stages: i32) {
     }
 }
 
-/// The section of the chosen pane with its columns of dots.
+/// The section of the profile in the selected pane with its columns of dots.
 fn section(app: &App) -> Option<(&Section, usize)> {
     let snapshot = app.snapshot.as_ref()?;
-    let section = if app.view.pane == Pane::CloseUp { &snapshot.close_up.section } else { &snapshot.profile };
+    let section = match app.view.pane {
+        Pane::CloseUp => &snapshot.close_up.section,
+        Pane::Profile | Pane::Beside => &snapshot.profile,
+        _ => return None,
+    };
     Some((section, section.columns.len().max(1)))
 }
 

@@ -5,7 +5,6 @@ use super::{Effect, scene_of, show};
 use crate::explorer::app::{App, CloseUpTarget, Pane, Player};
 use crate::explorer::layout::Layout;
 use crate::explorer::mode::Mode;
-use crate::explorer::panes::first_listed;
 use crate::explorer::parameters::{Parameter, Setting, parameters, text_of};
 use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::request::{Focus, LineView};
@@ -85,7 +84,6 @@ pub fn select(app: &mut App, row: usize) {
     if let Some(group) = hidden {
         app.edit.folded.remove(group);
     }
-    app.view.first_listed = first_listed(app);
 }
 
 /// Folds the group of the selected parameter and selects its first row, or unfolds the group.
@@ -98,7 +96,6 @@ fn fold(app: &mut App, folds: bool) {
     } else {
         app.edit.folded.remove(group);
     }
-    app.view.first_listed = first_listed(app);
 }
 
 /// Opens the editor on the selected value, which the first typed character replaces.

@@ -3,7 +3,9 @@
 use super::Effect;
 use crate::explorer::app::{App, CloseUpTarget, Pane};
 use crate::explorer::request::{Focus, LineView};
+use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::theme::Choice;
+use std::sync::Arc;
 
 /// Fewest springs that fill a pane.
 const FEWEST_SPRINGS: usize = 8;
@@ -78,8 +80,15 @@ pub fn zoom(app: &mut App, steps: i32) {
     }
 }
 
-/// Zooms in or out such that the point under the pointer, at a share of the pane, stays there.
-pub fn zoom_at(app: &mut App, steps: i32, pointer: Option<f64>) {
+/// Zooms the selected section in or out such that a position, m, stays in its place.
+pub fn zoom_at(app: &mut App, steps: i32, position: Option<f64>) {
+    let share = |(position, snapshot): (f64, &Arc<ContactSnapshot>)| {
+        let is_profile = app.view.pane == Pane::Profile;
+        let section = if is_profile { &snapshot.profile } else { &snapshot.close_up.section };
+        let first = (snapshot.line.first + section.first) as f64;
+        (position / snapshot.line.spacing - first) / section.springs.max(1) as f64
+    };
+    let pointer = position.zip(app.snapshot.as_ref()).map(share);
     let (profile, springs_before) = (app.view.profile, app.view.look.springs as f64);
     zoom(app, steps);
     let Some(pointer) = pointer else { return };

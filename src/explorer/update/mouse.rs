@@ -1,10 +1,12 @@
-//! The mouse: chooses panes and rows, drags the load and scrolls. Keys can do all this too.
+//! The mouse: selects panes and rows, drags the body and scrolls. Keys can do all this too.
 
-use super::{Effect, crosshair, dialogue};
+use super::{Effect, begin, chart, crosshair, dialogue, edit, look, movement};
 use crate::explorer::action::{Gesture, Mouse};
-use crate::explorer::app::App;
-use crate::explorer::layout::{Layout, inside};
+use crate::explorer::app::{App, Pane};
 use crate::explorer::mode::Mode;
+use crate::explorer::panel::Under;
+use crate::explorer::panes::{indentation_at, parameter_in, under};
+use crate::explorer::request::ManualMove;
 use ratatui::layout::Position;
 
 /// Performs a gesture of the mouse.
@@ -17,29 +19,72 @@ pub fn act(app: &mut App, mouse: Mouse) -> Vec<Effect> {
         }
         _ => return Vec::new(),
     }
-    let layout = Layout::of(app);
     let here = Position::new(mouse.column, mouse.row);
-    let Some((pane, area)) = layout.panes.iter().copied().find(|(_, area)| area.contains(here)) else {
-        return Vec::new();
-    };
-    // A drag stays in the pane in which it began.
-    let points = mouse.gesture == Gesture::Press || (mouse.gesture == Gesture::Drag && pane == app.view.pane);
-    if let Some(effects) = points.then(|| crosshair::point_at(app, pane, area, here)).flatten() {
-        app.view.pane = pane;
-        return effects;
-    }
-    let (row, inner) = (pane.row(), inside(area));
+    let Some((pane, under)) = under(app, here) else { return Vec::new() };
     match mouse.gesture {
-        Gesture::Press => {
+        Gesture::Wheel(turns) => wheel(app, pane, under, turns),
+        // A drag stays in the pane in which it began.
+        Gesture::Drag if pane != app.view.pane => Vec::new(),
+        gesture => {
             app.view.pane = pane;
-            (row.press)(app, inner, here)
-        }
-        Gesture::Drag => (row.drag)(app, inner, here),
-        Gesture::Wheel(turns) => {
-            if row.section.is_some() {
-                app.view.pane = pane;
-            }
-            (row.wheel)(app, inner, here, turns)
+            point(app, here, under, gesture == Gesture::Press)
         }
     }
+}
+
+fn wheel(app: &mut App, pane: Pane, under: Under, turns: i32) -> Vec<Effect> {
+    match (pane, under) {
+        (Pane::Parameters, _) => {
+            begin(app);
+            edit::move_selection(app, -turns)
+        }
+        (Pane::Profile | Pane::CloseUp, under) => {
+            app.view.pane = pane;
+            look::zoom_at(app, turns, if let Under::Data(x, _) = under { Some(x) } else { None });
+            vec![Effect::Ask]
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// Acts on what is under the mouse in the selected pane: at a press, or during a drag.
+fn point(app: &mut App, here: Position, under: Under, is_press: bool) -> Vec<Effect> {
+    let ask = vec![Effect::Ask];
+    match (app.view.pane, under) {
+        (Pane::Chart, Under::Data(across, up)) if is_press || app.chart.moving => {
+            app.chart.moving &= !is_press;
+            chart::move_to(app, (across, Some(up)))
+        }
+        (Pane::Parameters, Under::Row(row)) if is_press => {
+            let Some(row) = parameter_in(app, row) else { return ask };
+            // A second press on the first row of a group folds the group.
+            let is_again = row == app.edit.selected && app.edit.parameters[row].is_head();
+            edit::select(app, row);
+            if is_again { edit::toggle_fold(app) } else { ask }
+        }
+        (Pane::Force, Under::Data(x, _)) if app.view.crosshair.is_none() || app.manual.is_some() => {
+            drag(app, here, x)
+        }
+        (_, Under::Data(x, y)) => {
+            crosshair::point_at(app, (x, y));
+            ask
+        }
+        _ => ask,
+    }
+}
+
+/// Moves the body to the indentation under the mouse.
+fn drag(app: &mut App, here: Position, x: f64) -> Vec<Effect> {
+    if indentation_at(app, x).is_none() {
+        return vec![Effect::Ask];
+    }
+    // Manual loading begins first: its axis may reach further than that of the loading.
+    let mut effects = if app.manual.is_none() { movement::take(app, None) } else { Vec::new() };
+    effects.retain(|effect| *effect != Effect::Ask);
+    if let Some((_, Under::Data(x, _))) = under(app, here)
+        && let Some(indentation) = indentation_at(app, x)
+    {
+        effects.extend(movement::take(app, Some(ManualMove::To(indentation))));
+    }
+    effects
 }

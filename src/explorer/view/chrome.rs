@@ -1,13 +1,13 @@
 //! The lines around the panes: title, status, footer.
 
 use super::stages;
+use super::text::{filled, fitted, wrapped_within};
 use super::typed::typed;
-use super::wrap::{fitted, fitting, wrapped_within};
 use crate::accuracy::Estimate;
 use crate::analysis::SteepWaves;
 use crate::contact::CurvePoint;
 use crate::explorer::action::{Content, Traffic};
-use crate::explorer::app::{App, ManualState, Message, Mode, ModeKind};
+use crate::explorer::app::{App, Message, Mode, ModeKind};
 use crate::explorer::keys::{self, Binding};
 use crate::explorer::parameters::Parameter;
 use crate::explorer::prompt::{Prompt, Purpose};
@@ -17,32 +17,31 @@ use crate::explorer::theme::{Meaning, Theme};
 use crate::explorer::update::{Choosing, can_complete};
 use crate::scene::{format_quantity, format_rounded};
 use crate::text::grouped;
-use ratatui::Frame;
-use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::Paragraph;
 use std::f64::consts::PI;
 use std::path::is_separator;
 
-/// Name of the scene, a sign of unsaved changes, and the notice.
-pub fn title(frame: &mut Frame<'_>, area: Rect, app: &App) {
-    let scene = app.edit.document.scene();
+/// Name of the scene, a sign of unsaved changes, and the notice, which may no longer hold for a changed scene.
+pub fn title(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
+    let (scene, theme) = (app.edit.document.scene(), app.view.appearance.theme);
     let name = if scene.title.is_empty() { app.edit.document.name() } else { &scene.title };
-    let changed = if app.is_unsaved() { " [changed]" } else { "" };
-    let notice = scene.notice.split_whitespace().collect::<Vec<_>>().join(" ");
-    let line = Line::from(vec![
-        Span::styled(format!("{name}{changed}  "), app.view.appearance.theme.style(Meaning::Title)),
-        Span::styled(notice, app.view.appearance.theme.style(Meaning::Quiet)),
-    ]);
-    frame.render_widget(Paragraph::new(wrapped_within(&line, area)), area);
+    let mut spans = vec![Span::styled(name.to_owned(), theme.style(Meaning::Title))];
+    let saved = app.edit.saved.get(app.edit.document.name()).map(|saved| &saved.scene().notice);
+    if app.is_unsaved() {
+        spans.push(Span::styled(" [changed]", theme.style(Meaning::Title)));
+    }
+    if !app.is_unsaved() || saved != Some(&scene.notice) {
+        let notice = scene.notice.split_whitespace().collect::<Vec<_>>().join(" ");
+        spans.push(Span::styled(format!("  {notice}"), theme.style(Meaning::Quiet)));
+    }
+    wrapped_within(&Line::from(spans), width, rows)
 }
 
 /// The headline figures, or a question, an error, or the typed text.
-pub fn status(frame: &mut Frame<'_>, area: Rect, app: &App) {
+pub fn status(app: &App, width: u16) -> Line<'static> {
     let theme = app.view.appearance.theme;
-    let stated = |line: Line<'static>| fitted(line, area.width);
-    let error = |text: String| stated(Line::styled(text, theme.style(Meaning::Error)));
-    let line = match (&app.mode, &app.message) {
+    let error = |text: String| Line::styled(text, theme.style(Meaning::Error));
+    match (&app.mode, &app.message) {
         (Mode::Prompt(prompt), _) if prompt.refused.is_some() || prompt.line.left_out().is_some() => {
             let why = prompt.refused.as_deref().or(prompt.line.left_out()).unwrap_or_default();
             let why = why.replace('\n', " · ");
@@ -53,13 +52,13 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, app: &App) {
                 let least = LEAST_TYPED.min(Span::raw(prompt.line.text()).width() as u16 + 1);
                 let style = theme.style(Meaning::Error);
                 let mut why =
-                    fitted(Line::styled(format!("! {why}"), style), area.width.saturating_sub(least + 2));
+                    fitted(Line::styled(format!("! {why}"), style), width.saturating_sub(least + 2));
                 why.push_span(Span::styled(": ", style));
-                prompted(why, &prompt.line, area.width, theme)
+                prompted(why, &prompt.line, width, theme)
             }
         }
         (Mode::Prompt(prompt), _) if prompt.purpose != Purpose::Value => {
-            prompted(Line::raw(label(prompt, app, area.width)), &prompt.line, area.width, theme)
+            prompted(Line::raw(label(prompt, app, width)), &prompt.line, width, theme)
         }
         (Mode::Overwrite(file), _) => error(format!("{} exists. Overwrite it?", file.path.display())),
         (Mode::Quit, _) => error(match app.unsaved()[..] {
@@ -74,11 +73,10 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, app: &App) {
             let text = app.edit.refused.as_ref().map_or("", |(_, text)| text);
             error(format!("! {text}"))
         }
-        (_, Some(Message::Done(text))) => stated(Line::raw(text.clone())),
+        (_, Some(Message::Done(text))) => Line::raw(text.clone()),
         (Mode::Explore, None) if app.studies.value::<Choosing>().is_some() => choosing(app),
-        _ => headline(app, area.width),
-    };
-    frame.render_widget(Paragraph::new(line), area);
+        _ => headline(app, width.into()),
+    }
 }
 
 /// Least columns of a typed line behind the reason of its refusal.
@@ -113,144 +111,133 @@ fn label(prompt: &Prompt, app: &App, width: u16) -> String {
     }
 }
 
-/// Least columns of a status line with the error of F_a, beside which d and F have room.
-const WITH_ERROR: u16 = 48;
+/// Least columns of a status line with the error of F_a and the kind of loading.
+const WITH_ERROR: usize = 48;
 
-/// F_a, regime, the state of the contact and its cost, the most important first, as far as there is room.
-fn headline(app: &App, width: u16) -> Line<'static> {
-    let Some(computed) = &app.solved else { return Line::raw("computing…") };
+/// A fact in the status line: of the whole loop, or of the shown state.
+struct Fact {
+    is_of_loop: bool,
+    text: String,
+    meaning: Meaning,
+}
+
+/// As many facts as there is room for, the most important first: those of the loop, then those of the shown state.
+fn headline(app: &App, width: usize) -> Line<'static> {
+    if app.solved.is_none() {
+        return Line::raw("computing…");
+    }
     let theme = app.view.appearance.theme;
-    let outcome = &computed.outcome;
-    let mut parts = Vec::new();
-    let mut part = |apart: &'static str, text: String, meaning: Meaning| {
-        let apart = if parts.is_empty() { "" } else { apart };
-        parts.push(vec![Span::raw(apart), Span::styled(text, theme.style(meaning))]);
-    };
-    if let Some(tried) = app.tried_outcome().filter(|_| app.mode.is_typing_value()) {
-        let force =
-            tried.figures.adhesion_force.map_or("none".to_owned(), |force| format_quantity(force, "N"));
-        let shown = if app.is_tried() { format!("F_a {force}") } else { "computing…".to_owned() };
-        part("", format!("preview: {shown}"), Meaning::Title);
-        part(" · ", "Enter accepts".to_owned(), Meaning::Quiet);
-    }
-    let is_manual = app.present().is_some() && app.manual.is_some();
-    let adhesion = outcome.figures.adhesion_force.filter(|force| *force != 0.0);
-    if let Some(adhesion) = adhesion {
-        part("  ", format!("F_a {}", format_quantity(adhesion, "N")), Meaning::Title);
-    } else if let Some(largest) = outcome.figures.preload.filter(|force| *force != 0.0) {
-        // Without tensile force.
-        part("  ", format!("F_max {}", format_quantity(largest, "N")), Meaning::Title);
-    }
-    // In a narrow window the state of the contact comes first.
-    let is_narrow = width < WITH_ERROR;
-    let error = error(app).filter(|_| !is_narrow);
-    if let Some(error) = error.as_ref().filter(|_| !is_manual) {
-        part(" ", error.clone(), Meaning::Title);
-    }
-    let state = match (app.present(), &app.manual) {
-        _ if app.view.shows_work => work(app),
-        (Some(snapshot), Some(state)) => {
-            let of = if adhesion.is_some() { "F_a " } else { "" };
-            let error = error.map(|error| (" · ", format!("{of}{error}"), Meaning::Text));
-            let title = if is_narrow { "" } else { "manual: " };
-            manual(app, snapshot, state, title).into_iter().chain(error).collect()
+    let line = |facts: &[Fact]| {
+        let mut line = Line::default();
+        for is_of_loop in [true, false] {
+            for (number, fact) in facts.iter().filter(|fact| fact.is_of_loop == is_of_loop).enumerate() {
+                let apart = match (number, is_of_loop) {
+                    (0, true) => "",
+                    (0, false) => "  ◆ ",
+                    _ => " · ",
+                };
+                line.push_span(Span::styled(apart, theme.style(Meaning::Quiet)));
+                line.push_span(Span::styled(fact.text.clone(), theme.style(fact.meaning)));
+            }
         }
-        (snapshot, _) => mechanics(app, snapshot),
+        line
     };
-    state.into_iter().for_each(|(apart, text, meaning)| part(apart, text, meaning));
-    if app.is_computing() {
-        let legs = app.edit.document.scene().loading.len();
-        part("  ", format!("computing, stage {} of {legs}", app.progress.unwrap_or(0) + 1), Meaning::Quiet);
+    let facts = facts(app, width >= WITH_ERROR);
+    let lines = (1..=facts.len()).rev().map(|count| line(&facts[..count]));
+    lines.into_iter().find(|line| line.width() <= width).unwrap_or_default()
+}
+
+/// Facts about loop and state, the most important first.
+fn facts(app: &App, is_wide: bool) -> Vec<Fact> {
+    let Some(outcome) = app.solved.as_ref().map(|solved| &solved.outcome) else { return Vec::new() };
+    let (figures, snapshot) = (&outcome.figures, app.present());
+    let of_loop = |text: String, meaning| Fact { is_of_loop: true, text, meaning };
+    let of_state = |text: String| Fact { is_of_loop: false, text, meaning: Meaning::Text };
+    let force = |value| format_quantity(value, "N");
+    let error = error(app).filter(|_| is_wide).map_or_else(String::new, |error| format!(" {error}"));
+    let mut facts = Vec::new();
+    if let Some(tried) = app.tried_outcome().filter(|_| app.mode.is_typing_value()) {
+        let shown = match tried.figures.adhesion_force {
+            _ if !app.is_tried() => "computing…".to_owned(),
+            None => "F_a none".to_owned(),
+            Some(adhesion) => format!("F_a {}", force(adhesion)),
+        };
+        facts.push(of_loop(format!("preview: {shown}"), Meaning::Title));
+        facts.push(of_loop("Enter accepts".to_owned(), Meaning::Quiet));
     }
-    fitting(parts, "", usize::from(width))
-}
-
-/// Part of the status line, with the text before.
-type Part = (&'static str, String, Meaning);
-
-/// The state under manual loading: the changes by the move come before the resulting contact.
-fn manual(app: &App, snapshot: &ContactSnapshot, state: &ManualState, title: &str) -> Vec<Part> {
-    let released = format!("released {}", format_rounded(state.released_energy, 2, "J"));
-    let mut parts = vec![
-        ("  ", format!("{title}{}", place(snapshot.point)), Meaning::Text),
-        (" · ", format!("{} changed", counted(state.changed, "spring")), Meaning::Text),
-        (" · ", contact(snapshot.point), Meaning::Text),
-        (" · ", released, Meaning::Text),
-    ];
-    parts.extend(response(app, snapshot));
-    parts
-}
-
-/// The present state in mechanical quantities, and those of the whole loop.
-fn mechanics(app: &App, snapshot: Option<&ContactSnapshot>) -> Vec<Part> {
-    let Some(computed) = &app.solved else { return Vec::new() };
-    let outcome = &computed.outcome;
-    let mut parts = Vec::new();
-    if let Some(snapshot) = snapshot {
-        parts.push(("  ", place(snapshot.point), Meaning::Text));
-        let share = 100.0 * snapshot.point.contact_length / outcome.line.length;
-        parts.push((" · ", format!("contact {} %", format_rounded(share, 2, "1")), Meaning::Text));
+    if app.is_computing() {
+        let (stage, stages) = (app.progress.unwrap_or(0) + 1, app.edit.document.scene().loading.len());
+        facts.push(of_loop(format!("computing, stage {stage} of {stages}"), Meaning::Quiet));
+    }
+    if let Some(adhesion) = figures.adhesion_force.filter(|force| *force != 0.0) {
+        facts.push(of_loop(format!("F_a {}{error}", force(adhesion)), Meaning::Title));
+    } else if let Some(largest) = figures.preload.filter(|force| *force != 0.0) {
+        // Without tensile force.
+        facts.push(of_loop(format!("F_max {}{error}", force(largest)), Meaning::Title));
+    }
+    if app.view.shows_work {
+        facts.extend(work(app).into_iter().map(of_state));
+    } else if let Some(snapshot) = snapshot {
+        let CurvePoint { indentation, force: pressing, contact_length, .. } = snapshot.point;
+        let title = if is_wide && app.manual.is_some() { "manual: " } else { "" };
+        let place = format!("{title}d {} F {}", format_quantity(indentation, "m"), force(pressing));
+        facts.push(of_state(place));
+        if let Some(state) = &app.manual {
+            facts.push(of_state(format!("{} changed", counted(state.changed, "spring"))));
+            facts.push(of_state(format!("released {}", format_rounded(state.released_energy, 2, "J"))));
+        } else {
+            let share = 100.0 * contact_length / outcome.line.length;
+            facts.push(of_state(format!("contact {} %", format_rounded(share, 2, "1"))));
+        }
     }
     if let Some(regime) = outcome.regime {
-        parts.push((" · ", regime.by_protocol().to_owned(), Meaning::Title));
+        facts.push(of_loop(regime.by_protocol().to_owned(), Meaning::Title));
     }
     if let Some(SteepWaves { ratio, jkr_factor }) = outcome.steep_waves {
-        let warning =
-            format!("λ²/AR {ratio:.2} < {}: JKR pulls {jkr_factor:.2} F_smooth", SteepWaves::LEAST_RATIO);
-        parts.push((" · ", warning, Meaning::Error));
+        let least = SteepWaves::LEAST_RATIO;
+        let warning = format!("λ²/AR {ratio:.2} < {least}: JKR pulls {jkr_factor:.2} F_smooth");
+        facts.push(of_loop(warning, Meaning::Error));
     }
-    if let Some(coefficient) = outcome.figures.adhesion_coefficient {
-        parts.push((" · ", format!("F_a/F_n {}", format_quantity(coefficient, "1")), Meaning::Title));
+    if let Some(coefficient) = figures.adhesion_coefficient {
+        facts.push(of_loop(format!("F_a/F_n {}", format_quantity(coefficient, "1")), Meaning::Title));
     }
-    if let Some(snapshot) = snapshot {
-        parts.extend(response(app, snapshot));
+    if let Some(snapshot) = snapshot.filter(|_| !app.view.shows_work) {
+        facts.extend(response(app, snapshot).into_iter().map(of_state));
+        if let Some(energy) = figures.dissipated_energy {
+            facts.push(of_loop(format!("ΔW {}", format_rounded(energy, 2, "J")), Meaning::Text));
+        }
+        facts.push(of_state(contact(snapshot.point)));
     }
-    if let Some(energy) = outcome.figures.dissipated_energy {
-        parts.push((" · ", format!("ΔW {}", format_rounded(energy, 2, "J")), Meaning::Text));
-    }
-    if let Some(snapshot) = snapshot {
-        parts.push((" · ", contact(snapshot.point), Meaning::Text));
-    }
-    parts
+    facts
 }
 
 /// Stiffness E* l of the present contact with its edges in place (Popov and Filippov 2012, eq. (1)), and the mean pressure
 /// on a circle of its radius.
-fn response(app: &App, snapshot: &ContactSnapshot) -> Vec<Part> {
+fn response(app: &App, snapshot: &ContactSnapshot) -> Vec<String> {
     let Some(computed) = &app.solved else { return Vec::new() };
     let stiffness = computed.outcome.governing.effective_modulus * snapshot.point.contact_length;
-    let mut parts = vec![(" · ", format!("E*l {}", format_rounded(stiffness, 2, "N/m")), Meaning::Text)];
+    let mut parts = vec![format!("E*l {}", format_rounded(stiffness, 2, "N/m"))];
     let radius = snapshot.contact_radius;
     if radius > 0.0 {
         let pressure = snapshot.point.force / (PI * radius * radius);
-        parts.push((" · ", format!("p_m {}", format_rounded(pressure, 2, "Pa")), Meaning::Text));
+        parts.push(format!("p_m {}", format_rounded(pressure, 2, "Pa")));
     }
     parts
 }
 
-/// Springs in contact, the cost of the last manual move, and the times of the computing stages.
-fn work(app: &App) -> Vec<Part> {
+/// Springs in contact, and the times of the computing stages.
+fn work(app: &App) -> Vec<String> {
     let mut parts = Vec::new();
-    if let Some(snapshot) = app.present() {
-        parts.push(("  ", contact(snapshot.point), Meaning::Text));
-    }
-    if let Some(computed) = &app.solved {
-        parts.push((" of ", grouped(computed.outcome.line.points as u64), Meaning::Text));
-    }
-    if let Some(state) = &app.manual {
-        parts.push((" · ", format!("{} changed", counted(state.changed, "spring")), Meaning::Text));
+    if let Some((snapshot, solved)) = app.present().zip(app.solved.as_ref()) {
+        let CurvePoint { springs, fragments, .. } = snapshot.point;
+        let (springs, all) = (grouped(springs), grouped(solved.outcome.line.points as u64));
+        parts.push(format!("{springs} of {all} springs in {}", patches(fragments)));
     }
     // Times of the last run only: a kept profile and tree take none.
     if app.view.shows_times && !app.is_computing() {
-        let stages = stages::times(app).into_iter();
-        parts.extend(stages.map(|(name, time)| (" · ", format!("{name} {time}"), Meaning::Quiet)));
+        parts.extend(stages::times(app).into_iter().map(|(name, time)| format!("{name} {time}")));
     }
     parts
-}
-
-/// Indentation and force.
-fn place(point: CurvePoint) -> String {
-    format!("d {} F {}", format_quantity(point.indentation, "m"), format_quantity(point.force, "N"))
 }
 
 /// The estimated error of the headline: `…` while awaited, `None` without an estimate.
@@ -274,13 +261,17 @@ fn choosing(app: &App) -> Line<'static> {
 
 /// Springs and patches in contact.
 fn contact(point: CurvePoint) -> String {
-    format!("{} in {}", counted(point.springs, "spring"), counted(point.fragments, "fragment"))
+    format!("{} in {}", counted(point.springs, "spring"), patches(point.fragments))
+}
+
+fn patches(number: u64) -> String {
+    if number == 1 { "1 contact patch".to_owned() } else { format!("{} contact patches", grouped(number)) }
 }
 
 /// A number of things.
 fn counted(number: u64, thing: &str) -> String {
     let plural = if number == 1 { "" } else { "s" };
-    format!("{number} {thing}{plural}")
+    format!("{} {thing}{plural}", grouped(number))
 }
 
 /// Least columns for the traffic of the connection.
@@ -288,44 +279,34 @@ const TRAFFIC_FROM: u16 = 80;
 /// Least columns for the frames as well: the keys come first.
 const TRAFFIC_WITH_FRAMES: u16 = 100;
 
-/// The valid keys, and the traffic of the connection: the line above is full.
-pub fn footer(frame: &mut Frame<'_>, area: Rect, app: &App) {
-    let traffic = app.view.traffic.filter(|_| area.width >= TRAFFIC_FROM).map(|Traffic { frames, bytes }| {
-        let bytes = format_rounded(bytes as f64, 2, "B/s");
-        let most =
-            if area.width < TRAFFIC_WITH_FRAMES { "" } else { &format!(", at most {frames} frames/s") };
-        let text = format!("{bytes}{most}");
-        Line::styled(text, app.view.appearance.theme.style(Meaning::Quiet)).right_aligned()
-    });
+/// The valid keys, and the traffic of the connection at the right end: the line above is full.
+pub fn footer(app: &App, width: u16) -> Line<'static> {
+    let theme = app.view.appearance.theme;
     if let Some(note) = app.view.demo {
-        return frame.render_widget(
-            Paragraph::new(note).style(app.view.appearance.theme.style(Meaning::Quiet)),
-            area,
-        );
+        return Line::styled(note, theme.style(Meaning::Quiet));
     }
     if let Mode::Prompt(prompt) = &app.mode
         && !prompt.paths.is_empty()
     {
-        return frame.render_widget(candidates(&prompt.paths, area.width, app.view.appearance.theme), area);
+        return candidates(&prompt.paths, width, theme);
     }
-    let mut spans = Vec::new();
-    // Two columns apart.
-    let mut room =
-        usize::from(area.width).saturating_sub(traffic.as_ref().map_or(0, |line| line.width() + 2));
-    for (keys, label) in footer_items(app) {
-        let width = keys.chars().count() + label.chars().count() + 3;
-        if width > room + 2 {
-            break;
-        }
-        room = room.saturating_sub(width);
-        spans.push(Span::styled(keys, app.view.appearance.theme.style(Meaning::Key)));
-        spans.push(Span::raw(format!(" {label}  ")));
+    let traffic = app.view.traffic.filter(|_| width >= TRAFFIC_FROM).map(|Traffic { frames, bytes }| {
+        let bytes = format_rounded(bytes as f64, 2, "B/s");
+        if width < TRAFFIC_WITH_FRAMES { bytes } else { format!("{bytes}, at most {frames} frames/s") }
+    });
+    let traffic = traffic.unwrap_or_default();
+    let columns = Span::raw(traffic.as_str()).width();
+    let items = footer_items(app).into_iter();
+    let items = items.map(|(keys, label)| {
+        vec![Span::styled(keys, theme.style(Meaning::Key)), Span::raw(format!(" {label}"))]
+    });
+    let room = usize::from(width) - if columns > 0 { columns + 2 } else { 0 };
+    let mut line = filled(items.collect(), "  ", room).into_iter().next().unwrap_or_default();
+    if columns > 0 {
+        line.push_span(" ".repeat(usize::from(width) - line.width() - columns));
+        line.push_span(Span::styled(traffic, theme.style(Meaning::Quiet)));
     }
-    frame.render_widget(Paragraph::new(Line::from(spans)), area);
-    if let Some(traffic) = traffic {
-        let width = traffic.width() as u16;
-        frame.render_widget(traffic, Rect { x: area.right() - width, width, ..area });
-    }
+    line
 }
 
 /// Names of paths, without their folders.
@@ -334,7 +315,7 @@ fn candidates(paths: &[String], width: u16, theme: Theme) -> Line<'static> {
         let from = path.trim_end_matches(is_separator).rfind(is_separator).map_or(0, |at| at + 1);
         vec![Span::styled(path[from..].to_owned(), theme.style(Meaning::Quiet))]
     };
-    fitting(paths.iter().map(name).collect(), "  ", usize::from(width))
+    filled(paths.iter().map(name).collect(), "  ", width.into()).into_iter().next().unwrap_or_default()
 }
 
 /// Valid keys with their labels, the most important first; adjacent rows with the same label are one item.

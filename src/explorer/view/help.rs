@@ -2,12 +2,14 @@
 
 use crate::explorer::app::App;
 use crate::explorer::keys::names;
+use crate::explorer::layout::inside;
+use crate::explorer::panel::{self, Panel};
 use crate::explorer::panes::Pane;
 use crate::explorer::theme::{Meaning, Theme};
-use ratatui::Frame;
-use ratatui::layout::{Margin, Rect};
+use crate::explorer::view::text::wrapped;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Block, Paragraph};
 
 /// Columns for the keys beside their help in windows from a width on; in narrower ones the keys are above the help.
 const KEYS: usize = 18;
@@ -16,20 +18,16 @@ const BESIDE_FROM: u16 = 56;
 const INDENT: usize = 4;
 
 /// Draws the help.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, app: &App, scroll: u16) {
-    let (theme, lines) = (app.view.appearance.theme, lines(inside(area).width, app));
-    let last = end(lines.len(), area);
-    let block = Block::bordered().border_style(theme.style(Meaning::Quiet)).title(" Help ");
-    frame.render_widget(Paragraph::new(lines).block(block).scroll((scroll.min(last), 0)), area);
+pub fn draw(area: Rect, app: &App, scroll: u16, buffer: &mut Buffer) {
+    let mut head = lines(inside(area).width, app);
+    head.drain(..usize::from(scroll.min(end(head.len(), area))));
+    let panel = Panel { head, ..Panel::of_text("Help".to_owned(), "") };
+    panel::draw(&panel, area, false, app.view.appearance, buffer);
 }
 
 /// Lines that the help can be scrolled down in an area.
 pub fn last_scroll(area: Rect, app: &App) -> u16 {
     end(lines(inside(area).width, app).len(), area)
-}
-
-fn inside(area: Rect) -> Rect {
-    area.inner(Margin::new(1, 1))
 }
 
 fn end(lines: usize, area: Rect) -> u16 {
@@ -70,17 +68,10 @@ fn entry(lines: &mut Vec<Line<'static>>, keys: &str, help: &str, width: u16, the
     if !is_beside {
         lines.push(Line::styled(format!("  {keys}"), key_style));
     }
-    let mut texts = vec![String::new()];
-    for word in help.split(' ') {
-        let text = texts.last_mut().filter(|text| text.chars().count() + 1 + word.chars().count() <= room);
-        match text {
-            Some(text) if text.is_empty() => text.push_str(word),
-            Some(text) => *text += &format!(" {word}"),
-            None => texts.push(word.to_owned()),
-        }
-    }
+    let texts = wrapped(&Line::raw(help.to_owned()), room as u16);
     for (number, text) in texts.into_iter().enumerate() {
         let keys = if number == 0 && is_beside { format!("  {keys}") } else { String::new() };
-        lines.push(Line::from(vec![Span::styled(format!("{keys:<indent$}"), key_style), Span::raw(text)]));
+        let keys = Span::styled(format!("{keys:<indent$}"), key_style);
+        lines.push([keys].into_iter().chain(text.spans).collect());
     }
 }

@@ -1,74 +1,70 @@
 //! The library: scenes to choose from on the left, the selected one on the right.
 
-use super::lines::{draw_lines, draw_reason, found};
-use super::wrap::wrapped;
+use super::text::{found, wrapped};
+use crate::explorer::panel::{self, Body, Panel};
 use crate::explorer::prompt::Prompt;
-use crate::explorer::theme::{Meaning, Theme};
+use crate::explorer::theme::{Appearance, Meaning, Theme};
 use crate::scene::{Entry, Source};
-use ratatui::Frame;
+use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::{Line, Span as Text};
-use ratatui::widgets::Block;
+use ratatui::text::{Line, Span};
+
+/// Least columns with the selected scene beside the list.
+const WITH_SCENE: u16 = 62;
 
 /// Draws the scenes that fit, and the selected one.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, theme: Theme, prompt: &Prompt, entries: &[Entry]) {
-    let block = Block::bordered().border_style(theme.style(Meaning::Quiet)).title(format!(
-        " Scenes, {} of {} ",
-        prompt.found.len(),
-        entries.len()
-    ));
-    let inner = block.inner(area);
-    frame.render_widget(block, area);
-    let beside = inner.width >= 60;
-    let list = Rect { width: if beside { inner.width * 2 / 5 } else { inner.width }, ..inner };
-    draw_list(frame, list, theme, prompt, entries);
-    if beside && let Some(entry) = prompt.scene() {
-        let right = Rect { x: list.right() + 2, width: inner.width - list.width - 2, ..inner };
-        draw_entry(frame, right, theme, entry, &prompt.line.text());
+pub fn draw(area: Rect, look: Appearance, prompt: &Prompt, entries: &[Entry], buffer: &mut Buffer) {
+    let title = format!("Scenes, {} of {}", prompt.found.len(), entries.len());
+    let is_wide = area.width >= WITH_SCENE;
+    let width = if is_wide { area.width * 2 / 5 } else { area.width };
+    let query = prompt.line.text();
+    let rows = prompt.found.iter().enumerate().filter_map(|(place, index)| {
+        Some(row(entries.get(*index)?, place == prompt.selected, &query, look.theme))
+    });
+    let none = "no scene fits; Enter tries it as a path, such as ./scene.ron or that of a study's folder";
+    let list = match prompt.found.is_empty() {
+        true => Panel::of_text(title, none),
+        false => {
+            let body = Body::Rows { rows: rows.collect(), selected: prompt.selected };
+            Panel { body, ..Panel::of_text(title, "") }
+        }
+    };
+    panel::draw(&list, Rect { width, ..area }, false, look, buffer);
+    if let Some(entry) = prompt.scene().filter(|_| is_wide) {
+        let right = Rect { x: area.x + width, width: area.width - width, ..area };
+        let head = text(entry, &query, right.width - 2, look.theme);
+        let scene = Panel { head, ..Panel::of_text(entry.name.clone(), "") };
+        panel::draw(&scene, right, false, look, buffer);
     }
 }
 
-fn draw_list(frame: &mut Frame<'_>, area: Rect, theme: Theme, prompt: &Prompt, entries: &[Entry]) {
-    if prompt.found.is_empty() {
-        let reason =
-            "no scene fits; Enter tries it as a path, such as ./scene.ron or that of a study's folder";
-        return draw_reason(frame, area, reason, theme);
-    }
-    let first = (prompt.selected + 1).saturating_sub(usize::from(area.height));
-    for (row, place) in (area.y..area.bottom()).zip(first..prompt.found.len()) {
-        let Some(entry) = entries.get(prompt.found[place]) else { continue };
-        let selected = place == prompt.selected;
-        let mark = match (entry.error(), selected) {
-            (Some(_), _) => "!",
-            (None, true) => "›",
-            (None, false) => " ",
-        };
-        let style = theme.style(if selected { Meaning::Selected } else { Meaning::Text });
-        let mut line = Line::from(Text::styled(format!("{mark} "), style));
-        line.extend(found(&entry.name, &prompt.line.text(), style, theme));
-        line.push_span(Text::styled(format!("  {}", place_of(entry.origin)), theme.style(Meaning::Quiet)));
-        draw_lines(frame, Rect { y: row, height: 1, ..area }, [line]);
-    }
-}
-
-/// Origin of a scene, in words.
-fn place_of(source: Source) -> &'static str {
-    match source {
+fn row(entry: &Entry, is_selected: bool, query: &str, theme: Theme) -> Line<'static> {
+    let mark = match (entry.error(), is_selected) {
+        (Some(_), _) => "! ",
+        (None, true) => "› ",
+        (None, false) => "  ",
+    };
+    let origin = match entry.origin {
         Source::BuiltIn => "built-in",
         Source::Own => "own",
         Source::Working => "here",
-    }
+    };
+    let style = theme.style(if is_selected { Meaning::Selected } else { Meaning::Text });
+    let mut line = Line::from(Span::styled(mark, style));
+    line.extend(found(&entry.name, query, style, theme));
+    line.push_span(Span::styled(format!("  {origin}"), theme.style(Meaning::Quiet)));
+    line
 }
 
 /// Title, notice, and text of a scene.
-fn draw_entry(frame: &mut Frame<'_>, area: Rect, theme: Theme, entry: &Entry, query: &str) {
+fn text(entry: &Entry, query: &str, width: u16, theme: Theme) -> Vec<Line<'static>> {
     let mark = |text: &str, meaning| Line::from(found(text, query, theme.style(meaning), theme));
-    let mut lines = wrapped(&mark(entry.title(), Meaning::Title), area.width);
+    let mut lines = wrapped(&mark(entry.title(), Meaning::Title), width);
     let notice = entry.notice().split_whitespace().collect::<Vec<_>>().join(" ");
-    lines.extend(wrapped(&mark(&notice, Meaning::Text), area.width));
+    lines.extend(wrapped(&mark(&notice, Meaning::Text), width));
     if let Some(error) = entry.error() {
-        lines.extend(wrapped(&Line::styled(format!("! {error}"), theme.style(Meaning::Error)), area.width));
+        lines.extend(wrapped(&Line::styled(format!("! {error}"), theme.style(Meaning::Error)), width));
     }
-    let text = entry.text.lines().map(|line| Line::styled(line.to_owned(), theme.style(Meaning::Quiet)));
-    draw_lines(frame, area, lines.into_iter().chain(text));
+    lines.extend(entry.text.lines().map(|line| Line::styled(line.to_owned(), theme.style(Meaning::Quiet))));
+    lines
 }

@@ -1,56 +1,56 @@
-//! Draws the model. Nothing here changes the model or computes anything.
+//! Draws the state of the explorer. Nothing here changes the state.
 
 mod chrome;
 mod help;
 mod library;
-pub mod lines;
 mod palette;
-pub mod plot;
 pub mod stages;
+pub mod text;
 pub mod typed;
-pub mod wrap;
 
-use self::wrap::fitted;
 use super::app::{App, Mode};
-use super::layout::{Layout, is_framed};
-use super::panes::Pane;
+use super::layout::{Layout, inside};
+use super::panel;
 use super::picture::to_ascii;
 use super::prompt::Purpose;
-use super::theme::{Marker, Meaning, Theme};
+use super::theme::{Marker, Theme};
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::style::Modifier;
-use ratatui::text::Line;
-use ratatui::widgets::Block;
 
 /// Draws the whole screen.
 pub fn draw(frame: &mut Frame<'_>, app: &App) {
-    // The window may have another size than the model by now.
+    // The window may have another size than the state by now.
     let area = frame.area();
     let layout = Layout::within(app, (area.width, area.height));
+    let (panes, look, buffer) = (body(&layout), app.view.appearance, frame.buffer_mut());
     if let Some(area) = layout.title {
-        chrome::title(frame, area, app);
+        panel::draw_lines(&chrome::title(app, area.width, area.height), area, buffer);
     }
-    let (panes, theme) = (body(&layout), app.view.appearance.theme);
     let list = app.mode.prompt().map(|prompt| (prompt, &prompt.purpose));
     match (&app.mode, list) {
-        (Mode::Help { scroll }, _) => help::draw(frame, panes, app, *scroll),
-        (_, Some((prompt, Purpose::Scene(entries)))) => library::draw(frame, panes, theme, prompt, entries),
-        _ => layout.panes.iter().for_each(|&(pane, area)| draw_pane(frame, area, app, pane)),
+        (Mode::Help { scroll }, _) => help::draw(panes, app, *scroll, buffer),
+        (_, Some((prompt, Purpose::Scene(entries)))) => library::draw(panes, look, prompt, entries, buffer),
+        _ => {
+            for &(pane, area) in &layout.panes {
+                let panel = pane.panel(app, inside(area).as_size());
+                panel::draw(&panel, area, app.view.pane == pane, look, buffer);
+            }
+        }
     }
     if let Some((prompt, Purpose::Command(entries))) = list {
-        palette::draw(frame, panes, theme, prompt, entries);
+        palette::draw(panes, look, prompt, entries, buffer);
     }
-    crate::draw::dry(frame.buffer_mut());
-    chrome::status(frame, layout.status, app);
+    crate::draw::dry(buffer);
+    panel::draw_lines(&[chrome::status(app, area.width)], layout.status, buffer);
     if let Some(area) = layout.footer {
-        chrome::footer(frame, area, app);
+        panel::draw_lines(&[chrome::footer(app, area.width)], area, buffer);
     }
-    if app.view.appearance.theme == Theme::HighContrast {
-        frame.buffer_mut().set_style(area, Modifier::BOLD);
+    if look.theme == Theme::HighContrast {
+        buffer.set_style(area, Modifier::BOLD);
     }
-    if app.view.appearance.marker == Marker::Ascii {
-        to_ascii(frame.buffer_mut());
+    if look.marker == Marker::Ascii {
+        to_ascii(buffer);
     }
 }
 
@@ -63,25 +63,4 @@ fn body(layout: &Layout) -> Rect {
 #[must_use]
 pub fn help_end(app: &App) -> u16 {
     help::last_scroll(body(&Layout::of(app)), app)
-}
-
-fn draw_pane(frame: &mut Frame<'_>, area: Rect, app: &App, pane: Pane) {
-    let row = pane.row();
-    if is_framed(area) {
-        let chosen = app.view.pane == pane;
-        let name = (row.title)(app);
-        let style = app.view.appearance.theme.style(if chosen { Meaning::Title } else { Meaning::Quiet });
-        let mark = if chosen { "▸" } else { "" };
-        let room = area.width - 2;
-        let mut name = format!("{mark}{name}");
-        if name.chars().count() > usize::from(room) {
-            name.truncate(name.trim_end().len());
-        }
-        let title = fitted(Line::styled(name, style), room);
-        let block =
-            Block::bordered().border_style(app.view.appearance.theme.style(Meaning::Quiet)).title(title);
-        let names = (row.edge)(app, area);
-        frame.render_widget(names.into_iter().fold(block, Block::title_bottom), area);
-    }
-    (row.draw)(frame, area, app);
 }

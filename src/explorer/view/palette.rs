@@ -1,47 +1,47 @@
 //! The list of all commands, over the panes.
 
-use super::lines::{draw_lines, found};
+use super::text::{fitted, found};
 use crate::explorer::palette::Entry;
+use crate::explorer::panel::{self, Body, Panel};
 use crate::explorer::prompt::Prompt;
-use crate::explorer::theme::{Meaning, Theme};
-use ratatui::Frame;
+use crate::explorer::theme::{Appearance, Meaning, Theme};
+use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Block, Clear, Paragraph};
+use ratatui::widgets::{Clear, Widget};
 
 /// Widest list: a description and its keys.
 const WIDEST: u16 = 100;
 
-/// Draws the list, scrolled so that the selected row shows.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, theme: Theme, prompt: &Prompt, entries: &[Entry]) {
-    let query = prompt.line.text();
+/// Draws the list.
+pub fn draw(area: Rect, look: Appearance, prompt: &Prompt, entries: &[Entry], buffer: &mut Buffer) {
+    let title = format!("Commands, {} of {}", prompt.found.len(), entries.len());
     let width = area.width.min(WIDEST);
     let height = area.height.min(prompt.found.len().max(1) as u16 + 2);
     let area = Rect { x: area.x + (area.width - width) / 2, width, height, ..area };
-    let title = format!(" Commands, {} of {} ", prompt.found.len(), entries.len());
-    let block = Block::bordered().border_style(theme.style(Meaning::Quiet)).title(title);
-    let inner = block.inner(area);
-    frame.render_widget(Clear, area);
-    frame.render_widget(block, area);
-    if prompt.found.is_empty() {
-        frame.render_widget(Paragraph::new("no command fits").style(theme.style(Meaning::Quiet)), inner);
+    let (query, columns) = (prompt.line.text(), width.saturating_sub(2));
+    let rows = prompt.found.iter().enumerate().filter_map(|(place, index)| {
+        Some(row(entries.get(*index)?, place == prompt.selected, &query, columns, look.theme))
+    });
+    let mut list = Panel::of_text(title, "no command fits");
+    if !prompt.found.is_empty() {
+        list.body = Body::Rows { rows: rows.collect(), selected: prompt.selected };
     }
-    let height = usize::from(inner.height);
-    let last = prompt.found.len().saturating_sub(height);
-    let first = prompt.selected.saturating_sub(height / 2).min(last);
-    for (y, place) in (inner.y..inner.bottom()).zip(first..prompt.found.len()) {
-        let Some(entry) = entries.get(prompt.found[place]) else { continue };
-        let selected = place == prompt.selected;
-        let key = |key: &String| found(key, &query, theme.style(Meaning::Key), theme);
-        let keys: Vec<_> = entry.keys.iter().map(key).collect();
-        let keys = Line::from(keys.join(&Span::raw(" "))).right_aligned();
-        let mark = if selected { "›" } else { " " };
-        let style = theme.style(if selected { Meaning::Selected } else { Meaning::Text });
-        let help = found(&entry.help, &query, style, theme);
-        let line: Line<'_> = [Span::styled(format!("{mark} "), style)].into_iter().chain(help).collect();
-        let room = inner.width.saturating_sub(keys.width() as u16 + 1);
-        let row = Rect { y, height: 1, ..inner };
-        draw_lines(frame, Rect { width: room, ..row }, [line]);
-        frame.render_widget(keys, row);
-    }
+    Clear.render(area, buffer);
+    panel::draw(&list, area, false, look, buffer);
+}
+
+/// A command, and its keys at the right end.
+fn row(entry: &Entry, is_selected: bool, query: &str, width: u16, theme: Theme) -> Line<'static> {
+    let key = |key: &String| found(key, query, theme.style(Meaning::Key), theme);
+    let keys: Vec<_> = entry.keys.iter().map(key).collect();
+    let keys = Line::from(keys.join(&Span::raw(" ")));
+    let style = theme.style(if is_selected { Meaning::Selected } else { Meaning::Text });
+    let help = found(&entry.help, query, style, theme);
+    let mark = Span::styled(if is_selected { "› " } else { "  " }, style);
+    let room = width.saturating_sub(keys.width() as u16 + 1);
+    let mut line = fitted([mark].into_iter().chain(help).collect(), room);
+    line.push_span(" ".repeat(usize::from(width).saturating_sub(line.width() + keys.width())));
+    line.extend(keys);
+    line
 }

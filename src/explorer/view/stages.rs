@@ -1,6 +1,6 @@
 //! Stages of the scene with their times; skipped ones are dimmed.
 
-use super::wrap::filled;
+use super::text::filled;
 use crate::explorer::app::App;
 use crate::explorer::theme::Meaning;
 use crate::scene::format_rounded;
@@ -16,7 +16,7 @@ struct Part {
 }
 
 const PARTS: [Part; 5] = [
-    Part { name: "line", stages: &[], seconds: |timings| timings.line },
+    Part { name: "profile", stages: &[], seconds: |timings| timings.line },
     Part { name: "tree", stages: &[Stage::Tree], seconds: |timings| timings.tree },
     Part {
         name: "passes",

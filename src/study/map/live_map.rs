@@ -3,16 +3,13 @@
 use super::levels::{COLUMNS, HURSTS, Level};
 use super::template::Template;
 use crate::scene::{RoughnessParameter, Scene};
-use crate::simulation::{RunError, Simulation};
+use crate::simulation::Simulation;
 use crate::study::StudyError;
 use crate::study::cells::Cells;
 use crate::study::grid::{Cell, Grid};
-use crate::study::recorder::{Recorder, Records};
+use crate::study::recorder::Recorder;
 use crate::study::results::Results;
-use crate::study::solve::{Case, Next, Sink, solve_unit};
-use crate::study::statistics::StudentT;
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
 use std::path::Path;
 
 /// A map with the cells computed so far.
@@ -94,10 +91,20 @@ impl LiveMap {
                     continue;
                 }
                 for line in 0..plan.lines {
-                    let unit = cells.whole_unit(row as u64, line);
-                    let mut sink = RowSink { map: self, wanted: &wanted, stop };
-                    if solve_unit(&cells, &unit, &mut recorder, &mut sink).is_break() {
-                        return;
+                    for run in cells.runs_of(&cells.whole_unit(row as u64, line)) {
+                        let cell = run.cells.start;
+                        let is_known = || self.failed.contains_key(&cell) || self.results.has(cell, line);
+                        if !wanted.contains(&cell) || is_known() {
+                            continue;
+                        }
+                        if stop() {
+                            return;
+                        }
+                        match recorder.record(&run) {
+                            Ok(records) => self.results.set(cell * plan.lines + line, &records.concat()),
+                            Err(error) if error.is_interruption() => return,
+                            Err(error) => drop(self.failed.insert(cell, error.to_string())),
+                        }
                     }
                 }
                 report(self);
@@ -110,12 +117,11 @@ impl LiveMap {
     pub fn grid(&self) -> Grid {
         let axes = &self.results.plan().axes;
         let layers = self.results.layers();
-        let mut quantiles = StudentT::default();
-        let mut cell = |cell: u64| -> Option<Result<Cell, String>> {
+        let cell = |cell: u64| -> Option<Result<Cell, String>> {
             if let Some(why) = self.failed.get(&cell) {
                 return Some(Err(why.clone()));
             }
-            let mut computed = self.results.cell(cell, &layers, &mut quantiles)?;
+            let mut computed = self.results.cell(cell, &layers)?;
             computed.estimates.iter_mut().flatten().for_each(|estimate| estimate.interval = None);
             self.results.is_whole(cell).then_some(Ok(computed))
         };
@@ -147,38 +153,6 @@ impl LiveMap {
             self.is_known(Self::number(column, row)).then_some((column, row))
         };
         Level::ALL.into_iter().rev().find_map(on_level).unwrap_or((column, row))
-    }
-}
-
-/// Sink of the missing cells of a row.
-struct RowSink<'a> {
-    map: &'a mut LiveMap,
-    wanted: &'a [u64],
-    stop: &'a dyn Fn() -> bool,
-}
-
-impl Sink for RowSink<'_> {
-    fn next(&mut self, case: &Case) -> Next {
-        let (cell, map) = (case.cells.start, &self.map);
-        let is_known = map.failed.contains_key(&cell) || map.results.record(cell, case.line).is_some();
-        match () {
-            () if is_known || !self.wanted.contains(&cell) => Next::Skip,
-            () if (self.stop)() => Next::End,
-            () => Next::Solve,
-        }
-    }
-
-    fn take(&mut self, case: Case, records: Result<Records, RunError>) -> ControlFlow<()> {
-        let cell = case.cells.start;
-        match records {
-            Err(error) if error.is_interruption() => return ControlFlow::Break(()),
-            Err(error) => drop(self.map.failed.insert(cell, error.to_string())),
-            Ok(records) => {
-                let lines = self.map.template.lines();
-                self.map.results.set(cell * lines + case.line, &records.concat());
-            }
-        }
-        ControlFlow::Continue(())
     }
 }
 

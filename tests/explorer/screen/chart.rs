@@ -3,7 +3,7 @@
 use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough, smooth, without_adhesion};
-use super::{is_up_to_date, keep};
+use super::is_up_to_date;
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::app::{ModeKind, Pane};
 use asperity::explorer::chart::Live;
@@ -98,13 +98,11 @@ fn e_maps_over_the_elastic_energy() {
 #[test]
 fn the_map_is_shown_beside_what_can_be_changed() {
     within(60, || {
-        let mut screens = String::new();
         for (keys, levels) in [("", &Level::ALL[..]), ("", &[Level::Coarse]), ("V", &Level::ALL)] {
             let mut driver = driver_with(rough(), levels);
             driver.press(keys);
             for size in [(120, 40), (80, 24)] {
                 driver.resize(size);
-                screens += &format!("── {keys} {} × {} ──\n{}\n", size.0, size.1, driver.text());
                 assert!(driver.text().contains("over H, κ, 4 profiles") || keys == "V", "{}", driver.text());
                 assert!(driver.text().contains("◆ H 0.7, κ 8"), "{}", driver.text());
                 assert_eq!(
@@ -116,7 +114,6 @@ fn the_map_is_shown_beside_what_can_be_changed() {
                 assert!(driver.text().contains("Parameters") && driver.text().contains("Force F(d)"));
             }
         }
-        keep("screen_of_the_map", &screens);
     });
 }
 
@@ -134,11 +131,6 @@ fn the_map_says_without_colours_what_it_says_with_them() {
             (all[0], all[all.len() - 1])
         });
         assert!(adhesive.0 < sensitive.0 && sensitive.1 < insensitive.1, "{}", driver.text());
-        // κ ≈ 0.6 is explained.
-        driver.press("z");
-        let words = driver.text().replace(['│', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(words.contains("κ ≈ 0.6 is the boundary of eq. (15)"), "{words}");
-        driver.press("z");
         driver.app.view.appearance.marker = Marker::Ascii;
         assert!(driver.text().is_ascii() && driver.text().contains("##"), "{}", driver.text());
         driver.app.view.appearance.marker = Marker::Braille;

@@ -57,7 +57,7 @@ fn ghosts_have_letters_and_say_where_they_differ() {
         assert!(message(&driver).contains("x exchanges"), "{}", message(&driver));
         assert!(driver.text().contains("· the same scene"), "{}", driver.text());
         driver.press("L");
-        assert!(driver.text().contains("A F_a ") && driver.text().contains("· H 0.7"), "{}", driver.text());
+        assert!(driver.text().contains("A: F_a ") && driver.text().contains("· H 0.7"), "{}", driver.text());
         driver.press("c");
         driver.select("adhesion.kappa");
         driver.enter("4");
@@ -216,7 +216,7 @@ fn two_scenes_are_shown_side_by_side() {
                 assert_eq!(upper.first(), lower.first(), "{}", driver.text());
             }
             driver.press("&");
-            assert!(rows_of(&driver, Pane::CloseUp)[0].contains("Fragments"));
+            assert!(rows_of(&driver, Pane::CloseUp)[0].contains("Contact patches"));
         }
     });
 }
@@ -264,7 +264,7 @@ fn ghosts_have_their_force_and_its_difference_in_colours_of_their_own() {
         assert!(kept[0] < kept[1] && kept[1] < present);
         let three = |value: f64| format_quantity(format!("{value:.2e}").parse().unwrap(), "N");
         for (letter, force) in ["A", "B"].into_iter().zip(kept) {
-            let expected = format!("{letter} F_a {} ({}) ·", three(force), three(force - present));
+            let expected = format!("{letter}: F_a {} ({}) ·", three(force), three(force - present));
             assert!(driver.text().contains(&expected), "{expected}\n{}", driver.text());
         }
         let screen = driver.screen();

@@ -233,7 +233,8 @@ fn the_picture_of_the_screen_is_sound_and_shows_the_panes() {
             driver.app.view.appearance.theme = theme;
             let (names, text) = elements(&screenshot(&driver.app));
             assert!(names.len() > 20, "{names:?}");
-            for expected in ["Asperity: rough-line", "Force F(d)", "Profile z(x)", "Parameters", "Fragments"]
+            for expected in
+                ["Asperity: rough-line", "Force F(d)", "Profile z(x)", "Parameters", "Contact patches"]
             {
                 assert!(text.contains(expected), "{marker:?}: {expected}");
             }

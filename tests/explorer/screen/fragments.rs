@@ -29,7 +29,7 @@ fn the_close_up_goes_round_all_fragments() {
                 for _ in 0..count {
                     driver.press(key);
                     seen.push(number(&driver));
-                    let expected = format!("fragment {} of {count}", number(&driver) + 1);
+                    let expected = format!("patch {} of {count}", number(&driver) + 1);
                     assert!(driver.text().contains(&expected), "{expected}: {}", driver.text());
                 }
                 assert_eq!(number(&driver), start, "{key}: {seen:?}");
@@ -150,7 +150,7 @@ fn the_distribution_of_lengths_counts_every_fragment() {
             assert!(text.matches('○').count() > bins.len().min(2), "{text}");
         }
         driver.press("D");
-        assert!(driver.text().contains("Δl_max"), "{}", driver.text());
+        assert!(driver.text().contains("edge stretch"), "{}", driver.text());
         let mut driver = pressed("D S");
         assert!(driver.text().contains("nothing is in contact"), "{}", driver.text());
         driver.press("d D");

@@ -7,9 +7,11 @@ use super::{default_scene, mid_retraction, pressed};
 use asperity::contact::CurvePoint;
 use asperity::explorer::app::Pane;
 use asperity::explorer::layout::{Layout, inside};
-use asperity::explorer::panes::indentation_at;
+use asperity::explorer::panel::Under;
+use asperity::explorer::panes::{indentation_at, under};
 use asperity::explorer::snapshot::Section;
 use asperity::scene::format_quantity;
+use ratatui::layout::Position;
 
 fn profile(driver: &Driver) -> Section {
     driver.app.snapshot.as_ref().unwrap().profile.clone()
@@ -161,12 +163,11 @@ fn the_curve_has_three_views_in_two_units() {
         let (f_low, f_high) = (smallest(|point| point.force), largest(|point| point.force));
         let height = outcome.governing.amplitude.unwrap().rms_height;
         let ideal = outcome.ideal_adhesion_force.unwrap();
-        let springs = largest(|point| point.springs as f64);
-        let spacing = outcome.line.spacing;
+        let contact = largest(|point| point.contact_length);
         let length = outcome.line.length;
         let fragments = largest(|point| point.fragments as f64);
         let (d, f) = ((d_low, d_high), (f_low, f_high));
-        let (l, n) = ((0.0, springs * spacing), (0.0, fragments));
+        let (l, n) = ((0.0, contact), (0.0, fragments));
         let views = [
             ("Force F(d)", end("d", d, 0.06, 1.0, "m"), end("F", f, 0.08, 1.0, "N")),
             (
@@ -180,8 +181,8 @@ fn the_curve_has_three_views_in_two_units() {
                 end("F/F_a,max", f, 0.06, ideal, "1"),
                 end("l/L", l, 0.08, length, "1"),
             ),
-            ("Fragments n(d)", end("d", d, 0.06, 1.0, "m"), end("n", n, 0.08, 1.0, "1")),
-            ("Fragments n over d/h", end("d/h", d, 0.06, height, "1"), end("n", n, 0.08, 1.0, "1")),
+            ("Contact patches n(d)", end("d", d, 0.06, 1.0, "m"), end("n", n, 0.08, 1.0, "1")),
+            ("Contact patches n over d/h", end("d/h", d, 0.06, height, "1"), end("n", n, 0.08, 1.0, "1")),
         ];
         for (title, x, y) in views.chunks(2).flatten() {
             let text = curve(&mut driver);
@@ -251,7 +252,7 @@ fn the_loss_is_shaded_inside_the_loop_and_nowhere_else() {
             driver.press("a");
             let energy = driver.app.solved.as_ref().unwrap().outcome.figures.dissipated_energy.unwrap();
             let energy: f64 = format!("{energy:.2e}").parse().unwrap();
-            let title = format!("loss {}", format_quantity(energy, "J"));
+            let title = format!("ΔW {}", format_quantity(energy, "J"));
             assert!(driver.text().contains(&title), "{title}\n{}", driver.text());
             let new: Vec<_> = dots(&driver).into_iter().filter(|dot| !before.contains(dot)).collect();
             // In each column every other dot between the branches, so their number follows the distance.
@@ -259,7 +260,9 @@ fn the_loss_is_shaded_inside_the_loop_and_nowhere_else() {
             let legs = driver.app.legs();
             let last = area.right();
             let apart = |column: u16| {
-                let at = indentation_at(&driver.app, area, column).unwrap();
+                let cell = Position::new(column, area.y + 5);
+                let Some((_, Under::Data(x, _))) = under(&driver.app, cell) else { panic!("{cell}") };
+                let at = indentation_at(&driver.app, x).unwrap();
                 (force_at(&legs[0].curve, at) - force_at(&legs[1].curve, at)).max(0.0)
             };
             // The first columns are those of the axis.
@@ -290,7 +293,7 @@ fn the_loss_is_shaded_inside_the_loop_and_nowhere_else() {
         // A loop that is not closed has no dissipated energy yet.
         let mut driver = Driver::start(rough().set("loading", "[ToForce(1.0e-5)]").unwrap());
         driver.press("a");
-        assert!(driver.text().contains("loss open"), "{}", driver.text());
+        assert!(driver.text().contains("ΔW open"), "{}", driver.text());
     });
 }
 
@@ -379,7 +382,6 @@ fn profile_and_close_up_have_scales_of_position_and_height() {
                 assert!(positions.iter().filter(within).count() >= 2, "{below}");
             }
         }
-        assert!(driver.text().contains(" %│"), "the histogram has a scale: {}", driver.text());
     });
 }
 

@@ -164,7 +164,7 @@ fn what_has_a_meaning_has_a_glyph() {
             ("○", "the ends of fragments"),
             ("●", "an effect that is on"),
             ("= ", "what follows from others"),
-            ("A F_a", "a ghost"),
+            ("A: F_a", "a ghost"),
             ("[changed]", "unsaved changes"),
         ] {
             assert!(text.contains(glyph), "{meaning}\n{text}");

@@ -138,7 +138,7 @@ fn springs_stretched_by_adhesion_are_no_negative_dissipation() {
         }
         let status = driver.status();
         assert!(point(&driver).force < 0.0 && manual(&driver).released_energy < before, "{status}");
-        assert!(status.contains("released ") && !status.contains("ΔW"), "{status}");
+        assert!(status.contains("released "), "{status}");
     });
 }
 

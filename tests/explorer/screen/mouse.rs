@@ -6,13 +6,22 @@ use super::{default_scene, mid_retraction, pressed};
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::app::{Mode, Pane};
 use asperity::explorer::layout::{Layout, inside};
-use asperity::explorer::panes::{indentation_at, share_at};
+use asperity::explorer::panel::Under;
+use asperity::explorer::panes::{indentation_at, under};
 use asperity::explorer::theme::Marker;
 use asperity::explorer::update::Effect;
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 
 fn mouse(driver: &mut Driver, column: u16, row: u16, gesture: Gesture) -> Vec<Effect> {
     driver.act(Action::Mouse(Mouse { column, row, gesture }))
+}
+
+/// Number on the horizontal axis of the chart in a cell.
+fn axis_number(driver: &Driver, column: u16, row: u16) -> f64 {
+    match under(&driver.app, Position::new(column, row)) {
+        Some((_, Under::Data(x, _))) => x,
+        other => panic!("{other:?}"),
+    }
 }
 
 fn place(driver: &Driver, pane: Pane) -> Rect {
@@ -81,8 +90,8 @@ fn a_drag_takes_the_body_to_where_the_mouse_is() {
             for (number, column) in columns.into_iter().enumerate() {
                 let gesture = if number == 0 { Gesture::Press } else { Gesture::Drag };
                 mouse(&mut driver, column, area.y + 5, gesture);
-                let wanted = indentation_at(&driver.app, area, column).unwrap();
-                let next = indentation_at(&driver.app, area, column + 1).unwrap();
+                let wanted = indentation_at(&driver.app, axis_number(&driver, column, area.y + 5)).unwrap();
+                let next = indentation_at(&driver.app, axis_number(&driver, column + 1, area.y + 5)).unwrap();
                 let found = driver.app.snapshot.as_ref().unwrap().point.indentation;
                 assert!(driver.app.manual.is_some());
                 // The view may change a little as the path of manual loading grows.
@@ -120,10 +129,8 @@ fn the_wheel_looks_closer_and_scrolls() {
         assert_eq!(driver.app.view.profile.share, 1.0);
         // The place under the pointer remains there.
         let (column, row) = (area.x + 3 * area.width / 4, area.y + 2);
-        let at = |driver: &Driver| {
-            let share = share_at(&driver.app, Pane::Profile, place(driver, Pane::Profile), column).unwrap();
-            driver.app.view.profile.centre + (share - 0.5) * driver.app.view.profile.share
-        };
+        let length = driver.app.edit.document.scene().length;
+        let at = |driver: &Driver| axis_number(driver, column, row) / length;
         let before = at(&driver);
         for turns in [1, 1, 1, -1] {
             mouse(&mut driver, column, row, Gesture::Wheel(turns));

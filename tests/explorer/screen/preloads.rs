@@ -3,7 +3,6 @@
 use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{rough, without_adhesion};
-use super::keep;
 use asperity::explorer::action::Action;
 use asperity::explorer::app::Pane;
 use asperity::explorer::panes::{PROFILES, PreloadCurve};
@@ -43,13 +42,11 @@ fn shown(document: Document, profiles: usize) -> Driver {
 #[test]
 fn adhesion_against_preload_is_shown_beside_the_curve() {
     within(120, || {
-        let mut screens = String::new();
         for profiles in [PROFILES, 3] {
             let mut driver = shown(rough(), profiles);
             for size in [(120, 40), (80, 24)] {
                 driver.resize(size);
                 let text = driver.text();
-                screens += &format!("── {profiles} profiles, {} × {} ──\n{text}\n", size.0, size.1);
                 for words in ["Adhesion against preload", "present preload", "Parameters", "this profile"] {
                     assert!(text.contains(words), "{words}\n{text}");
                 }
@@ -57,7 +54,6 @@ fn adhesion_against_preload_is_shown_beside_the_curve() {
                 assert!(text.contains(&format!("mean of {profiles} profiles")), "{text}");
             }
         }
-        keep("screen_of_adhesion_against_preload", &screens);
     });
 }
 

@@ -1,12 +1,16 @@
-//! Breaks a line between words.
+//! Text in so many columns: broken between words, in whole parts, or cut with an `…`.
 //!
-//! ratatui does so as well, but overruns its area, and panics, where a word has wide characters or
+//! ratatui breaks lines as well, but overruns its area, and panics, where a word has wide characters or
 //! begins with a combining mark, as in titles and typed values.
 
+use crate::explorer::search::letters_found;
+use crate::explorer::theme::Theme;
 use crate::text::belong_together;
-use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span, StyledGrapheme};
+
+/// Spans that are shown together or not at all.
+pub type Part = Vec<Span<'static>>;
 
 /// A line in as many lines as needed, none of them wider than so many columns. A wider word is broken
 /// anywhere, a number neither at its thousands nor before its unit.
@@ -33,30 +37,15 @@ pub fn wrapped(line: &Line<'_>, columns: u16) -> Vec<Line<'static>> {
     page.lines
 }
 
-/// A line in as many lines as an area has room for, the last with `…` in place of the rest.
-pub fn wrapped_within(line: &Line<'_>, area: Rect) -> Vec<Line<'static>> {
-    let mut lines = wrapped(line, area.width);
-    if lines.len() > usize::from(area.height) {
-        lines.truncate(area.height.into());
-        let last = lines.pop().map(|last| clipped(last, area.width));
+/// A line in at most so many lines, the last with `…` in place of the rest.
+pub fn wrapped_within(line: &Line<'_>, columns: u16, rows: u16) -> Vec<Line<'static>> {
+    let mut lines = wrapped(line, columns);
+    if lines.len() > usize::from(rows) {
+        lines.truncate(rows.into());
+        let last = lines.pop().map(|last| clipped(last, columns));
         lines.extend(last);
     }
     lines
-}
-
-/// As many parts, from the first one on, as fit whole into so many columns, and the text between them.
-pub fn fitting(parts: Vec<Vec<Span<'static>>>, between: &'static str, columns: usize) -> Line<'static> {
-    let mut line = Line::default();
-    for part in parts {
-        let apart = (!line.spans.is_empty()).then(|| Span::raw(between));
-        let width: usize = part.iter().chain(&apart).map(Span::width).sum();
-        if line.width().saturating_add(width) > columns {
-            break;
-        }
-        line.spans.extend(apart);
-        line.spans.extend(part);
-    }
-    line
 }
 
 /// A line that is at most `columns` wide: whole, or cut with an `…`.
@@ -65,7 +54,7 @@ pub fn fitted(line: Line<'static>, columns: u16) -> Line<'static> {
 }
 
 /// A line with `…` in place of the rest: at most `columns` wide.
-pub fn clipped(line: Line<'static>, columns: u16) -> Line<'static> {
+fn clipped(line: Line<'static>, columns: u16) -> Line<'static> {
     let room = usize::from(columns).saturating_sub(1);
     let mut clipped = Line { spans: Vec::new(), ..line };
     let mut width = 0;
@@ -99,7 +88,7 @@ fn unicode_width(c: char) -> usize {
 
 /// Parts in as many lines as needed, with the text between them on a line; a part wider than the columns is
 /// left out.
-pub fn filled(parts: Vec<Vec<Span<'static>>>, between: &'static str, columns: usize) -> Vec<Line<'static>> {
+pub fn filled(parts: Vec<Part>, between: &'static str, columns: usize) -> Vec<Line<'static>> {
     let mut lines: Vec<Line<'static>> = Vec::new();
     for part in parts {
         let width: usize = part.iter().map(Span::width).sum();
@@ -114,6 +103,22 @@ pub fn filled(parts: Vec<Vec<Span<'static>>>, between: &'static str, columns: us
         }
     }
     lines
+}
+
+/// A text with the letters found by a query marked.
+pub fn found(text: &str, query: &str, style: Style, theme: Theme) -> Part {
+    marked(text, &letters_found(text, query), style, theme)
+}
+
+/// A text with these of its characters marked; the indices ascend.
+pub fn marked(text: &str, letters: &[usize], style: Style, theme: Theme) -> Part {
+    let is_found = |(index, character)| (letters.binary_search(&index).is_ok(), character);
+    let characters: Vec<(bool, char)> = text.chars().enumerate().map(is_found).collect();
+    let spans = characters.chunk_by(|(one, _), (next, _)| one == next).map(|run| {
+        let style = if run[0].0 { theme.found(style) } else { style };
+        Span::styled(run.iter().map(|(_, character)| character).collect::<String>(), style)
+    });
+    spans.collect()
 }
 
 /// The lines so far, the last of them unfinished.
@@ -178,16 +183,6 @@ mod tests {
                     assert!(line.width() <= usize::from(columns), "{text} {columns}: {line}");
                 }
             }
-        }
-    }
-
-    #[test]
-    fn parts_fit_whole_or_not_at_all() {
-        let parts = || ["one", "two", "漢字"].map(|text| vec![Span::raw(text)]).to_vec();
-        for (columns, text) in
-            [(2, ""), (3, "one"), (7, "one"), (8, "one, two"), (13, "one, two"), (14, "one, two, 漢字")]
-        {
-            assert_eq!(fitting(parts(), ", ", columns).to_string(), text);
         }
     }
 

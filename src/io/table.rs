@@ -3,7 +3,7 @@
 //! CSV begins with its provenance in comments. An array has a field for each column, and the provenance is a second
 //! array in the same file, since the header of an array holds only its type and shape.
 
-use crate::io::npy;
+use super::npy;
 use serde::ser::{Serialize, Serializer};
 use serde_json::Value;
 use std::borrow::Cow;
@@ -23,12 +23,13 @@ pub enum Kind {
 
 /// Value of a row in a column.
 type Of<'a, T> = Box<dyn Fn(&T) -> Value + 'a>;
-type Rows<'a, T> = Box<dyn Fn() -> Box<dyn Iterator<Item = T> + 'a> + 'a>;
+type Rows<'a, T> = Rc<dyn Fn() -> Box<dyn Iterator<Item = T> + 'a> + 'a>;
 
 /// Named columns, and rows that are made one by one while they are written.
 pub struct Table<'a> {
     columns: Vec<(Cow<'static, str>, Kind)>,
-    count: usize,
+    /// Number of rows, counted without their values, which may take time.
+    count: Box<dyn Fn() -> usize + 'a>,
     rows: Rows<'a, Vec<Value>>,
 }
 
@@ -42,7 +43,7 @@ pub struct TableOf<'a, T> {
 impl<'a> Table<'a> {
     /// Begins a table with its rows.
     pub fn of<T, I: Iterator<Item = T> + 'a>(rows: impl Fn() -> I + 'a) -> TableOf<'a, T> {
-        TableOf { rows: Box::new(move || Box::new(rows())), columns: Vec::new(), values: Vec::new() }
+        TableOf { rows: Rc::new(move || Box::new(rows())), columns: Vec::new(), values: Vec::new() }
     }
 }
 
@@ -76,17 +77,26 @@ impl<'a, T: 'a> TableOf<'a, T> {
     #[must_use]
     pub fn done(self) -> Table<'a> {
         let (rows, values) = (self.rows, Rc::new(self.values));
-        // Without the values, which may take time.
-        let count = rows().count();
+        let counted = Rc::clone(&rows);
         let rows = move || -> Box<dyn Iterator<Item = Vec<Value>> + 'a> {
             let values = Rc::clone(&values);
             Box::new(rows().map(move |row| values.iter().map(|value| value(&row)).collect()))
         };
-        Table { columns: self.columns, count, rows: Box::new(rows) }
+        Table { columns: self.columns, count: Box::new(move || counted().count()), rows: Rc::new(rows) }
     }
 }
 
 impl Table<'_> {
+    /// Names of the columns, each with the kind of its values.
+    pub fn columns(&self) -> &[(Cow<'static, str>, Kind)] {
+        &self.columns
+    }
+
+    /// The rows, made one by one.
+    pub fn rows(&self) -> impl Iterator<Item = Vec<Value>> {
+        (self.rows)()
+    }
+
     /// Writes comma-separated values after the provenance.
     ///
     /// # Errors
@@ -124,7 +134,7 @@ impl Table<'_> {
         };
         let fields: Vec<_> =
             self.columns.iter().map(|(name, kind)| format!("('{name}', '{}')", descr(*kind))).collect();
-        let shape = format!("{},", self.count);
+        let shape = format!("{},", (self.count)());
         npy::write_header(out, &format!("[{}]", fields.join(", ")), &shape)?;
         for row in (self.rows)() {
             for (value, (_, kind)) in row.iter().zip(&self.columns) {

@@ -1,0 +1,325 @@
+//! Panels: the content of panes as data. One renderer draws all of them, and the same division of an area finds the data
+//! under a cell.
+
+use super::layout::{inside, is_framed, split_profile};
+use super::theme::{Appearance, Meaning};
+use super::view::text::{Part, filled, fitted, wrapped};
+use crate::draw::{Axis, CellPlot, CellStyle, Chart, Colours, Ink, Shape, legend};
+use crate::scene::format_rounded;
+use ratatui::buffer::{Buffer, Cell};
+use ratatui::layout::{Position, Rect};
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Block, Scrollbar, ScrollbarOrientation, ScrollbarState, StatefulWidget, Widget};
+
+/// Content of a pane.
+pub struct Panel {
+    /// Title in the frame.
+    pub title: String,
+    /// Lines above the body.
+    pub head: Vec<Line<'static>>,
+    /// The body.
+    pub body: Body,
+    /// Lines below the body.
+    pub foot: Vec<Line<'static>>,
+    /// Parts on the lower edge of the frame, the most important first.
+    pub edge: Vec<Part>,
+}
+
+/// Body of a panel.
+pub enum Body {
+    /// A chart.
+    Chart(Box<Plot>),
+    /// A list, scrolled so that the selected row is visible.
+    Rows {
+        /// All rows.
+        rows: Vec<Line<'static>>,
+        /// Index of the selected row.
+        selected: usize,
+    },
+    /// A text, such as the reason why there is no chart.
+    Text(String),
+}
+
+/// A chart with the texts that a figure has in its legend.
+pub struct Plot {
+    /// The chart.
+    pub chart: Chart,
+    /// Texts beside points of the chart.
+    pub names: Vec<((f64, f64), String, Ink)>,
+    /// A chart on the same vertical axis, on the right.
+    pub beside: Option<Chart>,
+    /// True where springs are in contact along the horizontal axis; a row of signs shows them.
+    pub contact: Vec<bool>,
+}
+
+/// Fewest rows of a chart with both scales: lines above and below take the rest.
+const FEWEST_ROWS: u16 = 6;
+/// Most rows for which scales beside a chart are laid out; the plot has the rows of the chart.
+const MOST_BESIDE: u16 = 15;
+/// Fewest rows of a chart with a row of contact signs.
+const WITH_CONTACT: u16 = 5;
+
+impl Panel {
+    /// A panel of a chart alone.
+    pub fn of_chart(title: String, chart: Chart) -> Panel {
+        let plot = Plot { chart, names: Vec::new(), beside: None, contact: Vec::new() };
+        Panel { body: Body::Chart(Box::new(plot)), ..Panel::of_text(title, "") }
+    }
+
+    /// A panel of a text alone.
+    pub fn of_text(title: String, text: &str) -> Panel {
+        let body = Body::Text(text.to_owned());
+        Panel { title, head: Vec::new(), body, foot: Vec::new(), edge: Vec::new() }
+    }
+
+    /// The chart of the panel.
+    pub fn chart(&self) -> Option<&Chart> {
+        if let Body::Chart(plot) = &self.body { Some(&plot.chart) } else { None }
+    }
+
+    /// Adds a line at a share of the horizontal axis, and the values of all named curves there on the lower edge.
+    pub fn read_at(&mut self, share: f64, look: Appearance) {
+        let Body::Chart(plot) = &mut self.body else { return };
+        let Chart { x: across, y: up, layers, .. } = &mut plot.chart;
+        let at = across.span.low + share * across.span.width();
+        let x = across.scale.number(at);
+        let value = |axis: &Axis, number| format_rounded(number, 3, &axis.unit);
+        let mut parts = vec![format!("{} {}", across.label.without_name(), value(across, x))];
+        for layer in layers.iter().filter(|layer| !layer.name.is_empty()) {
+            let Shape::Curve { points, .. } = &layer.shape else { continue };
+            let place = |point: &(f64, f64)| (across.scale.coordinate(point.0), up.scale.coordinate(point.1));
+            let between = points.windows(2).map(|pair| (place(&pair[0]), place(&pair[1])));
+            let on_curve = between.into_iter().find(|(from, to)| from.0 <= at && at <= to.0 && from.0 < to.0);
+            if let Some((from, to)) = on_curve {
+                let y = from.1 + (to.1 - from.1) * (at - from.0) / (to.0 - from.0);
+                parts.push(format!("{} {}", layer.name, value(up, up.scale.number(y))));
+            }
+        }
+        layers.insert(0, crate::draw::Layer::unnamed(Ink::Cursor, Shape::Upright(x)));
+        let style = look.theme.style(Meaning::Cursor);
+        self.edge = parts.into_iter().map(|text| vec![Span::styled(text, style)]).collect();
+    }
+}
+
+/// Label of the vertical axis of a chart with its unit, and the entries of its legend.
+pub fn names(chart: &Chart, look: Appearance) -> Vec<Part> {
+    let label = Span::styled(chart.y.label_with_unit().to_string(), look.theme.style(Meaning::Quiet));
+    let entries = in_theme(look, |style| legend(std::slice::from_ref(chart), style));
+    std::iter::once(vec![label]).chain(entries).collect()
+}
+
+/// Calls `draw` with the look of charts in a theme.
+pub fn in_theme<R>(look: Appearance, draw: impl FnOnce(&CellStyle<'_>) -> R) -> R {
+    let ink = |ink| look.theme.style(meaning(ink));
+    draw(&CellStyle { marker: look.marker.symbols(), ink: &ink, colours: Colours::None })
+}
+
+/// Meaning of an ink on the screen.
+pub fn meaning(ink: Ink) -> Meaning {
+    use Meaning::{Approach, Ghost, Manual, Quiet, Retraction, Surface, Text};
+    match ink {
+        Ink::Text => Meaning::Title,
+        Ink::Quiet => Quiet,
+        Ink::Profile => Meaning::Line,
+        Ink::Surface => Surface,
+        Ink::Contact => Meaning::Contact,
+        Ink::Loading => Approach,
+        Ink::Unloading => Retraction,
+        Ink::Manual => Manual,
+        Ink::Kept => Ghost,
+        // The colours not used by the present curve.
+        Ink::Compared(number) => [Surface, Manual, Text, Ghost][number % 4],
+        Ink::Cursor => Meaning::Cursor,
+        Ink::Series(number) => [Retraction, Surface, Manual, Approach, Quiet, Text][number % 6],
+    }
+}
+
+/// Areas of the parts of a panel.
+struct Places {
+    head: Rect,
+    body: Rect,
+    foot: Rect,
+}
+
+impl Places {
+    /// Divides the area within the frame: in small windows the foot becomes shorter first, then the head.
+    fn within(panel: &Panel, area: Rect) -> Places {
+        let least = match &panel.body {
+            Body::Chart(_) => FEWEST_ROWS,
+            Body::Text(text) if text.is_empty() => 0,
+            Body::Rows { .. } | Body::Text(_) => 1,
+        };
+        let room = area.height.saturating_sub(least);
+        let above = (panel.head.len() as u16).min(room);
+        let below = (panel.foot.len() as u16).min(room - above);
+        let body = Rect { y: area.y + above, height: area.height - above - below, ..area };
+        Places {
+            head: Rect { height: above, ..area },
+            body,
+            foot: Rect { y: body.bottom(), height: below, ..area },
+        }
+    }
+}
+
+/// Draws a panel into an area, with a frame if there is room; the selected panel is marked.
+pub fn draw(panel: &Panel, area: Rect, is_selected: bool, look: Appearance, buffer: &mut Buffer) {
+    let quiet = look.theme.style(Meaning::Quiet);
+    if is_framed(area) {
+        let (mark, style) = if is_selected { ("▸", look.theme.style(Meaning::Title)) } else { ("", quiet) };
+        let room = area.width - 2;
+        let mut title = format!("{mark} {} ", panel.title);
+        if title.chars().count() > usize::from(room) {
+            title.truncate(title.trim_end().len());
+        }
+        let block = Block::bordered().border_style(quiet).title(fitted(Line::styled(title, style), room));
+        let edge = spaced(panel.edge.clone(), usize::from(area.width.saturating_sub(4)));
+        let edge = edge.filter(|edge| !edge.spans.is_empty());
+        let edge =
+            edge.map(|edge| Line::from_iter([" ".into()].into_iter().chain(edge.spans).chain([" ".into()])));
+        edge.into_iter().fold(block, Block::title_bottom).render(area, buffer);
+    }
+    let Places { head, body, foot } = Places::within(panel, inside(area));
+    draw_lines(&panel.head, head, buffer);
+    draw_lines(&panel.foot, foot, buffer);
+    match &panel.body {
+        Body::Text(text) => {
+            draw_lines(&wrapped(&Line::styled(text.clone(), quiet), body.width), body, buffer);
+        }
+        Body::Rows { rows, selected } => {
+            let first = first_row(*selected, rows.len(), body.height);
+            draw_lines(rows.get(first..).unwrap_or_default(), body, buffer);
+            let hidden = rows.len().saturating_sub(body.height.into());
+            if hidden > 0 && is_framed(area) {
+                let mut state = ScrollbarState::new(hidden + 1).position(first);
+                state = state.viewport_content_length(body.height.into());
+                let bar = Scrollbar::new(ScrollbarOrientation::VerticalRight).style(quiet);
+                let bar = bar.begin_symbol(None).end_symbol(None).track_symbol(Some("│")).thumb_symbol("█");
+                bar.render(Rect { x: area.right() - 1, width: 1, ..body }, buffer, &mut state);
+            }
+        }
+        Body::Chart(plot) => plot.draw(body, look, buffer),
+    }
+}
+
+/// Draws lines from the top of an area on, as far as there is room; too wide a line ends in `…`.
+pub fn draw_lines(lines: &[Line<'static>], area: Rect, buffer: &mut Buffer) {
+    for (y, line) in (area.y..area.bottom()).zip(lines) {
+        buffer.set_line(area.x, y, &fitted(line.clone(), area.width), area.width);
+    }
+}
+
+/// First visible row of a list. It depends on the selected row alone, so that a click on a visible row leaves the list in
+/// place; a row above and one below the selected row are visible.
+fn first_row(selected: usize, rows: usize, height: u16) -> usize {
+    let height = usize::from(height.max(1));
+    let margin = usize::from(height >= 3);
+    let page = height - 2 * margin;
+    (selected.saturating_sub(margin) / page * page).min(rows.saturating_sub(height))
+}
+
+/// As many parts as fit into so many columns: two columns apart where all fit, else one.
+pub fn spaced(parts: Vec<Part>, columns: usize) -> Option<Line<'static>> {
+    let widths: usize = parts.iter().flatten().map(Span::width).sum();
+    let between = if widths + 2 * parts.len().saturating_sub(1) <= columns { "  " } else { " " };
+    filled(parts, between, columns).into_iter().next()
+}
+
+impl Plot {
+    /// Place of the chart, and the area of the one beside.
+    fn places(&self, area: Rect) -> (CellPlot, Option<Rect>) {
+        let (left, right) = if self.beside.is_some() { split_profile(area) } else { (area, None) };
+        let signs = u16::from(!self.contact.is_empty() && area.height >= WITH_CONTACT);
+        (CellPlot::within(Rect { height: left.height - signs, ..left }, &self.chart), right)
+    }
+
+    fn draw(&self, area: Rect, look: Appearance, buffer: &mut Buffer) {
+        let (place, right) = self.places(area);
+        let plot = place.plot;
+        in_theme(look, |style| {
+            place.draw(buffer, &self.chart, style);
+            let names: Vec<_> = self.names.iter().map(|(at, name, ink)| (*at, name.as_str(), *ink)).collect();
+            place.draw_names(buffer, &self.chart, style, &names);
+            if let Some((chart, right)) = self.beside.as_ref().zip(right) {
+                (plot.y..plot.bottom()).for_each(|y| {
+                    buffer.set_string(right.x, y, "│", (style.ink)(Ink::Quiet));
+                });
+                let right = Rect { x: right.x + 1, width: right.width - 1, ..right };
+                // The label below has no row of its own.
+                let height = right.height.min(MOST_BESIDE);
+                let mut beside = CellPlot::within(Rect { height, ..right }, chart);
+                (beside.plot.y, beside.plot.height) = (plot.y, plot.height);
+                beside.draw(buffer, chart, style);
+            }
+        });
+        if self.chart.map().is_some() {
+            self.point_at_mark(&place, look, buffer);
+        }
+        if !self.contact.is_empty() && area.height >= WITH_CONTACT {
+            let signs = contact_signs(&self.contact, usize::from(plot.width));
+            buffer.set_string(plot.x, area.bottom() - 1, signs, look.theme.style(Meaning::Contact));
+        }
+    }
+
+    /// Draws pointers on the axes of a map at the mark of the scene, and blanks on both sides of the mark, so that it is
+    /// visible without colours.
+    fn point_at_mark(&self, place: &CellPlot, look: Appearance, buffer: &mut Buffer) {
+        let marked = self.chart.layers.iter().rev().find(|layer| layer.ink == Ink::Cursor);
+        let Some(Shape::Curve { points, .. }) = marked.map(|layer| &layer.shape) else { return };
+        let cell = points.first().and_then(|at| place.cell(&self.chart, look.marker.symbols(), *at));
+        let Some((x, y)) = cell else { return };
+        let (plot, style) = (place.plot, look.theme.style(Meaning::Cursor));
+        for beside in [x.wrapping_sub(1), x + 1].into_iter().filter(|x| (plot.x..plot.right()).contains(x)) {
+            buffer[(beside, y)].set_symbol(" ");
+        }
+        let is_line = |cell: &Cell| ["─", "┬"].contains(&cell.symbol());
+        if let Some(cell) = buffer.cell_mut((x, plot.bottom())).filter(|cell| is_line(cell)) {
+            cell.set_symbol("▲").set_style(style);
+        }
+        let is_line = |cell: &Cell| ["│", "┤"].contains(&cell.symbol());
+        if let Some(cell) = buffer.cell_mut((plot.x.wrapping_sub(1), y)).filter(|cell| is_line(cell)) {
+            cell.set_symbol("▶").set_style(style);
+        }
+    }
+}
+
+/// A sign for each cell of a row: `■` where all springs are in contact, `▪` some, `·` none.
+fn contact_signs(contact: &[bool], cells: usize) -> String {
+    let sign = |cell: usize| {
+        let from = cell * contact.len() / cells;
+        let part = &contact[from..((cell + 1) * contact.len() / cells).max(from + 1)];
+        match part.iter().filter(|touches| **touches).count() {
+            0 => '·',
+            touching if touching < part.len() => '▪',
+            _ => '■',
+        }
+    };
+    (0..cells).map(sign).collect()
+}
+
+/// Content of a cell of a panel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Under {
+    /// Numbers on the axes of a chart: the nearest ones for a cell beside the plot.
+    Data(f64, f64),
+    /// Index of a row of a list.
+    Row(usize),
+    /// Anything else.
+    Frame,
+}
+
+/// Returns what a panel that is drawn into an area shows in a cell.
+pub fn under(panel: &Panel, area: Rect, cell: Position) -> Under {
+    let inner = inside(area);
+    let body = Places::within(panel, inner).body;
+    match &panel.body {
+        Body::Chart(plot) if inner.contains(cell) => {
+            let data = plot.places(body).0.data_at(&plot.chart, (cell.x, cell.y));
+            data.map_or(Under::Frame, |(x, y)| Under::Data(x, y))
+        }
+        Body::Rows { rows, selected } if body.contains(cell) => {
+            let row = first_row(*selected, rows.len(), body.height) + usize::from(cell.y - body.y);
+            if row < rows.len() { Under::Row(row) } else { Under::Frame }
+        }
+        _ => Under::Frame,
+    }
+}

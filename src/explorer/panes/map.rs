@@ -1,0 +1,297 @@
+//! The map: shades in the colours of the regimes, the mark of the scene, and the values at the mark.
+
+use super::PaneRow;
+use crate::draw::{Chart, Colours, Figure, Ink, Layer, SHADES, Shape, Sign, key};
+use crate::explorer::app::App;
+use crate::explorer::chart::{self, Live};
+use crate::explorer::mode::ModeKind;
+use crate::explorer::panel::{Panel, in_theme, names};
+use crate::explorer::theme::Meaning;
+use crate::explorer::view::text::{Part, filled, wrapped};
+use crate::export::{study_curves, study_figure, study_map};
+use crate::scene::format_rounded;
+use crate::study::map::{Level, Template};
+use crate::study::{Axis, Cell, Estimate, Grid, Place, Quantity};
+use crate::text::grouped;
+use ratatui::layout::Size;
+use ratatui::text::{Line, Span as Text};
+
+/// Row of the pane.
+pub static ROW: PaneRow = PaneRow {
+    panel,
+    figure: |app, _| app.grid().map(|grid| figure(app, grid)),
+    keys: Some(ModeKind::Chart),
+    studies: |app, computed| match app.chart.shown_study() {
+        Some(_) => Vec::new(),
+        None => chart::study(app, computed).into_iter().collect(),
+    },
+    help: &[
+        (
+            "Map",
+            "m: regime under other H and κ (e: e_el/γ), of most of a few random profiles with few springs; █ adhesion at first \
+             touch, ▒ after pressing, · hardly any, blank: not computed; ◆ is the scene, moved by the arrows",
+        ),
+        (
+            "Study",
+            "map of a merged study, opened by the path of its folder: means over its profiles, ▓ ░ where profiles \
+             differ in their regimes; ◆ moves from cell to cell, P selects the next preload, W switches between the \
+             study and the live map",
+        ),
+    ],
+    ..PaneRow::EMPTY
+};
+
+fn panel(app: &App, size: Size) -> Panel {
+    let title = title(app);
+    let Some(grid) = app.grid() else { return Panel::of_text(title, &nothing_yet(app)) };
+    let foot = below(app, size.width);
+    let Some(mut chart) = map(grid, app.charted()) else {
+        let Some(chart) = curves(app, grid).into_iter().next() else {
+            return Panel::of_text(title, "the study has no quantity to draw over its axis");
+        };
+        let mut parts = names(&chart, app.view.appearance);
+        parts[0] =
+            vec![Text::styled(chart.heading.to_string(), app.view.appearance.theme.style(Meaning::Title))];
+        return Panel { head: filled(parts, "  ", size.width.into()), foot, ..Panel::of_chart(title, chart) };
+    };
+    let head = legend(app, &chart, size.width.into());
+    if let Some((across, Some(up))) = app.place() {
+        chart.layers.push(Layer::unnamed(Ink::Cursor, Shape::signs(vec![(across, up)], Sign::Diamond)));
+    }
+    Panel { head, foot, ..Panel::of_chart(title, chart) }
+}
+
+/// Map of the regimes or of a quantity over two axes; `None` for a grid with one axis.
+fn map(grid: &Grid, charted: Quantity) -> Option<Chart> {
+    let mut chart = study_map(grid, charted, true)?;
+    if let (Quantity::Regime, Some(map)) = (charted, chart.map_mut()) {
+        // The shades show the regimes.
+        map.contour = None;
+        map.class_names.iter_mut().for_each(|class| class.letter = None);
+    }
+    Some(chart)
+}
+
+/// Curves over the only axis of a map, with the mark of the scene.
+fn curves(app: &App, grid: &Grid) -> Vec<Chart> {
+    let quantities = shown_quantities(app.charted(), grid);
+    let curves = quantities.into_iter().filter(|quantity| *quantity != Quantity::Regime);
+    let mark = app.place().map(|(across, _)| across);
+    let chart = |quantity| {
+        let mut chart = Chart { inset: None, ..study_curves(grid, quantity) };
+        if let Some(mark) = mark {
+            let top = chart.y.scale.number(chart.y.span.high);
+            chart.layers.push(Layer::unnamed(Ink::Cursor, Shape::Upright(mark)));
+            chart.layers.push(Layer::unnamed(Ink::Cursor, Shape::signs(vec![(mark, top)], Sign::Diamond)));
+        }
+        chart
+    };
+    curves.map(chart).collect()
+}
+
+/// Figure of the pane: the map, with the quantities behind the regimes while these are mapped, or curves over the only
+/// axis.
+fn figure(app: &App, grid: &Grid) -> Figure {
+    let charts = match grid.up {
+        None => curves(app, grid),
+        Some(_) => {
+            let shown = shown_quantities(app.charted(), grid).into_iter();
+            shown.filter_map(|quantity| study_map(grid, quantity, false)).collect()
+        }
+    };
+    let study = app.chart.shown_study();
+    let title = study.map_or(&app.edit.document.scene().title, |study| &study.study_map.plan().title);
+    let fixed = study.map_or_else(Vec::new, |study| study.study_map.fixed_values(study.slice));
+    study_figure(title, &fixed, charts)
+}
+
+/// Title of the pane: the mapped quantity, the axes, and the number of profiles of the mean.
+fn title(app: &App) -> String {
+    let template = Template::of(app.edit.document.scene());
+    let Some((across, up)) = app.map_axes() else { return "Map".to_owned() };
+    let axes: Vec<&str> =
+        [Some(&across), up.as_ref()].into_iter().flatten().map(Axis::symbol_or_name).collect();
+    let over = axes.join(", ");
+    let charted = app.grid().map(|grid| name_of(grid, app.charted()));
+    let quantity = charted.unwrap_or_else(|| "regime".to_owned());
+    let study = app.chart.shown_study().map(|study| (&study.study_map, study.study_map.plan().lines));
+    match (study, template) {
+        (Some((study_map, count)), _) => {
+            format!("Study {}: {quantity} over {over}, {}", study_map.name(), profiles(count))
+        }
+        (None, Ok(template)) => format!("Map of {quantity} over {over}, {}", profiles(template.lines())),
+        (None, Err(_)) => "Map".to_owned(),
+    }
+}
+
+fn profiles(count: u64) -> String {
+    if count == 1 { "1 profile".to_owned() } else { format!("{} profiles", grouped(count)) }
+}
+
+/// Reason why there is no map.
+fn nothing_yet(app: &App) -> String {
+    if let Err(why) = Template::of(app.edit.document.scene()) {
+        return why.to_string();
+    }
+    if let Some(why) = app.studies.failure::<Live>() {
+        return format!("no map: {why}");
+    }
+    match (app.is_computing(), app.is_current()) {
+        (true, _) => "the scene is computed first…".to_owned(),
+        (false, false) => "the scene cannot be computed, so there is no map around it".to_owned(),
+        _ if !app.view.shows_times => "a map of so many springs is not computed here".to_owned(),
+        _ => "computing the map, from coarse to fine…".to_owned(),
+    }
+}
+
+/// The name of a quantity: its symbol, where unique on the map.
+fn name_of(grid: &Grid, quantity: Quantity) -> String {
+    let symbol = quantity.symbol();
+    let is_only = grid.layers.iter().filter(|layer| layer.quantity.symbol() == symbol).count() == 1;
+    if is_only && !symbol.is_empty() { symbol.to_owned() } else { quantity.name().replace('_', " ") }
+}
+
+/// Axis up, shades with their meaning, classes, and the slice of a study.
+fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
+    let (Some(grid), Some(map)) = (app.grid(), chart.map()) else { return Vec::new() };
+    let look = app.view.appearance;
+    let title = |text: String| Text::styled(text, look.theme.style(Meaning::Title));
+    let mut parts = vec![vec![title(format!("↑ {}", chart.y.label_with_unit()))]];
+    if app.charted() == Quantity::Regime {
+        // From the densest: the regimes, and cells whose profiles are in one and the next.
+        for (class, shade) in map.class_names.iter().zip(SHADES.iter().rev().step_by(2)) {
+            let shade = Text::styled(*shade, in_theme(look, |style| (style.ink)(class.ink)));
+            parts.push(vec![shade, Text::raw(format!(" {}", class.name))]);
+        }
+        if grid.is_split() {
+            parts.push(vec![Text::raw(format!("{} {} profiles disagree", SHADES[3], SHADES[1]))]);
+        }
+    } else {
+        let scale = key(map, width, Colours::None).into_iter().map(|(text, _)| Text::raw(text));
+        parts.push(std::iter::once(title(format!("{} ", map.key.label_with_unit()))).chain(scale).collect());
+        // The first name is that of the axis.
+        parts.extend(names(chart, look).into_iter().skip(1));
+    }
+    let Some(study) = app.chart.shown_study() else { return filled(parts, "  ", width) };
+    let slices = study.study_map.slices();
+    let mut slice: Vec<Part> =
+        study.study_map.fixed_values(study.slice).into_iter().map(|at| vec![title(at)]).collect();
+    if slices > 1 {
+        let which = format!("{} of {}, P: the next", grouped(study.slice + 1), grouped(slices));
+        slice.push(vec![Text::styled(which, look.theme.style(Meaning::Key))]);
+    }
+    let mut lines = filled(slice, "  ", width);
+    lines.extend(filled(parts, "  ", width));
+    lines
+}
+
+/// A place with the symbols of the axes.
+fn on_axes(grid: &Grid, (across, up): Place) -> String {
+    let on_axis =
+        |axis: &Axis, value| format!("{} {}", axis.symbol_or_name(), format_rounded(value, 3, axis.unit));
+    let up = grid.up.as_ref().zip(up).map(|(axis, value)| on_axis(axis, value));
+    let parts: Vec<String> = [on_axis(&grid.across, across)].into_iter().chain(up).collect();
+    parts.join(", ")
+}
+
+/// Lines below the map, the most important first.
+fn below(app: &App, width: u16) -> Vec<Line<'static>> {
+    let Some(grid) = app.grid() else { return Vec::new() };
+    let (study, scene) = (app.chart.shown_study(), app.edit.document.scene());
+    let mut lines = Vec::new();
+    let mut say = |text: String, meaning: Meaning| {
+        let line = Line::styled(text, app.view.appearance.theme.style(meaning));
+        lines.extend(wrapped(&line, width));
+    };
+    let template = Template::of(scene);
+    if let Some(place) = app.place() {
+        let outside = if grid.contains(place) { "" } else { ", outside the map" };
+        let regime = app.current().and_then(|computed| computed.outcome.regime);
+        let regime = regime.map_or_else(String::new, |regime| format!(": {}", regime.name()));
+        say(format!("◆ {}{outside}{regime}", on_axes(grid, place)), Meaning::Text);
+        if let Some((cell, column, row)) = grid.nearest(place) {
+            say(cell_values(app, grid, place, (cell, column, row)), Meaning::Text);
+        } else if study.is_some() {
+            say("the study was merged without this cell".to_owned(), Meaning::Text);
+        }
+    } else if study.is_some() {
+        let why = template.as_ref().err().map(|why| why.to_string().replacen("no map", "no mark", 1));
+        let no_mark = || "no mark: the scene lacks a quantity of the axes".to_owned();
+        say(why.unwrap_or_else(no_mark), Meaning::Quiet);
+    }
+    if study.is_some_and(|study| !study.study_map.is_of(study.slice, scene)) {
+        let why =
+            "the scene is no longer that of the study: it differs in more than the quantities of the axes";
+        say(why.to_owned(), Meaning::Key);
+    }
+    if let (None, Some(Live { map, .. })) = (study, app.studies.value()) {
+        let size = |level: Level| format!("{} × {} cells", level.columns().count(), map.rows_of(level).len());
+        match (map.level(), app.studies.failure::<Live>()) {
+            (_, Some(why)) => say(format!("map incomplete: {why}"), Meaning::Error),
+            (Some(_), None) if map.is_whole() => {}
+            (Some(level), None) => say(format!("{} so far…", size(level)), Meaning::Key),
+            (None, None) => say("the coarse map first…".to_owned(), Meaning::Key),
+        }
+    }
+    if let (None, Ok(template)) = (study, template) {
+        let springs = grouped(template.springs());
+        say(format!("Each cell: {} of {springs} springs.", profiles(template.lines())), Meaning::Quiet);
+    }
+    lines
+}
+
+/// Quantities shown with the regime.
+const WITH_REGIME: [Quantity; 2] = [Quantity::ZeroLoadAdhesionShare, Quantity::AdhesionCoefficient];
+
+/// Quantities shown together: with the regime those that decide the regime, if any.
+fn shown_quantities(charted: Quantity, grid: &Grid) -> Vec<Quantity> {
+    if charted != Quantity::Regime {
+        return vec![charted];
+    }
+    let both: Vec<_> = WITH_REGIME.into_iter().filter(|one| grid.layer(*one).is_some()).collect();
+    let first = || grid.quantities().into_iter().find(|one| *one != Quantity::Regime);
+    if both.is_empty() { vec![first().unwrap_or(charted)] } else { both }
+}
+
+/// Values of the cell nearest to the mark, with its place unless this is the mark.
+fn cell_values(
+    app: &App,
+    grid: &Grid,
+    mark: Place,
+    (cell, column, row): (&Result<Cell, String>, usize, usize),
+) -> String {
+    let whose = if app.chart.shown_study().is_some() { "study" } else { "map" };
+    let place = (grid.across.values[column], grid.up.as_ref().map(|up| up.values[row]));
+    let (at, marked) = (on_axes(grid, place), on_axes(grid, mark));
+    let at = if at == marked { whose.to_owned() } else { format!("{whose} at {at}") };
+    let cell = match cell {
+        Ok(cell) => cell,
+        Err(why) => return format!("{at}: {why}"),
+    };
+    let regime = cell.regime.map(|found| match cell.lines {
+        1 => found.regime.name().to_owned(),
+        lines => {
+            format!("{} ({} of {} profiles)", found.regime.name(), grouped(cell.agreeing()), grouped(lines))
+        }
+    });
+    // Quantities of the regime are shown together, so that the map keeps its place.
+    let charted = app.charted();
+    let charted = if WITH_REGIME.contains(&charted) { Quantity::Regime } else { charted };
+    let shown = shown_quantities(charted, grid);
+    let known = grid.layers.iter().zip(&cell.estimates).filter(|(layer, _)| shown.contains(&layer.quantity));
+    let values = known.filter_map(|(layer, estimate)| {
+        let quantity = layer.quantity;
+        Some(format!("{} {}", name_of(grid, quantity), value((*estimate)?, quantity.unit())))
+    });
+    format!("{at}: {}", regime.into_iter().chain(values).collect::<Vec<_>>().join(", "))
+}
+
+/// A mean, with its confidence where known and the range of the profiles.
+fn value(Estimate { mean, interval, range: (least, most) }: Estimate, unit: &str) -> String {
+    let shown = |value| format_rounded(value, 2, unit);
+    let confidence = interval.filter(|(low, high)| low < high);
+    let confidence =
+        confidence.map_or_else(String::new, |(low, high)| format!(" ± {}", shown((high - low) / 2.0)));
+    let range = if least < most { format!(" ({} to {})", shown(least), shown(most)) } else { String::new() };
+    format!("{}{confidence}{range}", shown(mean))
+}
