@@ -153,7 +153,7 @@ fn reading(app: &App) -> Option<Vec<Part>> {
 
 /// The chart without names that the pane writes elsewhere: those of marks and ghosts, and those of the axes.
 fn shown_chart(app: &App) -> Option<Chart> {
-    let mut chart = chart(app)?;
+    let mut chart = chart(app)?.with_symbols();
     // A ghost beside the scene is named with the curves; the others have their letters.
     let beside = app.beside().map(|_| app.ghosts.len() - 1);
     for layer in &mut chart.layers {
@@ -163,9 +163,6 @@ fn shown_chart(app: &App) -> Option<Chart> {
             Ink::Compared(_) => Label::default(),
             _ => continue,
         };
-    }
-    for axis in [&mut chart.x, &mut chart.y] {
-        axis.label = axis.label.without_name();
     }
     Some(chart)
 }
