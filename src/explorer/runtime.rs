@@ -55,7 +55,7 @@ impl Engine {
         match self {
             Engine::Threads(_, thread) => thread.ask(studies),
             Engine::Inline(_, performs) => {
-                for study in studies.into_iter().filter(|study| performs(study)) {
+                for study in studies.into_iter().filter(performs) {
                     let mut report = |finding| found.push(Action::Found(finding));
                     study.perform(&mut Simulation::default(), &|| false, &mut report);
                 }
