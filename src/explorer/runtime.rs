@@ -5,7 +5,7 @@ use super::action::Action;
 use super::app::App;
 use super::completion::complete;
 use super::config::remember;
-use super::mode::ModeKind;
+use super::keys::Context;
 use super::opening::Opening;
 use super::request::Request;
 use super::solver::{Solve, Solver, SolverThread};
@@ -86,12 +86,12 @@ impl Runtime {
         self.perform(effects)
     }
 
-    /// Runs a command by its name, if valid in the present mode or, while exploring, in [`ModeKind::Explore`]; returns
-    /// the effects for the terminal.
+    /// Runs a command by its name, if its keys are valid or, while exploring, in another pane; returns the effects for
+    /// the terminal.
     pub fn command(&mut self, name: &str) -> Vec<Effect> {
-        let (bindings, here) = (&self.app.config.bindings, self.app.keys());
-        let elsewhere = || bindings.named(name, ModeKind::Explore).filter(|_| here.is_exploring());
-        let command = bindings.named(name, here).or_else(elsewhere);
+        let bindings = &self.app.config.bindings;
+        let elsewhere = || bindings.named(name, Context::Explore).filter(|_| self.app.prompt.is_none());
+        let command = bindings.named(name, self.app.keys()).or_else(elsewhere);
         command.map_or_else(Vec::new, |command| self.act(Action::Command(command)))
     }
 
@@ -99,7 +99,7 @@ impl Runtime {
     pub fn perform(&mut self, effects: Vec<Effect>) -> Vec<Effect> {
         let (mut waiting, mut left) = (VecDeque::from(effects), Vec::new());
         while let Some(effect) = waiting.pop_front() {
-            if matches!(effect, Effect::Copy(_) | Effect::Suspend) {
+            if matches!(effect, Effect::Copy(_) | Effect::Redraw | Effect::Suspend) {
                 left.push(effect);
                 continue;
             }
@@ -137,7 +137,7 @@ impl Runtime {
                 let opened = Opening::of(&name).map(Box::new).map_err(|error| error.to_string());
                 Action::Opened(name, opened)
             }
-            Effect::Copy(_) | Effect::Suspend => return Vec::new(),
+            Effect::Copy(_) | Effect::Redraw | Effect::Suspend => return Vec::new(),
         };
         vec![action]
     }

@@ -32,8 +32,6 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
-/// Frames per second where the configuration has no other number.
-pub const FRAME_RATE: u32 = 30;
 /// Most frames per second over SSH, where each has to travel.
 const REMOTE_FRAMES: u32 = 12;
 
@@ -127,11 +125,13 @@ pub fn open_with(
     let environment = Appearance::of_environment();
     let appearance = Appearance {
         theme: options.theme.or(options.config.theme).unwrap_or(environment.theme),
-        marker: options.marker.or(options.config.marker).unwrap_or(environment.marker),
+        marker: options.marker.or(options.config.markers).unwrap_or(environment.marker),
     };
     let mut app = App::new(opening, (size.width, size.height), appearance);
     let remote = ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| std::env::var_os(name).is_some());
-    let frame_rate = options.config.frame_rate.unwrap_or(FRAME_RATE);
+    let frame_rate = options.config.frame_rate;
+    // Terminal multiplexers keep a screen of their own.
+    app.view.lacks_octants = ["TMUX", "STY"].iter().any(|name| std::env::var_os(name).is_some());
     app.config = options.config;
     if let Some(warning) = options.warning {
         app.set_error(warning);
@@ -256,11 +256,7 @@ impl Session<'_> {
                         Some(self.resize()?)
                     }
                     Message::Signal(SystemSignal::Resize) => Some(self.resize()?),
-                    // In the present mode: the key before may have changed it.
-                    Message::Input(Some(event)) => {
-                        let app = &self.runtime.app;
-                        input::action_of(&event, &app.config.bindings, app.keys())
-                    }
+                    Message::Input(Some(event)) => input::action_of(event),
                     Message::Act(action) => Some(*action),
                 };
                 if let Some(action) = action {
@@ -312,6 +308,7 @@ impl Session<'_> {
                 Effect::Copy(text) => {
                     queue!(self.terminal.backend_mut(), CopyToClipboard::to_clipboard_from(text))?;
                 }
+                Effect::Redraw => self.redraw = true,
                 Effect::Suspend => {
                     self.own_stops += 1;
                     self.guard.suspend()?;

@@ -4,7 +4,7 @@ use super::{Costs, PaneRow, costs};
 use crate::accuracy::{CostTable, Estimate, Evidence, Knob};
 use crate::draw::{Chart, Ink, Layer, Shape, Sign, Span};
 use crate::explorer::app::App;
-use crate::explorer::mode::ModeKind;
+use crate::explorer::keys::Context;
 use crate::explorer::panel::{Panel, names};
 use crate::explorer::theme::{Appearance, Meaning};
 use crate::explorer::update::{Answer, Choosing};
@@ -19,7 +19,7 @@ use ratatui::text::{Line, Span as Text};
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     panel,
-    keys: Some(ModeKind::Crosshair),
+    keys: Some(Context::Crosshair),
     studies: |_, computed| vec![costs::study(computed)],
     help: &[(
         "Accuracy",

@@ -4,7 +4,7 @@ use super::PaneRow;
 use crate::draw::{Chart, Colours, Figure, Ink, Layer, SHADES, Shape, Sign, key};
 use crate::explorer::app::App;
 use crate::explorer::chart::{self, Live};
-use crate::explorer::mode::ModeKind;
+use crate::explorer::keys::Context;
 use crate::explorer::panel::{Panel, in_theme, names};
 use crate::explorer::theme::Meaning;
 use crate::explorer::view::text::{Part, filled, wrapped};
@@ -20,7 +20,7 @@ use ratatui::text::{Line, Span as Text};
 pub static ROW: PaneRow = PaneRow {
     panel,
     figure: |app, _| app.grid().map(|grid| figure(app, grid)),
-    keys: Some(ModeKind::Chart),
+    keys: Some(Context::Map),
     studies: |app, computed| match app.chart.shown_study() {
         Some(_) => Vec::new(),
         None => chart::study(app, computed).into_iter().collect(),

@@ -4,7 +4,7 @@
 use super::{PaneRow, PreloadCurve};
 use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Sign};
 use crate::explorer::app::App;
-use crate::explorer::mode::ModeKind;
+use crate::explorer::keys::Context;
 use crate::explorer::panel::{Panel, names};
 use crate::explorer::studies::Study;
 use crate::explorer::theme::Meaning;
@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     panel,
-    keys: Some(ModeKind::Crosshair),
+    keys: Some(Context::Crosshair),
     studies: |app, computed| {
         let (begun, computed) = (app.studies.value::<PreloadCurve>().cloned(), Arc::clone(computed));
         vec![Study::new(computed.generation, false, move |simulation, stop, report| {

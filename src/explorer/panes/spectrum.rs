@@ -2,7 +2,7 @@
 
 use super::{PaneRow, SceneSpectra};
 use crate::explorer::app::App;
-use crate::explorer::mode::ModeKind;
+use crate::explorer::keys::Context;
 use crate::explorer::panel::{Panel, names};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
@@ -23,7 +23,7 @@ use std::sync::Arc;
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     panel,
-    keys: Some(ModeKind::Crosshair),
+    keys: Some(Context::Crosshair),
     studies: |app, computed| {
         let solved = Arc::clone(computed);
         let spectra = Study::new(computed.generation, false, move |simulation, _, _| {

@@ -3,7 +3,7 @@
 
 use super::{Effect, compare, edit, scene_of};
 use crate::accuracy::{Choice, ChoiceError, Estimate, Target, choose, estimate, parse_tolerance};
-use crate::explorer::app::App;
+use crate::explorer::app::{App, Message};
 use crate::explorer::prompt::Purpose;
 use crate::explorer::snapshot::Preview;
 use crate::explorer::studies::{Finding, Study};
@@ -129,7 +129,7 @@ fn take_over(app: &mut App, choice: &Choice) -> Vec<Effect> {
         let fields = [("numerics.points", points.as_str()), ("numerics.edges", choice.edges.name())];
         let fields = fields.map(|(path, value)| (path.to_owned(), value.to_owned()));
         effects = edit::take_over(app, app.edit.document.set_all(&fields));
-        if let Some((_, why)) = &app.edit.refused {
+        if let Some(Message::Refused(why)) = &app.message {
             app.studies.set(app.edit.generation, Answer(why.clone()), true);
             return effects;
         }
