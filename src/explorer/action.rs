@@ -3,7 +3,7 @@
 use super::keys::Command;
 use super::opening::Opening;
 use super::snapshot::Report;
-use super::study::Found;
+use super::studies::Finding;
 use crate::export::Format;
 use crate::scene::Entry;
 use crossterm::event::KeyEvent;
@@ -27,8 +27,8 @@ pub enum Action {
     SetSeed(u64),
     /// A report of the worker.
     Report(Report),
-    /// A finding of the study.
-    Found(Found),
+    /// A finding of a study.
+    Found(Finding),
     /// A written file, or the reason why it was not written.
     Written(OutputFile, Result<(), WriteFailure>),
     /// The scenes that can be opened.

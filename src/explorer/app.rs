@@ -1,24 +1,23 @@
 //! The state of the explorer: changed by `update` alone, drawn by the views.
 
 use super::action::Traffic;
-use super::adhesion_spread::AdhesionSpread;
-pub use super::appraisal::{Appraisal, Estimated};
 pub use super::chart::{Chart, OpenStudy};
 use super::config::Config;
+use super::opening::Opening;
 pub use super::panes::Pane;
-use super::panes::PreloadCurve;
 use super::parameters::{Parameter, Setting, parameters};
 pub use super::player::Player;
 use super::player::{indentations, start_of};
 use super::prompt::{Prompt, Purpose};
-use super::request::{Focus, LineView, ManualMove, Tried};
+use super::request::{Focus, LineView, ManualMove};
 use super::snapshot::{ContactSnapshot, Drive, Preview, SolvedScene};
+use super::studies::Findings;
 use super::text_line::TextLine;
 use super::theme::Appearance;
 use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
 use crate::export::LoopQuantities;
-use crate::scene::{Adhesion, Document, Observer, Scene, ron_float};
+use crate::scene::{Document, Observer, Scene, ron_float};
 use crate::simulation::Outcome;
 use crate::study::{Axis, Place};
 use std::collections::{BTreeMap, BTreeSet};
@@ -163,21 +162,6 @@ pub struct View {
     pub demo: Option<&'static str>,
 }
 
-/// Results that follow the solution of a scene.
-#[derive(Clone, Debug, Default)]
-pub struct StudyResults {
-    /// Accuracy of the scene and the cost of accuracy.
-    pub appraisal: Appraisal,
-    /// Adhesion against preload, so far.
-    pub preloads: Option<Arc<PreloadCurve>>,
-    /// Adhesion of random profiles of a measured surface, so far.
-    pub adhesion_spread: Option<Arc<AdhesionSpread>>,
-    /// Reasons why data of panes are not computed further.
-    pub failures: BTreeMap<Pane, String>,
-    /// True if the scene was edited after the last pane was shown: its data wait while a key is held down.
-    pub edited: bool,
-}
-
 /// The state of the explorer.
 #[derive(Clone, Debug)]
 pub struct App {
@@ -195,8 +179,8 @@ pub struct App {
     pub snapshot: Option<Arc<ContactSnapshot>>,
     /// Legs done of the scene being computed.
     pub progress: Option<usize>,
-    /// Results that follow.
-    pub studies: StudyResults,
+    /// Values computed after the scene.
+    pub studies: Findings,
     /// The map over κ and H.
     pub chart: Chart,
     /// Loops kept for comparison, the newest last.
@@ -206,9 +190,7 @@ pub struct App {
     /// Scene to open beside the present one once that is computed.
     pub opens_beside: Option<Document>,
     /// Scene whose outcome is awaited: with the value being typed, or to be kept as a ghost.
-    pub tried: Option<Tried>,
-    /// The newest outcome of a tried scene.
-    pub preview: Option<Arc<Preview>>,
+    pub tried: Option<Document>,
     /// The line being typed, or the question.
     pub prompt: Option<Prompt>,
     /// A line for the user.
@@ -220,11 +202,12 @@ pub struct App {
 }
 
 impl App {
-    /// The explorer just opened on a scene.
+    /// The explorer just opened on a scene or a study.
     #[must_use]
-    pub fn new(document: Document, size: (u16, u16), appearance: Appearance) -> Self {
+    pub fn new(opening: impl Into<Opening>, size: (u16, u16), appearance: Appearance) -> Self {
+        let Opening { document, study_map, beside } = opening.into();
         let springs = CloseUpTarget::springs_shown(&document);
-        App {
+        let mut app = App {
             edit: Editor {
                 saved: BTreeMap::from([(document.name().to_owned(), document.clone())]),
                 parameters: parameters(&document),
@@ -259,18 +242,21 @@ impl App {
             solved: None,
             snapshot: None,
             progress: Some(0),
-            studies: StudyResults::default(),
+            studies: Findings::default(),
             chart: Chart::default(),
             ghosts: Vec::new(),
             next_ghost: None,
-            opens_beside: None,
+            opens_beside: beside,
             tried: None,
-            preview: None,
             prompt: None,
             message: None,
             config: Config::default(),
             finished: false,
+        };
+        if let Some(study_map) = study_map {
+            app.show_study(study_map);
         }
+        app
     }
 
     /// Shows a success.
@@ -314,7 +300,7 @@ impl App {
             && before.form == now.form
             && before.material == now.material;
         // An rms height that follows from γ and κ or e_el/γ changes with them.
-        let both = |scene: &Scene| matches!(scene.adhesion, Some(Adhesion::Work { amplitude: Some(_), .. }));
+        let both = |scene: &Scene| scene.adhesion.is_some_and(|adhesion| adhesion.sets_amplitude());
         if !same_line || ((both(before) || both(now)) && before.adhesion != now.adhesion) {
             return None;
         }
@@ -343,19 +329,20 @@ impl App {
     /// computed.
     #[must_use]
     pub fn tried_outcome(&self) -> Option<&Outcome> {
-        let preview = self.preview.as_ref()?;
+        let preview = self.studies.value::<Preview>()?;
         let is_shown = match self.prompt {
             Some(_) => self.is_typing_value() && self.tried.is_some(),
             None => self.is_computing() && preview.text == self.edit.document.text(),
         };
-        preview.outcome.as_ref().ok().filter(|_| is_shown)
+        let is_valid = self.studies.failure::<Preview>().is_none();
+        Some(&preview.outcome).filter(|_| is_shown && is_valid)
     }
 
     /// Returns true once the typed value itself has an outcome.
     #[must_use]
     pub fn is_tried(&self) -> bool {
-        let tried = self.tried.as_ref().map(|tried| &tried.text);
-        self.preview.as_ref().is_some_and(|preview| tried == Some(&preview.text))
+        let tried = self.tried.as_ref().map(Document::text);
+        self.studies.value::<Preview>().is_some_and(|preview| tried == Some(&preview.text))
     }
 
     /// Values of the scene on the axes of the map: its mark. `None` where the scene has no such quantity, or its value
@@ -363,7 +350,7 @@ impl App {
     #[must_use]
     pub fn place(&self) -> Option<Place> {
         let scene = self.edit.document.scene();
-        let (across, up) = self.chart.axes(scene)?;
+        let (across, up) = self.map_axes()?;
         let governing = self.governing();
         let value = |axis: &Axis| axis.value_in(scene, governing.as_ref());
         let place = value(&across)?;

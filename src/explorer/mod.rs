@@ -1,10 +1,8 @@
-//! The explorer: a blocking input thread and the worker send actions into one channel, `update`
-//! changes the model, the views draw the model. This thread computes nothing and sleeps without events.
+//! The explorer: threads of input, solver and studies send actions into one channel, `update` changes the state, the views
+//! draw the state. This thread computes nothing and sleeps without events.
 
 pub mod action;
-pub mod adhesion_spread;
 pub mod app;
-pub mod appraisal;
 pub mod autosave;
 mod caption;
 pub mod chart;
@@ -13,7 +11,6 @@ mod completion;
 pub mod config;
 pub mod demo;
 mod effect;
-pub mod engine;
 mod input;
 pub mod keys;
 pub mod layout;
@@ -23,7 +20,6 @@ pub mod panel;
 pub mod panes;
 pub mod parameters;
 pub mod picture;
-mod playback;
 mod player;
 pub mod prompt;
 pub mod request;
@@ -34,14 +30,14 @@ mod session;
 mod shown;
 mod signals;
 pub mod snapshot;
-pub mod study;
+pub mod solver;
+pub mod studies;
 mod terminal;
 mod text_line;
 pub mod theme;
 mod unsaved;
 pub mod update;
 pub mod view;
-pub mod worker;
 mod writing;
 
 pub use opening::{Opening, OpeningError};

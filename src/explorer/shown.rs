@@ -33,7 +33,7 @@ impl App {
         match pane.row().place {
             Place::Own => {}
             Place::CloseUp => (self.view.large, self.view.lower) = (None, pane),
-            Place::Large => (self.view.large, self.studies.edited) = (Some(pane), false),
+            Place::Large => self.view.large = Some(pane),
         }
         // A small window has room for the selected pane alone.
         let has_room = Layout::of(self).pane(pane).is_some();

@@ -10,8 +10,8 @@ use super::common::study::merged;
 use asperity::explorer::action::Action;
 use asperity::explorer::keys::Command;
 use asperity::explorer::parameters::parameters;
+use asperity::explorer::snapshot::Report;
 use asperity::explorer::update::{Effect, update};
-use asperity::explorer::worker::Report;
 use asperity::explorer::{Opening, view};
 use asperity::scene::{Document, Solver, check};
 use asperity::study::Quantity;
@@ -273,8 +273,8 @@ impl Explorer {
         if let Some(study) = app.chart.shown_study() {
             assert!(study.slice < study.study_map.slices());
         }
-        if let Some(grid) = app.chart.grid() {
-            let charted = app.chart.charted();
+        if let Some(grid) = app.grid() {
+            let charted = app.charted();
             let any = grid.quantities();
             assert!(any.contains(&charted) || any.is_empty() && charted == Quantity::Regime, "{charted:?}");
         }

@@ -2,9 +2,9 @@
 
 use super::{Effect, edit};
 use crate::explorer::app::App;
+use crate::explorer::chart::Live;
 use crate::explorer::opening::Opening;
-use crate::explorer::panes::Pane;
-use crate::scene::{Document, SceneErrors};
+use crate::scene::{Document, RoughnessParameter, SceneErrors};
 use crate::study::map::{Template, moved};
 use crate::study::{Axis, Place};
 use std::sync::Arc;
@@ -30,7 +30,6 @@ pub fn toggle_study(app: &mut App) -> Vec<Effect> {
         return Vec::new();
     }
     app.chart.of_study = !app.chart.of_study;
-    app.studies.edited = false;
     vec![Effect::Study]
 }
 
@@ -40,9 +39,12 @@ pub fn next_parameter(app: &mut App) -> Vec<Effect> {
         app.set_error("a study has its own axes; W shows the map that is computed here");
         return Vec::new();
     }
-    app.chart.next_parameter();
-    app.studies.failures.remove(&Pane::Chart);
-    app.studies.edited = false;
+    app.chart.parameter = match app.chart.parameter {
+        RoughnessParameter::Kappa => RoughnessParameter::ElasticEnergyRatio,
+        RoughnessParameter::ElasticEnergyRatio => RoughnessParameter::Kappa,
+    };
+    app.chart.moving = false;
+    app.studies.forget::<Live>();
     vec![Effect::Study]
 }
 
@@ -80,7 +82,7 @@ pub fn step(app: &mut App, columns: i32, rows: i32) -> Vec<Effect> {
         app.set_error(why);
         return Vec::new();
     };
-    let Some((across, up)) = app.chart.axes(app.edit.document.scene()) else { return Vec::new() };
+    let Some((across, up)) = app.map_axes() else { return Vec::new() };
     if rows != 0 && up.is_none() {
         app.set_error(format!("this map has one axis, {}", across.symbol_or_name()));
         return Vec::new();
@@ -117,7 +119,7 @@ pub fn move_to(app: &mut App, place: Place) -> Vec<Effect> {
 
 /// The scene at a place on the map. A preload in units of E* h L may change with the place.
 fn moved_to(app: &App, (to_across, to_up): Place) -> Result<Document, SceneErrors> {
-    let axes = app.chart.axes(app.edit.document.scene());
+    let axes = app.map_axes();
     let (across, up) = axes.as_ref().map_or((None, None), |(across, up)| (Some(across), up.as_ref()));
     let values: Vec<(&Axis, f64)> = across.zip(Some(to_across)).into_iter().chain(up.zip(to_up)).collect();
     let moved = moved(&app.edit.document, &values)?;

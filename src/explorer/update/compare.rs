@@ -95,9 +95,9 @@ pub fn pin_other_use(app: &mut App) -> Vec<Effect> {
     let as_line = !scene.measured_as_line();
     match app.edit.document.set("roughness.as_line", &as_line.to_string()) {
         Ok(document) => {
-            app.tried = Some(edit::tried_of(&document));
+            app.tried = Some(document.clone());
             app.next_ghost = Some(document);
-            vec![Effect::Ask]
+            vec![Effect::Study]
         }
         Err(errors) => {
             app.set_error(errors.to_string());
@@ -106,24 +106,27 @@ pub fn pin_other_use(app: &mut App) -> Vec<Effect> {
     }
 }
 
-/// Stores a computed preview, or keeps it as the requested ghost.
-pub fn previewed(app: &mut App, preview: Arc<Preview>) -> Vec<Effect> {
-    let Some(document) = app.next_ghost.take_if(|document| document.text() == preview.text) else {
-        app.preview = Some(preview);
+/// Keeps the requested ghost once it is computed.
+pub fn pin_requested(app: &mut App) -> Vec<Effect> {
+    let why = app.studies.failure::<Preview>().map(str::to_owned);
+    let preview = app.studies.value::<Preview>();
+    let is_ready = |ghost: &mut Document| preview.is_some_and(|known| known.text == ghost.text());
+    let Some(document) = app.next_ghost.take_if(|ghost| why.is_some() || is_ready(ghost)) else {
         return Vec::new();
     };
-    match &preview.outcome {
-        Ok(outcome) => {
+    match (why, preview) {
+        (Some(why), _) => app.set_error(why),
+        (None, Some(preview)) => {
             let what = if document.scene().measured_as_line() { "profile itself" } else { "equivalent line" };
-            let scene = Arc::new(document.scene().clone());
-            let computed = Arc::new(SolvedScene { generation: 0, scene, outcome: outcome.clone() });
+            let (scene, outcome) = (Arc::new(document.scene().clone()), preview.outcome.clone());
+            let computed = Arc::new(SolvedScene { generation: 0, scene, outcome });
             let (differs, changes) = (String::new(), String::new());
             let ghost = Ghost { document, computed, snapshot: None, differs, changes };
             if keep(app, ghost) {
                 app.set_done(format!("kept: the {what}; x exchanges the two"));
             }
         }
-        Err(why) => app.set_error(why.clone()),
+        (None, None) => {}
     }
     app.tried = None;
     vec![Effect::Ask]

@@ -2,15 +2,16 @@
 
 use super::ghosts::name_ghosts;
 use super::{Effect, scene_of, show};
-use crate::explorer::app::{App, Appraisal, CloseUpTarget, Message, Pane, Player};
+use crate::explorer::app::{App, CloseUpTarget, Message, Pane, Player};
 use crate::explorer::layout::Layout;
 use crate::explorer::parameters::{Parameter, Setting, parameters, text_of};
 use crate::explorer::prompt::Purpose;
-use crate::explorer::request::{Focus, LineView, Tried};
+use crate::explorer::request::{Focus, LineView};
+use crate::explorer::snapshot::Preview;
 use crate::explorer::text_line::TextLine;
 use crate::scene::{
-    Adhesion, Change, Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, parse_quantity,
-    presets, stage_targets,
+    Change, Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, parse_quantity, presets,
+    stage_targets,
 };
 
 /// Most edits that can be undone.
@@ -111,7 +112,8 @@ pub fn edit_value(app: &mut App, first: Option<char>) -> Vec<Effect> {
                 first.into_iter().for_each(|character| line.insert(&character.to_string()));
                 app.ask(Purpose::Value, line);
                 // No preview of an earlier edit.
-                (app.tried, app.preview) = (None, None);
+                app.tried = None;
+                app.studies.forget::<Preview>();
             }
         }
     }
@@ -211,22 +213,23 @@ fn with_selected(app: &App, written: &str) -> Result<Document, String> {
     let parameter = app.parameter().ok_or("no parameter is selected")?;
     let document = &app.edit.document;
     let number = || parse_quantity(written, parameter.field.unit).map_err(|error| error.to_string());
+    let adhesion = document.scene().adhesion.unwrap_or_default();
     let changed = match parameter.setting {
         Setting::Field | Setting::Switch(_) | Setting::Heading => document.set(&parameter.path, written),
-        Setting::WorkOfAdhesion => document.with_work_of_adhesion(number()?),
+        Setting::WorkOfAdhesion => document.with_adhesion(adhesion.with_work(number()?)),
         Setting::RoughnessParameter(parameter) => {
             let value = number()?;
-            match (document.scene().adhesion, app.governing()) {
+            match app.governing() {
+                _ if adhesion.work.is_none() || adhesion.sets_amplitude() => {
+                    document.with_adhesion(adhesion.with_parameter(parameter, value))
+                }
                 // The scene has γ alone, which follows from the parameter.
-                (Some(Adhesion::Work { amplitude: None, .. }), Some(governing)) => {
+                Some(governing) => {
                     let undefined = || format!("{} is not defined without roughness", parameter.symbol());
                     let work = governing.work_for(parameter, value).ok_or_else(undefined)?;
-                    document.with_work_of_adhesion(work)
+                    document.with_adhesion(adhesion.with_work(work))
                 }
-                (Some(Adhesion::Work { amplitude: None, .. }), None) => {
-                    return Err("not before the scene is computed".to_owned());
-                }
-                _ => document.with_parameter(parameter, value),
+                None => return Err("not before the scene is computed".to_owned()),
             }
         }
     };
@@ -255,16 +258,11 @@ pub fn preview(app: &mut App) -> Vec<Effect> {
         with_selected(app, &written).ok()
     });
     let tried = tried.filter(|tried| tried.text() != app.edit.document.text() && is_previewed(tried));
-    if tried.as_ref().map(Document::text) == app.tried.as_ref().map(|tried| tried.text.as_str()) {
+    if tried.as_ref().map(Document::text) == app.tried.as_ref().map(Document::text) {
         return Vec::new();
     }
-    app.tried = tried.as_ref().map(tried_of);
-    vec![Effect::Ask]
-}
-
-/// A document whose outcome alone is of interest.
-pub fn tried_of(document: &Document) -> Tried {
-    Tried { text: document.text().to_owned(), scene: scene_of(document) }
+    app.tried = tried;
+    vec![Effect::Study]
 }
 
 /// Switches the effect of the selected row on or off.
@@ -388,12 +386,9 @@ fn renew(app: &mut App) -> Vec<Effect> {
     select(app, row_of(app, &selected));
     app.edit.generation += 1;
     app.progress = Some(0);
-    app.studies.edited = true;
-    app.studies.failures.clear();
-    app.studies.appraisal = Appraisal::default();
-    for pane in Pane::ALL {
-        (pane.row().renew)(app);
-    }
+    app.chart.moving = false;
+    let map = app.chart.key(&scene_of(&app.edit.document)).unwrap_or_default();
+    app.studies.keep(&[&map, app.edit.document.text()]);
     // Manual loading belongs to the former profile and contact.
     if app.manual.take().is_some() {
         app.set_done("the body is back on the scene's loading");

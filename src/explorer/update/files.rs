@@ -70,7 +70,7 @@ fn content_for(app: &App, path: &Path) -> Result<Content, String> {
         Err(error) => return Err(error.to_string()),
     };
     match content {
-        Content::MapCells if app.chart.grid().is_none() => Err("there is no map yet to export".to_owned()),
+        Content::MapCells if app.grid().is_none() => Err("there is no map yet to export".to_owned()),
         Content::Figure(_) if app.figure().is_none() => {
             Err("the selected pane is empty; there is no figure to export".to_owned())
         }

@@ -15,7 +15,7 @@ pub(super) mod movement;
 pub(super) mod show;
 
 pub use super::effect::Effect;
-pub use accuracy::study_tasks;
+pub use accuracy::{Answer, Choosing, studies};
 
 use super::action::Action;
 use super::app::{App, Message};
@@ -125,11 +125,6 @@ fn reported(app: &mut App, report: Report) -> Vec<Effect> {
             app.set_error(error);
         }
         Report::Solved(..) | Report::Shown(_) | Report::Progress { .. } | Report::Failed { .. } => {}
-        Report::Tried(preview)
-            if app.is_typing_value()
-                && app.tried.as_ref().is_none_or(|tried| tried.text != preview.text)
-                && app.next_ghost.is_none() => {}
-        Report::Tried(preview) => return compare::previewed(app, preview),
     }
     Vec::new()
 }
@@ -141,7 +136,6 @@ pub fn request(app: &mut App) -> Request {
         scene: scene_of(&app.edit.document),
         moves: app.manual.as_mut().map_or_else(Vec::new, |manual| std::mem::take(&mut manual.moves)),
         snapshot: snapshot_request(app),
-        tried: app.tried.clone(),
     }
 }
 
@@ -166,8 +160,6 @@ pub fn snapshot_request(app: &App) -> SnapshotRequest {
         strip_cells: layout.close_up_cells(),
         focus: app.view.look.focus,
         close_up_springs: app.view.look.springs,
-        large: app.view.large,
-        lower: app.view.lower,
         crosshair: app.view.crosshair.map(|crosshair| crosshair.position),
     }
 }

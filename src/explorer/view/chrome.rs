@@ -3,14 +3,16 @@
 use super::stages;
 use super::text::{filled, fitted, wrapped_within};
 use super::typed::typed;
+use crate::accuracy::Estimate;
 use crate::analysis::SteepWaves;
 use crate::contact::CurvePoint;
 use crate::explorer::action::{Content, Traffic};
-use crate::explorer::app::{App, Estimated, Message};
+use crate::explorer::app::{App, Message};
 use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::{Meaning, Theme};
+use crate::explorer::update::Choosing;
 use crate::scene::{format_quantity, format_rounded};
 use crate::text::grouped;
 use ratatui::text::{Line, Span};
@@ -70,7 +72,7 @@ pub fn status(app: &App, width: u16) -> Line<'static> {
             error(format!("! {}", text.replace('\n', " · ")))
         }
         (_, Some(Message::Done(text))) => Line::raw(text.clone()),
-        (None, None) if app.studies.appraisal.choosing.is_some() => choosing(app),
+        (None, None) if app.studies.value::<Choosing>().is_some() => choosing(app),
         _ => headline(app, width.into()),
     }
 }
@@ -238,11 +240,10 @@ fn work(app: &App) -> Vec<String> {
 
 /// The estimated error of the headline: `…` while awaited, `None` without an estimate.
 fn error(app: &App) -> Option<String> {
-    match &app.studies.appraisal.estimated {
-        Estimated::Known(estimate) => Some(estimate.words()),
-        Estimated::Waiting if app.view.shows_times => Some("± …".to_owned()),
-        Estimated::Waiting => None,
-        Estimated::Unknown => {
+    match app.studies.value::<Estimate>() {
+        Some(estimate) => Some(estimate.words()),
+        None if app.studies.failure::<Estimate>().is_none() => app.view.shows_times.then(|| "± …".to_owned()),
+        None => {
             let pulls = app.solved.as_ref()?.outcome.figures.adhesion_force.is_some();
             pulls.then(|| "error unknown".to_owned())
         }
@@ -251,9 +252,9 @@ fn error(app: &App) -> Option<String> {
 
 /// Progress of the search of springs for a tolerance.
 fn choosing(app: &App) -> Line<'static> {
-    let Some((tolerance, trying)) = app.studies.appraisal.choosing else { return Line::default() };
-    let trying = trying.map_or_else(String::new, |points| format!(": {} springs", grouped(points)));
-    Line::raw(format!("trying for {tolerance:e}{trying}…"))
+    let Some(Choosing { tolerance, tried, .. }) = app.studies.value() else { return Line::default() };
+    let tried = tried.map_or_else(String::new, |points| format!(": {} springs", grouped(points)));
+    Line::raw(format!("trying for {tolerance:e}{tried}…"))
 }
 
 /// Springs and patches in contact.

@@ -119,7 +119,7 @@ fn adhesion_given_the_other_way_is_the_same() {
         // By e_el/γ the result is the same.
         driver.press("l");
         let adhesion = driver.app.edit.document.scene().adhesion.unwrap();
-        let ratio = adhesion.parameter().filter(|_| adhesion.work().is_none());
+        let ratio = adhesion.parameter().filter(|_| adhesion.work.is_none());
         assert!(ratio.is_some_and(|(parameter, _)| parameter == RoughnessParameter::ElasticEnergyRatio));
         assert!(near(governing(&driver).0, kappa) && near(force(&driver), before));
         driver.press("h");

@@ -114,7 +114,7 @@ fn the_curve_and_the_figures_are_those_of_the_command_line() {
         let scene = driver.app.edit.document.scene().clone();
         let command = command_line("asperity run", driver.app.edit.document.name(), &[]);
         let provenance = scene_provenance(&command, &scene, Path::new(""), Path::new("")).unwrap();
-        let estimate = driver.app.studies.appraisal.estimate();
+        let estimate = driver.app.studies.value();
         let report = RunReport { title: "", scene: &scene, outcome: &outcome, choice: None, estimate };
         let (mut curve, mut figures) = (Vec::new(), Vec::new());
         write(&mut curve, &report, Format::Csv, &provenance).unwrap();
@@ -292,7 +292,7 @@ fn the_copied_command_opens_the_scene_as_it_is() {
                     driver.press("j");
                 }
                 driver.press("t y");
-                let command = driver.console.copied.last().unwrap();
+                let command = driver.copied.last().unwrap();
                 assert_eq!(opened(command).scene(), driver.app.edit.document.scene(), "{command}");
                 assert!(driver.status().starts_with("copied: asperity "), "{}", driver.status());
             }
@@ -300,7 +300,7 @@ fn the_copied_command_opens_the_scene_as_it_is() {
             driver.enter("[ToForce(1.0e-6), ToIndentation(-1.0e-9), ToSeparation]");
             driver.select("length");
             driver.press("L y");
-            let command = driver.console.copied.last().unwrap();
+            let command = driver.copied.last().unwrap();
             assert_eq!(opened(command).scene(), driver.app.edit.document.scene(), "{command}");
         }
     });
@@ -327,11 +327,11 @@ fn a_saved_scene_goes_on_under_its_new_name() {
         assert!(!driver.app.is_unsaved());
         // The command opens the file, without options for the saved changes.
         driver.press("y");
-        let command = driver.console.copied.last().unwrap().clone();
+        let command = driver.copied.last().unwrap().clone();
         assert_eq!(words(&command), ["asperity".to_owned(), path.display().to_string()]);
         assert_eq!(opened(&command).scene(), driver.app.edit.document.scene());
         driver.press("l y");
-        let command = driver.console.copied.last().unwrap().clone();
+        let command = driver.copied.last().unwrap().clone();
         assert_eq!(opened(&command).scene(), driver.app.edit.document.scene(), "{command}");
         // At the next save the name is proposed, with a question.
         driver.press("s Enter");
