@@ -23,8 +23,6 @@ pub enum Action {
     Resize(u16, u16),
     /// Time elapsed while the animation plays.
     Elapse(Duration),
-    /// A seed to set.
-    SetSeed(u64),
     /// A report of the worker.
     Report(Report),
     /// A finding of a study.

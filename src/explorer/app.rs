@@ -3,13 +3,16 @@
 use super::action::Traffic;
 pub use super::chart::{Chart, OpenStudy};
 use super::config::Config;
+pub use super::editor::Editor;
+use super::editor::scene_of;
+use super::effect::Effect;
 use super::opening::Opening;
 pub use super::panes::Pane;
-use super::parameters::{Parameter, Setting, parameters};
+use super::parameters::{Parameter, Setting};
 pub use super::player::Player;
 use super::player::{indentations, start_of};
 use super::prompt::{Prompt, Purpose};
-use super::request::{Focus, LineView, ManualMove};
+use super::request::{Focus, LineView, ManualMove, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Drive, Preview, SolvedScene};
 use super::studies::Findings;
 use super::text_line::TextLine;
@@ -20,7 +23,6 @@ use crate::export::LoopQuantities;
 use crate::scene::{Document, Observer, Scene, ron_float};
 use crate::simulation::Outcome;
 use crate::study::{Axis, Place};
-use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// Target of the close-up.
@@ -102,31 +104,6 @@ pub enum Message {
     Refused(String),
 }
 
-/// The scene as edited, its history, and its list of parameters.
-#[derive(Clone, Debug)]
-pub struct Editor {
-    /// The scene as edited.
-    pub document: Document,
-    /// Documents before each edit.
-    pub past: Vec<Document>,
-    /// Documents after each undone edit.
-    pub future: Vec<Document>,
-    /// Document on disk or as opened, for each scene by its name.
-    pub saved: BTreeMap<String, Document>,
-    /// Number of times that a scene was saved or opened.
-    pub saves: u64,
-    /// Scenes left with unsaved changes, by their names.
-    pub left: BTreeMap<String, Document>,
-    /// Number of the newest requested scene.
-    pub generation: u64,
-    /// The parameters of the scene.
-    pub parameters: Vec<Parameter>,
-    /// Index of the selected parameter, which is never in a folded group.
-    pub selected: usize,
-    /// Groups of parameters of which only the first row is listed.
-    pub folded: BTreeSet<&'static str>,
-}
-
 /// Shown panes, their parts, and their appearance.
 #[derive(Clone, Debug)]
 pub struct View {
@@ -162,6 +139,9 @@ pub struct View {
     pub demo: Option<&'static str>,
 }
 
+/// Generation, snapshot and number of manual moves that the screen waits for.
+pub(super) type Awaited = (u64, SnapshotRequest, usize);
+
 /// The state of the explorer.
 #[derive(Clone, Debug)]
 pub struct App {
@@ -185,11 +165,9 @@ pub struct App {
     pub chart: Chart,
     /// Loops kept for comparison, the newest last.
     pub ghosts: Vec<Ghost>,
-    /// Scene that becomes a ghost once computed.
-    pub next_ghost: Option<Document>,
     /// Scene to open beside the present one once that is computed.
     pub opens_beside: Option<Document>,
-    /// Scene whose outcome is awaited: with the value being typed, or to be kept as a ghost.
+    /// Scene with the value being typed, whose outcome is awaited.
     pub tried: Option<Document>,
     /// The line being typed, or the question.
     pub prompt: Option<Prompt>,
@@ -199,6 +177,10 @@ pub struct App {
     pub config: Config,
     /// True if the explorer is to end.
     pub finished: bool,
+    /// Effects of the present action.
+    pub(super) effects: Vec<Effect>,
+    /// What the solver was asked for last.
+    pub(super) asked: Option<Awaited>,
 }
 
 impl App {
@@ -208,18 +190,7 @@ impl App {
         let Opening { document, study_map, beside } = opening.into();
         let springs = CloseUpTarget::springs_shown(&document);
         let mut app = App {
-            edit: Editor {
-                saved: BTreeMap::from([(document.name().to_owned(), document.clone())]),
-                parameters: parameters(&document),
-                document,
-                past: Vec::new(),
-                future: Vec::new(),
-                saves: 0,
-                left: BTreeMap::new(),
-                generation: 1,
-                selected: 0,
-                folded: BTreeSet::new(),
-            },
+            edit: Editor::new(document),
             play: Player::START,
             manual: None,
             view: View {
@@ -245,13 +216,14 @@ impl App {
             studies: Findings::default(),
             chart: Chart::default(),
             ghosts: Vec::new(),
-            next_ghost: None,
             opens_beside: beside,
             tried: None,
             prompt: None,
             message: None,
             config: Config::default(),
             finished: false,
+            effects: Vec::new(),
+            asked: None,
         };
         if let Some(study_map) = study_map {
             app.show_study(study_map);
@@ -291,17 +263,14 @@ impl App {
     #[must_use]
     pub fn governing(&self) -> Option<Governing> {
         let computed = self.solved.as_ref()?;
-        let (before, now) = (computed.scene.as_ref(), self.edit.document.scene());
-        // The computed scene names files from the working folder.
-        let mut named = now.clone();
-        named.rename_measured_files(|file| self.edit.document.resolve(file).to_string_lossy().into_owned());
-        let same_line = before.roughness == named.roughness
+        let (before, now) = (&computed.scene, scene_of(&self.edit.document));
+        let same_line = before.roughness == now.roughness
             && before.length == now.length
             && before.form == now.form
             && before.material == now.material;
         // An rms height that follows from γ and κ or e_el/γ changes with them.
         let both = |scene: &Scene| scene.adhesion.is_some_and(|adhesion| adhesion.sets_amplitude());
-        if !same_line || ((both(before) || both(now)) && before.adhesion != now.adhesion) {
+        if !same_line || ((both(before) || both(&now)) && before.adhesion != now.adhesion) {
             return None;
         }
         Some(computed.outcome.governing.with_adhesion(now.adhesion))
@@ -394,20 +363,6 @@ impl App {
             Setting::WorkOfAdhesion => governing.work_of_adhesion.map(ron_float),
             Setting::Field | Setting::Switch(_) | Setting::Heading => None,
         }
-    }
-
-    /// Indices of the listed parameters: of a folded group only the first.
-    #[must_use]
-    pub fn listed(&self) -> Vec<usize> {
-        let is_listed =
-            |parameter: &Parameter| parameter.is_head() || !self.edit.folded.contains(parameter.group);
-        (0..self.edit.parameters.len()).filter(|index| is_listed(&self.edit.parameters[*index])).collect()
-    }
-
-    /// The selected parameter.
-    #[must_use]
-    pub fn parameter(&self) -> Option<&Parameter> {
-        self.edit.parameters.get(self.edit.selected)
     }
 
     /// Lowest and highest indentation of the curves shown, m; `None` when there is no curve.

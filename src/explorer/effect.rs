@@ -11,8 +11,6 @@ pub enum Effect {
     Ask,
     /// Perform the remaining studies of the scene, see [`super::update::studies`], and no others.
     Study,
-    /// Draw a random seed and return it as an action.
-    DrawSeed,
     /// Write a file.
     Write(OutputFile),
     /// Keep colours and markers in the configuration file.

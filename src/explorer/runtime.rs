@@ -75,8 +75,6 @@ pub struct Runtime {
     pub asked: u64,
     /// Folder of relative paths; empty for the working folder.
     pub folder: PathBuf,
-    /// Draws a seed.
-    pub draw_seed: Box<dyn FnMut() -> u64>,
 }
 
 impl Runtime {
@@ -124,7 +122,6 @@ impl Runtime {
                 return engine.solve(request);
             }
             Effect::Study => return engine.perform(studies(app)),
-            Effect::DrawSeed => Action::SetSeed((self.draw_seed)()),
             Effect::Write(file) => writing::write(app, folder, file),
             Effect::Remember { path, appearance } => {
                 let remembered = remember(&folder.join(&path), appearance).map_err(|error| error.to_string());

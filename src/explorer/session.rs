@@ -137,20 +137,13 @@ pub fn open_with(
         app.set_error(warning);
     }
     if let Some((_, documents)) = &options.restored {
-        app.restore(documents);
-    } else if let Some(folder) = &options.unsaved {
-        app.offer(&autosave::left_behind(folder));
+        app.edit.restore(documents);
+    } else if let Some(offer) = options.unsaved.as_deref().and_then(autosave::offer) {
+        app.set_done(offer);
     }
     let restored = options.restored.map(|(path, _)| path);
     let mut session = Session {
-        runtime: Runtime {
-            app,
-            engine: Engine::Threads(solver, studies),
-            asked: 0,
-            folder: PathBuf::new(),
-            // Six digits are enough for another line and can be read out to a colleague.
-            draw_seed: Box::new(|| rand::random_range(0..1_000_000)),
-        },
+        runtime: Runtime { app, engine: Engine::Threads(solver, studies), asked: 0, folder: PathBuf::new() },
         terminal: &mut terminal,
         guard,
         redraw: false,
@@ -323,7 +316,7 @@ impl Session<'_> {
         let now = (app.edit.generation, app.edit.saves);
         if let Some(autosave) = self.autosave.as_mut().filter(|_| now != self.kept) {
             self.kept = now;
-            if let Err(error) = autosave.keep(&app.unsaved()) {
+            if let Err(error) = autosave.keep(&app.edit.unsaved()) {
                 self.autosave = None;
                 app.set_error(format!("unsaved changes are not kept for another session: {error}"));
             }

@@ -54,7 +54,6 @@ impl Driver {
             engine: Engine::inline(solve, performs),
             asked: 0,
             folder: folder.path().to_owned(),
-            draw_seed: Box::new(|| 4711),
         };
         Driver { runtime, copied: Vec::new(), folder }
     }

@@ -267,7 +267,10 @@ impl Explorer {
             assert_eq!(app.edit.parameters, parameters(document));
             assert!(!app.is_refused(), "a changed scene is not refused");
         }
-        assert!(app.listed().contains(&app.edit.selected), "the selected parameter is in no folded group");
+        assert!(
+            app.edit.listed().contains(&app.edit.selected),
+            "the selected parameter is in no folded group"
+        );
         assert!((0.0..=1.0).contains(&app.play.done), "{:?}", app.play);
         assert!(app.indentation().is_finite());
         if let Some(study) = app.chart.shown_study() {

@@ -48,10 +48,8 @@ impl Demo {
         // Times differ from run to run.
         app.view.shows_times = false;
         app.view.demo = Some("");
-        let mut seeds = 1..;
-        let draw_seed = Box::new(move || seeds.next().unwrap_or_default());
         let engine = Engine::inline(Simulation::run, |study| !study.is_long);
-        let mut explorer = Runtime { app, engine, asked: 0, folder: PathBuf::new(), draw_seed };
+        let mut explorer = Runtime { app, engine, asked: 0, folder: PathBuf::new() };
         explorer.perform(vec![Effect::Ask]);
         Demo {
             explorer,

@@ -1,9 +1,10 @@
 //! Studies of the present scene: the error of its outcome, springs for a tolerance, data of the shown pane, and the curve
 //! of a typed value.
 
-use super::{Effect, compare, edit, scene_of};
+use super::{Effect, edit};
 use crate::accuracy::{Choice, ChoiceError, Estimate, Target, choose, estimate, parse_tolerance};
 use crate::explorer::app::{App, Message};
+use crate::explorer::editor::scene_of;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::snapshot::Preview;
 use crate::explorer::studies::{Finding, Study};
@@ -85,34 +86,32 @@ pub fn type_tolerance(app: &mut App) {
 }
 
 /// Searches springs for a typed tolerance.
-pub fn accept_tolerance(app: &mut App, typed: &str) -> Result<Vec<Effect>, String> {
+pub fn accept_tolerance(app: &mut App, typed: &str) -> Result<(), String> {
     let tolerance = parse_tolerance(typed)?;
     if !app.is_current() {
         return Err(NOT_COMPUTED.to_owned());
     }
     app.studies.set(app.edit.generation, Choosing { tolerance, tried: None, found: None }, false);
     app.studies.forget::<Answer>();
-    Ok(vec![Effect::Study])
+    app.effects.push(Effect::Study);
+    Ok(())
 }
 
-/// Stores a finding; the outcome of a search and a loop to be kept have further effects.
-pub fn found(app: &mut App, finding: Finding) -> Vec<Effect> {
+/// Stores a finding; the outcome of a search has further effects.
+pub fn found(app: &mut App, finding: Finding) {
     app.studies.take_in(finding);
     if let Some(Choosing { tolerance, found: Some(found), .. }) = app.studies.value::<Choosing>().cloned() {
         app.studies.forget::<Choosing>();
-        return match found {
+        app.effects.push(Effect::Study);
+        match found {
             Ok(choice) => take_over(app, &choice),
-            Err(error) => {
-                refuse(app, tolerance, &error);
-                vec![Effect::Study]
-            }
-        };
+            Err(error) => refuse(app, tolerance, &error),
+        }
     }
-    compare::pin_requested(app)
 }
 
 /// Makes a choice an edit.
-fn take_over(app: &mut App, choice: &Choice) -> Vec<Effect> {
+fn take_over(app: &mut App, choice: &Choice) {
     let sentence = choice.sentence();
     let numerics = app.edit.document.scene().numerics;
     let short = format!(
@@ -122,16 +121,15 @@ fn take_over(app: &mut App, choice: &Choice) -> Vec<Effect> {
         if choice.target == Target::Curve { "curve" } else { "F_a" },
         per_cent(choice.tolerance),
     );
-    let mut effects = vec![Effect::Study];
     let is_so = (numerics.points, numerics.edges) == (choice.points, choice.edges);
     if !is_so {
         let points = choice.points.to_string();
         let fields = [("numerics.points", points.as_str()), ("numerics.edges", choice.edges.name())];
         let fields = fields.map(|(path, value)| (path.to_owned(), value.to_owned()));
-        effects = edit::take_over(app, app.edit.document.set_all(&fields));
+        edit::take_over(app, app.edit.document.set_all(&fields));
         if let Some(Message::Refused(why)) = &app.message {
             app.studies.set(app.edit.generation, Answer(why.clone()), true);
-            return effects;
+            return;
         }
     }
     // From finer solutions than those of an estimate.
@@ -140,7 +138,6 @@ fn take_over(app: &mut App, choice: &Choice) -> Vec<Effect> {
     let text = fitting(app, format!("{already}{sentence}"), format!("{already}{short}"));
     app.set_done(text);
     app.studies.set(app.edit.generation, Answer(sentence), true);
-    effects
 }
 
 /// States the accuracy within reach instead.

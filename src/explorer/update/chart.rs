@@ -10,34 +10,33 @@ use crate::study::{Axis, Place};
 use std::sync::Arc;
 
 /// Explores a scene or a study opened by its path.
-pub fn open(app: &mut App, opening: Opening) -> Vec<Effect> {
+pub fn open(app: &mut App, opening: Opening) {
     let Opening { document, study_map, beside } = opening;
     app.opens_beside = beside;
-    let effects = edit::open(app, document);
+    edit::open(app, document);
     if let Some(study_map) = study_map {
         app.show_study(study_map);
     }
-    effects
 }
 
 /// Message where no study is open.
 const NO_STUDY: &str = "no study is open; o and the path of its folder open one";
 
 /// Shows the map of the study, or the live map.
-pub fn toggle_study(app: &mut App) -> Vec<Effect> {
+pub fn toggle_study(app: &mut App) {
     if app.chart.study.is_none() {
         app.set_error(NO_STUDY);
-        return Vec::new();
+        return;
     }
     app.chart.of_study = !app.chart.of_study;
-    vec![Effect::Study]
+    app.effects.push(Effect::Study);
 }
 
 /// Maps over the other parameter of roughness.
-pub fn next_parameter(app: &mut App) -> Vec<Effect> {
+pub fn next_parameter(app: &mut App) {
     if app.chart.shown_study().is_some() {
         app.set_error("a study has its own axes; W shows the map that is computed here");
-        return Vec::new();
+        return;
     }
     app.chart.parameter = match app.chart.parameter {
         RoughnessParameter::Kappa => RoughnessParameter::ElasticEnergyRatio,
@@ -45,11 +44,11 @@ pub fn next_parameter(app: &mut App) -> Vec<Effect> {
     };
     app.chart.moving = false;
     app.studies.forget::<Live>();
-    vec![Effect::Study]
+    app.effects.push(Effect::Study);
 }
 
 /// Shows another map of the study. A scene that belongs to the former map follows.
-pub fn step_slice(app: &mut App, steps: i32) -> Vec<Effect> {
+pub fn step_slice(app: &mut App, steps: i32) {
     let Some(study) = app.chart.shown_study() else {
         let why = if app.chart.study.is_some() {
             "this is the map that is computed here; W shows the study's"
@@ -57,22 +56,29 @@ pub fn step_slice(app: &mut App, steps: i32) -> Vec<Effect> {
             NO_STUDY
         };
         app.set_error(why);
-        return Vec::new();
+        return;
     };
     if study.study_map.slices() == 1 {
         app.set_done("this study has one map");
-        return Vec::new();
+        return;
     }
     let next = study.stepped(steps);
     let goes_with = study.study_map.is_of(study.slice, app.edit.document.scene());
     let followed = goes_with.then(|| study.study_map.follow(next, &app.edit.document));
     let study_map = Arc::clone(&study.study_map);
     app.chart.open_study(study_map, next);
-    followed.map_or_else(Vec::new, |followed| edit::take_over(app, followed))
+    if let Some(followed) = followed {
+        let was_unsaved = app.edit.is_unsaved();
+        edit::take_over(app, followed);
+        // Browsing is no change that anyone has to save.
+        if !was_unsaved && !app.is_refused() {
+            app.edit.set_saved();
+        }
+    }
 }
 
 /// Moves the mark by columns and rows of the map.
-pub fn step(app: &mut App, columns: i32, rows: i32) -> Vec<Effect> {
+pub fn step(app: &mut App, columns: i32, rows: i32) {
     let Some((at_across, at_up)) = app.place() else {
         let why = match Template::of(app.edit.document.scene()) {
             Err(why) => why.to_string(),
@@ -80,12 +86,12 @@ pub fn step(app: &mut App, columns: i32, rows: i32) -> Vec<Effect> {
             Ok(_) => "not before the scene is computed: its κ and e_el/γ follow from its profile".to_owned(),
         };
         app.set_error(why);
-        return Vec::new();
+        return;
     };
-    let Some((across, up)) = app.map_axes() else { return Vec::new() };
+    let Some((across, up)) = app.map_axes() else { return };
     if rows != 0 && up.is_none() {
         app.set_error(format!("this map has one axis, {}", across.symbol_or_name()));
-        return Vec::new();
+        return;
     }
     let next = |at: f64, steps: i32, axis: &Axis| {
         if steps == 0 { Some(at) } else { axis.next_beyond(at, steps) }
@@ -96,10 +102,7 @@ pub fn step(app: &mut App, columns: i32, rows: i32) -> Vec<Effect> {
     };
     match (next(at_across, columns, &across), to_up) {
         (Some(across), Some(up)) => move_to(app, (across, up)),
-        _ => {
-            app.set_done("edge of the map");
-            Vec::new()
-        }
+        _ => app.set_done("edge of the map"),
     }
 }
 
@@ -107,14 +110,13 @@ pub fn step(app: &mut App, columns: i32, rows: i32) -> Vec<Effect> {
 const NO_PLACE: &str = "the scene has no place on this map: it lacks a quantity of the axes";
 
 /// Sets the scene to the values of a place on the map. Successive moves are one edit.
-pub fn move_to(app: &mut App, place: Place) -> Vec<Effect> {
+pub fn move_to(app: &mut App, place: Place) {
     let goes_on = app.chart.moving;
-    let effects = match moved_to(app, place) {
+    match moved_to(app, place) {
         Ok(document) if goes_on => edit::replace(app, document),
         moved => edit::take_over(app, moved),
-    };
+    }
     app.chart.moving = !app.is_refused();
-    effects
 }
 
 /// The scene at a place on the map. A preload in units of E* h L may change with the place.

@@ -1,6 +1,6 @@
 //! Prompts: what opens, edits, accepts and cancels them.
 
-use super::{Effect, accuracy, edit, files, movement, run, show};
+use super::{Effect, accuracy, edit, files, movement, run};
 use crate::explorer::action::OutputFile;
 use crate::explorer::app::App;
 use crate::explorer::completion::common_start;
@@ -18,7 +18,7 @@ pub fn help(app: &mut App) {
 }
 
 /// Opens the search of the list of parameters, in its pane.
-pub fn find_parameter(app: &mut App) -> Vec<Effect> {
+pub fn find_parameter(app: &mut App) {
     app.ask(Purpose::Parameter { before: app.view.pane }, TextLine::default());
     edit::show_parameters(app)
 }
@@ -29,9 +29,9 @@ pub fn open_palette(app: &mut App) {
 }
 
 /// Opens the list of scenes.
-pub fn open_library(app: &mut App) -> Vec<Effect> {
+pub fn open_library(app: &mut App) {
     app.ask(Purpose::Scene(Vec::new()), TextLine::default());
-    vec![Effect::List]
+    app.effects.push(Effect::List);
 }
 
 /// Stores the scenes that can be opened.
@@ -56,16 +56,18 @@ fn refuse(app: &mut App, why: Option<String>) {
 }
 
 /// Edits the line; the preview of the value, or the list, follows.
-pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) -> Vec<Effect> {
-    let Some(prompt) = &mut app.prompt else { return Vec::new() };
+pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
+    let Some(prompt) = &mut app.prompt else { return };
     let before = prompt.line.text().to_owned();
     change(&mut prompt.line);
     if prompt.line.text() == before && prompt.line.left_out().is_none() {
-        return Vec::new();
+        return;
     }
     (prompt.refused, prompt.paths) = (None, Vec::new());
     prompt.search(&app.edit.parameters);
-    if matches!(prompt.purpose, Purpose::Value) { edit::preview(app) } else { Vec::new() }
+    if matches!(prompt.purpose, Purpose::Value) {
+        edit::preview(app);
+    }
 }
 
 /// Moves the selection of a list, or scrolls the help by a line.
@@ -79,65 +81,66 @@ pub fn select(app: &mut App, rows: i32) {
 }
 
 /// Accepts the line, the selected row, or the question. A refused line stays, with the reason.
-pub fn accept(app: &mut App) -> Vec<Effect> {
-    let Some(prompt) = app.prompt.take() else { return Vec::new() };
-    accept_prompt(app, &prompt).unwrap_or_else(|why| {
+pub fn accept(app: &mut App) {
+    let Some(prompt) = app.prompt.take() else { return };
+    if let Err(why) = accept_prompt(app, &prompt) {
         app.prompt = Some(Prompt { refused: Some(why), ..prompt });
-        Vec::new()
-    })
-}
-
-fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<Vec<Effect>, String> {
-    let typed = prompt.line.text();
-    let nothing = || "nothing in the list fits".to_owned();
-    match &prompt.purpose {
-        Purpose::Value => edit::accept_value(app, typed),
-        Purpose::Force => movement::accept_force(app, typed),
-        Purpose::Tolerance => accuracy::accept_tolerance(app, typed),
-        Purpose::Save { then_quit } => files::save(typed_path(typed), *then_quit),
-        Purpose::Export => files::export(app, typed_path(typed)),
-        Purpose::Scene(_) => match prompt.scene() {
-            Some(entry) => Ok(edit::open_read(app, entry.document.clone())),
-            None if typed.trim().is_empty() => Err("type a name or a path".to_owned()),
-            // The path of a scene, or of a study.
-            None => Ok(vec![Effect::Open(typed_path(typed.trim()).to_string_lossy().into_owned())]),
-        },
-        Purpose::Parameter { .. } => {
-            edit::select(app, prompt.choice().ok_or_else(nothing)?);
-            Ok(show::choose(app, Pane::Parameters))
-        }
-        Purpose::Command(commands) => {
-            let listed = prompt.choice().and_then(|index| commands.get(index)).ok_or_else(nothing)?;
-            Ok(run_listed(app, Command { row: listed.row, character: None }))
-        }
-        Purpose::Overwrite(file) => Ok(vec![Effect::Write(OutputFile { overwrite: true, ..file.clone() })]),
-        Purpose::Leave | Purpose::Help => Ok(Vec::new()),
     }
 }
 
+fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
+    let typed = prompt.line.text();
+    let nothing = || "nothing in the list fits".to_owned();
+    match &prompt.purpose {
+        Purpose::Value => return edit::accept_value(app, typed),
+        Purpose::Force => return movement::accept_force(app, typed),
+        Purpose::Tolerance => return accuracy::accept_tolerance(app, typed),
+        Purpose::Save { then_quit } => return files::save(app, typed_path(typed), *then_quit),
+        Purpose::Export => return files::export(app, typed_path(typed)),
+        Purpose::Scene(_) => match prompt.scene() {
+            Some(entry) => edit::open_read(app, entry.document.clone()),
+            None if typed.trim().is_empty() => return Err("type a name or a path".to_owned()),
+            // The path of a scene, or of a study.
+            None => {
+                let path = typed_path(typed.trim()).to_string_lossy().into_owned();
+                app.effects.push(Effect::Open(path));
+            }
+        },
+        Purpose::Parameter { .. } => {
+            app.edit.select(prompt.choice().ok_or_else(nothing)?);
+            app.show(Pane::Parameters);
+        }
+        Purpose::Command(commands) => {
+            let listed = prompt.choice().and_then(|index| commands.get(index)).ok_or_else(nothing)?;
+            run_listed(app, Command { row: listed.row, character: None });
+        }
+        Purpose::Overwrite(file) => {
+            app.effects.push(Effect::Write(OutputFile { overwrite: true, ..file.clone() }));
+        }
+        Purpose::Leave | Purpose::Help => {}
+    }
+    Ok(())
+}
+
 /// Closes the prompt without a change.
-pub fn cancel(app: &mut App) -> Vec<Effect> {
+pub fn cancel(app: &mut App) {
     match app.prompt.take().map(|prompt| prompt.purpose) {
         Some(Purpose::Value) => edit::preview(app),
-        Some(Purpose::Parameter { before }) => {
-            app.view.pane = before;
-            vec![Effect::Ask]
-        }
-        _ => Vec::new(),
+        Some(Purpose::Parameter { before }) => app.view.pane = before,
+        _ => {}
     }
 }
 
 /// Runs a command of the list, in a pane where its key is valid.
-fn run_listed(app: &mut App, command: Command) -> Vec<Effect> {
+fn run_listed(app: &mut App, command: Command) {
     let is_valid = |context: Context| command.row.contexts.contains(&context);
-    let mut effects = match app.keys() {
-        here if is_valid(here) => Vec::new(),
-        _ if is_valid(Context::Parameters) => show::choose(app, Pane::Parameters),
-        _ if is_valid(Context::Explore) => show::choose(app, Pane::Force),
-        _ => show::choose(app, Pane::Chart),
-    };
-    effects.extend(run(app, command));
-    effects
+    match app.keys() {
+        here if is_valid(here) => {}
+        _ if is_valid(Context::Parameters) => app.show(Pane::Parameters),
+        _ if is_valid(Context::Explore) => app.show(Pane::Force),
+        _ => app.show(Pane::Chart),
+    }
+    run(app, command);
 }
 
 /// Parameters whose values hold names of files.
@@ -151,7 +154,7 @@ fn path_in_line(app: &App) -> Option<(&str, String, &str)> {
     let text = prompt.line.text();
     match prompt.purpose {
         Purpose::Save { .. } | Purpose::Export | Purpose::Scene(_) => return Some(("", String::new(), text)),
-        Purpose::Value if WITH_FILES.contains(&app.parameter()?.path.as_str()) => {}
+        Purpose::Value if WITH_FILES.contains(&app.edit.parameter()?.path.as_str()) => {}
         _ => return None,
     }
     let begin = match text.rfind('"') {
@@ -172,20 +175,23 @@ pub fn can_complete(app: &App) -> bool {
 }
 
 /// Requests the paths that begin as typed.
-pub fn complete(app: &mut App) -> Vec<Effect> {
-    path_in_line(app).map_or_else(Vec::new, |(_, folder, path)| vec![Effect::Complete(folder + path)])
+pub fn complete(app: &mut App) {
+    if let Some((_, folder, path)) = path_in_line(app) {
+        app.effects.push(Effect::Complete(folder + path));
+    }
 }
 
 /// Types the common start of the paths that begin as typed, and shows them if they are several.
-pub fn completed(app: &mut App, paths: Vec<String>) -> Vec<Effect> {
-    let Some((before, folder, path)) = path_in_line(app) else { return Vec::new() };
+pub fn completed(app: &mut App, paths: Vec<String>) {
+    let Some((before, folder, path)) = path_in_line(app) else { return };
     let common = common_start(&paths);
     let rest = common.strip_prefix(&folder).unwrap_or(&common);
     let line = (rest.len() > path.len()).then(|| TextLine::new(&format!("{before}{rest}")));
-    let effects = line.map_or_else(Vec::new, |line| edit_line(app, |present| *present = line));
+    if let Some(line) = line {
+        edit_line(app, |present| *present = line);
+    }
     refuse(app, paths.is_empty().then(|| "no file or folder begins so".to_owned()));
     if let Some(prompt) = &mut app.prompt {
         prompt.paths = if paths.len() > 1 { paths } else { Vec::new() };
     }
-    effects
 }

@@ -25,10 +25,10 @@ pub fn title(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     let name = if scene.title.is_empty() { app.edit.document.name() } else { &scene.title };
     let mut spans = vec![Span::styled(name.to_owned(), theme.style(Meaning::Title))];
     let saved = app.edit.saved.get(app.edit.document.name()).map(|saved| &saved.scene().notice);
-    if app.is_unsaved() {
+    if app.edit.is_unsaved() {
         spans.push(Span::styled(" [changed]", theme.style(Meaning::Title)));
     }
-    if !app.is_unsaved() || saved != Some(&scene.notice) {
+    if !app.edit.is_unsaved() || saved != Some(&scene.notice) {
         let notice = scene.notice.split_whitespace().collect::<Vec<_>>().join(" ");
         spans.push(Span::styled(format!("  {notice}"), theme.style(Meaning::Quiet)));
     }
@@ -58,7 +58,7 @@ pub fn status(app: &App, width: u16) -> Line<'static> {
         (Some((_, Purpose::Overwrite(file))), _) => {
             error(format!("{} exists. Overwrite it?", file.path.display()))
         }
-        (Some((_, Purpose::Leave)), _) => error(match app.unsaved()[..] {
+        (Some((_, Purpose::Leave)), _) => error(match app.edit.unsaved()[..] {
             [] | [_] => "The scene has unsaved changes. Leave?".to_owned(),
             ref several => {
                 let names: Vec<&str> = several.iter().map(|document| document.name()).collect();

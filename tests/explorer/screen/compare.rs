@@ -230,7 +230,7 @@ fn two_scenes_that_are_opened_are_shown_side_by_side() {
         let scenes: Vec<_> = kept(&driver).iter().map(|document| document.scene().clone()).collect();
         assert_eq!(scenes, [rough().scene().clone()]);
         assert_eq!(driver.app.edit.document.scene(), second.scene());
-        assert!(!driver.app.is_unsaved() && driver.app.edit.past.is_empty());
+        assert!(!driver.app.edit.is_unsaved() && driver.app.edit.past.is_empty());
         let text = driver.text();
         assert!(text.contains("Stickier") && text.contains("A → this scene: κ 8 → 4"), "{text}");
         // After the exchange, the other scene is beside.

@@ -55,7 +55,7 @@ fn the_ending_of_a_name_shows_what_is_exported() {
             );
             assert!(driver.app.prompt.is_none());
             assert!(driver.status().contains(&format!("exported to {name}")), "{}", driver.status());
-            assert!(!driver.app.is_unsaved() && !driver.app.finished);
+            assert!(!driver.app.edit.is_unsaved() && !driver.app.finished);
         }
         let unknown = |extension| {
             format!("unsupported file extension .{extension}; use .csv, .npy, .json, .svg, .png or .txt")
@@ -288,7 +288,7 @@ fn the_copied_command_opens_the_scene_as_it_is() {
             assert_eq!(effects, [Effect::Copy(format!("asperity {}", preset.name))]);
             for path in ["form", "adhesion", "observe.contact fragments"] {
                 driver.press("g");
-                while driver.app.parameter().is_some_and(|parameter| parameter.path != path) {
+                while driver.app.edit.parameter().is_some_and(|parameter| parameter.path != path) {
                     driver.press("j");
                 }
                 driver.press("t y");
@@ -324,7 +324,7 @@ fn a_saved_scene_goes_on_under_its_new_name() {
         driver.type_text(&path.display().to_string());
         driver.press("Enter");
         assert_eq!(driver.app.edit.document.name(), path.display().to_string());
-        assert!(!driver.app.is_unsaved());
+        assert!(!driver.app.edit.is_unsaved());
         // The command opens the file, without options for the saved changes.
         driver.press("y");
         let command = driver.copied.last().unwrap().clone();

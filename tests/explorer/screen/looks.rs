@@ -207,7 +207,7 @@ fn the_selected_row_is_marked_by_a_glyph_and_by_style() {
             driver.app.view.appearance.theme = *theme;
             for path in ["length", "roughness.hurst", "numerics.samples"] {
                 driver.select(path);
-                let name = driver.app.parameter().unwrap().field.name;
+                let name = driver.app.edit.parameter().unwrap().field.name;
                 let screen = driver.screen();
                 let row = row_with(&screen, "›");
                 assert!(reversed(row).contains(name), "{name}: {:?}", reversed(row));

@@ -77,7 +77,7 @@ fn a_command_is_found_by_words_and_runs_as_its_key_does() {
         let mut driver = mid_retraction(rough());
         query(&mut driver, "switch effect");
         driver.press("Enter");
-        assert!(driver.app.is_unsaved(), "{}", driver.text());
+        assert!(driver.app.edit.is_unsaved(), "{}", driver.text());
     });
 }
 
