@@ -4,8 +4,8 @@ use super::app::App;
 use super::snapshot::SolvedScene;
 use super::studies::Study;
 use crate::scene::{RoughnessParameter, Scene};
-use crate::study::map::{LiveMap, StudyMap, Template};
-use crate::study::{Axis, Grid, Quantity};
+use crate::study::map::{LiveMap, StudyMap, live_plan};
+use crate::study::{Axis, Grid, Plan, Quantity};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -88,25 +88,25 @@ impl Chart {
         self.study = Some(OpenStudy { study_map, slice, grid });
     }
 
-    /// Template of the live map of a scene.
-    fn template(&self, scene: &Scene) -> Option<Template> {
-        Some(Template::of(scene).ok()?.over(self.parameter))
+    /// Plan of the live map of a scene.
+    fn plan(&self, scene: &Scene) -> Option<Plan> {
+        live_plan(scene, self.parameter).ok()
     }
 
     /// Key of the live map of a scene: kept while the parameter of the map and H change.
     #[must_use]
     pub fn key(&self, scene: &Scene) -> Option<String> {
-        self.template(scene).map(|template| format!("{template:?}"))
+        self.plan(scene).map(|plan| format!("{plan:?}"))
     }
 }
 
 /// Computes the missing cells of the live map; `None` for a scene without a map.
 pub fn study(app: &App, computed: &SolvedScene) -> Option<Study> {
-    let template = app.chart.template(&computed.scene)?;
-    let (key, is_long) = (app.chart.key(&computed.scene)?, template.springs() > MOST_SPRINGS);
+    let plan = app.chart.plan(&computed.scene)?;
+    let (key, is_long) = (format!("{plan:?}"), plan.scene.numerics.points > MOST_SPRINGS);
     let begun = app.studies.value::<Live>().map(|live| live.map.clone());
     Some(Study::new(key, is_long, move |_, stop, report| {
-        let mut map = begun.map_or_else(|| LiveMap::new(template), Ok).map_err(|error| error.to_string())?;
+        let mut map = begun.map_or_else(|| LiveMap::new(plan), Ok).map_err(|error| error.to_string())?;
         map.compute(Path::new(""), stop, &mut |map| report(Live::of(map)));
         Ok(Live::of(&map))
     }))
@@ -128,7 +128,7 @@ impl App {
         if let Some(grid) = self.grid() {
             return Some((grid.across.clone(), grid.up.clone()));
         }
-        let mut axes = self.chart.template(self.edit.document.scene())?.axes().into_iter();
+        let mut axes = self.chart.plan(self.edit.document.scene())?.axes.into_iter();
         Some((axes.next()?, axes.next()))
     }
 

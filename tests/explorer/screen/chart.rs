@@ -13,7 +13,7 @@ use asperity::explorer::theme::Marker;
 use asperity::explorer::update::{Effect, studies};
 use asperity::scene::{Document, RoughnessParameter};
 use asperity::study::Quantity;
-use asperity::study::map::{COLUMNS, HURSTS, LINES, Level, LiveMap, Template, hurst, parameter_value};
+use asperity::study::map::{COLUMNS, HURSTS, LINES, Level, LiveMap, hurst, live_plan, parameter_value};
 
 fn kappa(column: usize) -> f64 {
     parameter_value(RoughnessParameter::Kappa, column)
@@ -37,9 +37,9 @@ fn set(map: &mut LiveMap, column: usize, row: usize) {
 /// Fills levels of the map of the scene, if it has one.
 fn fill(driver: &mut Driver, levels: &[Level]) {
     let (scene, chart) = (driver.app.edit.document.scene(), &driver.app.chart);
-    let Ok(template) = Template::of(scene) else { return };
+    let Ok(plan) = live_plan(scene, chart.parameter) else { return };
     let key = chart.key(scene).unwrap();
-    let mut map = LiveMap::new(template.over(chart.parameter)).unwrap();
+    let mut map = LiveMap::new(plan).unwrap();
     for level in levels {
         for &row in map.rows_of(*level) {
             level.columns().for_each(|column| set(&mut map, column, row));
