@@ -68,7 +68,7 @@ mod tests {
         let (mut term, mut sum) = (z, 0.0);
         for k in 1..60 {
             sum += term;
-            term *= -(z / (2.0 * f64::from(k) + 1.0)).powi(2);
+            term *= -z * z / (2.0 * f64::from(k) + 1.0).powi(2);
         }
         FRAC_2_PI * sum
     }
