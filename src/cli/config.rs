@@ -37,6 +37,6 @@ pub(super) fn config(arguments: &ConfigArguments, stdout: &mut dyn Write) -> Res
     config.markers.get_or_insert(environment.marker);
     let is_there = if path.is_file() { "" } else { ", which does not exist: defaults" };
     writeln!(stdout, "// {}{is_there}", path.display())?;
-    let text = config.text().map_err(|error| CliError::Message(error.to_string()))?;
+    let text = config.text().map_err(|error| CliError::message(error.to_string()))?;
     Ok(stdout.write_all(text.as_bytes())?)
 }

@@ -71,7 +71,7 @@ impl OutputArguments {
             None if matches!(format, Format::Npy | Format::Png) && io::stdout().is_terminal() => {
                 let format = format.name();
                 let refused = format!("--format {format}: not for a terminal; allowed: -o FILE.{format}");
-                return Err(CliError::Message(refused));
+                return Err(CliError::message(refused));
             }
             None => {}
         }

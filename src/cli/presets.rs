@@ -90,7 +90,7 @@ fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
             Err(errors) => wrong.push(errors),
         }
     }
-    if wrong.is_empty() { Ok(()) } else { Err(CliError::Message(wrong.join("\n"))) }
+    if wrong.is_empty() { Ok(()) } else { Err(CliError::message(wrong.join("\n"))) }
 }
 
 /// The name of a valid scene with its warning, or all its errors, line by line.

@@ -131,7 +131,7 @@ impl Studies {
 fn is_short(task: &Task) -> bool {
     match task {
         Task::Extend { data: PaneData::Costs(..), .. } => false,
-        Task::Extend { data: PaneData::Map(map), .. } => map.template().springs() <= MOST_CHARTED,
+        Task::Extend { data: PaneData::Map(map), .. } => map.plan().scene.numerics.points <= MOST_CHARTED,
         Task::Estimate(of) => of.scene.numerics.points <= MOST_ESTIMATED,
         _ => true,
     }

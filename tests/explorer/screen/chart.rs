@@ -15,7 +15,7 @@ use asperity::explorer::theme::Marker;
 use asperity::explorer::update::{Effect, study_tasks};
 use asperity::scene::{Document, RoughnessParameter};
 use asperity::study::Quantity;
-use asperity::study::map::{COLUMNS, HURSTS, LINES, Level, LiveMap, Template, hurst, parameter_value};
+use asperity::study::map::{COLUMNS, HURSTS, LINES, Level, LiveMap, hurst, live_plan, parameter_value};
 use std::sync::Arc;
 use std::sync::mpsc::channel;
 use std::time::Duration;
@@ -53,7 +53,7 @@ fn fill(levels: &[Level], data: PaneData, report: Reported<'_>) -> PaneData {
 }
 
 fn empty() -> Arc<LiveMap> {
-    Arc::new(LiveMap::new(Template::of(rough().scene()).unwrap()).unwrap())
+    Arc::new(LiveMap::new(live_plan(rough().scene(), RoughnessParameter::Kappa).unwrap()).unwrap())
 }
 
 fn driver_with(document: Document, levels: &[Level]) -> Driver {
