@@ -10,7 +10,7 @@ use crate::explorer::theme::Meaning;
 use crate::explorer::view::text::{filled, wrapped};
 use crate::export::measured_adhesion_text;
 use crate::scene::{Roughness, Scene, Solver, format_quantity};
-use crate::simulation::{RunError, measured_options};
+use crate::simulation::RunError;
 use crate::spectrum::Moment;
 use crate::study::{MeasuredAdhesion, ProfileAdhesion};
 use crate::surface::{EquivalentLine, read_faces};
@@ -123,7 +123,7 @@ fn profiles(app: &App, computed: &SolvedScene) -> Study {
     Study::new(computed.generation, false, move |_, stop, report| {
         let mut solve = || -> Result<(), RunError> {
             let faces = read_faces(&scene.measured_paths(Path::new("")))?;
-            let line = EquivalentLine::new(&faces, &measured_options(&scene))?;
+            let line = EquivalentLine::new(&faces, &scene.measured_options())?;
             let first = scene.seed().unwrap_or(0);
             while found.profiles.len() < PROFILES {
                 let seed = first.wrapping_add(found.profiles.len() as u64);

@@ -6,7 +6,7 @@ use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{Focus, ManualMove};
 use crate::explorer::snapshot::{ContactSnapshot, Refusal};
 use crate::explorer::text_line::TextLine;
-use crate::scene::{parse_quantity, quantity_as_typed};
+use crate::scene::{format_quantity, parse_quantity};
 use crate::text::round_to;
 use std::sync::Arc;
 use std::time::Duration;
@@ -155,9 +155,9 @@ pub fn shown(app: &mut App, snapshot: Arc<ContactSnapshot>) {
     app.snapshot = Some(snapshot);
 }
 
-/// Reason why the body was not moved, with forces in the unit of the typed one, rounded into the allowed range.
+/// Reason why the body was not moved, with forces rounded into the allowed range.
 fn refusal(refusal: &Refusal, typed: &str) -> String {
-    let force = |value| quantity_as_typed(value, typed, "N");
+    let force = |value| format_quantity(value, "N");
     match *refusal {
         Refusal::Detaches { smallest } => {
             let least = force(rounded_up(smallest));
