@@ -162,7 +162,7 @@ impl Field {
         if self.path == "roughness" && is_file_name(typed) {
             return Ok(format!("Measured(file: {}, as_line: false)", ron_string(typed)));
         }
-        if self.path == "loading" && !typed.starts_with('[') {
+        if self.path == "loading" && self.variant.is_none() && !typed.starts_with('[') {
             let stages = typed.split(',').map(|stage| read_stage(stage.trim()));
             return Ok(format!("[{}]", stages.collect::<Result<Vec<_>, _>>()?.join(", ")));
         }
@@ -229,6 +229,7 @@ mod tests {
     fn numbers_may_have_prefix_and_unit() {
         for row in [
             "adhesion.work|50mJ/m2|0.05",
+            "loading|10 µN,0 N, -5 nm, separation|[ToForce(1.0e-5), ToZeroForce, ToIndentation(-5.0e-9), ToSeparation]",
             "adhesion.work| 50 mN/m |0.05",
             "adhesion.work|5.0e-2|5.0e-2",
             "numerics.points|64Ki|65536",

@@ -11,7 +11,7 @@ use asperity::explorer::action::Action;
 use asperity::explorer::keys::Command;
 use asperity::explorer::parameters::parameters;
 use asperity::explorer::snapshot::Report;
-use asperity::explorer::update::{Effect, update};
+use asperity::explorer::update::{Effect, request, update};
 use asperity::explorer::{Opening, view};
 use asperity::scene::{Document, Solver, check};
 use asperity::study::Quantity;
@@ -236,7 +236,7 @@ impl Explorer {
         };
         let actions = match &effect {
             Effect::Ask if !is_cheap(&self.driver.app.edit.document) => {
-                let generation = self.driver.app.edit.generation;
+                let generation = request(&mut self.driver.app).generation;
                 vec![Action::Report(Report::Failed {
                     generation,
                     error: "too large for a test\nin two lines".to_owned(),

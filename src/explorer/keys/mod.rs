@@ -229,7 +229,7 @@ pub const TABLE: &[Row] = &[
     row("c", EXPLORE, "pin", Do(compare::pin), "compare", "keep this loop as a ghost for comparison", COMPARE).rank(2),
     row("x", EXPLORE, "swap", Do(compare::swap), "", "swap the scene with the newest ghost", COMPARE),
     row("&", EXPLORE, "toggle-side-by-side", Do(compare::toggle_side_by_side), "", "show the newest ghost beside the scene: profiles above each other, differences, F_a of both", COMPARE),
-    row("|", EXPLORE, "pin-other-use", Do(compare::pin_other_use), "", "keep this loop as a ghost and take the other use of a measured profile: the profile itself, or its equivalent line", COMPARE),
+    row("|", EXPLORE, "pin-other-use", Do(compare::pin_other_use), "", "keep this loop and take the other use of a measured profile: itself, or its equivalent line", COMPARE),
     row("C", EXPLORE, "clear-ghosts", Do(compare::clear), "", "remove all ghosts", COMPARE),
 
     row("v", EXPLORE, "next-curve", Do(|app| app.view.curve.quantities = app.view.curve.quantities.next()), "", "plot force, contact length or number of contact patches", LOOK),

@@ -305,7 +305,9 @@ pub fn undo(app: &mut App, back: bool) {
     let name = if back { "undo" } else { "redo" };
     let Some(what) = app.edit.undo(back) else { return app.set_done(format!("nothing to {name}")) };
     renewed(app);
-    app.set_done(format!("{name}: {what}"));
+    if !matches!(app.message, Some(Message::Done(_))) {
+        app.set_done(format!("{name}: {what}"));
+    }
 }
 
 /// Drops what belongs to the former scene.

@@ -29,7 +29,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 /// them.
 pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     apply(app, action);
-    if app.asked != Some(awaited(app)) {
+    if app.asked.is_some_and(|asked| asked != awaited(app)) {
         app.effects.push(Effect::Ask);
     }
     std::mem::take(&mut app.effects)

@@ -54,7 +54,7 @@ fn the_third_step_of_the_preload_raises_the_pull_off_as_the_tour_states() {
 fn ghosts_have_letters_and_say_where_they_differ() {
     within(30, || {
         let mut driver = pressed("c");
-        assert!(message(&driver).contains("x exchanges"), "{}", message(&driver));
+        assert!(message(&driver).contains("x swaps"), "{}", message(&driver));
         assert!(driver.text().contains("· the same scene"), "{}", driver.text());
         driver.press("L");
         assert!(driver.text().contains("A: F_a ") && driver.text().contains("· H 0.7"), "{}", driver.text());
@@ -155,7 +155,7 @@ fn what_cannot_be_kept_or_exchanged_says_why() {
         let mut driver = pressed("");
         let before = driver.app.edit.document.clone();
         driver.press("x");
-        assert!(message(&driver).contains("nothing to exchange"), "{}", message(&driver));
+        assert!(message(&driver).contains("no ghost to swap with"), "{}", message(&driver));
         assert_eq!(driver.app.edit.document, before);
         driver.select("loading");
         driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");

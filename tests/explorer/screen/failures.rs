@@ -47,6 +47,8 @@ fn a_scene_that_fails_is_stated_and_the_next_edit_mends_it() {
         }
         assert!(driver.text().contains("the contact detaches above that force"), "{}", driver.text());
         driver.press("u");
+        assert!(driver.status().starts_with("undo: "), "{}", driver.status());
+        driver.press("j");
         let text = driver.text();
         assert!(text.contains("F_a ") && !text.contains("detaches above"), "{text}");
         assert!(is_up_to_date(&driver.app));

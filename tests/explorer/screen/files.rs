@@ -141,6 +141,7 @@ fn the_text_is_the_screen_without_the_prompt() {
         for marker in [Marker::Braille, Marker::HalfBlock, Marker::Ascii] {
             let mut driver = pressed("c L d { j");
             driver.app.view.appearance.marker = marker;
+            driver.perform(vec![Effect::Ask]);
             let seen = picture::text(&driver.screen());
             let written = exported(&mut driver, "a.txt");
             assert_eq!(written, seen);

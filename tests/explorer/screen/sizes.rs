@@ -374,7 +374,7 @@ fn scenes_are_saved_under_an_extension_and_kept_when_others_are_opened() {
             driver.app.view.pane = Pane::Force;
             driver.press("1");
             assert_ne!(driver.app.edit.document.text(), changed, "{size:?}");
-            assert!(driver.status().starts_with("the changed scene"), "{size:?}: {}", driver.status());
+            assert!(driver.status().starts_with("unsaved changes k"), "{size:?}: {}", driver.status());
             driver.press("u");
             assert_eq!(driver.app.edit.document.text(), changed, "{size:?}");
         }
