@@ -4,7 +4,7 @@ use super::{AnswerFormat, CliError};
 use crate::export::sheet::Sheet;
 use crate::io::object;
 use crate::scene::{self, Document, Entry};
-use crate::surface::{MeasuredRoughness, read_faces};
+use crate::simulation::Simulation;
 use crate::text::printable;
 use clap::Subcommand;
 use std::io::{self, Write};
@@ -124,16 +124,8 @@ fn of_file(file: &str) -> Result<Document, String> {
 /// Error of the measured surface of a scene, with its place in the scene.
 fn profile_error(document: &Document) -> Option<String> {
     let scene = document.scene();
-    let faces = scene.measured_paths(&document.resolve(""));
-    if faces.is_empty() {
-        return None;
-    }
-    let error = match read_faces(&faces)
-        .and_then(|faces| MeasuredRoughness::new(&faces, &scene.measured_options()))
-    {
-        Err(error) => error.to_string(),
-        Ok(measured) => measured.check(scene.length, scene.numerics.points as usize).err()?,
-    };
+    scene.measured()?;
+    let error = Simulation::new(document.resolve("")).make_line(scene).err()?;
     let (line, column) = document.place("roughness.file");
     Some(format!("{}:{line}:{column}: {error}", document.name()))
 }
