@@ -57,15 +57,13 @@ pub struct Chart {
     pub y: Axis,
     /// Layers, the lowest first.
     pub layers: Vec<Layer>,
-    /// The same data on other scales, drawn in a corner without curves.
-    pub inset: Option<Box<Chart>>,
 }
 
 impl Chart {
-    /// A chart without heading and inset.
+    /// A chart without heading.
     #[must_use]
     pub fn new(x: Axis, y: Axis, layers: Vec<Layer>) -> Chart {
-        Chart { heading: Label::default(), x, y, layers, inset: None }
+        Chart { heading: Label::default(), x, y, layers }
     }
 
     /// The chart with symbols alone on its axes, where they have symbols.

@@ -22,8 +22,6 @@ pub use cells::{CellPlot, CellStyle, Colours, SHADES, dry, figure_text, glyph, k
 pub use chart::{Chart, Class, Contour, Entry, Figure, HeatMap, Layer, Sample, Shape, Sign, Stroke};
 pub use colour::{Ink, Palette, Rgb, Shades, hex};
 pub use label::{Label, prefixed, short, value_label};
-#[cfg(feature = "tui")]
-pub use png::PngError;
 pub use scale::{AxisScale, Span};
 #[cfg(feature = "tui")]
 pub(crate) use svg::{Svg, escaped};

@@ -70,7 +70,7 @@ pub fn write(
         Format::Csv => report.table().ok_or_else(missing)?.write_csv(out, provenance),
         Format::Npy => report.table().ok_or_else(missing)?.write_npy(out, provenance),
         Format::Svg => out.write_all(report.figure().ok_or_else(missing)?.svg().as_bytes()),
-        Format::Png => out.write_all(&report.figure().ok_or_else(missing)?.png().map_err(io::Error::other)?),
+        Format::Png => out.write_all(&report.figure().ok_or_else(missing)?.png()?),
     }
 }
 

@@ -43,7 +43,7 @@ pub struct PlotArguments {
     pub at: Vec<(String, String)>,
     /// Scale of quantities
     ///
-    /// Default: by the range of the values; a single curve is linear with an inset.
+    /// Default: by the range of the values; a single curve is linear, with a second chart on a logarithmic scale for small values.
     #[arg(long, value_enum)]
     pub scale: Option<PlotScale>,
     /// Text instead of SVG; the default without FILE
@@ -90,8 +90,9 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
         }),
     };
     let Selected { grid, quantities, fixed, curves } = selection.of(&study)?;
-    let chart = |quantity| study_map(&grid, quantity, false).filter(|_| !curves);
-    let charts = quantities.into_iter().map(|one| chart(one).unwrap_or_else(|| study_curves(&grid, one)));
+    let map = |quantity| study_map(&grid, quantity, false).filter(|_| !curves);
+    let charts =
+        quantities.into_iter().flat_map(|one| map(one).map_or_else(|| study_curves(&grid, one), |map| vec![map]));
     let figure = study_figure(&study.plan().title, &fixed, charts.collect());
     arguments.output.write_figure(stdout, &figure, format)
 }
