@@ -1,7 +1,6 @@
 //! Errors of commands.
 
 use crate::explorer::config::ConfigError;
-use crate::export::{FormatError, MeasuredFileError};
 use crate::io::WriteError;
 use crate::scene::SceneErrors;
 use crate::study::slurm::SlurmError;
@@ -19,10 +18,6 @@ pub enum CliError {
     Named { name: String, error: Box<dyn std::error::Error + Send + Sync> },
     #[error("{0}")]
     Message(String),
-    #[error(transparent)]
-    Format(#[from] FormatError),
-    #[error(transparent)]
-    Measured(#[from] MeasuredFileError),
     #[error(transparent)]
     Config(#[from] ConfigError),
     #[error(transparent)]
@@ -49,6 +44,12 @@ pub enum CliError {
 impl From<SceneErrors> for CliError {
     fn from(errors: SceneErrors) -> CliError {
         CliError::Scene(Box::new(errors))
+    }
+}
+
+impl From<String> for CliError {
+    fn from(message: String) -> CliError {
+        CliError::Message(message)
     }
 }
 

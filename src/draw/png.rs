@@ -13,16 +13,12 @@ use std::sync::Arc;
 const FONTS: [&[u8]; 2] = [include_bytes!("font/sans.ttf"), include_bytes!("font/sans-oblique.ttf")];
 /// Pixels for each px of a document.
 const SCALE: f32 = 2.0;
-/// Most pixels of a picture.
 const MOST_PIXELS: f64 = (1_u32 << 26) as f64;
 /// Pixels per metre of a print on which a px is 1/96 inch.
 const PER_METRE: u32 = 7559;
 
 impl Figure {
     /// The figure as the content of a PNG file.
-    ///
-    /// # Errors
-    /// A picture with more pixels than allowed.
     pub fn png(&self) -> io::Result<Vec<u8>> {
         png(&self.svg())
     }

@@ -477,7 +477,6 @@ mod tests {
         }
     }
 
-    #[cfg(feature = "tui")]
     #[test]
     fn figures_as_text_stay_as_they_are() {
         use crate::draw::{Colours, figure_text};

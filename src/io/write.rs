@@ -18,20 +18,9 @@ pub enum WriteError {
     Exists(PathBuf),
     /// The path is not one of a file that can be written.
     #[error("{}: {fault}", path_name(path))]
-    Unsuitable {
-        /// The path.
-        path: PathBuf,
-        /// What is wrong with it.
-        fault: String,
-    },
-    /// The system refused.
+    Unsuitable { path: PathBuf, fault: String },
     #[error("{}: cannot be written: {reason}", path_name(path))]
-    Failed {
-        /// The file.
-        path: PathBuf,
-        /// Error of the operating system.
-        reason: io::Error,
-    },
+    Failed { path: PathBuf, reason: io::Error },
 }
 
 impl WriteError {
@@ -45,18 +34,12 @@ impl WriteError {
 }
 
 /// Checks before a long computation that [`write_new`] could write a file now, without a trace.
-///
-/// # Errors
-/// Error that [`write_new`] would return.
 pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
     target(path, overwrite)?.map_or(Ok(()), |(path, _)| temporary(&path).map(drop))
 }
 
 /// Writes a file as [`write_new_file`] does, or into a pipe or a device, which cannot be overwritten: that waits for a
 /// reader.
-///
-/// # Errors
-/// [`WriteError`]; an error of `write` itself becomes [`WriteError::Failed`].
 pub fn write_new(
     path: &Path,
     overwrite: bool,
@@ -73,9 +56,6 @@ pub fn write_new(
 /// and a failure leaves nothing behind. An existing file is replaced only with `overwrite`.
 ///
 /// A killed process may leave a file `.asperity-….tmp`.
-///
-/// # Errors
-/// As [`write_new`]; a pipe or a device is refused at once.
 pub fn write_new_file(
     path: &Path,
     overwrite: bool,
@@ -128,7 +108,6 @@ pub(crate) fn sync_folder(path: &Path) -> io::Result<()> {
     }
 }
 
-/// The parent folder of a path.
 fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."))
 }

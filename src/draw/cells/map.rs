@@ -88,7 +88,6 @@ fn crosses(map: &HeatMap, cell: usize, other: usize) -> bool {
 }
 
 /// Scale of shades: samples of the shades with numbers between them.
-#[must_use]
 pub fn key(map: &HeatMap, columns: usize, colours: Colours) -> Vec<(String, Style)> {
     let (divisor, _) = map.key.prefix();
     let steps = SHADES.len();

@@ -34,7 +34,6 @@ pub struct CellPlot {
 
 impl CellPlot {
     /// Divides an area between the plot and the scales of a chart.
-    #[must_use]
     pub fn within(area: Rect, chart: &Chart) -> CellPlot {
         let below = area.height >= WITH_SCALE_BELOW;
         let line = area.height >= WITH_LINE_BELOW;
@@ -52,7 +51,6 @@ impl CellPlot {
 
     /// Numbers on both axes at a cell of the screen: on a map those of the value behind the cell, if any, else those of
     /// the middle of the nearest cell of the plot.
-    #[must_use]
     pub fn data_at(&self, chart: &Chart, (column, row): (u16, u16)) -> Option<(f64, f64)> {
         let plot = self.plot;
         if let Some(map) = chart.map() {
@@ -73,19 +71,21 @@ impl CellPlot {
     }
 
     /// Cell of a point; `None` outside the chart, except for a map, which has the point at its edge.
-    #[must_use]
     pub fn cell(&self, chart: &Chart, marker: Marker, (x, y): (f64, f64)) -> Option<(u16, u16)> {
         let shares = (chart.x.share(x), 1.0 - chart.y.share(y));
         let (across, down) = (shares.0.clamp(0.0, 1.0), shares.1.clamp(0.0, 1.0));
         let inside = chart.map().is_some() || (across, down) == shares;
         let (columns, rows) = dots_of(marker);
+        let cell = |share: f64, cells: u16, dots: u16| match chart.map() {
+            Some(_) => ((share * f64::from(cells)) as u16).min(cells - 1),
+            None => cell_at(share, cells, dots),
+        };
         (inside && !self.plot.is_empty()).then(|| {
-            let column = cell_at(across, self.plot.width, columns);
-            (self.plot.x + column, self.plot.y + cell_at(down, self.plot.height, rows))
+            let column = cell(across, self.plot.width, columns);
+            (self.plot.x + column, self.plot.y + cell(down, self.plot.height, rows))
         })
     }
 
-    /// Draws scales and layers.
     pub fn draw(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
         if self.plot.is_empty() {
             return;
@@ -241,9 +241,7 @@ fn cell_at(share: f64, cells: u16, dots: u16) -> u16 {
 
 /// Rows of a plot of this height with their numbers.
 fn scale_beside(chart: &Chart, height: u16, marker: Marker) -> Vec<(u16, String)> {
-    let place = |at: f64| {
-        cell_at((chart.y.span.high - at) / chart.y.span.width(), height, dots_of(marker).1)
-    };
+    let place = |at: f64| cell_at((chart.y.span.high - at) / chart.y.span.width(), height, dots_of(marker).1);
     let fewest = usize::from(height / 3).clamp(2, 6);
     numbers_at(&chart.y, fewest..=fewest.max(height.into()), place, |_| true)
 }
@@ -274,8 +272,7 @@ fn scale_below(chart: &Chart, width: u16, marker: Marker, own_row: bool) -> (Vec
     if label.chars().count() > usize::from(room) {
         label = chart.x.symbol_with_unit().to_string();
     }
-    let place =
-        |at: f64| cell_at((at - chart.x.span.low) / chart.x.span.width(), width, dots_of(marker).0);
+    let place = |at: f64| cell_at((at - chart.x.span.low) / chart.x.span.width(), width, dots_of(marker).0);
     let fewest = usize::from(width / 10).clamp(2, 9);
     let is_seen = |number: &(u16, String)| !is_covered(number, width, &label);
     let mut numbers = numbers_at(&chart.x, fewest..=fewest.max(usize::from(width / 4)), place, is_seen);

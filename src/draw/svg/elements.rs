@@ -66,7 +66,6 @@ impl Svg {
         self.text.push('\n');
     }
 
-    /// Ends the document.
     pub(crate) fn finish(mut self) -> String {
         self.text.push_str("</svg>\n");
         self.text
@@ -88,12 +87,10 @@ impl Svg {
         self.push(format_args!("<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" {looks}/>"));
     }
 
-    /// Fills a rectangle.
     pub(super) fn rectangle(&mut self, from: Place, to: Place, fill: Rgb) {
         self.rect(from, to, &format!("fill=\"{}\"", hex(fill)));
     }
 
-    /// Draws the border of a rectangle.
     pub(super) fn frame(&mut self, from: Place, to: Place, pen: Pen) {
         self.rect(from, to, &format!("fill=\"none\" {}", pen.attributes()));
     }
@@ -105,7 +102,6 @@ impl Svg {
         ));
     }
 
-    /// Fills a polygon.
     pub(super) fn area(&mut self, places: &[Place], fill: Rgb, opacity: f64) {
         let (points, fill) = (points(places), hex(fill));
         let opacity =

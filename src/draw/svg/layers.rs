@@ -3,7 +3,7 @@
 use super::elements::{Pen, Place, Svg};
 use super::frame::Frame;
 use super::{HATCHED, PAPER, QUIET, TEXT};
-use crate::draw::axis::Axis;
+use crate::draw::axis::{Axis, Share};
 use crate::draw::chart::{Contour, HeatMap, Layer, Shape, Sign, Stroke};
 use crate::draw::colour::{Ink, Rgb, ink_on};
 use crate::draw::contour::contour;
@@ -38,11 +38,15 @@ pub(super) fn draw(svg: &mut Svg, frame: &Frame<'_>, layers: &[Layer]) {
                 let ends = frame.axes.guide(*at, matches!(layer.shape, Shape::Upright(_)));
                 ends.iter().for_each(|ends| svg.line(&ends.map(|end| frame.at(end)), guide(layer.ink)));
             }
-            Shape::Envelope { x, columns } => envelope(svg, frame, *x, columns, colour),
+            Shape::Envelope { x, columns } => {
+                let pen = Pen { colour, width: 1.2, stroke: Stroke::Solid };
+                curve(svg, frame, frame.axes.envelope(*x, columns), Some(pen), None);
+            }
             Shape::Curve { points, stroke, sign } => {
                 let pen = stroke.map(|stroke| Pen { colour, width: 1.6, stroke });
                 let sign = sign.map(|sign| (sign, radius(frame, points.len())));
-                curve(svg, frame, points, pen, sign.map(|sign| (sign, colour)));
+                let runs = frame.axes.runs(points.iter().copied());
+                curve(svg, frame, runs, pen, sign.map(|sign| (sign, colour)));
             }
         }
     }
@@ -62,11 +66,11 @@ fn radius(frame: &Frame<'_>, points: usize) -> f64 {
 fn curve(
     svg: &mut Svg,
     frame: &Frame<'_>,
-    points: &[(f64, f64)],
+    runs: Vec<Vec<Share>>,
     pen: Option<Pen>,
     sign: Option<((Sign, f64), Rgb)>,
 ) {
-    for run in frame.axes.runs(points.iter().copied()) {
+    for run in runs {
         let run: Vec<Place> = run.into_iter().map(|place| frame.at(place)).collect();
         if let Some(pen) = pen.filter(|_| run.len() > 1) {
             svg.line(&run, pen);
@@ -75,32 +79,6 @@ fn curve(
             run.iter().for_each(|place| draw_sign(svg, sign, *place, radius, colour));
         }
     }
-}
-
-fn envelope(
-    svg: &mut Svg,
-    frame: &Frame<'_>,
-    (from, to): (f64, f64),
-    columns: &[Option<(f64, f64)>],
-    colour: Rgb,
-) {
-    let middle = |column: usize| from + (to - from) * (column as f64 + 0.5) / columns.len() as f64;
-    let mut points = Vec::new();
-    let mut last: Option<f64> = None;
-    for (column, ends) in columns.iter().enumerate() {
-        let Some((low, high)) = *ends else {
-            points.push((middle(column), f64::NAN));
-            last = None;
-            continue;
-        };
-        // From the end nearer to the previous point of the line.
-        let falls = last.is_some_and(|last| (last - high).abs() < (last - low).abs());
-        let ends = if falls { [high, low] } else { [low, high] };
-        points.extend(ends.map(|end| (middle(column), end)));
-        last = Some(ends[1]);
-    }
-    let pen = Pen { colour, width: 1.2, stroke: Stroke::Solid };
-    curve(svg, frame, &points, Some(pen), None);
 }
 
 fn band(svg: &mut Svg, frame: &Frame<'_>, points: &[(f64, f64, f64)], colour: Rgb) {

@@ -18,8 +18,7 @@ use frame::{Frame, LABEL, Side};
 use legend::Legend;
 
 /// Fonts of figures, with nearly the same letters on all systems.
-const FONTS: &str =
-    "font-family=\"Helvetica, Arial, Liberation Sans, DejaVu Sans, sans-serif\"";
+const FONTS: &str = "font-family=\"Helvetica, Arial, Liberation Sans, DejaVu Sans, sans-serif\"";
 /// Fill of cells without a value.
 const HATCHED: &str = "fill=\"url(#hatched)\"";
 const TEXT: Rgb = Palette::LIGHT.foreground;
@@ -38,8 +37,6 @@ const MARGIN: f64 = 6.0;
 const TITLE: f64 = 14.5;
 
 impl Figure {
-    /// The figure as SVG.
-    #[must_use]
     pub fn svg(&self) -> String {
         let page = Page::new(self);
         let mut svg = Svg::new(page.width, page.height, &Label::plain(&self.title).to_string());
@@ -150,9 +147,9 @@ fn frame_of_colours<'a>(map: &'a HeatMap, chart: Frame<'a>) -> Frame<'a> {
 /// Room on the left and on the right of a chart.
 fn rooms(chart: &Chart, size: (f64, f64)) -> (f64, f64) {
     let frame = frame_of(chart, (0.0, 0.0), size);
-    let scale = chart.map().map_or(0.0, |map| {
-        FROM_MAP + BAR + frame_of_colours(map, frame).room(Side::Right) + MARGIN
-    });
+    let scale = chart
+        .map()
+        .map_or(0.0, |map| FROM_MAP + BAR + frame_of_colours(map, frame).room(Side::Right) + MARGIN);
     (AXES.0.max(frame.room(Side::Left) + MARGIN), BESIDE.max(scale))
 }
 
@@ -174,8 +171,8 @@ fn draw_chart(svg: &mut Svg, chart: &Chart, from: Place, size: (f64, f64)) {
 mod tests {
     use super::*;
     use crate::draw::chart::{Layer, Shape, Sign, Stroke};
-    use crate::draw::{Axis, AxisScale, Span};
     use crate::draw::colour::Ink;
+    use crate::draw::{Axis, AxisScale, Span};
     use roxmltree::Document;
 
     /// Tags of a document with their attributes, and its text. Panics if the document is not well-formed.
