@@ -6,7 +6,7 @@ use crate::explorer::config::{Config, default_path};
 use crate::explorer::theme::{Marker, Theme};
 use crate::explorer::{self, Opening, OpeningError, Options};
 use crate::export::brief_summary;
-use crate::scene::{DEFAULT, Document, quoted};
+use crate::scene::{Document, quoted};
 use clap::{Args, CommandFactory};
 use std::fmt::Display;
 use std::io::{IsTerminal, Write, stdin, stdout};
@@ -74,8 +74,7 @@ pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Resu
     let restored = if arguments.restore { Some(restored(unsaved.as_deref())?) } else { None };
     let first = restored.as_ref().and_then(|(_, documents)| documents.first().cloned());
     let (config, warning) = config(arguments)?;
-    let scene = config.scene.as_deref();
-    let opening = first.map_or_else(|| opening(arguments, scene), |document| Ok(document.into()))?;
+    let opening = first.map_or_else(|| opening(arguments, &config.scene), |document| Ok(document.into()))?;
     if !stdin().is_terminal() || !stdout().is_terminal() {
         let name = quoted(opening.document.name());
         let (command, does) = match opening.study_map {
@@ -83,20 +82,20 @@ pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Resu
             Some(_) => ("sweep plot", "draws the study"),
         };
         let without = format!("asperity {command} {name} {does} without one");
-        return Err(CliError::Message(format!("the explorer needs a terminal; {without}")));
+        return Err(CliError::message(format!("the explorer needs a terminal; {without}")));
     }
     open(opening, Options { restored, config, warning, unsaved, ..arguments.look.options() }, out)
 }
 
 /// Error of the explorer itself.
 pub(super) fn failed(error: impl Display) -> CliError {
-    CliError::Message(format!("the explorer failed: {error}"))
+    CliError::message(format!("the explorer failed: {error}"))
 }
 
 /// Opens the explorer in the terminal; on leaving, prints a brief summary of the last scene.
 pub(super) fn open(opening: Opening, options: Options, out: &mut dyn Write) -> Result<(), CliError> {
     if std::env::var_os("TERM").is_some_and(|term| term == "dumb") {
-        return Err(CliError::Message(format!(
+        return Err(CliError::message(format!(
             "TERM=dumb: the explorer places characters, this terminal does not; asperity run {} computes the scene \
              without one",
             quoted(opening.document.name())
@@ -134,8 +133,8 @@ fn config(arguments: &ExploreArguments) -> Result<(Config, Option<String>), CliE
     }
 }
 
-fn opening(arguments: &ExploreArguments, default: Option<&str>) -> Result<Opening, CliError> {
-    let name = arguments.scene.as_deref().or(default).unwrap_or(DEFAULT);
+fn opening(arguments: &ExploreArguments, default: &str) -> Result<Opening, CliError> {
+    let name = arguments.scene.as_deref().unwrap_or(default);
     let mut opening = Opening::of_argument(name).map_err(|error| match error {
         OpeningError::Scene(errors) => {
             // A single word that is no scene may be a misspelt command.
@@ -144,12 +143,12 @@ fn opening(arguments: &ExploreArguments, default: Option<&str>) -> Result<Openin
                 let command = Arguments::command();
                 let commands: Vec<_> = command.get_subcommands().map(|command| command.get_name()).collect();
                 let commands = commands.join(", ");
-                CliError::Message(format!("{errors}\nCommands: {commands} (see asperity --help)"))
+                CliError::message(format!("{errors}\nCommands: {commands} (see asperity --help)"))
             } else {
-                CliError::Scene(errors)
+                errors.into()
             }
         }
-        error => CliError::Message(error.to_string()),
+        error => CliError::message(error.to_string()),
     })?;
     opening.document = arguments.overrides.apply(opening.document)?;
     Ok(opening)

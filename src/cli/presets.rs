@@ -4,7 +4,6 @@ use super::{AnswerFormat, CliError};
 use crate::export::sheet::Sheet;
 use crate::io::object;
 use crate::scene::{self, Document, Entry, Library};
-use crate::simulation::measured_options;
 use crate::surface::{MeasuredRoughness, read_faces};
 use crate::text::printable;
 use clap::Subcommand;
@@ -91,7 +90,7 @@ fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
             Err(errors) => wrong.push(errors),
         }
     }
-    if wrong.is_empty() { Ok(()) } else { Err(CliError::Message(wrong.join("\n"))) }
+    if wrong.is_empty() { Ok(()) } else { Err(CliError::message(wrong.join("\n"))) }
 }
 
 /// The name of a valid scene with its warning, or all its errors, line by line.
@@ -126,11 +125,12 @@ fn profile_error(document: &Document) -> Option<String> {
     if faces.is_empty() {
         return None;
     }
-    let error =
-        match read_faces(&faces).and_then(|faces| MeasuredRoughness::new(&faces, &measured_options(scene))) {
-            Err(error) => error.to_string(),
-            Ok(measured) => measured.check(scene.length, scene.numerics.points as usize).err()?,
-        };
+    let error = match read_faces(&faces)
+        .and_then(|faces| MeasuredRoughness::new(&faces, &scene.measured_options()))
+    {
+        Err(error) => error.to_string(),
+        Ok(measured) => measured.check(scene.length, scene.numerics.points as usize).err()?,
+    };
     let (line, column) = document.place("roughness.file");
     Some(format!("{}:{line}:{column}: {error}", document.name()))
 }

@@ -2,7 +2,7 @@
 
 use super::snapshot::SolvedScene;
 use crate::scene::{Roughness, Scene, Solver};
-use crate::simulation::{RunError, measured_options};
+use crate::simulation::RunError;
 use crate::study::{MeasuredAdhesion, ProfileAdhesion};
 use crate::surface::{EquivalentLine, read_faces};
 use std::path::Path;
@@ -48,7 +48,7 @@ impl AdhesionSpread {
     ) -> Result<(), RunError> {
         let scene = Arc::clone(&self.scene);
         let line =
-            EquivalentLine::new(&read_faces(&scene.measured_paths(folder))?, &measured_options(&scene))?;
+            EquivalentLine::new(&read_faces(&scene.measured_paths(folder))?, &scene.measured_options())?;
         let first = scene.seed().unwrap_or(0);
         while !self.is_whole() {
             let seed = first.wrapping_add(self.found.profiles.len() as u64);

@@ -1,7 +1,7 @@
 //! State of the shown map, over H and κ or e_el/γ or over the axes of a study, and its part still to be computed.
 
 use crate::scene::{RoughnessParameter, Scene};
-use crate::study::map::{LiveMap, NoMap, StudyMap, Template};
+use crate::study::map::{LiveMap, NoMap, StudyMap, live_plan};
 use crate::study::{Axis, Grid, Quantity};
 use std::sync::Arc;
 
@@ -100,7 +100,7 @@ impl Chart {
         if let Some(grid) = self.grid() {
             return Some((grid.across.clone(), grid.up.clone()));
         }
-        let mut axes = Template::of(scene).ok()?.over(self.parameter).axes().into_iter();
+        let mut axes = live_plan(scene, self.parameter).ok()?.axes.into_iter();
         Some((axes.next()?, axes.next()))
     }
 
@@ -130,7 +130,8 @@ impl Chart {
     /// Drops the live map unless a changed scene has the same.
     pub fn renew(&mut self, scene: &Scene) {
         self.moving = false;
-        self.map = self.map.take().filter(|map| map.is_of(scene, self.parameter));
+        let plan = live_plan(scene, self.parameter);
+        self.map = self.map.take().filter(|map| plan.as_ref() == Ok(map.plan()));
         self.live = self.live.take().filter(|_| self.map.is_some());
     }
 
@@ -139,9 +140,9 @@ impl Chart {
     /// # Errors
     /// When the scene has none.
     pub fn wanted(&self, scene: &Scene) -> Result<Option<Arc<LiveMap>>, NoMap> {
-        let template = Template::of(scene)?.over(self.parameter);
-        let known = self.map.as_ref().filter(|map| map.is_of(scene, self.parameter)).cloned();
-        let map = known.or_else(|| LiveMap::new(template).ok().map(Arc::new));
+        let plan = live_plan(scene, self.parameter)?;
+        let known = self.map.as_ref().filter(|map| *map.plan() == plan).cloned();
+        let map = known.or_else(|| LiveMap::new(plan).ok().map(Arc::new));
         Ok(map.filter(|map| !map.is_whole()))
     }
 }

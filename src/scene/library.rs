@@ -12,12 +12,6 @@ use super::text::Text;
 use crate::io::{ReadError, read_regular_text};
 use crate::text::{path_name, printable};
 
-/// Most scene files read in one folder; the rest is counted.
-pub const MOST_FILES: usize = 500;
-
-/// Most entries of a folder that are examined.
-const MOST_LOOKED_AT: usize = 100_000;
-
 /// Name of the default scene.
 pub const DEFAULT: &str = "pressure-sensitive";
 
@@ -148,8 +142,7 @@ impl Library {
     /// folder, each by name.
     ///
     /// Lists files ending in `.ron`, except for plans of studies; subfolders are not searched. Files that are no
-    /// scene or cannot be read are listed with their error. In each folder at most [`MOST_FILES`] files are read, and only
-    /// regular files are opened.
+    /// scene or cannot be read are listed with their error. Only regular files are opened.
     pub fn list(&self) -> Vec<Entry> {
         let built_in = presets()
             .iter()
@@ -201,16 +194,15 @@ impl Entry {
 
 /// The scene files of a folder by name; empty for a missing folder.
 fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
-    let about_folder =
-        |error: String| Entry::new(path_name(folder), origin, Some(folder.to_path_buf()), Err(error));
     let mut paths = match scene_files(folder) {
         Ok(paths) => paths,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Vec::new(),
-        Err(error) => return vec![about_folder(format!("cannot be read: {error}"))],
+        Err(error) => {
+            let error = format!("cannot be read: {error}");
+            return vec![Entry::new(path_name(folder), origin, Some(folder.to_path_buf()), Err(error))];
+        }
     };
     paths.sort_by_cached_key(|path| name_of(path, origin));
-    let left = paths.len().saturating_sub(MOST_FILES);
-    paths.truncate(MOST_FILES);
     let read = |path: PathBuf| {
         let text = read_regular_text(&path, LONGEST_TEXT).map_err(describe);
         Entry::new(printable(&name_of(&path, origin)).into_owned(), origin, Some(path), text)
@@ -219,16 +211,12 @@ fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
     // A plan of a study contains a scene.
     let is_plan = |text: &str| Text::new(text).is_ok_and(|text| text.span("scene").is_some());
     entries.retain(|entry| entry.document.is_ok() || !is_plan(&entry.text));
-    if left > 0 {
-        entries
-            .push(about_folder(format!("{left} more scene files are not listed: at most {MOST_FILES} are")));
-    }
     entries
 }
 
 /// The files of a folder that end in `.ron`, unread.
 fn scene_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
-    let paths = fs::read_dir(folder)?.take(MOST_LOOKED_AT).filter_map(|entry| Some(entry.ok()?.path()));
+    let paths = fs::read_dir(folder)?.filter_map(|entry| Some(entry.ok()?.path()));
     // The target of a link decides; a link without a target is no folder.
     let is_scene = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "ron") && !path.is_dir();
     Ok(paths.filter(is_scene).collect())
@@ -363,20 +351,5 @@ mod tests {
         for name in ["pipe", "missing", "", ".", "..", "../presets/scene", "/scene"] {
             assert_eq!(library.own_scene(name), None, "{name}");
         }
-    }
-
-    #[test]
-    fn no_more_files_are_read_than_is_said() {
-        let (_root, library, _, working) = library();
-        for index in 0..MOST_FILES + 3 {
-            fs::write(working.join(format!("{index:04}.ron")), SCENE).unwrap();
-        }
-        let entries = library.list().split_off(presets().len());
-        assert!(
-            entries.len() == MOST_FILES + 1
-                && entries[..MOST_FILES].iter().all(|entry| entry.document.is_ok())
-        );
-        let said = entries[MOST_FILES].error().unwrap();
-        assert!(said.starts_with("3 more scene files"), "{said}");
     }
 }

@@ -6,7 +6,7 @@ use crate::contact::{CurvePoint, Direction};
 use crate::draw::{Chart, Figure, Ink, Label, Layer, Shape, Sign, Stroke, glyph};
 use crate::explorer::app::{App, Ghost};
 use crate::explorer::caption::caption;
-use crate::explorer::mode::ModeKind;
+use crate::explorer::keys::Context;
 use crate::explorer::panel::{Body, Panel, meaning, names, spaced};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::theme::Meaning;
@@ -21,7 +21,7 @@ pub static ROW: PaneRow = PaneRow {
     panel,
     figure: |app, _| Some(Figure::of_chart(app.edit.document.title(), chart(app)?)),
     place: Place::Own,
-    keys: Some(ModeKind::Crosshair),
+    keys: Some(Context::Crosshair),
     help: &[(
         "Curve",
         "F over indentation d: dotted while pressing, solid while pulling; ◇ jump-in, ▲ preload, ▼ pull-off, \

@@ -3,7 +3,7 @@
 use super::{Pane, PaneRow};
 use crate::draw::{Chart, Colours, Figure, Ink, Layer, SHADES, Shape, Sign, key};
 use crate::explorer::app::App;
-use crate::explorer::mode::ModeKind;
+use crate::explorer::keys::Context;
 use crate::explorer::panel::{Panel, in_theme, names};
 use crate::explorer::study::{PaneData, Task};
 use crate::explorer::theme::Meaning;
@@ -11,7 +11,7 @@ use crate::explorer::update::scene_of;
 use crate::explorer::view::text::{Part, filled, wrapped};
 use crate::export::{study_curves, study_figure, study_map};
 use crate::scene::format_rounded;
-use crate::study::map::{Level, LiveMap, Template};
+use crate::study::map::{Level, LiveMap, live_plan};
 use crate::study::{Axis, Cell, Estimate, Grid, Place, Quantity};
 use crate::text::grouped;
 use ratatui::layout::Size;
@@ -21,7 +21,7 @@ use ratatui::text::{Line, Span as Text};
 pub static ROW: PaneRow = PaneRow {
     panel,
     figure: |app, _| app.chart.grid().map(|grid| figure(app, grid)),
-    keys: Some(ModeKind::Chart),
+    keys: Some(Context::Map),
     task: |app, computed| {
         let map = app.chart.wanted(&computed.scene).ok().flatten();
         let is_live = app.chart.shown_study().is_none();
@@ -116,7 +116,7 @@ fn figure(app: &App, grid: &Grid) -> Figure {
 
 /// Title of the pane: the mapped quantity, the axes, and the number of profiles of the mean.
 fn title(app: &App) -> String {
-    let template = Template::of(app.edit.document.scene());
+    let plan = live_plan(app.edit.document.scene(), app.chart.parameter());
     let Some((across, up)) = app.chart.axes(app.edit.document.scene()) else { return "Map".to_owned() };
     let axes: Vec<&str> =
         [Some(&across), up.as_ref()].into_iter().flatten().map(Axis::symbol_or_name).collect();
@@ -124,11 +124,11 @@ fn title(app: &App) -> String {
     let charted = app.chart.grid().map(|grid| name_of(grid, app.chart.charted()));
     let quantity = charted.unwrap_or_else(|| "regime".to_owned());
     let study = app.chart.shown_study().map(|study| (&study.study_map, study.study_map.plan().lines));
-    match (study, template) {
+    match (study, plan) {
         (Some((study_map, count)), _) => {
             format!("Study {}: {quantity} over {over}, {}", study_map.name(), profiles(count))
         }
-        (None, Ok(template)) => format!("Map of {quantity} over {over}, {}", profiles(template.lines())),
+        (None, Ok(plan)) => format!("Map of {quantity} over {over}, {}", profiles(plan.lines)),
         (None, Err(_)) => "Map".to_owned(),
     }
 }
@@ -139,7 +139,7 @@ fn profiles(count: u64) -> String {
 
 /// Reason why there is no map.
 fn nothing_yet(app: &App) -> String {
-    if let Err(why) = Template::of(app.edit.document.scene()) {
+    if let Err(why) = live_plan(app.edit.document.scene(), app.chart.parameter()) {
         return why.to_string();
     }
     if let Some(why) = app.studies.failures.get(&Pane::Chart) {
@@ -212,7 +212,7 @@ fn below(app: &App, width: u16) -> Vec<Line<'static>> {
         let line = Line::styled(text, app.view.appearance.theme.style(meaning));
         lines.extend(wrapped(&line, width));
     };
-    let template = Template::of(scene);
+    let plan = live_plan(scene, app.chart.parameter());
     if let Some(place) = app.place() {
         let outside = if grid.contains(place) { "" } else { ", outside the map" };
         let regime = app.current().and_then(|computed| computed.outcome.regime);
@@ -224,7 +224,7 @@ fn below(app: &App, width: u16) -> Vec<Line<'static>> {
             say("the study was merged without this cell".to_owned(), Meaning::Text);
         }
     } else if study.is_some() {
-        let why = template.as_ref().err().map(|why| why.to_string().replacen("no map", "no mark", 1));
+        let why = plan.as_ref().err().map(|why| why.to_string().replacen("no map", "no mark", 1));
         let no_mark = || "no mark: the scene lacks a quantity of the axes".to_owned();
         say(why.unwrap_or_else(no_mark), Meaning::Quiet);
     }
@@ -242,9 +242,9 @@ fn below(app: &App, width: u16) -> Vec<Line<'static>> {
             (None, None) => say("the coarse map first…".to_owned(), Meaning::Key),
         }
     }
-    if let (None, Ok(template)) = (study, template) {
-        let springs = grouped(template.springs());
-        say(format!("Each cell: {} of {springs} springs.", profiles(template.lines())), Meaning::Quiet);
+    if let (None, Ok(plan)) = (study, plan) {
+        let springs = grouped(plan.scene.numerics.points);
+        say(format!("Each cell: {} of {springs} springs.", profiles(plan.lines)), Meaning::Quiet);
     }
     lines
 }

@@ -3,7 +3,7 @@
 use crate::export::{Spectra, SpectrumPoint};
 use crate::memory::check_room;
 use crate::scene::{Form, Roughness, Scene};
-use crate::simulation::{Outcome, measured_options};
+use crate::simulation::Outcome;
 use crate::spectrum::{Analysis, LineMoments, line_spectrum};
 use crate::surface::{EquivalentLine, Line, SelfAffine, read_faces};
 use std::f64::consts::TAU;
@@ -51,7 +51,7 @@ impl SceneSpectra {
 
 /// Analyses of the measured surfaces.
 fn analyses(scene: &Scene) -> Result<Vec<Analysis>, String> {
-    let options = measured_options(scene);
+    let options = scene.measured_options();
     let faces = read_faces(&scene.measured_paths(Path::new("")));
     let analyses = faces.and_then(|faces| faces.iter().map(|face| options.analyse(face)).collect());
     analyses.map_err(|error| error.to_string())

@@ -2,18 +2,12 @@
 
 use super::{Effect, edit};
 use crate::explorer::app::App;
-use crate::explorer::command::Command;
 use crate::explorer::opening::Opening;
 use crate::explorer::panes::Pane;
 use crate::scene::{Document, SceneErrors};
-use crate::study::map::{Template, moved};
+use crate::study::map::{live_plan, moved};
 use crate::study::{Axis, Place};
 use std::sync::Arc;
-
-/// Returns true for a move of the scene in the map: successive moves are one edit.
-pub fn is_move(command: Command) -> bool {
-    ["move-across", "move-up"].iter().any(|name| command.name.starts_with(name))
-}
 
 /// Explores a scene or a study opened by its path.
 pub fn open(app: &mut App, opening: Opening) -> Vec<Effect> {
@@ -78,7 +72,7 @@ pub fn step_slice(app: &mut App, steps: i32) -> Vec<Effect> {
 /// Moves the mark by columns and rows of the map.
 pub fn step(app: &mut App, columns: i32, rows: i32) -> Vec<Effect> {
     let Some((at_across, at_up)) = app.place() else {
-        let why = match Template::of(app.edit.document.scene()) {
+        let why = match live_plan(app.edit.document.scene(), app.chart.parameter()) {
             Err(why) => why.to_string(),
             Ok(_) if app.chart.shown_study().is_some() => NO_PLACE.to_owned(),
             Ok(_) => "not before the scene is computed: its κ and e_el/γ follow from its profile".to_owned(),
@@ -117,7 +111,7 @@ pub fn move_to(app: &mut App, place: Place) -> Vec<Effect> {
         Ok(document) if goes_on => edit::replace(app, document),
         moved => edit::take_over(app, moved),
     };
-    app.chart.moving = app.edit.refused.is_none();
+    app.chart.moving = !app.is_refused();
     effects
 }
 

@@ -3,12 +3,11 @@
 use super::Effect;
 use crate::analysis::pull_off_point;
 use crate::explorer::app::{App, ManualState, Player};
-use crate::explorer::config::Animation;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{Focus, ManualMove};
 use crate::explorer::snapshot::{ContactSnapshot, Refusal};
 use crate::explorer::text_line::TextLine;
-use crate::scene::{parse_quantity, quantity_as_typed};
+use crate::scene::{format_quantity, parse_quantity};
 use crate::text::round_to;
 use std::sync::Arc;
 use std::time::Duration;
@@ -111,7 +110,7 @@ pub fn elapse(app: &mut App, time: Duration) -> Vec<Effect> {
     }
     let legs = app.legs().len();
     let player = &mut app.play;
-    let Animation { speed, repeats } = app.config.animation;
+    let (speed, repeats) = (app.config.speed, app.config.repeat);
     player.done += speed * time.as_secs_f64() / LEG_TIME.as_secs_f64();
     // The distance does not depend on the frame rate: its rest continues on the next leg.
     while player.done > 1.0 && player.leg + 1 < legs {
@@ -164,9 +163,9 @@ pub fn shown(app: &mut App, snapshot: Arc<ContactSnapshot>) {
     app.snapshot = Some(snapshot);
 }
 
-/// Reason why the body was not moved, with forces in the unit of the typed one, rounded into the allowed range.
+/// Reason why the body was not moved, with forces rounded into the allowed range.
 fn refusal(refusal: &Refusal, typed: &str) -> String {
-    let force = |value| quantity_as_typed(value, typed, "N");
+    let force = |value| format_quantity(value, "N");
     match *refusal {
         Refusal::Detaches { smallest } => {
             let least = force(rounded_up(smallest));

@@ -1,7 +1,7 @@
 //! The place of a scene on the axes of a map, and scenes moved to another place.
 
 use crate::analysis::Governing;
-use crate::scene::{Adhesion, Document, Move, Scene, SceneErrors, ron_float};
+use crate::scene::{Document, Move, Scene, SceneErrors, ron_float};
 use crate::study::axis::Axis;
 use crate::study::target::{Target, governing, value_in};
 
@@ -67,12 +67,13 @@ pub fn moved(document: &Document, values: &[(&Axis, f64)]) -> Result<Document, S
         moved = moved.set("roughness.modes.1", &format!("{last:.0}"))?;
     }
     if let Some((parameter, value)) = parameter {
-        let by_work = matches!(moved.scene().adhesion, Some(Adhesion::Work { amplitude: None, .. }));
+        let adhesion = moved.scene().adhesion.unwrap_or_default();
+        let by_work = adhesion.work.is_some() && !adhesion.sets_amplitude();
         let work = governing(moved.scene()).and_then(|governing| governing.work_for(parameter, value));
-        moved = match work.filter(|_| by_work) {
-            Some(work) => moved.with_work_of_adhesion(work)?,
-            None => moved.with_parameter(parameter, value)?,
-        };
+        moved = moved.with_adhesion(match work.filter(|_| by_work) {
+            Some(work) => adhesion.with_work(work),
+            None => adhesion.with_parameter(parameter, value),
+        })?;
     }
     match preload.zip(force_unit(moved.scene())) {
         Some((preload, unit)) => {
@@ -87,12 +88,12 @@ mod tests {
     use super::*;
     use crate::scene::{RoughnessParameter, open};
     use crate::simulation::Simulation;
-    use crate::study::map::Template;
+    use crate::study::map::live_plan;
 
     #[test]
     fn steps_go_to_the_next_value_of_the_axis_and_end_with_it() {
-        let template = Template::of(open("pressure-sensitive").unwrap().scene()).unwrap();
-        let axes = template.over(RoughnessParameter::Kappa).axes();
+        let scene = open("pressure-sensitive").unwrap().scene().clone();
+        let axes = live_plan(&scene, RoughnessParameter::Kappa).unwrap().axes;
         let to = |value, steps| axes[1].next_beyond(value, steps);
         assert_eq!((to(6.0, 1), to(6.0, -1), to(6.0, 4)), (Some(6.73), Some(5.66), Some(11.3)));
         // A value of the axis but for rounding.
@@ -110,11 +111,11 @@ mod tests {
             ("adhesion".to_owned(), "(work: 0.05, kappa: 2.0)".to_owned()),
         ]);
         let by_work = by_kappa.set("adhesion", "(work: 0.05)").unwrap();
-        let axes = Template::of(by_kappa.scene()).unwrap().axes();
+        let axes = live_plan(by_kappa.scene(), RoughnessParameter::Kappa).unwrap().axes;
         for document in [by_kappa.clone(), both.unwrap(), by_work] {
             let moved = moved(&document, &[(&axes[0], 0.4), (&axes[1], 3.0)]).unwrap();
             let (before, after) = (document.scene().adhesion.unwrap(), moved.scene().adhesion.unwrap());
-            assert_eq!(before.work().is_some(), after.work().is_some());
+            assert_eq!(before.work.is_some(), after.work.is_some());
             assert_eq!(before.parameter().is_some(), after.parameter().is_some());
             let [hurst, kappa] = [0, 1].map(|axis| axes[axis].value_in(moved.scene(), None).unwrap());
             assert!((kappa / 3.0 - 1.0).abs() < 1e-12 && hurst == 0.4, "{kappa} {hurst}");
