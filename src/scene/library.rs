@@ -164,7 +164,9 @@ impl Entry {
         let file = path.as_ref().map_or_else(|| name.clone(), |path| path.display().to_string());
         let document = match &text {
             Ok(text) => Document::parse(text, &file),
-            Err(error) => Err(SceneError::whole(Origin::File { name: file }, error.as_str()).into()),
+            Err(error) => {
+                Err(SceneError::whole(Origin::File { name: file, place: None }, error.as_str()).into())
+            }
         };
         Entry { name, origin, path, text: text.unwrap_or_default(), document }
     }
@@ -184,7 +186,7 @@ impl Entry {
         let errors = self.document.as_ref().err()?;
         let (first, more) = (errors.first(), errors.iter().count() - 1);
         let place = match &first.origin {
-            Origin::Place { line, column, .. } => format!("line {line}, column {column}: "),
+            Origin::File { place: Some((line, column)), .. } => format!("line {line}, column {column}: "),
             _ => String::new(),
         };
         let more = if more > 0 { format!(" (and {more} more)") } else { String::new() };

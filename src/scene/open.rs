@@ -75,7 +75,7 @@ pub fn open_argument(argument: &str) -> Result<Document, SceneErrors> {
 }
 
 fn whole(name: &str, message: String) -> SceneErrors {
-    SceneError::whole(Origin::File { name: name.into() }, message).into()
+    SceneError::whole(Origin::File { name: name.into(), place: None }, message).into()
 }
 
 /// Start of the lines above the scene in a table of results, and the line between both.
