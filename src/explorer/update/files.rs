@@ -20,7 +20,7 @@ pub fn ask_save(app: &mut App, then_quit: bool) {
 
 /// Saves the scene.
 pub fn save(path: PathBuf, then_quit: bool) -> Result<Vec<Effect>, String> {
-    check_extension(&path, &["ron"]).map_err(|error| error.to_string())?;
+    check_extension(&path, &["ron"])?;
     write(path, Content::Scene, then_quit)
 }
 
