@@ -12,10 +12,10 @@ use super::solver::{Solve, Solver, SolverThread};
 use super::studies::{Study, StudyThread};
 use super::update::{Effect, request, studies, update};
 use super::writing;
-use crate::scene::Library;
+use crate::scene::{own_folder, scenes};
 use crate::simulation::Simulation;
 use std::collections::VecDeque;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Solver and studies.
 pub enum Engine {
@@ -124,11 +124,13 @@ impl Runtime {
             Effect::Study => return engine.perform(studies(app)),
             Effect::Write(file) => writing::write(app, folder, file),
             Effect::Remember { path, appearance } => {
-                let remembered = remember(&folder.join(&path), appearance).map_err(|error| error.to_string());
+                let remembered = remember(&folder.join(&path), appearance);
                 Action::Remembered(remembered.map(|()| path))
             }
-            Effect::List if folder.as_os_str().is_empty() => Action::Listed(Library::of_environment().list()),
-            Effect::List => Action::Listed(Library::of(None, folder.clone()).list()),
+            Effect::List if folder.as_os_str().is_empty() => {
+                Action::Listed(scenes(own_folder().as_deref(), Path::new(".")))
+            }
+            Effect::List => Action::Listed(scenes(None, folder)),
             Effect::Complete(typed) => Action::Completed(complete(&typed)),
             Effect::Open(name) => {
                 let opened = Opening::of(&name).map(Box::new).map_err(|error| error.to_string());

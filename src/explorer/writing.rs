@@ -7,20 +7,21 @@ use super::theme::Theme;
 use super::view;
 use crate::draw::Palette;
 use crate::export::{self, Format, RunReport, scene_provenance};
-use crate::io::{WriteError, check_file_name, write_new_file};
+use crate::io::{WriteError, write_new_file};
 use crate::scene::command_line;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, is_separator};
 
-/// Writes a regular file, relative to a folder: a pipe would block. A name of a scene without an extension is checked
-/// before `.ron` makes it another name. Returns the file with its name, and the result.
+/// Writes a regular file, relative to a folder: a pipe would block. A scene gets the extension `.ron` unless its name has
+/// one or is that of something else than a file. Returns the file with its name, and the result.
 pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
     let mut written = || {
-        if file.content == Content::Scene && file.path.extension().is_none() {
-            check_file_name(&folder.join(&file.path))?;
+        let path = folder.join(&file.path);
+        let is_file = path.is_file() || !(path.exists() || path.to_string_lossy().ends_with(is_separator));
+        if file.content == Content::Scene && file.path.extension().is_none() && is_file {
             file.path.set_extension("ron");
         }
         write_new_file(&folder.join(&file.path), file.overwrite, |out| {

@@ -78,15 +78,15 @@ fn curves(app: &App, grid: &Grid) -> Vec<Chart> {
     let curves = quantities.into_iter().filter(|quantity| *quantity != Quantity::Regime);
     let mark = app.place().map(|(across, _)| across);
     let chart = |quantity| {
-        let mut chart = Chart { inset: None, ..study_curves(grid, quantity) };
+        let mut chart = study_curves(grid, quantity).into_iter().next()?;
         if let Some(mark) = mark {
             let top = chart.y.scale.number(chart.y.span.high);
             chart.layers.push(Layer::unnamed(Ink::Cursor, Shape::Upright(mark)));
             chart.layers.push(Layer::unnamed(Ink::Cursor, Shape::signs(vec![(mark, top)], Sign::Diamond)));
         }
-        chart
+        Some(chart)
     };
-    curves.map(chart).collect()
+    curves.filter_map(chart).collect()
 }
 
 /// Figure of the pane: the map, with the quantities behind the regimes while these are mapped, or curves over the only

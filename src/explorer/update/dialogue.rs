@@ -10,7 +10,7 @@ use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::text_line::TextLine;
 use crate::explorer::view::help_end;
 use crate::scene::{Entry, typed_path};
-use std::path::Path;
+use tui_input::InputRequest;
 
 /// Opens the help.
 pub fn help(app: &mut App) {
@@ -143,52 +143,45 @@ fn run_listed(app: &mut App, command: Command) {
     run(app, command);
 }
 
-/// Parameters whose values hold names of files.
+/// Parameters whose values have names of files.
 const WITH_FILES: [&str; 4] =
     ["roughness", "roughness.file", "roughness.further_files", "roughness.opposite"];
 
-/// The typed path behind the text of the line before the path, and the folder of a relative path. In a value the path
-/// begins behind an open quote, or the value has no brackets.
-fn path_in_line(app: &App) -> Option<(&str, String, &str)> {
+/// The path being typed: the whole line or, in a value, what follows the last quote, in the folder of the scene.
+fn typed_in_line(app: &App) -> Option<String> {
     let prompt = app.prompt.as_ref()?;
-    let text = prompt.line.text();
+    let text = prompt.line.text().trim_start();
     match prompt.purpose {
-        Purpose::Save { .. } | Purpose::Export | Purpose::Scene(_) => return Some(("", String::new(), text)),
-        Purpose::Value if WITH_FILES.contains(&app.edit.parameter()?.path.as_str()) => {}
-        _ => return None,
+        Purpose::Save { .. } | Purpose::Export | Purpose::Scene(_) => Some(text.to_owned()),
+        Purpose::Value if WITH_FILES.contains(&app.edit.parameter()?.path.as_str()) => {
+            let path = text.rsplit('"').next().unwrap_or(text);
+            Some(app.edit.document.resolve(path).to_string_lossy().into_owned())
+        }
+        _ => None,
     }
-    let begin = match text.rfind('"') {
-        Some(quote) if text.matches('"').count() % 2 == 1 => quote + 1,
-        None if !text.contains(['(', '[']) => 0,
-        _ => return None,
-    };
-    let (before, path) = text.split_at(begin);
-    let is_absolute = Path::new(path).is_absolute();
-    let folder =
-        if is_absolute { String::new() } else { app.edit.document.resolve("").display().to_string() };
-    Some((before, folder, path))
 }
 
 /// Returns true if a path is being typed.
 pub fn can_complete(app: &App) -> bool {
-    path_in_line(app).is_some()
+    typed_in_line(app).is_some()
 }
 
 /// Requests the paths that begin as typed.
 pub fn complete(app: &mut App) {
-    if let Some((_, folder, path)) = path_in_line(app) {
-        app.effects.push(Effect::Complete(folder + path));
+    if let Some(path) = typed_in_line(app) {
+        app.effects.push(Effect::Complete(path));
     }
 }
 
 /// Types the common start of the paths that begin as typed, and shows them if they are several.
 pub fn completed(app: &mut App, paths: Vec<String>) {
-    let Some((before, folder, path)) = path_in_line(app) else { return };
+    let Some(typed) = typed_in_line(app) else { return };
     let common = common_start(&paths);
-    let rest = common.strip_prefix(&folder).unwrap_or(&common);
-    let line = (rest.len() > path.len()).then(|| TextLine::new(&format!("{before}{rest}")));
-    if let Some(line) = line {
-        edit_line(app, |present| *present = line);
+    if let Some(rest) = common.strip_prefix(&typed) {
+        edit_line(app, |line| {
+            line.edit(InputRequest::GoToEnd);
+            line.insert(rest);
+        });
     }
     refuse(app, paths.is_empty().then(|| "no file or folder begins so".to_owned()));
     if let Some(prompt) = &mut app.prompt {

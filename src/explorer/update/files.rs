@@ -20,7 +20,7 @@ pub fn ask_save(app: &mut App, then_quit: bool) {
 
 /// Saves the scene.
 pub fn save(app: &mut App, path: PathBuf, then_quit: bool) -> Result<(), String> {
-    check_extension(&path, &["ron"]).map_err(|error| error.to_string())?;
+    check_extension(&path, &["ron"])?;
     write(app, path, Content::Scene, then_quit)
 }
 
@@ -65,7 +65,7 @@ fn content_for(app: &App, path: &Path) -> Result<Content, String> {
                 extensions.iter().map(|extension| format!(".{extension}")).collect();
             return Err(format!("the extension chooses the format; use one of {}", extensions.join(", ")));
         }
-        Err(error) => return Err(error.to_string()),
+        Err(error) => return Err(error),
     };
     match content {
         Content::MapCells if app.grid().is_none() => Err("there is no map yet to export".to_owned()),

@@ -71,7 +71,11 @@ pub fn status(app: &App, width: u16) -> Line<'static> {
         (_, Some(Message::Error(text) | Message::Refused(text))) => {
             error(format!("! {}", text.replace('\n', " · ")))
         }
-        (_, Some(Message::Done(text))) => Line::raw(text.clone()),
+        (_, Some(Message::Done(text))) => {
+            let mut line = Line::raw(format!("{text}  "));
+            line.extend(headline(app, usize::from(width).saturating_sub(line.width())));
+            line
+        }
         (None, None) if app.studies.value::<Choosing>().is_some() => choosing(app),
         _ => headline(app, width.into()),
     }

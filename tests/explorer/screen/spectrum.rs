@@ -33,7 +33,7 @@ fn q_shows_the_spectrum_in_place_of_the_line() {
         driver.press("R");
         let after = spectra(&driver);
         assert_eq!(before.spectra.line, after.spectra.line);
-        assert!(!after.spectra.heights.is_empty() && before.spectra.measured.is_empty());
+        assert!(!after.spectra.heights.is_empty());
     });
 }
 
