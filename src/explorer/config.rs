@@ -290,7 +290,7 @@ mod tests {
         assert!(!path.exists() && !path.parent().unwrap().exists(), "reading makes nothing");
         write_template(&path).unwrap();
         assert_eq!(std::fs::read_to_string(&path).unwrap(), TEMPLATE);
-        assert!(write_template(&path).unwrap_err().contains("exists"));
+        assert!(write_template(&path).unwrap_err().contains("already"));
         // Remembered colours leave all else as it is.
         let mine =
             TEMPLATE.replace("// speed: 1.0, ", "speed: 2.0, ").replace("version: 1,", "version: 1, // mine");
