@@ -7,7 +7,6 @@
 use super::StudyError;
 use super::plan::{PLAN_FILE, Plan};
 use crate::io::hexadecimal;
-use crate::simulation::measured_options;
 use crate::surface::{MeasuredRoughness, read_faces};
 use crate::text::path_name;
 use sha2::{Digest, Sha256};
@@ -50,10 +49,7 @@ pub(super) fn changed(file: &Path, found: &str, plan: &str, expected: &str) -> S
 
 /// The surface of a plan, if it has one, and the hash of its bytes, which is that of the plan; several files are hashed
 /// one after the other.
-fn read(
-    plan: &Plan,
-    origin: impl Fn() -> String,
-) -> Result<Option<(MeasuredRoughness, String)>, StudyError> {
+fn read(plan: &Plan, origin: impl Fn() -> String) -> Result<Option<(MeasuredRoughness, String)>, StudyError> {
     let Some(file) = file_of(plan) else { return Ok(None) };
     let faces = read_faces(&plan.scene.measured_paths(Path::new("")))?;
     let mut hasher = Sha256::new();
@@ -61,7 +57,7 @@ fn read(
     let found = hexadecimal(hasher);
     match &plan.measured_sha256 {
         Some(expected) if *expected != found => Err(changed(&file, &found, &origin(), expected)),
-        _ => Ok(Some((MeasuredRoughness::new(&faces, &measured_options(&plan.scene))?, found))),
+        _ => Ok(Some((MeasuredRoughness::new(&faces, &plan.scene.measured_options())?, found))),
     }
 }
 

@@ -133,7 +133,8 @@ impl Plan {
     /// # Errors
     /// The path of an axis over a number that the scene does not have.
     pub fn scene_of(&self, cell: u64) -> Result<Scene, String> {
-        scene_with(&self.scene, self.axes.iter().zip(self.values(cell)))
+        let values = self.axes.iter().zip(self.values(cell));
+        scene_with(&self.scene, values.map(|(axis, value)| (axis.path.as_str(), axis.target, value)))
     }
 
     /// Seed of a profile.

@@ -86,7 +86,8 @@ impl Selection {
         let all = grid.layers.iter().map(|one| one.quantity);
         let mut layers: Vec<Layer> = all.map(|quantity| layer(quantity, self.scale)).collect();
         // The same quantity by two protocols has one scale.
-        let shares = self.scale.is_none() && quantities.iter().all(|quantity| Quantity::ADHESION_SHARES.contains(quantity));
+        let shares = self.scale.is_none()
+            && quantities.iter().all(|quantity| Quantity::ADHESION_SHARES.contains(quantity));
         let logarithmic = |one: &Layer| is_shown(one.quantity) && one.scale == AxisScale::Logarithmic;
         if shares && layers.iter().any(logarithmic) {
             for one in layers.iter_mut().filter(|one| is_shown(one.quantity)) {
@@ -197,8 +198,8 @@ impl Selection {
     }
 }
 
-/// A quantity of curves: a single one is linear, with an inset for small values; of several the highest would hide the
-/// others.
+/// A quantity of curves: a single one is linear, and logarithmic too for small values; of several the highest would hide
+/// the others.
 fn section_layer(grid: &Grid, quantity: Quantity, scale: Option<AxisScale>) -> Layer {
     let estimates = grid.estimates(quantity, false);
     let mut curves = estimates.chunks(grid.size().0.max(1));

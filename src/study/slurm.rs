@@ -86,13 +86,15 @@ done
     /// # Errors
     /// As [`Submission::script`], and refusals of sbatch.
     pub fn submit(&self, options: &[OsString]) -> Result<String, String> {
-        let not_run = |error: io::Error| match error.kind() {
+        let not_run = |error: io::Error| {
+            match error.kind() {
             io::ErrorKind::NotFound => {
                 "sbatch was not found; run this command on a login node of a Slurm cluster, or see asperity sweep \
                  submit --help for hosts without a scheduler"
                     .to_owned()
             }
             _ => format!("sbatch could not be run: {error}"),
+        }
         };
         let script = self.script()?;
         let mut command = Command::new("sbatch");

@@ -1,6 +1,5 @@
 //! Quantities that an axis may vary: the numbers of a scene by their paths, and others that follow from several.
 
-use super::axis::Axis;
 use crate::analysis::Governing;
 use crate::scene::{FIELDS, Field, Move, Range, Roughness, RoughnessParameter, Scene, Tree, field, nearest};
 use crate::simulation::FEW_SAMPLES;
@@ -139,13 +138,12 @@ impl Target {
 /// The path of a number that the scene does not have, and the reason.
 pub(super) fn scene_with<'a>(
     base: &Scene,
-    values: impl Iterator<Item = (&'a Axis, f64)>,
+    values: impl Iterator<Item = (&'a str, Target, f64)>,
 ) -> Result<Scene, String> {
     let mut tree = Tree::of(base);
     let (mut parameter, mut springs) = (None, None);
-    for (axis, value) in values {
-        let path = axis.path.as_str();
-        match axis.target {
+    for (path, target, value) in values {
+        match target {
             Target::Preload => {}
             Target::RoughnessParameter(of) => parameter = Some((of, value)),
             Target::SpringsPerWave => springs = Some((path, value)),
@@ -194,13 +192,11 @@ pub(super) fn governing(scene: &Scene) -> Option<Governing> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::axis::Spacing;
     use super::*;
     use crate::scene::open;
 
     fn with(base: &Scene, path: &str, value: f64) -> Result<Scene, String> {
-        let axis = Axis::new(path, Spacing::List, Vec::new(), base)?;
-        scene_with(base, [(&axis, value)].into_iter())
+        scene_with(base, [(path, Target::of(path)?, value)].into_iter())
     }
 
     #[test]
@@ -219,8 +215,6 @@ mod tests {
             let document = open(base).unwrap();
             let scene = with(document.scene(), path, value).unwrap();
             assert_eq!(&scene, document.set(overrides.0, overrides.1).unwrap().scene(), "{path}");
-            let axis = Axis::new(path, Spacing::List, Vec::new(), &scene).unwrap();
-            assert_eq!(axis.value_in(&scene, None), Some(value), "{path}");
         }
     }
 

@@ -17,9 +17,9 @@ Examples:
   asperity sweep plot study --quantity adhesion_force --x kappa --y roughness.hurst
 
 Two free axes make a map: colours are means, signs are regimes, and the line is where adhesion
-without a load vanishes. One free axis makes a curve: the mean with its 95 % confidence, and in a
-corner on a logarithmic scale where it spans decades. A second axis of up to five values makes
-several curves, unless --y names it.";
+without a load vanishes. One free axis makes a curve: the mean with its 95 % confidence, and a
+second chart on a logarithmic scale where it spans decades. A second axis of up to five values
+makes several curves, unless --y names it.";
 
 /// Arguments of `sweep plot`.
 #[derive(Args, Debug)]
@@ -44,7 +44,7 @@ pub struct PlotArguments {
     pub at: Vec<(String, String)>,
     /// Scale of quantities
     ///
-    /// Default: by the range of the values; a single curve is linear with an inset.
+    /// Default: by the range of the values; small values have a second, logarithmic chart.
     #[arg(long, value_parser = PossibleValuesParser::new(["linear", "logarithmic"]).map(scale))]
     pub scale: Option<AxisScale>,
     /// Text instead of SVG; the default without FILE
@@ -83,8 +83,10 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
         scale: arguments.scale,
     };
     let Selected { grid, quantities, fixed, curves } = selection.of(&study)?;
-    let chart = |quantity| study_map(&grid, quantity, false).filter(|_| !curves);
-    let charts = quantities.into_iter().map(|one| chart(one).unwrap_or_else(|| study_curves(&grid, one)));
+    let map = |quantity| study_map(&grid, quantity, false).filter(|_| !curves);
+    let charts = quantities
+        .into_iter()
+        .flat_map(|one| map(one).map_or_else(|| study_curves(&grid, one), |map| vec![map]));
     let figure = study_figure(&study.plan().title, &fixed, charts.collect());
     arguments.output.write_figure(stdout, &figure, format)
 }

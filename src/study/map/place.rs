@@ -21,9 +21,7 @@ impl Axis {
         match (self.target, scene.loading.first()) {
             (Target::Preload, Some(Move::ToForce(force))) => Some(force / force_unit(scene)?),
             (Target::Preload, _) => None,
-            (Target::SpringsPerWave, _) => {
-                Some(scene.numerics.points as f64 / number("roughness.modes.1")?)
-            }
+            (Target::SpringsPerWave, _) => Some(scene.numerics.points as f64 / number("roughness.modes.1")?),
             _ => number(&self.path),
         }
     }

@@ -148,7 +148,8 @@ impl StudyMap {
         let at = self.at(slice).map(|(axis, place)| (axis, axis.values[place]));
         let values: Vec<(&Axis, f64)> = at.chain(over.iter().copied()).collect();
         // The plan has been checked with these values.
-        scene = scene_with(&scene, values.iter().copied()).unwrap_or(scene);
+        let numbers = values.iter().map(|(axis, value)| (axis.path.as_str(), axis.target, *value));
+        scene = scene_with(&scene, numbers).unwrap_or(scene);
         let preload = values.iter().find(|(axis, _)| axis.path == PRELOAD).map(|(_, value)| *value);
         let preload = preload.or_else(|| Some(plan.preloads()?.values[0]));
         if let Some((preload, unit)) = preload.zip(force_unit(&scene)) {
