@@ -75,9 +75,7 @@ pub use parquet::write_parquet;
 pub use plan::{Plan, StiffnessRange};
 pub use plan_check::{MOST_CELLS, MOST_LINES, MOST_RECORDS};
 pub use plan_text::{Changes, PLAN_VERSION, PlanErrors};
-pub use preloads::{
-    PRELOADS, Preloaded, Preloads, preload_statistics, solve_preloads, solve_preloads_on_lines,
-};
+pub use preloads::PRELOADS;
 pub use quantity::Quantity;
 pub use regime_counts::RegimeCounts;
 pub use results::{Merged, Results};
