@@ -70,8 +70,7 @@ impl PaneData {
             }
             PaneData::Costs(scene, _) => {
                 let mut report = |costs: &Costs| report(PaneData::Costs(Arc::clone(&scene), costs.clone()));
-                let costs =
-                    Costs::measure(&scene, folder, stop, &mut report).map_err(|error| error.to_string())?;
+                let costs = Costs::measure(&scene, folder, stop, &mut report)?;
                 PaneData::Costs(scene, costs)
             }
         })

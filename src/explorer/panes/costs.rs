@@ -1,6 +1,6 @@
 //! Cost of accuracy, as far as measured.
 
-use crate::accuracy::{CostError, CostTable, Progress, measure};
+use crate::accuracy::{CostTable, Progress, measure};
 use crate::scene::Scene;
 use std::path::Path;
 use std::sync::Arc;
@@ -30,7 +30,7 @@ impl Costs {
         folder: &Path,
         stop: &dyn Fn() -> bool,
         report: &mut dyn FnMut(&Costs),
-    ) -> Result<Costs, CostError> {
+    ) -> Result<Costs, String> {
         let mut costs = Costs::default();
         let table = measure(scene, folder, BUDGET, stop, &mut |progress| {
             match progress {

@@ -6,7 +6,7 @@ use super::common::scenes::{changed, rough, without_adhesion};
 use super::is_up_to_date;
 use super::stand_in::StandIn;
 use asperity::accuracy::{
-    Choice, ChoiceError, CostError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Reference, Row, Target,
+    Choice, ChoiceError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Reference, Row, Target,
     Timing,
 };
 use asperity::explorer::action::Action;
@@ -39,14 +39,14 @@ fn choose(tolerance: f64, trying: &mut dyn FnMut(u64)) -> Result<Choice, ChoiceE
 }
 
 /// Measures a table of costs in steps.
-fn measuring(measured: Result<CostTable, CostError>) -> StandIn {
+fn measuring(measured: Result<CostTable, String>) -> StandIn {
     StandIn::new(move |data, _, report| {
         let PaneData::Costs(scene, mut costs) = data else { return Ok(data) };
         costs.trying = Some("sub-cell springs: 32 springs".to_owned());
         report(PaneData::Costs(Arc::clone(&scene), costs.clone()));
         costs.table = measured.clone().ok().map(Arc::new);
         report(PaneData::Costs(Arc::clone(&scene), costs.clone()));
-        let table = measured.clone().map_err(|error| error.to_string())?;
+        let table = measured.clone()?;
         Ok(PaneData::Costs(scene, measured_costs(table)))
     })
 }
@@ -91,7 +91,7 @@ fn estimate(error: f64) -> Option<Estimate> {
 fn driver_with(
     document: Document,
     estimate: Option<Estimate>,
-    table: Result<CostTable, CostError>,
+    table: Result<CostTable, String>,
 ) -> Driver {
     let mut driver = Driver::open(document);
     driver.studies = Studies::Inline(Box::new(StandIn { estimate, choose, ..measuring(table) }));
@@ -145,7 +145,7 @@ fn a_scene_with_nothing_to_show_says_so() {
             assert!(driver.text().contains("nothing to show"), "{}", driver.text());
             assert!(driver.text().contains("F_a(0) skipped"), "{}", driver.text());
         }
-        let short = CostError::BudgetTooShort { budget: 10.0, springs: 1 << 27 };
+        let short = "the budget of 10 s is spent".to_owned();
         let mut driver = driver_with(rough(), None, Err(short));
         driver.press("A");
         assert!(driver.text().contains("nothing is measured: the budget of 10 s"), "{}", driver.text());
