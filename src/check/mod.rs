@@ -162,7 +162,8 @@ mod tests {
         assert!(checks.len() >= 30, "{} checks", checks.len());
         for check in checks {
             let verdict = judge(check);
-            let error = verdict.error.as_ref().map_or_else(ToString::to_string, |error| format!("{error:.1e}"));
+            let error =
+                verdict.error.as_ref().map_or_else(ToString::to_string, |error| format!("{error:.1e}"));
             let line = format!("{} {:?}: {error} against {:e}", check.case.name, check.edges, check.bound);
             println!("{line}, {:.1} s", verdict.seconds);
             if !verdict.passes() {

@@ -6,8 +6,7 @@ use super::common::scenes::{changed, rough, without_adhesion};
 use super::is_up_to_date;
 use super::stand_in::StandIn;
 use asperity::accuracy::{
-    Choice, ChoiceError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Reference, Row, Target,
-    Timing,
+    Choice, ChoiceError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Reference, Row, Target, Timing,
 };
 use asperity::explorer::action::Action;
 use asperity::explorer::app::{Estimated, Message, Pane};
@@ -88,11 +87,7 @@ fn estimate(error: f64) -> Option<Estimate> {
     Some(Estimate { target: Target::AdhesionForce, error, near_step: error > 1.0, evidence })
 }
 
-fn driver_with(
-    document: Document,
-    estimate: Option<Estimate>,
-    table: Result<CostTable, String>,
-) -> Driver {
+fn driver_with(document: Document, estimate: Option<Estimate>, table: Result<CostTable, String>) -> Driver {
     let mut driver = Driver::open(document);
     driver.studies = Studies::Inline(Box::new(StandIn { estimate, choose, ..measuring(table) }));
     driver.perform(vec![Effect::Ask]);
