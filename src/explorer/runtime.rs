@@ -11,11 +11,11 @@ use super::study::{Accuracy, Appraiser, Found, PaneData, Study, Task, perform};
 use super::update::{Effect, request, study_tasks, update};
 use super::worker::{Engine, Newest, Report, Request, Worker, WorkerState};
 use super::writing;
-use crate::scene::Library;
+use crate::scene::{own_folder, scenes};
 use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Most springs for an estimate in a demo: above, viewers would have to wait.
 const MOST_ESTIMATED: u64 = 1 << 17;
@@ -213,8 +213,10 @@ impl Runtime {
                 let remembered = remember(&folder.join(&path), appearance).map_err(|error| error.to_string());
                 Action::Remembered(remembered.map(|()| path))
             }
-            Effect::List if folder.as_os_str().is_empty() => Action::Listed(Library::of_environment().list()),
-            Effect::List => Action::Listed(Library::of(None, folder.clone()).list()),
+            Effect::List if folder.as_os_str().is_empty() => {
+                Action::Listed(scenes(own_folder().as_deref(), Path::new(".")))
+            }
+            Effect::List => Action::Listed(scenes(None, folder)),
             Effect::Complete(typed) => Action::Completed(complete(&typed)),
             Effect::Open(name) => {
                 let opened = Opening::of(&name).map(Box::new).map_err(|error| error.to_string());

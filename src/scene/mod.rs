@@ -50,7 +50,7 @@ pub(crate) use errors::nearest;
 pub use errors::{Origin, SceneError, SceneErrors};
 pub use field::{Field, LEG_FORCE, LEG_INDENTATION, Step};
 pub use fields::{FIELDS, MOST_POINTS, SCENE_VERSIONS, field};
-pub use library::{DEFAULT, Entry, Library, Preset, Source, find, presets, typed_path};
+pub use library::{DEFAULT, Entry, Preset, Source, find, own_folder, presets, scenes, typed_path};
 pub use measured::Measured;
 pub use model::*;
 pub(crate) use open::is_file_name;
