@@ -133,8 +133,7 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     };
     let solved = |record: &[Quantity]| {
         let (lines, jobs) = (arguments.lines.map_or(1, u64::from), threads(arguments.jobs));
-        let results =
-            Results::of_scene(&scene, &folder, record, lines, arguments.preloads.as_ref(), jobs);
+        let results = Results::of_scene(&scene, &folder, record, lines, arguments.preloads.as_ref(), jobs);
         results.map_err(|error| CliError::named(document.name(), error))
     };
     if arguments.preloads.is_some() {

@@ -43,7 +43,8 @@ impl PreloadCurve {
         let mut coarse = fine.clone();
         coarse.values = coarse.values.into_iter().step_by(EVERY).collect();
         let begin = |lines: usize, preloads: &Axis| {
-            let results = Results::begin(&computed.scene, &Results::OF_PRELOADS, lines as u64, Some(preloads));
+            let results =
+                Results::begin(&computed.scene, &Results::OF_PRELOADS, lines as u64, Some(preloads));
             results.map_err(|_| "there is not enough memory for the curve")
         };
         let random = computed.scene.seed().map(|_| begin(PROFILES, &coarse)).transpose()?;
