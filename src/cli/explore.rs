@@ -124,7 +124,7 @@ fn restored(folder: Option<&Path>) -> Result<(PathBuf, Vec<Document>), CliError>
 /// defaults and this warning.
 fn config(arguments: &ExploreArguments) -> Result<(Config, Option<String>), CliError> {
     match (&arguments.config, default_path()) {
-        (Some(path), _) => Ok((Config::read(path, true)?, None)),
+        (Some(path), _) => Ok((Config::read(path, true).map_err(CliError::message)?, None)),
         (None, Some(path)) if !arguments.no_config => Ok(match Config::read(&path, false) {
             Ok(config) => (config, None),
             Err(error) => (Config::default(), Some(format!("{error}; defaults are used"))),

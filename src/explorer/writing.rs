@@ -50,7 +50,7 @@ fn write_content(file: &mut dyn Write, app: &App, path: &Path, content: Content)
                 _ => scene_provenance(&command, scene, &folder, destination).map_err(io::Error::other)?,
             };
             let (title, outcome) = (document.title(), &computed()?.outcome);
-            let estimate = app.studies.appraisal.estimate();
+            let estimate = app.studies.value();
             let report = RunReport { title, scene, outcome, choice: None, estimate };
             export::write(file, &report, format, &provenance)
         }
@@ -58,7 +58,7 @@ fn write_content(file: &mut dyn Write, app: &App, path: &Path, content: Content)
             let figure = app.figure().ok_or_else(|| io::Error::other("the pane is empty"))?;
             export::write(file, &figure, format, "")
         }
-        Content::MapCells => export::write(file, app.chart.grid().ok_or_else(no_map)?, Format::Csv, ""),
+        Content::MapCells => export::write(file, app.grid().ok_or_else(no_map)?, Format::Csv, ""),
         Content::Text => file.write_all(text(&picture_of(app)).as_bytes()),
     }
 }

@@ -16,8 +16,7 @@ impl Comparison<'_> {
     fn words(&self) -> String {
         let [first, second] = self.0;
         let changes = first.0.changes_to(second.0);
-        let changes: Vec<String> =
-            changes.iter().map(|change| format!("{} {} → {}", change.name, change.from, change.to)).collect();
+        let changes: Vec<String> = changes.iter().map(ToString::to_string).collect();
         let changes = if changes.is_empty() { "nothing".to_owned() } else { changes.join(", ") };
         let forces = [first, second].map(|(_, outcome)| outcome.figures.adhesion_force);
         format!(

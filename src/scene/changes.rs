@@ -6,6 +6,7 @@ use super::fields::fields_inside;
 use super::model::{Move, Roughness, Scene};
 use super::quantity::format_quantity;
 use super::tree::{Tree, in_ron};
+use std::fmt;
 
 /// A field with different values in two scenes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,6 +23,12 @@ impl Change {
     fn of(field: &Field, values: [String; 2]) -> Change {
         let [from, to] = values.map(|value| with_unit(field, &value));
         Change { name: symbol_or_name(field).to_owned(), from, to }
+    }
+}
+
+impl fmt::Display for Change {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "{} {} → {}", self.name, self.from, self.to)
     }
 }
 

@@ -48,7 +48,7 @@ pub use document::{Document, LONGEST_TEXT};
 pub use effects::Effect;
 pub(crate) use errors::nearest;
 pub use errors::{Origin, SceneError, SceneErrors};
-pub use field::{Field, LEG_FORCE, LEG_INDENTATION, Step};
+pub use field::{Field, LEG_FORCE, LEG_INDENTATION, Step, stage_targets};
 pub use fields::{FIELDS, MOST_POINTS, SCENE_VERSIONS, field};
 pub use library::{DEFAULT, Entry, Preset, Source, find, own_folder, presets, scenes, typed_path};
 pub use measured::Measured;
