@@ -37,8 +37,10 @@ pub static ROW: PaneRow = PaneRow {
 };
 
 fn report(app: &App) -> Exported<'_> {
-    let curve = app.studies.value::<PreloadCurve>().filter(|curve| curve.is_whole())?;
-    let results = curve.random.as_ref().unwrap_or(&curve.own);
+    let curve = app.studies.value::<PreloadCurve>()?;
+    // The mean once all random profiles are computed, until then the profile of the scene.
+    let whole = |results: &&Results| results.is_whole(0);
+    let results = curve.random.as_ref().filter(whole).or(Some(&curve.own).filter(whole))?;
     let report = PreloadReport { title: app.edit.document.title(), choice: None, results };
     Some(("asperity run", Box::new(report)))
 }
