@@ -237,8 +237,7 @@ impl Plot {
         let plot = place.plot;
         in_theme(look, |style| {
             place.draw(buffer, &self.chart, style);
-            let names: Vec<_> = self.names.iter().map(|(at, name, ink)| (*at, name.as_str(), *ink)).collect();
-            place.draw_names(buffer, &self.chart, style, &names);
+            place.draw_names(buffer, &self.chart, style, &self.names);
             if let Some((chart, right)) = self.beside.as_ref().zip(right) {
                 (plot.y..plot.bottom()).for_each(|y| {
                     buffer.set_string(right.x, y, "│", (style.ink)(Ink::Quiet));
