@@ -178,7 +178,7 @@ pub struct App {
     pub finished: bool,
     /// Effects of the present action.
     pub(super) effects: Vec<Effect>,
-    /// What the solver was asked for last.
+    /// The state that the solver was asked for last.
     pub(super) asked: Option<Awaited>,
 }
 
