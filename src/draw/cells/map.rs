@@ -116,13 +116,13 @@ fn crosses(map: &HeatMap, cell: usize, other: usize) -> bool {
     below(cell).zip(below(other)).is_some_and(|(here, there)| here != there)
 }
 
+/// Every n-th value at its cell, so that neighbouring numbers have the same distance.
 fn texts(axis: &Axis, values: &[f64], cells: u16) -> Vec<(u16, String)> {
     let (divisor, _) = axis.prefix();
-    let place = |(value, number): (usize, &f64)| {
-        let cells = cells_of(value, cells, values.len());
-        (!cells.is_empty()).then(|| ((cells.start + cells.len() / 2) as u16, short(number / divisor)))
-    };
-    values.iter().enumerate().filter_map(place).collect()
+    let every = values.len().div_ceil(cells.max(1).into()).max(1);
+    let at = |value: usize| cell_of(value as f64, cells, values.len());
+    let values = values.iter().enumerate().step_by(every);
+    values.map(|(value, number)| (at(value), short(number / divisor))).collect()
 }
 
 /// Columns with their values.
