@@ -165,7 +165,7 @@ mod tests {
         to_ascii(&mut buffer);
         let symbols: Vec<&str> = buffer.content.iter().map(|cell| cell.symbol()).collect();
         assert_eq!(symbols, ["?", " ", "e", "?", " ", "?", " ", "x"]);
-        assert!(buffer.content.iter().all(|cell| cell.fg == Color::Red));
+        assert_eq!(buffer[(4, 1)].fg, Color::Red);
     }
 
     proptest! {
