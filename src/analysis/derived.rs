@@ -27,7 +27,7 @@ pub const LEAST_TABOR_NUMBER: f64 = 5.0;
 #[must_use]
 pub fn scene_tabor_number(scene: &Scene, governing: &Governing) -> Option<f64> {
     let (radius, work) = (curvature_radius(scene.form.as_ref(), governing)?, governing.adhesive_work()?);
-    let range = scene.adhesion?.range().unwrap_or(DEFAULT_RANGE);
+    let range = scene.adhesion?.range.unwrap_or(DEFAULT_RANGE);
     Some(tabor_number(radius, work, governing.effective_modulus, range)).filter(|number| number.is_finite())
 }
 

@@ -36,10 +36,8 @@ impl Governing {
                 return None;
             };
             let by_adhesion = || {
-                let Some(Adhesion::Work { work, amplitude: Some((parameter, value)), .. }) = scene.adhesion
-                else {
-                    return None;
-                };
+                let adhesion = scene.adhesion?;
+                let (work, (parameter, value)) = adhesion.work.zip(adhesion.parameter())?;
                 let per_square = energy_of(parameter, unit, effective_modulus);
                 Some(parameter.energy_over_work(value).sqrt() * (work / per_square).sqrt())
             };
@@ -63,19 +61,17 @@ impl Governing {
     /// The same profile with another adhesion.
     #[must_use]
     pub fn with_adhesion(self, adhesion: Option<Adhesion>) -> Self {
-        let given = adhesion.and_then(|adhesion| adhesion.parameter());
-        let work_of_adhesion = match adhesion {
-            Some(Adhesion::Work { work, .. }) => Some(work),
-            Some(Adhesion::Parameter { parameter, value, .. }) => self.work_for(parameter, value),
-            None => None,
-        };
+        let adhesion = adhesion.unwrap_or_default();
+        let given = adhesion.parameter();
+        let by_parameter = || given.and_then(|(parameter, value)| self.work_for(parameter, value));
+        let work_of_adhesion = adhesion.work.or_else(by_parameter);
         let value = |parameter: RoughnessParameter| match given {
             Some((same, value)) if same == parameter => Some(value),
             _ => value_of(parameter, self.energy(parameter)?, work_of_adhesion?),
         };
         Governing {
             work_of_adhesion,
-            closing_work: adhesion.and_then(|adhesion| adhesion.closing_work()),
+            closing_work: adhesion.closing_work,
             kappa: value(RoughnessParameter::Kappa),
             elastic_energy_ratio: value(RoughnessParameter::ElasticEnergyRatio),
             ..self

@@ -45,7 +45,7 @@ pub const CASES: &[Case] = &[
 ];
 
 fn power_law(scene: &Scene) -> Measured<PowerLaw> {
-    let work = scene.adhesion.and_then(|adhesion| adhesion.work()).unwrap_or(0.0);
+    let work = scene.adhesion.and_then(|adhesion| adhesion.work).unwrap_or(0.0);
     let modulus = scene.material.effective_modulus();
     let closed = scene.form.as_ref().and_then(|form| PowerLaw::of(form, modulus, work));
     Ok(closed.ok_or("no closed form")?)

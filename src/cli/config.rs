@@ -1,8 +1,7 @@
 //! `asperity config`: the configuration file of the explorer.
 
 use super::CliError;
-use crate::explorer::FRAME_RATE;
-use crate::explorer::config::{Config, ConfigError, default_path, text_of, write_template};
+use crate::explorer::config::{Config, ConfigError, default_path, write_template};
 use crate::explorer::theme::Appearance;
 use clap::Args;
 use std::io::Write;
@@ -32,14 +31,12 @@ pub(super) fn config(arguments: &ConfigArguments, stdout: &mut dyn Write) -> Res
         write_template(&path)?;
         return Ok(writeln!(stdout, "{}: written", path.display())?);
     }
-    let config = Config::read(&path, arguments.file.is_some())?;
+    let mut config = Config::read(&path, arguments.file.is_some())?;
     let environment = Appearance::of_environment();
-    let appearance = Appearance {
-        theme: config.theme.unwrap_or(environment.theme),
-        marker: config.marker.unwrap_or(environment.marker),
-    };
+    config.theme.get_or_insert(environment.theme);
+    config.markers.get_or_insert(environment.marker);
     let is_there = if path.is_file() { "" } else { ", which does not exist: defaults" };
     writeln!(stdout, "// {}{is_there}", path.display())?;
-    let text = text_of(&config, appearance, config.frame_rate.unwrap_or(FRAME_RATE));
+    let text = config.text().map_err(|error| CliError::Message(error.to_string()))?;
     Ok(stdout.write_all(text.as_bytes())?)
 }

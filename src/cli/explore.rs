@@ -6,7 +6,7 @@ use crate::explorer::config::{Config, default_path};
 use crate::explorer::theme::{Marker, Theme};
 use crate::explorer::{self, Opening, OpeningError, Options};
 use crate::export::brief_summary;
-use crate::scene::{DEFAULT, Document, quoted};
+use crate::scene::{Document, quoted};
 use clap::{Args, CommandFactory};
 use std::fmt::Display;
 use std::io::{IsTerminal, Write, stdin, stdout};
@@ -74,8 +74,7 @@ pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Resu
     let restored = if arguments.restore { Some(restored(unsaved.as_deref())?) } else { None };
     let first = restored.as_ref().and_then(|(_, documents)| documents.first().cloned());
     let (config, warning) = config(arguments)?;
-    let scene = config.scene.as_deref();
-    let opening = first.map_or_else(|| opening(arguments, scene), |document| Ok(document.into()))?;
+    let opening = first.map_or_else(|| opening(arguments, &config.scene), |document| Ok(document.into()))?;
     if !stdin().is_terminal() || !stdout().is_terminal() {
         let name = quoted(opening.document.name());
         let (command, does) = match opening.study_map {
@@ -134,8 +133,8 @@ fn config(arguments: &ExploreArguments) -> Result<(Config, Option<String>), CliE
     }
 }
 
-fn opening(arguments: &ExploreArguments, default: Option<&str>) -> Result<Opening, CliError> {
-    let name = arguments.scene.as_deref().or(default).unwrap_or(DEFAULT);
+fn opening(arguments: &ExploreArguments, default: &str) -> Result<Opening, CliError> {
+    let name = arguments.scene.as_deref().unwrap_or(default);
     let mut opening = Opening::of_argument(name).map_err(|error| match error {
         OpeningError::Scene(errors) => {
             // A single word that is no scene may be a misspelt command.

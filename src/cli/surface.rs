@@ -6,10 +6,10 @@ use super::{CliError, OutputArguments};
 use crate::export::{Format, MeasuredFace, SurfaceFile, SurfaceReport, named_from};
 use crate::io::write_new;
 use crate::scene::{
-    Adhesion, Document, Material, Move, Numerics, Roughness, SCENE_VERSIONS, Scene, parse_quantity,
+    Adhesion, Document, Material, Measured, Move, Numerics, Roughness, SCENE_VERSIONS, Scene, parse_quantity,
 };
-use crate::simulation::{equivalent_springs, measured_roughness_options};
-use crate::spectrum::{Detrend, Options, analyse};
+use crate::simulation::equivalent_springs;
+use crate::spectrum::analyse;
 use crate::study::MeasuredAdhesion;
 use crate::surface::{EquivalentLine, MeasuredOptions};
 use crate::text::path_name;
@@ -48,7 +48,23 @@ pub struct SurfaceArguments {
     #[arg(long, value_name = "FILE")]
     pub opposite: Option<PathBuf>,
     #[command(flatten)]
-    pub options: SurfaceOptions,
+    pub measured: Measured,
+    /// Distance between points where a file states none, such as 0.5um
+    ///
+    /// Lengths without a unit are in --unit, here and below.
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    pub spacing: Option<Length>,
+    /// Continue the spectrum as a power law down to this wavelength
+    ///
+    /// Default: the spectrum ends at the last resolved wave.
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    pub continue_to: Option<Length>,
+    /// Radius of the tip, such as 10nm, for the reliability cut-off
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    pub tip_radius: Option<Length>,
+    /// Effective modulus E*, such as 2.7MPa, for the elastic energy
+    #[arg(long, value_name = "PRESSURE", value_parser = |text: &str| positive(text, "Pa"))]
+    pub modulus: Option<f64>,
     /// text, json, csv, npy, svg or png; default: by the extension of FILE
     ///
     /// Text is a summary for a person. JSON is one object with statistics, fit, spectra and
@@ -81,56 +97,6 @@ pub struct SurfaceArguments {
     pub force_scene: bool,
 }
 
-/// Reading and analysis of the files.
-#[derive(Args, Debug)]
-pub struct SurfaceOptions {
-    /// Unit of lengths where a file states none: m, cm, mm, um, nm, Å, pm
-    #[arg(long)]
-    pub unit: Option<Unit>,
-    /// Unit of heights where a file states none; default: as --unit
-    #[arg(long, value_name = "UNIT")]
-    pub height_unit: Option<Unit>,
-    /// Distance between points where a file states none, such as 0.5um
-    ///
-    /// Lengths without a unit are in --unit, here and below.
-    #[arg(long, value_name = "LENGTH", value_parser = length)]
-    pub spacing: Option<Length>,
-    /// Fill missing points from their neighbours
-    #[arg(long)]
-    pub interpolate: bool,
-    /// Resample uneven profiles linearly at their mean distance
-    #[arg(long)]
-    pub resample: bool,
-    /// Channel of files with several, by its number
-    #[arg(long, value_name = "NUMBER")]
-    pub channel: Option<u32>,
-    /// Row of maps to use as the profile, from 1
-    #[arg(long, value_name = "NUMBER", conflicts_with = "column", value_parser = clap::value_parser!(u64).range(1..))]
-    pub row: Option<u64>,
-    /// Column of maps to use as the profile, from 1
-    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u64).range(1..))]
-    pub column: Option<u64>,
-    /// Part of the heights to remove: none, mean, tilt or curvature
-    ///
-    /// Default: tilt, or mean with --periodic.
-    #[arg(long, value_enum, hide_possible_values = true)]
-    pub detrend: Option<Detrend>,
-    /// Treat the surface as periodic, without a window
-    #[arg(long)]
-    pub periodic: bool,
-    /// Continue the spectrum as a power law down to this wavelength
-    ///
-    /// Default: the spectrum ends at the last resolved wave.
-    #[arg(long, value_name = "LENGTH", value_parser = length)]
-    pub continue_to: Option<Length>,
-    /// Radius of the tip, such as 10nm, for the reliability cut-off
-    #[arg(long, value_name = "LENGTH", value_parser = length)]
-    pub tip_radius: Option<Length>,
-    /// Effective modulus E*, such as 2.7MPa, for the elastic energy
-    #[arg(long, value_name = "PRESSURE", value_parser = |text: &str| positive(text, "Pa"))]
-    pub modulus: Option<f64>,
-}
-
 /// Formats of the results: text, one object with everything, the spectra as a table and as a picture.
 const FORMATS: &[Format] = &Format::ALL;
 
@@ -145,7 +111,7 @@ pub struct Length {
 impl SurfaceArguments {
     /// The value of an option in m.
     fn in_metres(&self, option: &str, length: Option<Length>) -> Result<Option<f64>, CliError> {
-        match (length, self.options.unit) {
+        match (length, self.measured.unit.parse::<Unit>().ok()) {
             (Some(Length { value, has_unit: true }), _) => Ok(Some(value)),
             (Some(Length { value, .. }), Some(unit)) => Ok(Some(unit.to_metres(value))),
             (None, _) => Ok(None),
@@ -156,10 +122,9 @@ impl SurfaceArguments {
         }
     }
 
-    /// The surfaces with all options as the roughness of a scene; the files have the names of the command line.
-    fn roughness(&self) -> Result<Roughness, CliError> {
-        let options = &self.options;
-        let continue_to = self.in_metres("--continue-to", options.continue_to)?;
+    /// The surfaces with all options; the files have the names of the command line.
+    fn surfaces(&self) -> Result<Measured, CliError> {
+        let continue_to = self.in_metres("--continue-to", self.continue_to)?;
         if let Some(length) = continue_to.filter(|length| !(1e-15..=10.0).contains(length)) {
             return Err(CliError::named(
                 format!("--continue-to: {length:e} m"),
@@ -167,25 +132,14 @@ impl SurfaceArguments {
             ));
         }
         let name = |file: &PathBuf| file.to_string_lossy().into_owned();
-        let unit = |unit: Option<Unit>| unit.map_or_else(String::new, |unit| unit.name().to_owned());
         let mut files = self.files.iter().map(name);
-        Ok(Roughness::Measured {
+        Ok(Measured {
             file: files.next().unwrap_or_default(),
             further_files: files.collect(),
-            as_line: None,
             opposite: self.opposite.as_ref().map(name),
-            row: options.row,
-            column: options.column,
-            detrend: options.detrend,
-            periodic: options.periodic,
-            unit: unit(options.unit),
-            height_unit: unit(options.height_unit),
-            spacing: self.in_metres("--spacing", options.spacing)?,
-            interpolate: options.interpolate,
-            resample: options.resample,
-            channel: options.channel.map(u64::from),
+            spacing: self.in_metres("--spacing", self.spacing)?,
             continue_to,
-            seed: 1,
+            ..self.measured.clone()
         })
     }
 
@@ -207,7 +161,7 @@ impl SurfaceArguments {
     /// Scene of the equivalent line over the length of the scan, the shorter one of two faces.
     fn scene_of(
         &self,
-        roughness: Roughness,
+        measured: Measured,
         modulus: f64,
         faces: &[MeasuredFace],
         line: &EquivalentLine,
@@ -221,7 +175,7 @@ impl SurfaceArguments {
             material: Material::effective(modulus),
             length,
             form: None,
-            roughness: Some(roughness),
+            roughness: Some(Roughness::Measured(measured)),
             adhesion: self.work.map(Adhesion::by_work),
             loading: vec![self.preload.map_or(Move::ToZeroForce, Move::ToForce), Move::ToSeparation],
             numerics: Numerics { points: equivalent_springs(line, length), ..Numerics::default() },
@@ -237,17 +191,16 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     if let Some(file) = &arguments.scene {
         check_file(file, "ron", arguments.force_scene)?;
     }
-    let roughness = arguments.roughness()?;
-    let tip_radius = arguments.in_metres("--tip-radius", arguments.options.tip_radius)?;
-    let MeasuredOptions { reading, spectrum, .. } = measured_roughness_options(&roughness, false);
-    let options = MeasuredOptions { as_line: None, reading, spectrum: Options { tip_radius, ..spectrum } };
+    let measured = arguments.surfaces()?;
+    let mut options = measured.options(false);
+    options.spectrum.tip_radius = arguments.in_metres("--tip-radius", arguments.tip_radius)?;
     let mut faces = vec![face(&arguments.files, &options)?];
     if let Some(opposite) = &arguments.opposite {
         faces.push(face(std::slice::from_ref(opposite), &options)?);
     }
     let line = EquivalentLine { faces: faces.iter().map(|face| face.analysis.isotropic.clone()).collect() };
-    let modulus = arguments.options.modulus;
-    let scene = modulus.map(|modulus| arguments.scene_of(roughness, modulus, &faces, &line));
+    let modulus = arguments.modulus;
+    let scene = modulus.map(|modulus| arguments.scene_of(measured, modulus, &faces, &line));
     if let (Some(file), Some(scene)) = (&arguments.scene, &scene) {
         write_scene(file, scene.clone(), arguments.force_scene)?;
     }

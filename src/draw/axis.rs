@@ -75,6 +75,43 @@ impl Axis {
     }
 }
 
+/// A place in a chart: shares of both axes, 0 to 1.
+pub(super) type Share = (f64, f64);
+
+/// Two axes, across and up.
+#[derive(Clone, Copy)]
+pub(super) struct Axes<'a> {
+    pub x: &'a Axis,
+    pub y: &'a Axis,
+}
+
+impl Axes<'_> {
+    /// Place of a point, at the border for a point outside; `None` without coordinates.
+    pub(super) fn place(self, (x, y): (f64, f64)) -> Option<Share> {
+        self.y.share(y).is_finite().then(|| self.place_at_end((x, y))).flatten()
+    }
+
+    /// Place of a point; a y without a coordinate is at the end of the axis.
+    pub(super) fn place_at_end(self, (x, y): (f64, f64)) -> Option<Share> {
+        let (x, y) = (self.x.share(x), self.y.share(y));
+        x.is_finite().then(|| (x.clamp(0.0, 1.0), if y.is_nan() { 0.0 } else { y.clamp(0.0, 1.0) }))
+    }
+
+    /// Places of points, in runs that end where a point has no coordinates.
+    pub(super) fn runs(self, points: impl Iterator<Item = (f64, f64)>) -> Vec<Vec<Share>> {
+        let places: Vec<Option<Share>> = points.map(|point| self.place(point)).collect();
+        let runs = places.split(Option::is_none).map(|run| run.iter().flatten().copied().collect());
+        runs.filter(|run: &Vec<Share>| !run.is_empty()).collect()
+    }
+
+    /// Ends of a guide across the chart, upright or level; `None` outside.
+    pub(super) fn guide(self, at: f64, upright: bool) -> Option<[Share; 2]> {
+        let share = if upright { self.x.share(at) } else { self.y.share(at) };
+        let ends = if upright { [(share, 0.0), (share, 1.0)] } else { [(0.0, share), (1.0, share)] };
+        (0.0..=1.0).contains(&share).then_some(ends)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -94,6 +131,6 @@ mod tests {
         let share = Axis::new(AxisScale::Linear, Span { low: 0.0, high: 7e18 }, "", "F_a/F_n", "1");
         assert_eq!(share.label_with_unit().to_string(), "F_a/F_n (10¹⁸)");
         let labels: Vec<_> = axis.ticks(5).into_iter().filter_map(|tick| tick.label).collect();
-        assert_eq!(labels.iter().map(Label::to_string).collect::<Vec<_>>(), ["−3", "−2", "−1", "0", "1"]);
+        assert_eq!(labels.iter().map(Label::to_string).collect::<Vec<_>>(), ["-3", "-2", "-1", "0", "1"]);
     }
 }

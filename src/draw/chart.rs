@@ -68,6 +68,15 @@ impl Chart {
         Chart { heading: Label::default(), x, y, layers, inset: None }
     }
 
+    /// The chart with symbols alone on its axes, where they have symbols.
+    #[must_use]
+    pub fn with_symbols(mut self) -> Chart {
+        for axis in [&mut self.x, &mut self.y] {
+            axis.label = axis.label.without_name();
+        }
+        self
+    }
+
     /// The heat map of a map.
     #[must_use]
     pub fn map(&self) -> Option<&HeatMap> {

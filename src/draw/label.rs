@@ -1,6 +1,6 @@
 //! Text of figures: italic symbols, indices and exponents, SI prefixes, numbers.
 
-use crate::text::{printable, round_to, si_prefix};
+use crate::text::{grouped, printable, round_to, si_prefix};
 use std::fmt;
 
 /// Powers of ten of the smallest and the largest prefix on an axis, femto and giga.
@@ -45,7 +45,6 @@ impl Label {
             } else if character.is_alphabetic() {
                 label.push(Face::Italic, character.encode_utf8(&mut [0; 4]));
             } else {
-                let character = if character == '-' { '−' } else { character };
                 label.push(Face::Upright, character.encode_utf8(&mut [0; 4]));
             }
         }
@@ -89,7 +88,7 @@ impl Label {
     #[must_use]
     pub fn power_of_ten(exponent: i32) -> Label {
         let mut label = Label::plain("10");
-        label.push(Face::Exponent, &exponent.to_string().replace('-', "−"));
+        label.push(Face::Exponent, &exponent.to_string());
         label
     }
 
@@ -196,7 +195,7 @@ fn width(character: char) -> f64 {
 fn raised(character: char) -> char {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     match character {
-        '−' => '⁻',
+        '-' => '⁻',
         c => c.to_digit(10).map_or(c, |digit| DIGITS[digit as usize]),
     }
 }
@@ -227,9 +226,7 @@ pub fn short(value: f64) -> String {
         return if value == 0.0 { "0".into() } else { value.to_string() };
     }
     let rounded = round_to(value, 3);
-    let text =
-        if (1e-3..1e5).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") };
-    text.replace('-', "−")
+    if (1e-3..1e5).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 
 /// A number with the decimals of `step`.
@@ -238,16 +235,15 @@ pub fn number(value: f64, step: f64) -> String {
     let decimals = (-step.abs().log10() - 1e-9).ceil().clamp(0.0, 12.0) as usize;
     let text = format!("{value:.decimals$}");
     let zero = text.trim_start_matches('-').chars().all(|digit| matches!(digit, '0' | '.'));
-    if zero { text.trim_start_matches('-').to_owned() } else { text.replace('-', "−") }
+    if zero { text.trim_start_matches('-').to_owned() } else { text }
 }
 
 /// A value with its symbol, or with its name if `symbol` is empty: `H = 0.3`, `points 12.5 µN`.
 #[must_use]
 pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
     let (divisor, unit) = prefixed(unit, value.abs());
-    // Counts are exact.
-    let exact = unit.is_empty() && value.fract() == 0.0 && value.abs() < 1e8;
-    let number = if exact { number(value, 1.0) } else { short(value / divisor) };
+    let is_count = unit.is_empty() && value.fract() == 0.0 && (0.0..1e8).contains(&value);
+    let number = if is_count { grouped(value as u64) } else { short(value / divisor) };
     let space = if unit.is_empty() { "" } else { " " };
     let label =
         if symbol.is_empty() { Label::plain(name).then(" ") } else { Label::symbol(symbol).then(" = ") };
@@ -305,15 +301,15 @@ mod tests {
     fn numbers_have_the_digits_they_need() {
         assert_eq!(
             [0.0, 0.30000000000000004, 12345.6, 1.5e-6, -2.0].map(short),
-            ["0", "0.3", "12300", "1.5e−6", "−2"]
+            ["0", "0.3", "12300", "1.5e-6", "-2"]
         );
         assert_eq!(number(0.30000000000000004, 0.1), "0.3");
-        assert_eq!(number(-0.5, 0.05), "−0.50");
+        assert_eq!(number(-0.5, 0.05), "-0.50");
         assert_eq!(number(20.0, 10.0), "20");
         assert_eq!(number(-1e-18, 0.2), "0.0");
         let text = |symbol: &str, unit: &str, value| value_label("points", symbol, unit, value).to_string();
-        assert_eq!(text("N", "1", 65536.0), "N = 65536");
-        assert_eq!(text("N", "1", -2.0), "N = −2");
+        assert_eq!(text("N", "1", 65536.0), "N = 65 536");
+        assert_eq!(text("N", "1", -2.0), "N = -2");
         assert_eq!(text("", "N", 1.25e-5), "points 12.5 µN");
         assert_eq!(text("H", "", 0.12345), "H = 0.123");
     }

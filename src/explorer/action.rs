@@ -1,22 +1,23 @@
 //! Everything that can happen to the explorer.
 
-use super::command::Command;
+use super::keys::Command;
 use super::opening::Opening;
 use super::snapshot::Report;
 use super::study::Found;
 use crate::export::Format;
 use crate::scene::Entry;
+use crossterm::event::KeyEvent;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Event: a command of the user, a report from outside, or elapsed time.
+/// Event: input of the user, a report from outside, or elapsed time.
 #[derive(Clone, Debug)]
 pub enum Action {
-    /// A command from a key.
+    /// A key.
+    Key(KeyEvent),
+    /// A command by its name.
     Command(Command),
-    /// A character typed into a line of text.
-    Type(char),
-    /// Text pasted into a line of text.
+    /// Text for the line being typed.
     Paste(String),
     /// The terminal has another size.
     Resize(u16, u16),

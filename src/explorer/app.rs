@@ -5,7 +5,6 @@ use super::adhesion_spread::AdhesionSpread;
 pub use super::appraisal::{Appraisal, Estimated};
 pub use super::chart::{Chart, OpenStudy};
 use super::config::Config;
-pub use super::mode::{Mode, ModeKind};
 pub use super::panes::Pane;
 use super::panes::PreloadCurve;
 use super::parameters::{Parameter, Setting, parameters};
@@ -19,7 +18,7 @@ use super::theme::Appearance;
 use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
 use crate::export::LoopQuantities;
-use crate::scene::{Adhesion, Document, Observer, Scene, ron_float};
+use crate::scene::{Document, Observer, Scene, ron_float};
 use crate::simulation::Outcome;
 use crate::study::{Axis, Place};
 use std::collections::{BTreeMap, BTreeSet};
@@ -100,6 +99,8 @@ pub enum Message {
     Done(String),
     /// Failure.
     Error(String),
+    /// A refused change of the selected parameter.
+    Refused(String),
 }
 
 /// The scene as edited, its history, and its list of parameters.
@@ -125,8 +126,6 @@ pub struct Editor {
     pub selected: usize,
     /// Groups of parameters of which only the first row is listed.
     pub folded: BTreeSet<&'static str>,
-    /// Error of a refused value, and the index of its parameter.
-    pub refused: Option<(usize, String)>,
 }
 
 /// Shown panes, their parts, and their appearance.
@@ -144,6 +143,8 @@ pub struct View {
     pub size: (u16, u16),
     /// Colours and markers.
     pub appearance: Appearance,
+    /// True where octants have no known width: `M` skips them.
+    pub lacks_octants: bool,
     /// Target of the close-up.
     pub look: CloseUpTarget,
     /// Part of the line in the profile pane.
@@ -208,8 +209,8 @@ pub struct App {
     pub tried: Option<Tried>,
     /// The newest outcome of a tried scene.
     pub preview: Option<Arc<Preview>>,
-    /// Present mode.
-    pub mode: Mode,
+    /// The line being typed, or the question.
+    pub prompt: Option<Prompt>,
     /// A line for the user.
     pub message: Option<Message>,
     /// Keys, speed of the animation, and file of the configuration.
@@ -235,7 +236,6 @@ impl App {
                 generation: 1,
                 selected: 0,
                 folded: BTreeSet::new(),
-                refused: None,
             },
             play: Player::START,
             manual: None,
@@ -246,6 +246,7 @@ impl App {
                 zoomed: false,
                 size,
                 appearance,
+                lacks_octants: false,
                 look: CloseUpTarget { focus: Focus::Summit, springs },
                 profile: LineView::WHOLE,
                 curve: CurveLook::default(),
@@ -265,7 +266,7 @@ impl App {
             opens_beside: None,
             tried: None,
             preview: None,
-            mode: Mode::Explore,
+            prompt: None,
             message: None,
             config: Config::default(),
             finished: false,
@@ -282,9 +283,21 @@ impl App {
         self.message = Some(Message::Error(why.into()));
     }
 
+    /// Returns true if the last change of a parameter was refused.
+    #[must_use]
+    pub fn is_refused(&self) -> bool {
+        matches!(self.message, Some(Message::Refused(_)))
+    }
+
+    /// Returns true while the value of the selected parameter is typed.
+    #[must_use]
+    pub fn is_typing_value(&self) -> bool {
+        self.prompt.as_ref().is_some_and(|prompt| matches!(prompt.purpose, Purpose::Value))
+    }
+
     /// Opens a prompt.
     pub(super) fn ask(&mut self, purpose: Purpose, line: TextLine) {
-        self.mode = Mode::Prompt(Prompt::new(purpose, line, &self.edit.parameters));
+        self.prompt = Some(Prompt::new(purpose, line, &self.edit.parameters));
     }
 
     /// Governing parameters of the present scene from the newest computation, which must have the same line; its
@@ -301,7 +314,7 @@ impl App {
             && before.form == now.form
             && before.material == now.material;
         // An rms height that follows from γ and κ or e_el/γ changes with them.
-        let both = |scene: &Scene| matches!(scene.adhesion, Some(Adhesion::Work { amplitude: Some(_), .. }));
+        let both = |scene: &Scene| scene.adhesion.is_some_and(|adhesion| adhesion.sets_amplitude());
         if !same_line || ((both(before) || both(now)) && before.adhesion != now.adhesion) {
             return None;
         }
@@ -331,10 +344,9 @@ impl App {
     #[must_use]
     pub fn tried_outcome(&self) -> Option<&Outcome> {
         let preview = self.preview.as_ref()?;
-        let is_shown = match self.mode {
-            Mode::Prompt(_) => self.mode.is_typing_value() && self.tried.is_some(),
-            Mode::Explore => self.is_computing() && preview.text == self.edit.document.text(),
-            _ => false,
+        let is_shown = match self.prompt {
+            Some(_) => self.is_typing_value() && self.tried.is_some(),
+            None => self.is_computing() && preview.text == self.edit.document.text(),
         };
         preview.outcome.as_ref().ok().filter(|_| is_shown)
     }

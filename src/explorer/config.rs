@@ -4,9 +4,11 @@
 use super::keys::Bindings;
 use super::theme::{Appearance, Marker, Theme};
 use crate::io::{WriteError, read_regular_text, write_new};
-use crate::scene::{Text, describe_error, line_column, read_ron, ron_string};
+use crate::scene::{DEFAULT, Text, describe_error, line_column, read_ron};
 use etcetera::{BaseStrategy, choose_base_strategy};
-use serde::Deserialize;
+use ron::extensions::Extensions;
+use ron::ser::PrettyConfig;
+use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -34,69 +36,54 @@ pub const TEMPLATE: &str = r#"// Configuration of the explorer. A field that is 
 )
 "#;
 
-/// Fields in the order of the template.
-const ORDER: [&str; 8] = ["version", "theme", "markers", "frame_rate", "speed", "repeat", "scene", "keys"];
-
-/// The file as written.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ConfigFile {
+/// Configuration of the explorer.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Config {
     version: u32,
-    #[serde(default)]
-    theme: Option<Theme>,
-    #[serde(default)]
-    markers: Option<Marker>,
-    #[serde(default)]
-    frame_rate: Option<u32>,
-    #[serde(default)]
-    speed: Option<f64>,
-    #[serde(default)]
-    repeat: bool,
-    #[serde(default)]
-    scene: Option<String>,
-    #[serde(default)]
+    /// Colours.
+    pub theme: Option<Theme>,
+    /// Markers.
+    pub markers: Option<Marker>,
+    /// Frames per second of the animation.
+    pub frame_rate: u32,
+    /// Speed of the animation; 1 takes six seconds for a loading stage.
+    pub speed: f64,
+    /// True if the animation begins again at its end.
+    pub repeat: bool,
+    /// Scene that opens where none is named.
+    pub scene: String,
     keys: Vec<KeySetting>,
+    /// The file; `None` where no configuration is read or written.
+    #[serde(skip)]
+    pub path: Option<PathBuf>,
+    /// All keys.
+    #[serde(skip)]
+    pub bindings: Bindings,
 }
 
 /// Keys of an action.
-#[derive(Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct KeySetting {
     action: String,
     keys: Vec<String>,
 }
 
-/// Configuration of the explorer.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Config {
-    /// The file; `None` where no configuration is read or written.
-    pub path: Option<PathBuf>,
-    /// Colours.
-    pub theme: Option<Theme>,
-    /// Markers.
-    pub marker: Option<Marker>,
-    /// Frames per second of the animation.
-    pub frame_rate: Option<u32>,
-    /// Speed and end of the animation.
-    pub animation: Animation,
-    /// Scene that opens where none is named.
-    pub scene: Option<String>,
-    /// Keys.
-    pub bindings: Bindings,
-}
-
-/// Speed and end of the animation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Animation {
-    /// Speed; 1 takes six seconds for a loading stage.
-    pub speed: f64,
-    /// True if the animation begins again at its end.
-    pub repeats: bool,
-}
-
-impl Default for Animation {
+impl Default for Config {
     fn default() -> Self {
-        Animation { speed: 1.0, repeats: false }
+        Config {
+            version: VERSION,
+            theme: None,
+            markers: None,
+            frame_rate: 30,
+            speed: 1.0,
+            repeat: false,
+            scene: DEFAULT.to_owned(),
+            keys: Vec::new(),
+            path: None,
+            bindings: Bindings::default(),
+        }
     }
 }
 
@@ -164,7 +151,7 @@ impl Config {
             let (line, column) = line_column(text, offset);
             ConfigError::Wrong { path: path.display().to_string(), line, column, message }
         };
-        let file: ConfigFile = read_ron(text).map_err(|error| {
+        let mut config: Config = read_ron(text).map_err(|error| {
             let (offset, message) = describe_error(text, &error);
             wrong_at(offset, message)
         })?;
@@ -173,41 +160,50 @@ impl Config {
             let start = text.and_then(|text| Some(text.span(field)?.value.start));
             wrong_at(start.unwrap_or(0), message)
         };
-        if file.version != VERSION {
-            return Err(wrong("version", format!("version = {}: allowed: {VERSION}", file.version)));
+        let (rates, speeds) = (FRAME_RATES, SPEEDS);
+        for (is_allowed, field, value, allowed) in [
+            (config.version == VERSION, "version", f64::from(config.version), VERSION.to_string()),
+            (
+                rates.contains(&config.frame_rate),
+                "frame_rate",
+                f64::from(config.frame_rate),
+                format!("from {} to {} frames per second", rates.start(), rates.end()),
+            ),
+            (
+                speeds.contains(&config.speed),
+                "speed",
+                config.speed,
+                format!("from {} to {}", speeds.start(), speeds.end()),
+            ),
+        ] {
+            if !is_allowed {
+                return Err(wrong(field, format!("{field} = {value}: allowed: {allowed}")));
+            }
         }
-        if let Some(rate) = file.frame_rate.filter(|rate| !FRAME_RATES.contains(rate)) {
-            let (from, to) = (FRAME_RATES.start(), FRAME_RATES.end());
-            let message = format!("frame_rate = {rate}: allowed: from {from} to {to} frames per second");
-            return Err(wrong("frame_rate", message));
-        }
-        if let Some(speed) = file.speed.filter(|speed| !SPEEDS.contains(speed)) {
-            let (from, to) = (SPEEDS.start(), SPEEDS.end());
-            return Err(wrong("speed", format!("speed = {speed}: allowed: from {from} to {to}")));
-        }
-        let mut bindings = Bindings::default();
-        for (number, KeySetting { action, keys }) in file.keys.iter().enumerate() {
-            bindings.rebind(action, keys).map_err(|error| {
+        for (number, KeySetting { action, keys }) in config.keys.iter().enumerate() {
+            config.bindings.rebind(action, keys).map_err(|error| {
                 let field = if error.is_about_keys { "keys" } else { "action" };
                 wrong(&format!("keys.{number}.{field}"), error.message)
             })?;
         }
-        if let Some((key, one, other)) = bindings.conflict() {
+        if let Some((key, one, other)) = config.bindings.conflict() {
             // The setting with the key, or the last one.
             let has = |setting: &KeySetting| setting.action == one || setting.action == other;
-            let number = file.keys.iter().rposition(has).unwrap_or_default();
+            let number = config.keys.iter().rposition(has).unwrap_or_default();
             let message = format!("{key}: bound to {one} and to {other}; allowed: one action for each key");
             return Err(wrong(&format!("keys.{number}.keys"), message));
         }
-        Ok(Config {
-            path: Some(path.to_path_buf()),
-            theme: file.theme,
-            marker: file.markers,
-            frame_rate: file.frame_rate,
-            animation: Animation { speed: file.speed.unwrap_or(1.0), repeats: file.repeat },
-            scene: file.scene,
-            bindings,
-        })
+        Ok(Config { path: Some(path.to_path_buf()), ..config })
+    }
+
+    /// Text of a file with these settings.
+    ///
+    /// # Errors
+    /// A value that RON cannot express; there is none.
+    pub fn text(&self) -> Result<String, ron::Error> {
+        let options = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
+        let layout = PrettyConfig::new().depth_limit(1).separate_tuple_members(false);
+        Ok(options.to_string_pretty(self, layout)? + "\n")
     }
 }
 
@@ -238,7 +234,7 @@ pub fn remember(path: &Path, appearance: Appearance) -> Result<(), ConfigError> 
         let read = Text::new(text.as_str()).map_err(|error| unread(error.reason.to_owned()))?;
         let set = match read.span(field) {
             Some(_) => read.replace(field, &value),
-            None => read.insert("", field, &value, &ORDER),
+            None => read.insert("", field, &value, &["version", "theme", "markers"]),
         };
         text = set.map_err(unread)?.as_str().to_owned();
     }
@@ -253,29 +249,6 @@ fn write(path: &Path, text: &str, overwrite: bool) -> Result<(), ConfigError> {
         std::fs::create_dir_all(folder).map_err(failed)?;
     }
     Ok(write_new(path, overwrite, |file| file.write_all(text.as_bytes()))?)
-}
-
-/// Text of a file with the settings in effect.
-#[must_use]
-pub fn text_of(config: &Config, appearance: Appearance, frame_rate: u32) -> String {
-    let Config { animation, scene, bindings, .. } = config;
-    let mut lines = vec![
-        format!("theme: {:?}", appearance.theme),
-        format!("markers: {:?}", appearance.marker),
-        format!("frame_rate: {frame_rate}"),
-        format!("speed: {:?}", animation.speed),
-        format!("repeat: {}", animation.repeats),
-        format!("scene: {}", ron_string(scene.as_deref().unwrap_or(crate::scene::DEFAULT))),
-    ];
-    let changed = bindings.changed().into_iter().map(|(action, keys)| {
-        let keys: Vec<String> = keys.iter().map(|key| ron_string(key)).collect();
-        format!("(action: {}, keys: [{}])", ron_string(action), keys.join(", "))
-    });
-    lines.push(format!("keys: [{}]", changed.collect::<Vec<_>>().join(", ")));
-    format!(
-        "(\n    version: {VERSION},\n{})\n",
-        lines.iter().map(|line| format!("    {line},\n")).collect::<String>()
-    )
 }
 
 #[cfg(test)]
@@ -296,20 +269,17 @@ mod tests {
 
     #[test]
     fn the_template_has_every_field_and_the_defaults() {
-        let path = Some(PathBuf::from("config.ron"));
-        assert_eq!(parse(TEMPLATE), Ok(Config { path, ..Config::default() }));
+        assert_eq!(parse(TEMPLATE).unwrap().text(), Config::default().text());
         let config = parse(&full()).unwrap();
-        assert_eq!((config.theme, config.marker), (Some(Theme::Dark), Some(Marker::Braille)));
-        assert_eq!((config.frame_rate, config.scene.as_deref()), (Some(30), Some("rough-sphere")));
-        assert_eq!(config.animation, Animation::default());
-        let changed = config.bindings.changed();
-        assert_eq!(changed, [("toggle-play", vec!["F5".to_owned(), "F6".to_owned()])]);
-        for field in ORDER {
-            assert!(full().contains(&format!("    {field}: ")), "{field}");
+        assert_eq!((config.theme, config.markers), (Some(Theme::Dark), Some(Marker::Braille)));
+        // A printed configuration has all fields, and can be read.
+        let text = config.text().unwrap();
+        for field in text.lines().filter_map(|line| line.strip_prefix("    ")?.split_once(':')) {
+            assert!(full().contains(&format!("    {}: ", field.0)), "{}", field.0);
         }
-        // A printed configuration can be read, and is the same.
-        let appearance = Appearance { theme: Theme::Dark, marker: Marker::Braille };
-        assert_eq!(parse(&text_of(&config, appearance, 30)), Ok(config));
+        assert_eq!(parse(&text).unwrap().text(), Ok(text));
+        let defaults = Config { theme: config.theme, markers: config.markers, ..Config::default() };
+        assert_eq!(Config { keys: Vec::new(), ..config }.text(), defaults.text());
     }
 
     #[test]
@@ -354,9 +324,16 @@ mod tests {
     fn keys_are_exchanged_and_quit_stays_in_reach() {
         let keys = |settings: &str| parse(&format!("(version: 1, keys: [{settings}])"));
         let swapped = keys(r#"(action: "restart", keys: ["R"]), (action: "reseed", keys: ["r"])"#).unwrap();
-        assert_eq!(swapped.bindings.changed().len(), 2);
+        let keys_of = |config: &Config, name: &str| {
+            let mut rows = config.bindings.rows().filter(|binding| binding.row.name == name);
+            rows.next().unwrap().names()
+        };
+        assert_eq!(
+            (keys_of(&swapped, "restart"), keys_of(&swapped, "reseed")),
+            (vec!["R".to_owned()], vec!["r".to_owned()])
+        );
         let config = keys(r#"(action: "quit", keys: ["_"])"#).unwrap();
-        assert_eq!(config.bindings.changed(), [("quit", vec!["_".to_owned(), "Ctrl+c".to_owned()])]);
+        assert_eq!(keys_of(&config, "quit"), ["_", "Ctrl+c"]);
         assert!(keys(r#"(action: "restart", keys: [])"#).is_ok(), "a key may be taken away");
         let why = keys(r#"(action: "accept", keys: ["y"])"#).unwrap_err();
         assert!(why.contains("accept: there is no such action"), "{why}");
@@ -367,7 +344,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("asperity/config.ron");
         let read = |is_named| Config::read(&path, is_named);
-        assert_eq!(read(false).unwrap(), Config { path: Some(path.clone()), ..Config::default() });
+        let missing = read(false).unwrap();
+        assert_eq!((missing.path.as_ref(), missing.text()), (Some(&path), Config::default().text()));
         assert!(read(true).unwrap_err().to_string().contains("config.ron"));
         assert!(!path.exists() && !path.parent().unwrap().exists(), "reading makes nothing");
         write_template(&path).unwrap();
@@ -381,7 +359,7 @@ mod tests {
             remember(&path, Appearance { theme, marker: Marker::Octant }).unwrap();
             let config = read(true).unwrap();
             assert_eq!(
-                (config.theme, config.marker, config.animation.speed),
+                (config.theme, config.markers, config.speed),
                 (Some(theme), Some(Marker::Octant), 2.0)
             );
             let text = std::fs::read_to_string(&path).unwrap();
@@ -390,7 +368,7 @@ mod tests {
         // A missing file is made, a wrong one stays.
         std::fs::remove_file(&path).unwrap();
         remember(&path, Appearance { theme: Theme::Dark, marker: Marker::Ascii }).unwrap();
-        assert_eq!(read(true).unwrap().marker, Some(Marker::Ascii));
+        assert_eq!(read(true).unwrap().markers, Some(Marker::Ascii));
         std::fs::write(&path, "(version: 1, theme: Pink)").unwrap();
         let why = remember(&path, Appearance { theme: Theme::Dark, marker: Marker::Ascii }).unwrap_err();
         assert!(why.to_string().contains("config.ron:1:21: Pink"), "{why}");

@@ -30,6 +30,8 @@ pub enum Effect {
     Open(String),
     /// Copy a text.
     Copy(String),
+    /// Draw the whole screen anew with the next frame.
+    Redraw,
     /// Return the terminal to the shell for a while.
     Suspend,
 }

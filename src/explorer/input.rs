@@ -1,9 +1,7 @@
 //! Input: keys and mouse on a thread of their own, and their actions.
 
 use super::action::{Action, Gesture, Mouse};
-use super::keys::Bindings;
-use super::mode::ModeKind;
-use crossterm::event::{Event, KeyCode, KeyEventKind, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
+use crossterm::event::{Event, KeyEventKind, MouseButton, MouseEvent, MouseEventKind};
 
 /// Reads input on a thread of its own, which ends with the terminal or the explorer. `send` returns true
 /// while anyone listens; the end of the input is sent as `None`.
@@ -26,31 +24,19 @@ pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::R
         .map(drop)
 }
 
-/// The action of an input event in a mode; `None` without a meaning.
-pub fn action_of(event: &Event, bindings: &Bindings, mode: ModeKind) -> Option<Action> {
+/// The action of an input event; `None` without a meaning.
+pub fn action_of(event: Event) -> Option<Action> {
     match event {
-        Event::Key(key) if key.kind == KeyEventKind::Press => {
-            if let Some(command) = bindings.command(key, mode) {
-                return Some(Action::Command(command));
-            }
-            match key.code {
-                KeyCode::Char(character)
-                    if !key.modifiers.intersects(KeyModifiers::CONTROL | KeyModifiers::ALT) =>
-                {
-                    Some(Action::Type(character))
-                }
-                _ => None,
-            }
-        }
-        Event::Paste(text) => Some(Action::Paste(text.clone())),
+        Event::Key(key) if key.kind == KeyEventKind::Press => Some(Action::Key(key)),
+        Event::Paste(text) => Some(Action::Paste(text)),
         // Elsewhere a signal of its own: crossterm reports no size while it waits for the rest of a sequence.
-        Event::Resize(columns, rows) if cfg!(not(unix)) => Some(Action::Resize(*columns, *rows)),
+        Event::Resize(columns, rows) if cfg!(not(unix)) => Some(Action::Resize(columns, rows)),
         Event::Mouse(mouse) => gesture_of(mouse),
         _ => None,
     }
 }
 
-fn gesture_of(&MouseEvent { kind, column, row, .. }: &MouseEvent) -> Option<Action> {
+fn gesture_of(MouseEvent { kind, column, row, .. }: MouseEvent) -> Option<Action> {
     let gesture = match kind {
         MouseEventKind::Down(MouseButton::Left) => Gesture::Press,
         MouseEventKind::Drag(MouseButton::Left) => Gesture::Drag,

@@ -1,6 +1,8 @@
-//! Prompts: a line being typed for a purpose, with a list of what fits.
+//! Prompts: a line being typed for a purpose, with a list of what fits; questions, and the help.
 
-use super::palette::{self, Entry as Listed};
+use super::action::OutputFile;
+use super::keys::Context;
+use super::palette::Listed;
 use super::panes::Pane;
 use super::parameters::Parameter;
 use super::search::find;
@@ -8,16 +10,16 @@ use super::text_line::TextLine;
 use crate::scene::Entry;
 use std::path::is_separator;
 
-/// A line being typed.
-#[derive(Clone, Debug, PartialEq)]
+/// A prompt: keys act on it until it is closed.
+#[derive(Clone, Debug)]
 pub struct Prompt {
     /// Purpose.
     pub purpose: Purpose,
-    /// The line.
+    /// The line being typed.
     pub line: TextLine,
     /// Indices of the rows of the list that fit the line, the best first.
     pub found: Vec<usize>,
-    /// Place of the selected row among them.
+    /// Place of the selected row among them; lines scrolled down in the help.
     pub selected: usize,
     /// Paths that begin as typed, as far as several were asked for.
     pub paths: Vec<String>,
@@ -25,8 +27,8 @@ pub struct Prompt {
     pub refused: Option<String>,
 }
 
-/// Purpose of a typed line.
-#[derive(Clone, Debug, PartialEq)]
+/// Purpose of a prompt.
+#[derive(Clone, Debug)]
 pub enum Purpose {
     /// Value of the selected parameter.
     Value,
@@ -50,14 +52,12 @@ pub enum Purpose {
     },
     /// Search of a command.
     Command(Vec<Listed>),
-}
-
-impl Purpose {
-    /// Returns true if a list shows what fits the line.
-    #[must_use]
-    pub fn has_list(&self) -> bool {
-        matches!(self, Purpose::Scene(_) | Purpose::Parameter { .. } | Purpose::Command(_))
-    }
+    /// Question whether to overwrite a file.
+    Overwrite(OutputFile),
+    /// Question whether to leave with unsaved changes.
+    Leave,
+    /// The help.
+    Help,
 }
 
 impl Prompt {
@@ -70,11 +70,16 @@ impl Prompt {
         prompt
     }
 
-    /// A prompt with a refused text: the reason, which may begin with the text.
+    /// What the keys act on.
     #[must_use]
-    pub fn refused(purpose: Purpose, text: &str, why: &str, parameters: &[Parameter]) -> Self {
-        let reason = why.strip_prefix(text).and_then(|rest| rest.strip_prefix(": ")).unwrap_or(why);
-        Prompt { refused: Some(reason.to_owned()), ..Prompt::new(purpose, TextLine::new(text), parameters) }
+    pub fn context(&self) -> Context {
+        match self.purpose {
+            Purpose::Scene(_) | Purpose::Parameter { .. } | Purpose::Command(_) => Context::List,
+            Purpose::Overwrite(_) => Context::Overwrite,
+            Purpose::Leave => Context::Leave,
+            Purpose::Help => Context::Help,
+            _ => Context::Line,
+        }
     }
 
     /// Finds the rows of the list that fit the line, and selects the best.
@@ -84,17 +89,11 @@ impl Prompt {
         self.found = match &self.purpose {
             // A text with a separator is a path, not a name to search for.
             Purpose::Scene(_) if query.contains(is_separator) => Vec::new(),
-            Purpose::Scene(entries) => find(entries.iter().map(scene_texts), &query),
-            Purpose::Parameter { .. } => find(parameters.iter().map(Parameter::texts), &query),
-            Purpose::Command(entries) => find(entries.iter().map(palette::Entry::texts), &query),
+            Purpose::Scene(entries) => find(entries.iter().map(scene_texts), query),
+            Purpose::Parameter { .. } => find(parameters.iter().map(Parameter::texts), query),
+            Purpose::Command(commands) => find(commands.iter().map(Listed::texts), query),
             _ => Vec::new(),
         };
-    }
-
-    /// Moves the selection by so many rows.
-    pub fn select(&mut self, rows: i32) {
-        let last = self.found.len().saturating_sub(1);
-        self.selected = self.selected.saturating_add_signed(rows as isize).min(last);
     }
 
     /// Index of the selected row of the list.

@@ -5,7 +5,7 @@ use super::action::Action;
 use super::app::App;
 use super::completion::complete;
 use super::config::remember;
-use super::mode::ModeKind;
+use super::keys::Context;
 use super::opening::Opening;
 use super::study::{Accuracy, Appraiser, Found, PaneData, Study, Task, perform};
 use super::update::{Effect, request, study_tasks, update};
@@ -30,6 +30,9 @@ pub trait Console {
     /// When the terminal refuses.
     fn copy(&mut self, text: String) -> io::Result<()>;
 
+    /// Draws the whole screen anew with the next frame.
+    fn redraw(&mut self);
+
     /// Returns the terminal to the shell for a while; the action is the size of the window afterwards.
     ///
     /// # Errors
@@ -42,6 +45,8 @@ impl Console for () {
     fn copy(&mut self, _: String) -> io::Result<()> {
         Ok(())
     }
+
+    fn redraw(&mut self) {}
 
     fn suspend(&mut self) -> io::Result<Option<Action>> {
         Ok(None)
@@ -158,14 +163,14 @@ impl Runtime {
         self.perform(effects, console)
     }
 
-    /// Runs a command by its name, if valid in the present mode or, while exploring, in [`ModeKind::Explore`].
+    /// Runs a command by its name, if its keys are valid or, while exploring, in another pane.
     ///
     /// # Errors
     /// When the terminal refuses.
     pub fn command(&mut self, name: &str, console: &mut dyn Console) -> io::Result<()> {
-        let (bindings, here) = (&self.app.config.bindings, self.app.keys());
-        let elsewhere = || bindings.named(name, ModeKind::Explore).filter(|_| here.is_exploring());
-        match bindings.named(name, here).or_else(elsewhere) {
+        let bindings = &self.app.config.bindings;
+        let elsewhere = || bindings.named(name, Context::Explore).filter(|_| self.app.prompt.is_none());
+        match bindings.named(name, self.app.keys()).or_else(elsewhere) {
             Some(command) => self.act(Action::Command(command), console),
             None => Ok(()),
         }
@@ -217,6 +222,10 @@ impl Runtime {
             }
             Effect::Copy(text) => {
                 console.copy(text)?;
+                return Ok(Vec::new());
+            }
+            Effect::Redraw => {
+                console.redraw();
                 return Ok(Vec::new());
             }
             Effect::Suspend => return Ok(console.suspend()?.into_iter().collect()),

@@ -32,8 +32,6 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
-/// Frames per second where the configuration has no other number.
-pub const FRAME_RATE: u32 = 30;
 /// Most frames per second over SSH, where each has to travel.
 const REMOTE_FRAMES: u32 = 12;
 
@@ -142,11 +140,13 @@ pub fn open_with(
     let environment = Appearance::of_environment();
     let appearance = Appearance {
         theme: options.theme.or(options.config.theme).unwrap_or(environment.theme),
-        marker: options.marker.or(options.config.marker).unwrap_or(environment.marker),
+        marker: options.marker.or(options.config.markers).unwrap_or(environment.marker),
     };
-    let frame_rate = options.config.frame_rate.unwrap_or(FRAME_RATE);
+    let frame_rate = options.config.frame_rate;
     let mut app = App::new(document, (size.width, size.height), appearance);
     app.opens_beside = beside;
+    // Terminal multiplexers keep a screen of their own.
+    app.view.lacks_octants = ["TMUX", "STY"].iter().any(|name| std::env::var_os(name).is_some());
     if let Some(study_map) = study_map {
         app.show_study(study_map);
     }
@@ -233,6 +233,10 @@ impl<W: Write> Console for Screen<'_, W> {
         queue!(self.terminal.backend_mut(), CopyToClipboard::to_clipboard_from(text))
     }
 
+    fn redraw(&mut self) {
+        self.redraw = true;
+    }
+
     fn suspend(&mut self) -> io::Result<Option<Action>> {
         self.own_stops += 1;
         self.guard.suspend()?;
@@ -311,11 +315,7 @@ impl<W: Write> Session<'_, W> {
                         Some(self.console.resize()?)
                     }
                     Message::Resized => Some(self.console.resize()?),
-                    // In the present mode: the key before may have changed it.
-                    Message::Input(event) => {
-                        let app = &self.runtime.app;
-                        input::action_of(&event, &app.config.bindings, app.keys())
-                    }
+                    Message::Input(event) => input::action_of(event),
                     Message::Act(action) => Some(*action),
                 };
                 if let Some(action) = action {

@@ -2,8 +2,8 @@
 
 use super::action::Content;
 use super::app::App;
+use super::keys::Context;
 use super::layout::Layout;
-use super::mode::ModeKind;
 use super::panes::{Pane, Place};
 use crate::draw::Figure;
 use crate::export::Format;
@@ -64,13 +64,12 @@ impl App {
     /// Valid keys: in the map the arrows move its mark, in panes with a crosshair the crosshair; in the list of
     /// parameters digits begin a value.
     #[must_use]
-    pub fn keys(&self) -> ModeKind {
-        match self.mode.kind() {
-            ModeKind::Explore => match self.view.pane.row().keys {
-                Some(ModeKind::Crosshair) if self.view.crosshair.is_none() => ModeKind::Explore,
-                keys => keys.unwrap_or(ModeKind::Explore),
-            },
-            kind => kind,
+    pub fn keys(&self) -> Context {
+        let of_pane = self.view.pane.row().keys;
+        match (&self.prompt, of_pane) {
+            (Some(prompt), _) => prompt.context(),
+            (None, Some(Context::Crosshair)) if self.view.crosshair.is_none() => Context::Explore,
+            (None, of_pane) => of_pane.unwrap_or(Context::Explore),
         }
     }
 

@@ -1,6 +1,7 @@
 //! A line of text being typed.
 
 use crate::text::is_control;
+use tui_input::{Input, InputRequest};
 
 /// Longest line, characters.
 const LONGEST: usize = 4096;
@@ -8,24 +9,10 @@ const LONGEST: usize = 4096;
 /// Message about a longer one.
 const TOO_LONG: &str = "a line has at most 4096 characters; the rest is left out";
 
-/// A motion in a line of text.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Motion {
-    /// One character to the left.
-    Left,
-    /// One character to the right.
-    Right,
-    /// To the start.
-    Start,
-    /// To the end.
-    End,
-}
-
 /// A line of text with a cursor.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default)]
 pub struct TextLine {
-    characters: Vec<char>,
-    cursor: usize,
+    input: Input,
     /// True if the text is selected: the next character replaces it.
     selected: bool,
     /// Message about the part that the last insertion left out.
@@ -36,8 +23,8 @@ impl TextLine {
     /// A line with this text, the cursor at its end.
     #[must_use]
     pub fn new(text: &str) -> Self {
-        let characters: Vec<char> = text.chars().filter(|c| !is_control(*c)).take(LONGEST).collect();
-        TextLine { cursor: characters.len(), characters, ..TextLine::default() }
+        let text: String = text.chars().filter(|c| !is_control(*c)).take(LONGEST).collect();
+        TextLine { input: Input::new(text), ..TextLine::default() }
     }
 
     /// A line with this text, all of it selected.
@@ -54,16 +41,16 @@ impl TextLine {
 
     /// The text.
     #[must_use]
-    pub fn text(&self) -> String {
-        self.characters.iter().collect()
+    pub fn text(&self) -> &str {
+        self.input.value()
     }
 
     /// The text before the cursor, under it and after it.
     #[must_use]
     pub fn parts(&self) -> (String, String, String) {
-        let (before, rest) = self.characters.split_at(self.cursor);
-        let (under, after) = rest.split_at(rest.len().min(1));
-        (before.iter().collect(), under.iter().collect(), after.iter().collect())
+        let part = |from, count| self.text().chars().skip(from).take(count).collect();
+        let cursor = self.input.cursor();
+        (part(0, cursor), part(cursor, 1), part(cursor + 1, LONGEST))
     }
 
     /// Message about the part that the last insertion left out; `None` after a whole one.
@@ -77,111 +64,70 @@ impl TextLine {
     pub fn insert(&mut self, text: &str) {
         let mut inserted = text.chars().filter(|character| !is_control(*character)).peekable();
         if self.selected && inserted.peek().is_some() {
-            self.clear();
+            *self = TextLine::default();
         }
-        let room = LONGEST - self.characters.len();
-        let rest = self.characters.split_off(self.cursor);
-        self.characters.extend(inserted.by_ref().take(room));
-        self.cursor = self.characters.len();
-        self.characters.extend(rest);
-        self.left_out = if inserted.next().is_some() {
-            Some(TOO_LONG)
-        } else {
-            text.contains(is_control).then_some("control characters are left out")
-        };
+        let room = LONGEST - self.text().chars().count();
+        for character in inserted.by_ref().take(room) {
+            self.input.handle(InputRequest::InsertChar(character));
+        }
+        let has_controls = text.contains(is_control).then_some("control characters are left out");
+        self.left_out = inserted.next().map(|_| TOO_LONG).or(has_controls);
     }
 
-    /// Removes the character before the cursor, or the one under it, or the selected text.
-    pub fn delete(&mut self, backwards: bool) {
-        self.left_out = None;
-        if self.selected {
-            return self.clear();
-        }
-        if backwards && self.cursor > 0 {
-            self.cursor -= 1;
-        } else if backwards {
-            return;
-        }
-        if self.cursor < self.characters.len() {
-            self.characters.remove(self.cursor);
-        }
-    }
-
-    /// Moves the cursor; nothing is selected any more.
-    pub fn go(&mut self, motion: Motion) {
+    /// Moves the cursor, or deletes a part of the text, the whole of a selected one; nothing is selected any more.
+    pub fn edit(&mut self, request: InputRequest) {
+        use InputRequest::{DeleteLine, DeleteNextChar, DeletePrevChar, DeletePrevWord};
+        let deletes = matches!(request, DeletePrevChar | DeleteNextChar | DeletePrevWord);
+        self.input.handle(if self.selected && deletes { DeleteLine } else { request });
         (self.selected, self.left_out) = (false, None);
-        self.cursor = match motion {
-            Motion::Left => self.cursor.saturating_sub(1),
-            Motion::Right => (self.cursor + 1).min(self.characters.len()),
-            Motion::Start => 0,
-            Motion::End => self.characters.len(),
-        };
-    }
-
-    /// Empties the line.
-    pub fn clear(&mut self) {
-        *self = TextLine::default();
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use InputRequest::{DeleteNextChar, DeletePrevChar, DeletePrevWord, GoToPrevChar, GoToStart};
 
     #[test]
     fn a_selected_text_is_replaced_or_kept_as_a_whole() {
-        let mut line = TextLine::selected("1.5 µm");
-        line.insert("\n");
-        assert_eq!((line.text().as_str(), line.is_selected()), ("1.5 µm", true));
-        line.insert("2");
-        line.insert("3");
-        assert_eq!((line.text().as_str(), line.is_selected()), ("23", false));
-        let mut line = TextLine::selected("1.5 µm");
-        line.delete(true);
-        assert_eq!((line.text().as_str(), line.is_selected()), ("", false));
-        let mut line = TextLine::selected("1.5 µm");
-        line.go(Motion::Left);
-        line.insert("m");
-        assert_eq!((line.text().as_str(), line.is_selected()), ("1.5 µmm", false));
+        for (request, text, expected) in [
+            (None, "\n", "1.5 µm"),
+            (None, "23", "23"),
+            (Some(DeletePrevChar), "", ""),
+            (Some(GoToPrevChar), "m", "1.5 µmm"),
+            (Some(GoToStart), "2", "21.5 µm"),
+        ] {
+            let mut line = TextLine::selected("1.5 µm");
+            request.into_iter().for_each(|request| line.edit(request));
+            line.insert(text);
+            assert_eq!((line.text(), line.is_selected()), (expected, text == "\n"), "{request:?}");
+        }
     }
 
     #[test]
     fn an_insertion_states_what_it_leaves_out() {
         let mut line = TextLine::new("ab");
-        line.go(Motion::Left);
+        line.edit(GoToPrevChar);
         line.insert("1\n2\u{1b}");
-        assert_eq!(
-            (line.text().as_str(), line.left_out()),
-            ("a12b", Some("control characters are left out"))
-        );
+        assert_eq!((line.text(), line.left_out()), ("a12b", Some("control characters are left out")));
         line.insert("3");
-        assert_eq!((line.text().as_str(), line.left_out()), ("a123b", None));
+        assert_eq!((line.text(), line.left_out()), ("a123b", None));
         line.insert(&"µ".repeat(20_000));
         assert_eq!((line.text().chars().count(), line.left_out()), (LONGEST, Some(TOO_LONG)));
         assert!(line.text().ends_with("µb") && TOO_LONG.contains(&LONGEST.to_string()));
-        line.insert("µ");
-        assert_eq!((line.text().chars().count(), line.left_out()), (LONGEST, Some(TOO_LONG)));
-        line.delete(true);
+        line.edit(DeletePrevChar);
         assert_eq!((line.text().chars().count(), line.left_out()), (LONGEST - 1, None));
     }
 
     #[test]
     fn edits_anywhere_in_the_line() {
         let mut line = TextLine::new("1.5 µm");
-        line.go(Motion::Start);
+        line.edit(GoToStart);
         line.insert("2");
-        line.delete(false);
-        assert_eq!(line.text(), "2.5 µm");
-        line.go(Motion::End);
-        line.delete(true);
-        line.delete(true);
+        line.edit(DeleteNextChar);
+        assert_eq!((line.text(), line.parts().1.as_str()), ("2.5 µm", "."));
+        line.edit(InputRequest::GoToEnd);
+        line.edit(DeletePrevWord);
         assert_eq!(line.parts(), ("2.5 ".to_owned(), String::new(), String::new()));
-        line.go(Motion::Start);
-        line.delete(true);
-        line.insert("\n");
-        assert_eq!(line.text(), "2.5 ");
-        line.clear();
-        line.delete(false);
-        assert_eq!(line.text(), "");
     }
 }

@@ -3,7 +3,7 @@
 use clap::ValueEnum;
 use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::Marker as Symbols;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// Appearance of the explorer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,7 +15,7 @@ pub struct Appearance {
 }
 
 /// Colours and modifiers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 pub enum Theme {
     /// Colours that read on dark and on light backgrounds
     Neutral,
@@ -30,7 +30,7 @@ pub enum Theme {
 }
 
 /// Marker of plots.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 pub enum Marker {
     /// Braille dots, 2 × 4 in a cell
     Braille,

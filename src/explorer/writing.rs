@@ -1,7 +1,7 @@
 //! Files of the explorer: scenes, curves, figures of its panes, pictures of its screen.
 
 use super::action::{Action, Content, OutputFile, WriteFailure};
-use super::app::{App, Message, Mode};
+use super::app::{App, Message};
 use super::picture::{svg, text};
 use super::theme::Theme;
 use super::view;
@@ -74,7 +74,7 @@ pub fn screenshot(app: &App) -> String {
 #[must_use]
 pub fn picture_of(app: &App) -> Buffer {
     let mut app = app.clone();
-    app.mode = Mode::Explore;
+    app.prompt = None;
     if !matches!(app.message, Some(Message::Error(_))) {
         app.message = None;
     }

@@ -3,7 +3,7 @@
 use crate::analysis::preload_point;
 use crate::contact::{CurvePoint, Direction, Leg, LegRecord, Patch};
 use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Span, value_label};
-use crate::export::section::{Column, Contact, LineColumns, Part};
+use crate::export::section::{Contact, LineColumns, Part};
 use crate::simulation::Outcome;
 use crate::surface::Line;
 use std::slice;
@@ -77,21 +77,10 @@ impl ContactSets {
         let springs = line.gaps.len();
         let part = Part { first: 0, springs, columns: COLUMNS.min(springs) };
         let section = contact.section(part, &mut LineColumns::default());
-        let facts = outcome.line;
-        let x = [facts.first, facts.first + springs].map(|spring| spring as f64 * facts.spacing);
-        let layer = |name: &str, ink, ends: fn(&Column) -> Option<(f64, f64)>| {
-            let columns = section.columns.iter().map(ends).collect();
-            Layer::new(name.into(), ink, Shape::Envelope { x: (x[0], x[1]), columns })
-        };
-        let layers = vec![
-            layer("elastic surface", Ink::Surface, |one| Some(one.surface)),
-            layer("rigid profile", Ink::Profile, |one| Some(one.line)),
-            layer("contact", Ink::Contact, |one| one.contact),
-        ];
         let (low, high) = section.heights;
         let z = Span::around([low, high, section.level.min(high + 0.5 * (high - low))].into_iter(), 0.05);
-        let z = Axis::new(AxisScale::Linear, z, "height", "z", "m");
-        let chart = Chart::new(position(outcome), z, layers);
+        let mut chart = section.chart(outcome.line, z);
+        chart.x = position(outcome);
         let at = Label::plain("largest force: ").join(&value_label("", "F", "N", force)).then(", ");
         let notes = vec![at.join(&value_label("", "d", "m", indentation))];
         Figure { notes, size: Figure::LOW, ..Figure::of_chart(title, chart) }
@@ -185,7 +174,7 @@ mod tests {
     fn the_profile_shows_the_contact_at_the_largest_force() {
         let (outcome, sets, line) = computed(&[]);
         let figure = sets.profile_figure("", &outcome, &line);
-        assert_eq!(names(&figure), ["elastic surface", "rigid profile", "contact"]);
+        assert_eq!(names(&figure), ["surface", "profile", "contact"]);
         let Shape::Envelope { columns, .. } = &figure.charts[0].layers[2].shape else { panic!() };
         let preload = outcome.history.legs[0].largest;
         assert_eq!(columns.iter().flatten().count() as u64, preload.springs, "one column for each spring");

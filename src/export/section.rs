@@ -1,6 +1,8 @@
 //! A profile and its contact, reduced to the columns of a chart.
 
 use crate::contact::Patch;
+use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Span};
+use crate::simulation::LineFacts;
 use std::ops::Range;
 
 /// The rigid profile and its contact at one indentation.
@@ -58,6 +60,27 @@ pub struct Column {
     pub surface: (f64, f64),
     /// Profile in contact, m.
     pub contact: Option<(f64, f64)>,
+}
+
+impl Section {
+    /// Returns the chart of the section over the position, heights within `z`.
+    #[must_use]
+    pub fn chart(&self, line: LineFacts, z: Span) -> Chart {
+        let edge = |spring: usize| (line.first + spring) as f64 * line.spacing;
+        let x = (edge(self.first), edge(self.first + self.springs.max(1)));
+        let layer = |name: &str, ink, ends: fn(&Column) -> Option<(f64, f64)>| {
+            let columns = self.columns.iter().map(ends).collect();
+            Layer::new(name.into(), ink, Shape::Envelope { x, columns })
+        };
+        let layers = vec![
+            layer("surface", Ink::Surface, |column| Some(column.surface)),
+            layer("profile", Ink::Profile, |column| Some(column.line)),
+            layer("contact", Ink::Contact, |column| column.contact),
+        ];
+        let axis = |span, name, symbol| Axis::new(AxisScale::Linear, span, name, symbol, "m");
+        let x = Span { low: x.0, high: x.1 };
+        Chart::new(axis(x, "position", "x"), axis(z, "height", "z"), layers)
+    }
 }
 
 impl Part {

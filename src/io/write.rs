@@ -45,7 +45,7 @@ pub enum WriteError {
 pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
     match Target::of(path, overwrite)? {
         Target::Stream => Ok(()),
-        Target::File { path, .. } => Unfinished::beside(&path).map(drop),
+        Target::File { path, .. } => temporary(&path).map(drop),
     }
 }
 
@@ -85,8 +85,7 @@ pub fn write_new(
 /// Writes a regular file through a temporary one in the same folder: a reader sees the old file or the whole new one,
 /// and a failure leaves nothing behind. An existing file is replaced only with `overwrite`.
 ///
-/// On Linux the temporary file has no name until it is complete, so that any end of the process leaves nothing behind;
-/// elsewhere a killed process may leave a file `.asperity-….tmp`.
+/// A killed process may leave a file `.asperity-….tmp`.
 ///
 /// # Errors
 /// As [`write_new`]; a pipe or a device is refused at once.
@@ -99,94 +98,35 @@ pub fn write_new_file(
     let Target::File { path: place, permissions } = Target::of(path, overwrite)? else {
         return Err(WriteError::NotRegular(path.into()));
     };
-    let mut unfinished = Unfinished::beside(&place)?;
-    let file = unfinished.file();
-    fill(file, write).map_err(failed)?;
+    let mut file = temporary(&place)?;
+    fill(file.as_file_mut(), write).map_err(failed)?;
     if let Some(permissions) = permissions {
-        file.set_permissions(permissions).map_err(failed)?;
+        file.as_file().set_permissions(permissions).map_err(failed)?;
     }
-    file.sync_all().map_err(failed)?;
-    unfinished.publish(&place, overwrite).map_err(|reason| match reason.kind() {
+    file.as_file().sync_all().map_err(failed)?;
+    let named = if overwrite { file.persist(&place) } else { file.persist_noclobber(&place) };
+    named.map_err(|error| match error.error.kind() {
         io::ErrorKind::AlreadyExists => WriteError::Exists(path.into()),
-        _ => failed(reason),
+        _ => failed(error.error),
     })?;
     // The name has to be durable as well.
     sync_folder(folder_of(&place)).map_err(failed)
 }
 
-/// A file that is removed unless it is published.
-enum Unfinished {
-    /// Without a name, where the system has such files.
-    #[cfg(target_os = "linux")]
-    Nameless(File),
-    Named(NamedTempFile),
-}
-
-impl Unfinished {
-    /// Makes a file in the folder of another one.
-    fn beside(path: &Path) -> Result<Self, WriteError> {
-        let folder = folder_of(path);
-        #[cfg(target_os = "linux")]
-        {
-            use rustix::fs::{Mode, OFlags, open};
-            let flags = OFlags::TMPFILE | OFlags::WRONLY | OFlags::CLOEXEC;
-            let file = open(folder, flags, Mode::from_raw_mode(0o666)).map(File::from);
-            // The file can be named only through the folder of its descriptor.
-            if let Some(file) = file.ok().filter(|file| fs::metadata(of_descriptor(file)).is_ok()) {
-                return Ok(Unfinished::Nameless(file));
-            }
-        }
-        let mut named = temporary_name();
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            named.permissions(Permissions::from_mode(0o666));
-        }
-        named.tempfile_in(folder).map(Unfinished::Named).map_err(|reason| match folder.is_dir() {
-            true => WriteError::Failed { path: path.into(), reason },
-            false => WriteError::NoFolder(path.into()),
-        })
+/// Makes a temporary file in the folder of another one, removed unless it is given a name.
+fn temporary(path: &Path) -> Result<NamedTempFile, WriteError> {
+    let folder = folder_of(path);
+    let mut file = tempfile::Builder::new();
+    file.prefix(".asperity-").suffix(".tmp");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        file.permissions(Permissions::from_mode(0o666));
     }
-
-    fn file(&mut self) -> &mut File {
-        match self {
-            #[cfg(target_os = "linux")]
-            Unfinished::Nameless(file) => file,
-            Unfinished::Named(file) => file.as_file_mut(),
-        }
-    }
-
-    /// Names the file; replaces an existing file only with `overwrite`.
-    fn publish(self, path: &Path, overwrite: bool) -> io::Result<()> {
-        match self {
-            #[cfg(target_os = "linux")]
-            Unfinished::Nameless(file) => {
-                use rustix::fs::{AtFlags, CWD, linkat};
-                let link = |name: &Path| -> io::Result<()> {
-                    Ok(linkat(CWD, of_descriptor(&file), CWD, name, AtFlags::SYMLINK_FOLLOW)?)
-                };
-                if !overwrite {
-                    return link(path);
-                }
-                // Only a renaming replaces a file, and only a named file can be renamed.
-                Ok(temporary_name().make_in(folder_of(path), link)?.persist(path).map(drop)?)
-            }
-            Unfinished::Named(file) if overwrite => Ok(file.persist(path).map(drop)?),
-            Unfinished::Named(file) => Ok(file.persist_noclobber(path).map(drop)?),
-        }
-    }
-}
-
-fn temporary_name() -> tempfile::Builder<'static, 'static> {
-    let mut name = tempfile::Builder::new();
-    name.prefix(".asperity-").suffix(".tmp");
-    name
-}
-
-#[cfg(target_os = "linux")]
-fn of_descriptor(file: &File) -> PathBuf {
-    use std::os::fd::AsRawFd;
-    PathBuf::from(format!("/proc/self/fd/{}", file.as_raw_fd()))
+    file.tempfile_in(folder).map_err(|reason| match folder.is_dir() {
+        true => WriteError::Failed { path: path.into(), reason },
+        false => WriteError::NoFolder(path.into()),
+    })
 }
 
 /// Waits until the names in a folder have reached the disk.

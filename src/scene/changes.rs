@@ -88,8 +88,8 @@ fn change_of_stage((index, (one, other)): (usize, (&Move, &Move))) -> Change {
 /// The scene with an explicit use of its measured profile as the line, which is mostly omitted.
 fn with_stated_use(scene: &Scene) -> Scene {
     let mut stated = scene.clone();
-    if let Some(Roughness::Measured { as_line, .. }) = &mut stated.roughness {
-        *as_line = Some(scene.measured_as_line());
+    if let Some(Roughness::Measured(measured)) = &mut stated.roughness {
+        measured.as_line = Some(scene.measured_as_line());
     }
     stated
 }

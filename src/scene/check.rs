@@ -10,7 +10,8 @@ use super::adhesion::Adhesion;
 use super::errors::SceneError;
 use super::field::{FILE_NAME, Field, LEG_INDENTATION};
 use super::fields::{FIELDS, field};
-use super::model::{Edges, Move, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
+use super::measured::Measured;
+use super::model::{Edges, Material, Move, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
 use super::range::Range;
 use super::text::{is_within, ron_float, ron_string};
 use super::tree::{Tree, in_ron, written};
@@ -36,6 +37,7 @@ pub fn check(scene: &Scene) -> Vec<SceneError> {
     found.check_material();
     found.check_form();
     found.check_roughness();
+    found.check_adhesion();
     found.check_amplitude();
     found.check_loading();
     found.errors
@@ -135,6 +137,17 @@ impl Found<'_> {
     }
 
     fn check_material(&mut self) {
+        let Material { youngs_modulus, poisson_ratio, effective_modulus } = self.scene.material;
+        let wrong = match (effective_modulus, youngs_modulus, poisson_ratio) {
+            (Some(_), None, None) | (None, Some(_), Some(_)) => "",
+            (Some(_), ..) => {
+                "effective_modulus replaces youngs_modulus and poisson_ratio: give one or the other"
+            }
+            (None, Some(_), None) => "youngs_modulus requires poisson_ratio, which is missing",
+            (None, None, Some(_)) => "poisson_ratio requires youngs_modulus, which is missing",
+            (None, None, None) => "give youngs_modulus with poisson_ratio, or effective_modulus",
+        };
+        self.require(wrong.is_empty(), &[], "material", "", wrong);
         let modulus = self.scene.material.effective_modulus();
         let Some(field) = field("material.effective_modulus", None) else { return };
         if !field.range.contains(modulus) && !self.has("material") {
@@ -190,7 +203,8 @@ impl Found<'_> {
                 self.require(*last <= points / 2, &of, path, &allowed, &reason);
             }
             // A profile is one row or one column; several files have a common spectrum and no profile.
-            Some(Roughness::Measured { unit, height_unit, further_files, opposite, row, column, .. }) => {
+            Some(Roughness::Measured(measured)) => {
+                let Measured { unit, height_unit, further_files, opposite, row, column, .. } = measured;
                 for (path, unit) in [("roughness.unit", unit), ("roughness.height_unit", height_unit)] {
                     let is_unit = unit.is_empty() || unit.parse::<Unit>().is_ok();
                     self.require(is_unit, &[path], path, UnitError::ALLOWED, "unit of the file");
@@ -210,19 +224,37 @@ impl Found<'_> {
                 );
             }
         }
-        // A spring that attaches with more energy than it detaches with would detach at once.
-        if let Some(Adhesion::Work { work, closing_work: Some(closing), .. }) = scene.adhesion {
-            let allowed = format!("0 to {} J/m²", ron_float(work));
-            let path = "adhesion.closing_work";
-            self.require(closing <= work, &["adhesion"], path, &allowed, "at most adhesion.work");
+    }
+
+    fn check_adhesion(&mut self) {
+        let Some(adhesion) = self.scene.adhesion else { return };
+        let Adhesion { work, closing_work, kappa, elastic_energy_ratio, .. } = adhesion;
+        let (has_two, has_none) = (
+            kappa.is_some() && elastic_energy_ratio.is_some(),
+            work.or(kappa).or(elastic_energy_ratio).is_none(),
+        );
+        let reason = "kappa and elastic_energy_ratio determine each other: give one of them";
+        self.require(!has_two, &[], "adhesion", "", reason);
+        self.require(!has_none, &[], "adhesion", "", "give work, kappa or elastic_energy_ratio");
+        let path = "adhesion.closing_work";
+        match closing_work.zip(work) {
+            // A spring that attaches with more energy than it detaches with would detach at once.
+            Some((closing, work)) => {
+                let allowed = format!("0 to {} J/m²", ron_float(work));
+                self.require(closing <= work, &["adhesion"], path, &allowed, "at most adhesion.work");
+            }
+            None => {
+                let reason = "closing_work requires adhesion.work, which is missing: κ and e_el/γ refer to one work of \
+                              adhesion";
+                self.require(closing_work.is_none(), &["adhesion"], path, "", reason);
+            }
         }
     }
 
     /// Amplitude of the roughness, work of adhesion and κ or e_el/γ: any two determine the third.
     fn check_amplitude(&mut self) {
-        let adhesion = self.scene.adhesion;
-        let work = adhesion.and_then(|adhesion| adhesion.work());
-        let parameter = adhesion.and_then(|adhesion| adhesion.parameter()).map(|(parameter, _)| parameter);
+        let adhesion = self.scene.adhesion.unwrap_or_default();
+        let (work, parameter) = (adhesion.work, adhesion.parameter().map(|(parameter, _)| parameter));
         let symbol = parameter.map_or("", |parameter| parameter.symbol());
         let (path, reason) = match (&self.scene.roughness, work, parameter) {
             (None, _, Some(parameter)) => {

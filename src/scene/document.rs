@@ -54,7 +54,7 @@ impl Document {
         check_length(source)
             .map_err(|message| SceneError::whole(Origin::File { name: name.into() }, message))?;
         let place = |offset| origin_at(source, name, offset);
-        let scene = read(source).map_err(|unread| unread.error.at(place(unread.offset)))?;
+        let scene = read(source).map_err(|unread| unread.1.at(place(unread.0)))?;
         let text = Text::new(source)
             .map_err(|unreadable| SceneError::whole(place(unreadable.offset), unreadable.reason))?;
         SceneErrors::result(as_written(check(&scene), &text), |error| {
@@ -102,18 +102,14 @@ impl Document {
         let mut errors = Vec::new();
         for (path, value) in overrides {
             match spliced(&new.text, path, value) {
-                Ok(text) => {
-                    new.text = text;
+                Ok((text, scene)) => {
+                    (new.text, new.scene) = (text, scene);
                     remember(&mut new.overrides, path, value);
                 }
                 Err(error) => errors.push(*error),
             }
         }
         SceneErrors::result(errors, |error| error.origin.clone())?;
-        new.scene = read(new.text.as_str()).map_err(|unread| {
-            let origin = overrides_behind(&unread.error, overrides);
-            unread.error.at(origin)
-        })?;
         SceneErrors::result(as_written(check(&new.scene), &new.text), |error| {
             overrides_behind(error, overrides)
         })?;
@@ -209,25 +205,22 @@ impl Document {
     }
 }
 
-/// The text with another value of a field. Fields may contradict each other until further overrides.
-fn spliced(text: &Text, path: &str, value: &str) -> Result<Text, Box<SceneError>> {
+/// The text with another value of a field, and its unchecked scene.
+fn spliced(text: &Text, path: &str, value: &str) -> Result<(Text, Scene), Box<SceneError>> {
     let origin = || Origin::Overrides(vec![format!("{path}={value}")]);
-    let refused = |message: String| Box::new(SceneError::whole(origin(), message));
+    let refused = |message| Box::new(SceneError::whole(origin(), message));
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
     let band = || field(parent, None).filter(|field| matches!(field.range, Range::Band(..)));
     let typed = match field_at(text, path).or_else(band) {
         Some(known) => known.read_typed(value).map_err(|error| {
-            let (field, value, allowed) = (path.to_string(), value.to_string(), known.allowed());
-            Box::new(SceneError { field, value, allowed, ..*refused(error.to_string()) })
+            Box::new(SceneError::of(path, value, known.allowed(), &error.to_string()).at(origin()))
         })?,
         None => value.to_string(),
     };
     let text = set(text, path, &typed).map_err(refused)?;
     check_length(text.as_str()).map_err(refused)?;
-    match read(text.as_str()) {
-        Err(unread) if !unread.is_conflict => Err(Box::new(unread.error.at(origin()))),
-        _ => Ok(text),
-    }
+    let scene = read(text.as_str()).map_err(|unread| unread.1.at(origin()))?;
+    Ok((text, scene))
 }
 
 /// An override: a path and a value in RON.
@@ -385,7 +378,7 @@ mod tests {
 
     #[test]
     fn values_are_given_as_written_or_as_left_out() {
-        let document = document().set("adhesion", "Some((work: Some(0.1)))").unwrap();
+        let document = document().set("adhesion", "Some(work: Some(0.1))").unwrap();
         for (path, value) in [
             ("length", Some("1.0e-4")),
             ("roughness.hurst", Some("0.7")),

@@ -1,6 +1,6 @@
 //! Optional effects of a scene beyond the nonadhesive contact of a flat body.
 
-use super::adhesion::{Adhesion, RoughnessParameter};
+use super::adhesion::Adhesion;
 use super::fields::field;
 use super::model::{Move, Observer, Scene};
 use super::text::ron_float;
@@ -67,7 +67,7 @@ impl Effect {
         match self {
             Effect::Form => scene.form.is_some(),
             Effect::Roughness => scene.roughness.is_some(),
-            Effect::Adhesion => scene.adhesion.is_some_and(|adhesion| adhesion.work() != Some(0.0)),
+            Effect::Adhesion => scene.adhesion.is_some_and(|adhesion| adhesion.work != Some(0.0)),
             Effect::Unloading => may_pull(&scene.loading),
             _ => self.observer().is_some_and(|observer| scene.observe.contains(&observer)),
         }
@@ -86,11 +86,10 @@ impl Effect {
                 format!("SelfAffine(hurst: 0.7, rms_height: {height}, modes: ({first}, {last}), seed: 1)")
             }
             Effect::Adhesion if scene.roughness.is_some() => {
-                let range = scene.adhesion.and_then(|adhesion| adhesion.range());
-                let (parameter, value) = (RoughnessParameter::Kappa, 2.0);
-                adhesion_text(scene, Adhesion::Parameter { parameter, value, range })
+                let Adhesion { range, .. } = scene.adhesion.unwrap_or_default();
+                adhesion_text(scene, Adhesion { kappa: Some(2.0), range, ..Adhesion::default() })
             }
-            Effect::Adhesion => adhesion_text(scene, by_work(scene, 0.05)),
+            Effect::Adhesion => adhesion_text(scene, scene.adhesion.unwrap_or_default().with_work(0.05)),
             Effect::Unloading => in_ron(&[&scene.loading[..], &[Move::ToSeparation]].concat()),
             Effect::Fragments | Effect::HeightHistogram => {
                 let all = Effect::ALL.into_iter().filter(|effect| *effect == self || effect.is_on(scene));
@@ -98,11 +97,6 @@ impl Effect {
             }
         }
     }
-}
-
-/// The adhesion of a scene, by this work of adhesion, J/m².
-pub(super) fn by_work(scene: &Scene, work: f64) -> Adhesion {
-    scene.adhesion.map_or(Adhesion::by_work(work), |adhesion| adhesion.with_work(work))
 }
 
 /// Adhesion in RON.

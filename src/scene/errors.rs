@@ -73,6 +73,17 @@ impl SceneError {
         SceneError { origin, message: message.into(), ..SceneError::default() }
     }
 
+    /// An error of a value without its origin.
+    pub(super) fn of(
+        field: &str,
+        value: impl Into<String>,
+        allowed: impl Into<String>,
+        message: &str,
+    ) -> SceneError {
+        let (value, allowed) = (value.into(), allowed.into());
+        SceneError { field: field.into(), value, allowed, ..SceneError::whole(Origin::Scene, message) }
+    }
+
     /// The same error with another origin.
     pub(super) fn at(self, origin: Origin) -> SceneError {
         SceneError { origin, ..self }

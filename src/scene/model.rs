@@ -4,8 +4,8 @@
 
 use super::adhesion::Adhesion;
 use super::fields::default;
+use super::measured::Measured;
 pub use crate::contact::{Edges, Move};
-use crate::spectrum::Detrend;
 use crate::surface::Form;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -49,70 +49,39 @@ pub struct Scene {
     pub observe: Vec<Observer>,
 }
 
-/// Elastic constants of the half-space.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged, try_from = "MaterialText")]
-pub enum Material {
-    /// Elastic half-space under a rigid body.
-    Isotropic {
-        /// Young's modulus E, Pa.
-        youngs_modulus: f64,
-        /// Poisson's ratio ν.
-        poisson_ratio: f64,
-    },
-    /// Two elastic bodies.
-    Effective {
-        /// Effective modulus E* of eq. (2), Pa.
-        effective_modulus: f64,
-    },
+/// Elastic constants of the half-space, as written: E and ν of a half-space under a rigid body, or E* of two elastic bodies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Young's modulus E, Pa.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub youngs_modulus: Option<f64>,
+    /// Poisson's ratio ν.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub poisson_ratio: Option<f64>,
+    /// Effective modulus E* of eq. (2), Pa.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub effective_modulus: Option<f64>,
 }
 
 impl Material {
     /// Material of this effective modulus E*, Pa.
     pub fn effective(effective_modulus: f64) -> Self {
-        Material::Effective { effective_modulus }
+        Material { effective_modulus: Some(effective_modulus), ..Material::default() }
     }
 
     /// Isotropic material under a rigid body, of Young's modulus E (Pa) and Poisson's ratio ν: E* = E/(1 − ν²).
     pub fn isotropic(youngs_modulus: f64, poisson_ratio: f64) -> Self {
-        Material::Isotropic { youngs_modulus, poisson_ratio }
+        let [youngs_modulus, poisson_ratio] = [youngs_modulus, poisson_ratio].map(Some);
+        Material { youngs_modulus, poisson_ratio, effective_modulus: None }
     }
 
-    /// Effective modulus E* of eq. (2), Pa.
+    /// Effective modulus E* of eq. (2), Pa; NaN if a constant is missing.
     pub fn effective_modulus(&self) -> f64 {
-        match *self {
-            Material::Effective { effective_modulus } => effective_modulus,
-            // (1 − ν)(1 + ν) keeps its digits for ν close to −1; 1 − ν² does not.
-            Material::Isotropic { youngs_modulus, poisson_ratio } => {
-                youngs_modulus / ((1.0 - poisson_ratio) * (1.0 + poisson_ratio))
-            }
-        }
-    }
-}
-
-/// Material as written.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename = "Material")]
-struct MaterialText {
-    youngs_modulus: Option<f64>,
-    poisson_ratio: Option<f64>,
-    effective_modulus: Option<f64>,
-}
-
-impl TryFrom<MaterialText> for Material {
-    type Error = &'static str;
-
-    fn try_from(text: MaterialText) -> Result<Material, &'static str> {
-        Err(match (text.effective_modulus, text.youngs_modulus, text.poisson_ratio) {
-            (Some(modulus), None, None) => return Ok(Material::effective(modulus)),
-            (None, Some(modulus), Some(ratio)) => return Ok(Material::isotropic(modulus, ratio)),
-            (Some(_), ..) => {
-                "material: effective_modulus replaces youngs_modulus and poisson_ratio: give one or the other"
-            }
-            (None, Some(_), None) => "material: youngs_modulus requires poisson_ratio, which is missing",
-            (None, None, Some(_)) => "material: poisson_ratio requires youngs_modulus, which is missing",
-            (None, None, None) => "material: give youngs_modulus with poisson_ratio, or effective_modulus",
-        })
+        let [modulus, ratio] =
+            [self.youngs_modulus, self.poisson_ratio].map(|value| value.unwrap_or(f64::NAN));
+        // (1 − ν)(1 + ν) keeps its digits for ν close to −1; 1 − ν² does not.
+        self.effective_modulus.unwrap_or(modulus / ((1.0 - ratio) * (1.0 + ratio)))
     }
 }
 
@@ -137,69 +106,7 @@ pub enum Roughness {
         seed: u64,
     },
     /// Measured surface, profile or map: its equivalent line, or the profile itself.
-    Measured {
-        /// The file, relative to the scene file.
-        file: String,
-        /// Further files of the same face: samples of one roughness, whose spectrum is estimated from all of them.
-        #[serde(default, skip_serializing_if = "Vec::is_empty")]
-        further_files: Vec<String>,
-        /// True if the measured profile itself is the line. `None`: true in scenes of version 1, false in those of
-        /// version 2; see [`Scene::measured_as_line`].
-        #[serde(skip_serializing_if = "Option::is_none")]
-        as_line: Option<bool>,
-        /// File of the opposite face, relative to the scene file; the spectra of both faces add.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        opposite: Option<String>,
-        /// Row of a map used as the profile, from 1.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        row: Option<u64>,
-        /// Column of a map used as the profile, from 1.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        column: Option<u64>,
-        /// Part removed from the heights; `None`: the tilt for an equivalent line, nothing for `as_line`.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        detrend: Option<Detrend>,
-        /// True if the surface repeats itself at its borders: its spectrum is then estimated without a window.
-        #[serde(default, skip_serializing_if = "is_false")]
-        periodic: bool,
-        /// Unit of lengths if the file states none; empty: unknown, or m for `as_line`.
-        #[serde(default, skip_serializing_if = "String::is_empty")]
-        unit: String,
-        /// Unit of heights if the file states none; empty: as `unit`.
-        #[serde(default, skip_serializing_if = "String::is_empty")]
-        height_unit: String,
-        /// Distance between points, m, if the file states none.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        spacing: Option<f64>,
-        /// True if missing heights are interpolated from their neighbours.
-        #[serde(default, skip_serializing_if = "is_false")]
-        interpolate: bool,
-        /// True if uneven profiles are resampled at their mean distance.
-        #[serde(default, skip_serializing_if = "is_false")]
-        resample: bool,
-        /// Number of the channel of a file with several.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        channel: Option<u64>,
-        /// Shortest wavelength, m, down to which the spectrum of the equivalent line continues as a power law;
-        /// `None`: the last resolved wavelength.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        continue_to: Option<f64>,
-        /// Seed of the random phases of the equivalent line.
-        #[serde(default = "default_seed", skip_serializing_if = "is_default_seed")]
-        seed: u64,
-    },
-}
-
-fn default_seed() -> u64 {
-    default("roughness.seed", Some("Measured"))
-}
-
-fn is_default_seed(seed: &u64) -> bool {
-    *seed == default_seed()
-}
-
-fn is_false(value: &bool) -> bool {
-    !value
+    Measured(Measured),
 }
 
 impl Roughness {
@@ -227,8 +134,8 @@ impl Scene {
             Roughness::SelfAffine { modes: (_, last), .. } => {
                 ("roughness.modes", self.numerics.points as f64 / *last as f64)
             }
-            Roughness::Measured { continue_to, .. } => {
-                ("roughness.continue_to", (*continue_to)? / self.spacing())
+            Roughness::Measured(measured) => {
+                ("roughness.continue_to", measured.continue_to? / self.spacing())
             }
         };
         (springs < SPRINGS_PER_WAVE as f64).then(|| {
@@ -241,32 +148,31 @@ impl Scene {
         })
     }
 
+    /// The measured surface, if there is one.
+    pub fn measured(&self) -> Option<&Measured> {
+        if let Some(Roughness::Measured(measured)) = &self.roughness { Some(measured) } else { None }
+    }
+
     /// Returns true if a measured profile is the line itself.
     pub fn measured_as_line(&self) -> bool {
-        let Some(Roughness::Measured { as_line, .. }) = &self.roughness else { return false };
-        as_line.unwrap_or(self.version < 2)
+        self.measured().is_some_and(|measured| measured.as_line.unwrap_or(self.version < 2))
     }
 
     /// Files of the measured surfaces, relative to the scene file.
     pub fn measured_files(&self) -> Vec<&str> {
-        let Some(Roughness::Measured { file, further_files, opposite, .. }) = &self.roughness else {
-            return Vec::new();
-        };
-        std::iter::once(file).chain(further_files).chain(opposite).map(String::as_str).collect()
+        self.measured().map_or_else(Vec::new, |measured| measured.faces().concat())
     }
 
     /// Paths of the files of each face, with names relative to `folder`.
     pub fn measured_paths(&self, folder: &Path) -> Vec<Vec<PathBuf>> {
-        let Some(Roughness::Measured { file, further_files, opposite, .. }) = &self.roughness else {
-            return Vec::new();
-        };
-        let face = std::iter::once(file).chain(further_files).map(|file| folder.join(file)).collect();
-        std::iter::once(face).chain(opposite.iter().map(|file| vec![folder.join(file)])).collect()
+        let faces = self.measured().map_or_else(Vec::new, Measured::faces);
+        faces.into_iter().map(|face| face.into_iter().map(|file| folder.join(file)).collect()).collect()
     }
 
     /// Renames the files of the measured surfaces.
     pub fn rename_measured_files(&mut self, rename: impl Fn(&str) -> String) {
-        if let Some(Roughness::Measured { file, further_files, opposite, .. }) = &mut self.roughness {
+        if let Some(Roughness::Measured(Measured { file, further_files, opposite, .. })) = &mut self.roughness
+        {
             for name in std::iter::once(file).chain(further_files).chain(opposite) {
                 *name = rename(name);
             }
@@ -275,16 +181,15 @@ impl Scene {
 
     /// Seed of the random phases; `None` if the profile has none.
     pub fn seed(&self) -> Option<u64> {
-        match &self.roughness {
-            Some(Roughness::Measured { .. }) if self.measured_as_line() => None,
-            Some(Roughness::SelfAffine { seed, .. } | Roughness::Measured { seed, .. }) => Some(*seed),
-            None => None,
+        match self.roughness.as_ref()? {
+            Roughness::Measured(_) if self.measured_as_line() => None,
+            Roughness::SelfAffine { seed, .. } | Roughness::Measured(Measured { seed, .. }) => Some(*seed),
         }
     }
 
     /// Sets the seed of the random phases, if there are any.
     pub fn set_seed(&mut self, wanted: u64) {
-        if let Some(Roughness::SelfAffine { seed, .. } | Roughness::Measured { seed, .. }) =
+        if let Some(Roughness::SelfAffine { seed, .. } | Roughness::Measured(Measured { seed, .. })) =
             &mut self.roughness
         {
             *seed = wanted;

@@ -6,8 +6,7 @@ use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
 
 use super::edit::field_at;
-use super::errors::{Origin, SceneError};
-use super::errors::{did_you_mean, nearest};
+use super::errors::{Origin, SceneError, did_you_mean, nearest};
 use super::fields::field;
 use super::model::Scene;
 use super::range::Range;
@@ -20,41 +19,25 @@ const MOST_REPEATED: usize = 60;
 const NO_SCENE: &str = "a scene in ( ) is expected here; a measured surface is read by `asperity surface FILE`, and \
                         is the roughness of a scene by --set roughness=FILE";
 
-/// Reason why a text cannot be read as a scene, with the byte at which reading failed.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Unread {
-    pub(super) offset: usize,
-    /// The error, still without an origin.
-    pub(super) error: SceneError,
-    /// True for fields that contradict each other.
-    pub(super) is_conflict: bool,
-}
-
-impl Unread {
-    fn new(offset: usize, error: SceneError) -> Unread {
-        Unread { offset, error, is_conflict: false }
-    }
-}
-
-/// Reads a scene; its values are not checked.
-pub(super) fn read(text: &str) -> Result<Scene, Box<Unread>> {
+/// Reads a scene; its values are not checked. An error has the byte at which reading failed, and no origin.
+pub(super) fn read(text: &str) -> Result<Scene, Box<(usize, SceneError)>> {
     read_ron(text).map_err(|error| Box::new(explain(text, &error)))
 }
 
-/// Reads RON text with optional values that need no `Some`.
+/// Reads RON text with optional values that need no `Some`, and a variant of one group without brackets around it.
 pub(crate) fn read_ron<T: DeserializeOwned>(text: &str) -> Result<T, SpannedError> {
-    ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME).from_str(text)
+    let extensions = Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES;
+    ron::Options::default().with_default_extension(extensions).from_str(text)
 }
 
 /// Error of an unsupported version, which may be why the rest of a text cannot be read.
-fn wrong_version(text: &Text) -> Option<Unread> {
+fn wrong_version(text: &Text) -> Option<(usize, SceneError)> {
     let (field, value) = (field("version", None)?, text.written("version")?);
     if value.parse().is_ok_and(|version| field.range.contains_whole(version)) {
         return None;
     }
-    let [path, value, message] = [field.path, value, field.name].map(str::to_owned);
-    let error = SceneError { field: path, value, allowed: field.allowed(), message, ..SceneError::default() };
-    Some(Unread::new(text.nearest_value("version"), error))
+    let error = SceneError::of(field.path, value, field.allowed(), field.name);
+    Some((text.nearest_value("version"), error))
 }
 
 /// Place and reason of an error in text of any form.
@@ -83,75 +66,58 @@ fn place_of(text: &str, error: &SpannedError) -> (usize, usize) {
     (if text[start..end].contains(something) { start } else { end }, end)
 }
 
-fn explain(source: &str, error: &SpannedError) -> Unread {
+fn explain(source: &str, error: &SpannedError) -> (usize, SceneError) {
     let (offset, end) = place_of(source, error);
-    let whole = |offset, message: String| Unread::new(offset, SceneError::whole(Origin::Scene, message));
+    let whole = |offset, message: &str| (offset, SceneError::whole(Origin::Scene, message));
     if !source.trim().is_empty() && !source[..end].contains('(') {
-        return whole(source.len() - source.trim_start().len(), NO_SCENE.into());
+        return whole(source.len() - source.trim_start().len(), NO_SCENE);
     }
     let is_lost = matches!(error.code, Error::Eof | Error::ExpectedStringEnd | Error::UnclosedBlockComment);
     match Text::new(source) {
         Ok(text) => wrong_version(&text).unwrap_or_else(|| explain_at(&text, offset, &error.code)),
         // If the reader reached the end of the text, the open bracket is the better place.
         Err(unreadable) if end >= source.trim_end().len() || is_lost => {
-            whole(unreadable.offset, unreadable.reason.into())
+            whole(unreadable.offset, unreadable.reason)
         }
-        Err(_) => whole(offset, plain(&error.code)),
+        Err(_) => whole(offset, &plain(&error.code)),
     }
 }
 
-fn explain_at(text: &Text, offset: usize, error: &Error) -> Unread {
-    if let Error::Message(message) = error
-        && let Some(conflict) = conflict(text, message)
-    {
-        return conflict;
-    }
-    let path = text.path_at(offset).to_owned();
-    let at = SceneError { field: path.clone(), message: plain(error), ..SceneError::default() };
+fn explain_at(text: &Text, offset: usize, error: &Error) -> (usize, SceneError) {
+    let path = text.path_at(offset);
     let error = match error {
         Error::MissingStructField { field: name, .. } => {
             let path = if path.is_empty() { name.to_string() } else { format!("{path}.{name}") };
             let allowed = field_at(text, &path).map(|field| format!("; allowed: {}", field.allowed()));
-            SceneError { field: path, message: format!("missing{}", allowed.unwrap_or_default()), ..at }
+            SceneError::of(&path, "", "", &format!("missing{}", allowed.unwrap_or_default()))
         }
-        Error::NoSuchStructField { .. } | Error::DuplicateStructField { .. } => at,
         Error::NoSuchEnumVariant { expected, found, .. } => {
             let near = nearest(found, expected.iter().copied());
             let message = near.map_or_else(String::new, |near| format!("did you mean {near}?"));
-            SceneError { value: found.clone(), allowed: expected.join(", "), message, ..at }
+            SceneError::of(path, found, expected.join(", "), &message)
         }
-        _ => return explain_value(text, Unread::new(offset, at)),
+        Error::NoSuchStructField { .. } | Error::DuplicateStructField { .. } => {
+            SceneError::of(path, "", "", &plain(error))
+        }
+        _ => return explain_value(text, path, offset, error),
     };
-    Unread::new(offset, error)
-}
-
-/// Fields that contradict each other, by a message that starts with the path of their group.
-fn conflict(text: &Text, message: &str) -> Option<Unread> {
-    let (path, reason) = message.split_once(": ")?;
-    field(path, None)?;
-    let value = text.value(path).filter(|value| !value.contains('(')).unwrap_or_default();
-    let (field, value, message) = (path.to_owned(), value.to_owned(), reason.to_owned());
-    let error = SceneError { field, value, message, ..SceneError::default() };
-    Some(Unread { offset: text.nearest_value(path), error, is_conflict: true })
+    (offset, error)
 }
 
 /// A single value is marked as a whole and repeated, with its allowed values.
-fn explain_value(text: &Text, at: Unread) -> Unread {
-    let path = &at.error.field;
-    let place = text.span(path).filter(|_| !path.is_empty()).map(|entry| entry.value.clone());
-    let place = place.filter(|place| {
-        place.len() <= MOST_REPEATED && !text.as_str()[place.clone()].contains(['(', '[', '{'])
-    });
-    let Some(place) = place else { return at };
-    let (offset, value) = (place.start, text.as_str()[place].to_owned());
-    match field_at(text, path) {
+fn explain_value(text: &Text, path: &str, offset: usize, error: &Error) -> (usize, SceneError) {
+    let value = text
+        .written(path)
+        .filter(|value| !path.is_empty() && value.len() <= MOST_REPEATED && !value.contains(['(', '[', '{']));
+    let (offset, value) = value.map_or((offset, ""), |value| (text.nearest_value(path), value));
+    let error = match field_at(text, path).filter(|_| !value.is_empty()) {
         // Without quotes the content of a text is not the error.
         Some(field) if !matches!(field.range, Range::Text { .. }) => {
-            let (allowed, message) = (field.allowed(), field.name.to_owned());
-            Unread::new(offset, SceneError { value, allowed, message, ..at.error })
+            SceneError::of(path, value, field.allowed(), field.name)
         }
-        _ => Unread::new(offset, SceneError { value, ..at.error }),
-    }
+        _ => SceneError::of(path, value, "", &plain(error)),
+    };
+    (offset, error)
 }
 
 /// Message of the reader in plain words.
@@ -190,8 +156,7 @@ mod tests {
     use super::*;
 
     fn unread(text: &str) -> ((usize, usize), String, String, String, String) {
-        let Unread { offset, error, .. } = *read(text).unwrap_err();
-        let SceneError { field, value, allowed, message, .. } = error;
+        let (offset, SceneError { field, value, allowed, message, .. }) = *read(text).unwrap_err();
         (line_column(text, offset), field, value, allowed, message)
     }
 

@@ -6,10 +6,11 @@
 
 use super::adhesion::{Adhesion, RoughnessParameter};
 use super::document::{Document, pair};
-use super::effects::{Effect, adhesion_text, by_work, pressing};
-use super::errors::{Origin, SceneError, SceneErrors};
+use super::effects::{Effect, adhesion_text, pressing};
+use super::errors::{SceneError, SceneErrors};
 use super::field::Field;
-use super::model::Roughness;
+use super::fields::fields_inside;
+use super::model::{Roughness, Scene};
 use super::range::choice_key;
 use super::text::ron_float;
 use super::tree::{Tree, in_ron};
@@ -42,14 +43,15 @@ impl Document {
         if !effect.is_on(scene) {
             return Ok(self.clone());
         }
-        let replaced = match (effect, scene.adhesion) {
-            (Effect::Roughness, Some(Adhesion::Work { amplitude: Some((parameter, _)), .. })) => {
+        let adhesion = scene.adhesion.unwrap_or_default();
+        let replaced = match (effect, adhesion.parameter()) {
+            (Effect::Roughness, Some((parameter, _))) if adhesion.work.is_some() => {
                 Some(pair(parameter.path(), "None"))
             }
-            (Effect::Roughness, Some(Adhesion::Parameter { parameter, .. })) => {
+            (Effect::Roughness, Some((parameter, _))) => {
                 let what = format!("{} requires roughness, and the work of adhesion", parameter.symbol());
                 let work = self.known(computed.work_of_adhesion, "adhesion", &what)?;
-                Some(pair("adhesion", adhesion_text(scene, by_work(scene, work))))
+                Some(pair("adhesion", adhesion_text(scene, adhesion.with_work(work))))
             }
             (Effect::Adhesion, _) if !scene.roughness.as_ref().is_none_or(Roughness::has_amplitude) => {
                 let what = "adhesion sets its amplitude, and the rms height";
@@ -94,34 +96,21 @@ impl Document {
         restored.map_or_else(|| self.set(effect.path(), &effect.suited(self.scene())), Ok)
     }
 
-    /// This document with adhesion of this work, J/m². Sets the field of adhesion by work; any other
-    /// adhesion, and none, becomes adhesion by work.
+    /// This document with another adhesion: its numbers change one by one if the same ones are given, else their group.
     ///
     /// # Errors
-    /// An invalid work of adhesion.
-    pub fn with_work_of_adhesion(&self, work: f64) -> Result<Document, SceneErrors> {
-        match self.scene().adhesion {
-            Some(Adhesion::Work { .. }) => self.set("adhesion.work", &ron_float(work)),
-            _ => self.set("adhesion", &adhesion_text(self.scene(), by_work(self.scene(), work))),
+    /// An invalid value.
+    pub fn with_adhesion(&self, adhesion: Adhesion) -> Result<Document, SceneErrors> {
+        let scenes = [self.scene(), &Scene { adhesion: Some(adhesion), ..self.scene().clone() }];
+        let [here, there] = scenes.map(Tree::of);
+        let values =
+            || fields_inside("adhesion", None).map(|field| (here.value(field), there.value(field), field));
+        if values().any(|(here, there, _)| here.is_some() != there.is_some()) {
+            return self.set("adhesion", &adhesion_text(self.scene(), adhesion));
         }
-    }
-
-    /// This document with adhesion of this κ or e_el/γ. Sets the field of adhesion by this parameter; any other
-    /// adhesion, and none, becomes adhesion by the parameter. A work of adhesion that sets the amplitude of the
-    /// roughness together with the other parameter is kept.
-    ///
-    /// # Errors
-    /// An invalid value, or a scene without roughness.
-    pub fn with_parameter(&self, parameter: RoughnessParameter, value: f64) -> Result<Document, SceneErrors> {
-        let present = self.scene().adhesion;
-        if present.and_then(|adhesion| adhesion.parameter()).is_some_and(|(given, _)| given == parameter) {
-            return self.set(parameter.path(), &ron_float(value));
-        }
-        let changed = present.map_or(Ok(Adhesion::by_parameter(parameter, value)), |adhesion| {
-            adhesion.with_parameter(parameter, value)
-        });
-        let changed = changed.map_err(|reason| SceneError::whole(Origin::Scene, reason))?;
-        self.set("adhesion", &adhesion_text(self.scene(), changed))
+        let changed = values().filter(|(here, there, _)| here != there);
+        let text = changed.map(|(.., field)| pair(field.path, there.written(field).unwrap_or_default()));
+        self.set_all(&text.collect::<Vec<_>>())
     }
 
     /// This document with the next choice of a field in this direction that the scene allows; `None` if there is no
@@ -169,24 +158,23 @@ impl Document {
         // A typed value comes back from a conversion to another one without digits of rounding.
         let typed =
             |value| if round_to(value, 10) == round_to(value, 14) { round_to(value, 10) } else { value };
-        let by = |parameter, value: Option<f64>| Some(self.with_parameter(parameter, typed(value?)));
-        let changed = match choice_key(next) {
+        let adhesion = self.scene().adhesion.unwrap_or_default();
+        let by = |parameter, value: Option<f64>| Some(adhesion.with_parameter(parameter, typed(value?)));
+        let same = match choice_key(next) {
             "(kappa" => by(RoughnessParameter::Kappa, computed.kappa),
             "(elastic_energy_ratio" => {
                 by(RoughnessParameter::ElasticEnergyRatio, computed.elastic_energy_ratio)
             }
-            _ => computed.work_of_adhesion.map(|work| self.with_work_of_adhesion(work)),
+            _ => computed.work_of_adhesion.map(|work| adhesion.with_work(work)),
         };
-        changed.unwrap_or_else(|| self.set("adhesion", next))
+        same.map_or_else(|| self.set("adhesion", next), |same| self.with_adhesion(same))
     }
 
     /// A value of the computed scene for a field.
     fn known(&self, value: Option<f64>, field: &str, what: &str) -> Result<f64, SceneErrors> {
         value.ok_or_else(|| {
             let message = format!("{what} is not known yet: compute the scene first");
-            let value = self.value(field).unwrap_or_default().to_string();
-            let error = SceneError::whole(Origin::Scene, message);
-            SceneError { field: field.to_string(), value, ..error }.into()
+            SceneError::of(field, self.value(field).unwrap_or_default(), "", &message).into()
         })
     }
 }
@@ -232,7 +220,7 @@ mod tests {
         document
             .scene()
             .adhesion
-            .map_or((None, None), |adhesion| (adhesion.work(), adhesion.parameter().map(|(_, value)| value)))
+            .map_or((None, None), |adhesion| (adhesion.work, adhesion.parameter().map(|(_, value)| value)))
     }
 
     fn next(document: &Document, path: &str, forwards: bool) -> Document {
@@ -277,7 +265,7 @@ mod tests {
     fn what_was_changed_meanwhile_stays_changed() {
         let back = |smooth: &Document| smooth.with(Effect::Roughness).unwrap();
         let smooth = off(&document(), Effect::Roughness);
-        let stickier = back(&smooth.with_work_of_adhesion(0.2).unwrap());
+        let stickier = back(&smooth.with_adhesion(Adhesion::by_work(0.2)).unwrap());
         assert_eq!(
             (adhesion(&stickier), stickier.value("roughness.hurst")),
             ((Some(0.2), None), Some("0.70"))

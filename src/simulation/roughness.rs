@@ -3,12 +3,10 @@
 use super::RunError;
 use super::cached::Cached;
 use crate::scene::{MOST_POINTS, Roughness, SPRINGS_PER_WAVE, Scene};
-use crate::spectrum::{Detrend, End, Options};
 use crate::surface::{
     Amplitude, EquivalentLine, MeasuredOptions, MeasuredRoughness, SelfAffine, SurfaceError, Synthesizer,
     read_faces,
 };
-use crate::topography::{Cut, ReadOptions, Unit};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -155,8 +153,9 @@ pub(super) fn spectrum(scene: &Scene) -> Option<SelfAffine> {
 /// Options of a checked scene for its measured surface.
 #[must_use]
 pub fn measured_options(scene: &Scene) -> MeasuredOptions {
-    let of_roughness = |roughness| measured_roughness_options(roughness, scene.measured_as_line());
-    scene.roughness.as_ref().map_or_else(MeasuredOptions::default, of_roughness)
+    scene
+        .measured()
+        .map_or_else(MeasuredOptions::default, |measured| measured.options(scene.measured_as_line()))
 }
 
 /// Springs, a power of two, on which the shortest wave of an equivalent line over a length (m) has twice the fewest springs
@@ -165,43 +164,4 @@ pub fn measured_options(scene: &Scene) -> MeasuredOptions {
 pub fn equivalent_springs(line: &EquivalentLine, length: f64) -> u64 {
     let waves = length * line.range()[1] / TAU;
     ((2.0 * SPRINGS_PER_WAVE as f64 * waves) as u64).next_power_of_two().clamp(1024, MOST_POINTS)
-}
-
-/// Options of a checked roughness, whose measured profile is the line itself or not.
-#[must_use]
-pub fn measured_roughness_options(roughness: &Roughness, as_line: bool) -> MeasuredOptions {
-    let Roughness::Measured {
-        unit,
-        height_unit,
-        spacing,
-        interpolate,
-        resample,
-        channel,
-        row,
-        column,
-        detrend,
-        periodic,
-        continue_to,
-        ..
-    } = roughness
-    else {
-        return MeasuredOptions::default();
-    };
-    let end = continue_to.map_or(End::Ends, |wavelength| End::Continues(TAU / wavelength));
-    // A plane fitted to a periodic surface would leave a step at its borders.
-    let default = if *periodic { Detrend::Mean } else { Detrend::Tilt };
-    MeasuredOptions {
-        as_line: as_line.then(|| detrend.unwrap_or(Detrend::None)),
-        reading: ReadOptions {
-            unit: unit.parse().ok(),
-            height_unit: height_unit.parse().ok(),
-            convention: as_line.then_some(Unit::METRE),
-            spacing: *spacing,
-            interpolate: *interpolate,
-            channel: channel.and_then(|channel| channel.try_into().ok()),
-            cut: row.map(Cut::Row).or(column.map(Cut::Column)),
-            resample: *resample,
-        },
-        spectrum: Options { detrend: detrend.unwrap_or(default), periodic: *periodic, end, tip_radius: None },
-    }
 }

@@ -1,9 +1,7 @@
 //! Quantities that an axis may vary: the numbers of a scene by their paths, and others that follow from several.
 
 use crate::analysis::Governing;
-use crate::scene::{
-    Adhesion, FIELDS, Field, Move, Range, Roughness, RoughnessParameter, Scene, Tree, field, nearest,
-};
+use crate::scene::{FIELDS, Field, Move, Range, Roughness, RoughnessParameter, Scene, Tree, field, nearest};
 use crate::simulation::FEW_SAMPLES;
 use crate::surface::SelfAffine;
 
@@ -158,9 +156,7 @@ pub(super) fn scene_with<'a>(
     }
     let mut scene = tree.scene()?;
     if let Some((parameter, value)) = parameter {
-        let by_parameter = Ok(Adhesion::by_parameter(parameter, value));
-        let changed = scene.adhesion.map_or(by_parameter, |one| one.with_parameter(parameter, value));
-        scene.adhesion = Some(changed?);
+        scene.adhesion = Some(scene.adhesion.unwrap_or_default().with_parameter(parameter, value));
     }
     Ok(scene)
 }

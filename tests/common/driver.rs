@@ -44,6 +44,8 @@ impl Console for Recorded {
         Ok(())
     }
 
+    fn redraw(&mut self) {}
+
     fn suspend(&mut self) -> io::Result<Option<Action>> {
         Ok(None)
     }

@@ -39,19 +39,14 @@ impl Driver {
     pub fn press(&mut self, names: &str) -> Vec<Effect> {
         let mut effects = Vec::new();
         for name in names.split_whitespace() {
-            let event = key_event(name);
-            effects = match (self.app.config.bindings.command(&event, self.app.keys()), event.code) {
-                (Some(command), _) => self.act(Action::Command(command)),
-                (None, KeyCode::Char(character)) => self.act(Action::Type(character)),
-                (None, _) => Vec::new(),
-            };
+            effects = self.act(Action::Key(key_event(name)));
         }
         effects
     }
 
     /// Types a text, character by character.
     pub fn type_text(&mut self, text: &str) {
-        text.chars().for_each(|character| drop(self.act(Action::Type(character))));
+        text.chars().for_each(|character| drop(self.act(Action::Paste(character.to_string()))));
     }
 
     /// Types a value for the selected parameter in place of the present one.
@@ -63,7 +58,7 @@ impl Driver {
 
     /// Reason why the typed text was refused.
     pub fn refusal(&self) -> Option<&str> {
-        self.app.mode.prompt()?.refused.as_deref()
+        self.app.prompt.as_ref()?.refused.as_deref()
     }
 
     /// Selects the parameter of a field, by keys.

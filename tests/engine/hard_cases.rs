@@ -77,38 +77,3 @@ fn vanishing_adhesion_pulls_no_more_than_its_longest_stretch() {
         }
     }
 }
-
-#[test]
-fn under_far_loads_the_contact_only_grows() {
-    let rough: Vec<f64> = self_affine(0.7, 1, 257, 128).iter().map(|gap| 5e-7 * gap).collect();
-    let sphere: Vec<f64> =
-        (-128..=128).map(|place| (1.0e-4 / 257.0 * f64::from(place)).powi(2) / 1.0e-4).collect();
-    for (edges, work) in
-        [Edges::Grid, Edges::SubCell].into_iter().flat_map(|edges| [(edges, 0.0), (edges, 2e-5)])
-    {
-        for body in [&rough, &sphere].map(|gaps| on_rubber(gaps.clone(), edges, work)) {
-            for power in 0..=30 {
-                let far = Move::ToIndentation(10.0_f64.powi(power) * body.deepest());
-                let legs = body.history(&[far, Move::ToIndentation(0.5 * body.deepest())], 17).legs;
-                let force = end(&legs[0]).force;
-                let again = body.history(&[Move::ToForce(force)], 17).legs;
-                for leg in legs.iter().chain(&again) {
-                    let mut curve = leg.curve.clone();
-                    curve.sort_by(|a, b| a.indentation.total_cmp(&b.indentation));
-                    let grows = curve.windows(2).all(|pair| pair[0].contact_length <= pair[1].contact_length);
-                    let whole = 1.0e-4 * (1.0 + 2.0 * f64::EPSILON);
-                    let inside = curve.iter().all(|point| (0.0..=whole).contains(&point.contact_length));
-                    assert!(grows && inside, "{edges:?}, 1e{power} times the depth: {curve:?}");
-                }
-                let sum: f64 = body.gaps.iter().map(|gap| end(&legs[0]).indentation - gap).sum();
-                let expected = body.foundation.spring_stiffness() * sum;
-                for found in [force, end(&again[0]).force] {
-                    assert!(
-                        (found / expected - 1.0).abs() <= 1e-13,
-                        "{edges:?}, 1e{power}: {found:e} {expected:e}"
-                    );
-                }
-            }
-        }
-    }
-}

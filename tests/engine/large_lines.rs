@@ -23,19 +23,6 @@ fn near(found: f64, expected: f64, relative: f64) {
 }
 
 #[test]
-fn a_flat_line_is_kendalls_punch() {
-    let work = 0.3;
-    let ([loading, unloading], fragments) = legs(&vec![0.0; SPRINGS], work, 0.1);
-    let stretch = (PI * work).sqrt();
-    assert_eq!((loading.attached, fragments), (SPRINGS as u64, 1));
-    near(loading.largest.force, 0.1, 1e-15);
-    near(unloading.smallest.force, -stretch, 1e-14);
-    near(unloading.end(), -stretch, 1e-14);
-    near(unloading.released_energy, 0.5 * stretch * stretch, 1e-14);
-    assert_eq!(loading.released_energy, 0.0);
-}
-
-#[test]
 fn a_ramp_is_a_wedge_that_peels_from_one_side() {
     // c = mx, one fragment [0, a]: d(a) = ma − √(πaγ/E*), F = E*(d a − m a²/2).
     let (slope, work, deepest) = (1.0, 0.01, 0.5);
@@ -102,52 +89,4 @@ fn a_staircase_detaches_tread_by_tread() {
         expect(point, count);
     }
     assert!(count > 1, "{count} treads detach at once");
-}
-
-#[test]
-fn separate_teeth_add_up() {
-    // 2^14 equal teeth of 64 springs, pressed so little that none reaches the next.
-    let (teeth, springs_each) = (SPRINGS / 64, 64);
-    let rise = 1.0 / SPRINGS as f64;
-    let tooth: Vec<f64> = (0..springs_each).map(|i| 64.0 * rise * i as f64).collect();
-    let comb: Vec<f64> = tooth.iter().copied().cycle().take(SPRINGS).collect();
-    let work = 40.0 * rise;
-    let deepest = 1000.0 * rise;
-    let (whole, fragments) = legs(&comb, work, deepest);
-    let (single, _) = legs(&tooth, work, deepest);
-    assert!(single[0].attached < springs_each as u64 - 1, "a tooth touches the next");
-    assert_eq!(fragments, teeth);
-    // A power of two of equal sums: bit for bit.
-    let times = |point: &CurvePoint| CurvePoint {
-        force: teeth as f64 * point.force,
-        contact_length: teeth as f64 * point.contact_length,
-        springs: teeth as u64 * point.springs,
-        fragments: teeth as u64 * point.fragments,
-        stored_energy: teeth as f64 * point.stored_energy,
-        ..*point
-    };
-    for (whole, single) in whole.iter().zip(&single) {
-        let expected: Vec<CurvePoint> = single.curve.iter().map(times).collect();
-        assert_eq!(whole.curve, expected);
-        assert_eq!(whole.smallest, times(&single.smallest));
-        assert_eq!(whole.attached, teeth as u64 * single.attached);
-        near(whole.released_energy, teeth as f64 * single.released_energy, 1e-12);
-    }
-    assert!(whole[1].smallest.force < 0.0);
-}
-
-#[test]
-fn teeth_pressed_together_are_one_fragment() {
-    let rise = 1.0 / SPRINGS as f64;
-    let comb: Vec<f64> = (0..SPRINGS).map(|i| 64.0 * rise * (i % 64) as f64).collect();
-    let deepest = 64.0 * 64.0 * rise;
-    let work = 0.5;
-    let ([loading, unloading], fragments) = legs(&comb, work, deepest);
-    assert_eq!((loading.attached, fragments), (SPRINGS as u64, 1));
-    // The line holds as one face until its deepest springs detach, and all others with them.
-    let lets_go = 63.0 * 64.0 * rise - (PI * work).sqrt();
-    near(unloading.end(), lets_go, 1e-14);
-    near(unloading.smallest.indentation, lets_go, 1e-14);
-    near(unloading.smallest.force, lets_go - 31.5 * 64.0 * rise, 1e-12);
-    assert_eq!(unloading.curve[unloading.curve.len() - 2].springs, SPRINGS as u64);
 }

@@ -14,6 +14,6 @@ mod work;
 
 use super::body::*;
 use asperity::contact::{
-    CurvePoint, Direction, Edges, Foundation, History, Leg, LegRecord, Move, Patch, Solver, Stepwise,
+    CurvePoint, Direction, Edges, Foundation, Leg, LegRecord, Move, Patch, Solver, Stepwise,
 };
 use proptest::prelude::*;

@@ -2,7 +2,6 @@
 
 mod body;
 mod closed_forms;
-mod digits;
 mod equilibrium;
 mod hard_cases;
 mod large_lines;

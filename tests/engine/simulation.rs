@@ -129,15 +129,6 @@ fn an_interrupted_run_does_not_affect_the_next() {
 }
 
 #[test]
-fn figures_of_first_touch_are_those_of_its_protocol() {
-    let touch = scene(&[("loading", "[ToTouch, ToSeparation]")]);
-    assert!(Figures::is_touch_protocol(&touch));
-    let outcome = outcome(&mut Simulation::default(), &touch);
-    assert_eq!(outcome.zero_load_adhesion_force, outcome.figures.adhesion_force);
-    assert_eq!(outcome.history.work.zero_load_passes, 0);
-}
-
-#[test]
 fn work_counts_match_the_snapshot() {
     let smooth: Overrides =
         &[("roughness", "None"), ("form", "Paraboloid(radius: 1.0e-4)"), ("adhesion", "(work: 0.05)")];
@@ -156,46 +147,6 @@ fn work_counts_match_the_snapshot() {
         ("stepwise, minor loops", &[STEPS, loops]),
     ];
     insta::assert_debug_snapshot!(scenes.map(|(name, overrides)| (name, work(overrides))));
-}
-
-#[test]
-fn only_required_work_is_done() {
-    for solver in [("numerics.solver", "Exact"), STEPS] {
-        let whole = work(&[solver]);
-        assert!(whole.hess_evaluations > 0 || solver == STEPS);
-        assert_eq!((whole.random_phases, whole.transforms, whole.heights_binned), (64, 1, 0));
-
-        let bare = work(&[solver, BARE]);
-        assert_eq!((bare.hess_evaluations, bare.tree_nodes), (0, 0));
-        assert_eq!((bare.loading_passes, bare.unloading_passes, bare.zero_load_passes), (0, 0, 0));
-        // A work of zero is no adhesion either.
-        assert_eq!(work(&[solver, ("adhesion", "(work: 0.0)")]), bare);
-
-        let loading =
-            work(&[solver, ("loading", "[ToForce(1.0e-5), ToForce(2.0e-5), ToIndentation(1.0e-6)]")]);
-        assert_eq!((loading.unloading_passes, loading.detached), (0, 0));
-        assert!(loading.attached > 0);
-
-        let smooth = work(&[solver, ("roughness", "None"), ("adhesion", "(work: 0.05)")]);
-        assert_eq!((smooth.random_phases, smooth.transforms), (0, 0));
-
-        let observed =
-            outcome(&mut Simulation::default(), &scene(&[solver, ("observe", "[HeightHistogram]")]));
-        assert_eq!(observed.history.work, Work { heights_binned: 1024, ..whole });
-        assert_eq!(observed.histogram.unwrap().counts.iter().sum::<u64>(), 1024);
-    }
-    let exact = work(&[]);
-    assert_eq!((exact.steps, exact.relaxation_sweeps, exact.spring_updates), (0, 0, 0));
-    assert_eq!((exact.loading_passes, exact.unloading_passes), (1, 1));
-    // One node for each local maximum of the gap: no more than modes.
-    assert!((16..=64).contains(&exact.tree_nodes), "{}", exact.tree_nodes);
-    // F_a(0) takes another pass, and none where the loading turns at first touch.
-    assert_eq!(exact.zero_load_passes, 1);
-    let touch = work(&[("loading", "[ToTouch, ToSeparation]")]);
-    assert_eq!((touch.loading_passes, touch.unloading_passes, touch.zero_load_passes), (1, 1, 0));
-    let stepwise = work(&[STEPS]);
-    assert_eq!((stepwise.tree_nodes, stepwise.loading_passes, stepwise.unloading_passes), (0, 0, 0));
-    assert_eq!(stepwise.events_sorted, 0);
 }
 
 #[test]

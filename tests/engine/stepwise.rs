@@ -7,7 +7,6 @@ use asperity::contact::{
     Contact, ContactError, Direction, Edges, Foundation, LegRecord, Move, Solver, Stepwise,
 };
 use proptest::prelude::*;
-use std::f64::consts::PI;
 
 const FOUNDATION: Foundation = Foundation::endless(0.01, 1.0);
 
@@ -139,41 +138,6 @@ proptest! {
             }
         }
     }
-}
-
-#[test]
-fn one_spring_has_a_closed_form() {
-    // Touches at d = 0 and detaches at d = −√(πΔxγ/E*).
-    let work = 0.3;
-    let stretch = (PI * FOUNDATION.spacing * work / FOUNDATION.effective_modulus).sqrt();
-    let legs = [Move::ToIndentation(0.1), Move::ToSeparation];
-    for step in [0.03, 0.003, 0.000_3] {
-        let [found, expected] = both(&body(vec![0.0], work), step, &legs);
-        for (records, allowed) in [(&found, step), (&expected, 1e-15)] {
-            assert_eq!(records[0].largest.force, 0.1 * FOUNDATION.spring_stiffness());
-            let late = records[1].smallest.indentation + stretch;
-            assert!((0.0..=allowed).contains(&late), "step {step}: detached {late} early");
-            let smallest = FOUNDATION.spring_stiffness() * records[1].smallest.indentation;
-            assert!((records[1].smallest.force - smallest).abs() < 1e-17);
-            assert_eq!(records.iter().map(|leg| leg.attached + leg.detached).sum::<u64>(), 2);
-            let lost = 0.5 * FOUNDATION.spring_stiffness() * stretch * stretch;
-            let slack = FOUNDATION.spring_stiffness() * (stretch + allowed) * allowed;
-            assert!((records[1].released_energy - lost).abs() <= slack, "step {step}");
-        }
-    }
-    // Without adhesion nothing is held or lost.
-    for records in both(&body(vec![0.0], 0.0), 0.003, &legs) {
-        assert_eq!((records[1].smallest.force, records[1].released_energy), (0.0, 0.0));
-    }
-}
-
-#[test]
-fn of_equal_forces_the_first_is_the_smallest() {
-    let step = 0.003;
-    let [records, _] = both(&body(vec![0.0], 0.0), step, &to_indentations(&[0.1, -0.05]));
-    let smallest = records[1].smallest;
-    assert_eq!(smallest.force, 0.0);
-    assert!((-step..=0.0).contains(&smallest.indentation), "{smallest:?}");
 }
 
 #[test]

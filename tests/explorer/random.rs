@@ -176,7 +176,7 @@ impl Explorer {
     fn happen(&mut self, event: &Event) {
         match event {
             Event::Keys(key, times) => self.press(*key, *times),
-            Event::Type(character) => self.act(Action::Type(*character)),
+            Event::Type(character) => self.act(Action::Paste(character.to_string())),
             Event::Paste(text) => self.act(Action::Paste(text.clone())),
             Event::Enter(value) => {
                 self.command("edit-value");
@@ -265,10 +265,9 @@ impl Explorer {
             let again = Document::parse(document.text(), document.name()).expect("the text is a scene");
             assert_eq!(again.scene(), document.scene());
             assert_eq!(app.edit.parameters, parameters(document));
-            assert!(app.edit.refused.is_none(), "a changed scene is not refused");
+            assert!(!app.is_refused(), "a changed scene is not refused");
         }
         assert!(app.listed().contains(&app.edit.selected), "the selected parameter is in no folded group");
-        assert!(app.edit.refused.as_ref().is_none_or(|(row, _)| *row < app.edit.parameters.len()));
         assert!((0.0..=1.0).contains(&app.play.done), "{:?}", app.play);
         assert!(app.indentation().is_finite());
         if let Some(study) = app.chart.shown_study() {
@@ -283,8 +282,8 @@ impl Explorer {
             assert!(app.play.leg < app.legs().len(), "{:?}", app.play);
             assert!(!app.is_computing());
         }
-        if let Some(line) = self.driver.app.mode.line_mut() {
-            assert!(!line.text().contains(char::is_control));
+        if let Some(prompt) = &app.prompt {
+            assert!(!prompt.line.text().contains(char::is_control));
         }
         self.draw(self.driver.app.view.size);
     }
@@ -300,7 +299,7 @@ impl Explorer {
         if app.solved.as_ref().is_some_and(|computed| current(computed.generation)) {
             assert!(app.snapshot.as_ref().is_some_and(|snapshot| current(snapshot.generation)));
         } else {
-            assert!(app.message.is_some() || app.mode.kind() != asperity::explorer::app::ModeKind::Explore);
+            assert!(app.message.is_some() || app.prompt.is_some());
         }
     }
 }

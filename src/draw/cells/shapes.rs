@@ -1,5 +1,6 @@
 //! Layers as dots of a canvas whose bounds are those of the axes, 0 to 1.
 
+use crate::draw::axis::{Axes, Share};
 use crate::draw::chart::{Chart, Shape, Stroke};
 use ratatui::buffer::Buffer;
 use ratatui::style::Color;
@@ -41,32 +42,26 @@ pub(super) struct LayerShape<'a> {
 type Dot = (usize, usize);
 
 impl LayerShape<'_> {
-    /// Dot of a point, at the edge for a point outside; `None` without coordinates.
-    fn dot(&self, painter: &Painter<'_, '_>, (x, y): (f64, f64)) -> Option<Dot> {
-        let (x, y) = (self.chart.x.share(x), self.chart.y.share(y));
-        let known = x.is_finite() && !y.is_nan();
-        known.then(|| painter.get_point(x.clamp(0.0, 1.0), y.clamp(0.0, 1.0))).flatten()
+    fn axes(&self) -> Axes<'_> {
+        Axes { x: &self.chart.x, y: &self.chart.y }
     }
 
     fn paint(&self, painter: &mut Painter<'_, '_>, (x, y): Dot) {
         painter.paint(x, y, if self.colour == Color::Reset { INK } else { self.colour });
     }
 
-    fn line(&self, painter: &mut Painter<'_, '_>, points: impl Iterator<Item = (f64, f64)>, stroke: Stroke) {
-        let (mut painted, mut last) = (0_usize, None);
-        for point in points {
-            let finite = self.chart.y.share(point.1).is_finite();
-            let Some(dot) = self.dot(painter, point).filter(|_| finite) else {
-                last = None;
-                continue;
-            };
-            for dot in between(last.unwrap_or(dot), dot) {
-                if paints(stroke, painted) {
-                    self.paint(painter, dot);
+    fn lines(&self, painter: &mut Painter<'_, '_>, runs: &[Vec<Share>], stroke: Stroke) {
+        let mut painted = 0_usize;
+        for run in runs {
+            let dots: Vec<Dot> = run.iter().filter_map(|(x, y)| painter.get_point(*x, *y)).collect();
+            for (index, dot) in dots.iter().enumerate() {
+                for dot in between(dots[index.saturating_sub(1)], *dot) {
+                    if paints(stroke, painted) {
+                        self.paint(painter, dot);
+                    }
+                    painted += 1;
                 }
-                painted += 1;
             }
-            last = Some(dot);
         }
     }
 
@@ -134,45 +129,31 @@ impl LayerShape<'_> {
 
 impl CanvasShape for LayerShape<'_> {
     fn draw(&self, painter: &mut Painter<'_, '_>) {
-        let ends = |axis: &crate::draw::Axis| axis.span.bounds().map(|end| axis.scale.number(end));
         match self.shape {
             Shape::Curve { points, stroke: Some(stroke), .. } => {
-                self.line(painter, points.iter().copied(), *stroke);
-                // A single point between gaps is no line.
-                points.iter().for_each(|point| {
-                    if let (Stroke::Solid, Some(dot)) = (stroke, self.dot(painter, *point)) {
-                        self.paint(painter, dot);
-                    }
-                });
+                self.lines(painter, &self.axes().runs(points.iter().copied()), *stroke);
             }
             Shape::Band(points) => {
                 for end in [|point: &(f64, f64, f64)| point.1, |point: &(f64, f64, f64)| point.2] {
-                    let line = points.iter().map(|point| (point.0, end(point)));
-                    self.line(painter, line, Stroke::Sparse);
+                    let runs = self.axes().runs(points.iter().map(|point| (point.0, end(point))));
+                    self.lines(painter, &runs, Stroke::Sparse);
                 }
             }
             Shape::Envelope { x, columns } => self.envelope(painter, *x, columns),
             Shape::Inside(border) => self.inside(painter, border),
             Shape::Boxes(boxes) => {
                 for ((left, right), (low, high)) in boxes {
-                    let corners = (self.dot(painter, (*left, *high)), self.dot(painter, (*right, *low)));
-                    let (Some(from), Some(to)) = corners else { continue };
+                    let dot = |point| self.axes().place(point).and_then(|(x, y)| painter.get_point(x, y));
+                    let (Some(from), Some(to)) = (dot((*left, *high)), dot((*right, *low))) else { continue };
                     for y in from.1..=to.1 {
                         (from.0..=to.0).for_each(|x| self.paint(painter, (x, y)));
                     }
                 }
             }
-            Shape::Upright(x) => {
-                let line = ends(&self.chart.y).map(|y| (*x, y));
-                if (0.0..=1.0).contains(&self.chart.x.share(*x)) {
-                    self.line(painter, line.into_iter(), Stroke::Sparse);
-                }
-            }
-            Shape::Level(y) => {
-                let line = ends(&self.chart.x).map(|x| (x, *y));
-                if (0.0..=1.0).contains(&self.chart.y.share(*y)) {
-                    self.line(painter, line.into_iter(), Stroke::Sparse);
-                }
+            Shape::Upright(at) | Shape::Level(at) => {
+                let ends = self.axes().guide(*at, matches!(self.shape, Shape::Upright(_)));
+                let runs = ends.map(Vec::from);
+                self.lines(painter, runs.as_slice(), Stroke::Sparse);
             }
             Shape::Curve { stroke: None, .. } | Shape::Map(_) => {}
         }

@@ -234,7 +234,7 @@ mod tests {
         assert_eq!(
             runs(&label, 10.0),
             "<tspan font-style=\"italic\">F</tspan><tspan dy=\"2.5\" font-size=\"7.2\">a,max</tspan>\
-             <tspan dy=\"-2.5\"> &lt; 10</tspan><tspan dy=\"-4.2\" font-size=\"7.2\">−3</tspan>"
+             <tspan dy=\"-2.5\"> &lt; 10</tspan><tspan dy=\"-4.2\" font-size=\"7.2\">-3</tspan>"
         );
     }
 

@@ -2,7 +2,7 @@
 
 use super::TEXT;
 use super::elements::{Anchor, Pen, Place, Svg};
-use crate::draw::axis::Axis;
+use crate::draw::axis::{Axes, Axis, Share};
 use crate::draw::label::Label;
 use crate::draw::ticks::Tick;
 
@@ -43,24 +43,13 @@ impl Frame<'_> {
         self.to.1 - self.from.1
     }
 
+    pub(super) fn axes(&self) -> Axes<'_> {
+        Axes { x: self.x, y: self.y }
+    }
+
     /// Place of shares of the axes.
-    fn at(&self, (x, y): (f64, f64)) -> Place {
+    pub(super) fn at(&self, (x, y): Share) -> Place {
         (self.from.0 + x * self.width(), self.to.1 - y * self.height())
-    }
-
-    /// Place of a point, at the border for a point outside; `None` without coordinates.
-    pub(super) fn place(&self, (x, y): (f64, f64)) -> Option<Place> {
-        let shares = (self.x.share(x), self.y.share(y));
-        let is_finite = shares.0.is_finite() && shares.1.is_finite();
-        is_finite.then(|| self.at((shares.0.clamp(0.0, 1.0), shares.1.clamp(0.0, 1.0))))
-    }
-
-    /// Place of a point; a y without a coordinate is at the end of the axis.
-    pub(super) fn place_at_end(&self, (x, y): (f64, f64)) -> Option<Place> {
-        let y = self.y.share(y);
-        let y = if y.is_nan() { 0.0 } else { y.clamp(0.0, 1.0) };
-        let x = self.x.share(x);
-        x.is_finite().then(|| self.at((x.clamp(0.0, 1.0), y)))
     }
 
     /// Place for coordinates of the axes.

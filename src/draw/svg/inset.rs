@@ -2,7 +2,7 @@
 
 use super::elements::Place;
 use super::frame::Frame;
-use crate::draw::axis::Axis;
+use crate::draw::axis::{Axis, Share};
 use crate::draw::chart::{Chart, Shape};
 use crate::draw::scale::Span;
 
@@ -43,12 +43,15 @@ fn corner(chart: &Chart, frame: &Frame<'_>) -> Option<(Place, Place)> {
         .layers
         .iter()
         .map(|layer| match &layer.shape {
-            Shape::Curve { points, .. } => points.iter().filter_map(|point| frame.place(*point)).collect(),
+            Shape::Curve { points, .. } => {
+                points.iter().filter_map(|point| frame.axes().place(*point)).collect()
+            }
             Shape::Band(points) => {
-                points.iter().filter_map(|(x, _, high)| frame.place_at_end((*x, *high))).collect()
+                points.iter().filter_map(|(x, _, high)| frame.axes().place_at_end((*x, *high))).collect()
             }
             _ => Vec::new(),
         })
+        .map(|places: Vec<Share>| places.into_iter().map(|place| frame.at(place)).collect())
         .collect();
     let sizes = SIZES.into_iter().flat_map(|size| [(size, true), (size, false)]);
     sizes.map(|(size, right)| in_corner(frame, size, right)).find(|(from, to)| {

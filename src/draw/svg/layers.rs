@@ -17,6 +17,7 @@ pub(super) const SIGN: f64 = 2.7;
 
 /// Draws the layers, areas below lines.
 pub(super) fn draw(svg: &mut Svg, frame: &Frame<'_>, layers: &[Layer]) {
+    let place = |point| frame.axes().place(point).map(|place| frame.at(place));
     let is_line = |layer: &&Layer| matches!(layer.shape, Shape::Curve { .. } | Shape::Envelope { .. });
     for layer in layers.iter().filter(|layer| !is_line(layer)).chain(layers.iter().filter(is_line)) {
         let colour = layer.ink.on_paper();
@@ -24,25 +25,18 @@ pub(super) fn draw(svg: &mut Svg, frame: &Frame<'_>, layers: &[Layer]) {
             Shape::Map(map) => heat_map(svg, frame, map),
             Shape::Band(points) => band(svg, frame, points, colour),
             Shape::Inside(border) => {
-                let places: Vec<_> = border.iter().filter_map(|point| frame.place(*point)).collect();
+                let places: Vec<_> = border.iter().filter_map(|point| place(*point)).collect();
                 svg.area(&places, colour, AREA_OPACITY);
             }
             Shape::Boxes(boxes) => {
                 let corners = boxes.iter().filter_map(|((left, right), (low, high))| {
-                    Some((frame.place((*left, *high))?, frame.place((*right, *low))?))
+                    Some((place((*left, *high))?, place((*right, *low))?))
                 });
                 svg.boxes(corners, colour);
             }
-            Shape::Upright(x) => {
-                if let Some((x, _)) = inside(frame.x, *x).then(|| frame.place_at_end((*x, 0.0))).flatten() {
-                    svg.line(&[(x, frame.from.1), (x, frame.to.1)], guide(layer.ink));
-                }
-            }
-            Shape::Level(y) => {
-                let low = frame.x.scale.number(frame.x.span.low);
-                if let Some((_, y)) = inside(frame.y, *y).then(|| frame.place((low, *y))).flatten() {
-                    svg.line(&[(frame.from.0, y), (frame.to.0, y)], guide(layer.ink));
-                }
+            Shape::Upright(at) | Shape::Level(at) => {
+                let ends = frame.axes().guide(*at, matches!(layer.shape, Shape::Upright(_)));
+                ends.iter().for_each(|ends| svg.line(&ends.map(|end| frame.at(end)), guide(layer.ink)));
             }
             Shape::Envelope { x, columns } => envelope(svg, frame, *x, columns, colour),
             Shape::Curve { points, stroke, sign } => {
@@ -53,10 +47,6 @@ pub(super) fn draw(svg: &mut Svg, frame: &Frame<'_>, layers: &[Layer]) {
             }
         }
     }
-}
-
-fn inside(axis: &Axis, number: f64) -> bool {
-    (0.0..=1.0).contains(&axis.share(number))
 }
 
 /// Pen of guide lines.
@@ -78,9 +68,8 @@ fn curve(
     pen: Option<Pen>,
     sign: Option<((Sign, f64), Rgb)>,
 ) {
-    let places: Vec<Option<Place>> = points.iter().map(|point| frame.place(*point)).collect();
-    for run in places.split(Option::is_none) {
-        let run: Vec<Place> = run.iter().flatten().copied().collect();
+    for run in frame.axes().runs(points.iter().copied()) {
+        let run: Vec<Place> = run.into_iter().map(|place| frame.at(place)).collect();
         if let Some(pen) = pen.filter(|_| run.len() > 1) {
             svg.line(&run, pen);
         }
@@ -121,8 +110,9 @@ fn band(svg: &mut Svg, frame: &Frame<'_>, points: &[(f64, f64, f64)], colour: Rg
         .iter()
         .map(|(x, low, high)| {
             let is_known = low.is_finite() && high.is_finite();
-            let high = frame.place_at_end((*x, *high)).filter(|_| is_known)?;
-            Some((frame.place_at_end((*x, *low))?, high))
+            let place = |y| frame.axes().place_at_end((*x, y)).map(|place| frame.at(place));
+            let high = place(*high).filter(|_| is_known)?;
+            Some((place(*low)?, high))
         })
         .collect();
     for run in ends.split(Option::is_none) {

@@ -8,7 +8,6 @@ pub use watch::play;
 
 use super::action::Action;
 use super::app::App;
-use super::mode::Mode;
 use super::runtime::{Runtime, Solver, Studies};
 use super::theme::Appearance;
 use super::update::Effect;
@@ -89,9 +88,9 @@ impl Demo {
             self.play(self.pause);
             self.pause = 0.0;
             if let Some(character) = self.typing.pop_front() {
-                self.act(Action::Type(character));
+                self.act(Action::Paste(character.to_string()));
                 self.pause = TYPING;
-            } else if let Mode::Prompt(prompt) = &self.explorer.app.mode {
+            } else if let Some(prompt) = &self.explorer.app.prompt {
                 // A refused value stays in the editor.
                 let is_refused = prompt.refused.is_some();
                 self.command(if is_refused { "cancel" } else { "accept" });
@@ -141,9 +140,9 @@ impl Demo {
                 self.cues.push_front(Cue::Repeat(times - 1, seconds, command));
             }
             Cue::Select(path) => {
-                self.command("select-end false");
+                self.command("first-parameter");
                 let place = self.explorer.app.edit.parameters.iter().position(|one| one.path == path);
-                (0..place.unwrap_or(0)).for_each(|_| self.command("select 1"));
+                (0..place.unwrap_or(0)).for_each(|_| self.command("next-parameter"));
             }
             Cue::Enter(value) => {
                 self.command("edit-value");

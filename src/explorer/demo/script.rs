@@ -36,12 +36,12 @@ pub const TOUR: &[Cue] = &[
     Wait(2.0),
     Do("toggle-loss"),
     Do("clear-ghosts"),
-    Do("leg -1"),
+    Do("previous-stage"),
     Wait(0.5),
     Do("toggle-manual"),
-    Repeat(12, 0.25, "push -1 coarse"),
-    Repeat(8, 0.25, "push 1 coarse"),
-    Repeat(8, 0.25, "push -1 coarse"),
+    Repeat(12, 0.25, "pull-coarse"),
+    Repeat(8, 0.25, "press-coarse"),
+    Repeat(8, 0.25, "pull-coarse"),
     Wait(1.0),
     Do("separate"),
     Wait(2.0),
@@ -50,7 +50,7 @@ pub const TOUR: &[Cue] = &[
     Do("preset 6"),
     Wait(6.0),
     Do("toggle-play"),
-    Repeat(4, 1.0, "fragment next"),
+    Repeat(4, 1.0, "next-patch"),
     Do("toggle-lengths"),
     Wait(3.0),
     Do("toggle-lengths"),
@@ -70,8 +70,7 @@ pub const ONE_SCENE: &[Cue] = &[Wait(LOOP)];
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::explorer::keys::Bindings;
-    use crate::explorer::mode::ModeKind;
+    use crate::explorer::keys::{Bindings, Context};
 
     #[test]
     fn every_command_of_the_scripts_is_in_the_table_of_keys() {
@@ -82,7 +81,7 @@ mod tests {
         });
         let names: Vec<&str> = names.collect();
         assert!(
-            names.len() > 20 && names.iter().all(|name| bindings.named(name, ModeKind::Explore).is_some()),
+            names.len() > 20 && names.iter().all(|name| bindings.named(name, Context::Explore).is_some()),
             "{names:?}"
         );
     }

@@ -1,25 +1,56 @@
 //! The keys in use: the table with the keys of the configuration, the names of actions, the table of docs/keys.md.
 
-use super::key::control;
-use super::{BINDINGS, Binding, Key, names};
-use crate::explorer::command::Command;
-use crate::explorer::mode::ModeKind;
+use super::{ANY, Command, Context, EXPLORE, Key, MANUAL, Row, Run, TABLE, names};
+use crate::explorer::app::App;
 use crate::scene::nearest;
 use crossterm::event::KeyEvent;
-use std::borrow::Cow;
+
+impl Row {
+    /// Returns true if the configuration may replace the keys of the row: keys for typing, lists and questions are
+    /// fixed, and so are digits.
+    fn is_rebindable(&self) -> bool {
+        !self.takes_character() && self.contexts.iter().all(|context| EXPLORE.contains(context))
+    }
+
+    /// Returns true if the keys of the row differ in meaning.
+    pub(in crate::explorer) fn takes_character(&self) -> bool {
+        matches!(self.run, Run::Character(_))
+    }
+
+    /// Returns true if the list of commands has the row: keys for texts and questions need their prompt.
+    pub(in crate::explorer) fn is_listed(&self) -> bool {
+        self.is_listed && self.contexts.iter().any(|one| EXPLORE.contains(one) && *one != Context::Crosshair)
+    }
+
+    /// Place in the footer: help and quit, which show in the smallest window; keys of the present context only; the
+    /// main keys; the rest.
+    fn place(&self, app: &App) -> u8 {
+        let is_special = !self.contexts.contains(&Context::Explore);
+        let is_manual = app.manual.is_some() && self.section == MANUAL;
+        if is_special || is_manual { self.rank.min(1) } else { self.rank }
+    }
+}
+
+/// A row of the table with its keys in use.
+#[derive(Clone, Debug)]
+pub struct Binding {
+    /// The row.
+    pub row: &'static Row,
+    /// The keys.
+    pub keys: Vec<Key>,
+}
 
 impl Binding {
     /// The command of one of the keys.
     #[must_use]
     pub fn command_of(&self, key: &Key) -> Command {
-        key.character().map_or(self.command, |character| self.command.with(character))
+        Command { row: self.row, character: key.character().filter(|_| self.row.takes_character()) }
     }
 
-    /// Returns true if the configuration may replace the keys of the row: keys for typing, lists and questions are
-    /// fixed, and so are digits.
+    /// Names of the keys; consecutive digits have one name: `1–9`.
     #[must_use]
-    pub fn is_rebindable(&self) -> bool {
-        !self.command.takes_character() && self.modes.iter().all(|mode| mode.is_exploring())
+    pub fn names(&self) -> Vec<String> {
+        names(&self.keys)
     }
 }
 
@@ -32,12 +63,13 @@ pub struct RebindError {
 }
 
 /// The keys in use: the table, with other keys where the configuration has them.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Bindings(Vec<Binding>);
 
 impl Default for Bindings {
     fn default() -> Self {
-        Bindings(BINDINGS.to_vec())
+        let keys = |row: &Row| row.keys.split(' ').filter_map(Key::named).collect();
+        Bindings(TABLE.iter().map(|row| Binding { row, keys: keys(row) }).collect())
     }
 }
 
@@ -47,28 +79,36 @@ impl Bindings {
         self.0.iter()
     }
 
-    /// The rows that are valid in a mode.
-    pub fn valid_in(&self, mode: ModeKind) -> impl Iterator<Item = &Binding> {
-        self.rows().filter(move |row| row.modes.contains(&mode))
+    /// The rows that are valid in a context.
+    pub fn valid_in(&self, context: Context) -> impl Iterator<Item = &Binding> {
+        self.rows().filter(move |binding| binding.row.contexts.contains(&context))
     }
 
-    /// The command of a key in a mode.
+    /// The command of a key in a context.
     #[must_use]
-    pub fn command(&self, event: &KeyEvent, mode: ModeKind) -> Option<Command> {
-        self.valid_in(mode)
+    pub fn command(&self, event: &KeyEvent, context: Context) -> Option<Command> {
+        self.valid_in(context)
             .find_map(|row| Some(row.command_of(row.keys.iter().find(|key| key.matches(event))?)))
     }
 
-    /// The command of a name in a mode, with the character where the row takes one: `preset 3`.
+    /// The command of a name in a context, with the character where the row takes one: `preset 3`.
     #[must_use]
-    pub fn named(&self, name: &str, mode: ModeKind) -> Option<Command> {
-        self.valid_in(mode).find_map(|row| match name.strip_prefix(row.command.name)?.strip_prefix(' ') {
-            None => (name == row.command.name).then_some(row.command),
-            Some(character) if row.command.takes_character() => {
-                character.parse().ok().map(|character| row.command.with(character))
-            }
-            Some(_) => None,
-        })
+    pub fn named(&self, name: &str, context: Context) -> Option<Command> {
+        let (name, character) =
+            name.split_once(' ').map_or((name, None), |(name, rest)| (name, rest.parse().ok()));
+        let found = self.valid_in(context).find(|binding| binding.row.name == name)?;
+        Some(Command { row: found.row, character })
+    }
+
+    /// Keys and labels of the footer, the most important first; adjacent rows with the same label are one item.
+    #[must_use]
+    pub fn footer(&self, app: &App) -> Vec<(String, &'static str)> {
+        let is_shown = |binding: &&Binding| !binding.row.label.is_empty() && (binding.row.is_shown)(app);
+        let mut rows: Vec<&Binding> = self.valid_in(app.keys()).filter(is_shown).collect();
+        rows.sort_by_key(|binding| binding.row.place(app));
+        let items = rows.chunk_by(|one, next| one.row.label == next.row.label);
+        let first = |binding: &&Binding| binding.names().into_iter().next().unwrap_or_default();
+        items.map(|rows| (rows.iter().map(first).collect::<Vec<_>>().join(" "), rows[0].row.label)).collect()
     }
 
     /// Replaces the keys of an action. Ctrl+C always quits.
@@ -76,7 +116,6 @@ impl Bindings {
     /// # Errors
     /// An action or a key that does not exist.
     pub fn rebind(&mut self, action: &str, keys: &[String]) -> Result<(), RebindError> {
-        let is_action = |row: &&mut Binding| row.is_rebindable() && row.command.name == action;
         let parsed = keys.iter().map(|name| {
             Key::named(name).ok_or_else(|| RebindError {
                 message: format!("{name}: there is no such key; allowed: one character, Ctrl+c, Shift+Left, F5, PageUp and the like"),
@@ -84,45 +123,35 @@ impl Bindings {
             })
         });
         let mut parsed = parsed.collect::<Result<Vec<Key>, _>>()?;
-        let rows: Vec<&mut Binding> = self.0.iter_mut().filter(is_action).collect();
-        if rows.is_empty() {
-            let names = BINDINGS.iter().filter(|row| row.is_rebindable()).map(|row| row.command.name);
-            let near = nearest(action, names);
+        let Some(binding) = self.0.iter_mut().find(|one| one.row.is_rebindable() && one.row.name == action)
+        else {
+            let near = nearest(action, TABLE.iter().filter(|row| row.is_rebindable()).map(|row| row.name));
             let near = near.map_or_else(String::new, |near| format!(" did you mean {near}?"));
             let message = format!("{action}: there is no such action;{near} allowed: docs/keys.md lists all");
             return Err(RebindError { message, is_about_keys: false });
+        };
+        if action == "quit" {
+            parsed.extend(Key::named("Ctrl+c").filter(|key| !parsed.contains(key)));
         }
-        for row in rows {
-            if row.command.name == "quit" && !parsed.contains(&control('c')) {
-                parsed.push(control('c'));
-            }
-            row.keys = Cow::Owned(parsed.clone());
-        }
+        binding.keys = parsed;
         Ok(())
     }
 
-    /// A key with two actions in one mode, and their names.
+    /// A key with two actions in one context, and their names.
     #[must_use]
     pub fn conflict(&self) -> Option<(String, &'static str, &'static str)> {
-        ModeKind::ALL.into_iter().find_map(|mode| {
+        ANY.iter().find_map(|context| {
             let mut seen: Vec<(&Key, &'static str)> = Vec::new();
-            for row in self.valid_in(mode) {
-                for key in row.keys.iter() {
+            for binding in self.valid_in(*context) {
+                for key in &binding.keys {
                     if let Some((_, other)) = seen.iter().find(|(seen, _)| *seen == key) {
-                        return Some((key.name(), *other, row.command.name));
+                        return Some((key.name(), *other, binding.row.name));
                     }
-                    seen.push((key, row.command.name));
+                    seen.push((key, binding.row.name));
                 }
             }
             None
         })
-    }
-
-    /// Names of the actions with other keys than those of the table, and the names of these keys.
-    #[must_use]
-    pub fn changed(&self) -> Vec<(&'static str, Vec<String>)> {
-        let pairs = self.0.iter().zip(BINDINGS).filter(|(row, usual)| row.keys != usual.keys);
-        pairs.map(|(row, _)| (row.command.name, row.keys.iter().map(Key::name).collect())).collect()
     }
 }
 
@@ -131,13 +160,14 @@ impl Bindings {
 pub fn markdown() -> String {
     let mut text = String::from("| | key | does | action |\n| --- | --- | --- | --- |\n");
     let mut section = "";
-    for row in BINDINGS.iter().filter(|row| !row.help.is_empty()) {
+    for binding in Bindings::default().rows() {
+        let row = binding.row;
         let shown = if row.section == section { "" } else { row.section };
         section = row.section;
         // A bar would end the cell.
-        let names = names(&row.keys).into_iter().map(|name| name.replace('|', "\\|"));
+        let names = binding.names().into_iter().map(|name| name.replace('|', "\\|"));
         let keys: Vec<String> = names.map(|name| format!("`{name}`")).collect();
-        let action = if row.is_rebindable() { format!("`{}`", row.command.name) } else { String::new() };
+        let action = if row.is_rebindable() { format!("`{}`", row.name) } else { String::new() };
         text += &format!("| {shown} | {} | {} | {action} |\n", keys.join(" "), row.help);
     }
     text
@@ -149,52 +179,51 @@ mod tests {
     use crossterm::event::{KeyCode, KeyModifiers};
 
     #[test]
-    fn no_mode_gives_a_key_two_meanings() {
+    fn every_key_has_a_name_and_one_meaning_in_each_context() {
         assert_eq!(Bindings::default().conflict(), None);
-    }
-
-    #[test]
-    fn keys_are_found_by_their_names_and_actions_have_names_of_their_own() {
-        for row in BINDINGS {
-            for key in row.keys.iter() {
+        for binding in Bindings::default().rows() {
+            assert_eq!(binding.keys.len(), binding.row.keys.split(' ').count(), "{}", binding.row.keys);
+            for key in &binding.keys {
                 assert_eq!(Key::named(&key.name()), Some(*key), "{}", key.name());
             }
-            assert_eq!(Key::named("ctrl+y"), Some(control('y')));
         }
+        assert_eq!(Key::named("ctrl+y"), Key::named("Ctrl+y"));
         for name in ["", "ab", "Shift+a", "F0", "F13", "Ctrl+", "\u{1b}", "Alt+x"] {
             assert_eq!(Key::named(name), None, "{name}");
         }
         let mut names: Vec<&str> =
-            BINDINGS.iter().filter(|row| row.is_rebindable()).map(|row| row.command.name).collect();
+            TABLE.iter().filter(|row| row.is_rebindable()).map(|row| row.name).collect();
+        assert!(
+            names.iter().all(|name| name.chars().all(|c| c.is_ascii_lowercase() || c == '-')),
+            "{names:?}"
+        );
         names.sort_unstable();
-        let twice: Vec<&str> =
-            names.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect();
-        assert_eq!(twice, ["toggle-crosshair"], "one more key hides the crosshair while the arrows move it");
-        let is_plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == ' ';
-        assert!(names.iter().all(|name| !name.is_empty() && name.chars().all(is_plain)), "{names:?}");
+        assert!(names.windows(2).all(|pair| pair[0] != pair[1]), "{names:?}");
     }
 
     #[test]
     fn a_command_is_found_by_its_name_where_it_is_valid() {
         let bindings = Bindings::default();
-        let name = |command: Option<Command>| command.map(|command| command.name);
-        assert_eq!(name(bindings.named("push -1 coarse", ModeKind::Explore)), Some("push -1 coarse"));
-        assert_eq!(bindings.named("accept", ModeKind::Explore), None);
-        assert_eq!(bindings.named("no such command", ModeKind::Explore), None);
+        let name = |command: Option<Command>| command.map(|command| format!("{command:?}"));
+        assert_eq!(name(bindings.named("pull-coarse", Context::Explore)).as_deref(), Some("pull-coarse"));
+        assert_eq!(name(bindings.named("accept", Context::Explore)), None);
+        assert_eq!(name(bindings.named("no such command", Context::Explore)), None);
         let three = KeyEvent::new(KeyCode::Char('3'), KeyModifiers::NONE);
-        let preset = bindings.named("preset 3", ModeKind::Explore);
-        assert!(preset.is_some() && bindings.command(&three, ModeKind::Explore) == preset);
-        assert_eq!(format!("{:?}", bindings.command(&three, ModeKind::Explore)), "Some(preset 3)");
-        assert_eq!(name(bindings.command(&three, ModeKind::Parameters)), Some("start-value"));
+        assert_eq!(name(bindings.named("preset 3", Context::Explore)).as_deref(), Some("preset 3"));
+        assert_eq!(name(bindings.command(&three, Context::Explore)).as_deref(), Some("preset 3"));
+        assert_eq!(name(bindings.command(&three, Context::Parameters)).as_deref(), Some("start-value 3"));
     }
 
     #[test]
-    fn every_mode_can_be_left() {
-        for mode in ModeKind::ALL {
-            let leaves =
-                |command: Command| ["quit", "quit-anyway", "close-help", "cancel"].contains(&command.name);
+    fn every_context_can_be_left() {
+        for context in ANY {
+            let leaves = ["quit", "quit-anyway", "close-help", "cancel"];
             let interrupt = KeyEvent::new(KeyCode::Char('c'), KeyModifiers::CONTROL);
-            assert!(Bindings::default().command(&interrupt, mode).is_some_and(leaves), "Ctrl+C in {mode:?}");
+            let command = Bindings::default().command(&interrupt, *context);
+            assert!(
+                command.is_some_and(|command| leaves.contains(&command.row.name)),
+                "Ctrl+C in {context:?}"
+            );
         }
     }
 }

@@ -96,26 +96,6 @@ const NAMES: [(&str, KeyCode); 19] = [
     ("Backspace", KeyCode::Backspace),
 ];
 
-/// A key without modifiers.
-pub const fn key(code: KeyCode) -> Key {
-    Key { code, modifiers: KeyModifiers::NONE }
-}
-
-/// The key of a character.
-pub const fn char(character: char) -> Key {
-    key(KeyCode::Char(character))
-}
-
-/// The key of a character with Ctrl.
-pub const fn control(character: char) -> Key {
-    Key { code: KeyCode::Char(character), modifiers: KeyModifiers::CONTROL }
-}
-
-/// A key with Shift.
-pub const fn shift(code: KeyCode) -> Key {
-    Key { code, modifiers: KeyModifiers::SHIFT }
-}
-
 /// Names of keys; consecutive digits have one name: `1–9`.
 #[must_use]
 pub fn names(keys: &[Key]) -> Vec<String> {

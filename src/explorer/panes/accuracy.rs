@@ -4,7 +4,7 @@ use super::{Pane, PaneRow};
 use crate::accuracy::{CostTable, Estimate, Evidence, Knob};
 use crate::draw::{Chart, Ink, Layer, Shape, Sign, Span};
 use crate::explorer::app::{App, Estimated};
-use crate::explorer::mode::ModeKind;
+use crate::explorer::keys::Context;
 use crate::explorer::panel::{Panel, names};
 use crate::explorer::study::{PaneData, Task};
 use crate::explorer::theme::{Appearance, Meaning};
@@ -20,7 +20,7 @@ use std::sync::Arc;
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     panel,
-    keys: Some(ModeKind::Crosshair),
+    keys: Some(Context::Crosshair),
     task: |app, computed| {
         let costs = Some(app.studies.appraisal.costs.clone()).filter(|costs| !costs.is_whole)?;
         let data = PaneData::Costs(Arc::clone(&computed.scene), costs);

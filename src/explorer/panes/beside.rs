@@ -3,7 +3,7 @@
 
 use super::{PaneRow, Place, newest_letter, profile, section};
 use crate::explorer::app::App;
-use crate::explorer::mode::ModeKind;
+use crate::explorer::keys::Context;
 use crate::explorer::panel::Panel;
 use crate::explorer::snapshot::SolvedScene;
 use crate::export::adhesion_forces;
@@ -18,7 +18,7 @@ pub static ROW: PaneRow = PaneRow {
         let ghost = app.beside()?;
         section::figure(ghost.document.title(), panel, ghost.snapshot.as_deref()?)
     },
-    keys: Some(ModeKind::Crosshair),
+    keys: Some(Context::Crosshair),
     help: &[(
         "Beside",
         "&: profile and contact of the newest ghost when it was kept, heights z on the axis of the profile \

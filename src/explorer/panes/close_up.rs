@@ -4,7 +4,7 @@
 use super::{PaneRow, Place, section};
 use crate::draw::{Ink, Layer, Shape, Sign, Span};
 use crate::explorer::app::App;
-use crate::explorer::mode::ModeKind;
+use crate::explorer::keys::Context;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::snapshot::{FragmentFacts, Section};
 use crate::explorer::theme::{Meaning, Theme};
@@ -17,7 +17,7 @@ pub static ROW: PaneRow = PaneRow {
     place: Place::CloseUp,
     panel,
     figure: |app, panel| section::figure(app.edit.document.title(), panel, app.snapshot.as_deref()?),
-    keys: Some(ModeKind::Crosshair),
+    keys: Some(Context::Crosshair),
     help: &[(
         "Contact patches",
         "close-up of a contact patch; ○ marks its edges. Below it the whole contact, [ ] around the close-up",

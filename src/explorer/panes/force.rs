@@ -6,7 +6,7 @@ use crate::contact::{CurvePoint, Direction};
 use crate::draw::{Chart, Figure, Ink, Label, Layer, Shape, Sign, Stroke, glyph};
 use crate::explorer::app::{App, Ghost};
 use crate::explorer::caption::caption;
-use crate::explorer::mode::ModeKind;
+use crate::explorer::keys::Context;
 use crate::explorer::panel::{Body, Panel, meaning, names, spaced};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::theme::Meaning;
@@ -21,7 +21,7 @@ pub static ROW: PaneRow = PaneRow {
     panel,
     figure: |app, _| Some(Figure::of_chart(app.edit.document.title(), chart(app)?)),
     place: Place::Own,
-    keys: Some(ModeKind::Crosshair),
+    keys: Some(Context::Crosshair),
     help: &[(
         "Curve",
         "F over indentation d: dotted while pressing, solid while pulling; ◇ jump-in, ▲ preload, ▼ pull-off, \
@@ -153,7 +153,7 @@ fn reading(app: &App) -> Option<Vec<Part>> {
 
 /// The chart without names that the pane writes elsewhere: those of marks and ghosts, and those of the axes.
 fn shown_chart(app: &App) -> Option<Chart> {
-    let mut chart = chart(app)?;
+    let mut chart = chart(app)?.with_symbols();
     // A ghost beside the scene is named with the curves; the others have their letters.
     let beside = app.beside().map(|_| app.ghosts.len() - 1);
     for layer in &mut chart.layers {
@@ -163,9 +163,6 @@ fn shown_chart(app: &App) -> Option<Chart> {
             Ink::Compared(_) => Label::default(),
             _ => continue,
         };
-    }
-    for axis in [&mut chart.x, &mut chart.y] {
-        axis.label = axis.label.without_name();
     }
     Some(chart)
 }

@@ -3,7 +3,7 @@
 use super::{PaneRow, Place};
 use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Sign, Span, Stroke};
 use crate::explorer::app::App;
-use crate::explorer::mode::ModeKind;
+use crate::explorer::keys::Context;
 use crate::explorer::panel::Panel;
 use ratatui::layout::Size;
 use ratatui::text::Line;
@@ -12,7 +12,7 @@ use ratatui::text::Line;
 pub static ROW: PaneRow = PaneRow {
     place: Place::CloseUp,
     panel,
-    keys: Some(ModeKind::Crosshair),
+    keys: Some(Context::Crosshair),
     help: &[(
         "Lengths",
         "D: number n of contact patches over their length δx, both logarithmic; ○ is the patches in a step of length by √2 \

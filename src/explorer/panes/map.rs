@@ -3,7 +3,7 @@
 use super::{Pane, PaneRow};
 use crate::draw::{Chart, Colours, Figure, Ink, Layer, SHADES, Shape, Sign, key};
 use crate::explorer::app::App;
-use crate::explorer::mode::ModeKind;
+use crate::explorer::keys::Context;
 use crate::explorer::panel::{Panel, in_theme, names};
 use crate::explorer::study::{PaneData, Task};
 use crate::explorer::theme::Meaning;
@@ -21,7 +21,7 @@ use ratatui::text::{Line, Span as Text};
 pub static ROW: PaneRow = PaneRow {
     panel,
     figure: |app, _| app.chart.grid().map(|grid| figure(app, grid)),
-    keys: Some(ModeKind::Chart),
+    keys: Some(Context::Map),
     task: |app, computed| {
         let map = app.chart.wanted(&computed.scene).ok().flatten();
         let is_live = app.chart.shown_study().is_none();

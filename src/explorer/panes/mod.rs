@@ -23,8 +23,8 @@ pub use scene_spectra::SceneSpectra;
 pub use section::spring_at;
 
 use super::app::App;
+use super::keys::Context;
 use super::layout::{Layout, inside};
-use super::mode::ModeKind;
 use super::panel::{self, Panel, Under};
 use super::snapshot::SolvedScene;
 use super::study::{PaneData, Task};
@@ -77,7 +77,7 @@ pub struct PaneRow {
     /// Content as a figure for a file, where this is more than the chart of the panel.
     pub figure: fn(&App, &Panel) -> Option<Figure>,
     /// Keys of the selected pane; those of the crosshair, while this is shown.
-    pub keys: Option<ModeKind>,
+    pub keys: Option<Context>,
     /// True if the pane needs the spectra of the scene, computed only then.
     pub needs_spectra: bool,
     /// Computation that the shown pane waits for.

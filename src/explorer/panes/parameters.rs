@@ -1,8 +1,8 @@
 //! The list of parameters and the meaning of the selected one.
 
 use super::{PaneRow, Place};
-use crate::explorer::app::{App, Mode};
-use crate::explorer::mode::ModeKind;
+use crate::explorer::app::{App, Message};
+use crate::explorer::keys::Context;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::parameters::{Parameter, Setting, spelled};
 use crate::explorer::prompt::{Prompt, Purpose};
@@ -19,7 +19,7 @@ use ratatui::text::{Line, Span};
 pub static ROW: PaneRow = PaneRow {
     place: Place::Own,
     panel,
-    keys: Some(ModeKind::Parameters),
+    keys: Some(Context::Parameters),
     help: &[(
         "Parameters",
         "fields of the scene by use, in groups; ● marks an effect that is on, ▸ a folded group, = a derived value",
@@ -55,7 +55,7 @@ fn panel(app: &App, size: Size) -> Panel {
 
 /// Indices of the parameters in the list, and the place of the selected one.
 fn shown(app: &App) -> (Vec<usize>, usize) {
-    if let Mode::Prompt(Prompt { purpose: Purpose::Parameter { .. }, found, selected, .. }) = &app.mode {
+    if let Some(Prompt { purpose: Purpose::Parameter { .. }, found, selected, .. }) = &app.prompt {
         return (found.clone(), *selected);
     }
     let rows = app.listed();
@@ -71,9 +71,8 @@ pub fn parameter_in(app: &App, row: usize) -> Option<usize> {
 fn parameter_line(app: &App, index: usize, selected: bool, width: usize) -> Line<'static> {
     let theme = app.view.appearance.theme;
     let parameter = &app.edit.parameters[index];
-    let typed = app.mode.prompt().filter(|prompt| selected && prompt.purpose == Purpose::Value);
-    let refused = app.edit.refused.as_ref().is_some_and(|(row, _)| *row == index)
-        || typed.is_some_and(|prompt| prompt.refused.is_some());
+    let typed = app.prompt.as_ref().filter(|_| selected && app.is_typing_value());
+    let refused = selected && app.is_refused() || typed.is_some_and(|prompt| prompt.refused.is_some());
     let mark = match (refused, selected) {
         (true, _) => "!",
         (false, true) => "›",
@@ -104,20 +103,20 @@ fn parameter_line(app: &App, index: usize, selected: bool, width: usize) -> Line
 
 /// Indices of the characters of the shown name and symbol found by the search; `lead` characters come before.
 fn found_in(app: &App, parameter: &Parameter, shown: &str, lead: usize) -> Vec<usize> {
-    let Mode::Prompt(Prompt { purpose: Purpose::Parameter { .. }, line, .. }) = &app.mode else {
+    let Some(Prompt { purpose: Purpose::Parameter { .. }, line, .. }) = &app.prompt else {
         return Vec::new();
     };
     let (query, name) = (line.text(), parameter.name());
     // The name may be cut.
     let kept = shown.chars().skip(lead).zip(name.chars()).take_while(|(one, other)| one == other).count();
-    let in_name = letters_found(&name, &query).into_iter().filter(|index| *index < kept);
+    let in_name = letters_found(&name, query).into_iter().filter(|index| *index < kept);
     let mut letters: Vec<usize> = in_name.map(|index| index + lead).collect();
     let symbol = parameter.field.symbol;
     if shown.ends_with(symbol) {
         let (all, end) = (symbol.chars().count(), shown.chars().count());
         // A Greek letter is found by its name as a whole.
-        let is_spelled = !letters_found(&spelled(symbol), &query).is_empty();
-        let in_symbol = letters_found(symbol, &query);
+        let is_spelled = !letters_found(&spelled(symbol), query).is_empty();
+        let in_symbol = letters_found(symbol, query);
         let in_symbol = if in_symbol.is_empty() && is_spelled { (0..all).collect() } else { in_symbol };
         letters.extend(in_symbol.into_iter().map(|index| index + end - all));
     }
@@ -159,7 +158,7 @@ fn editor(app: &App, parameter: &Parameter, line: &TextLine, lead: &str, width: 
         format!("{mark} {symbol}: "),
         format!("{mark} "),
     ];
-    let fits = |label: &&String| columns(label) + TYPED_COLUMNS.max(columns(&line.text()) + 1) <= width;
+    let fits = |label: &&String| columns(label) + TYPED_COLUMNS.max(columns(line.text()) + 1) <= width;
     let label = Span::raw(labels.iter().find(fits).unwrap_or(&labels[labels.len() - 1]).clone());
     let room = width.saturating_sub(label.width());
     Line::from_iter([label].into_iter().chain(typed(line, room, app.view.appearance.theme)))
@@ -233,9 +232,12 @@ fn derived_values(app: &App) -> Vec<(&'static str, String)> {
 
 /// Error of a value, or its meaning and allowed range.
 fn explanation(app: &App, index: usize) -> Line<'static> {
-    let typed = app.mode.prompt().filter(|prompt| prompt.purpose == Purpose::Value);
-    let typed = typed.and_then(|prompt| prompt.refused.as_ref());
-    if let Some(error) = typed.or(app.edit.refused.as_ref().map(|(_, error)| error)) {
+    let typed = app.prompt.as_ref().filter(|_| app.is_typing_value());
+    let refused = match &app.message {
+        Some(Message::Refused(why)) => Some(why),
+        _ => typed.and_then(|prompt| prompt.refused.as_ref()),
+    };
+    if let Some(error) = refused {
         return Line::styled(format!("! {error}"), app.view.appearance.theme.style(Meaning::Error));
     }
     let Some(parameter) = app.edit.parameters.get(index) else { return Line::default() };

@@ -4,7 +4,7 @@
 use super::{Pane, PaneRow, PreloadCurve};
 use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Sign};
 use crate::explorer::app::App;
-use crate::explorer::mode::ModeKind;
+use crate::explorer::keys::Context;
 use crate::explorer::panel::{Panel, names};
 use crate::explorer::study::{PaneData, Task};
 use crate::explorer::theme::Meaning;
@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     panel,
-    keys: Some(ModeKind::Crosshair),
+    keys: Some(Context::Crosshair),
     task: |app, computed| {
         let begun = app.studies.preloads.clone();
         let curve = begun.or_else(|| PreloadCurve::new(computed).ok().map(Arc::new));

@@ -3,7 +3,7 @@
 use super::{PaneRow, Place, section};
 use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Span, Stroke, prefixed};
 use crate::explorer::app::App;
-use crate::explorer::mode::ModeKind;
+use crate::explorer::keys::Context;
 use crate::explorer::panel::{Body, Panel, names};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::theme::Appearance;
@@ -21,7 +21,7 @@ pub static ROW: PaneRow = PaneRow {
     },
     figure: |app, panel| section::figure(app.edit.document.title(), panel, app.snapshot.as_deref()?),
     place: Place::Own,
-    keys: Some(ModeKind::Crosshair),
+    keys: Some(Context::Crosshair),
     help: &[(
         "Profile",
         "rigid profile below, elastic surface above; ■ marks contact. On the right the density of heights, and dotted the \

@@ -1,9 +1,9 @@
 //! Part of the profile on its axes: rigid profile, elastic surface and contact, for profile, close-up and the scene beside.
 
-use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Layer, Shape, Span, value_label};
+use crate::draw::{Figure, Ink, Layer, Shape, Span, value_label};
 use crate::explorer::app::App;
 use crate::explorer::panel::{Panel, names};
-use crate::explorer::snapshot::{Column, ContactSnapshot, Section};
+use crate::explorer::snapshot::{ContactSnapshot, Section};
 use crate::explorer::theme::{Appearance, Meaning};
 use crate::explorer::view::text::Part;
 use crate::scene::format_quantity;
@@ -18,7 +18,7 @@ pub fn panel(
     z: Span,
     look: Appearance,
 ) -> Panel {
-    let mut chart = chart(section, snapshot.line, z);
+    let mut chart = section.chart(snapshot.line, z).with_symbols();
     let mut edge = names(&chart, look);
     // A row of signs shows the contact without colours.
     if let Some(sample) = edge.last_mut().and_then(|contact| contact.first_mut()) {
@@ -31,22 +31,6 @@ pub fn panel(
         edge = reading(snapshot, look);
     }
     Panel { edge, ..Panel::of_chart(title, chart) }
-}
-
-fn chart(section: &Section, line: LineFacts, z: Span) -> Chart {
-    let [low, high] =
-        [section.first, section.first + section.springs.max(1)].map(|spring| edge(line, spring));
-    let layer = |name: &str, ink, ends: &dyn Fn(&Column) -> Option<(f64, f64)>| {
-        let columns = section.columns.iter().map(ends).collect();
-        Layer::new(name.into(), ink, Shape::Envelope { x: (low, high), columns })
-    };
-    let layers = vec![
-        layer("surface", Ink::Surface, &|column| Some(column.surface)),
-        layer("profile", Ink::Profile, &|column| Some(column.line)),
-        layer("contact", Ink::Contact, &|column| column.contact),
-    ];
-    let axis = |span, symbol, unit| Axis::new(AxisScale::Linear, span, "", symbol, unit);
-    Chart::new(axis(Span { low, high }, "x", "m"), axis(z, "z", "m"), layers)
 }
 
 /// Figure of a panel of a section, with indentation and force.
@@ -71,14 +55,9 @@ pub fn heights(app: &App, snapshot: &ContactSnapshot) -> Span {
     Span::around(ends(snapshot).into_iter().chain(beside.into_iter().flat_map(ends)), 0.05)
 }
 
-/// Position of the left edge of a spring, m.
-fn edge(line: LineFacts, spring: usize) -> f64 {
-    (line.first + spring) as f64 * line.spacing
-}
-
 /// Position of the middle of a spring, m.
 pub fn position(line: LineFacts, spring: usize) -> f64 {
-    edge(line, spring) + 0.5 * line.spacing
+    (line.first + spring) as f64 * line.spacing + 0.5 * line.spacing
 }
 
 /// Spring at a position, within a section.

@@ -3,7 +3,7 @@
 use super::{Pane, PaneRow, SceneSpectra};
 use crate::explorer::adhesion_spread::{AdhesionSpread, PROFILES};
 use crate::explorer::app::App;
-use crate::explorer::mode::ModeKind;
+use crate::explorer::keys::Context;
 use crate::explorer::panel::{Panel, names};
 use crate::explorer::study::{PaneData, Task};
 use crate::explorer::theme::Meaning;
@@ -19,7 +19,7 @@ use std::sync::Arc;
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     panel,
-    keys: Some(ModeKind::Crosshair),
+    keys: Some(Context::Crosshair),
     needs_spectra: true,
     task: |app, computed| {
         let begun = app.studies.adhesion_spread.clone();

@@ -2,7 +2,7 @@
 
 use super::{Effect, edit};
 use crate::accuracy::{Choice, ChoiceError, Target, parse_tolerance};
-use crate::explorer::app::{App, Estimated};
+use crate::explorer::app::{App, Estimated, Message};
 use crate::explorer::prompt::Purpose;
 use crate::explorer::study::{Finding, Found, Task};
 use crate::explorer::text_line::TextLine;
@@ -100,7 +100,7 @@ fn take_over(app: &mut App, choice: &Choice) -> Vec<Effect> {
         let fields = [("numerics.points", points.as_str()), ("numerics.edges", choice.edges.name())];
         let fields = fields.map(|(path, value)| (path.to_owned(), value.to_owned()));
         effects = edit::take_over(app, app.edit.document.set_all(&fields));
-        if let Some((_, why)) = &app.edit.refused {
+        if let Some(Message::Refused(why)) = &app.message {
             app.studies.appraisal.answer = Some(why.clone());
             return effects;
         }

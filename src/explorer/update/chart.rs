@@ -2,18 +2,12 @@
 
 use super::{Effect, edit};
 use crate::explorer::app::App;
-use crate::explorer::command::Command;
 use crate::explorer::opening::Opening;
 use crate::explorer::panes::Pane;
 use crate::scene::{Document, SceneErrors};
 use crate::study::map::{Template, moved};
 use crate::study::{Axis, Place};
 use std::sync::Arc;
-
-/// Returns true for a move of the scene in the map: successive moves are one edit.
-pub fn is_move(command: Command) -> bool {
-    ["move-across", "move-up"].iter().any(|name| command.name.starts_with(name))
-}
 
 /// Explores a scene or a study opened by its path.
 pub fn open(app: &mut App, opening: Opening) -> Vec<Effect> {
@@ -117,7 +111,7 @@ pub fn move_to(app: &mut App, place: Place) -> Vec<Effect> {
         Ok(document) if goes_on => edit::replace(app, document),
         moved => edit::take_over(app, moved),
     };
-    app.chart.moving = app.edit.refused.is_none();
+    app.chart.moving = !app.is_refused();
     effects
 }
 

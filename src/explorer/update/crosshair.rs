@@ -3,7 +3,7 @@
 
 use super::{Effect, movement};
 use crate::explorer::app::{App, Crosshair, Pane};
-use crate::explorer::mode::ModeKind;
+use crate::explorer::keys::Context;
 use crate::explorer::panes::{nearest, spring_at};
 use crate::explorer::snapshot::Section;
 
@@ -74,7 +74,7 @@ pub fn toggle(app: &mut App) {
         let middle = close_up.section.first + close_up.section.springs / 2;
         look_at(app, close_up.fragment.map_or(middle, |facts| facts.patch.middle()));
     }
-    if app.view.pane.row().keys != Some(ModeKind::Crosshair) {
+    if app.view.pane.row().keys != Some(Context::Crosshair) {
         app.view.pane = Pane::Force;
     }
 }

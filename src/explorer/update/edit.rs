@@ -2,15 +2,14 @@
 
 use super::ghosts::name_ghosts;
 use super::{Effect, scene_of, show};
-use crate::explorer::app::{App, Appraisal, CloseUpTarget, Pane, Player};
+use crate::explorer::app::{App, Appraisal, CloseUpTarget, Message, Pane, Player};
 use crate::explorer::layout::Layout;
-use crate::explorer::mode::Mode;
 use crate::explorer::parameters::{Parameter, Setting, parameters, text_of};
-use crate::explorer::prompt::{Prompt, Purpose};
+use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{Focus, LineView, Tried};
 use crate::explorer::text_line::TextLine;
 use crate::scene::{
-    Adhesion, Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, parse_quantity, presets,
+    Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, parse_quantity, presets,
 };
 
 /// Most edits that can be undone.
@@ -78,7 +77,7 @@ pub fn open(app: &mut App, document: Document) -> Vec<Effect> {
 /// Selects a parameter, or the last one, and unfolds its group.
 pub fn select(app: &mut App, row: usize) {
     app.edit.selected = row.min(app.edit.parameters.len().saturating_sub(1));
-    app.edit.refused = None;
+    app.message.take_if(|message| matches!(message, Message::Refused(_)));
     let hidden = app.parameter().filter(|parameter| !parameter.is_head()).map(|parameter| parameter.group);
     if let Some(group) = hidden {
         app.edit.folded.remove(group);
@@ -90,7 +89,6 @@ fn fold(app: &mut App, folds: bool) {
     let Some(group) = app.parameter().map(|parameter| parameter.group) else { return };
     if folds {
         app.edit.selected = row_of(app, group);
-        app.edit.refused = None;
         app.edit.folded.insert(group);
     } else {
         app.edit.folded.remove(group);
@@ -111,7 +109,6 @@ pub fn edit_value(app: &mut App, first: Option<char>) -> Vec<Effect> {
                 let mut line = TextLine::selected(&editable(app, parameter));
                 first.into_iter().for_each(|character| line.insert(&character.to_string()));
                 app.ask(Purpose::Value, line);
-                app.edit.refused = None;
                 // No preview of an earlier edit.
                 (app.tried, app.preview) = (None, None);
             }
@@ -212,22 +209,23 @@ fn with_selected(app: &App, written: &str) -> Result<Document, String> {
     let parameter = app.parameter().ok_or("no parameter is selected")?;
     let document = &app.edit.document;
     let number = || parse_quantity(written, parameter.field.unit).map_err(|error| error.to_string());
+    let adhesion = document.scene().adhesion.unwrap_or_default();
     let changed = match parameter.setting {
         Setting::Field | Setting::Switch(_) | Setting::Heading => document.set(&parameter.path, written),
-        Setting::WorkOfAdhesion => document.with_work_of_adhesion(number()?),
+        Setting::WorkOfAdhesion => document.with_adhesion(adhesion.with_work(number()?)),
         Setting::RoughnessParameter(parameter) => {
             let value = number()?;
-            match (document.scene().adhesion, app.governing()) {
+            match app.governing() {
+                _ if adhesion.work.is_none() || adhesion.sets_amplitude() => {
+                    document.with_adhesion(adhesion.with_parameter(parameter, value))
+                }
                 // The scene has γ alone, which follows from the parameter.
-                (Some(Adhesion::Work { amplitude: None, .. }), Some(governing)) => {
+                Some(governing) => {
                     let undefined = || format!("{} is not defined without roughness", parameter.symbol());
                     let work = governing.work_for(parameter, value).ok_or_else(undefined)?;
-                    document.with_work_of_adhesion(work)
+                    document.with_adhesion(adhesion.with_work(work))
                 }
-                (Some(Adhesion::Work { amplitude: None, .. }), None) => {
-                    return Err("not before the scene is computed".to_owned());
-                }
-                _ => document.with_parameter(parameter, value),
+                None => return Err("not before the scene is computed".to_owned()),
             }
         }
     };
@@ -250,13 +248,11 @@ fn is_previewed(document: &Document) -> bool {
 
 /// Requests the curve with the value typed so far, or none where that is not an allowed value.
 pub fn preview(app: &mut App) -> Vec<Effect> {
-    let tried = match &app.mode {
-        Mode::Prompt(Prompt { purpose: Purpose::Value, line, .. }) => {
-            let written = app.parameter().and_then(|one| one.field.read_typed(&line.text()).ok());
-            written.and_then(|written| with_selected(app, &written).ok())
-        }
-        _ => None,
-    };
+    let typed = app.prompt.as_ref().filter(|_| app.is_typing_value()).map(|prompt| prompt.line.text());
+    let tried = typed.and_then(|typed| {
+        let written = app.parameter()?.field.read_typed(typed).ok()?;
+        with_selected(app, &written).ok()
+    });
     let tried = tried.filter(|tried| tried.text() != app.edit.document.text() && is_previewed(tried));
     if tried.as_ref().map(Document::text) == app.tried.as_ref().map(|tried| tried.text.as_str()) {
         return Vec::new();
@@ -300,7 +296,7 @@ fn computed(app: &App) -> Computed {
 }
 
 fn refuse(app: &mut App, why: String) -> Vec<Effect> {
-    app.edit.refused = Some((app.edit.selected, why));
+    app.message = Some(Message::Refused(why));
     Vec::new()
 }
 

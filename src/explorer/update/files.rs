@@ -1,10 +1,9 @@
 //! Output of the explorer: the scene, exports, the command to open the scene.
 
-use super::{Effect, edit};
+use super::{Effect, dialogue, edit};
 use crate::explorer::action::{Content, OutputFile, WriteFailure};
 use crate::explorer::app::App;
-use crate::explorer::mode::Mode;
-use crate::explorer::prompt::{Prompt, Purpose};
+use crate::explorer::prompt::Purpose;
 use crate::explorer::text_line::TextLine;
 use crate::export::check_extension;
 use crate::scene::{Document, command_line};
@@ -94,13 +93,12 @@ pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>
                 ask_quit(app);
             }
         }
-        Err(WriteFailure::Exists) => app.mode = Mode::Overwrite(file),
+        Err(WriteFailure::Exists) => app.ask(Purpose::Overwrite(file), TextLine::default()),
         Err(WriteFailure::Refused(error)) => {
             let is_scene = file.content == Content::Scene;
             let purpose =
                 if is_scene { Purpose::Save { then_quit: file.then_quit } } else { Purpose::Export };
-            let prompt = Prompt::refused(purpose, &path.to_string(), &error, &app.edit.parameters);
-            app.mode = Mode::Prompt(prompt);
+            dialogue::ask_again(app, purpose, &file.path.to_string_lossy(), &error);
         }
     }
 }
@@ -110,7 +108,7 @@ pub fn ask_quit(app: &mut App) {
     if app.unsaved().is_empty() {
         app.finished = true;
     } else {
-        app.mode = Mode::Quit;
+        app.ask(Purpose::Leave, TextLine::default());
     }
 }
 
@@ -123,6 +121,6 @@ pub fn copy_command(app: &mut App) -> Vec<Effect> {
         return Vec::new();
     }
     // The terminal does not confirm a copy, so the notice has the command too.
-    app.set_done(format!("copy: {command}"));
+    app.set_done(format!("copied: {command}"));
     vec![Effect::Copy(command)]
 }

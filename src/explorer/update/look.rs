@@ -4,7 +4,7 @@ use super::Effect;
 use crate::explorer::app::{App, CloseUpTarget, Pane};
 use crate::explorer::request::{Focus, LineView};
 use crate::explorer::snapshot::ContactSnapshot;
-use crate::explorer::theme::Choice;
+use crate::explorer::theme::{Choice, Marker};
 use std::sync::Arc;
 
 /// Fewest springs that fill a pane.
@@ -45,9 +45,15 @@ pub fn next_theme(app: &mut App) {
 }
 
 /// Changes the markers of the plots.
-pub fn next_marker(app: &mut App) {
-    app.view.appearance.marker = app.view.appearance.marker.next();
-    app.set_done(format!("markers: {}", app.view.appearance.marker.name()));
+pub fn next_marker(app: &mut App) -> Vec<Effect> {
+    let mut marker = app.view.appearance.marker.next();
+    if marker == Marker::Octant && app.view.lacks_octants {
+        marker = marker.next();
+    }
+    app.view.appearance.marker = marker;
+    app.set_done(format!("markers: {}", marker.name()));
+    // A terminal may have given the former markers another width than the program.
+    vec![Effect::Redraw, Effect::Ask]
 }
 
 /// Keeps colours and markers in the configuration file.

@@ -9,7 +9,6 @@ pub(super) mod dialogue;
 pub(super) mod edit;
 pub(super) mod files;
 mod ghosts;
-pub(super) mod library;
 pub(super) mod look;
 mod mouse;
 pub(super) mod movement;
@@ -17,24 +16,24 @@ pub(super) mod show;
 
 pub use super::effect::Effect;
 pub use accuracy::study_tasks;
-pub use dialogue::can_complete;
 
 use super::action::Action;
 use super::app::{App, Message};
-use super::command::Command;
+use super::keys::Command;
 use super::layout::Layout;
-use super::mode::Mode;
+use super::prompt::Purpose;
 use super::request::{Place, Request, SnapshotRequest};
 use super::snapshot::Report;
 use crate::scene::{Document, Scene};
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use std::sync::Arc;
 
 /// Applies an action and returns the effects to perform outside.
 pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     match action {
         Action::Command(command) => return run(app, command),
-        Action::Type(character) => return dialogue::insert(app, &character.to_string()),
-        Action::Paste(text) => return dialogue::insert(app, &text),
+        Action::Key(key) => return pressed(app, &key),
+        Action::Paste(text) => return dialogue::edit_line(app, |line| line.insert(&text)),
         Action::Resize(columns, rows) => {
             app.view.size = (columns, rows);
             return vec![Effect::Ask];
@@ -49,10 +48,13 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
         Action::Report(report) => return reported(app, report),
         Action::Found(found) => return accuracy::found(app, found),
         Action::Written(file, result) => files::written(app, file, result),
-        Action::Listed(entries) => library::listed(app, entries),
+        Action::Listed(entries) => dialogue::listed(app, entries),
         Action::Completed(paths) => return dialogue::completed(app, paths),
         Action::Opened(_, Ok(opening)) => return chart::open(app, *opening),
-        Action::Opened(path, Err(why)) => return library::refused(app, &path, &why),
+        Action::Opened(path, Err(why)) => {
+            dialogue::ask_again(app, Purpose::Scene(Vec::new()), &path, &why);
+            return vec![Effect::List];
+        }
         Action::Remembered(Err(why)) => app.set_error(why),
         Action::Remembered(Ok(path)) => {
             app.set_done(format!("colours and markers are kept in {}", path.display()));
@@ -62,10 +64,23 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     Vec::new()
 }
 
+/// Runs the command of a key, or types its character.
+fn pressed(app: &mut App, key: &KeyEvent) -> Vec<Effect> {
+    match (app.config.bindings.command(key, app.keys()), key.code) {
+        (Some(command), _) => run(app, command),
+        (None, KeyCode::Char(typed))
+            if !key.modifiers.intersects(KeyModifiers::CONTROL | KeyModifiers::ALT) =>
+        {
+            dialogue::edit_line(app, |line| line.insert(typed.encode_utf8(&mut [0; 4])))
+        }
+        _ => Vec::new(),
+    }
+}
+
 /// Runs a command.
 pub(super) fn run(app: &mut App, command: Command) -> Vec<Effect> {
-    if app.mode == Mode::Explore {
-        let moving = app.chart.moving && chart::is_move(command);
+    if app.prompt.is_none() {
+        let moving = app.chart.moving && command.row.merges;
         begin(app);
         app.chart.moving = moving;
     }
@@ -111,7 +126,7 @@ fn reported(app: &mut App, report: Report) -> Vec<Effect> {
         }
         Report::Solved(..) | Report::Shown(_) | Report::Progress { .. } | Report::Failed { .. } => {}
         Report::Tried(preview)
-            if app.mode.is_typing_value()
+            if app.is_typing_value()
                 && app.tried.as_ref().is_none_or(|tried| tried.text != preview.text)
                 && app.next_ghost.is_none() => {}
         Report::Tried(preview) => return compare::previewed(app, preview),

@@ -3,7 +3,6 @@
 use super::{Effect, begin, chart, crosshair, dialogue, edit, look, movement};
 use crate::explorer::action::{Gesture, Mouse};
 use crate::explorer::app::{App, Pane};
-use crate::explorer::mode::Mode;
 use crate::explorer::panel::Under;
 use crate::explorer::panes::{indentation_at, parameter_in, under};
 use crate::explorer::request::ManualMove;
@@ -11,13 +10,11 @@ use ratatui::layout::Position;
 
 /// Performs a gesture of the mouse.
 pub fn act(app: &mut App, mouse: Mouse) -> Vec<Effect> {
-    match (&app.mode, mouse.gesture) {
-        (Mode::Explore, _) => {}
-        (Mode::Help { .. } | Mode::Prompt(_), Gesture::Wheel(turns)) => {
+    if app.prompt.is_some() {
+        if let Gesture::Wheel(turns) = mouse.gesture {
             dialogue::select(app, -turns);
-            return Vec::new();
         }
-        _ => return Vec::new(),
+        return Vec::new();
     }
     let here = Position::new(mouse.column, mouse.row);
     let Some((pane, under)) = under(app, here) else { return Vec::new() };

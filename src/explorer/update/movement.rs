@@ -3,7 +3,6 @@
 use super::Effect;
 use crate::analysis::pull_off_point;
 use crate::explorer::app::{App, ManualState, Player};
-use crate::explorer::config::Animation;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{Focus, ManualMove};
 use crate::explorer::snapshot::{ContactSnapshot, Refusal};
@@ -111,7 +110,7 @@ pub fn elapse(app: &mut App, time: Duration) -> Vec<Effect> {
     }
     let legs = app.legs().len();
     let player = &mut app.play;
-    let Animation { speed, repeats } = app.config.animation;
+    let (speed, repeats) = (app.config.speed, app.config.repeat);
     player.done += speed * time.as_secs_f64() / LEG_TIME.as_secs_f64();
     // The distance does not depend on the frame rate: its rest continues on the next leg.
     while player.done > 1.0 && player.leg + 1 < legs {

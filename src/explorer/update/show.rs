@@ -1,12 +1,13 @@
 //! Panes shown and hidden by a key.
 
 use super::Effect;
-use crate::explorer::app::{App, ModeKind, Pane};
+use crate::explorer::app::{App, Pane};
+use crate::explorer::keys::Context;
 
 /// Shows and selects a pane, or hides it again. A pane with other keys than the crosshair's is selected before it is
 /// hidden: a user in another pane wants these keys.
 pub fn toggle(app: &mut App, pane: Pane) -> Vec<Effect> {
-    let is_in_use = app.view.pane == pane || matches!(pane.row().keys, None | Some(ModeKind::Crosshair));
+    let is_in_use = app.view.pane == pane || matches!(pane.row().keys, None | Some(Context::Crosshair));
     if app.is_shown(pane) && is_in_use { change(app, |app| app.hide(pane)) } else { choose(app, pane) }
 }
 

@@ -6,14 +6,11 @@ use super::typed::typed;
 use crate::analysis::SteepWaves;
 use crate::contact::CurvePoint;
 use crate::explorer::action::{Content, Traffic};
-use crate::explorer::app::{App, Estimated, Message, Mode, ModeKind};
-use crate::explorer::keys::{self, Binding};
-use crate::explorer::parameters::Parameter;
+use crate::explorer::app::{App, Estimated, Message};
 use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::{Meaning, Theme};
-use crate::explorer::update::can_complete;
 use crate::scene::{format_quantity, format_rounded};
 use crate::text::grouped;
 use ratatui::text::{Line, Span};
@@ -40,11 +37,11 @@ pub fn title(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
 pub fn status(app: &App, width: u16) -> Line<'static> {
     let theme = app.view.appearance.theme;
     let error = |text: String| Line::styled(text, theme.style(Meaning::Error));
-    match (&app.mode, &app.message) {
-        (Mode::Prompt(prompt), _) if prompt.refused.is_some() || prompt.line.left_out().is_some() => {
+    match (app.prompt.as_ref().map(|prompt| (prompt, &prompt.purpose)), &app.message) {
+        (Some((prompt, purpose)), _) if prompt.refused.is_some() || prompt.line.left_out().is_some() => {
             let why = prompt.refused.as_deref().or(prompt.line.left_out()).unwrap_or_default();
             let why = why.replace('\n', " · ");
-            if prompt.purpose == Purpose::Value {
+            if matches!(purpose, Purpose::Value) {
                 // The line is in its row.
                 error(format!("! {why}"))
             } else {
@@ -56,24 +53,24 @@ pub fn status(app: &App, width: u16) -> Line<'static> {
                 prompted(why, &prompt.line, width, theme)
             }
         }
-        (Mode::Prompt(prompt), _) if prompt.purpose != Purpose::Value => {
-            prompted(Line::raw(label(prompt, app, width)), &prompt.line, width, theme)
+        (Some((_, Purpose::Overwrite(file))), _) => {
+            error(format!("{} exists. Overwrite it?", file.path.display()))
         }
-        (Mode::Overwrite(file), _) => error(format!("{} exists. Overwrite it?", file.path.display())),
-        (Mode::Quit, _) => error(match app.unsaved()[..] {
+        (Some((_, Purpose::Leave)), _) => error(match app.unsaved()[..] {
             [] | [_] => "The scene has unsaved changes. Leave?".to_owned(),
             ref several => {
                 let names: Vec<&str> = several.iter().map(|document| document.name()).collect();
                 format!("{} scenes have unsaved changes: {}. Leave?", several.len(), names.join(", "))
             }
         }),
-        (_, Some(Message::Error(text))) => error(format!("! {}", text.replace('\n', " · "))),
-        (Mode::Explore, None) if app.edit.refused.is_some() => {
-            let text = app.edit.refused.as_ref().map_or("", |(_, text)| text);
-            error(format!("! {text}"))
+        (Some((prompt, purpose)), _) if !matches!(purpose, Purpose::Value | Purpose::Help) => {
+            prompted(Line::raw(label(prompt, app, width)), &prompt.line, width, theme)
+        }
+        (_, Some(Message::Error(text) | Message::Refused(text))) => {
+            error(format!("! {}", text.replace('\n', " · ")))
         }
         (_, Some(Message::Done(text))) => Line::raw(text.clone()),
-        (Mode::Explore, None) if app.studies.appraisal.choosing.is_some() => choosing(app),
+        (None, None) if app.studies.appraisal.choosing.is_some() => choosing(app),
         _ => headline(app, width.into()),
     }
 }
@@ -91,7 +88,7 @@ fn prompted(label: Line<'static>, line: &TextLine, width: u16, theme: Theme) -> 
 fn label(prompt: &Prompt, app: &App, width: u16) -> String {
     let is_narrow = width < 60;
     match &prompt.purpose {
-        Purpose::Value => String::new(),
+        Purpose::Value | Purpose::Overwrite(_) | Purpose::Leave | Purpose::Help => String::new(),
         Purpose::Force => "Go to the force: ".to_owned(),
         Purpose::Tolerance if is_narrow => "Tolerance: ".to_owned(),
         Purpose::Tolerance => "Relative error allowed (0.1 % or 1e-3): ".to_owned(),
@@ -155,7 +152,7 @@ fn facts(app: &App, is_wide: bool) -> Vec<Fact> {
     let force = |value| format_quantity(value, "N");
     let error = error(app).filter(|_| is_wide).map_or_else(String::new, |error| format!(" {error}"));
     let mut facts = Vec::new();
-    if let Some(tried) = app.tried_outcome().filter(|_| app.mode.is_typing_value()) {
+    if let Some(tried) = app.tried_outcome().filter(|_| app.is_typing_value()) {
         let shown = match tried.figures.adhesion_force {
             _ if !app.is_tried() => "computing…".to_owned(),
             None => "F_a none".to_owned(),
@@ -285,9 +282,7 @@ pub fn footer(app: &App, width: u16) -> Line<'static> {
     if let Some(note) = app.view.demo {
         return Line::styled(note, theme.style(Meaning::Quiet));
     }
-    if let Mode::Prompt(prompt) = &app.mode
-        && !prompt.paths.is_empty()
-    {
+    if let Some(prompt) = app.prompt.as_ref().filter(|prompt| !prompt.paths.is_empty()) {
         return candidates(&prompt.paths, width, theme);
     }
     let traffic = app.view.traffic.filter(|_| width >= TRAFFIC_FROM).map(|Traffic { frames, bytes }| {
@@ -296,7 +291,7 @@ pub fn footer(app: &App, width: u16) -> Line<'static> {
     });
     let traffic = traffic.unwrap_or_default();
     let columns = Span::raw(traffic.as_str()).width();
-    let items = footer_items(app).into_iter();
+    let items = app.config.bindings.footer(app).into_iter();
     let items = items.map(|(keys, label)| {
         vec![Span::styled(keys, theme.style(Meaning::Key)), Span::raw(format!(" {label}"))]
     });
@@ -316,35 +311,4 @@ fn candidates(paths: &[String], width: u16, theme: Theme) -> Line<'static> {
         vec![Span::styled(path[from..].to_owned(), theme.style(Meaning::Quiet))]
     };
     filled(paths.iter().map(name).collect(), "  ", width.into()).into_iter().next().unwrap_or_default()
-}
-
-/// Valid keys with their labels, the most important first; adjacent rows with the same label are one item.
-fn footer_items(app: &App) -> Vec<(String, &'static str)> {
-    let is_shown = |row: &&Binding| match row.command.name {
-        "toggle-manual" => true,
-        "complete" => can_complete(app),
-        "start-value" => app.parameter().is_some_and(Parameter::takes_number),
-        _ => !row.label.is_empty() && (app.manual.is_some() || !keys::is_manual(row)),
-    };
-    let mut rows: Vec<&Binding> = app.config.bindings.valid_in(app.keys()).filter(is_shown).collect();
-    rows.sort_by_key(|row| rank(row, app));
-    let items = rows.chunk_by(|one, next| one.label == next.label);
-    items
-        .map(|rows| {
-            let first = |row: &&Binding| keys::names(&row.keys).into_iter().next().unwrap_or_default();
-            (rows.iter().map(first).collect::<Vec<_>>().join(" "), rows[0].label)
-        })
-        .collect()
-}
-
-/// Place of a key in the footer: help and quit, which show in the smallest window; keys of the present mode only; the
-/// main keys for panes, scenes and loops; the rest.
-fn rank(row: &Binding, app: &App) -> u8 {
-    match row.command.name {
-        "help" | "close-help" | "quit" => 0,
-        _ if app.manual.is_some() && keys::is_manual(row) => 1,
-        _ if !row.modes.contains(&ModeKind::Explore) => 1,
-        "next-pane" | "toggle-chart" | "open-library" | "save" | "pin" | "open-palette" => 2,
-        _ => 3,
-    }
 }

@@ -1,7 +1,6 @@
 //! The help: the notice of the scene, the contents of the panes, and the table of keys by section.
 
 use crate::explorer::app::App;
-use crate::explorer::keys::names;
 use crate::explorer::layout::inside;
 use crate::explorer::panel::{self, Panel};
 use crate::explorer::panes::Pane;
@@ -48,13 +47,14 @@ fn lines(width: u16, app: &App) -> Vec<Line<'static>> {
         entry(&mut lines, name, meaning, width, theme);
     }
     let mut section = "";
-    for row in app.config.bindings.rows().filter(|row| !row.help.is_empty()) {
+    for binding in app.config.bindings.rows() {
+        let row = binding.row;
         if row.section != section {
             section = row.section;
             lines.push(Line::default());
             lines.push(title(section));
         }
-        entry(&mut lines, &names(&row.keys).join(" "), row.help, width, theme);
+        entry(&mut lines, &binding.names().join(" "), row.help, width, theme);
     }
     lines
 }

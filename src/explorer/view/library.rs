@@ -19,7 +19,7 @@ pub fn draw(area: Rect, look: Appearance, prompt: &Prompt, entries: &[Entry], bu
     let width = if is_wide { area.width * 2 / 5 } else { area.width };
     let query = prompt.line.text();
     let rows = prompt.found.iter().enumerate().filter_map(|(place, index)| {
-        Some(row(entries.get(*index)?, place == prompt.selected, &query, look.theme))
+        Some(row(entries.get(*index)?, place == prompt.selected, query, look.theme))
     });
     let none = "no scene fits; Enter tries it as a path, such as ./scene.ron or that of a study's folder";
     let list = match prompt.found.is_empty() {
@@ -32,7 +32,7 @@ pub fn draw(area: Rect, look: Appearance, prompt: &Prompt, entries: &[Entry], bu
     panel::draw(&list, Rect { width, ..area }, false, look, buffer);
     if let Some(entry) = prompt.scene().filter(|_| is_wide) {
         let right = Rect { x: area.x + width, width: area.width - width, ..area };
-        let head = text(entry, &query, right.width - 2, look.theme);
+        let head = text(entry, query, right.width - 2, look.theme);
         let scene = Panel { head, ..Panel::of_text(entry.name.clone(), "") };
         panel::draw(&scene, right, false, look, buffer);
     }

@@ -8,7 +8,7 @@ pub mod stages;
 pub mod text;
 pub mod typed;
 
-use super::app::{App, Mode};
+use super::app::App;
 use super::layout::{Layout, inside};
 use super::panel;
 use super::picture::to_ascii;
@@ -27,10 +27,10 @@ pub fn draw(frame: &mut Frame<'_>, app: &App) {
     if let Some(area) = layout.title {
         panel::draw_lines(&chrome::title(app, area.width, area.height), area, buffer);
     }
-    let list = app.mode.prompt().map(|prompt| (prompt, &prompt.purpose));
-    match (&app.mode, list) {
-        (Mode::Help { scroll }, _) => help::draw(panes, app, *scroll, buffer),
-        (_, Some((prompt, Purpose::Scene(entries)))) => library::draw(panes, look, prompt, entries, buffer),
+    let list = app.prompt.as_ref().map(|prompt| (prompt, &prompt.purpose));
+    match list {
+        Some((prompt, Purpose::Help)) => help::draw(panes, app, prompt.selected as u16, buffer),
+        Some((prompt, Purpose::Scene(entries))) => library::draw(panes, look, prompt, entries, buffer),
         _ => {
             for &(pane, area) in &layout.panes {
                 let panel = pane.panel(app, inside(area).as_size());

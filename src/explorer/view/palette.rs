@@ -1,7 +1,7 @@
 //! The list of all commands, over the panes.
 
 use super::text::{fitted, found};
-use crate::explorer::palette::Entry;
+use crate::explorer::palette::Listed;
 use crate::explorer::panel::{self, Body, Panel};
 use crate::explorer::prompt::Prompt;
 use crate::explorer::theme::{Appearance, Meaning, Theme};
@@ -14,14 +14,14 @@ use ratatui::widgets::{Clear, Widget};
 const WIDEST: u16 = 100;
 
 /// Draws the list.
-pub fn draw(area: Rect, look: Appearance, prompt: &Prompt, entries: &[Entry], buffer: &mut Buffer) {
+pub fn draw(area: Rect, look: Appearance, prompt: &Prompt, entries: &[Listed], buffer: &mut Buffer) {
     let title = format!("Commands, {} of {}", prompt.found.len(), entries.len());
     let width = area.width.min(WIDEST);
     let height = area.height.min(prompt.found.len().max(1) as u16 + 2);
     let area = Rect { x: area.x + (area.width - width) / 2, width, height, ..area };
     let (query, columns) = (prompt.line.text(), width.saturating_sub(2));
     let rows = prompt.found.iter().enumerate().filter_map(|(place, index)| {
-        Some(row(entries.get(*index)?, place == prompt.selected, &query, columns, look.theme))
+        Some(row(entries.get(*index)?, place == prompt.selected, query, columns, look.theme))
     });
     let mut list = Panel::of_text(title, "no command fits");
     if !prompt.found.is_empty() {
@@ -32,7 +32,7 @@ pub fn draw(area: Rect, look: Appearance, prompt: &Prompt, entries: &[Entry], bu
 }
 
 /// A command, and its keys at the right end.
-fn row(entry: &Entry, is_selected: bool, query: &str, width: u16, theme: Theme) -> Line<'static> {
+fn row(entry: &Listed, is_selected: bool, query: &str, width: u16, theme: Theme) -> Line<'static> {
     let key = |key: &String| found(key, query, theme.style(Meaning::Key), theme);
     let keys: Vec<_> = entry.keys.iter().map(key).collect();
     let keys = Line::from(keys.join(&Span::raw(" ")));

@@ -61,31 +61,32 @@ pub fn wrapped_within(line: &Line<'_>, columns: u16, rows: u16) -> Vec<Line<'sta
     let mut lines = wrapped(line, columns);
     if lines.len() > usize::from(rows) {
         lines.truncate(rows.into());
-        let last = lines.pop().map(|last| clipped(last, columns));
-        lines.extend(last);
+        lines.last_mut().into_iter().for_each(|last| *last = clipped(last, columns));
     }
     lines
 }
 
 /// A line that is at most `columns` wide: whole, or cut with an `…`.
 pub fn fitted(line: Line<'static>, columns: u16) -> Line<'static> {
-    if line.width() > usize::from(columns) { clipped(line, columns) } else { line }
+    if line.width() > usize::from(columns) { clipped(&line, columns) } else { line }
 }
 
 /// A line with `…` in place of the rest: at most `columns` wide.
-fn clipped(line: Line<'static>, columns: u16) -> Line<'static> {
-    let mut left = usize::from(columns).saturating_sub(1);
-    let graphemes = line.styled_graphemes(Style::default()).map_while(|grapheme| {
-        left = left.checked_sub(Span::raw(grapheme.symbol).width())?;
-        Some(grapheme)
+fn clipped(line: &Line<'static>, columns: u16) -> Line<'static> {
+    let graphemes: Vec<_> = line.styled_graphemes(Style::default()).collect();
+    let mut width = 1;
+    let kept = graphemes.iter().take_while(|grapheme| {
+        width += Span::raw(grapheme.symbol).width();
+        width <= usize::from(columns)
     });
-    let mut clipped = styled(&graphemes.collect::<Vec<_>>());
+    let (kept, rest) = graphemes.split_at(kept.count());
+    let blanks = kept.iter().rev().take_while(|grapheme| grapheme.symbol.trim().is_empty()).count();
+    let mut clipped = styled(&kept[..kept.len() - blanks]);
     if columns > 0 {
-        let style = clipped.spans.last().map_or(line.style, |last| last.style);
-        let kept = clipped.spans.pop().map_or_else(String::new, |last| last.content.trim_end().to_owned());
-        clipped.push_span(Span::styled(kept + "…", style));
+        let style = rest.first().or(kept.last()).map_or(line.style, |grapheme| grapheme.style);
+        clipped.push_span(Span::styled("…", style));
     }
-    Line { spans: clipped.spans, ..line }
+    clipped.style(line.style)
 }
 
 /// Parts in as many lines as needed, with the text between them on a line; a part wider than the columns is

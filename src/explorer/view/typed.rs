@@ -9,7 +9,7 @@ use ratatui::text::Span;
 pub fn typed(line: &TextLine, columns: usize, theme: Theme) -> Vec<Span<'static>> {
     let reversed = theme.style(Meaning::Text).add_modifier(Modifier::REVERSED);
     if line.is_selected() && !line.text().is_empty() {
-        return vec![Span::styled(line.text(), reversed)];
+        return vec![Span::styled(line.text().to_owned(), reversed)];
     }
     let (before, under, after) = line.parts();
     let under = if under.is_empty() { " ".to_owned() } else { under };

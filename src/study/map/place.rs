@@ -1,7 +1,7 @@
 //! The place of a scene on the axes of a map, and scenes moved to another place.
 
 use crate::analysis::Governing;
-use crate::scene::{Adhesion, Document, Move, Scene, SceneErrors, ron_float};
+use crate::scene::{Document, Move, Scene, SceneErrors, ron_float};
 use crate::study::axis::Axis;
 use crate::study::target::{Target, governing, value_in};
 
@@ -67,12 +67,13 @@ pub fn moved(document: &Document, values: &[(&Axis, f64)]) -> Result<Document, S
         moved = moved.set("roughness.modes.1", &format!("{last:.0}"))?;
     }
     if let Some((parameter, value)) = parameter {
-        let by_work = matches!(moved.scene().adhesion, Some(Adhesion::Work { amplitude: None, .. }));
+        let adhesion = moved.scene().adhesion.unwrap_or_default();
+        let by_work = adhesion.work.is_some() && !adhesion.sets_amplitude();
         let work = governing(moved.scene()).and_then(|governing| governing.work_for(parameter, value));
-        moved = match work.filter(|_| by_work) {
-            Some(work) => moved.with_work_of_adhesion(work)?,
-            None => moved.with_parameter(parameter, value)?,
-        };
+        moved = moved.with_adhesion(match work.filter(|_| by_work) {
+            Some(work) => adhesion.with_work(work),
+            None => adhesion.with_parameter(parameter, value),
+        })?;
     }
     match preload.zip(force_unit(moved.scene())) {
         Some((preload, unit)) => {
@@ -114,7 +115,7 @@ mod tests {
         for document in [by_kappa.clone(), both.unwrap(), by_work] {
             let moved = moved(&document, &[(&axes[0], 0.4), (&axes[1], 3.0)]).unwrap();
             let (before, after) = (document.scene().adhesion.unwrap(), moved.scene().adhesion.unwrap());
-            assert_eq!(before.work().is_some(), after.work().is_some());
+            assert_eq!(before.work.is_some(), after.work.is_some());
             assert_eq!(before.parameter().is_some(), after.parameter().is_some());
             let [hurst, kappa] = [0, 1].map(|axis| axes[axis].value_in(moved.scene(), None).unwrap());
             assert!((kappa / 3.0 - 1.0).abs() < 1e-12 && hurst == 0.4, "{kappa} {hurst}");

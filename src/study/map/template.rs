@@ -53,13 +53,10 @@ impl Template {
         let adhesion = scene.adhesion.ok_or(NoMap::NoAdhesion)?;
         let (parameter, value) = (RoughnessParameter::Kappa, ANY.0);
         // Without a given amplitude the amplitude follows from γ and κ. The range of the attraction changes no map.
-        let adhesion = match adhesion.with_parameter(parameter, value).map_err(|_| NoMap::TwoWorks)? {
-            Adhesion::Work { work, closing_work: None, amplitude, .. } => {
-                Adhesion::Work { work, closing_work: None, amplitude, range: None }
-            }
-            Adhesion::Work { .. } => return Err(NoMap::TwoWorks),
-            Adhesion::Parameter { .. } => Adhesion::by_parameter(parameter, value),
-        };
+        if adhesion.closing_work.is_some() {
+            return Err(NoMap::TwoWorks);
+        }
+        let adhesion = Adhesion { range: None, ..adhesion.with_parameter(parameter, value) };
         let mut scene = scene.clone();
         let points = match &mut scene.roughness {
             None => return Err(NoMap::Smooth),
@@ -80,8 +77,8 @@ impl Template {
 
     /// The same template over this parameter.
     pub fn over(mut self, parameter: RoughnessParameter) -> Self {
-        let over = |adhesion: Adhesion| adhesion.with_parameter(parameter, ANY.0).ok();
-        self.scene.adhesion = self.scene.adhesion.and_then(over);
+        let over = |adhesion: Adhesion| adhesion.with_parameter(parameter, ANY.0);
+        self.scene.adhesion = self.scene.adhesion.map(over);
         Template { parameter, ..self }
     }
 

@@ -34,21 +34,6 @@ fn springs(body: &Body, turns: &[f64]) -> Vec<usize> {
 proptest! {
     #![proptest_config(cases(600))]
 
-    #[test]
-    fn without_adhesion_approach_and_retraction_are_one_curve(
-        body in bodies(200), deepest in 0.0..1.5_f64, samples in 2_usize..700,
-    ) {
-        let body = body.with_more_adhesion(0.0);
-        let targets = [Move::ToIndentation(deepest), Move::ToSeparation];
-        for mut solver in [body.on(samples), body.bare(samples)] {
-            let [up, down] = targets.map(|target| solver.advance(target).unwrap());
-            let mut back = curve_bits(&down);
-            back.reverse();
-            prop_assert_eq!(curve_bits(&up), back);
-            prop_assert_eq!((up.released_energy, down.released_energy), (0.0, 0.0));
-        }
-    }
-
     /// A contact without adhesion, which has no tree, agrees with a work of adhesion of zero: bit for bit where patches are
     /// whole springs.
     #[test]
@@ -106,31 +91,6 @@ proptest! {
             prop_assert_eq!(scaled_bits(one, height, height * stress), scaled_bits(other, 1.0, 1.0));
         }
         prop_assert_eq!(one.work, other.work);
-    }
-
-    /// Any other factors change contact and forces by roundings.
-    #[test]
-    fn units_are_arbitrary(
-        body in bodies(200), turns in indentations(6), powers in [-9.0..9.0_f64, -9.0..9.0, -9.0..9.0],
-    ) {
-        let [length, height, stress] = powers.map(|power| 10.0_f64.powf(power));
-        let Foundation { spacing, effective_modulus, .. } = body.foundation;
-        let mut other = body.with_more_adhesion(height * height / length * stress);
-        other.gaps.iter_mut().for_each(|gap| *gap *= height);
-        other.foundation = Foundation::endless(length * spacing, stress * effective_modulus);
-        let higher: Vec<f64> = turns.iter().map(|turn| height * turn).collect();
-        let slight = [1.0 + 1e-11, 1.0 - 1e-11].map(|factor| body.with_more_adhesion(factor));
-        let history = |body: &Body| body.history(&to_indentations(&turns), 2);
-        let [one, more, less] = [&body, &slight[0], &slight[1]].map(history);
-        let other = other.history(&to_indentations(&higher), 2);
-        // For an event at a turning point to rounding, either contact is right.
-        prop_assume!(more.contacts == less.contacts);
-        prop_assert_eq!(&one.contacts, &other.contacts);
-        // An edge about to run away amplifies a rounding.
-        let force = |history: History| end(history.legs.last().unwrap()).force;
-        let [one, other, more, less] = [one, other, more, less].map(force);
-        let error = (one - other / (length * height * stress)).abs();
-        prop_assert!(error <= 1e-14 * body.scales()[0] + (more - less).abs(), "{} {}", one, other);
     }
 
     #[test]

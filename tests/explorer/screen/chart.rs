@@ -6,7 +6,8 @@ use super::common::scenes::{changed, rough, smooth, without_adhesion};
 use super::is_up_to_date;
 use super::stand_in::{Reported, StandIn};
 use asperity::explorer::action::{Action, Gesture, Mouse};
-use asperity::explorer::app::{ModeKind, Pane};
+use asperity::explorer::app::Pane;
+use asperity::explorer::keys::Context;
 use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::runtime::Studies;
 use asperity::explorer::study::{Finding, Found, PaneData, Study, Task};
@@ -213,7 +214,7 @@ fn the_map_is_exported_as_it_is_seen() {
 fn moves_in_a_row_are_one_edit() {
     within(60, || {
         let mut driver = charted(rough());
-        assert_eq!(driver.app.keys(), ModeKind::Chart);
+        assert_eq!(driver.app.keys(), Context::Map);
         let before = driver.app.edit.document.clone();
         let (edits, map) = (driver.app.edit.past.len(), driver.app.chart.map.clone());
         assert_eq!(driver.press("Down"), [Effect::Ask]);
@@ -250,7 +251,7 @@ fn the_mark_stays_on_the_map() {
         assert_eq!(driver.app.edit.generation, generation);
         // A scene beyond it comes back with the first step.
         driver.press("Tab Tab");
-        assert_eq!(driver.app.keys(), ModeKind::Explore);
+        assert_eq!(driver.app.keys(), Context::Explore);
         driver.select("adhesion.kappa");
         driver.enter("100");
         assert!(driver.text().contains("H 0.95, κ 100, outside the map"), "{}", driver.text());
@@ -265,7 +266,7 @@ fn adhesion_given_by_its_work_stays_so() {
         let mut driver = charted(changed(&rough(), &[("adhesion", "(work: 0.02)")]));
         driver.press("Right Up");
         let adhesion = driver.app.edit.document.scene().adhesion.unwrap();
-        assert!(adhesion.parameter().is_none() && adhesion.work().is_some_and(|work| work != 0.02));
+        assert!(adhesion.parameter().is_none() && adhesion.work.is_some_and(|work| work != 0.02));
         let (at, hurst) = place(&driver);
         assert!((0..COLUMNS).any(|column| (kappa(column) / at - 1.0).abs() < 1e-9), "{at}");
         assert_eq!(hurst, 0.75);

@@ -4,8 +4,8 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{punch, rough, smooth};
 use super::{SIZES, default_scene, everywhere, mid_retraction, pressed};
-use asperity::explorer::app::{Mode, ModeKind};
-use asperity::explorer::keys::{self, BINDINGS};
+
+use asperity::explorer::keys::{Bindings, Context};
 use asperity::explorer::layout::Layout;
 use asperity::scene::format_quantity;
 
@@ -71,15 +71,15 @@ fn the_footer_shows_keys_of_the_table_that_are_valid_now() {
     within(30, || {
         for mut driver in everywhere() {
             let mode = driver.app.keys();
-            let bindings = keys::Bindings::default();
+            let bindings = Bindings::default();
             let labels: Vec<&str> =
-                bindings.valid_in(mode).map(|row| row.label).filter(|label| !label.is_empty()).collect();
+                bindings.valid_in(mode).map(|one| one.row.label).filter(|label| !label.is_empty()).collect();
             let is_valid = |one: &String| {
                 let ends = labels.iter().filter(|label| one.ends_with(&format!(" {label}")));
                 let label = ends.max_by_key(|label| label.len());
                 let Some(label) = label else { return false };
-                let rows = bindings.valid_in(mode).filter(|row| row.label == *label);
-                let names: Vec<String> = rows.flat_map(|row| keys::names(&row.keys)).collect();
+                let rows = bindings.valid_in(mode).filter(|one| one.row.label == *label);
+                let names: Vec<String> = rows.flat_map(|row| row.names()).collect();
                 one[..one.len() - label.len()]
                     .split_whitespace()
                     .all(|key| names.iter().any(|name| name == key))
@@ -89,7 +89,7 @@ fn the_footer_shows_keys_of_the_table_that_are_valid_now() {
                 let shown = footer(&driver);
                 assert!(!shown.is_empty(), "{mode:?} {size:?}");
                 assert!(shown.iter().all(is_valid), "{shown:?} {labels:?}");
-                if matches!(mode, ModeKind::Explore | ModeKind::Chart | ModeKind::Parameters) {
+                if matches!(mode, Context::Explore | Context::Map | Context::Parameters) {
                     assert!(shown.iter().any(|one| one.contains("help")), "{size:?}: {shown:?}");
                     assert!(shown.iter().any(|one| one.contains("quit")), "{size:?}: {shown:?}");
                 }
@@ -113,7 +113,7 @@ fn the_footer_has_the_keys_of_the_present_pane_and_of_manual_loading() {
             driver.press("d");
             shows(&driver, &["d manual", "] [ press/pull", "} { large step", "F force", "S separate"]);
             driver.press("d Tab Tab");
-            assert_eq!(driver.app.keys(), ModeKind::Parameters);
+            assert_eq!(driver.app.keys(), Context::Parameters);
             shows(&driver, &["0–9 type"]);
         }
     });
@@ -188,18 +188,17 @@ fn the_help_lists_every_binding() {
     within(60, || {
         for size in [(120, 40), (120, 10)] {
             let lines = help(size);
-            for row in BINDINGS.iter().filter(|row| !row.help.is_empty()) {
-                let keys = keys::names(&row.keys);
+            for binding in Bindings::default().rows() {
+                let (row, keys) = (binding.row, binding.names());
                 let listed = lines.iter().any(|line| {
                     line.contains(row.help) && keys.iter().all(|key| line.contains(key.as_str()))
                 });
                 assert!(listed, "{keys:?}: {}\n{}", row.help, lines.join("\n"));
             }
-            for section in BINDINGS.iter().map(|row| row.section) {
+            for section in Bindings::default().rows().map(|one| one.row.section) {
                 assert!(lines.iter().any(|line| line.contains(section)), "{section}");
             }
         }
-        assert!(BINDINGS.iter().all(|row| !row.help.is_empty()), "every row has its line");
     });
 }
 
@@ -235,6 +234,6 @@ fn the_help_scrolls_to_its_end_and_no_further() {
         (0..200).for_each(|_| drop(driver.press("k")));
         assert_eq!(driver.text(), top);
         driver.press("Esc");
-        assert_eq!(driver.app.mode, Mode::Explore);
+        assert!(driver.app.prompt.is_none());
     });
 }

@@ -25,7 +25,7 @@ fn outcome(driver: &Driver) -> Outcome {
 
 fn message(driver: &Driver) -> String {
     match &driver.app.message {
-        Some(Message::Done(text) | Message::Error(text)) => text.clone(),
+        Some(Message::Done(text) | Message::Error(text) | Message::Refused(text)) => text.clone(),
         None => String::new(),
     }
 }

@@ -5,7 +5,8 @@ use super::common::driver::Driver;
 use super::common::scenes::{punch, rough};
 use super::{default_scene, mid_retraction, pressed};
 use asperity::explorer::action::{Action, Gesture, Mouse};
-use asperity::explorer::app::{ModeKind, Pane};
+use asperity::explorer::app::Pane;
+use asperity::explorer::keys::Context;
 use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::snapshot::{ContactSnapshot, Probe};
 use asperity::scene::format_quantity;
@@ -47,7 +48,7 @@ fn the_crosshair_reads_the_state_that_all_panes_show() {
             driver.resize(size);
             assert!(!edge(&driver, Pane::Force).contains(" d "));
             driver.press("*");
-            assert_eq!(driver.app.keys(), ModeKind::Crosshair);
+            assert_eq!(driver.app.keys(), Context::Crosshair);
             assert!(driver.rows().last().unwrap().contains("hide"), "{}", driver.text());
             for keys in ["", "Right", "Shift+Left", "Up", "Left Left", "Down", "Home", "End"] {
                 driver.press(keys);
@@ -64,7 +65,7 @@ fn the_crosshair_reads_the_state_that_all_panes_show() {
                 assert!(!driver.app.play.playing);
             }
             driver.press("Esc");
-            assert_eq!(driver.app.keys(), ModeKind::Explore);
+            assert_eq!(driver.app.keys(), Context::Explore);
             assert!(!edge(&driver, Pane::Force).contains(" d "));
         }
     });

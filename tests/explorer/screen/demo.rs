@@ -91,11 +91,11 @@ fn the_tour_shows_what_it_is_to_show() {
                 !app.ghosts.is_empty(),
                 app.view.curve.loss,
                 app.view.lower == Pane::Lengths,
-                app.mode.is_typing_value(),
+                app.is_typing_value(),
                 app.is_unsaved() && app.edit.document.scene().roughness.is_none(),
             ];
             seen.iter_mut().zip(shown).for_each(|(seen, shown)| *seen |= shown);
-            assert!(app.edit.refused.is_none() && !app.is_computing(), "{:?}", app.edit.refused);
+            assert!(!app.is_refused() && !app.is_computing(), "{:?}", app.message);
         }
         assert_eq!(seen, [true; 6]);
         let expected = [0, 1, 2, 5, 8].map(|index| presets()[index].name);

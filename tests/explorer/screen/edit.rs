@@ -44,8 +44,7 @@ fn a_step_beyond_the_range_says_what_is_allowed() {
         assert!(driver.press("l").is_empty());
         assert_eq!(driver.app.edit.document, before);
         assert!(driver.text().contains("0.5"), "{}", driver.text());
-        let (row, error) = driver.app.edit.refused.clone().expect("it is refused");
-        assert_eq!(row, driver.app.edit.selected);
+        let Some(Message::Refused(error)) = &driver.app.message else { panic!("it is refused") };
         assert!(error.contains("allowed"), "{error}");
     });
 }
@@ -154,7 +153,7 @@ fn a_smooth_scene_has_no_line_to_draw_anew() {
         assert_eq!(driver.app.edit.document, before);
         assert!(is_up_to_date(&driver.app));
         // No other field is marked for that error.
-        assert_eq!(driver.app.edit.refused, None);
+        assert!(!driver.app.is_refused());
         let status = Layout::of(&driver.app).status;
         let row = driver.rows()[usize::from(status.y)].clone();
         assert!(row.contains("no random line"), "{row}");

@@ -4,6 +4,7 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{changed, one_spring, rough, smooth};
 use super::{generation, is_up_to_date, pressed};
+use asperity::explorer::app::Message;
 use asperity::scene::{Adhesion, Effect, RoughnessParameter};
 
 /// Selects a row by its path.
@@ -118,7 +119,7 @@ fn adhesion_given_the_other_way_is_the_same() {
         // By e_el/γ the result is the same.
         driver.press("l");
         let adhesion = driver.app.edit.document.scene().adhesion.unwrap();
-        let ratio = adhesion.parameter().filter(|_| adhesion.work().is_none());
+        let ratio = adhesion.parameter().filter(|_| adhesion.work.is_none());
         assert!(ratio.is_some_and(|(parameter, _)| parameter == RoughnessParameter::ElasticEnergyRatio));
         assert!(near(governing(&driver).0, kappa) && near(force(&driver), before));
         driver.press("h");
@@ -172,7 +173,7 @@ fn a_switch_that_cannot_be_made_says_why() {
         select(&mut driver, "roughness");
         driver.press("t");
         assert_eq!(driver.app.edit.document, before);
-        let (_, why) = driver.app.edit.refused.clone().expect("it is refused");
+        let Some(Message::Refused(why)) = driver.app.message.clone() else { panic!("it is refused") };
         assert!(!why.is_empty() && driver.status().starts_with("! "), "{why}: {}", driver.status());
         // Rows without an effect have no switch.
         let mut driver = pressed("");

@@ -5,7 +5,7 @@ use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::pressed;
 use asperity::explorer::action::{Content, OutputFile};
-use asperity::explorer::app::Mode;
+
 use asperity::explorer::panes::Pane;
 use asperity::explorer::theme::{Marker, Theme};
 use asperity::explorer::update::Effect;
@@ -53,7 +53,7 @@ fn the_ending_of_a_name_shows_what_is_exported() {
                     then_quit: false
                 })]
             );
-            assert_eq!(driver.app.mode, Mode::Explore);
+            assert!(driver.app.prompt.is_none());
             assert!(driver.status().contains(&format!("exported to {name}")), "{}", driver.status());
             assert!(!driver.app.is_unsaved() && !driver.app.finished);
         }
@@ -95,7 +95,7 @@ fn a_file_that_is_there_is_asked_about() {
         export(&mut driver, &path);
         driver.press("y");
         assert!(fs::read_to_string(&path).unwrap().contains("\nleg,indentation"));
-        assert_eq!(driver.app.mode, Mode::Explore);
+        assert!(driver.app.prompt.is_none());
         // An error of the system is shown.
         export(&mut driver, &folder.path().join("no/such/folder/a.csv"));
         assert!(
@@ -294,7 +294,7 @@ fn the_copied_command_opens_the_scene_as_it_is() {
                 driver.press("t y");
                 let command = driver.console.copied.last().unwrap();
                 assert_eq!(opened(command).scene(), driver.app.edit.document.scene(), "{command}");
-                assert!(driver.status().starts_with("copy: asperity "), "{}", driver.status());
+                assert!(driver.status().starts_with("copied: asperity "), "{}", driver.status());
             }
             driver.select("loading");
             driver.enter("[ToForce(1.0e-6), ToIndentation(-1.0e-9), ToSeparation]");

@@ -49,7 +49,7 @@ fn a_moment_on_its_way_does_not_take_the_chosen_fragment_away() {
         let before = driver.app.snapshot.clone().unwrap();
         let first = number(&driver);
         // The fragment is requested just after a snapshot requested by the animation.
-        let effects = driver.update("fragment next");
+        let effects = driver.update("next-patch");
         assert_eq!(effects, [Effect::Ask]);
         driver.act(Action::Report(Report::Shown(before)));
         driver.perform(effects);

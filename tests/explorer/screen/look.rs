@@ -339,7 +339,7 @@ fn scale(driver: &Driver, pane: Pane) -> Vec<f64> {
     let row = |y| (area.x..area.right()).map(|x| screen[(x, y)].symbol()).collect::<String>();
     let number = |y| {
         let row = row(y);
-        let text = row.split_once(" ┤")?.0.trim().replace('−', "-");
+        let text = row.split_once(" ┤")?.0.trim();
         let power =
             text.strip_prefix("10").and_then(|digits| exponent(digits.chars())).map(|at| 10_f64.powi(at));
         power.or_else(|| text.parse().ok())

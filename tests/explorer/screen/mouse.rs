@@ -4,7 +4,7 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::{default_scene, mid_retraction, pressed};
 use asperity::explorer::action::{Action, Gesture, Mouse};
-use asperity::explorer::app::{Mode, Pane};
+use asperity::explorer::app::Pane;
 use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::panel::Under;
 use asperity::explorer::panes::{indentation_at, under};
@@ -154,12 +154,16 @@ fn the_wheel_looks_closer_and_scrolls() {
         driver.resize((80, 24));
         driver.press("?");
         mouse(&mut driver, 3, 3, Gesture::Wheel(-1));
-        assert_eq!(driver.app.mode, Mode::Help { scroll: 1 });
+        assert_eq!(driver.app.prompt.as_ref().map(|help| help.selected), Some(1));
         mouse(&mut driver, 3, 3, Gesture::Press);
-        assert_eq!(driver.app.mode, Mode::Help { scroll: 1 }, "a press does nothing there");
+        assert_eq!(
+            driver.app.prompt.as_ref().map(|help| help.selected),
+            Some(1),
+            "a press does nothing there"
+        );
         driver.press("Esc o");
         mouse(&mut driver, 3, 3, Gesture::Wheel(-1));
-        assert!(driver.app.mode.prompt().is_some_and(|prompt| prompt.selected == 1));
+        assert!(driver.app.prompt.as_ref().is_some_and(|prompt| prompt.selected == 1));
     });
 }
 

@@ -4,8 +4,8 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::{SIZES, mid_retraction, pressed, row_with};
-use asperity::explorer::app::{ModeKind, Pane};
-use asperity::explorer::keys::{self, BINDINGS};
+use asperity::explorer::app::Pane;
+use asperity::explorer::keys::{Bindings, Context};
 use asperity::explorer::layout::Layout;
 use asperity::explorer::theme::Theme;
 use asperity::scene::presets;
@@ -26,15 +26,17 @@ fn every_command_is_in_the_list_with_its_keys() {
         driver.resize((120, 200));
         driver.press(":");
         let rows = driver.rows();
-        let exploring = [ModeKind::Explore, ModeKind::Chart, ModeKind::Parameters];
+        let exploring = [Context::Explore, Context::Map, Context::Parameters];
         let mut listed = 0;
-        for row in BINDINGS.iter().filter(|row| row.modes.iter().any(|mode| exploring.contains(mode))) {
-            if ["preset", "start-value", "open-palette"].contains(&row.command.name) {
+        for binding in Bindings::default().rows() {
+            let row = binding.row;
+            let is_elsewhere = !row.contexts.iter().any(|context| exploring.contains(context));
+            if is_elsewhere || ["preset", "start-value", "open-palette"].contains(&row.name) {
                 continue;
             }
             // The start of a long description.
             let help: String = row.help.chars().take(60).collect();
-            let names = keys::names(&row.keys).join(" ");
+            let names = binding.names().join(" ");
             let is_listed = |line: &String| line.contains(&help) && line.contains(&names);
             assert!(rows.iter().any(is_listed), "{names}: {help}\n{}", rows.join("\n"));
             listed += 1;
@@ -97,7 +99,7 @@ fn the_list_is_moved_through_and_left_at_every_size() {
             driver.resize(size);
             let before = driver.text();
             driver.press("Ctrl+p");
-            assert_eq!(driver.app.keys(), ModeKind::List);
+            assert_eq!(driver.app.keys(), Context::List);
             for _ in 0..100 {
                 driver.press("Down");
                 let rows = driver.rows();
@@ -132,7 +134,7 @@ fn a_path_is_completed() {
                     driver.type_text(text);
                 }
                 driver.press(keys);
-                let typed = driver.app.mode.line_mut().unwrap().text();
+                let typed = driver.app.prompt.as_ref().unwrap().line.text();
                 (typed.trim_start_matches(&base).to_owned(), footer(&driver))
             };
             let start = format!("{base}al");

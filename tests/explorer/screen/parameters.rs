@@ -4,7 +4,8 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{changed, punch, rough, smooth, without_adhesion};
 use super::{SIZES, default_scene, mid_retraction, pressed};
-use asperity::explorer::app::{App, ModeKind, Pane};
+use asperity::explorer::app::{App, Pane};
+use asperity::explorer::keys::Context;
 use asperity::explorer::layout::{Layout, inside};
 use asperity::scene::Document;
 
@@ -197,7 +198,7 @@ fn a_parameter_is_found_by_words_of_its_name_or_symbol() {
             assert!(driver.status().contains(&format!("Find: {typed}")), "{}", driver.status());
             driver.press("Enter");
             assert_eq!(selected(&driver.app), path, "{typed}");
-            assert_eq!(driver.app.keys(), ModeKind::Parameters, "a value can be typed at once");
+            assert_eq!(driver.app.keys(), Context::Parameters, "a value can be typed at once");
         }
     });
 }
@@ -212,7 +213,7 @@ fn a_search_is_moved_through_and_left() {
                 let (pane_before, document) = (driver.app.view.pane, driver.app.edit.document.clone());
                 driver.press("/ m o d");
                 let found = driver.app.keys();
-                assert_eq!(found, ModeKind::List);
+                assert_eq!(found, Context::List);
                 assert!(driver.text().contains('›'), "{size:?}\n{}", driver.text());
                 driver.press("Down Esc");
                 assert_eq!((driver.app.view.pane, selected(&driver.app)), (pane_before, "roughness.hurst"));
@@ -221,7 +222,7 @@ fn a_search_is_moved_through_and_left() {
         }
         // A search without a match moves nothing.
         let mut driver = pressed("/ q q q Enter");
-        assert_eq!(driver.app.keys(), ModeKind::List);
+        assert_eq!(driver.app.keys(), Context::List);
         assert!(driver.text().contains("no parameter"), "{}", driver.text());
         driver.press("Backspace Ctrl+u Down Up Down Enter");
         assert_eq!(driver.app.edit.selected, 1);

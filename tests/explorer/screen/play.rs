@@ -208,8 +208,7 @@ fn colours_and_markers_are_kept_when_asked() {
         let mut driver = Driver::start(rough());
         driver.press("T M Ctrl+s");
         assert!(driver.status().contains("! there is no configuration file"), "{}", driver.status());
-        let config = Config { path: Some("my/config.ron".into()), ..Config::default() };
-        driver.app.config = config;
+        driver.app.config.path = Some("my/config.ron".into());
         let effects = driver.press("Ctrl+s");
         let appearance = driver.app.view.appearance;
         assert_eq!(effects, [Effect::Remember { path: "my/config.ron".into(), appearance }]);

@@ -5,8 +5,9 @@ use super::common::driver::{Driver, REFUSED};
 use super::common::scenes::rough;
 use super::pressed;
 use asperity::explorer::action::{Content, OutputFile};
-use asperity::explorer::app::{Mode, ModeKind};
+
 use asperity::explorer::autosave::{Autosave, left_behind};
+use asperity::explorer::keys::Context;
 use asperity::explorer::update::Effect;
 use asperity::scene::Document;
 use std::path::Path;
@@ -84,9 +85,9 @@ fn an_empty_name_saves_nothing() {
     within(30, || {
         let mut driver = pressed("s Ctrl+u");
         assert!(driver.press("Enter").is_empty() && driver.files().is_empty());
-        assert_eq!(driver.app.mode.kind(), ModeKind::Prompt);
+        assert_eq!(driver.app.keys(), Context::Line);
         driver.press("Esc");
-        assert_eq!(driver.app.mode, Mode::Explore);
+        assert!(driver.app.prompt.is_none());
     });
 }
 
@@ -106,7 +107,7 @@ fn a_changed_scene_asks_before_it_is_left() {
     within(30, || {
         let asked = |keys: &str| {
             let mut driver = pressed("l q");
-            assert_eq!(driver.app.mode, Mode::Quit);
+            assert_eq!(driver.app.keys(), Context::Leave);
             assert!(!driver.app.finished);
             assert!(driver.text().contains("unsaved"), "{}", driver.text());
             assert!(driver.rows()[0].contains("changed"), "{}", driver.text());
@@ -115,7 +116,7 @@ fn a_changed_scene_asks_before_it_is_left() {
         };
         for keys in ["n", "Esc"] {
             let driver = asked(keys);
-            assert!(!driver.app.finished && driver.app.mode == Mode::Explore, "{keys}");
+            assert!(!driver.app.finished && driver.app.prompt.is_none(), "{keys}");
         }
         for keys in ["q", "y", "Ctrl+c"] {
             let driver = asked(keys);
@@ -191,7 +192,7 @@ fn title_and_notice_are_rows_and_the_name_gets_its_extension() {
 fn scenes_in_whose_place_others_were_opened_are_not_forgotten() {
     within(30, || {
         let mut driver = pressed("l 1 q");
-        assert_eq!(driver.app.mode, Mode::Quit, "the first scene is unsaved");
+        assert_eq!(driver.app.keys(), Context::Leave, "the first scene is unsaved");
         driver.press("n l q");
         assert!(driver.status().contains("2 scenes have unsaved changes"), "{}", driver.status());
         driver.press("n u u");
@@ -202,7 +203,7 @@ fn scenes_in_whose_place_others_were_opened_are_not_forgotten() {
         driver.type_text("first");
         driver.press("Enter");
         for _ in 0..3 {
-            if driver.app.mode.kind() == ModeKind::Quit {
+            if driver.app.keys() == Context::Leave {
                 driver.press("s Enter");
             }
         }

@@ -166,8 +166,8 @@ fn a_measured_surface_is_the_roughness_by_its_path_alone() {
             // The typed text replaces the value.
             driver.type_text(&format!("{}/sty", folder.path().display()));
             driver.press("Tab");
-            let typed = driver.app.mode.line_mut().map(|line| line.text());
-            assert_eq!(typed.as_deref(), file.to_str());
+            let typed = driver.app.prompt.as_ref().map(|prompt| prompt.line.text());
+            assert_eq!(typed, file.to_str());
             driver.press("Enter");
             let scene = driver.app.edit.document.scene();
             let named = vec![file.to_str().unwrap()];
@@ -199,8 +199,8 @@ fn the_path_of_a_measured_surface_is_completed_beside_the_scene() {
         let scene = rough();
         let name = folder.path().join("scene.ron");
         let mut driver = Driver::start(Document::parse(scene.text(), name.to_str().unwrap()).unwrap());
-        let typed = |driver: &Driver| driver.app.mode.prompt().expect("a prompt").line.text();
-        let paths = |driver: &Driver| driver.app.mode.prompt().expect("a prompt").paths.len();
+        let typed = |driver: &Driver| driver.app.prompt.as_ref().expect("a prompt").line.text().to_owned();
+        let paths = |driver: &Driver| driver.app.prompt.as_ref().expect("a prompt").paths.len();
         driver.select("roughness");
         driver.press("Enter Ctrl+u");
         driver.type_text("Measured(file: \"st");

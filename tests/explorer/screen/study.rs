@@ -7,7 +7,8 @@ use super::common::study::{PLAN, begun, merged};
 use super::{is_up_to_date, pressed};
 use asperity::explorer::Opening;
 use asperity::explorer::action::{Action, Gesture, Mouse};
-use asperity::explorer::app::{ModeKind, Pane};
+use asperity::explorer::app::Pane;
+use asperity::explorer::keys::Context;
 use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::study::Task;
 use asperity::explorer::update::{Effect, study_tasks};
@@ -61,7 +62,7 @@ fn a_study_is_shown_as_a_map() {
 fn glyphs_show_all_that_was_recorded() {
     within(60, || {
         let (_folder, mut driver) = opened();
-        assert_eq!(driver.app.keys(), ModeKind::Chart);
+        assert_eq!(driver.app.keys(), Context::Map);
         assert_eq!(driver.app.chart.charted(), Quantity::Regime);
         for (quantity, text) in [
             (Quantity::ZeroLoadAdhesionShare, "F_a(0)/F_a,max over H, κ"),

@@ -5,7 +5,7 @@ use super::common::driver::Driver;
 use super::common::scenes::{changed, rough};
 use super::{SIZES, generation, is_up_to_date, mid_retraction, pressed, reversed, row_with};
 use asperity::explorer::action::Action;
-use asperity::explorer::app::ModeKind;
+use asperity::explorer::keys::Context;
 use asperity::explorer::layout::Layout;
 use asperity::explorer::snapshot::Preview;
 use asperity::explorer::theme::Theme;
@@ -60,7 +60,7 @@ fn the_editor_opens_with_the_value_selected_and_keeps_what_is_refused() {
         let before = driver.app.edit.document.clone();
         driver.type_text("10 kg");
         driver.press("Enter");
-        assert_eq!((&driver.app.edit.document, driver.app.mode.kind()), (&before, ModeKind::Prompt));
+        assert_eq!((&driver.app.edit.document, driver.app.keys()), (&before, Context::Line));
         let refused = "kg is not a unit of length: use m, mm, µm, nm";
         assert!(driver.status().contains(refused), "{}", driver.status());
         let line = driver.rows().into_iter().find(|row| row.contains("10 kg")).unwrap_or_default();
@@ -70,7 +70,7 @@ fn the_editor_opens_with_the_value_selected_and_keeps_what_is_refused() {
         driver.press("Backspace");
         driver.type_text("mm");
         driver.press("Enter");
-        assert_eq!(driver.app.mode.kind(), ModeKind::Explore);
+        assert!(driver.app.prompt.is_none());
         assert_eq!(driver.app.edit.document.scene().length, 0.01);
         // Neither the unchanged value nor leaving the editor changes the text.
         let text = driver.app.edit.document.text().to_owned();
@@ -79,10 +79,7 @@ fn the_editor_opens_with_the_value_selected_and_keeps_what_is_refused() {
         {
             driver.select(path.trim_end_matches(".0.0"));
             driver.press(if path.ends_with(".0.0") { "j e Enter" } else { "e Enter" });
-            assert_eq!(
-                (driver.app.edit.document.text(), driver.app.mode.kind()),
-                (&*text, ModeKind::Explore)
-            );
+            assert_eq!((driver.app.edit.document.text(), driver.app.keys()), (&*text, Context::Explore));
         }
     });
 }
@@ -100,13 +97,13 @@ fn what_is_typed_can_be_edited_pasted_and_left() {
         assert_eq!(driver.app.edit.document.scene().length, 3e-4);
         let before = driver.app.edit.document.clone();
         driver.press("e Ctrl+u 7 Esc");
-        assert_eq!((&driver.app.edit.document, driver.app.mode.kind()), (&before, ModeKind::Explore));
+        assert_eq!((&driver.app.edit.document, driver.app.keys()), (&before, Context::Explore));
         // In a value, letters are typed.
         driver.press("e Ctrl+u q u");
-        assert_eq!(driver.app.mode.kind(), ModeKind::Prompt);
+        assert_eq!(driver.app.keys(), Context::Line);
         assert!(driver.text().contains("qu"), "{}", driver.text());
         driver.press("Ctrl+c");
-        assert_eq!((&driver.app.edit.document, driver.app.mode.kind()), (&before, ModeKind::Explore));
+        assert_eq!((&driver.app.edit.document, driver.app.keys()), (&before, Context::Explore));
         // Typing the present value changes nothing.
         driver.press("e Enter");
         assert_eq!(driver.app.edit.document.scene(), before.scene());
@@ -227,7 +224,7 @@ fn digits_begin_a_value_while_the_pane_of_parameters_is_selected() {
         driver.press(". 6 5 Enter");
         assert_eq!(driver.app.edit.document.value("roughness.hurst"), Some(".65"), "{}", driver.text());
         driver.press("0");
-        assert_eq!(driver.app.mode.line_mut().map(|line| line.text()).as_deref(), Some("0"));
+        assert_eq!(driver.app.prompt.as_ref().map(|prompt| prompt.line.text()), Some("0"));
         driver.press(". 7 Enter");
         assert_eq!(driver.app.edit.document.scene().roughness, rough().scene().roughness);
         driver.select("loading");
@@ -237,7 +234,7 @@ fn digits_begin_a_value_while_the_pane_of_parameters_is_selected() {
         // A switch and a group have no number.
         driver.select("numerics");
         driver.press("3");
-        assert_eq!(driver.app.mode.kind(), ModeKind::Explore);
+        assert!(driver.app.prompt.is_none());
         // In the other panes a digit opens a scene.
         driver.press("Tab 3");
         assert_eq!(driver.app.edit.document.name(), asperity::scene::presets()[2].name);
@@ -293,7 +290,7 @@ fn no_older_curve_is_shown_between_a_preview_and_the_next_one() {
         let older = driver.app.preview.clone().unwrap();
         // The next value is typed, and its curve is not there yet: the previous one remains.
         driver.press("Home Delete");
-        let waiting = update(&mut driver.app, Action::Type('4'));
+        let waiting = update(&mut driver.app, Action::Paste('4'.to_string()));
         assert_eq!(waiting, [Effect::Ask]);
         // "00 nm" is no allowed height, and has no curve.
         assert!(driver.status().starts_with("preview: computing…") || force(&driver).is_none());

@@ -1,0 +1,139 @@
+//! A measured surface as the roughness of a scene: its files, and the options of their reading and analysis.
+
+use crate::spectrum::{Detrend, End, Options};
+use crate::surface::MeasuredOptions;
+use crate::topography::{Cut, ReadOptions, Unit};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
+use std::ops::Not;
+
+/// A measured surface, profile or map. The fields without `skip` are options of `asperity surface` too.
+#[cfg_attr(feature = "tui", derive(clap::Args))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Measured {
+    /// The file, relative to the scene file.
+    #[cfg_attr(feature = "tui", arg(skip))]
+    pub file: String,
+    /// Further files of the same face: samples of one roughness, whose spectrum is estimated from all of them.
+    #[cfg_attr(feature = "tui", arg(skip))]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub further_files: Vec<String>,
+    /// True if the measured profile itself is the line. `None`: true in scenes of version 1, false in those of
+    /// version 2; see [`Scene::measured_as_line`](super::Scene::measured_as_line).
+    #[cfg_attr(feature = "tui", arg(skip))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub as_line: Option<bool>,
+    /// File of the opposite face, relative to the scene file; the spectra of both faces add.
+    #[cfg_attr(feature = "tui", arg(skip))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub opposite: Option<String>,
+    /// Unit of lengths where a file states none: m, cm, mm, um, nm, Å, pm
+    #[cfg_attr(feature = "tui", arg(long, default_value = "", hide_default_value = true, value_parser = unit_name))]
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub unit: String,
+    /// Unit of heights where a file states none; default: as --unit
+    #[cfg_attr(
+        feature = "tui",
+        arg(long, value_name = "UNIT", default_value = "", hide_default_value = true, value_parser = unit_name)
+    )]
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub height_unit: String,
+    /// Distance between points, m, where a file states none.
+    #[cfg_attr(feature = "tui", arg(skip))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spacing: Option<f64>,
+    /// Fill missing points from their neighbours
+    #[cfg_attr(feature = "tui", arg(long))]
+    #[serde(default, skip_serializing_if = "Not::not")]
+    pub interpolate: bool,
+    /// Resample uneven profiles linearly at their mean distance
+    #[cfg_attr(feature = "tui", arg(long))]
+    #[serde(default, skip_serializing_if = "Not::not")]
+    pub resample: bool,
+    /// Channel of files with several, by its number
+    #[cfg_attr(feature = "tui", arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u64).range(..1 << 32)))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub channel: Option<u64>,
+    /// Row of maps to use as the profile, from 1
+    #[cfg_attr(
+        feature = "tui",
+        arg(long, value_name = "NUMBER", conflicts_with = "column", value_parser = clap::value_parser!(u64).range(1..))
+    )]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub row: Option<u64>,
+    /// Column of maps to use as the profile, from 1
+    #[cfg_attr(feature = "tui", arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u64).range(1..)))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub column: Option<u64>,
+    /// Part of the heights to remove: none, mean, tilt or curvature
+    ///
+    /// Default: tilt, or mean with --periodic.
+    #[cfg_attr(feature = "tui", arg(long, value_enum, hide_possible_values = true))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub detrend: Option<Detrend>,
+    /// Treat the surface as periodic, without a window
+    #[cfg_attr(feature = "tui", arg(long))]
+    #[serde(default, skip_serializing_if = "Not::not")]
+    pub periodic: bool,
+    /// Shortest wavelength, m, down to which the spectrum of the equivalent line continues as a power law;
+    /// `None`: the last resolved wavelength.
+    #[cfg_attr(feature = "tui", arg(skip))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub continue_to: Option<f64>,
+    /// Seed of the random phases of the equivalent line.
+    #[cfg_attr(feature = "tui", arg(skip = SEED))]
+    #[serde(default = "default_seed", skip_serializing_if = "is_default_seed")]
+    pub seed: u64,
+}
+
+/// Seed of an omitted field.
+const SEED: u64 = 1;
+
+fn default_seed() -> u64 {
+    SEED
+}
+
+fn is_default_seed(seed: &u64) -> bool {
+    *seed == SEED
+}
+
+/// Name of a typed unit; empty for none.
+#[cfg(feature = "tui")]
+fn unit_name(text: &str) -> Result<String, crate::topography::UnitError> {
+    if text.is_empty() { Ok(String::new()) } else { text.parse().map(|unit: Unit| unit.name().to_owned()) }
+}
+
+impl Measured {
+    /// Files of each face.
+    pub(super) fn faces(&self) -> Vec<Vec<&str>> {
+        let face = std::iter::once(&self.file).chain(&self.further_files).map(String::as_str).collect();
+        std::iter::once(face).chain(self.opposite.iter().map(|file| vec![file.as_str()])).collect()
+    }
+
+    /// Options of the readers and of the spectrum for a checked surface, whose profile is the line itself or not.
+    #[must_use]
+    pub fn options(&self, as_line: bool) -> MeasuredOptions {
+        // A plane fitted to a periodic surface would leave a step at its borders.
+        let default = if self.periodic { Detrend::Mean } else { Detrend::Tilt };
+        MeasuredOptions {
+            as_line: as_line.then(|| self.detrend.unwrap_or(Detrend::None)),
+            reading: ReadOptions {
+                unit: self.unit.parse().ok(),
+                height_unit: self.height_unit.parse().ok(),
+                convention: as_line.then_some(Unit::METRE),
+                spacing: self.spacing,
+                interpolate: self.interpolate,
+                channel: self.channel.and_then(|channel| channel.try_into().ok()),
+                cut: self.row.map(Cut::Row).or(self.column.map(Cut::Column)),
+                resample: self.resample,
+            },
+            spectrum: Options {
+                detrend: self.detrend.unwrap_or(default),
+                periodic: self.periodic,
+                end: self.continue_to.map_or(End::Ends, |wavelength| End::Continues(TAU / wavelength)),
+                tip_radius: None,
+            },
+        }
+    }
+}
