@@ -1,49 +1,37 @@
-//! The explorer with an engine that panics on the seed 13 and computes without end on the seed 14, or with the argument
-//! `draw` one whose view panics. The tests check that the explorer reports this and continues, shows keys at once under
-//! any load of the engine, or else restores the terminal.
+//! The explorer with a solver that panics on the seed 13 and computes without end on the seed 14, or with the argument
+//! `draw` with a view that panics. The tests check that the explorer reports this and continues, shows keys at once under
+//! any load of the solver, or else restores the terminal.
 
 use asperity::contact::ContactError;
 use asperity::explorer::app::App;
-use asperity::explorer::worker::Engine;
 use asperity::explorer::{Options, open_with, view};
-use asperity::scene::{DEFAULT, Roughness, Scene, open};
+use asperity::scene::{DEFAULT, Scene, open};
 use asperity::simulation::{AfterLeg, Outcome, RunError, Simulation};
-use asperity::surface::Line;
 use ratatui::Frame;
 use std::process::ExitCode;
 use std::thread::sleep;
 use std::time::Duration;
 
-/// An engine that panics on the seed 13, takes all its time on the seed 14, and simulates otherwise.
-struct Superstitious(Simulation);
-
-impl Engine for Superstitious {
-    fn run(
-        &mut self,
-        scene: &Scene,
-        stop: &dyn Fn() -> bool,
-        after: &mut AfterLeg<'_>,
-    ) -> Result<Outcome, RunError> {
-        beware(scene);
-        if matches!(scene.roughness, Some(Roughness::SelfAffine { seed: 14, .. })) {
-            while !stop() {
-                sleep(Duration::from_millis(1));
-            }
-            return Err(ContactError::Interrupted.into());
+/// Panics on the seed 13, takes all its time on the seed 14, and computes otherwise.
+fn solve(
+    simulation: &mut Simulation,
+    scene: &Scene,
+    stop: &dyn Fn() -> bool,
+    after: &mut AfterLeg<'_>,
+) -> Result<Outcome, RunError> {
+    beware(scene);
+    if scene.seed() == Some(14) {
+        while !stop() {
+            sleep(Duration::from_millis(1));
         }
-        self.0.run(scene, stop, after)
+        return Err(ContactError::Interrupted.into());
     }
-
-    fn line(&self) -> Option<&Line> {
-        self.0.line()
-    }
+    simulation.run(scene, stop, after)
 }
 
 /// Panics on the seed 13.
 fn beware(scene: &Scene) {
-    if let Some(Roughness::SelfAffine { seed: 13, .. }) = scene.roughness {
-        panic!("thirteen is unlucky");
-    }
+    assert!(scene.seed() != Some(13), "thirteen is unlucky");
 }
 
 fn draw(frame: &mut Frame<'_>, app: &App) {
@@ -60,10 +48,9 @@ fn main() -> ExitCode {
         }
     };
     let opened = if std::env::args().nth(1).as_deref() == Some("draw") {
-        open_with(document, Options::default(), Box::new(Simulation::default()), draw)
+        open_with(document, Options::default(), Simulation::run, draw)
     } else {
-        let engine = Box::new(Superstitious(Simulation::default()));
-        open_with(document, Options::default(), engine, view::draw)
+        open_with(document, Options::default(), solve, view::draw)
     };
     match opened {
         Ok(_) => ExitCode::SUCCESS,

@@ -1,5 +1,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
+// Much of the library serves the program alone.
+#![cfg_attr(not(feature = "tui"), allow(dead_code, unused_imports))]
 //! Adhesion of rough elastic contacts: pull-off force, dissipated energy and the whole hysteretic force curve of a
 //! rigid rough profile on an elastic half-space, for any loading history, exactly and in linear time.
 //!
@@ -69,11 +71,12 @@ pub mod check;
 pub mod cli;
 pub mod contact;
 mod contact_cycle;
-pub mod draw;
+mod draw;
 #[cfg(feature = "tui")]
 pub mod explorer;
+#[cfg(feature = "tui")]
 pub mod export;
-pub mod io;
+mod io;
 mod memory;
 mod parallel;
 mod profile;

@@ -54,7 +54,6 @@ pub(crate) fn printable(text: &str) -> Cow<'_, str> {
 }
 
 /// Text of several lines with escaped control characters except for line breaks.
-#[cfg(feature = "tui")]
 pub(crate) fn printable_lines(text: &str) -> Cow<'_, str> {
     escaped(text, |c| is_control(c) && c != '\n')
 }
@@ -93,7 +92,6 @@ pub(crate) fn grouped(count: u64) -> String {
 }
 
 /// A number of bytes in binary units.
-#[cfg(feature = "tui")]
 pub(crate) fn memory_size(bytes: u64) -> String {
     let units = ["B", "KiB", "MiB", "GiB", "TiB"];
     let mut size = bytes as f64;

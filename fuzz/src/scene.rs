@@ -12,11 +12,11 @@ pub fn scene(bytes: &[u8]) {
     let text = whole.strip_prefix('\u{feff}').unwrap_or(&whole);
     match Document::parse(&whole, NAME) {
         Err(errors) => assert_errors(&errors, |origin| match origin {
-            Origin::Place { name, line, column } => {
+            Origin::File { name, place: Some((line, column)) } => {
                 assert_eq!(name, NAME);
                 assert_place(text, *line, *column);
             }
-            Origin::File { name } => {
+            Origin::File { name, place: None } => {
                 assert_eq!(name, NAME);
                 assert!(text.len() > LONGEST_TEXT, "an error in a text has a place: {errors}");
             }
@@ -66,7 +66,8 @@ fn assert_effects(document: &Document) {
             assert_eq!(effect.is_on(changed.scene()), on, "{}", effect.name());
         }
         Err(errors) => {
-            let of_document = |origin: &Origin| assert!(!matches!(origin, Origin::Place { .. }));
+            let of_document =
+                |origin: &Origin| assert!(!matches!(origin, Origin::File { place: Some(_), .. }));
             assert_errors(errors, of_document);
         }
     };

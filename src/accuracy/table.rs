@@ -143,7 +143,7 @@ impl CostTable {
 
     /// Least time, s, and main error of a row, if both have logarithms.
     #[must_use]
-    pub(crate) fn point(&self, row: &Row) -> Option<(f64, ErrorFigure)> {
+    pub fn point(&self, row: &Row) -> Option<(f64, ErrorFigure)> {
         let (seconds, figure) = (row.seconds?.minimum, self.main_error(row)?);
         (seconds > 0.0 && figure.error > 0.0 && figure.error.is_finite()).then_some((seconds, figure))
     }

@@ -1,9 +1,8 @@
 //! Arguments of the program.
 
 use super::{
-    CheckArguments, CompareArguments, CompletionsArguments, ConfigArguments, CostArguments, DemoArguments,
-    ExploreArguments, LineArguments, PlanArguments, PresetsCommand, ReversalsArguments, RunArguments,
-    SurfaceArguments, SweepArguments,
+    check, compare, completions, config, cost, demo, explore, line, plan, presets, reversals, run, surface,
+    sweep,
 };
 use clap::{Parser, Subcommand};
 
@@ -39,39 +38,39 @@ pub struct Arguments {
     pub command: Option<Command>,
     /// The scene the explorer opens on.
     #[command(flatten)]
-    pub explore: ExploreArguments,
+    pub explore: explore::ExploreArguments,
 }
 
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Compute a scene: a summary, JSON, or the curve as CSV
-    Run(RunArguments),
+    Run(run::RunArguments),
     /// Show two scenes side by side: profiles, force curves, differences
-    Compare(CompareArguments),
+    Compare(compare::CompareArguments),
     /// Unload a scene from many turning points: reversal curves, adhesion against preload
-    Reversals(ReversalsArguments),
+    Reversals(reversals::ReversalsArguments),
     /// Play the explorer without a keyboard: on screen, as text, or as a recording
-    Demo(DemoArguments),
+    Demo(demo::DemoArguments),
     /// List the computing stages of a scene with their cost, and those it skips
-    Plan(PlanArguments),
+    Plan(plan::PlanArguments),
     /// Measure errors against computing time for each setting that affects accuracy
-    Cost(CostArguments),
+    Cost(cost::CostArguments),
     /// Compute a parameter study: many cells on many random profiles
-    Sweep(SweepArguments),
+    Sweep(sweep::SweepArguments),
     /// Check this build against closed forms, laws and numerically hard cases
-    Check(CheckArguments),
+    Check(check::CheckArguments),
     /// Write the rigid profile of a scene as a table: x and z in m
-    Line(LineArguments),
+    Line(line::LineArguments),
     /// Analyse measured surfaces: statistics, spectrum, equivalent line
-    Surface(SurfaceArguments),
+    Surface(surface::SurfaceArguments),
     /// List, show and check scenes
     #[command(subcommand)]
-    Presets(PresetsCommand),
+    Presets(presets::PresetsCommand),
     /// Print the configuration of the explorer, or write a template of it
-    Config(ConfigArguments),
+    Config(config::ConfigArguments),
     /// Print a completion script for a shell
-    Completions(CompletionsArguments),
+    Completions(completions::CompletionsArguments),
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! `asperity config`: the configuration file of the explorer.
 
 use super::CliError;
-use crate::explorer::config::{Config, ConfigError, default_path, write_template};
+use crate::explorer::config::{Config, default_path, write_template};
 use crate::explorer::theme::Appearance;
 use clap::Args;
 use std::io::Write;
@@ -26,17 +26,19 @@ pub struct ConfigArguments {
 
 /// Prints the settings in effect, or writes an initial file.
 pub(super) fn config(arguments: &ConfigArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let path = arguments.file.clone().or_else(default_path).ok_or(ConfigError::NoFolder)?;
+    let path = arguments.file.clone().or_else(default_path);
+    let no_folder = "this system has no configuration folder; allowed: --config FILE";
+    let path = path.ok_or_else(|| CliError::message(no_folder))?;
     if arguments.write {
-        write_template(&path)?;
+        write_template(&path).map_err(CliError::message)?;
         return Ok(writeln!(stdout, "{}: written", path.display())?);
     }
-    let mut config = Config::read(&path, arguments.file.is_some())?;
+    let mut config = Config::read(&path, arguments.file.is_some()).map_err(CliError::message)?;
     let environment = Appearance::of_environment();
     config.theme.get_or_insert(environment.theme);
     config.markers.get_or_insert(environment.marker);
     let is_there = if path.is_file() { "" } else { ", which does not exist: defaults" };
     writeln!(stdout, "// {}{is_there}", path.display())?;
-    let text = config.text().map_err(|error| CliError::Message(error.to_string()))?;
+    let text = config.text().map_err(|error| CliError::message(error.to_string()))?;
     Ok(stdout.write_all(text.as_bytes())?)
 }

@@ -82,20 +82,20 @@ pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Resu
             Some(_) => ("sweep plot", "draws the study"),
         };
         let without = format!("asperity {command} {name} {does} without one");
-        return Err(CliError::Message(format!("the explorer needs a terminal; {without}")));
+        return Err(CliError::message(format!("the explorer needs a terminal; {without}")));
     }
     open(opening, Options { restored, config, warning, unsaved, ..arguments.look.options() }, out)
 }
 
 /// Error of the explorer itself.
 pub(super) fn failed(error: impl Display) -> CliError {
-    CliError::Message(format!("the explorer failed: {error}"))
+    CliError::message(format!("the explorer failed: {error}"))
 }
 
 /// Opens the explorer in the terminal; on leaving, prints a brief summary of the last scene.
 pub(super) fn open(opening: Opening, options: Options, out: &mut dyn Write) -> Result<(), CliError> {
     if std::env::var_os("TERM").is_some_and(|term| term == "dumb") {
-        return Err(CliError::Message(format!(
+        return Err(CliError::message(format!(
             "TERM=dumb: the explorer places characters, this terminal does not; asperity run {} computes the scene \
              without one",
             quoted(opening.document.name())
@@ -124,7 +124,7 @@ fn restored(folder: Option<&Path>) -> Result<(PathBuf, Vec<Document>), CliError>
 /// defaults and this warning.
 fn config(arguments: &ExploreArguments) -> Result<(Config, Option<String>), CliError> {
     match (&arguments.config, default_path()) {
-        (Some(path), _) => Ok((Config::read(path, true)?, None)),
+        (Some(path), _) => Ok((Config::read(path, true).map_err(CliError::message)?, None)),
         (None, Some(path)) if !arguments.no_config => Ok(match Config::read(&path, false) {
             Ok(config) => (config, None),
             Err(error) => (Config::default(), Some(format!("{error}; defaults are used"))),
@@ -143,12 +143,12 @@ fn opening(arguments: &ExploreArguments, default: &str) -> Result<Opening, CliEr
                 let command = Arguments::command();
                 let commands: Vec<_> = command.get_subcommands().map(|command| command.get_name()).collect();
                 let commands = commands.join(", ");
-                CliError::Message(format!("{errors}\nCommands: {commands} (see asperity --help)"))
+                CliError::message(format!("{errors}\nCommands: {commands} (see asperity --help)"))
             } else {
-                CliError::Scene(errors)
+                errors.into()
             }
         }
-        error => CliError::Message(error.to_string()),
+        error => CliError::message(error.to_string()),
     })?;
     opening.document = arguments.overrides.apply(opening.document)?;
     Ok(opening)

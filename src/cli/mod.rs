@@ -26,23 +26,9 @@ mod sweep;
 
 pub use arguments::{Arguments, Command};
 
-use check::CheckArguments;
-use compare::CompareArguments;
-use completions::CompletionsArguments;
-use config::ConfigArguments;
-use cost::CostArguments;
-use demo::DemoArguments;
 use error::CliError;
-use explore::ExploreArguments;
-use line::LineArguments;
 use output::{AnswerFormat, OutputArguments};
-use plan::PlanArguments;
-use presets::PresetsCommand;
-use reversals::ReversalsArguments;
-use run::RunArguments;
 use scene::{Overrides, SceneArguments};
-use surface::SurfaceArguments;
-use sweep::SweepArguments;
 
 use crate::text::printable_lines;
 use clap::error::{ContextKind, ErrorKind};
@@ -79,12 +65,12 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
         // The reader has closed the pipe: `asperity run … | head`.
-        Err(error) if error.is_closed_pipe() => ExitCode::SUCCESS,
+        Err(error) if error.is_closed_pipe => ExitCode::SUCCESS,
         Err(error) => {
             let _ = stdout.flush();
             // Errors contain file names and excerpts of files.
             let _ = writeln!(io::stderr(), "{}", printable_lines(&error.to_string()));
-            ExitCode::from(error.exit_code())
+            ExitCode::from(error.exit_code)
         }
     }
 }

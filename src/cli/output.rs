@@ -65,13 +65,13 @@ impl OutputArguments {
         formats: &[Format],
         usual: Format,
     ) -> Result<Format, CliError> {
-        let format = Format::of_file(self.file(), chosen, formats, usual)?;
+        let format = Format::of_file(self.file(), chosen, formats, usual).map_err(CliError::message)?;
         match self.file() {
             Some(path) => check_writable(path, self.force)?,
             None if matches!(format, Format::Npy | Format::Png) && io::stdout().is_terminal() => {
                 let format = format.name();
                 let refused = format!("--format {format}: not for a terminal; allowed: -o FILE.{format}");
-                return Err(CliError::Message(refused));
+                return Err(CliError::message(refused));
             }
             None => {}
         }
@@ -87,12 +87,13 @@ impl OutputArguments {
         origin: Origin<'_>,
     ) -> Result<(), CliError> {
         let provenance = match origin {
-            _ if !format.is_table() => String::new(),
+            _ if !format.is_table() => Ok(String::new()),
             Origin::Scene(document, scene) => {
-                scene_provenance(&command(), scene, &document.resolve(""), self.folder())?
+                scene_provenance(&command(), scene, &document.resolve(""), self.folder())
             }
-            Origin::Files(files) => files_provenance(&command(), files, self.folder())?,
+            Origin::Files(files) => files_provenance(&command(), files, self.folder()),
         };
+        let provenance = provenance.map_err(CliError::message)?;
         self.fill(stdout, |out| export::write(out, report, format, &provenance))
     }
 

@@ -3,9 +3,8 @@
 use super::{AnswerFormat, CliError};
 use crate::export::sheet::Sheet;
 use crate::io::object;
-use crate::scene::{self, Document, Entry, Library};
-use crate::simulation::measured_options;
-use crate::surface::{MeasuredRoughness, read_faces};
+use crate::scene::{self, Document, Entry};
+use crate::simulation::Simulation;
 use crate::text::printable;
 use clap::Subcommand;
 use std::io::{self, Write};
@@ -56,7 +55,7 @@ pub(super) fn presets(command: &PresetsCommand, stdout: &mut dyn Write) -> Resul
 }
 
 fn list(format: AnswerFormat, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let entries = Library::of_environment().list();
+    let entries = scene::scenes(scene::own_folder().as_deref(), Path::new("."));
     let row = |entry: &Entry| [entry.name.clone(), entry.error().unwrap_or_else(|| entry.title().to_owned())];
     let text = || Sheet::of_table(&entries.iter().map(row).collect::<Vec<_>>());
     let objects = entries.iter().map(|entry| {
@@ -75,7 +74,10 @@ fn show(name: &str, stdout: &mut dyn Write) -> Result<(), CliError> {
     if let Some(preset) = scene::find(name) {
         return Ok(stdout.write_all(preset.text.as_bytes())?);
     }
-    if let Some(entry) = Library::of_environment().list().into_iter().find(|entry| entry.name == name) {
+    if let Some(entry) = scene::scenes(scene::own_folder().as_deref(), Path::new("."))
+        .into_iter()
+        .find(|entry| entry.name == name)
+    {
         return Ok(stdout.write_all(entry.document?.text().as_bytes())?);
     }
     let names: Vec<_> = scene::presets().iter().map(|preset| preset.name).collect();
@@ -91,7 +93,7 @@ fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
             Err(errors) => wrong.push(errors),
         }
     }
-    if wrong.is_empty() { Ok(()) } else { Err(CliError::Message(wrong.join("\n"))) }
+    if wrong.is_empty() { Ok(()) } else { Err(CliError::message(wrong.join("\n"))) }
 }
 
 /// The name of a valid scene with its warning, or all its errors, line by line.
@@ -122,15 +124,8 @@ fn of_file(file: &str) -> Result<Document, String> {
 /// Error of the measured surface of a scene, with its place in the scene.
 fn profile_error(document: &Document) -> Option<String> {
     let scene = document.scene();
-    let faces = scene.measured_paths(&document.resolve(""));
-    if faces.is_empty() {
-        return None;
-    }
-    let error =
-        match read_faces(&faces).and_then(|faces| MeasuredRoughness::new(&faces, &measured_options(scene))) {
-            Err(error) => error.to_string(),
-            Ok(measured) => measured.check(scene.length, scene.numerics.points as usize).err()?,
-        };
+    scene.measured()?;
+    let error = Simulation::new(document.resolve("")).make_line(scene).err()?;
     let (line, column) = document.place("roughness.file");
     Some(format!("{}:{line}:{column}: {error}", document.name()))
 }

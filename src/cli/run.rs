@@ -122,7 +122,7 @@ impl RunArguments {
 pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.format()?;
     let document = arguments.scene.open()?;
-    check_measured_files(&document)?;
+    check_measured_files(&document).map_err(CliError::message)?;
     if arguments.is_drawn() {
         return arguments.output.write_figure(stdout, &figure(arguments, document, format)?, format);
     }

@@ -1,6 +1,6 @@
 //! The elastic foundation of the method of dimensionality reduction and the rule of Hess on it.
 
-use super::Direction;
+use super::{CurvePoint, Direction, Patch};
 
 /// A foundation of independent springs, equivalent to an elastic half-space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +33,15 @@ impl Foundation {
     pub fn contact_length(&self, cells: f64) -> f64 {
         let length = cells * self.spacing;
         if length > self.length * (1.0 - 2.0 * f64::EPSILON) { self.length } else { length }
+    }
+
+    /// Half the distance between the outermost edges of a contact in these patches, m; zero in separation. Gaps between
+    /// patches are whole cells; the outermost edges may lie inside theirs.
+    #[must_use]
+    pub fn contact_radius(&self, patches: &[Patch], point: CurvePoint) -> f64 {
+        let outermost = patches.first().zip(patches.last()).map(|(one, other)| other.last - one.first + 1);
+        let between = outermost.map_or(0, |springs| springs as u64 - point.springs);
+        0.5 * (point.contact_length + between as f64 * self.spacing)
     }
 
     /// Stiffness Δk = E* Δx of one spring, N/m, eq. (1).

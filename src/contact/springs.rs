@@ -124,6 +124,13 @@ impl Contact {
         Self::of(Arc::new(Springs::new(gaps)), edges, foundation, hess)
     }
 
+    /// Force at which the last spring touches the rigid body, N.
+    #[must_use]
+    pub fn full_contact_force(&self) -> f64 {
+        let deepest = self.springs.deepest();
+        self.foundation.spring_stiffness() * self.gaps().iter().map(|gap| deepest - gap).sum::<f64>()
+    }
+
     /// Creates a contact of springs that other contacts may share.
     #[must_use]
     pub fn of(springs: Arc<Springs>, edges: Edges, foundation: Foundation, hess: Option<HessRule>) -> Self {

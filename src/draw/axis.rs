@@ -7,10 +7,8 @@ use super::ticks::{Tick, ticks};
 /// Largest numbers of a linear axis whose ticks have few digits.
 const SHORT: (f64, f64) = (1e-3, 1e6);
 
-/// An axis of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// Scale.
     pub scale: AxisScale,
     /// Range, coordinates.
     pub span: Span,
@@ -22,21 +20,18 @@ pub struct Axis {
 
 impl Axis {
     /// An axis with a name, a symbol such as `F_n`, and a unit, each of which may be empty.
-    #[must_use]
     pub fn new(scale: AxisScale, span: Span, name: &str, symbol: &str, unit: &str) -> Axis {
         Axis { scale, span, label: Label::quantity(name, symbol), unit: unit.to_owned() }
     }
 
     /// Position of a number from 0 at the lower to 1 at the upper end; not finite if the scale has no coordinate
     /// for the number.
-    #[must_use]
     pub fn share(&self, number: f64) -> f64 {
         (self.scale.coordinate(number) - self.span.low) / self.span.width()
     }
 
     /// Divisor of the numbers on the axis, and the unit with the corresponding SI prefix. Numbers without a prefix
     /// are divided by a power of ten where a linear axis would have too many digits.
-    #[must_use]
     pub fn prefix(&self) -> (f64, String) {
         let ends = self.span.bounds().map(|end| self.scale.number(end).abs());
         let largest = ends[0].max(ends[1]);
@@ -50,13 +45,11 @@ impl Axis {
     }
 
     /// Label with the prefixed unit in brackets.
-    #[must_use]
     pub fn label_with_unit(&self) -> Label {
         self.with_unit(self.label.clone())
     }
 
     /// Symbol with the prefixed unit in brackets; the label if the axis has no symbol.
-    #[must_use]
     pub fn symbol_with_unit(&self) -> Label {
         self.with_unit(self.label.without_name())
     }
@@ -69,7 +62,6 @@ impl Axis {
     }
 
     /// Ticks at coordinates, about `most` of them labelled.
-    #[must_use]
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         ticks(self.scale, self.span, self.prefix().0, most)
     }
@@ -78,7 +70,6 @@ impl Axis {
 /// A place in a chart: shares of both axes, 0 to 1.
 pub(super) type Share = (f64, f64);
 
-/// Two axes, across and up.
 #[derive(Clone, Copy)]
 pub(super) struct Axes<'a> {
     pub x: &'a Axis,
@@ -102,6 +93,22 @@ impl Axes<'_> {
         let places: Vec<Option<Share>> = points.map(|point| self.place(point)).collect();
         let runs = places.split(Option::is_none).map(|run| run.iter().flatten().copied().collect());
         runs.filter(|run: &Vec<Share>| !run.is_empty()).collect()
+    }
+
+    /// Runs through the ends of the columns of an envelope, each from the end nearer to the previous point on; a column
+    /// outside interrupts a run.
+    pub(super) fn envelope(self, (from, to): (f64, f64), columns: &[Option<(f64, f64)>]) -> Vec<Vec<Share>> {
+        let mut last: Option<f64> = None;
+        let points = columns.iter().enumerate().flat_map(|(column, ends)| {
+            let inside = ends.filter(|(low, high)| self.y.share(*high) >= 0.0 && self.y.share(*low) <= 1.0);
+            let (low, high) = inside.unwrap_or((f64::NAN, f64::NAN));
+            let falls = last.is_some_and(|last| (last - high).abs() < (last - low).abs());
+            let ends = if falls { [high, low] } else { [low, high] };
+            last = Some(ends[1]).filter(|end| end.is_finite());
+            let middle = from + (to - from) * (column as f64 + 0.5) / columns.len() as f64;
+            ends.map(|end| (middle, end))
+        });
+        self.runs(points)
     }
 
     /// Ends of a guide across the chart, upright or level; `None` outside.

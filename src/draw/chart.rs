@@ -12,9 +12,7 @@ pub struct Figure {
     pub title: String,
     /// Lines below the title.
     pub notes: Vec<Label>,
-    /// The charts.
     pub charts: Vec<Chart>,
-    /// Width and height of the frame of each chart in a picture, px.
     pub size: (f64, f64),
 }
 
@@ -26,8 +24,6 @@ impl Figure {
     /// Frame of a chart over the position, px.
     pub const LOW: (f64, f64) = (640.0, 240.0);
 
-    /// A figure of one chart.
-    #[must_use]
     pub fn of_chart(title: &str, chart: Chart) -> Figure {
         Figure { title: title.to_owned(), notes: Vec::new(), charts: vec![chart], size: Figure::WIDE }
     }
@@ -39,8 +35,6 @@ impl Figure {
         Some(Label::plain(&format!("({letter}) ")).join(&chart.heading))
     }
 
-    /// Entries of the legend.
-    #[must_use]
     pub fn legend(&self) -> Vec<Entry> {
         Entry::of_charts(&self.charts)
     }
@@ -51,25 +45,18 @@ impl Figure {
 pub struct Chart {
     /// Heading, shown in figures of several charts; may be empty.
     pub heading: Label,
-    /// Horizontal axis.
     pub x: Axis,
-    /// Vertical axis.
     pub y: Axis,
     /// Layers, the lowest first.
     pub layers: Vec<Layer>,
-    /// The same data on other scales, drawn in a corner without curves.
-    pub inset: Option<Box<Chart>>,
 }
 
 impl Chart {
-    /// A chart without heading and inset.
-    #[must_use]
     pub fn new(x: Axis, y: Axis, layers: Vec<Layer>) -> Chart {
-        Chart { heading: Label::default(), x, y, layers, inset: None }
+        Chart { heading: Label::default(), x, y, layers }
     }
 
     /// The chart with symbols alone on its axes, where they have symbols.
-    #[must_use]
     pub fn with_symbols(mut self) -> Chart {
         for axis in [&mut self.x, &mut self.y] {
             axis.label = axis.label.without_name();
@@ -77,8 +64,6 @@ impl Chart {
         self
     }
 
-    /// The heat map of a map.
-    #[must_use]
     pub fn map(&self) -> Option<&HeatMap> {
         self.layers.iter().find_map(|layer| match &layer.shape {
             Shape::Map(map) => Some(map.as_ref()),
@@ -86,7 +71,6 @@ impl Chart {
         })
     }
 
-    /// The heat map of a map, mutable.
     pub fn map_mut(&mut self) -> Option<&mut HeatMap> {
         self.layers.iter_mut().find_map(|layer| match &mut layer.shape {
             Shape::Map(map) => Some(map.as_mut()),
@@ -100,35 +84,25 @@ impl Chart {
 pub struct Layer {
     /// Name in the legend; no entry if empty.
     pub name: Label,
-    /// Colour.
     pub ink: Ink,
-    /// Data.
     pub shape: Shape,
 }
 
 impl Shape {
-    /// A line through points.
-    #[must_use]
     pub fn line(points: Vec<(f64, f64)>, stroke: Stroke) -> Shape {
         Shape::Curve { points, stroke: Some(stroke), sign: None }
     }
 
-    /// Signs at points.
-    #[must_use]
     pub fn signs(points: Vec<(f64, f64)>, sign: Sign) -> Shape {
         Shape::Curve { points, stroke: None, sign: Some(sign) }
     }
 }
 
 impl Layer {
-    /// A named layer.
-    #[must_use]
     pub fn new(name: Label, ink: Ink, shape: Shape) -> Layer {
         Layer { name, ink, shape }
     }
 
-    /// A layer without an entry in the legend.
-    #[must_use]
     pub fn unnamed(ink: Ink, shape: Shape) -> Layer {
         Layer::new(Label::default(), ink, shape)
     }
@@ -138,14 +112,7 @@ impl Layer {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// A line through points, signs at the points, or both.
-    Curve {
-        /// x and y.
-        points: Vec<(f64, f64)>,
-        /// Stroke of the line.
-        stroke: Option<Stroke>,
-        /// Sign at each point.
-        sign: Option<Sign>,
-    },
+    Curve { points: Vec<(f64, f64)>, stroke: Option<Stroke>, sign: Option<Sign> },
     /// An area between two curves: x, lower and upper y. Ends beyond the axis are drawn at its end.
     Band(Vec<(f64, f64, f64)>),
     /// A line with more points than a picture resolves, as its lowest and highest y in columns of equal width.
@@ -167,10 +134,8 @@ pub enum Shape {
     Map(Box<HeatMap>),
 }
 
-/// Stroke of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stroke {
-    /// Continuous.
     Solid,
     /// Long dashes.
     Dashed,
@@ -180,9 +145,7 @@ pub enum Stroke {
     Sparse,
 }
 
-/// Sign at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum Sign {
     Dot,
     Square,
@@ -196,7 +159,6 @@ pub enum Sign {
 
 impl Sign {
     /// Sign of one of several curves, counted from 0.
-    #[must_use]
     pub fn of_series(number: usize) -> Sign {
         [Sign::Dot, Sign::Square, Sign::Up, Sign::Diamond, Sign::Ring][number % 5]
     }
@@ -209,15 +171,11 @@ pub struct HeatMap {
     pub columns: Vec<f64>,
     /// Values of the rows on the vertical axis, ascending.
     pub rows: Vec<f64>,
-    /// Value of each cell.
     pub values: Vec<Option<f64>>,
-    /// Axis of the values.
     pub key: Axis,
-    /// Colours of the values.
     pub shades: Shades,
     /// Class of each cell, an index of `class_names`; empty without classes.
     pub classes: Vec<Option<usize>>,
-    /// The classes.
     pub class_names: Vec<Class>,
     /// A level line of another field on the same grid.
     pub contour: Option<Contour>,
@@ -241,21 +199,17 @@ pub struct Class {
 pub struct Contour {
     /// The field, in the order of [`HeatMap::values`].
     pub field: Vec<Option<f64>>,
-    /// The level.
     pub level: f64,
     /// Name in the legend.
     pub name: Label,
 }
 
 impl HeatMap {
-    /// Colour of a value.
-    #[must_use]
     pub fn colour(&self, value: f64) -> Rgb {
         self.shades.at(self.key.share(value))
     }
 
     /// Borders of cells with these values on an axis, in coordinates: halfway between the values.
-    #[must_use]
     pub fn borders(scale: AxisScale, values: &[f64]) -> Vec<f64> {
         let places: Vec<f64> = values.iter().map(|value| scale.coordinate(*value)).collect();
         let (Some(first), Some(last)) = (places.first(), places.last()) else { return vec![0.0, 1.0] };
@@ -268,23 +222,19 @@ impl HeatMap {
     }
 
     /// Range of an axis for cells with these values.
-    #[must_use]
     pub fn span(scale: AxisScale, values: &[f64]) -> Span {
         let borders = HeatMap::borders(scale, values);
         Span { low: borders[0], high: borders[borders.len() - 1] }
     }
 }
 
-/// An entry of a legend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
-    /// Name of the layers.
     pub name: Label,
     /// Sample of each layer of this name; several for layers in several colours.
     pub samples: Vec<(Ink, Sample)>,
 }
 
-/// Sample of a layer in a legend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sample {
     /// A line with a sign on it.
@@ -303,7 +253,6 @@ pub enum Sample {
 
 impl Entry {
     /// Entries for the layers of charts: each name once, in the order of drawing, areas last.
-    #[must_use]
     pub fn of_charts(charts: &[Chart]) -> Vec<Entry> {
         let mut entries: Vec<Entry> = Vec::new();
         let mut add = |name: &Label, ink: Ink, sample: Sample| {

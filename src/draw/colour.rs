@@ -15,12 +15,9 @@ const fn rgb<const N: usize>(colours: [u32; N]) -> [Rgb; N] {
     found
 }
 
-/// Colours of a screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Palette {
-    /// Text.
     pub foreground: Rgb,
-    /// Background.
     pub background: Rgb,
     /// The sixteen colours in the order of ANSI: black, red, green, yellow, blue, magenta, cyan, gray, and their
     /// bright variants.
@@ -57,31 +54,22 @@ pub enum Ink {
     Text,
     /// Guides and other marks in the background.
     Quiet,
-    /// The rigid profile.
     Profile,
-    /// The elastic surface.
     Surface,
-    /// Contact.
     Contact,
-    /// Loading.
     Loading,
-    /// Unloading.
     Unloading,
-    /// Manual loading.
     Manual,
     /// A curve in the background, kept while another one is shown.
     Kept,
     /// One of several curves kept for comparison, counted from 0.
     Compared(usize),
-    /// The present state.
     Cursor,
     /// One of several curves, counted from 0.
     Series(usize),
 }
 
 impl Ink {
-    /// Colour on paper.
-    #[must_use]
     pub fn on_paper(self) -> Rgb {
         let Palette { foreground, ansi, .. } = Palette::LIGHT;
         match self {
@@ -120,7 +108,6 @@ const BLUE_TO_RED: [Rgb; 9] =
 
 impl Shades {
     /// Colours at equal distances.
-    #[must_use]
     pub fn colours(self) -> [Rgb; 9] {
         match self {
             Shades::Sequential => VIRIDIS,
@@ -129,7 +116,6 @@ impl Shades {
     }
 
     /// Colour at a share of the range; the lowest one for NaN.
-    #[must_use]
     pub fn at(self, share: f64) -> Rgb {
         let colours = self.colours();
         let share = if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) };
@@ -154,7 +140,6 @@ pub(super) fn ink_on(colour: Rgb) -> Rgb {
 }
 
 /// A colour in web notation.
-#[must_use]
 pub fn hex([red, green, blue]: Rgb) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }

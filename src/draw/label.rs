@@ -24,7 +24,6 @@ pub struct Label {
 
 impl Label {
     /// Upright text on one line; control characters are escaped.
-    #[must_use]
     pub fn plain(text: &str) -> Label {
         let mut label = Label::default();
         label.push(Face::Upright, &printable(text));
@@ -32,7 +31,6 @@ impl Label {
     }
 
     /// A symbol: its letters in italics, and the text after `_` as an index: `F_a,max`.
-    #[must_use]
     pub fn symbol(text: &str) -> Label {
         let mut label = Label::default();
         let text = printable(text);
@@ -52,20 +50,17 @@ impl Label {
     }
 
     /// Name and symbol of a quantity, each of which may be empty.
-    #[must_use]
     pub fn quantity(name: &str, symbol: &str) -> Label {
         let space = if name.is_empty() || symbol.is_empty() { "" } else { " " };
         Label::plain(name).then(space).join(&Label::symbol(symbol))
     }
 
     /// Symbol of a quantity, or the name of a quantity without one.
-    #[must_use]
     pub fn symbol_or_name(symbol: &str, name: &str) -> Label {
         if symbol.is_empty() { Label::plain(name) } else { Label::symbol(symbol) }
     }
 
     /// The symbol of a quantity with name and symbol; else the whole label.
-    #[must_use]
     pub fn without_name(&self) -> Label {
         match self.runs.split_first() {
             Some(((Face::Upright, name), rest)) if name.ends_with(' ') && !rest.is_empty() => {
@@ -76,7 +71,6 @@ impl Label {
     }
 
     /// A statement such as `H = 0.3`: a symbol before ` = `, upright text after it.
-    #[must_use]
     pub fn statement(text: &str) -> Label {
         match text.split_once(" = ") {
             Some((symbol, value)) => Label::symbol(symbol).then(" = ").then(value),
@@ -84,8 +78,6 @@ impl Label {
         }
     }
 
-    /// A power of ten.
-    #[must_use]
     pub fn power_of_ten(exponent: i32) -> Label {
         let mut label = Label::plain("10");
         label.push(Face::Exponent, &exponent.to_string());
@@ -93,21 +85,16 @@ impl Label {
     }
 
     /// Appends upright text.
-    #[must_use]
     pub fn then(mut self, text: &str) -> Label {
         self.push(Face::Upright, &printable(text));
         self
     }
 
-    /// Appends another label.
-    #[must_use]
     pub fn join(mut self, other: &Label) -> Label {
         other.runs.iter().for_each(|(face, text)| self.push(*face, text));
         self
     }
 
-    /// Returns true for a label without characters.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.runs.is_empty()
     }
@@ -117,7 +104,6 @@ impl Label {
     }
 
     /// Width in units of the font size, for digits 0.58 wide as in the usual sans-serif fonts.
-    #[must_use]
     pub fn width(&self) -> f64 {
         let of = |(face, text): &(Face, String)| {
             let share = if matches!(face, Face::Index | Face::Exponent) { SMALL } else { 1.0 };
@@ -127,7 +113,6 @@ impl Label {
     }
 
     /// Lines no wider than `most`, in units of the font size, broken between words.
-    #[must_use]
     pub fn wrapped(&self, most: f64) -> Vec<Label> {
         let mut words = vec![Label::default()];
         for (face, text) in &self.runs {
@@ -201,7 +186,6 @@ fn raised(character: char) -> char {
 }
 
 /// Divisor and name of a unit with the SI prefix for numbers up to `largest`; `1` has no name.
-#[must_use]
 pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
     if matches!(unit, "" | "1") {
         return (1.0, String::new());
@@ -220,7 +204,6 @@ pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
 }
 
 /// A number to three significant digits in the shortest form.
-#[must_use]
 pub fn short(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".into() } else { value.to_string() };
@@ -230,7 +213,6 @@ pub fn short(value: f64) -> String {
 }
 
 /// A number with the decimals of `step`.
-#[must_use]
 pub fn number(value: f64, step: f64) -> String {
     let decimals = (-step.abs().log10() - 1e-9).ceil().clamp(0.0, 12.0) as usize;
     let text = format!("{value:.decimals$}");
@@ -239,7 +221,6 @@ pub fn number(value: f64, step: f64) -> String {
 }
 
 /// A value with its symbol, or with its name if `symbol` is empty: `H = 0.3`, `points 12.5 µN`.
-#[must_use]
 pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
     let (divisor, unit) = prefixed(unit, value.abs());
     let is_count = unit.is_empty() && value.fract() == 0.0 && (0.0..1e8).contains(&value);

@@ -19,15 +19,12 @@ mod ticks;
 pub use axis::Axis;
 #[cfg(feature = "tui")]
 pub use cells::{CellPlot, CellStyle, Colours, SHADES, dry, figure_text, glyph, key, legend};
-pub use chart::{Chart, Class, Contour, Entry, Figure, HeatMap, Layer, Sample, Shape, Sign, Stroke};
+pub use chart::{Chart, Class, Contour, Figure, HeatMap, Layer, Shape, Sign, Stroke};
 pub use colour::{Ink, Palette, Rgb, Shades, hex};
-pub use label::{Label, prefixed, short, value_label};
-#[cfg(feature = "tui")]
-pub use png::PngError;
+pub use label::{Label, prefixed, value_label};
 pub use scale::{AxisScale, Span};
 #[cfg(feature = "tui")]
 pub(crate) use svg::{Svg, escaped};
-pub use ticks::Tick;
 
 #[cfg(test)]
 pub(crate) use svg::{attribute, elements, parsed};

@@ -4,63 +4,39 @@ use super::chart::Figure;
 use png::{BitDepth, ColorType, Encoder, PixelDimensions, Unit};
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::fontdb::Database;
-use resvg::usvg::{self, Options, Tree};
+use resvg::usvg::{Options, Tree};
+use std::io;
 use std::sync::Arc;
-use thiserror::Error;
 
 /// Upright and oblique letters with the same Latin, Greek, Cyrillic and mathematical characters; see LICENSE beside the
 /// files.
 const FONTS: [&[u8]; 2] = [include_bytes!("font/sans.ttf"), include_bytes!("font/sans-oblique.ttf")];
 /// Pixels for each px of a document.
 const SCALE: f32 = 2.0;
-/// Most pixels of a picture.
 const MOST_PIXELS: f64 = (1_u32 << 26) as f64;
 /// Pixels per metre of a print on which a px is 1/96 inch.
 const PER_METRE: u32 = 7559;
 
-/// Error of a raster picture.
-#[derive(Debug, Error)]
-pub enum PngError {
-    /// Too many pixels.
-    #[error(
-        "a picture of {width} × {height} pixels; allowed: at most {MOST_PIXELS} in all; SVG has no limit"
-    )]
-    TooLarge {
-        /// Pixels across.
-        width: f64,
-        /// Pixels down.
-        height: f64,
-    },
-    /// The drawing could not be read.
-    #[error("the picture could not be drawn: {0}")]
-    Drawing(#[from] usvg::Error),
-    /// The pixels could not be encoded.
-    #[error("the picture could not be encoded: {0}")]
-    Encoding(#[from] png::EncodingError),
-}
-
 impl Figure {
     /// The figure as the content of a PNG file.
-    ///
-    /// # Errors
-    /// A picture with more pixels than allowed.
-    pub fn png(&self) -> Result<Vec<u8>, PngError> {
+    pub fn png(&self) -> io::Result<Vec<u8>> {
         png(&self.svg())
     }
 }
 
 /// An SVG document on white as the content of a PNG file.
-fn png(svg: &str) -> Result<Vec<u8>, PngError> {
+fn png(svg: &str) -> io::Result<Vec<u8>> {
     let mut fonts = Database::new();
     FONTS.iter().for_each(|font| fonts.load_font_data(font.to_vec()));
-    let tree = Tree::from_str(svg, &Options { fontdb: Arc::new(fonts), ..Options::default() })?;
+    let options = Options { fontdb: Arc::new(fonts), ..Options::default() };
+    let tree = Tree::from_str(svg, &options).map_err(io::Error::other)?;
     let [width, height] = [tree.size().width(), tree.size().height()].map(|side| (SCALE * side).ceil());
-    let (across, down) = (f64::from(width), f64::from(height));
-    let too_large = PngError::TooLarge { width: across, height: down };
-    if across * down > MOST_PIXELS {
-        return Err(too_large);
-    }
-    let mut pixmap = Pixmap::new(width as u32, height as u32).ok_or(too_large)?;
+    let is_small = f64::from(width) * f64::from(height) <= MOST_PIXELS;
+    let pixmap = is_small.then(|| Pixmap::new(width as u32, height as u32)).flatten();
+    let mut pixmap = pixmap.ok_or_else(|| {
+        let limit = format!("allowed: at most {MOST_PIXELS} in all; SVG has no limit");
+        io::Error::other(format!("a picture of {width} × {height} pixels; {limit}"))
+    })?;
     // The last pixels may be covered in part.
     pixmap.fill(Color::WHITE);
     resvg::render(&tree, Transform::from_scale(SCALE, SCALE), &mut pixmap.as_mut());

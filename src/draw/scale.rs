@@ -3,7 +3,6 @@
 /// Mapping of numbers to coordinates along an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AxisScale {
-    /// The number itself.
     #[default]
     Linear,
     /// The decimal logarithm; all values are above zero.
@@ -12,14 +11,12 @@ pub enum AxisScale {
 
 impl AxisScale {
     /// Coordinate of a number; not finite for a number without a logarithm.
-    #[must_use]
     pub fn coordinate(self, number: f64) -> f64 {
         if self == AxisScale::Logarithmic { number.log10() } else { number }
     }
 
     /// Place of a number among ascending values, the first at 0: linear between two values, extrapolated by the
     /// last distance beyond the ends.
-    #[must_use]
     pub fn place(self, values: &[f64], number: f64) -> f64 {
         let places: Vec<f64> = values.iter().map(|value| self.coordinate(*value)).collect();
         let at = self.coordinate(number);
@@ -31,7 +28,6 @@ impl AxisScale {
     }
 
     /// Number at a coordinate.
-    #[must_use]
     pub fn number(self, coordinate: f64) -> f64 {
         if self == AxisScale::Logarithmic { 10_f64.powf(coordinate) } else { coordinate }
     }
@@ -40,9 +36,7 @@ impl AxisScale {
 /// A range of coordinates, wider than a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
-    /// Lower end.
     pub low: f64,
-    /// Upper end.
     pub high: f64,
 }
 
@@ -52,7 +46,6 @@ const NO_SPREAD: f64 = 1e-9;
 impl Span {
     /// Range of finite coordinates with the share `room` of its width added at each end; a range around a single
     /// coordinate, and 0 to 1 without any.
-    #[must_use]
     pub fn around(coordinates: impl Iterator<Item = f64>, room: f64) -> Span {
         let finite = coordinates.filter(|coordinate| coordinate.is_finite());
         let (low, high) =
@@ -72,7 +65,6 @@ impl Span {
 
     /// Range of values of a quantity, as coordinates of a scale. A linear range begins at zero if no value is below
     /// zero and the lowest is at most 0.3 of the highest; a logarithmic one has at most `decades`.
-    #[must_use]
     pub fn of_values(scale: AxisScale, values: impl Iterator<Item = f64>, decades: f64) -> Span {
         let span = Span::around(values.map(|value| scale.coordinate(value)), 0.0);
         match scale {
@@ -83,7 +75,6 @@ impl Span {
     }
 
     /// Whole decades around coordinates of a logarithmic scale, at least one.
-    #[must_use]
     pub fn decades(coordinates: impl Iterator<Item = f64>) -> Span {
         let span = Span::around(coordinates, 0.0);
         let low = span.low.floor();
@@ -91,20 +82,15 @@ impl Span {
     }
 
     /// The range with the share `room` of its width added at each end.
-    #[must_use]
     pub fn widened(self, room: f64) -> Span {
         let margin = room * self.width();
         Span { low: self.low - margin, high: self.high + margin }
     }
 
-    /// Width.
-    #[must_use]
     pub fn width(self) -> f64 {
         self.high - self.low
     }
 
-    /// Lower and upper end.
-    #[must_use]
     pub fn bounds(self) -> [f64; 2] {
         [self.low, self.high]
     }

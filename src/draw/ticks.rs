@@ -3,7 +3,6 @@
 use super::label::{Label, number};
 use super::scale::{AxisScale, Span};
 
-/// A tick.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
     /// Coordinate on the axis.

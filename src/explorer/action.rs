@@ -3,7 +3,7 @@
 use super::keys::Command;
 use super::opening::Opening;
 use super::snapshot::Report;
-use super::study::Found;
+use super::studies::Finding;
 use crate::export::Format;
 use crate::scene::Entry;
 use crossterm::event::KeyEvent;
@@ -23,12 +23,10 @@ pub enum Action {
     Resize(u16, u16),
     /// Time elapsed while the animation plays.
     Elapse(Duration),
-    /// A seed to set.
-    SetSeed(u64),
     /// A report of the worker.
     Report(Report),
-    /// A finding of the study.
-    Found(Found),
+    /// A finding of a study.
+    Found(Finding),
     /// A written file, or the reason why it was not written.
     Written(OutputFile, Result<(), WriteFailure>),
     /// The scenes that can be opened.

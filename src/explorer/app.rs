@@ -1,18 +1,20 @@
 //! The state of the explorer: changed by `update` alone, drawn by the views.
 
 use super::action::Traffic;
-use super::adhesion_spread::AdhesionSpread;
-pub use super::appraisal::{Appraisal, Estimated};
 pub use super::chart::{Chart, OpenStudy};
 use super::config::Config;
+pub use super::editor::Editor;
+use super::editor::scene_of;
+use super::effect::Effect;
+use super::opening::Opening;
 pub use super::panes::Pane;
-use super::panes::PreloadCurve;
-use super::parameters::{Parameter, Setting, parameters};
+use super::parameters::{Parameter, Setting};
 pub use super::player::Player;
 use super::player::{indentations, start_of};
 use super::prompt::{Prompt, Purpose};
-use super::request::{Focus, LineView, ManualMove, Tried};
+use super::request::{Focus, LineView, ManualMove, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Drive, Preview, SolvedScene};
+use super::studies::Findings;
 use super::text_line::TextLine;
 use super::theme::Appearance;
 use crate::analysis::Governing;
@@ -21,7 +23,6 @@ use crate::export::LoopQuantities;
 use crate::scene::{Document, Observer, Scene, ron_float};
 use crate::simulation::Outcome;
 use crate::study::{Axis, Place};
-use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// Target of the close-up.
@@ -103,31 +104,6 @@ pub enum Message {
     Refused(String),
 }
 
-/// The scene as edited, its history, and its list of parameters.
-#[derive(Clone, Debug)]
-pub struct Editor {
-    /// The scene as edited.
-    pub document: Document,
-    /// Documents before each edit.
-    pub past: Vec<Document>,
-    /// Documents after each undone edit.
-    pub future: Vec<Document>,
-    /// Document on disk or as opened, for each scene by its name.
-    pub saved: BTreeMap<String, Document>,
-    /// Number of times that a scene was saved or opened.
-    pub saves: u64,
-    /// Scenes left with unsaved changes, by their names.
-    pub left: BTreeMap<String, Document>,
-    /// Number of the newest requested scene.
-    pub generation: u64,
-    /// The parameters of the scene.
-    pub parameters: Vec<Parameter>,
-    /// Index of the selected parameter, which is never in a folded group.
-    pub selected: usize,
-    /// Groups of parameters of which only the first row is listed.
-    pub folded: BTreeSet<&'static str>,
-}
-
 /// Shown panes, their parts, and their appearance.
 #[derive(Clone, Debug)]
 pub struct View {
@@ -163,20 +139,8 @@ pub struct View {
     pub demo: Option<&'static str>,
 }
 
-/// Results that follow the solution of a scene.
-#[derive(Clone, Debug, Default)]
-pub struct StudyResults {
-    /// Accuracy of the scene and the cost of accuracy.
-    pub appraisal: Appraisal,
-    /// Adhesion against preload, so far.
-    pub preloads: Option<Arc<PreloadCurve>>,
-    /// Adhesion of random profiles of a measured surface, so far.
-    pub adhesion_spread: Option<Arc<AdhesionSpread>>,
-    /// Reasons why data of panes are not computed further.
-    pub failures: BTreeMap<Pane, String>,
-    /// True if the scene was edited after the last pane was shown: its data wait while a key is held down.
-    pub edited: bool,
-}
+/// Generation, snapshot and number of manual moves that the screen waits for.
+pub(super) type Awaited = (u64, SnapshotRequest, usize);
 
 /// The state of the explorer.
 #[derive(Clone, Debug)]
@@ -195,20 +159,16 @@ pub struct App {
     pub snapshot: Option<Arc<ContactSnapshot>>,
     /// Legs done of the scene being computed.
     pub progress: Option<usize>,
-    /// Results that follow.
-    pub studies: StudyResults,
+    /// Values computed after the scene.
+    pub studies: Findings,
     /// The map over κ and H.
     pub chart: Chart,
     /// Loops kept for comparison, the newest last.
     pub ghosts: Vec<Ghost>,
-    /// Scene that becomes a ghost once computed.
-    pub next_ghost: Option<Document>,
     /// Scene to open beside the present one once that is computed.
     pub opens_beside: Option<Document>,
-    /// Scene whose outcome is awaited: with the value being typed, or to be kept as a ghost.
-    pub tried: Option<Tried>,
-    /// The newest outcome of a tried scene.
-    pub preview: Option<Arc<Preview>>,
+    /// Scene with the value being typed, whose outcome is awaited.
+    pub tried: Option<Document>,
     /// The line being typed, or the question.
     pub prompt: Option<Prompt>,
     /// A line for the user.
@@ -217,26 +177,20 @@ pub struct App {
     pub config: Config,
     /// True if the explorer is to end.
     pub finished: bool,
+    /// Effects of the present action.
+    pub(super) effects: Vec<Effect>,
+    /// What the solver was asked for last.
+    pub(super) asked: Option<Awaited>,
 }
 
 impl App {
-    /// The explorer just opened on a scene.
+    /// The explorer just opened on a scene or a study.
     #[must_use]
-    pub fn new(document: Document, size: (u16, u16), appearance: Appearance) -> Self {
+    pub fn new(opening: impl Into<Opening>, size: (u16, u16), appearance: Appearance) -> Self {
+        let Opening { document, study_map, beside } = opening.into();
         let springs = CloseUpTarget::springs_shown(&document);
-        App {
-            edit: Editor {
-                saved: BTreeMap::from([(document.name().to_owned(), document.clone())]),
-                parameters: parameters(&document),
-                document,
-                past: Vec::new(),
-                future: Vec::new(),
-                saves: 0,
-                left: BTreeMap::new(),
-                generation: 1,
-                selected: 0,
-                folded: BTreeSet::new(),
-            },
+        let mut app = App {
+            edit: Editor::new(document),
             play: Player::START,
             manual: None,
             view: View {
@@ -259,18 +213,22 @@ impl App {
             solved: None,
             snapshot: None,
             progress: Some(0),
-            studies: StudyResults::default(),
+            studies: Findings::default(),
             chart: Chart::default(),
             ghosts: Vec::new(),
-            next_ghost: None,
-            opens_beside: None,
+            opens_beside: beside,
             tried: None,
-            preview: None,
             prompt: None,
             message: None,
             config: Config::default(),
             finished: false,
+            effects: Vec::new(),
+            asked: None,
+        };
+        if let Some(study_map) = study_map {
+            app.show_study(study_map);
         }
+        app
     }
 
     /// Shows a success.
@@ -305,17 +263,14 @@ impl App {
     #[must_use]
     pub fn governing(&self) -> Option<Governing> {
         let computed = self.solved.as_ref()?;
-        let (before, now) = (computed.scene.as_ref(), self.edit.document.scene());
-        // The computed scene names files from the working folder.
-        let mut named = now.clone();
-        named.rename_measured_files(|file| self.edit.document.resolve(file).to_string_lossy().into_owned());
-        let same_line = before.roughness == named.roughness
+        let (before, now) = (&computed.scene, scene_of(&self.edit.document));
+        let same_line = before.roughness == now.roughness
             && before.length == now.length
             && before.form == now.form
             && before.material == now.material;
         // An rms height that follows from γ and κ or e_el/γ changes with them.
         let both = |scene: &Scene| scene.adhesion.is_some_and(|adhesion| adhesion.sets_amplitude());
-        if !same_line || ((both(before) || both(now)) && before.adhesion != now.adhesion) {
+        if !same_line || ((both(before) || both(&now)) && before.adhesion != now.adhesion) {
             return None;
         }
         Some(computed.outcome.governing.with_adhesion(now.adhesion))
@@ -343,19 +298,20 @@ impl App {
     /// computed.
     #[must_use]
     pub fn tried_outcome(&self) -> Option<&Outcome> {
-        let preview = self.preview.as_ref()?;
+        let preview = self.studies.value::<Preview>()?;
         let is_shown = match self.prompt {
             Some(_) => self.is_typing_value() && self.tried.is_some(),
             None => self.is_computing() && preview.text == self.edit.document.text(),
         };
-        preview.outcome.as_ref().ok().filter(|_| is_shown)
+        let is_valid = self.studies.failure::<Preview>().is_none();
+        Some(&preview.outcome).filter(|_| is_shown && is_valid)
     }
 
     /// Returns true once the typed value itself has an outcome.
     #[must_use]
     pub fn is_tried(&self) -> bool {
-        let tried = self.tried.as_ref().map(|tried| &tried.text);
-        self.preview.as_ref().is_some_and(|preview| tried == Some(&preview.text))
+        let tried = self.tried.as_ref().map(Document::text);
+        self.studies.value::<Preview>().is_some_and(|preview| tried == Some(&preview.text))
     }
 
     /// Values of the scene on the axes of the map: its mark. `None` where the scene has no such quantity, or its value
@@ -363,7 +319,7 @@ impl App {
     #[must_use]
     pub fn place(&self) -> Option<Place> {
         let scene = self.edit.document.scene();
-        let (across, up) = self.chart.axes(scene)?;
+        let (across, up) = self.map_axes()?;
         let governing = self.governing();
         let value = |axis: &Axis| axis.value_in(scene, governing.as_ref());
         let place = value(&across)?;
@@ -407,20 +363,6 @@ impl App {
             Setting::WorkOfAdhesion => governing.work_of_adhesion.map(ron_float),
             Setting::Field | Setting::Switch(_) | Setting::Heading => None,
         }
-    }
-
-    /// Indices of the listed parameters: of a folded group only the first.
-    #[must_use]
-    pub fn listed(&self) -> Vec<usize> {
-        let is_listed =
-            |parameter: &Parameter| parameter.is_head() || !self.edit.folded.contains(parameter.group);
-        (0..self.edit.parameters.len()).filter(|index| is_listed(&self.edit.parameters[*index])).collect()
-    }
-
-    /// The selected parameter.
-    #[must_use]
-    pub fn parameter(&self) -> Option<&Parameter> {
-        self.edit.parameters.get(self.edit.selected)
     }
 
     /// Lowest and highest indentation of the curves shown, m; `None` when there is no curve.

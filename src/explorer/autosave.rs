@@ -55,6 +55,18 @@ pub fn left_behind(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
+/// Returns the message that offers the unsaved changes of ended sessions, the newest first.
+#[must_use]
+pub fn offer(folder: &Path) -> Option<String> {
+    let scenes = left_behind(folder).into_iter().filter_map(|path| read(&path).ok()).flatten();
+    let name =
+        |document: Document| Some(Path::new(document.name()).file_name()?.to_string_lossy().into_owned());
+    let mut names: Vec<String> = scenes.filter_map(name).collect();
+    names.dedup();
+    let names = Some(names.join(", ")).filter(|names| !names.is_empty())?;
+    Some(format!("unsaved changes of {names} are kept: asperity --restore opens the newest"))
+}
+
 /// Reads the scenes of a file, the explored one first.
 ///
 /// # Errors

@@ -1,9 +1,16 @@
-//! State of the shown map, over H and κ or e_el/γ or over the axes of a study, and its part still to be computed.
+//! State of the shown map, over H and κ or e_el/γ or over the axes of a study.
 
+use super::app::App;
+use super::snapshot::SolvedScene;
+use super::studies::Study;
 use crate::scene::{RoughnessParameter, Scene};
-use crate::study::map::{LiveMap, NoMap, StudyMap, Template};
-use crate::study::{Axis, Grid, Quantity};
+use crate::study::map::{LiveMap, StudyMap, live_plan};
+use crate::study::{Axis, Grid, Plan, Quantity};
+use std::path::Path;
 use std::sync::Arc;
+
+/// Most springs for the map of a demo, of hundreds of scenes.
+const MOST_SPRINGS: u64 = 1 << 12;
 
 /// State of the pane of the map.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,11 +18,7 @@ pub struct Chart {
     /// Quantity of the glyphs, where the map has it.
     pub quantity: Quantity,
     /// Parameter of the live map, beside H.
-    parameter: RoughnessParameter,
-    /// The live map so far, shown or not. Kept while its parameter and H change.
-    pub map: Option<Arc<LiveMap>>,
-    /// The live map as shown.
-    live: Option<Arc<Grid>>,
+    pub parameter: RoughnessParameter,
     /// A finished study, kept until another one is opened.
     pub study: Option<OpenStudy>,
     /// True if the map of the study replaces the live map.
@@ -34,13 +37,20 @@ pub struct OpenStudy {
     grid: Arc<Grid>,
 }
 
+/// The live map so far.
+#[derive(Debug)]
+pub struct Live {
+    /// The map.
+    pub map: LiveMap,
+    /// Its cells for display.
+    pub grid: Grid,
+}
+
 impl Default for Chart {
     fn default() -> Self {
         Chart {
             quantity: Quantity::Regime,
             parameter: RoughnessParameter::default(),
-            map: None,
-            live: None,
             study: None,
             of_study: false,
             moving: false,
@@ -57,16 +67,15 @@ impl OpenStudy {
     }
 }
 
-impl Chart {
-    /// The shown map, if any.
+impl Live {
+    /// The cells of a map so far.
     #[must_use]
-    pub fn grid(&self) -> Option<&Grid> {
-        match self.shown_study() {
-            Some(study) => Some(&study.grid),
-            None => self.live.as_deref(),
-        }
+    pub fn of(map: &LiveMap) -> Self {
+        Live { map: map.clone(), grid: map.grid() }
     }
+}
 
+impl Chart {
     /// The study whose map is shown.
     #[must_use]
     pub fn shown_study(&self) -> Option<&OpenStudy> {
@@ -79,28 +88,47 @@ impl Chart {
         self.study = Some(OpenStudy { study_map, slice, grid });
     }
 
-    /// Parameter of the live map, beside H.
-    #[must_use]
-    pub fn parameter(&self) -> RoughnessParameter {
-        self.parameter
+    /// Plan of the live map of a scene.
+    fn plan(&self, scene: &Scene) -> Option<Plan> {
+        live_plan(scene, self.parameter).ok()
     }
 
-    /// Maps over the other parameter of roughness: e_el/γ in place of κ, or the reverse.
-    pub fn next_parameter(&mut self) {
-        self.parameter = match self.parameter {
-            RoughnessParameter::Kappa => RoughnessParameter::ElasticEnergyRatio,
-            RoughnessParameter::ElasticEnergyRatio => RoughnessParameter::Kappa,
-        };
-        (self.map, self.live, self.moving) = (None, None, false);
+    /// Key of the live map of a scene: kept while the parameter of the map and H change.
+    #[must_use]
+    pub fn key(&self, scene: &Scene) -> Option<String> {
+        self.plan(scene).map(|plan| format!("{plan:?}"))
+    }
+}
+
+/// Computes the missing cells of the live map; `None` for a scene without a map.
+pub fn study(app: &App, computed: &SolvedScene) -> Option<Study> {
+    let plan = app.chart.plan(&computed.scene)?;
+    let (key, is_long) = (format!("{plan:?}"), plan.scene.numerics.points > MOST_SPRINGS);
+    let begun = app.studies.value::<Live>().map(|live| live.map.clone());
+    Some(Study::new(key, is_long, move |_, stop, report| {
+        let mut map = begun.map_or_else(|| LiveMap::new(plan), Ok).map_err(|error| error.to_string())?;
+        map.compute(Path::new(""), stop, &mut |map| report(Live::of(map)));
+        Ok(Live::of(&map))
+    }))
+}
+
+impl App {
+    /// The shown map, if any.
+    #[must_use]
+    pub fn grid(&self) -> Option<&Grid> {
+        match self.chart.shown_study() {
+            Some(study) => Some(&study.grid),
+            None => Some(&self.studies.value::<Live>()?.grid),
+        }
     }
 
-    /// Axes across and up of the shown map or, before there is one, of the live map of a scene.
+    /// Axes across and up of the shown map or, before there is one, of the live map.
     #[must_use]
-    pub fn axes(&self, scene: &Scene) -> Option<(Axis, Option<Axis>)> {
+    pub fn map_axes(&self) -> Option<(Axis, Option<Axis>)> {
         if let Some(grid) = self.grid() {
             return Some((grid.across.clone(), grid.up.clone()));
         }
-        let mut axes = Template::of(scene).ok()?.over(self.parameter).axes().into_iter();
+        let mut axes = self.chart.plan(self.edit.document.scene())?.axes.into_iter();
         Some((axes.next()?, axes.next()))
     }
 
@@ -108,8 +136,8 @@ impl Chart {
     #[must_use]
     pub fn charted(&self) -> Quantity {
         let all = self.grid().map(Grid::quantities).unwrap_or_default();
-        let chosen = all.iter().find(|one| **one == self.quantity);
-        *chosen.or(all.first()).unwrap_or(&self.quantity)
+        let chosen = all.iter().find(|one| **one == self.chart.quantity);
+        *chosen.or(all.first()).unwrap_or(&self.chart.quantity)
     }
 
     /// Next quantity of the glyphs.
@@ -119,29 +147,5 @@ impl Chart {
         let now = self.charted();
         let place = all.iter().position(|one| *one == now).map_or(0, |place| place + 1);
         all.get(place).or(all.first()).copied().unwrap_or(now)
-    }
-
-    /// Stores the live map computed so far.
-    pub fn take_in(&mut self, map: Arc<LiveMap>) {
-        self.live = Some(Arc::new(map.grid()));
-        self.map = Some(map);
-    }
-
-    /// Drops the live map unless a changed scene has the same.
-    pub fn renew(&mut self, scene: &Scene) {
-        self.moving = false;
-        self.map = self.map.take().filter(|map| map.is_of(scene, self.parameter));
-        self.live = self.live.take().filter(|_| self.map.is_some());
-    }
-
-    /// The live map to be continued for a scene; `None` once whole.
-    ///
-    /// # Errors
-    /// When the scene has none.
-    pub fn wanted(&self, scene: &Scene) -> Result<Option<Arc<LiveMap>>, NoMap> {
-        let template = Template::of(scene)?.over(self.parameter);
-        let known = self.map.as_ref().filter(|map| map.is_of(scene, self.parameter)).cloned();
-        let map = known.or_else(|| LiveMap::new(template).ok().map(Arc::new));
-        Ok(map.filter(|map| !map.is_whole()))
     }
 }

@@ -9,10 +9,8 @@ use std::path::PathBuf;
 pub enum Effect {
     /// Ask the worker for the state that the screen waits for.
     Ask,
-    /// Perform the remaining studies of the scene, see [`super::update::study_tasks`], and no others.
+    /// Perform the remaining studies of the scene, see [`super::update::studies`], and no others.
     Study,
-    /// Draw a random seed and return it as an action.
-    DrawSeed,
     /// Write a file.
     Write(OutputFile),
     /// Keep colours and markers in the configuration file.

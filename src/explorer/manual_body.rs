@@ -29,10 +29,7 @@ impl ManualBody {
     /// `preload` the largest force of the scene's loading, N; `None` without enough memory.
     pub fn take(leg: &Leg, indentation: f64, (step, preload): (f64, f64)) -> Option<Self> {
         let body = Body::at(leg, indentation).ok()?;
-        let contact = leg.contact();
-        let deepest = contact.springs().deepest();
-        let compression: f64 = contact.gaps().iter().map(|gap| deepest - gap).sum();
-        let full_contact = contact.foundation().spring_stiffness() * compression;
+        let full_contact = leg.contact().full_contact_force();
         let largest = MOST_OVER_FULL_CONTACT * full_contact.max(preload);
         Some(ManualBody { body, travel: ManualPath::default(), step, full_contact, largest })
     }

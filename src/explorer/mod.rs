@@ -1,10 +1,8 @@
-//! The explorer: a blocking input thread and the worker send actions into one channel, `update`
-//! changes the model, the views draw the model. This thread computes nothing and sleeps without events.
+//! The explorer: threads of input, solver and studies send actions into one channel, `update` changes the state, the views
+//! draw the state. This thread computes nothing and sleeps without events.
 
 pub mod action;
-pub mod adhesion_spread;
 pub mod app;
-pub mod appraisal;
 pub mod autosave;
 mod caption;
 pub mod chart;
@@ -12,19 +10,17 @@ mod close_up;
 mod completion;
 pub mod config;
 pub mod demo;
+mod editor;
 mod effect;
-pub mod engine;
 mod input;
 pub mod keys;
 pub mod layout;
 mod manual_body;
 mod opening;
-mod palette;
 pub mod panel;
 pub mod panes;
 pub mod parameters;
 pub mod picture;
-mod playback;
 mod player;
 pub mod prompt;
 mod recording;
@@ -35,14 +31,13 @@ mod session;
 mod shown;
 mod signals;
 pub mod snapshot;
-pub mod study;
+pub mod solver;
+pub mod studies;
 mod terminal;
 mod text_line;
 pub mod theme;
-mod unsaved;
 pub mod update;
 pub mod view;
-pub mod worker;
 mod writing;
 
 pub use opening::{Opening, OpeningError};

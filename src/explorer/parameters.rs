@@ -2,6 +2,7 @@
 
 use crate::scene::{
     Document, Effect, Field, Move, Range, RoughnessParameter, field, format_quantity, ron_float,
+    stage_targets,
 };
 
 /// Groups in the order of the list. The parameters that are varied most come first: adhesion, load, roughness, and the
@@ -9,9 +10,19 @@ use crate::scene::{
 const GROUPS: [&str; 8] =
     ["adhesion", "loading", "roughness", "numerics", "form", "material", "observe", "title"];
 
-/// First fields of their group; the others follow in the order of the scene file.
-const FIRST: [&str; 4] =
-    ["roughness.rms_height", "roughness.rms_gradient", "roughness.hurst", "roughness.seed"];
+/// Three ways to give the adhesion, of which the others follow.
+const ADHESION: [&str; 3] = ["adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio"];
+
+/// Order in a group: the first row, these fields, and the others as in the scene file.
+const FIRST: [&str; 7] = [
+    ADHESION[0],
+    ADHESION[1],
+    ADHESION[2],
+    "roughness.rms_height",
+    "roughness.rms_gradient",
+    "roughness.hurst",
+    "roughness.seed",
+];
 
 /// A parameter of the list.
 #[derive(Clone, Debug, PartialEq)]
@@ -133,7 +144,7 @@ pub fn parameters(document: &Document) -> Vec<Parameter> {
             continue;
         }
         let shown = match field.path {
-            "loading" => stages(&document.scene().loading),
+            "loading" => stage_targets(&document.scene().loading, format_quantity),
             _ => shown(field, written),
         };
         let written = written.to_owned();
@@ -142,25 +153,13 @@ pub fn parameters(document: &Document) -> Vec<Parameter> {
             parameters.extend(leg_targets(&document.scene().loading));
         }
     }
-    insert_other_adhesion(&mut parameters);
+    add_other_adhesion(&mut parameters);
     parameters.sort_by_key(|parameter| {
         let group = GROUPS.iter().position(|group| *group == parameter.group);
         let first = FIRST.iter().position(|path| *path == parameter.path);
         (group, !parameter.is_head(), first.unwrap_or(FIRST.len()))
     });
     parameters
-}
-
-/// The loading history in short: `10 µN, separation`.
-fn stages(loading: &[Move]) -> String {
-    let stage = |leg: &Move| match leg {
-        Move::ToForce(force) => format_quantity(*force, "N"),
-        Move::ToIndentation(indentation) => format_quantity(*indentation, "m"),
-        Move::ToTouch => "touch".to_owned(),
-        Move::ToZeroForce => "0 N".to_owned(),
-        Move::ToSeparation => "separation".to_owned(),
-    };
-    loading.iter().map(stage).collect::<Vec<_>>().join(", ")
 }
 
 /// The effect that a field belongs to.
@@ -180,25 +179,12 @@ fn setting_of(path: &str) -> Setting {
 }
 
 /// Adds rows for those of γ, κ and e_el/γ that follow from the given ones.
-fn insert_other_adhesion(parameters: &mut Vec<Parameter>) {
-    let place = |parameters: &[Parameter], path| parameters.iter().position(|one| one.path == path);
-    let Some(head) = place(parameters, Effect::Adhesion.path()) else { return };
-    let is_given = |path| place(parameters, path).is_some();
-    let [work, kappa, ratio] = ["adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio"];
-    if ![work, kappa, ratio].into_iter().any(is_given) {
-        return;
-    }
-    // Each row follows the one before.
-    let mut at = head;
-    for path in [work, kappa, ratio] {
-        at = match place(parameters, path) {
-            Some(place) => place,
-            None => {
-                let Some(field) = field(path, None) else { return };
-                parameters.insert(at + 1, Parameter::new(field, path));
-                at + 1
-            }
-        };
+fn add_other_adhesion(parameters: &mut Vec<Parameter>) {
+    let is_listed = |path: &str| parameters.iter().any(|one| one.path == path);
+    let others: Vec<&str> = ADHESION.into_iter().filter(|path| !is_listed(path)).collect();
+    if others.len() < ADHESION.len() {
+        let fields = others.into_iter().filter_map(|path| field(path, None));
+        parameters.extend(fields.map(|field| Parameter::new(field, field.path)));
     }
 }
 

@@ -1,8 +1,7 @@
 //! Prompts: a line being typed for a purpose, with a list of what fits; questions, and the help.
 
 use super::action::OutputFile;
-use super::keys::Context;
-use super::palette::Listed;
+use super::keys::{Binding, Context};
 use super::panes::Pane;
 use super::parameters::Parameter;
 use super::search::find;
@@ -51,7 +50,7 @@ pub enum Purpose {
         before: Pane,
     },
     /// Search of a command.
-    Command(Vec<Listed>),
+    Command(Vec<Binding>),
     /// Question whether to overwrite a file.
     Overwrite(OutputFile),
     /// Question whether to leave with unsaved changes.
@@ -91,7 +90,7 @@ impl Prompt {
             Purpose::Scene(_) if query.contains(is_separator) => Vec::new(),
             Purpose::Scene(entries) => find(entries.iter().map(scene_texts), query),
             Purpose::Parameter { .. } => find(parameters.iter().map(Parameter::texts), query),
-            Purpose::Command(commands) => find(commands.iter().map(Listed::texts), query),
+            Purpose::Command(commands) => find(commands.iter().map(Binding::texts), query),
             _ => Vec::new(),
         };
     }

@@ -1,12 +1,10 @@
 //! Requests from the explorer to the worker.
 
-use super::panes::Pane;
 use crate::scene::Scene;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 /// State that the screen waits for: the scene, solved unless it is the last one, after the manual moves, reduced to a
-/// snapshot; then the outcome of a scene that is tried.
+/// snapshot.
 #[derive(Clone, Debug)]
 pub struct Request {
     /// Generation of the scene.
@@ -17,8 +15,6 @@ pub struct Request {
     pub moves: Vec<ManualMove>,
     /// Snapshot of the contact.
     pub snapshot: SnapshotRequest,
-    /// Scene with the value being typed, or to be kept as a ghost.
-    pub tried: Option<Tried>,
 }
 
 impl Request {
@@ -31,15 +27,6 @@ impl Request {
         }
         self
     }
-}
-
-/// A scene whose outcome alone is of interest.
-#[derive(Clone, Debug)]
-pub struct Tried {
-    /// Its text, different for different scenes.
-    pub text: String,
-    /// The scene.
-    pub scene: Arc<Scene>,
 }
 
 /// Move of manual loading.
@@ -90,10 +77,6 @@ pub struct SnapshotRequest {
     pub focus: Focus,
     /// Springs of the close-up.
     pub close_up_springs: usize,
-    /// Pane in the place of profile and close-up.
-    pub large: Option<Pane>,
-    /// Pane in the place of the close-up.
-    pub lower: Pane,
     /// Position of the crosshair as a share of the profile, 0 to 1.
     pub crosshair: Option<f64>,
 }
@@ -147,35 +130,3 @@ pub enum Drive {
     /// Manual loading.
     Manual,
 }
-
-/// Scenes awaited by the explorer; runs of others stop.
-#[derive(Debug, Default)]
-pub struct Awaited {
-    generation: AtomicU64,
-    tried: Mutex<Option<Arc<Scene>>>,
-}
-
-impl Awaited {
-    /// Marks a request as awaited: runs of another scene and of another tried one become stale at once.
-    pub fn ask(&self, request: &Request) {
-        self.generation.store(request.generation, Ordering::Relaxed);
-        let tried = request.tried.as_ref().map(|tried| Arc::clone(&tried.scene));
-        *self.tried.lock().unwrap_or_else(PoisonError::into_inner) = tried;
-    }
-
-    /// Returns true if another generation than this one is awaited.
-    #[must_use]
-    pub fn is_newer_than(&self, generation: u64) -> bool {
-        self.generation.load(Ordering::Relaxed) != generation
-    }
-
-    /// Returns true if this very scene is tried.
-    #[must_use]
-    pub fn is_tried(&self, scene: &Arc<Scene>) -> bool {
-        let tried = self.tried.lock().unwrap_or_else(PoisonError::into_inner);
-        tried.as_ref().is_some_and(|awaited| Arc::ptr_eq(awaited, scene))
-    }
-}
-
-/// Shared by explorer and worker.
-pub type Newest = Arc<Awaited>;

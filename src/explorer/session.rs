@@ -1,4 +1,4 @@
-//! A session: input, worker and terminal around one model.
+//! A session: the explorer in a terminal, with threads for input, signals, solver and studies.
 
 use super::action::{Action, Traffic};
 use super::app::App;
@@ -6,15 +6,15 @@ use super::autosave::{self, Autosave};
 use super::config::Config;
 use super::input;
 use super::opening::Opening;
-use super::runtime::{Console, Runtime, Solver, Studies};
+use super::runtime::{Engine, Runtime};
 use super::signals::{SystemSignal, watch_for_signals};
 use super::snapshot::SolvedScene;
-use super::study::{Accuracy, Study};
+use super::solver::{Solve, SolverThread};
+use super::studies::StudyThread;
 use super::terminal::{self, FrameWriter, TerminalGuard};
 use super::theme::{Appearance, Marker, Theme};
 use super::update::Effect;
 use super::view;
-use super::worker::{self, Engine, Worker};
 use crate::scene::Document;
 use crate::simulation::Simulation;
 use crossterm::clipboard::CopyToClipboard;
@@ -24,12 +24,12 @@ use ratatui::backend::CrosstermBackend;
 use ratatui::layout::{Position, Rect, Size};
 use ratatui::{Frame, Terminal};
 use std::cell::Cell;
-use std::io::{self, Write};
-use std::mem::ManuallyDrop;
+use std::io::{self, Stdout};
+use std::mem::{ManuallyDrop, take};
 use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
 /// Most frames per second over SSH, where each has to travel.
@@ -70,27 +70,17 @@ pub struct SessionEnd {
     pub signal: Option<i32>,
 }
 
-/// Function that draws a model, as [`view::draw`].
+/// Function that draws the state of the explorer, as [`view::draw`].
 pub type Draw = fn(&mut Frame<'_>, &App);
 
-/// Message from outside: input of the user, its end, a signal, or a report.
+/// Message of another thread.
 enum Message {
-    Input(Event),
-    InputEnded,
-    /// A signal is to end the process.
-    Ended(i32),
-    /// The stopped process continues: another program may have had the terminal.
-    Continued,
-    /// The window has another size.
-    Resized,
-    /// Report of another thread.
+    /// Input of the user; `None` at its end.
+    Input(Option<Event>),
+    /// A signal of the system.
+    Signal(SystemSignal),
+    /// Report of solver or studies.
     Act(Box<Action>),
-}
-
-impl Message {
-    fn act(action: Action) -> Self {
-        Message::Act(Box::new(action))
-    }
 }
 
 /// Opens the explorer on a scene or a finished study and returns its final state.
@@ -98,84 +88,69 @@ impl Message {
 /// # Errors
 /// When the terminal refuses.
 pub fn open(opening: impl Into<Opening>, options: Options) -> io::Result<SessionEnd> {
-    open_with(opening, options, Box::new(Simulation::default()), view::draw)
+    open_with(opening, options, Simulation::run, view::draw)
 }
 
-/// Opens the explorer with another engine and another view.
+/// Opens the explorer with another solver and another view.
 ///
 /// # Errors
 /// When the terminal refuses.
 pub fn open_with(
     opening: impl Into<Opening>,
     options: Options,
-    engine: Box<dyn Engine>,
+    solve: Solve,
     draw: Draw,
 ) -> io::Result<SessionEnd> {
-    let Opening { document, study_map, beside } = opening.into();
     let guard = TerminalGuard::take(!options.no_mouse)?;
-    let (messages, inbox) = channel();
-    let (requests, outbox) = channel();
-    let newest = worker::Newest::default();
-    let send_report = sender(&messages, |report| Message::act(Action::Report(report)));
-    worker::start(engine, Arc::clone(&newest), outbox, send_report)?;
-    let send_found = sender(&messages, |found| Message::act(Action::Found(found)));
-    let study = Study::start(Box::new(Accuracy), send_found)?;
-    let send_end = sender(&messages, |()| Message::InputEnded);
-    terminal::watch_for_hang_up(move || {
-        send_end(());
-    })?;
-    watch_for_signals(sender(&messages, |signal| match signal {
-        SystemSignal::End(signal) => Message::Ended(signal),
-        SystemSignal::Continue => Message::Continued,
-        SystemSignal::Resize => Message::Resized,
-    }))?;
-    input::read(sender(&messages, |event: Option<Event>| event.map_or(Message::InputEnded, Message::Input)))?;
+    let (sender, inbox) = channel();
+    let sender = || sender.clone();
+    let to = sender();
+    let solver =
+        SolverThread::start(solve, move |report| drop(to.send(Message::Act(Action::Report(report).into()))))?;
+    let to = sender();
+    let studies =
+        StudyThread::start(move |finding| drop(to.send(Message::Act(Action::Found(finding).into()))))?;
+    let to = sender();
+    terminal::watch_for_hang_up(move || drop(to.send(Message::Input(None))))?;
+    let to = sender();
+    watch_for_signals(move |signal| to.send(Message::Signal(signal)).is_ok())?;
+    let to = sender();
+    input::read(move |event| to.send(Message::Input(event)).is_ok())?;
     // The guard restores everything; ratatui's own drop would complain on standard error, and panic
     // where that is gone together with the terminal.
     let writer = FrameWriter::new(io::stdout());
     let written = writer.written();
-    let backend = CrosstermBackend::new(writer);
-    let mut terminal = ManuallyDrop::new(Terminal::new(backend)?);
+    let mut terminal = ManuallyDrop::new(Terminal::new(CrosstermBackend::new(writer))?);
     let size = window(&terminal)?;
     let environment = Appearance::of_environment();
     let appearance = Appearance {
         theme: options.theme.or(options.config.theme).unwrap_or(environment.theme),
         marker: options.marker.or(options.config.markers).unwrap_or(environment.marker),
     };
+    let mut app = App::new(opening, (size.width, size.height), appearance);
+    let remote = ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| std::env::var_os(name).is_some());
     let frame_rate = options.config.frame_rate;
-    let mut app = App::new(document, (size.width, size.height), appearance);
-    app.opens_beside = beside;
     // Terminal multiplexers keep a screen of their own.
     app.view.lacks_octants = ["TMUX", "STY"].iter().any(|name| std::env::var_os(name).is_some());
-    if let Some(study_map) = study_map {
-        app.show_study(study_map);
-    }
     app.config = options.config;
     if let Some(warning) = options.warning {
         app.set_error(warning);
     }
     if let Some((_, documents)) = &options.restored {
-        app.restore(documents);
-    } else if let Some(folder) = &options.unsaved {
-        app.offer(&autosave::left_behind(folder));
+        app.edit.restore(documents);
+    } else if let Some(offer) = options.unsaved.as_deref().and_then(autosave::offer) {
+        app.set_done(offer);
     }
     let restored = options.restored.map(|(path, _)| path);
-    let worker = Worker::new(requests, newest);
-    let runtime = Runtime {
-        app,
-        solver: Solver::Thread(worker),
-        studies: Studies::Thread(study),
-        asked: 0,
-        folder: PathBuf::new(),
-        // Six digits are enough for another line and can be read out to a colleague.
-        draw_seed: Box::new(|| rand::random_range(0..1_000_000)),
-    };
     let mut session = Session {
-        runtime,
-        console: Screen { terminal: &mut terminal, guard, redraw: false, own_stops: 0 },
+        runtime: Runtime { app, engine: Engine::Threads(solver, studies), asked: 0, folder: PathBuf::new() },
+        terminal: &mut terminal,
+        guard,
+        redraw: false,
+        own_stops: 0,
         draw,
-        remote: ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| std::env::var_os(name).is_some()),
-        frame_rate,
+        remote,
+        frames: if remote { frame_rate.min(REMOTE_FRAMES) } else { frame_rate },
         written,
         traffic: (Instant::now(), 0),
         inbox,
@@ -192,14 +167,11 @@ pub fn open_with(
     Ok(SessionEnd { document: app.edit.document, computed, signal })
 }
 
-/// A function for another thread, which sends messages and returns false once nobody listens.
-fn sender<T>(messages: &Sender<Message>, message: fn(T) -> Message) -> impl Fn(T) -> bool + Send + use<T> {
-    let messages = messages.clone();
-    move |content| messages.send(message(content)).is_ok()
-}
+/// The terminal of a session.
+type Screen = Terminal<CrosstermBackend<FrameWriter<Stdout>>>;
 
 /// Size of the window.
-fn window<W: Write>(terminal: &Terminal<CrosstermBackend<FrameWriter<W>>>) -> io::Result<Size> {
+fn window(terminal: &Screen) -> io::Result<Size> {
     let size = terminal.size()?;
     if size.area() > MOST_CELLS {
         let Size { width, height } = size;
@@ -209,50 +181,19 @@ fn window<W: Write>(terminal: &Terminal<CrosstermBackend<FrameWriter<W>>>) -> io
     Ok(size)
 }
 
-/// The terminal of a session.
-struct Screen<'a, W: Write> {
-    terminal: &'a mut Terminal<CrosstermBackend<FrameWriter<W>>>,
+struct Session<'a> {
+    runtime: Runtime,
+    terminal: &'a mut Screen,
     guard: TerminalGuard,
     /// True if the content of the screen is unknown.
     redraw: bool,
     /// Own stops without a signal of continuation so far.
     own_stops: u32,
-}
-
-impl<W: Write> Screen<'_, W> {
-    /// Action for a window of another size.
-    fn resize(&self) -> io::Result<Action> {
-        let size = window(self.terminal)?;
-        Ok(Action::Resize(size.width, size.height))
-    }
-}
-
-impl<W: Write> Console for Screen<'_, W> {
-    fn copy(&mut self, text: String) -> io::Result<()> {
-        // Sent with the next frame; the terminal does not confirm a copy.
-        queue!(self.terminal.backend_mut(), CopyToClipboard::to_clipboard_from(text))
-    }
-
-    fn redraw(&mut self) {
-        self.redraw = true;
-    }
-
-    fn suspend(&mut self) -> io::Result<Option<Action>> {
-        self.own_stops += 1;
-        self.guard.suspend()?;
-        // The window may have another size by now.
-        self.redraw = true;
-        self.resize().map(Some)
-    }
-}
-
-struct Session<'a, W: Write> {
-    runtime: Runtime,
-    console: Screen<'a, W>,
     draw: Draw,
+    /// True over SSH.
     remote: bool,
-    /// Frames per second of the animation.
-    frame_rate: u32,
+    /// Most frames per second.
+    frames: u32,
     /// Bytes written so far.
     written: Rc<Cell<u64>>,
     /// Time of the last report of the traffic, and the bytes written by then.
@@ -264,12 +205,11 @@ struct Session<'a, W: Write> {
     kept: (u64, u64),
 }
 
-impl<W: Write> Session<'_, W> {
+impl Session<'_> {
     /// Runs until the explorer is to end; returns the signal that ends it, if any.
     fn run(&mut self) -> io::Result<Option<i32>> {
-        let frames = if self.remote { self.frame_rate.min(REMOTE_FRAMES) } else { self.frame_rate };
-        let frame_time = Duration::from_secs(1) / frames;
-        self.runtime.perform(vec![Effect::Ask], &mut self.console)?;
+        let frame_time = Duration::from_secs(1) / self.frames;
+        self.runtime.perform(vec![Effect::Ask]);
         let mut moved = Instant::now();
         let mut changed = true;
         // Over SSH nothing is drawn before this time: a held key or a dragged mouse would fill the line
@@ -277,18 +217,10 @@ impl<W: Write> Session<'_, W> {
         let mut due = moved;
         while !self.runtime.app.finished {
             if changed && Instant::now() >= due {
-                if std::mem::take(&mut self.console.redraw) {
-                    // Unlike `clear` this does not query the position of the cursor on the input that
-                    // the other thread reads.
-                    let size = self.console.terminal.size()?;
-                    self.console.terminal.resize(Rect::from((Position::ORIGIN, size)))?;
-                }
+                self.show()?;
                 if self.remote {
-                    self.measure_traffic(frames);
                     due = Instant::now() + frame_time;
                 }
-                let Session { runtime, console, draw, .. } = self;
-                console.terminal.draw(|frame| draw(frame, &runtime.app))?;
                 changed = false;
             }
             let app = &self.runtime.app;
@@ -298,36 +230,35 @@ impl<W: Write> Session<'_, W> {
             }
             let step = playing.then(|| frame_time.saturating_sub(moved.elapsed()));
             let frame = changed.then(|| due.saturating_duration_since(Instant::now()));
-            let wait = step.into_iter().chain(frame).min();
-            let mut next = self.wait_for_message(wait);
+            let mut next = match step.into_iter().chain(frame).min() {
+                Some(wait) => self.inbox.recv_timeout(wait).ok(),
+                None => self.inbox.recv().ok(),
+            };
             let since = Instant::now();
             while let Some(message) = next {
                 let action = match message {
-                    Message::InputEnded => return Ok(None),
-                    Message::Ended(signal) => return Ok(Some(signal)),
+                    Message::Input(None) => return Ok(None),
+                    Message::Signal(SystemSignal::End(signal)) => return Ok(Some(signal)),
                     // The terminal has been taken again already.
-                    Message::Continued if self.console.own_stops > 0 => {
-                        self.console.own_stops -= 1;
+                    Message::Signal(SystemSignal::Continue) if self.own_stops > 0 => {
+                        self.own_stops -= 1;
                         None
                     }
-                    Message::Continued => {
-                        self.console.guard.take_again()?;
-                        Some(self.console.resize()?)
+                    Message::Signal(SystemSignal::Continue) => {
+                        self.guard.take_again()?;
+                        Some(self.resize()?)
                     }
-                    Message::Resized => Some(self.console.resize()?),
-                    Message::Input(event) => input::action_of(event),
+                    Message::Signal(SystemSignal::Resize) => Some(self.resize()?),
+                    Message::Input(Some(event)) => input::action_of(event),
                     Message::Act(action) => Some(*action),
                 };
                 if let Some(action) = action {
                     changed = true;
-                    // A window that shrank and grew back between two frames has lost its content,
-                    // though its size is that of the last frame.
-                    self.console.redraw |= matches!(action, Action::Resize(..));
                     self.act(action)?;
                 }
                 // Keys faster than their effects would else be drawn after the last one.
                 let is_late = since.elapsed() >= DRAINING;
-                next = if is_late { None } else { self.wait_for_message(Some(Duration::ZERO)) };
+                next = if is_late { None } else { self.inbox.try_recv().ok() };
             }
             if playing && moved.elapsed() >= frame_time {
                 // Time alone shows nothing: the requested snapshot does.
@@ -339,22 +270,53 @@ impl<W: Write> Session<'_, W> {
         Ok(None)
     }
 
-    /// The next message, after `wait` at most; `None` waits without limit.
-    fn wait_for_message(&self, wait: Option<Duration>) -> Option<Message> {
-        match wait {
-            Some(wait) => self.inbox.recv_timeout(wait).ok(),
-            None => self.inbox.recv().ok(),
+    /// Action for a window of another size.
+    fn resize(&self) -> io::Result<Action> {
+        let size = window(self.terminal)?;
+        Ok(Action::Resize(size.width, size.height))
+    }
+
+    /// Draws a frame.
+    fn show(&mut self) -> io::Result<()> {
+        if take(&mut self.redraw) {
+            // Unlike `clear` this does not query the position of the cursor on the input that the other thread reads.
+            let size = self.terminal.size()?;
+            self.terminal.resize(Rect::from((Position::ORIGIN, size)))?;
         }
+        if self.remote {
+            self.measure_traffic();
+        }
+        let Session { runtime, terminal, draw, .. } = self;
+        terminal.draw(|frame| draw(frame, &runtime.app)).map(drop)
     }
 
     /// Applies an action and keeps unsaved changes before they are drawn.
     fn act(&mut self, action: Action) -> io::Result<()> {
-        self.runtime.act(action, &mut self.console)?;
+        // A window that shrank and grew back between two frames has lost its content, though its size is that of the
+        // last frame.
+        self.redraw |= matches!(action, Action::Resize(..));
+        for effect in self.runtime.act(action) {
+            match effect {
+                // Sent with the next frame; the terminal does not confirm a copy.
+                Effect::Copy(text) => {
+                    queue!(self.terminal.backend_mut(), CopyToClipboard::to_clipboard_from(text))?;
+                }
+                Effect::Redraw => self.redraw = true,
+                Effect::Suspend => {
+                    self.own_stops += 1;
+                    self.guard.suspend()?;
+                    // The window may have another size by now.
+                    let resize = self.resize()?;
+                    self.act(resize)?;
+                }
+                _ => {}
+            }
+        }
         let app = &mut self.runtime.app;
         let now = (app.edit.generation, app.edit.saves);
         if let Some(autosave) = self.autosave.as_mut().filter(|_| now != self.kept) {
             self.kept = now;
-            if let Err(error) = autosave.keep(&app.unsaved()) {
+            if let Err(error) = autosave.keep(&app.edit.unsaved()) {
                 self.autosave = None;
                 app.set_error(format!("unsaved changes are not kept for another session: {error}"));
             }
@@ -363,16 +325,16 @@ impl<W: Write> Session<'_, W> {
     }
 
     /// Reports the number of bytes written, once in a second of drawing.
-    fn measure_traffic(&mut self, frames: u32) {
+    fn measure_traffic(&mut self) {
         let (since, before) = self.traffic;
         let elapsed = since.elapsed();
-        let app = &mut self.runtime.app;
-        if app.view.traffic.is_some() && elapsed < Duration::from_secs(1) {
+        let view = &mut self.runtime.app.view;
+        if view.traffic.is_some() && elapsed < Duration::from_secs(1) {
             return;
         }
         let written = self.written.get();
         let bytes = (written - before) as f64 / elapsed.as_secs_f64().max(1.0);
         self.traffic = (Instant::now(), written);
-        app.view.traffic = Some(Traffic { frames, bytes: bytes as u64 });
+        view.traffic = Some(Traffic { frames: self.frames, bytes: bytes as u64 });
     }
 }

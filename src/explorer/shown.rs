@@ -2,6 +2,7 @@
 
 use super::action::Content;
 use super::app::App;
+use super::effect::Effect;
 use super::keys::Context;
 use super::layout::Layout;
 use super::panes::{Pane, Place};
@@ -26,36 +27,48 @@ impl App {
         self.panes().contains(&pane)
     }
 
+    /// Shows and selects a pane, or hides it again. A pane with other keys than the crosshair's is selected before it is
+    /// hidden: a user in another pane wants these keys.
+    pub fn toggle(&mut self, pane: Pane) {
+        let is_in_use = self.view.pane == pane || matches!(pane.row().keys, None | Some(Context::Crosshair));
+        if self.is_shown(pane) && is_in_use { self.hide(pane) } else { self.show(pane) }
+    }
+
     /// Shows a pane in its place. A pane in the place of the close-up is selected where that was or where the pane
     /// would be out of sight, any other always.
     pub fn show(&mut self, pane: Pane) {
-        let is_same_place = self.view.pane == self.view.lower;
+        let (is_same_place, large) = (self.view.pane == self.view.lower, self.view.large);
         match pane.row().place {
             Place::Own => {}
             Place::CloseUp => (self.view.large, self.view.lower) = (None, pane),
-            Place::Large => (self.view.large, self.studies.edited) = (Some(pane), false),
+            Place::Large => self.view.large = Some(pane),
         }
         // A small window has room for the selected pane alone.
         let has_room = Layout::of(self).pane(pane).is_some();
         if pane.row().place != Place::CloseUp || is_same_place || !has_room {
             self.view.pane = pane;
         }
-        self.keep_selection();
+        self.keep_selection(large);
     }
 
     /// Hides a pane and restores the panes in its place.
     pub fn hide(&mut self, pane: Pane) {
-        if self.view.large == Some(pane) {
+        let large = self.view.large;
+        if large == Some(pane) {
             self.view.large = None;
         } else if self.view.lower == pane {
             self.view.lower = Pane::CloseUp;
             self.view.pane = if self.view.pane == pane { Pane::CloseUp } else { self.view.pane };
         }
-        self.keep_selection();
+        self.keep_selection(large);
     }
 
-    /// Selects the force curve where the selected pane is no longer shown.
-    fn keep_selection(&mut self) {
+    /// Selects the force curve where the selected pane is no longer shown. In place of another large pane than before
+    /// other data are studied.
+    fn keep_selection(&mut self, large: Option<Pane>) {
+        if self.view.large != large {
+            self.effects.push(Effect::Study);
+        }
         if !self.is_shown(self.view.pane) {
             self.view.pane = Pane::Force;
         }

@@ -1,11 +1,11 @@
 //! Results of the worker: immutable, stamped with the generation of their scene, and
 //! already reduced to the resolution of a pane.
 
-use super::panes::SceneSpectra;
 pub use super::request::Drive;
-use super::request::Focus;
+use super::request::{Focus, LineView, SnapshotRequest};
 use crate::contact::{ContactError, CurvePoint, Patch};
 pub use crate::export::section::{Column, Section};
+use crate::export::section::{Contact, Part};
 use crate::scene::Scene;
 use crate::simulation::{LineFacts, Outcome};
 use std::collections::BTreeMap;
@@ -45,10 +45,8 @@ pub struct ContactSnapshot {
     pub strip: String,
     /// Readings of the crosshair on the profile.
     pub probe: Option<Probe>,
-    /// Numbers of patches of n springs over ⌊log₂ n²⌋, where requested.
-    pub lengths: Option<BTreeMap<u32, u64>>,
-    /// Spectra of the scene, where requested.
-    pub spectra: Option<Arc<SceneSpectra>>,
+    /// Numbers of patches of n springs over ⌊log₂ n²⌋.
+    pub lengths: BTreeMap<u32, u64>,
     /// Path of manual loading to this state.
     pub manual: Option<ManualPath>,
 }
@@ -64,6 +62,54 @@ pub struct Probe {
     pub level: f64,
     /// Number of the contact patch of the spring along the profile, from 0; none where the spring is free.
     pub patch: Option<usize>,
+}
+
+impl Probe {
+    /// Profile and contact at a share of the profile; `None` for a profile without springs.
+    #[must_use]
+    pub fn at(contact: &Contact<'_>, position: f64) -> Option<Self> {
+        let last = contact.gaps.len().checked_sub(1)?;
+        let spring = ((position * contact.gaps.len() as f64) as usize).min(last);
+        let next = contact.patches.partition_point(|patch| patch.last < spring);
+        Some(Probe {
+            spring,
+            height: contact.height(spring),
+            level: contact.level(),
+            patch: contact.patches.get(next).filter(|patch| patch.first <= spring).map(|_| next),
+        })
+    }
+}
+
+/// Contact of the whole profile in a row of cells.
+pub fn strip(contact: &Contact<'_>, cells: usize) -> String {
+    let whole = Part { first: 0, springs: contact.gaps.len(), columns: cells };
+    let glyph = |cell| {
+        let springs = whole.springs_of(cell);
+        match contact.within(springs.clone()).map(|part| part.len()).sum::<usize>() {
+            0 => '·',
+            touching if touching == springs.len() => '■',
+            _ => '▪',
+        }
+    };
+    (0..cells).map(glyph).collect()
+}
+
+/// Counts patches of n springs over ⌊log₂ n²⌋: lengths that grow by a factor √2.
+pub fn lengths(patches: &[Patch]) -> BTreeMap<u32, u64> {
+    let mut counts = BTreeMap::new();
+    for patch in patches {
+        *counts.entry((patch.springs().len() as u64).pow(2).ilog2()).or_default() += 1;
+    }
+    counts
+}
+
+/// The springs of the profile pane: a part within the line.
+pub fn profile_part(request: &SnapshotRequest, count: usize, close_up: usize) -> Part {
+    let LineView { centre, share, follow } = request.profile;
+    let springs = ((count as f64 * share).round() as usize).clamp(1, count.max(1));
+    let middle = if follow { close_up } else { (count as f64 * centre) as usize };
+    let first = middle.saturating_sub(springs / 2).min(count.saturating_sub(springs));
+    Part { first, springs, columns: request.profile_columns }
 }
 
 /// Path of manual loading since the last snapshot.
@@ -140,8 +186,8 @@ pub struct FragmentFacts {
 pub struct Preview {
     /// The text of the scene, different for different scenes.
     pub text: String,
-    /// Outcome, or the reason for none.
-    pub outcome: Result<Outcome, String>,
+    /// Outcome.
+    pub outcome: Outcome,
 }
 
 /// Report of the worker.
@@ -165,6 +211,4 @@ pub enum Report {
         /// Reason, in one line.
         error: String,
     },
-    /// A tried scene has been computed, or has failed.
-    Tried(Arc<Preview>),
 }

@@ -7,20 +7,21 @@ use super::theme::Theme;
 use super::view;
 use crate::draw::Palette;
 use crate::export::{self, Format, RunReport, scene_provenance};
-use crate::io::{WriteError, check_file_name, write_new_file};
+use crate::io::{WriteError, write_new_file};
 use crate::scene::command_line;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, is_separator};
 
-/// Writes a regular file, relative to a folder: a pipe would block. A name of a scene without an extension is checked
-/// before `.ron` makes it another name. Returns the file with its name, and the result.
+/// Writes a regular file, relative to a folder: a pipe would block. A scene gets the extension `.ron` unless its name has
+/// one or is that of something else than a file. Returns the file with its name, and the result.
 pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
     let mut written = || {
-        if file.content == Content::Scene && file.path.extension().is_none() {
-            check_file_name(&folder.join(&file.path))?;
+        let path = folder.join(&file.path);
+        let is_file = path.is_file() || !(path.exists() || path.to_string_lossy().ends_with(is_separator));
+        if file.content == Content::Scene && file.path.extension().is_none() && is_file {
             file.path.set_extension("ron");
         }
         write_new_file(&folder.join(&file.path), file.overwrite, |out| {
@@ -49,7 +50,7 @@ fn write_content(file: &mut dyn Write, app: &App, path: &Path, content: Content)
                 _ => scene_provenance(&command, scene, &folder, destination).map_err(io::Error::other)?,
             };
             let (title, outcome) = (document.title(), &computed()?.outcome);
-            let estimate = app.studies.appraisal.estimate();
+            let estimate = app.studies.value();
             let report = RunReport { title, scene, outcome, choice: None, estimate };
             export::write(file, &report, format, &provenance)
         }
@@ -57,7 +58,7 @@ fn write_content(file: &mut dyn Write, app: &App, path: &Path, content: Content)
             let figure = app.figure().ok_or_else(|| io::Error::other("the pane is empty"))?;
             export::write(file, &figure, format, "")
         }
-        Content::MapCells => export::write(file, app.chart.grid().ok_or_else(no_map)?, Format::Csv, ""),
+        Content::MapCells => export::write(file, app.grid().ok_or_else(no_map)?, Format::Csv, ""),
         Content::Text => file.write_all(text(&picture_of(app)).as_bytes()),
     }
 }

@@ -2,7 +2,8 @@
 
 use super::loop_chart::force_figure;
 use super::report::Report;
-use crate::draw::Figure;
+use super::sheet::WIDTH;
+use crate::draw::{Colours, Figure, figure_text};
 use crate::scene::{Document, format_quantity};
 use crate::simulation::Outcome;
 
@@ -15,8 +16,7 @@ impl Comparison<'_> {
     fn words(&self) -> String {
         let [first, second] = self.0;
         let changes = first.0.changes_to(second.0);
-        let changes: Vec<String> =
-            changes.iter().map(|change| format!("{} {} → {}", change.name, change.from, change.to)).collect();
+        let changes: Vec<String> = changes.iter().map(ToString::to_string).collect();
         let changes = if changes.is_empty() { "nothing".to_owned() } else { changes.join(", ") };
         let forces = [first, second].map(|(_, outcome)| outcome.figures.adhesion_force);
         format!(
@@ -39,13 +39,7 @@ impl Comparison<'_> {
 
 impl Report for Comparison<'_> {
     fn text(&self) -> Option<String> {
-        let text = self.words();
-        #[cfg(feature = "tui")]
-        let text = {
-            use crate::draw::{Colours, figure_text};
-            format!("{text}\n{}", figure_text(&self.drawn(), super::sheet::WIDTH, Colours::None))
-        };
-        Some(text)
+        Some(format!("{}\n{}", self.words(), figure_text(&self.drawn(), WIDTH, Colours::None)))
     }
 
     fn figure(&self) -> Option<Figure> {
@@ -54,7 +48,6 @@ impl Report for Comparison<'_> {
 }
 
 /// Two adhesion forces, N, and the ratio of the second to the first.
-#[must_use]
 pub fn adhesion_forces(forces: [Option<f64>; 2]) -> String {
     let [before, now] =
         forces.map(|force| force.map_or_else(|| "none".to_owned(), |force| format_quantity(force, "N")));

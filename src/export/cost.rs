@@ -16,10 +16,8 @@ const ERRORS: [&str; 4] = ["F_a", "curve", "energy", "contact"];
 /// Cost of accuracy for a scene; JSON has its fields in this order.
 #[derive(Clone, Debug, Serialize)]
 pub struct CostReport<'a> {
-    /// Title of the figure.
     #[serde(skip)]
     pub title: &'a str,
-    /// The scene.
     pub scene: &'a Scene,
     answer: Vec<String>,
     #[serde(flatten)]
@@ -27,8 +25,6 @@ pub struct CostReport<'a> {
 }
 
 impl<'a> CostReport<'a> {
-    /// The costs of a scene.
-    #[must_use]
     pub fn new(title: &'a str, scene: &'a Scene, table: &'a CostTable) -> CostReport<'a> {
         CostReport { title, scene, answer: table.answer(), table }
     }

@@ -10,18 +10,14 @@ use crate::simulation::Outcome;
 /// Two quantities, one over the other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LoopQuantities {
-    /// Force over indentation.
     #[default]
     ForceIndentation,
-    /// Contact length over force.
     LengthForce,
     /// Number of contact patches over indentation.
     FragmentsIndentation,
 }
 
 impl LoopQuantities {
-    /// The next pair.
-    #[must_use]
     pub fn next(self) -> Self {
         match self {
             LoopQuantities::ForceIndentation => LoopQuantities::LengthForce,
@@ -43,15 +39,29 @@ pub struct LoopUnits {
     length: Option<f64>,
 }
 
+/// A quantity of a point, over a parameter of the scene with its symbol if there is one.
+#[derive(Clone, Copy)]
+struct Quantity {
+    name: &'static str,
+    symbol: &'static str,
+    unit: &'static str,
+    over: Option<(f64, &'static str)>,
+    of: fn(&CurvePoint) -> f64,
+}
+
+impl Quantity {
+    fn symbol_and_unit(&self) -> (String, &'static str) {
+        let Quantity { symbol, unit, over, .. } = *self;
+        over.map_or_else(|| (symbol.to_owned(), unit), |(_, over)| (format!("{symbol}/{over}"), "1"))
+    }
+}
+
 impl LoopUnits {
-    /// SI units.
-    #[must_use]
     pub fn si(quantities: LoopQuantities) -> LoopUnits {
         LoopUnits { quantities, ..LoopUnits::default() }
     }
 
     /// The parameters of a scene that it has; else SI units.
-    #[must_use]
     pub fn of_scene(quantities: LoopQuantities, outcome: &Outcome) -> LoopUnits {
         let positive = |value: Option<f64>| value.filter(|value| *value > 0.0);
         LoopUnits {
@@ -63,46 +73,35 @@ impl LoopUnits {
     }
 
     /// Place of a point of a curve in the chart.
-    #[must_use]
     pub fn place(&self, point: &CurvePoint) -> (f64, f64) {
-        let indentation = point.indentation / self.indentation.unwrap_or(1.0);
-        let force = point.force / self.force.unwrap_or(1.0);
-        match self.quantities {
-            LoopQuantities::ForceIndentation => (indentation, force),
-            LoopQuantities::LengthForce => (force, point.contact_length / self.length.unwrap_or(1.0)),
-            LoopQuantities::FragmentsIndentation => (indentation, point.fragments as f64),
-        }
+        let [x, y] = self.quantities().map(|one| (one.of)(point) / one.over.map_or(1.0, |(over, _)| over));
+        (x, y)
     }
 
     /// Indentation at a number on the horizontal axis, m; `None` where that axis shows the force.
-    #[must_use]
     pub fn indentation(&self, x: f64) -> Option<f64> {
         (self.quantities != LoopQuantities::LengthForce).then(|| x * self.indentation.unwrap_or(1.0))
     }
 
     /// Symbols of the horizontal and the vertical quantity: `d` and `F`, `d/h` and `F/F_a,max`.
-    #[must_use]
     pub fn symbols(&self) -> (String, String) {
-        let [x, y] = self.described().map(|(_, symbol, _)| symbol);
+        let [x, y] = self.quantities().map(|one| one.symbol_and_unit().0);
         (x, y)
     }
 
-    /// Name, symbol and unit across and up.
-    fn described(&self) -> [(&'static str, String, &'static str); 2] {
-        let quantity = |name, symbol: &str, unit, over: Option<&str>| match over {
-            Some(over) => (name, format!("{symbol}/{over}"), "1"),
-            None => (name, symbol.to_owned(), unit),
-        };
-        let indentation = || quantity("indentation", "d", "m", self.indentation.and(Some("h")));
-        let force = || quantity("force", "F", "N", self.force.and(Some("F_a,max")));
+    /// Quantities across and up.
+    fn quantities(&self) -> [Quantity; 2] {
+        let one = |name, symbol, unit, over, of| Quantity { name, symbol, unit, over, of };
+        let over = |value: Option<f64>, symbol| value.map(|value| (value, symbol));
+        let indentation =
+            one("indentation", "d", "m", over(self.indentation, "h"), |point| point.indentation);
+        let force = one("force", "F", "N", over(self.force, "F_a,max"), |point| point.force);
+        let length = one("contact length", "l", "m", over(self.length, "L"), |point| point.contact_length);
+        let patches = one("contact patches", "n", "1", None, |point| point.fragments as f64);
         match self.quantities {
-            LoopQuantities::ForceIndentation => [indentation(), force()],
-            LoopQuantities::LengthForce => {
-                [force(), quantity("contact length", "l", "m", self.length.and(Some("L")))]
-            }
-            LoopQuantities::FragmentsIndentation => {
-                [indentation(), quantity("contact patches", "n", "1", None)]
-            }
+            LoopQuantities::ForceIndentation => [indentation, force],
+            LoopQuantities::LengthForce => [force, length],
+            LoopQuantities::FragmentsIndentation => [indentation, patches],
         }
     }
 
@@ -112,9 +111,11 @@ impl LoopUnits {
         let y = Span::around(places.iter().map(|place| place.1).chain([0.0]), 0.08);
         // There is no negative length or number.
         let low = if self.quantities == LoopQuantities::ForceIndentation { y.low } else { 0.0 };
-        let [across, up] = self.described();
-        [(x, across), (Span { low, ..y }, up)]
-            .map(|(span, (name, symbol, unit))| Axis::new(AxisScale::Linear, span, name, &symbol, unit))
+        let [across, up] = self.quantities();
+        [(x, across), (Span { low, ..y }, up)].map(|(span, one)| {
+            let (symbol, unit) = one.symbol_and_unit();
+            Axis::new(AxisScale::Linear, span, one.name, &symbol, unit)
+        })
     }
 }
 
@@ -127,15 +128,12 @@ pub struct ForceLoop<'a> {
     pub marks: Vec<(Mark, CurvePoint)>,
     /// Name in the legend.
     pub name: Option<Label>,
-    /// Ink of curves and marks.
     pub ink: Option<Ink>,
-    /// Stroke of the curves.
     pub stroke: Option<Stroke>,
 }
 
 impl<'a> ForceLoop<'a> {
     /// The loop of a loading history with its marks.
-    #[must_use]
     pub fn new(legs: &'a [LegRecord]) -> ForceLoop<'a> {
         let curves = legs.iter().map(|leg| (leg.direction, leg.curve.as_slice())).collect();
         ForceLoop { curves, marks: marks(legs), name: None, ink: None, stroke: None }
@@ -171,7 +169,6 @@ impl<'a> ForceLoop<'a> {
 }
 
 /// Chart of loops, the lowest first, with a line at zero.
-#[must_use]
 pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
     let points = loops.iter().flat_map(|one| &one.curves).flat_map(|(_, curve)| curve.iter());
     let places: Vec<(f64, f64)> = points.map(|point| units.place(point)).collect();
@@ -183,7 +180,6 @@ pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
 
 /// Force curves of computed scenes with their titles: loading and unloading of one scene in two colours, each of
 /// several scenes in one.
-#[must_use]
 pub fn force_figure(scenes: &[(&str, &Outcome)]) -> Figure {
     let units = LoopUnits::default();
     if let [(title, outcome)] = scenes {
@@ -198,8 +194,6 @@ pub fn force_figure(scenes: &[(&str, &Outcome)]) -> Figure {
     Figure { notes: vec![Label::plain("dotted: loading, solid: unloading")], ..Figure::of_chart("", chart) }
 }
 
-/// Sign of a mark.
-#[must_use]
 pub fn sign(mark: Mark) -> Sign {
     match mark {
         Mark::JumpIn => Sign::HollowDiamond,

@@ -15,7 +15,7 @@ mod report;
 mod reversals;
 mod run;
 mod scene_figure;
-pub mod section;
+pub(crate) mod section;
 pub(crate) mod sheet;
 mod spectrum_figure;
 mod study_figure;
@@ -23,22 +23,21 @@ mod summary;
 mod surface;
 mod work_precision;
 
-pub use comparison::{Comparison, adhesion_forces};
-pub use cost::CostReport;
-pub use ensemble::LinesReport;
-pub use loop_chart::{ForceLoop, LoopQuantities, LoopUnits, force_figure, loop_chart, sign};
-pub use preloads::{PreloadReport, preload_axes, preload_layers};
-pub use provenance::{
-    MeasuredFileError, check_measured_files, files_provenance, named_from, scene_provenance,
-};
-#[cfg(feature = "tui")]
-pub use report::write;
-pub use report::{Format, FormatError, Json, Report, check_extension};
-pub use reversals::ReversalReport;
+pub use provenance::scene_provenance;
+pub use report::{Format, Report, write};
 pub use run::RunReport;
-pub use scene_figure::ContactSets;
-pub use spectrum_figure::{Spectra, SpectrumPoint};
-pub use study_figure::{study_curves, study_figure, study_map};
-pub use summary::brief_summary;
-pub use surface::{MeasuredFace, SurfaceFile, SurfaceReport, measured_adhesion_text};
-pub use work_precision::work_precision;
+
+pub(crate) use comparison::{Comparison, adhesion_forces};
+pub(crate) use cost::CostReport;
+pub(crate) use ensemble::LinesReport;
+pub(crate) use loop_chart::{ForceLoop, LoopQuantities, LoopUnits, force_figure, loop_chart, sign};
+pub(crate) use preloads::{PreloadReport, preload_axes, preload_layers};
+pub(crate) use provenance::{check_measured_files, files_provenance, named_from};
+pub(crate) use report::check_extension;
+pub(crate) use reversals::ReversalReport;
+pub(crate) use scene_figure::ContactSets;
+pub(crate) use spectrum_figure::{Spectra, SpectrumPoint};
+pub(crate) use study_figure::{study_curves, study_figure, study_map};
+pub(crate) use summary::brief_summary;
+pub(crate) use surface::{MeasuredFace, SurfaceFile, SurfaceReport, measured_adhesion_text};
+pub(crate) use work_precision::work_precision;

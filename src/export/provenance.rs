@@ -6,27 +6,18 @@ use crate::io::sha256_of;
 use crate::scene::{Document, Scene, to_ron};
 use crate::text::{path_name, printable};
 use std::path::{Path, PathBuf};
-use thiserror::Error;
 
 /// Prefix of the line of a measured file.
 const HASH: &str = "sha256: ";
 
-/// A measured file that has changed or cannot be read.
-#[derive(Debug, Error)]
-#[error("{0}")]
-pub struct MeasuredFileError(String);
-
 /// Provenance of a table of a scene. Files of the scene are relative to `folder`, and the table is written into
 /// `destination`.
-///
-/// # Errors
-/// A measured file of the scene that cannot be read.
 pub fn scene_provenance(
     command: &str,
     scene: &Scene,
     folder: &Path,
     destination: &Path,
-) -> Result<String, MeasuredFileError> {
+) -> Result<String, String> {
     let mut text = head(command, &scene.measured_files(), folder, destination)?;
     let mut scene = scene.clone();
     scene.rename_measured_files(|file| named_from(file, folder, destination));
@@ -37,14 +28,7 @@ pub fn scene_provenance(
 }
 
 /// Provenance of a table of measured files without a scene, written into `destination`.
-///
-/// # Errors
-/// A file that cannot be read.
-pub fn files_provenance(
-    command: &str,
-    files: &[PathBuf],
-    destination: &Path,
-) -> Result<String, MeasuredFileError> {
+pub fn files_provenance(command: &str, files: &[PathBuf], destination: &Path) -> Result<String, String> {
     let names: Vec<_> = files.iter().map(|file| file.to_string_lossy()).collect();
     let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
     head(command, &names, Path::new(""), destination)
@@ -52,12 +36,7 @@ pub fn files_provenance(
 
 /// Version, measured files with the SHA-256 of their contents, and command, one line each. The name of a file is a RON
 /// string, always on one line.
-fn head(
-    command: &str,
-    files: &[&str],
-    folder: &Path,
-    destination: &Path,
-) -> Result<String, MeasuredFileError> {
+fn head(command: &str, files: &[&str], folder: &Path, destination: &Path) -> Result<String, String> {
     let mut text = format!("asperity {}\n", env!("CARGO_PKG_VERSION"));
     for file in files {
         let sha256 = hash_of(&folder.join(file))?;
@@ -67,10 +46,7 @@ fn head(
 }
 
 /// Checks that the measured files of a scene are those behind the table of results that it was read from.
-///
-/// # Errors
-/// [`MeasuredFileError`] of the first file that differs.
-pub fn check_measured_files(document: &Document) -> Result<(), MeasuredFileError> {
+pub fn check_measured_files(document: &Document) -> Result<(), String> {
     let files = document.scene().measured_files();
     let recorded = document.table_head().lines().filter_map(|line| {
         let (sha256, file) = line.strip_prefix(HASH)?.split_once(' ')?;
@@ -82,22 +58,21 @@ pub fn check_measured_files(document: &Document) -> Result<(), MeasuredFileError
         if found != expected {
             let [found, expected] = [&found, expected].map(|hash| hash.chars().take(12).collect::<String>());
             let (file, table) = (path_name(&path), printable(document.name()));
-            return Err(MeasuredFileError(format!(
+            return Err(format!(
                 "{file}: the measured file has changed: its SHA-256 is {found}…, {table} has {expected}…; allowed: the \
                  file as it was, or its scene in a file of its own"
-            )));
+            ));
         }
     }
     Ok(())
 }
 
-fn hash_of(path: &Path) -> Result<String, MeasuredFileError> {
-    sha256_of(path).map_err(|reason| MeasuredFileError(format!("{}: {reason}", path_name(path))))
+fn hash_of(path: &Path) -> Result<String, String> {
+    sha256_of(path).map_err(|reason| format!("{}: {reason}", path_name(path)))
 }
 
 /// Name of a file relative to `folder` in a table that is written into `destination`: unchanged in the same folder,
 /// else the absolute path.
-#[must_use]
 pub fn named_from(file: &str, folder: &Path, destination: &Path) -> String {
     let whole = |folder: &Path| Path::new(".").join(folder).canonicalize().ok();
     let is_same_folder =

@@ -6,7 +6,6 @@ use crate::text::{path_name, printable};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::Path;
-use thiserror::Error;
 
 /// A result that has one or more of four shapes.
 pub trait Report {
@@ -34,9 +33,6 @@ pub trait Report {
 /// A value that is written as JSON without an intermediate copy.
 pub trait Json {
     /// Writes the value.
-    ///
-    /// # Errors
-    /// Errors of `out`.
     fn write_json(&self, out: &mut dyn Write) -> io::Result<()>;
 }
 
@@ -53,10 +49,6 @@ impl Report for Figure {
 }
 
 /// Writes a report; a table begins with its provenance.
-///
-/// # Errors
-/// Errors of `out`; a report without the shape that the format needs, or a picture with too many pixels.
-#[cfg(feature = "tui")]
 pub fn write(
     out: &mut dyn Write,
     report: &(impl Report + ?Sized),
@@ -70,7 +62,7 @@ pub fn write(
         Format::Csv => report.table().ok_or_else(missing)?.write_csv(out, provenance),
         Format::Npy => report.table().ok_or_else(missing)?.write_npy(out, provenance),
         Format::Svg => out.write_all(report.figure().ok_or_else(missing)?.svg().as_bytes()),
-        Format::Png => out.write_all(&report.figure().ok_or_else(missing)?.png().map_err(io::Error::other)?),
+        Format::Png => out.write_all(&report.figure().ok_or_else(missing)?.png()?),
     }
 }
 
@@ -97,13 +89,11 @@ impl Format {
         [Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png];
 
     /// Name on the command line.
-    #[must_use]
     pub fn name(self) -> &'static str {
         if self == Format::Text { "text" } else { self.extension() }
     }
 
     /// Extension of files.
-    #[must_use]
     pub fn extension(self) -> &'static str {
         match self {
             Format::Text => "txt",
@@ -116,39 +106,33 @@ impl Format {
     }
 
     /// Returns true for the formats of a table.
-    #[must_use]
     pub fn is_table(self) -> bool {
         matches!(self, Format::Csv | Format::Npy)
     }
 
-    /// The format of a file by its extension; without an extension, or a file, the chosen format or the usual one.
-    ///
-    /// # Errors
-    /// For a format that is not one of `formats`, or an extension that contradicts the chosen one.
+    /// The format of a file by its extension; without an extension, or a file, the chosen format or the usual one. An
+    /// error for a format that is not one of `formats`, or an extension that contradicts the chosen one.
     pub fn of_file(
         file: Option<&Path>,
         chosen: Option<Format>,
         formats: &[Format],
         usual: Format,
-    ) -> Result<Format, FormatError> {
+    ) -> Result<Format, String> {
         if let Some(format) = chosen.filter(|chosen| !formats.contains(chosen)) {
             let (format, allowed) =
                 (format.name(), alternatives("", formats.iter().map(|format| format.name())));
-            return Err(FormatError(format!(
-                "--format {format}: this result has no such format; use {allowed}"
-            )));
+            return Err(format!("--format {format}: this result has no such format; use {allowed}"));
         }
         let extensions: Vec<_> = formats.iter().map(|format| format.extension()).collect();
         let file = file.unwrap_or(Path::new(""));
-        let refused = |error: FormatError| FormatError(format!("{}: {}", path_name(file), error.0));
+        let refused = |error: String| format!("{}: {error}", path_name(file));
         let place = check_extension(file, &extensions).map_err(refused)?;
         match (place.map(|place| formats[place]), chosen) {
             (Some(of_extension), Some(chosen)) if of_extension != chosen => {
                 let (name, extension) = (chosen.name(), chosen.extension());
-                let fault = format!(
+                Err(refused(format!(
                     "the extension contradicts --format {name}; use .{extension}, or leave out --format"
-                );
-                Err(refused(FormatError(fault)))
+                )))
             }
             (of_extension, chosen) => Ok(of_extension.or(chosen).unwrap_or(usual)),
         }
@@ -156,17 +140,14 @@ impl Format {
 }
 
 /// The place of a file's extension in a list; `None` for a name without an extension.
-///
-/// # Errors
-/// For an extension that is not in the list.
-pub fn check_extension(file: &Path, allowed: &[&str]) -> Result<Option<usize>, FormatError> {
+pub fn check_extension(file: &Path, allowed: &[&str]) -> Result<Option<usize>, String> {
     let Some(extension) = file.extension().map(|extension| extension.to_string_lossy()) else {
         return Ok(None);
     };
     let place = allowed.iter().position(|one| extension.eq_ignore_ascii_case(one));
     place.map(Some).ok_or_else(|| {
         let (extension, allowed) = (printable(&extension), alternatives(".", allowed.iter().copied()));
-        FormatError(format!("unsupported file extension .{extension}; use {allowed}"))
+        format!("unsupported file extension .{extension}; use {allowed}")
     })
 }
 
@@ -179,11 +160,6 @@ fn alternatives<'a>(before: &str, words: impl Iterator<Item = &'a str>) -> Strin
     }
 }
 
-/// A format, or the extension of a file, in which a result is not written.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("{0}")]
-pub struct FormatError(String);
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -191,10 +167,7 @@ mod tests {
     #[test]
     fn the_format_follows_the_extension() {
         let formats = [Format::Text, Format::Json, Format::Svg];
-        let of = |path: &str, chosen| {
-            let format = Format::of_file(Some(Path::new(path)), chosen, &formats, Format::Text);
-            format.map_err(|error| error.to_string())
-        };
+        let of = |path: &str, chosen| Format::of_file(Some(Path::new(path)), chosen, &formats, Format::Text);
         for (path, chosen, expected) in [
             ("a.json", None, Format::Json),
             ("a.SVG", None, Format::Svg),

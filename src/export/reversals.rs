@@ -18,11 +18,8 @@ const MOST_CELLS: usize = 128;
 /// Reversals of a scene, their minor loops, and the smoothing of the density.
 #[derive(Clone, Copy, Debug)]
 pub struct ReversalReport<'a> {
-    /// Title of the figure.
     pub title: &'a str,
-    /// The scene.
     pub scene: &'a Scene,
-    /// Reversals of the scene.
     pub map: &'a ReversalMap,
     /// The adhesion force for exactly these preloads.
     pub preloads: &'a [Preloaded],

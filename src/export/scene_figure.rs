@@ -39,7 +39,6 @@ pub struct ContactSets {
 
 impl ContactSets {
     /// Gathers patches over the indentation too if requested.
-    #[must_use]
     pub fn new(over_indentation: bool) -> ContactSets {
         ContactSets { over_indentation, ..ContactSets::default() }
     }
@@ -68,7 +67,6 @@ impl ContactSets {
     }
 
     /// The rigid profile, the elastic surface and the contact at the largest force.
-    #[must_use]
     pub fn profile_figure(&self, title: &str, outcome: &Outcome, line: &Line) -> Figure {
         let separated = (0.0, Patches { indentation: 0.0, patches: Vec::new() });
         let (force, Patches { indentation, patches }) = self.preload.as_ref().unwrap_or(&separated);
@@ -87,7 +85,6 @@ impl ContactSets {
     }
 
     /// Contact patches over position and indentation, one chart for each loading stage with contact.
-    #[must_use]
     pub fn patches_figure(&self, title: &str, outcome: &Outcome) -> Figure {
         let facts = outcome.line;
         let least = LEAST_GAP * facts.length;

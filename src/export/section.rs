@@ -10,9 +10,7 @@ use std::ops::Range;
 pub struct Contact<'a> {
     /// Gaps below the summit, m.
     pub gaps: &'a [f64],
-    /// Height of the summit, m.
     pub summit: f64,
-    /// Indentation, m.
     pub indentation: f64,
     /// Patches in contact, from left to right.
     pub patches: &'a [Patch],
@@ -21,9 +19,7 @@ pub struct Contact<'a> {
 /// Springs of a chart, at least one, and its number of columns.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Part {
-    /// First spring.
     pub first: usize,
-    /// Number of springs.
     pub springs: usize,
     /// Number of columns; with more columns than springs, a spring fills several.
     pub columns: usize,
@@ -39,9 +35,9 @@ pub struct LineColumns {
 /// A part of the profile and its contact in columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Section {
-    /// First spring shown.
+    /// First spring.
     pub first: usize,
-    /// Number of springs shown.
+    /// Number of springs.
     pub springs: usize,
     /// Lowest and highest point of the profile, m.
     pub heights: (f64, f64),
@@ -64,7 +60,6 @@ pub struct Column {
 
 impl Section {
     /// Returns the chart of the section over the position, heights within `z`.
-    #[must_use]
     pub fn chart(&self, line: LineFacts, z: Span) -> Chart {
         let edge = |spring: usize| (line.first + spring) as f64 * line.spacing;
         let x = (edge(self.first), edge(self.first + self.springs.max(1)));
@@ -84,8 +79,6 @@ impl Section {
 }
 
 impl Part {
-    /// Returns the springs of a column.
-    #[must_use]
     pub fn springs_of(self, column: usize) -> Range<usize> {
         let start = |column: usize| {
             self.first + (column as u128 * self.springs as u128 / self.columns.max(1) as u128) as usize
@@ -97,13 +90,11 @@ impl Part {
 
 impl Contact<'_> {
     /// Returns the height of the profile at a spring, m.
-    #[must_use]
     pub fn height(&self, spring: usize) -> f64 {
         self.summit - self.gaps[spring]
     }
 
     /// Returns the height of the undeformed elastic surface, m.
-    #[must_use]
     pub fn level(&self) -> f64 {
         self.summit - self.indentation
     }
@@ -116,7 +107,6 @@ impl Contact<'_> {
     }
 
     /// Reduces a part of the profile to its columns.
-    #[must_use]
     pub fn section(&self, part: Part, line: &mut LineColumns) -> Section {
         let Part { first, springs, columns } = part;
         if line.part != part {
@@ -154,7 +144,6 @@ impl Contact<'_> {
     }
 }
 
-/// Returns the range that covers both.
 fn wider(one: (f64, f64), other: (f64, f64)) -> (f64, f64) {
     (one.0.min(other.0), one.1.max(other.1))
 }

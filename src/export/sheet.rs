@@ -21,14 +21,12 @@ pub(crate) struct Sheet {
 
 impl Sheet {
     /// A table alone as text.
-    #[cfg(feature = "tui")]
     pub(crate) fn of_table<R: AsRef<[String]>>(rows: &[R]) -> String {
         let mut sheet = Sheet::default();
         sheet.table(rows);
         sheet.into_text()
     }
 
-    /// The text so far.
     pub(crate) fn into_text(self) -> String {
         self.text
     }
@@ -60,7 +58,6 @@ impl Sheet {
         self.row_of(label, value.into().map(|value| format_quantity(value, unit)));
     }
 
-    /// A row, if there is a value.
     pub(crate) fn row_of(&mut self, label: &str, value: Option<String>) {
         if let Some(value) = value {
             self.row(label, value);

@@ -7,8 +7,8 @@ use crate::draw::{
 };
 use crate::study::{self, Estimate, Grid, Quantity};
 
-/// Fewest decades of a quantity with a logarithmic inset.
-const DECADES_FOR_INSET: f64 = 1.5;
+/// Fewest decades of a quantity with a second, logarithmic chart.
+const DECADES_FOR_SECOND: f64 = 1.5;
 /// Most decades of a logarithmic axis, and of the colour scale of a map.
 const MOST_DECADES: f64 = 12.0;
 const MOST_DECADES_OF_MAP: f64 = 6.0;
@@ -74,31 +74,26 @@ pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> 
         x: axis_over(across, HeatMap::span(across.scale(), &across.values)),
         y: axis_over(up, HeatMap::span(up.scale(), &up.values)),
         layers: vec![Layer::unnamed(Ink::Text, Shape::Map(Box::new(map)))],
-        inset: None,
     })
 }
 
-/// Curves of a quantity over the axis across, one for each row of a grid, with an inset on a logarithmic scale for small
-/// values.
+/// Curves of a quantity over the axis across, one for each row of a grid; small values on a linear scale have a second
+/// chart on a logarithmic one.
 #[must_use]
-pub fn study_curves(grid: &Grid, quantity: Quantity) -> Chart {
+pub fn study_curves(grid: &Grid, quantity: Quantity) -> Vec<Chart> {
     let across = &grid.across;
     let scale = grid.layer(quantity).map_or(AxisScale::Linear, |layer| layer.scale);
     let estimates = grid.estimates(quantity, false);
     let places = across.values.iter().map(|value| across.scale().coordinate(*value));
     let places: Vec<f64> = places.collect();
-    let axes = |scale: AxisScale| {
-        let x = axis_over(across, Span::around(places.iter().copied(), 0.03));
-        (x, axis_of(quantity, scale, range(quantity, &estimates, scale)))
-    };
     let layers = layers(grid, quantity, &estimates);
-    let inset = (scale == AxisScale::Linear && spans_decades(&estimates)).then(|| {
-        let (x, y) = axes(AxisScale::Logarithmic);
-        let layers = layers.iter().filter(|layer| !matches!(layer.shape, Shape::Upright(_))).cloned();
-        Box::new(Chart::new(x, y, layers.collect()))
-    });
-    let (x, y) = axes(scale);
-    Chart { heading: heading(quantity), x, y, layers, inset }
+    let chart = |scale: AxisScale| {
+        let x = axis_over(across, Span::around(places.iter().copied(), 0.03));
+        let y = axis_of(quantity, scale, range(quantity, &estimates, scale));
+        Chart { heading: heading(quantity), ..Chart::new(x, y, layers.clone()) }
+    };
+    let is_small = scale == AxisScale::Linear && spans_decades(&estimates);
+    std::iter::once(chart(scale)).chain(is_small.then(|| chart(AxisScale::Logarithmic))).collect()
 }
 
 fn means(estimates: &[Option<Estimate>]) -> Vec<Option<f64>> {
@@ -164,7 +159,7 @@ fn spans_decades(estimates: &[Option<Estimate>]) -> bool {
     let above = means().filter(|mean| *mean > 0.0);
     let lowest = above.clone().fold(f64::INFINITY, f64::min);
     let highest = above.fold(0.0, f64::max);
-    means().all(|mean| mean >= 0.0) && (highest / lowest).log10() >= DECADES_FOR_INSET
+    means().all(|mean| mean >= 0.0) && (highest / lowest).log10() >= DECADES_FOR_SECOND
 }
 
 /// Curves with their confidence, and upright lines where F_a(0) vanishes.
@@ -310,9 +305,9 @@ mod tests {
     }
 
     fn figure(Study { title, fixed, grid }: &Study) -> Figure {
-        let chart =
-            |quantity| study_map(grid, quantity, false).unwrap_or_else(|| study_curves(grid, quantity));
-        study_figure(title, fixed, [SHARE, COEFFICIENT].map(chart).to_vec())
+        let map = |quantity| study_map(grid, quantity, false);
+        let charts = |quantity| map(quantity).map_or_else(|| study_curves(grid, quantity), |map| vec![map]);
+        study_figure(title, fixed, [SHARE, COEFFICIENT].map(charts).concat())
     }
 
     fn drawn(study: &Study) -> String {
@@ -415,27 +410,23 @@ mod tests {
 
     #[test]
     fn each_protocol_vanishes_at_its_own_place() {
-        let upright = |study: &Study, index: usize| -> Vec<f64> {
-            let layers = figure(study).charts[index].layers.clone();
+        let upright = |study: &Study, quantity| -> Vec<f64> {
+            let layers = study_curves(&study.grid, quantity).remove(0).layers;
             let x = |layer: Layer| if let Shape::Upright(x) = layer.shape { Some(x) } else { None };
             layers.into_iter().filter_map(x).collect()
         };
         let mut study = sections();
-        let own = upright(&study, 0);
+        let own = upright(&study, SHARE);
         assert_eq!(own.len(), 1, "{own:?}");
         // A quantity other than a share of F_a(0) shows where F_a(0) vanishes.
-        assert_eq!(upright(&study, 1), own);
+        assert_eq!(upright(&study, COEFFICIENT), own);
         study.grid.layers[1].quantity = Quantity::ZeroForceAdhesionShare;
         let shares: Vec<_> = estimates(&mut study, 0).map(|one| *one).collect();
         for (estimate, share) in estimates(&mut study, 1).zip(shares) {
             *estimate = share.map(|one| Estimate { mean: 2.0 * one.mean, ..one });
         }
-        let later = study_curves(&study.grid, Quantity::ZeroForceAdhesionShare).layers;
-        let later = later.into_iter().find_map(|layer| match layer.shape {
-            Shape::Upright(x) => Some(x),
-            _ => None,
-        });
-        assert!(later > Some(own[0]), "{later:?} {own:?}");
+        let later = upright(&study, Quantity::ZeroForceAdhesionShare);
+        assert!(later[0] > own[0], "{later:?} {own:?}");
     }
 
     #[test]
@@ -453,7 +444,7 @@ mod tests {
         let up = axis("loading.0.0", Spacing::List, vec![1e-3, 2e-3]);
         let grid = Grid::new(kappas(), Some(up), one.grid.layers.clone(), cells);
         let charts = [SHARE, COEFFICIENT].map(|quantity| study_curves(&grid, quantity));
-        let legend = study_figure("", &[], charts.to_vec()).legend();
+        let legend = study_figure("", &[], charts.concat()).legend();
         let names: Vec<String> = legend.iter().map(|entry| entry.name.to_string()).collect();
         let stage = "force of stage 1";
         let [one, two] = ["1 mN", "2 mN"].map(|force| format!("{stage} {force}"));
@@ -486,7 +477,6 @@ mod tests {
         }
     }
 
-    #[cfg(feature = "tui")]
     #[test]
     fn figures_as_text_stay_as_they_are() {
         use crate::draw::{Colours, figure_text};

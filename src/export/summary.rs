@@ -36,7 +36,6 @@ pub(super) fn summary(
 }
 
 /// The result of a scene in a few rows: title, κ, regime, forces and dissipated energy.
-#[must_use]
 pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
     let figures = &outcome.figures;
     let mut sheet = Sheet::default();
@@ -111,7 +110,6 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Optio
     dissipated_energy(sheet, outcome);
 }
 
-/// The regime and its meaning.
 fn regime(outcome: &Outcome) -> String {
     let adhesive = outcome.governing.adhesive_work().is_some();
     let meaning = match outcome.regime {

@@ -28,27 +28,22 @@ const MANY_PROFILES: u64 = 100;
 /// Least and largest factor by which adhesion near its boundary varies between single profiles, as `docs/surfaces.md` states.
 const BOUNDARY_FACTORS: [f64; 2] = [1.4, 3.3];
 
-/// Name of the spectrum of the equivalent line.
 const LINE: &str = "equivalent line";
 
 /// A surface and its file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceFile {
-    /// File.
     pub path: PathBuf,
-    /// Format.
     pub format: &'static str,
     /// Points of a row, and number of rows.
     pub points: [usize; 2],
     /// Lengths along and between rows, m; only the first one for a profile.
     pub lengths: [f64; 2],
-    /// Number of points with interpolated heights.
     pub interpolated: usize,
 }
 
 impl SurfaceFile {
     /// Facts of a surface with evenly spaced points; lengths of others are 0.
-    #[must_use]
     pub fn new(path: PathBuf, surface: &Topography) -> Self {
         let points = [surface.columns(), surface.rows()];
         let spacing = surface.spacing().unwrap_or_default();
@@ -60,14 +55,12 @@ impl SurfaceFile {
 /// Surfaces of one face: files that are samples of the same roughness, and their analysis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredFace {
-    /// Files.
     pub files: Vec<SurfaceFile>,
     /// Common analysis of the files.
     pub analysis: Analysis,
 }
 
 /// Median and quartiles of the adhesion forces of the profiles, and the error by the fit; `None` for fewer than two.
-#[must_use]
 pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
     let forces = profiles_text(computed.forces())?;
     let fit = computed.fit_deviation().map(|fit| format!(", fit ± {}", format_rounded(fit, 2, "N")));
@@ -185,7 +178,7 @@ impl Report for SurfaceReport {
         let files = self.faces.iter().flat_map(|face| &face.files).filter_map(|file| file.path.file_name());
         let names: Vec<String> = files.map(|name| path_name(Path::new(name))).collect();
         let analyses: Vec<&Analysis> = self.faces.iter().map(|face| &face.analysis).collect();
-        Some(Spectra::of_faces(&analyses).figure(&names.join(", ")))
+        Some(Figure::of_chart(&names.join(", "), Spectra::of_faces(&analyses).chart()))
     }
 }
 

@@ -5,7 +5,6 @@ use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign
 
 /// Relative errors over the least time of a run, one curve for each setting: errors of the adhesion force, or of
 /// the force curve if there is no adhesion force.
-#[must_use]
 pub fn work_precision(title: &str, table: &CostTable) -> Figure {
     let points = |knob: Knob| table.rows_of(knob).filter_map(|row| table.point(row)).collect::<Vec<_>>();
     let series: Vec<_> = Knob::ALL.into_iter().map(|knob| (knob, points(knob))).collect();

@@ -9,9 +9,6 @@ use std::io::{self, Write};
 const BROKEN_LEVELS: usize = 2;
 
 /// Writes a value as JSON with a line for every entry of its two outer levels.
-///
-/// # Errors
-/// Errors of `out`.
 pub fn write_json_value(out: &mut (impl Write + ?Sized), value: &impl Serialize) -> io::Result<()> {
     let mut serializer = Serializer::with_formatter(&mut *out, Lines::default());
     value.serialize(&mut serializer)?;

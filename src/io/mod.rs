@@ -16,7 +16,5 @@ pub use json::write_json_value;
 pub(crate) use object::{Entry, Object, Optional, object};
 pub(crate) use read::*;
 pub use table::{Kind, Table, TableOf};
-#[cfg(feature = "tui")]
-pub(crate) use write::check_file_name;
 pub(crate) use write::sync_folder;
 pub use write::{WriteError, check_writable, write_new, write_new_file};

@@ -22,9 +22,6 @@ const TEXT_HEADER: usize = 2 * ALIGNMENT;
 
 /// Writes the header of an array. `descr` is its type in Python's notation, `shape` the numbers in the brackets of
 /// its shape.
-///
-/// # Errors
-/// Errors of `out`; a header of more than 65 535 bytes.
 pub(crate) fn write_header(out: &mut (impl Write + ?Sized), descr: &str, shape: &str) -> io::Result<()> {
     let mut header = format!("{{'descr': {descr}, 'fortran_order': False, 'shape': ({shape}), }}");
     let length = (PREFIX + header.len() + 1).next_multiple_of(ALIGNMENT) - PREFIX;
@@ -38,9 +35,6 @@ pub(crate) fn write_header(out: &mut (impl Write + ?Sized), descr: &str, shape: 
 }
 
 /// Writes a text as an array without axes, of bytes in UTF-8.
-///
-/// # Errors
-/// As [`write_header`].
 pub(crate) fn write_text(out: &mut (impl Write + ?Sized), text: &str) -> io::Result<()> {
     write_header(out, &format!("'|S{}'", text.len()), "")?;
     out.write_all(text.as_bytes())

@@ -7,7 +7,6 @@ pub(crate) struct Object<E>(pub E);
 
 /// Entries of an object: none, or the first and the others.
 pub(crate) trait Entries {
-    /// Writes the entries in their order.
     fn write<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error>;
 }
 
@@ -17,7 +16,6 @@ impl Entries for () {
     }
 }
 
-/// Key and value.
 pub(crate) struct Entry<T>(pub &'static str, pub T);
 
 /// Key and value, omitted without a value.

@@ -12,18 +12,13 @@ use thiserror::Error;
 /// Reason why a file was not read. The caller puts the name of the file in front.
 #[derive(Debug, Error)]
 pub(crate) enum ReadError {
-    /// The path is a folder.
     #[error("this is a folder; allowed: a file")]
     Folder,
     /// The path is a pipe, a socket, a terminal or another device.
     #[error("this is not a regular file")]
     NotRegular,
-    /// The file exceeds the limit.
     #[error("longer than {limit} bytes; allowed: at most {limit} bytes")]
-    TooLong {
-        /// Largest number of bytes allowed.
-        limit: usize,
-    },
+    TooLong { limit: usize },
     /// The bytes are not text.
     #[error("this is not UTF-8 text: byte {byte} is not")]
     NotText {
@@ -44,9 +39,6 @@ fn reason(error: &io::Error) -> String {
 }
 
 /// Opens a regular file for reading. Never waits for a writer or for a terminal.
-///
-/// # Errors
-/// [`ReadError::Folder`], [`ReadError::NotRegular`] or the error of the system.
 pub(crate) fn open_regular(path: &Path) -> Result<File, ReadError> {
     // Opening a device can have effects on it, and opening a pipe wakes its writer: only a regular file is opened,
     // as far as its kind is known in advance.
@@ -61,26 +53,17 @@ pub(crate) fn open_regular(path: &Path) -> Result<File, ReadError> {
 }
 
 /// Content of a regular file of at most `limit` bytes.
-///
-/// # Errors
-/// As [`open_regular`], and [`ReadError::TooLong`]; insufficient memory is [`ReadError::Failed`].
 pub(crate) fn read_regular(path: &Path, limit: usize) -> Result<Vec<u8>, ReadError> {
     read_limited(open_regular(path)?, limit)
 }
 
 /// Text of a regular file of at most `limit` bytes.
-///
-/// # Errors
-/// As [`read_regular`], and [`ReadError::NotText`].
 pub(crate) fn read_regular_text(path: &Path, limit: usize) -> Result<String, ReadError> {
     into_text(read_regular(path, limit)?)
 }
 
 /// The content of a source up to its end, of at most `limit` bytes: for standard input and other streams that the
 /// caller is ready to wait for.
-///
-/// # Errors
-/// [`ReadError::TooLong`] or [`ReadError::Failed`].
 pub(crate) fn read_limited(source: impl Read, limit: usize) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
     // One more byte distinguishes a file of the limit from a longer one.
@@ -89,9 +72,6 @@ pub(crate) fn read_limited(source: impl Read, limit: usize) -> Result<Vec<u8>, R
 }
 
 /// Converts bytes to text without a copy.
-///
-/// # Errors
-/// [`ReadError::NotText`].
 pub(crate) fn into_text(bytes: Vec<u8>) -> Result<String, ReadError> {
     String::from_utf8(bytes).map_err(|error| ReadError::NotText { byte: error.utf8_error().valid_up_to() })
 }

@@ -13,7 +13,6 @@ use std::rc::Rc;
 /// Values of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Double precision.
     Real,
     /// Integers from 0.
     Whole,
@@ -49,7 +48,6 @@ impl<'a> Table<'a> {
 
 impl<'a, T: 'a> TableOf<'a, T> {
     /// Adds a column; a missing value is empty in CSV, `null` in JSON and NaN in an array.
-    #[must_use]
     pub fn with<V: Into<Value>>(
         mut self,
         name: impl Into<Cow<'static, str>>,
@@ -61,20 +59,15 @@ impl<'a, T: 'a> TableOf<'a, T> {
         self
     }
 
-    /// Adds a column of double precision.
-    #[must_use]
     pub fn real<V: Into<Value>>(self, name: &'static str, value: impl Fn(&T) -> V + 'a) -> Self {
         self.with(name, Kind::Real, value)
     }
 
     /// Adds a column of integers from 0.
-    #[must_use]
     pub fn whole(self, name: &'static str, value: impl Fn(&T) -> u64 + 'a) -> Self {
         self.with(name, Kind::Whole, value)
     }
 
-    /// The table.
-    #[must_use]
     pub fn done(self) -> Table<'a> {
         let (rows, values) = (self.rows, Rc::new(self.values));
         let counted = Rc::clone(&rows);
@@ -98,9 +91,6 @@ impl Table<'_> {
     }
 
     /// Writes comma-separated values after the provenance.
-    ///
-    /// # Errors
-    /// Errors of `out`.
     pub fn write_csv(&self, out: &mut dyn Write, provenance: &str) -> io::Result<()> {
         provenance.lines().try_for_each(|line| writeln!(out, "# {line}"))?;
         let names: Vec<_> = self.columns.iter().map(|(name, _)| quoted(name)).collect();
@@ -123,9 +113,6 @@ impl Table<'_> {
     }
 
     /// Writes an array of NumPy, and the provenance as a second one.
-    ///
-    /// # Errors
-    /// Errors of `out`; a text that is longer than its column allows.
     pub fn write_npy(&self, out: &mut dyn Write, provenance: &str) -> io::Result<()> {
         let descr = |kind: Kind| match kind {
             Kind::Real => "<f8".to_owned(),

@@ -16,94 +16,61 @@ pub enum WriteError {
     /// The file exists, and overwriting was not requested.
     #[error("{}: there is a file of that name already", path_name(.0))]
     Exists(PathBuf),
-    /// The path is that of a folder, or has no file name.
-    #[error("{}: this is not the name of a file", path_name(.0))]
-    NoFileName(PathBuf),
-    /// The folder of the file does not exist.
-    #[error("{}: there is no folder {}", path_name(.0), path_name(folder_of(.0)))]
-    NoFolder(PathBuf),
-    /// The path is a pipe, a terminal or another device instead of a file.
-    #[error("{}: this is not a regular file; allowed: the name of a file", path_name(.0))]
-    NotRegular(PathBuf),
-    /// The file is read-only.
-    #[error("{}: this file may not be written", path_name(.0))]
-    ReadOnly(PathBuf),
-    /// The system refused.
+    /// The path is not one of a file that can be written.
+    #[error("{}: {fault}", path_name(path))]
+    Unsuitable { path: PathBuf, fault: String },
     #[error("{}: cannot be written: {reason}", path_name(path))]
-    Failed {
-        /// The file.
-        path: PathBuf,
-        /// Error of the operating system.
-        reason: io::Error,
-    },
+    Failed { path: PathBuf, reason: io::Error },
+}
+
+impl WriteError {
+    fn unsuitable(path: &Path, fault: impl Into<String>) -> WriteError {
+        WriteError::Unsuitable { path: path.into(), fault: fault.into() }
+    }
+
+    fn failed(path: &Path) -> impl Fn(io::Error) -> WriteError {
+        move |reason| WriteError::Failed { path: path.into(), reason }
+    }
 }
 
 /// Checks before a long computation that [`write_new`] could write a file now, without a trace.
-///
-/// # Errors
-/// Error that [`write_new`] would return.
 pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
-    match Target::of(path, overwrite)? {
-        Target::Stream => Ok(()),
-        Target::File { path, .. } => temporary(&path).map(drop),
-    }
-}
-
-/// Checks that a path can be that of a regular file: no final separator, and no existing folder, pipe or device.
-///
-/// # Errors
-/// [`WriteError::NoFileName`] or [`WriteError::NotRegular`].
-#[cfg(feature = "tui")]
-pub fn check_file_name(path: &Path) -> Result<(), WriteError> {
-    match Target::of(path, true) {
-        Err(error @ WriteError::NoFileName(_)) => Err(error),
-        Ok(Target::Stream) => Err(WriteError::NotRegular(path.into())),
-        Ok(Target::File { .. }) | Err(_) => Ok(()),
-    }
+    target(path, overwrite)?.map_or(Ok(()), |(path, _)| temporary(&path).map(drop))
 }
 
 /// Writes a file as [`write_new_file`] does, or into a pipe or a device, which cannot be overwritten: that waits for a
 /// reader.
-///
-/// # Errors
-/// [`WriteError`]; an error of `write` itself becomes [`WriteError::Failed`].
 pub fn write_new(
     path: &Path,
     overwrite: bool,
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> Result<(), WriteError> {
-    match Target::of(path, overwrite)? {
-        Target::Stream => {
-            let failed = |reason| WriteError::Failed { path: path.into(), reason };
-            let mut stream = OpenOptions::new().write(true).open(path).map_err(failed)?;
-            fill(&mut stream, write).map_err(failed)
-        }
-        Target::File { .. } => write_new_file(path, overwrite, write),
+    if target(path, overwrite)?.is_some() {
+        return write_new_file(path, overwrite, write);
     }
+    let mut stream = OpenOptions::new().write(true).open(path).map_err(WriteError::failed(path))?;
+    fill(&mut stream, write).map_err(WriteError::failed(path))
 }
 
 /// Writes a regular file through a temporary one in the same folder: a reader sees the old file or the whole new one,
 /// and a failure leaves nothing behind. An existing file is replaced only with `overwrite`.
 ///
 /// A killed process may leave a file `.asperity-….tmp`.
-///
-/// # Errors
-/// As [`write_new`]; a pipe or a device is refused at once.
 pub fn write_new_file(
     path: &Path,
     overwrite: bool,
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> Result<(), WriteError> {
-    let failed = |reason| WriteError::Failed { path: path.into(), reason };
-    let Target::File { path: place, permissions } = Target::of(path, overwrite)? else {
-        return Err(WriteError::NotRegular(path.into()));
-    };
+    let failed = WriteError::failed(path);
+    let not_regular = "this is not a regular file; allowed: the name of a file";
+    let place = target(path, overwrite)?.ok_or_else(|| WriteError::unsuitable(path, not_regular));
+    let (place, permissions) = place?;
     let mut file = temporary(&place)?;
-    fill(file.as_file_mut(), write).map_err(failed)?;
+    fill(file.as_file_mut(), write).map_err(&failed)?;
     if let Some(permissions) = permissions {
-        file.as_file().set_permissions(permissions).map_err(failed)?;
+        file.as_file().set_permissions(permissions).map_err(&failed)?;
     }
-    file.as_file().sync_all().map_err(failed)?;
+    file.as_file().sync_all().map_err(&failed)?;
     let named = if overwrite { file.persist(&place) } else { file.persist_noclobber(&place) };
     named.map_err(|error| match error.error.kind() {
         io::ErrorKind::AlreadyExists => WriteError::Exists(path.into()),
@@ -125,7 +92,7 @@ fn temporary(path: &Path) -> Result<NamedTempFile, WriteError> {
     }
     file.tempfile_in(folder).map_err(|reason| match folder.is_dir() {
         true => WriteError::Failed { path: path.into(), reason },
-        false => WriteError::NoFolder(path.into()),
+        false => WriteError::unsuitable(path, format!("there is no folder {}", path_name(folder))),
     })
 }
 
@@ -141,7 +108,6 @@ pub(crate) fn sync_folder(path: &Path) -> io::Result<()> {
     }
 }
 
-/// The parent folder of a path.
 fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."))
 }
@@ -155,40 +121,29 @@ fn fill(
     buffered.flush()
 }
 
-/// Kind of file behind a name.
-enum Target {
-    /// A pipe or a device.
-    Stream,
-    /// A file, existing or not, with the permissions of the one it replaces.
-    File { path: PathBuf, permissions: Option<Permissions> },
-}
-
-impl Target {
-    fn of(path: &Path, overwrite: bool) -> Result<Target, WriteError> {
-        let ends_as_folder = path.to_string_lossy().ends_with(std::path::is_separator);
-        if path.file_name().is_none() || ends_as_folder {
-            return Err(WriteError::NoFileName(path.into()));
+/// The file behind a name, existing or not, with the permissions of the one that it replaces; `None` for a pipe or a device.
+fn target(path: &Path, overwrite: bool) -> Result<Option<(PathBuf, Option<Permissions>)>, WriteError> {
+    let ends_as_folder = path.to_string_lossy().ends_with(std::path::is_separator);
+    let found = fs::metadata(path);
+    let is_folder = found.as_ref().is_ok_and(fs::Metadata::is_dir);
+    if path.file_name().is_none() || ends_as_folder || is_folder {
+        return Err(WriteError::unsuitable(path, "this is not the name of a file"));
+    }
+    match found {
+        Ok(found) if !found.is_file() => Ok(None),
+        Ok(_) if !overwrite => Err(WriteError::Exists(path.into())),
+        Ok(found) if found.permissions().readonly() => {
+            Err(WriteError::unsuitable(path, "this file may not be written"))
         }
-        let failed = |reason| WriteError::Failed { path: path.into(), reason };
-        match fs::metadata(path) {
-            Ok(found) if found.is_dir() => Err(WriteError::NoFileName(path.into())),
-            Ok(found) if !found.is_file() => Ok(Target::Stream),
-            Ok(_) if !overwrite => Err(WriteError::Exists(path.into())),
-            Ok(found) if found.permissions().readonly() => Err(WriteError::ReadOnly(path.into())),
-            Ok(found) => {
-                // Through a link to its target: the link itself is kept.
-                let path = fs::canonicalize(path).map_err(failed)?;
-                Ok(Target::File { path, permissions: Some(found.permissions()) })
-            }
-            // A dangling link exists all the same.
-            Err(_) if !overwrite && fs::symlink_metadata(path).is_ok() => {
-                Err(WriteError::Exists(path.into()))
-            }
-            Err(reason) if reason.kind() == io::ErrorKind::NotFound => {
-                Ok(Target::File { path: path.into(), permissions: None })
-            }
-            Err(reason) => Err(failed(reason)),
+        // Through a link to its target: the link itself is kept.
+        Ok(found) => {
+            let path = fs::canonicalize(path).map_err(WriteError::failed(path))?;
+            Ok(Some((path, Some(found.permissions()))))
         }
+        // A dangling link exists all the same.
+        Err(_) if !overwrite && fs::symlink_metadata(path).is_ok() => Err(WriteError::Exists(path.into())),
+        Err(reason) if reason.kind() == io::ErrorKind::NotFound => Ok(Some((path.into(), None))),
+        Err(reason) => Err(WriteError::failed(path)(reason)),
     }
 }
 
@@ -288,7 +243,7 @@ mod tests {
         for path in [&pipe, Path::new("/dev/null")] {
             for overwrite in [false, true] {
                 let refused = write_new_file(path, overwrite, |out| out.write_all(b"one"));
-                assert!(matches!(refused, Err(WriteError::NotRegular(_))), "{refused:?}");
+                assert!(matches!(refused, Err(WriteError::Unsuitable { .. })), "{refused:?}");
             }
         }
         assert_eq!(names(folder.path()), ["pipe"]);

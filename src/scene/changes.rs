@@ -6,6 +6,7 @@ use super::fields::fields_inside;
 use super::model::{Move, Roughness, Scene};
 use super::quantity::format_quantity;
 use super::tree::{Tree, in_ron};
+use std::fmt;
 
 /// A field with different values in two scenes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,13 +21,40 @@ pub struct Change {
 
 impl Change {
     fn of(field: &Field, values: [String; 2]) -> Change {
-        let [from, to] = values.map(|value| match value.parse() {
-            Ok(number) => format_quantity(number, field.unit),
-            Err(_) => value.split_whitespace().collect::<Vec<_>>().join(" "),
-        });
-        let name = if field.symbol.is_empty() { field.name } else { field.symbol };
-        Change { name: name.to_owned(), from, to }
+        let [from, to] = values.map(|value| with_unit(field, &value));
+        Change { name: symbol_or_name(field).to_owned(), from, to }
     }
+}
+
+impl fmt::Display for Change {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "{} {} → {}", self.name, self.from, self.to)
+    }
+}
+
+fn symbol_or_name(field: &Field) -> &'static str {
+    if field.symbol.is_empty() { field.name } else { field.symbol }
+}
+
+fn with_unit(field: &Field, value: &str) -> String {
+    match value.parse() {
+        Ok(number) => format_quantity(number, field.unit),
+        Err(_) => value.split_whitespace().collect::<Vec<_>>().join(" "),
+    }
+}
+
+/// A field by its value, a group by its choice and the values given in it: `SelfAffine(H 0.7, h 200 nm)`, `γ 50 mJ/m²`.
+fn in_words(tree: &Tree, field: &Field) -> String {
+    let value = tree.written(field).unwrap_or_default();
+    let inside = tree.inside(field);
+    if inside.is_empty() {
+        return with_unit(field, &value);
+    }
+    let given = inside.into_iter().filter(|field| tree.value(field).is_some());
+    let given: Vec<String> =
+        given.map(|field| format!("{} {}", symbol_or_name(field), in_words(tree, field))).collect();
+    let (choice, given) = (value.split('(').next().unwrap_or_default(), given.join(", "));
+    if choice.is_empty() { given } else { format!("{choice}({given})") }
 }
 
 impl Document {
@@ -58,7 +86,8 @@ fn add_changes(field: &Field, trees: &[Tree; 2], changes: &mut Vec<Change>) {
     let [inside, others] = trees.each_ref().map(|tree| tree.inside(field));
     let is_given = |field: &&Field| trees[0].value(field).is_some() == trees[1].value(field).is_some();
     if inside.is_empty() || inside != others || !inside.iter().all(is_given) {
-        changes.push(Change::of(field, values));
+        let [from, to] = trees.each_ref().map(|tree| in_words(tree, field));
+        changes.push(Change { name: symbol_or_name(field).to_owned(), from, to });
     } else {
         inside.into_iter().for_each(|field| add_changes(field, trees, changes));
     }
@@ -119,6 +148,10 @@ mod tests {
         assert_eq!(changes(&line, &profile), ["profile as line false → true"]);
         assert_eq!(changes(&line, &line), Vec::<String>::new());
         let other = scene.set("material", "(effective_modulus: 3e6)").unwrap();
-        assert_eq!(changes(&scene, &other).len(), 1, "{:?}", changes(&scene, &other));
+        assert_eq!(changes(&scene, &other), ["material E 2 MPa, ν 0.5 → E* 3 MPa"]);
+        let other = scene.set("adhesion", "(work: 0.03)").unwrap();
+        assert_eq!(changes(&scene, &other), ["adhesion κ 6 → γ 30 mJ/m²"]);
+        let other = scene.set("form", "Paraboloid(radius: 1e-3)").unwrap();
+        assert_eq!(changes(&scene, &other), ["form None → Paraboloid(R 1 mm)"]);
     }
 }

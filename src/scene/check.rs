@@ -22,9 +22,6 @@ use crate::topography::{Unit, UnitError};
 /// Most samples of all loading stages together; a curve of this size still fits the memory of a small machine.
 const MOST_SAMPLES: u64 = 1 << 24;
 
-/// The line carries the transformed profile, which is at most this many times deeper than the profile.
-const MOST_GROWTH: f64 = 20.0;
-
 /// All errors of a scene, in the order of its fields; empty for a scene that can be computed.
 pub fn check(scene: &Scene) -> Vec<SceneError> {
     let mut found = Found { scene, tree: Tree::of(scene), errors: Vec::new() };
@@ -178,9 +175,9 @@ impl Found<'_> {
                 format!("a wave has at least {SPRINGS_PER_WAVE} springs: more points or longer waves");
             self.require(wavelength >= shortest, &grid, "form.wavelength", &allowed, &reason);
         }
-        let depth = form.depth(half);
+        let (depth, waves) = (form.without_waves().mdr_profile(half), form.wave_depth(half));
         // The first number of a form is its size; waves may be higher than their sphere.
-        let is_size = |field: &&Field| match 2.0 * form.wave_depth(half) > depth {
+        let is_size = |field: &&Field| match waves > depth {
             true => field.path == "form.amplitude",
             false => field.parent() == "form" && self.tree.has(field),
         };
@@ -189,7 +186,7 @@ impl Found<'_> {
         let reason = format!(
             "the form is too steep: it exceeds the largest indentation ({most} m) within the length of the profile"
         );
-        self.require(LEG_INDENTATION.range.contains(MOST_GROWTH * depth), &body, size, "", &reason);
+        self.require(LEG_INDENTATION.range.contains(depth + waves), &body, size, "", &reason);
     }
 
     fn check_roughness(&mut self) {

@@ -52,9 +52,9 @@ impl Document {
         // Some editors put a byte order mark before the text.
         let source = source.strip_prefix('\u{feff}').unwrap_or(source);
         check_length(source)
-            .map_err(|message| SceneError::whole(Origin::File { name: name.into() }, message))?;
+            .map_err(|message| SceneError::whole(Origin::File { name: name.into(), place: None }, message))?;
         let place = |offset| origin_at(source, name, offset);
-        let scene = read(source).map_err(|unread| unread.1.at(place(unread.0)))?;
+        let scene = read(source, place)?;
         let text = Text::new(source)
             .map_err(|unreadable| SceneError::whole(place(unreadable.offset), unreadable.reason))?;
         SceneErrors::result(as_written(check(&scene), &text), |error| {
@@ -106,7 +106,7 @@ impl Document {
                     (new.text, new.scene) = (text, scene);
                     remember(&mut new.overrides, path, value);
                 }
-                Err(error) => errors.push(*error),
+                Err(refused) => errors.extend(refused.0),
             }
         }
         SceneErrors::result(errors, |error| error.origin.clone())?;
@@ -206,20 +206,20 @@ impl Document {
 }
 
 /// The text with another value of a field, and its unchecked scene.
-fn spliced(text: &Text, path: &str, value: &str) -> Result<(Text, Scene), Box<SceneError>> {
+fn spliced(text: &Text, path: &str, value: &str) -> Result<(Text, Scene), SceneErrors> {
     let origin = || Origin::Overrides(vec![format!("{path}={value}")]);
-    let refused = |message| Box::new(SceneError::whole(origin(), message));
+    let refused = |message| SceneErrors::from(SceneError::whole(origin(), message));
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
     let band = || field(parent, None).filter(|field| matches!(field.range, Range::Band(..)));
     let typed = match field_at(text, path).or_else(band) {
-        Some(known) => known.read_typed(value).map_err(|error| {
-            Box::new(SceneError::of(path, value, known.allowed(), &error.to_string()).at(origin()))
-        })?,
+        Some(known) => known
+            .read_typed(value)
+            .map_err(|error| SceneError::of(path, value, known.allowed(), &error.to_string()).at(origin()))?,
         None => value.to_string(),
     };
     let text = set(text, path, &typed).map_err(refused)?;
     check_length(text.as_str()).map_err(refused)?;
-    let scene = read(text.as_str()).map_err(|unread| unread.1.at(origin()))?;
+    let scene = read(text.as_str(), |_| origin())?;
     Ok((text, scene))
 }
 

@@ -4,7 +4,7 @@ use super::errors::did_you_mean;
 use super::field::{Field, LEG_FORCE, LEG_INDENTATION};
 use super::fields::{FIELDS, field};
 use super::range::{Range, choice_name};
-use super::text::{Text, one_value};
+use super::text::{NOT_ONE_VALUE, Text};
 
 /// The field at a path, by the variant of its group or loading stage.
 pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
@@ -24,7 +24,7 @@ pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
 /// # Errors
 /// The reason in a sentence: no such field, not a single value, or no place for it.
 pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> {
-    let value = one_value(value)?;
+    let value = value.trim();
     // A position in a list or pair refers to that list or pair.
     let is_position = |name: &str| !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_digit());
     let mut base = path;
@@ -46,7 +46,8 @@ pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> 
     let variant = text.variant(parent);
     if text.span(path).is_some() {
         return text.replace(path, value);
-    } else if base != path {
+    }
+    if base != path {
         return Err("there is no such element".into());
     } else if value == "None" && fields.iter().any(|field| field.default == "None") {
         return Ok(text.clone());
@@ -54,7 +55,7 @@ pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> 
         return Err(wrong_variant(parent, variant, &fields));
     }
     let group = format!("({name}: {value})");
-    match text.span(parent) {
+    let edited = match text.span(parent) {
         None if parent.is_empty() => Err("the scene is not a group of fields".into()),
         None => set(text, parent, &group),
         Some(_) if text.written(parent) == Some("None") => text.replace(parent, &group),
@@ -63,7 +64,9 @@ pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> 
             let order: Vec<&str> = siblings.map(Field::last).collect();
             text.insert(parent, name, value, &order)
         }
-    }
+    }?;
+    // The value may have ended its new group.
+    if edited.written(path) == Some(value) { Ok(edited) } else { Err(NOT_ONE_VALUE.into()) }
 }
 
 /// Message with the values of the choice that have the field.

@@ -16,19 +16,12 @@ const MOST_SHOWN: usize = 80;
 /// Origin of an error.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Origin {
-    /// A place in a scene file.
-    Place {
+    /// A scene file.
+    File {
         /// Name of the file or of the built-in scene.
         name: String,
-        /// Line, from 1.
-        line: usize,
-        /// Column, from 1, counted in characters.
-        column: usize,
-    },
-    /// A scene file as a whole.
-    File {
-        /// Name of the file.
-        name: String,
+        /// Line and column, both from 1, columns counted in characters; `None`: the file as a whole.
+        place: Option<(usize, usize)>,
     },
     /// One or more overrides, as `path=value`.
     Overrides(Vec<String>),
@@ -40,8 +33,10 @@ pub enum Origin {
 impl fmt::Display for Origin {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Origin::Place { name, line, column } => write!(f, "{}:{line}:{column}: ", shown(name)),
-            Origin::File { name } => write!(f, "{}: ", shown(name)),
+            Origin::File { name, place: Some((line, column)) } => {
+                write!(f, "{}:{line}:{column}: ", shown(name))
+            }
+            Origin::File { name, place: None } => write!(f, "{}: ", shown(name)),
             Origin::Overrides(overrides) => {
                 let all: Vec<_> = overrides.iter().map(|one| format!("--set {}", shown(one))).collect();
                 write!(f, "{}: ", all.join(" "))
@@ -105,7 +100,7 @@ impl SceneError {
 
 /// All errors of a scene in the order of their detection, at least one, each a line of its own.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SceneErrors(Vec<SceneError>);
+pub struct SceneErrors(pub(super) Vec<SceneError>);
 
 impl SceneErrors {
     /// Returns `Err` for a list of errors that is not empty: the errors with their origins, a long list shortened.
@@ -150,8 +145,7 @@ impl std::error::Error for SceneErrors {}
 
 /// Line and column of a byte in a scene with this name.
 pub(super) fn origin_at(text: &str, name: &str, offset: usize) -> Origin {
-    let (line, column) = line_column(text, offset);
-    Origin::Place { name: name.into(), line, column }
+    Origin::File { name: name.into(), place: Some(line_column(text, offset)) }
 }
 
 /// Overrides that cause an error: those of its field, else all of them.

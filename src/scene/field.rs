@@ -152,8 +152,8 @@ const MOST_EXACT: f64 = 9.0e15;
 
 impl Field {
     /// The value in RON: a number may have an SI prefix and the unit of the field, `50 mJ/m²` or `16k`. A text
-    /// needs no quotes, and the name of a file as a roughness becomes a measured surface with its equivalent line. Any other
-    /// text is unchanged but for surrounding blanks.
+    /// needs no quotes, the name of a file as a roughness becomes a measured surface with its equivalent line, and a loading
+    /// may be a list of targets, as [`stage_targets`] writes it. Any other text is unchanged but for surrounding blanks.
     ///
     /// # Errors
     /// Text that begins as a number and continues as another unit, or a number that is too large.
@@ -161,6 +161,10 @@ impl Field {
         let typed = typed.trim();
         if self.path == "roughness" && is_file_name(typed) {
             return Ok(format!("Measured(file: {}, as_line: false)", ron_string(typed)));
+        }
+        if self.path == "loading" && self.variant.is_none() && !typed.starts_with('[') {
+            let stages = typed.split(',').map(|stage| read_stage(stage.trim()));
+            return Ok(format!("[{}]", stages.collect::<Result<Vec<_>, _>>()?.join(", ")));
         }
         let is_omitted = self.range == FILE_NAME && (typed.is_empty() || typed == "None");
         let is_quoted = typed.starts_with('"') || ron::from_str::<String>(typed).is_ok();
@@ -185,6 +189,33 @@ impl Field {
     }
 }
 
+/// Targets of the stages of a loading, apart by commas, their values in a format: `10 µN, 0 N, separation`.
+#[must_use]
+pub fn stage_targets(loading: &[Move], format: fn(f64, &str) -> String) -> String {
+    let target = |stage: &Move| match *stage {
+        Move::ToForce(force) => format(force, "N"),
+        Move::ToIndentation(indentation) => format(indentation, "m"),
+        Move::ToTouch => "touch".to_owned(),
+        Move::ToZeroForce => "0 N".to_owned(),
+        Move::ToSeparation => "separation".to_owned(),
+    };
+    loading.iter().map(target).collect::<Vec<_>>().join(", ")
+}
+
+/// A loading stage in RON, by its target.
+fn read_stage(target: &str) -> Result<String, QuantityError> {
+    let quantity = |unit| parse_quantity(target, unit).map(ron_float);
+    Ok(match target {
+        "touch" => "ToTouch".to_owned(),
+        "separation" => "ToSeparation".to_owned(),
+        "0 N" => "ToZeroForce".to_owned(),
+        _ => match quantity("m") {
+            Ok(indentation) if target.ends_with('m') => format!("ToIndentation({indentation})"),
+            _ => format!("ToForce({})", quantity("N")?),
+        },
+    })
+}
+
 /// Returns true for a name with an ending or a folder, unlike any choice of a field.
 fn is_file_name(typed: &str) -> bool {
     typed.contains(['.', '/', '\\']) && !typed.contains(['(', '"'])
@@ -198,6 +229,7 @@ mod tests {
     fn numbers_may_have_prefix_and_unit() {
         for row in [
             "adhesion.work|50mJ/m2|0.05",
+            "loading|10 µN,0 N, -5 nm, separation|[ToForce(1.0e-5), ToZeroForce, ToIndentation(-5.0e-9), ToSeparation]",
             "adhesion.work| 50 mN/m |0.05",
             "adhesion.work|5.0e-2|5.0e-2",
             "numerics.points|64Ki|65536",

@@ -3,7 +3,6 @@
 //! Reading and writing, checks of ranges, defaults, overrides, steps of the keys, axes of studies, the explorer's list
 //! of parameters, random scenes of the tests and the reference in docs/scene-file.md are loops over this table.
 
-use serde::de::DeserializeOwned;
 use std::f64::consts::FRAC_PI_2;
 
 use super::field::Step::{Doubling, Integer, Linear, Typed};
@@ -28,13 +27,6 @@ pub fn field(path: &str, variant: Option<&str>) -> Option<&'static Field> {
 pub(super) fn fields_inside(path: &str, variant: Option<&str>) -> impl Iterator<Item = &'static Field> {
     let is_of = move |field: &Field| field.variant.is_none() || field.variant == variant;
     FIELDS.iter().filter(move |field| field.parent() == path && is_of(field))
-}
-
-/// Value of an omitted field.
-pub(super) fn default<T: DeserializeOwned>(path: &str, variant: Option<&str>) -> T {
-    let text = field(path, variant).map_or("", |field| field.default);
-    // The table is part of the program.
-    ron::from_str(text).unwrap_or_else(|error| panic!("default of {path}: {error}"))
 }
 
 const MATERIALS: Range =

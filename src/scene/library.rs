@@ -12,12 +12,6 @@ use super::text::Text;
 use crate::io::{ReadError, read_regular_text};
 use crate::text::{path_name, printable};
 
-/// Most scene files read in one folder; the rest is counted.
-pub const MOST_FILES: usize = 500;
-
-/// Most entries of a folder that are examined.
-const MOST_LOOKED_AT: usize = 100_000;
-
 /// Name of the default scene.
 pub const DEFAULT: &str = "pressure-sensitive";
 
@@ -102,67 +96,41 @@ pub struct Entry {
     pub document: Result<Document, SceneErrors>,
 }
 
-/// Folders searched for scenes, in addition to the built-in ones.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Library {
-    own: Option<PathBuf>,
-    working: PathBuf,
+/// The folder of the user's own scenes: `asperity/presets` in the configuration folder, which is `$XDG_CONFIG_HOME`, by
+/// default `~/.config`, and on Windows the roaming application data. It may not exist yet. A scene saved here opens by
+/// its name.
+pub fn own_folder() -> Option<PathBuf> {
+    Some(choose_base_strategy().ok()?.config_dir().join("asperity").join("presets"))
 }
 
-impl Library {
-    /// The library of this process: the user's configuration folder and the working folder.
-    ///
-    /// The configuration folder is `$XDG_CONFIG_HOME`, by default `~/.config`, and on Windows the
-    /// roaming application data.
-    pub fn of_environment() -> Library {
-        let config = choose_base_strategy().ok().map(|strategy| strategy.config_dir());
-        Library::of(config, PathBuf::from("."))
-    }
+/// The file of a scene of this name in the folder of the user's own scenes, if it exists.
+pub(super) fn own_scene(own: &Path, name: &str) -> Option<PathBuf> {
+    let mut components = Path::new(name).components();
+    let is_name = matches!((components.next(), components.next()), (Some(Component::Normal(_)), None));
+    Some(own.join(format!("{name}.ron"))).filter(|path| is_name && path.is_file())
+}
 
-    /// The library of a configuration folder, if there is one, and of a working folder.
-    pub fn of(config: Option<PathBuf>, working: PathBuf) -> Library {
-        Library { own: config.map(|config| config.join("asperity").join("presets")), working }
-    }
+/// Names of the scenes in the folder of the user's own scenes.
+pub(super) fn own_names(own: &Path) -> Vec<String> {
+    scene_files(own).unwrap_or_default().iter().map(|path| name_of(path, Source::Own)).collect()
+}
 
-    /// The folder of the user's own scenes, `asperity/presets` in the configuration folder; it may not
-    /// exist yet. A scene saved here opens by its name.
-    pub fn own_folder(&self) -> Option<PathBuf> {
-        self.own.clone()
+/// All scenes: the built-in ones in their order, then the user's own, then those of a working folder, each by name.
+///
+/// Lists files ending in `.ron`, except for plans of studies; subfolders are not searched. Files that are no
+/// scene or cannot be read are listed with their error. Only regular files are opened.
+pub fn scenes(own: Option<&Path>, working: &Path) -> Vec<Entry> {
+    let built_in = presets()
+        .iter()
+        .map(|preset| Entry::new(preset.name.into(), Source::BuiltIn, None, Ok(preset.text.into())));
+    let mut entries: Vec<Entry> = built_in.collect();
+    entries.extend(own.into_iter().flat_map(|own| list_folder(own, Source::Own)));
+    let place = |folder: &Path| folder.canonicalize().ok();
+    let own = own.and_then(place);
+    if own.is_none() || own != place(working) {
+        entries.extend(list_folder(working, Source::Working));
     }
-
-    /// The file of an own scene of this name, if it exists.
-    pub fn own_scene(&self, name: &str) -> Option<PathBuf> {
-        let mut components = Path::new(name).components();
-        let is_name = matches!((components.next(), components.next()), (Some(Component::Normal(_)), None));
-        let path = self.own.as_ref()?.join(format!("{name}.ron"));
-        Some(path).filter(|path| is_name && path.is_file())
-    }
-
-    /// Names of the user's own scenes.
-    pub(super) fn own_names(&self) -> Vec<String> {
-        let paths = self.own.as_ref().and_then(|own| scene_files(own).ok()).unwrap_or_default();
-        paths.iter().map(|path| name_of(path, Source::Own)).collect()
-    }
-
-    /// All entries: the built-in scenes in their order, then the user's own, then those of the working
-    /// folder, each by name.
-    ///
-    /// Lists files ending in `.ron`, except for plans of studies; subfolders are not searched. Files that are no
-    /// scene or cannot be read are listed with their error. In each folder at most [`MOST_FILES`] files are read, and only
-    /// regular files are opened.
-    pub fn list(&self) -> Vec<Entry> {
-        let built_in = presets()
-            .iter()
-            .map(|preset| Entry::new(preset.name.into(), Source::BuiltIn, None, Ok(preset.text.into())));
-        let own = self.own.as_ref().map_or_else(Vec::new, |own| list_folder(own, Source::Own));
-        let mut entries: Vec<Entry> = built_in.chain(own).collect();
-        let place = |folder: &Path| folder.canonicalize().ok();
-        let own = self.own.as_deref().and_then(place);
-        if own.is_none() || own != place(&self.working) {
-            entries.extend(list_folder(&self.working, Source::Working));
-        }
-        entries
-    }
+    entries
 }
 
 impl Entry {
@@ -171,7 +139,9 @@ impl Entry {
         let file = path.as_ref().map_or_else(|| name.clone(), |path| path.display().to_string());
         let document = match &text {
             Ok(text) => Document::parse(text, &file),
-            Err(error) => Err(SceneError::whole(Origin::File { name: file }, error.as_str()).into()),
+            Err(error) => {
+                Err(SceneError::whole(Origin::File { name: file, place: None }, error.as_str()).into())
+            }
         };
         Entry { name, origin, path, text: text.unwrap_or_default(), document }
     }
@@ -191,7 +161,7 @@ impl Entry {
         let errors = self.document.as_ref().err()?;
         let (first, more) = (errors.first(), errors.iter().count() - 1);
         let place = match &first.origin {
-            Origin::Place { line, column, .. } => format!("line {line}, column {column}: "),
+            Origin::File { place: Some((line, column)), .. } => format!("line {line}, column {column}: "),
             _ => String::new(),
         };
         let more = if more > 0 { format!(" (and {more} more)") } else { String::new() };
@@ -201,16 +171,15 @@ impl Entry {
 
 /// The scene files of a folder by name; empty for a missing folder.
 fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
-    let about_folder =
-        |error: String| Entry::new(path_name(folder), origin, Some(folder.to_path_buf()), Err(error));
     let mut paths = match scene_files(folder) {
         Ok(paths) => paths,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Vec::new(),
-        Err(error) => return vec![about_folder(format!("cannot be read: {error}"))],
+        Err(error) => {
+            let error = format!("cannot be read: {error}");
+            return vec![Entry::new(path_name(folder), origin, Some(folder.to_path_buf()), Err(error))];
+        }
     };
     paths.sort_by_cached_key(|path| name_of(path, origin));
-    let left = paths.len().saturating_sub(MOST_FILES);
-    paths.truncate(MOST_FILES);
     let read = |path: PathBuf| {
         let text = read_regular_text(&path, LONGEST_TEXT).map_err(describe);
         Entry::new(printable(&name_of(&path, origin)).into_owned(), origin, Some(path), text)
@@ -219,16 +188,12 @@ fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
     // A plan of a study contains a scene.
     let is_plan = |text: &str| Text::new(text).is_ok_and(|text| text.span("scene").is_some());
     entries.retain(|entry| entry.document.is_ok() || !is_plan(&entry.text));
-    if left > 0 {
-        entries
-            .push(about_folder(format!("{left} more scene files are not listed: at most {MOST_FILES} are")));
-    }
     entries
 }
 
 /// The files of a folder that end in `.ron`, unread.
 fn scene_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
-    let paths = fs::read_dir(folder)?.take(MOST_LOOKED_AT).filter_map(|entry| Some(entry.ok()?.path()));
+    let paths = fs::read_dir(folder)?.filter_map(|entry| Some(entry.ok()?.path()));
     // The target of a link decides; a link without a target is no folder.
     let is_scene = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "ron") && !path.is_dir();
     Ok(paths.filter(is_scene).collect())
@@ -255,26 +220,24 @@ mod tests {
     const SCENE: &str = "(version: 1, title: \"A title\", notice: \"A notice\", \
                          material: (effective_modulus: 1.0e6), length: 1.0e-4)";
 
-    /// A library with both folders, empty, and the paths of these.
-    fn library() -> (tempfile::TempDir, Library, PathBuf, PathBuf) {
+    /// Empty folders of own scenes and of work.
+    fn folders() -> (tempfile::TempDir, PathBuf, PathBuf) {
         let root = tempfile::tempdir().unwrap();
-        let working = root.path().join("working");
-        fs::create_dir(&working).unwrap();
-        let library = Library::of(Some(root.path().join("config")), working.clone());
-        let own = library.own_folder().unwrap();
-        assert_eq!(own, root.path().join("config/asperity/presets"));
-        fs::create_dir_all(&own).unwrap();
-        (root, library, own, working)
+        let [own, working] = ["own", "working"].map(|name| root.path().join(name));
+        for folder in [&own, &working] {
+            fs::create_dir(folder).unwrap();
+        }
+        (root, own, working)
     }
 
-    fn listed(library: &Library) -> Vec<(String, Source)> {
-        let entries = library.list();
+    fn listed(own: Option<&Path>, working: &Path) -> Vec<(String, Source)> {
+        let entries = scenes(own, working);
         assert!(entries[..presets().len()].iter().all(|entry| entry.origin == Source::BuiltIn));
         entries[presets().len()..].iter().map(|entry| (entry.name.clone(), entry.origin)).collect()
     }
 
-    fn error_of(library: &Library, name: &str) -> String {
-        let entry = library.list().into_iter().find(|entry| entry.name == name).unwrap();
+    fn error_of(working: &Path, name: &str) -> String {
+        let entry = scenes(None, working).into_iter().find(|entry| entry.name == name).unwrap();
         let error = entry.error().unwrap();
         assert!(!error.contains('\n'), "{error}");
         let errors = entry.document.unwrap_err().to_string();
@@ -284,8 +247,8 @@ mod tests {
 
     #[test]
     fn scenes_are_listed_where_they_are() {
-        let (_root, library, own, working) = library();
-        assert_eq!(listed(&library), []);
+        let (_root, own, working) = folders();
+        assert_eq!(listed(Some(&own), &working), []);
         for name in ["b-c.ron", "b.ron", "a.ron", ".hidden.ron", "notes.txt", "ron"] {
             fs::write(own.join(name), SCENE).unwrap();
             fs::write(working.join(name), SCENE).unwrap();
@@ -295,41 +258,37 @@ mod tests {
         let own_names = [".hidden", "a", "b", "b-c"].map(|name| (name.to_string(), Source::Own));
         let names =
             [".hidden.ron", "a.ron", "b-c.ron", "b.ron"].map(|name| (name.to_string(), Source::Working));
-        assert_eq!(listed(&library), [own_names, names].concat());
-        let entry = &library.list()[presets().len() + 1];
+        assert_eq!(listed(Some(&own), &working), [own_names, names].concat());
+        let entry = &scenes(Some(&own), &working)[presets().len() + 1];
         assert_eq!((entry.title(), entry.notice(), entry.text.as_str()), ("A title", "A notice", SCENE));
         assert_eq!(entry.path, Some(own.join("a.ron")));
         assert_eq!(entry.document.as_ref().unwrap().resolve("line.csv"), own.join("line.csv"));
         // A folder in both roles is listed once; missing folders are empty.
-        let both = Library { own: Some(own.clone()), working: own.join("../presets") };
-        assert_eq!(listed(&both).len(), 4);
-        assert_eq!(listed(&Library::of(None, own.join("missing"))), []);
-        assert_eq!(Library::of(None, own).own_folder(), None);
+        assert_eq!(listed(Some(&own), &own.join("../own")).len(), 4);
+        assert_eq!(listed(None, &own.join("missing")), []);
     }
 
     #[test]
     fn what_is_no_scene_is_listed_with_its_error() {
-        let (_root, library, _, working) = library();
+        let (_root, _, working) = folders();
         fs::write(working.join("other.ron"), "Config(colour: 1)").unwrap();
         let plan = format!("(version: 1, title: \"A study\", scene: {SCENE}, lines: 3, record: [regime])");
         fs::write(working.join("plan.ron"), plan).unwrap();
-        assert!(library.list().iter().all(|entry| entry.name != "plan.ron"), "it is no broken scene");
+        assert!(scenes(None, &working).iter().all(|entry| entry.name != "plan.ron"), "it is no broken scene");
         fs::write(working.join("two.ron"), SCENE.replace("1.0e6", "0.0").replace("1.0e-4", "0.0")).unwrap();
         fs::write(working.join("empty.ron"), "").unwrap();
         fs::write(working.join("binary.ron"), [b'(', 0xff]).unwrap();
         fs::write(working.join("long.ron"), " ".repeat(LONGEST_TEXT + 1)).unwrap();
-        assert!(error_of(&library, "other.ron").starts_with("line 1, column "));
-        let two = error_of(&library, "two.ron");
+        assert!(error_of(&working, "other.ron").starts_with("line 1, column "));
+        let two = error_of(&working, "two.ron");
         assert!(
             two.contains("material.effective_modulus = 0.0: allowed") && two.ends_with("(and 1 more)"),
             "{two}"
         );
-        assert_eq!(error_of(&library, "binary.ron"), "this is not UTF-8 text: byte 1 is not");
-        assert!(error_of(&library, "long.ron").contains("too long"));
-        let library = Library::of(None, working.join("other.ron"));
-        assert!(
-            error_of(&library, &working.join("other.ron").display().to_string()).contains("cannot be read")
-        );
+        assert_eq!(error_of(&working, "binary.ron"), "this is not UTF-8 text: byte 1 is not");
+        assert!(error_of(&working, "long.ron").contains("too long"));
+        let file = working.join("other.ron");
+        assert!(error_of(&file, &file.display().to_string()).contains("cannot be read"));
     }
 
     #[cfg(unix)]
@@ -337,7 +296,7 @@ mod tests {
     fn nothing_is_opened_but_regular_files() {
         use std::os::unix::fs::symlink;
 
-        let (_root, library, own, working) = library();
+        let (_root, own, working) = folders();
         let made = std::process::Command::new("mkfifo").arg(working.join("pipe.ron")).status().unwrap();
         assert!(made.success());
         symlink("loop.ron", working.join("loop.ron")).unwrap();
@@ -349,34 +308,19 @@ mod tests {
         fs::write(working.join("\u{1b}[2J.ron"), SCENE).unwrap();
         let names =
             ["scene", "\\u{1b}[2J.ron", "linked.ron", "loop.ron", "nowhere.ron", "pipe.ron", "zero.ron"];
-        assert_eq!(listed(&library).into_iter().map(|(name, _)| name).collect::<Vec<_>>(), names);
+        assert_eq!(listed(Some(&own), &working).into_iter().map(|(name, _)| name).collect::<Vec<_>>(), names);
         for (name, said) in [
             ("pipe.ron", "not a regular file"),
             ("zero.ron", "not a regular file"),
             ("loop.ron", "cannot be read"),
             ("nowhere.ron", "cannot be read"),
         ] {
-            assert!(error_of(&library, name).contains(said), "{name}");
+            assert!(error_of(&working, name).contains(said), "{name}");
         }
-        assert_eq!(library.own_scene("scene"), Some(own.join("scene.ron")));
+        assert_eq!(own_scene(&own, "scene"), Some(own.join("scene.ron")));
         symlink(working.join("pipe.ron"), own.join("pipe.ron")).unwrap();
         for name in ["pipe", "missing", "", ".", "..", "../presets/scene", "/scene"] {
-            assert_eq!(library.own_scene(name), None, "{name}");
+            assert_eq!(own_scene(&own, name), None, "{name}");
         }
-    }
-
-    #[test]
-    fn no_more_files_are_read_than_is_said() {
-        let (_root, library, _, working) = library();
-        for index in 0..MOST_FILES + 3 {
-            fs::write(working.join(format!("{index:04}.ron")), SCENE).unwrap();
-        }
-        let entries = library.list().split_off(presets().len());
-        assert!(
-            entries.len() == MOST_FILES + 1
-                && entries[..MOST_FILES].iter().all(|entry| entry.document.is_ok())
-        );
-        let said = entries[MOST_FILES].error().unwrap();
-        assert!(said.starts_with("3 more scene files"), "{said}");
     }
 }

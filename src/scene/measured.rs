@@ -112,7 +112,6 @@ impl Measured {
     }
 
     /// Options of the readers and of the spectrum for a checked surface, whose profile is the line itself or not.
-    #[must_use]
     pub fn options(&self, as_line: bool) -> MeasuredOptions {
         // A plane fitted to a periodic surface would leave a step at its borders.
         let default = if self.periodic { Detrend::Mean } else { Detrend::Tilt };

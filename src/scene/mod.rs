@@ -48,15 +48,15 @@ pub use document::{Document, LONGEST_TEXT};
 pub use effects::Effect;
 pub(crate) use errors::nearest;
 pub use errors::{Origin, SceneError, SceneErrors};
-pub use field::{Field, LEG_FORCE, LEG_INDENTATION, Step};
+pub use field::{Field, LEG_FORCE, LEG_INDENTATION, Step, stage_targets};
 pub use fields::{FIELDS, MOST_POINTS, SCENE_VERSIONS, field};
-pub use library::{DEFAULT, Entry, Library, MOST_FILES, Preset, Source, find, presets, typed_path};
+pub use library::{DEFAULT, Entry, Preset, Source, find, own_folder, presets, scenes, typed_path};
 pub use measured::Measured;
 pub use model::*;
 pub(crate) use open::is_file_name;
 pub use open::{open, open_argument};
 pub(crate) use quantity::format_rounded;
-pub use quantity::{QuantityError, exact_quantity, format_quantity, parse_quantity, quantity_as_typed};
+pub use quantity::{QuantityError, exact_quantity, format_quantity, parse_quantity};
 pub use range::Range;
 pub(crate) use read::{describe_error, read_ron};
 

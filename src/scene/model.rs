@@ -3,10 +3,9 @@
 //! These types hold values as written; [`super::check()`] finds the invalid ones.
 
 use super::adhesion::Adhesion;
-use super::fields::default;
 use super::measured::Measured;
 pub use crate::contact::{Edges, Move};
-use crate::surface::Form;
+use crate::surface::{Form, MeasuredOptions};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -158,6 +157,12 @@ impl Scene {
         self.measured().is_some_and(|measured| measured.as_line.unwrap_or(self.version < 2))
     }
 
+    /// Options of the readers and of the spectrum for the measured surface.
+    pub fn measured_options(&self) -> MeasuredOptions {
+        let options = |measured: &Measured| measured.options(self.measured_as_line());
+        self.measured().map_or_else(MeasuredOptions::default, options)
+    }
+
     /// Files of the measured surfaces, relative to the scene file.
     pub fn measured_files(&self) -> Vec<&str> {
         self.measured().map_or_else(Vec::new, |measured| measured.faces().concat())
@@ -229,9 +234,7 @@ struct NumericsText {
 
 impl Default for NumericsText {
     fn default() -> Self {
-        let number = |path| default(path, None);
-        let (points, samples) = (number("numerics.points"), number("numerics.samples"));
-        NumericsText { points, solver: default("numerics.solver", None), edges: None, samples }
+        NumericsText { points: 1 << 14, solver: Solver::Exact, edges: None, samples: 512 }
     }
 }
 
@@ -274,5 +277,5 @@ pub enum Observer {
 }
 
 fn default_loading() -> Vec<Move> {
-    default("loading", None)
+    vec![Move::ToZeroForce, Move::ToSeparation]
 }

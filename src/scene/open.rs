@@ -7,20 +7,19 @@ use std::path::Path;
 use super::document::{Document, LONGEST_TEXT};
 use super::errors::did_you_mean;
 use super::errors::{Origin, SceneError, SceneErrors};
-use super::library::{Library, describe};
-use super::library::{find, presets};
+use super::library::{describe, find, own_folder, own_names, own_scene, presets};
 use crate::io::{PROVENANCE, ReadError, into_text, npy, open_regular, read_limited};
 use crate::text::printable;
 
 /// Opens a scene: a file if one of that name exists or the name looks like a path (ends in `.ron` or has a path
-/// separator), else a built-in scene, else one of the user's own scenes, see [`Library::own_folder`]. Only regular
+/// separator), else a built-in scene, else one of the user's own scenes, see [`own_folder`]. Only regular
 /// files are read, since a pipe, a terminal or a device would block. A table of results, CSV or `.npy`, opens as
 /// its scene.
 ///
 /// # Errors
 /// No such scene, an unreadable file, or the errors of its scene.
 pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
-    let library = Library::of_environment();
+    let own = own_folder();
     let path = Path::new(name_or_path);
     if is_file_name(name_or_path) {
         return document_of(text_of_file(path), name_or_path);
@@ -28,14 +27,14 @@ pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
     if let Some(preset) = find(name_or_path) {
         return Document::parse(preset.text, preset.name);
     }
-    if let Some(path) = library.own_scene(name_or_path) {
+    if let Some(path) = own.as_ref().and_then(|own| own_scene(own, name_or_path)) {
         return document_of(text_of_file(&path), &path.display().to_string());
     }
     let names: Vec<_> = presets().iter().map(|preset| preset.name).collect();
-    let own = library.own_names();
-    let near = did_you_mean(name_or_path, names.iter().copied().chain(own.iter().map(String::as_str)));
+    let own_names = own.as_deref().map_or_else(Vec::new, own_names);
+    let near = did_you_mean(name_or_path, names.iter().copied().chain(own_names.iter().map(String::as_str)));
     let no_file = if path.is_dir() { "it is a directory" } else { "there is no such file" };
-    let nowhere = match library.own_folder() {
+    let nowhere = match own {
         Some(folder) => {
             let folder = folder.display().to_string();
             format!(", no such built-in scene and none of this name in {}", printable(&folder))
@@ -75,7 +74,7 @@ pub fn open_argument(argument: &str) -> Result<Document, SceneErrors> {
 }
 
 fn whole(name: &str, message: String) -> SceneErrors {
-    SceneError::whole(Origin::File { name: name.into() }, message).into()
+    SceneError::whole(Origin::File { name: name.into(), place: None }, message).into()
 }
 
 /// Start of the lines above the scene in a table of results, and the line between both.

@@ -146,26 +146,6 @@ pub(crate) fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
     with_unit(value, &format!("{value:.*e}", digits.clamp(1, DIGITS) - 1), unit)
 }
 
-/// A value to four digits in the unit of a typed text: for the typed `-2 µN`, −1.5e-7 N is `-0.15 µN`. If the text
-/// is no quantity, as [`format_quantity`].
-pub fn quantity_as_typed(value: f64, typed: &str, unit: &str) -> String {
-    let suffix = split_number(typed.trim()).map(|(_, _, suffix)| suffix.trim());
-    let Some((suffix, (power, factor))) =
-        suffix.and_then(|suffix| Some((suffix, suffix_factor(suffix, unit)?)))
-    else {
-        return format_quantity(value, unit);
-    };
-    // A prefix alone, or nothing, means the unit with this prefix.
-    let is_whole = suffix.ends_with(unit) || canonical(suffix).ends_with(&canonical(unit)) || factor != 1.0;
-    let shown = if is_whole { suffix.to_owned() } else { format!("{suffix}{unit}") };
-    let scientific = format!("{:.*e}", DIGITS - 1, value / factor);
-    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
-    let exponent = exponent.parse::<i32>().unwrap_or(0).saturating_sub(power);
-    let is_plain = value == 0.0 || !value.is_finite();
-    let number = if is_plain { value.to_string() } else { decimal(mantissa, exponent) };
-    format!("{number} {shown}")
-}
-
 /// A value with its unit and all its digits: [`parse_quantity`] returns the same value.
 pub fn exact_quantity(value: f64, unit: &str) -> String {
     with_unit(value, &format!("{value:e}"), unit)
@@ -244,23 +224,6 @@ mod tests {
             for (text, value) in all.split("; ").map(|one| one.split_once(" = ").unwrap()) {
                 assert_eq!(parse_quantity(text, unit), Ok(value.parse().unwrap()), "{text} {unit}");
             }
-        }
-    }
-
-    #[test]
-    fn values_are_shown_in_the_unit_that_was_typed() {
-        for (value, typed, unit, shown) in [
-            (-1.5e-7, "-2 µN", "N", "-0.15 µN"),
-            (-4.65238e-5, "-1", "N", "-4.652e-5 N"),
-            (-4.65238e-5, "-1 N", "N", "-4.652e-5 N"),
-            (-4.65238e-5, "-5e3 uN", "N", "-46.52 uN"),
-            (2.5e-3, "1m", "N", "2.5 mN"),
-            (0.05, "20 mJ/m2", "J/m²", "50 mJ/m2"),
-            (0.0, "1 kN", "N", "0 kN"),
-            (1e9, "1 mN", "N", "1e12 mN"),
-            (1e-5, "strong", "N", "10 µN"),
-        ] {
-            assert_eq!(quantity_as_typed(value, typed, unit), shown, "{value} {typed}");
         }
     }
 

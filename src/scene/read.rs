@@ -6,7 +6,7 @@ use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
 
 use super::edit::field_at;
-use super::errors::{Origin, SceneError, did_you_mean, nearest};
+use super::errors::{Origin, SceneError, SceneErrors, did_you_mean, nearest};
 use super::fields::field;
 use super::model::Scene;
 use super::range::Range;
@@ -19,9 +19,12 @@ const MOST_REPEATED: usize = 60;
 const NO_SCENE: &str = "a scene in ( ) is expected here; a measured surface is read by `asperity surface FILE`, and \
                         is the roughness of a scene by --set roughness=FILE";
 
-/// Reads a scene; its values are not checked. An error has the byte at which reading failed, and no origin.
-pub(super) fn read(text: &str) -> Result<Scene, Box<(usize, SceneError)>> {
-    read_ron(text).map_err(|error| Box::new(explain(text, &error)))
+/// Reads a scene; its values are not checked. An error has the origin of the byte at which reading failed.
+pub(super) fn read(text: &str, origin: impl Fn(usize) -> Origin) -> Result<Scene, SceneErrors> {
+    read_ron(text).map_err(|error| {
+        let (offset, error) = explain(text, &error);
+        error.at(origin(offset)).into()
+    })
 }
 
 /// Reads RON text with optional values that need no `Some`, and a variant of one group without brackets around it.
@@ -152,12 +155,14 @@ fn plain(error: &Error) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::text::line_column;
+    use super::super::errors::origin_at;
     use super::*;
 
     fn unread(text: &str) -> ((usize, usize), String, String, String, String) {
-        let (offset, SceneError { field, value, allowed, message, .. }) = *read(text).unwrap_err();
-        (line_column(text, offset), field, value, allowed, message)
+        let errors = read(text, |offset| origin_at(text, "", offset)).unwrap_err();
+        let SceneError { origin, field, value, allowed, message } = errors.first().clone();
+        let Origin::File { place: Some(place), .. } = origin else { panic!("{origin:?}") };
+        (place, field, value, allowed, message)
     }
 
     fn scene(line: &str) -> String {

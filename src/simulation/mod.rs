@@ -14,5 +14,5 @@ pub use outcome::{LineFacts, Outcome, Timings};
 pub use plan::{Plan, PlannedStage, Stage};
 pub(crate) use reversals::FEW_SAMPLES;
 pub use reversals::{SeeReversal, TURNING_POINTS};
-pub use roughness::{equivalent_springs, measured_options};
+pub use roughness::equivalent_springs;
 pub use stages::{AfterLeg, Simulation};

@@ -78,7 +78,7 @@ impl RoughnessMaker {
             (None, roughness) => {
                 roughness.as_ref()?;
                 let faces = scene.measured_paths(&self.folder);
-                Source::Measured { faces, options: measured_options(scene), length: scene.length }
+                Source::Measured { faces, options: scene.measured_options(), length: scene.length }
             }
         };
         Some(RoughnessKey { source, seed: scene.seed().unwrap_or(0), points, shift })
@@ -148,14 +148,6 @@ pub(super) fn spectrum(scene: &Scene) -> Option<SelfAffine> {
         }
         _ => None,
     }
-}
-
-/// Options of a checked scene for its measured surface.
-#[must_use]
-pub fn measured_options(scene: &Scene) -> MeasuredOptions {
-    scene
-        .measured()
-        .map_or_else(MeasuredOptions::default, |measured| measured.options(scene.measured_as_line()))
 }
 
 /// Springs, a power of two, on which the shortest wave of an equivalent line over a length (m) has twice the fewest springs

@@ -29,41 +29,28 @@ pub enum StudyError {
     /// A file could not be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// A cell could not be computed.
-    #[error("cell {cell} ({coordinates}), seed {seed}: {error}")]
+    /// A cell or a random profile could not be computed.
+    #[error("{place}: {error}")]
     Run {
-        /// Index of the cell.
-        cell: u64,
-        /// Coordinates of the cell.
-        coordinates: String,
-        /// Seed of the profile.
-        seed: u64,
-        /// Error of the run.
-        error: RunError,
-    },
-    /// A random profile could not be computed.
-    #[error("seed {seed}: {error}")]
-    Profile {
-        /// Seed of the profile.
-        seed: u64,
+        /// Cell with its coordinates, and seed of the profile.
+        place: String,
         /// Error of the run.
         error: RunError,
     },
     /// Records are missing, or two records of one cell and profile differ.
     #[error("{0}")]
     Records(String),
-    /// The memory is too small for the table of records.
-    #[error("there is not enough memory for {records} records")]
-    OutOfMemory {
-        /// Number of records.
-        records: u64,
-    },
     /// The system starts no thread.
     #[error("could not start a worker thread: {0}")]
     NoThread(io::Error),
 }
 
 impl StudyError {
+    /// Error of the random profile of this seed.
+    pub(super) fn profile(seed: u64, error: RunError) -> StudyError {
+        StudyError::Run { place: format!("seed {seed}"), error }
+    }
+
     /// Error of a folder or file that cannot be used, with the reason.
     pub(super) fn folder(path: &Path, reason: impl ToString) -> StudyError {
         StudyError::Folder { path: path.to_path_buf(), reason: reason.to_string() }

@@ -8,7 +8,6 @@ use super::StudyError;
 use super::plan::{PLAN_FILE, Plan};
 use crate::io::hexadecimal;
 use crate::scene::Scene;
-use crate::simulation::measured_options;
 use crate::surface::{MeasuredRoughness, read_faces};
 use crate::text::path_name;
 use sha2::{Digest, Sha256};
@@ -65,7 +64,7 @@ fn read(scene: &Scene) -> Result<(MeasuredRoughness, String), StudyError> {
     let faces = read_faces(&scene.measured_paths(Path::new("")))?;
     let mut hasher = Sha256::new();
     faces.iter().flatten().for_each(|(_, content)| hasher.update(content));
-    Ok((MeasuredRoughness::new(&faces, &measured_options(scene))?, hexadecimal(hasher)))
+    Ok((MeasuredRoughness::new(&faces, &scene.measured_options())?, hexadecimal(hasher)))
 }
 
 #[cfg(test)]

@@ -87,7 +87,7 @@ impl MeasuredAdhesion {
             |number| {
                 let seed = scene.seed().unwrap_or(0).wrapping_add(number);
                 let solved = ProfileAdhesion::solve(scene, line, seed, &|| false);
-                solved.map_err(|error| StudyError::Profile { seed, error })
+                solved.map_err(|error| StudyError::profile(seed, error))
             }
         })?;
         Ok(MeasuredAdhesion { profiles })
@@ -121,7 +121,6 @@ impl MeasuredAdhesion {
 mod tests {
     use super::*;
     use crate::scene::Document;
-    use crate::simulation::measured_options;
 
     fn scene_and_line(adhesion: &str) -> (Scene, EquivalentLine) {
         let text = format!(
@@ -133,7 +132,7 @@ mod tests {
         let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
         let rows: String = (0..256).map(|i| format!("{i} {}\n", 30.0 * height(i))).collect();
         let face = vec![("".into(), format!("x [um] z [nm]\n{rows}").into_bytes())];
-        let line = EquivalentLine::new(&[face], &measured_options(&scene)).unwrap();
+        let line = EquivalentLine::new(&[face], &scene.measured_options()).unwrap();
         (scene, line)
     }
 

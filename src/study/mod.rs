@@ -79,7 +79,6 @@ pub use preloads::{
     PRELOADS, Preloaded, Preloads, preload_statistics, solve_preloads, solve_preloads_on_lines,
 };
 pub use quantity::Quantity;
-pub use record::Key;
 pub use regime_counts::RegimeCounts;
 pub use results::{Merged, Results};
 pub use run::{Options, Progress, run};

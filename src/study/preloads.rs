@@ -110,7 +110,7 @@ pub fn solve_preloads_on_lines(
             let (seed, mut found) = (first.wrapping_add(line), Vec::with_capacity(forces.len()));
             scene.set_seed(seed);
             solve_preloads(&mut simulation, &scene, forces, &|| false, &mut |one| found.push(one))
-                .map_err(|error| StudyError::Profile { seed, error })?;
+                .map_err(|error| StudyError::profile(seed, error))?;
             Ok((seed, found))
         }
     })

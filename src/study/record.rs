@@ -1,24 +1,9 @@
 //! One record of a shard file: a line with its key, its values and a checksum.
 
-use std::fmt::{self, Write};
+use std::fmt::Write;
 
 /// Characters of the checksum and the comma behind it.
 const CHECKSUM: usize = 9;
-
-/// Unique key of a record: cell and seed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Key {
-    /// Index of the cell.
-    pub cell: u64,
-    /// Seed of the profile.
-    pub seed: u64,
-}
-
-impl fmt::Display for Key {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "cell {}, seed {}", self.cell, self.seed)
-    }
-}
 
 /// Set of the existing records of a study, one bit for each.
 #[derive(Clone)]
@@ -50,8 +35,7 @@ pub(super) fn seal(payload: &str, into: &mut String) {
 }
 
 /// The payload of a line without its break; `None` if the line was changed.
-pub(super) fn unseal(line: &[u8]) -> Option<&str> {
-    let line = std::str::from_utf8(line).ok()?;
+pub(super) fn unseal(line: &str) -> Option<&str> {
     let (checksum, payload) = (line.get(..CHECKSUM)?, line.get(CHECKSUM..)?);
     let checksum = checksum.strip_suffix(',')?;
     // One way of writing, so that equal records are equal text.
@@ -59,9 +43,9 @@ pub(super) fn unseal(line: &[u8]) -> Option<&str> {
     is_ours.then_some(payload)
 }
 
-/// Appends a record. NaN, a missing value, becomes an empty column.
-pub(super) fn encode(key: Key, values: &[f64], into: &mut String) {
-    let mut payload = format!("{},{}", key.cell, key.seed);
+/// Appends the record of a cell and a seed. NaN, a missing value, becomes an empty column.
+pub(super) fn encode(cell: u64, seed: u64, values: &[f64], into: &mut String) {
+    let mut payload = format!("{cell},{seed}");
     for value in values {
         payload.push(',');
         if !value.is_nan() {
@@ -72,25 +56,13 @@ pub(super) fn encode(key: Key, values: &[f64], into: &mut String) {
     seal(&payload, into);
 }
 
-/// The key of a payload and the text of its values.
-pub(super) fn key_of(payload: &str) -> Option<(Key, &str)> {
-    let mut parts = payload.splitn(3, ',');
-    let cell = parts.next()?.parse().ok()?;
-    let seed = parts.next()?.parse().ok()?;
-    Some((Key { cell, seed }, parts.next()?))
-}
-
-/// Reads so many values of a payload, NaN for empty columns. Returns false if the payload has other columns.
-pub(super) fn values_into(text: &str, count: usize, values: &mut Vec<f64>) -> bool {
-    values.clear();
-    for text in text.split(',') {
-        let value = if text.is_empty() { Ok(f64::NAN) } else { text.parse() };
-        match value {
-            Ok(value) if values.len() < count => values.push(value),
-            _ => return false,
-        }
-    }
-    values.len() == count
+/// Cell, seed and values of a payload, NaN for empty columns; `None` unless it has so many values.
+pub(super) fn decode(payload: &str, count: usize) -> Option<(u64, u64, Vec<f64>)> {
+    let mut columns = payload.split(',');
+    let (cell, seed) = (columns.next()?.parse().ok()?, columns.next()?.parse().ok()?);
+    let value = |text: &str| if text.is_empty() { Some(f64::NAN) } else { text.parse().ok() };
+    let values: Vec<f64> = columns.map(value).collect::<Option<_>>()?;
+    (values.len() == count).then_some((cell, seed, values))
 }
 
 #[cfg(test)]
@@ -107,26 +79,24 @@ mod tests {
         ) {
             let values: Vec<f64> = values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect();
             let mut text = String::new();
-            encode(Key { cell, seed }, &values, &mut text);
-            let payload = unseal(text.trim_end_matches('\n').as_bytes()).unwrap();
-            let (key, rest) = key_of(payload).unwrap();
-            prop_assert_eq!(key, Key { cell, seed });
-            let mut read = Vec::new();
-            prop_assert!(values_into(rest, values.len(), &mut read));
-            prop_assert!(!values_into(rest, values.len() + 1, &mut Vec::new()));
-            prop_assert!(!values_into(rest, values.len() - 1, &mut Vec::new()));
+            encode(cell, seed, &values, &mut text);
+            let line = text.trim_end_matches('\n');
+            let payload = unseal(line).unwrap();
+            let (of_cell, of_seed, read) = decode(payload, values.len()).unwrap();
+            prop_assert_eq!((of_cell, of_seed), (cell, seed));
+            prop_assert!(decode(payload, values.len() + 1).is_none());
+            prop_assert!(decode(payload, values.len() - 1).is_none());
             for (read, value) in read.iter().zip(&values) {
                 prop_assert!(read.to_bits() == value.to_bits() || (read.is_nan() && value.is_nan()));
             }
             // Every cut or change is noticed.
-            let line = text.trim_end_matches('\n').as_bytes();
             for end in 0..line.len() {
                 prop_assert_eq!(unseal(&line[..end]), None);
             }
             for place in 0..line.len() {
-                let mut changed = line.to_vec();
+                let mut changed = line.as_bytes().to_vec();
                 changed[place] ^= 1;
-                prop_assert_eq!(unseal(&changed), None);
+                prop_assert_eq!(unseal(std::str::from_utf8(&changed).unwrap()), None);
             }
         }
     }

@@ -98,19 +98,12 @@ impl<'p> Recorder<'p> {
             return Ok((each, at_touch.filter(|_| governing.adhesive_work().is_some())));
         }
         let loops = if loops.is_empty() { vec![vec![Move::ToTouch, Move::ToSeparation]] } else { loops };
-        // A loading that begins at separation equals the same loading alone.
-        let ends_apart = loops.iter().all(|legs| legs.last() == Some(&Move::ToSeparation));
-        let together = if ends_apart { loops.len() } else { 1 };
-        let mut zero_load = None;
-        let mut each = Vec::with_capacity(loops.len());
-        for loops in loops.chunks(together) {
-            scene.loading = loops.concat();
+        let (mut each, mut zero_load) = (Vec::with_capacity(loops.len()), None);
+        for one in loops {
+            scene.loading = one;
             let outcome = self.run(scene)?;
             zero_load = zero_load.or(outcome.zero_load_adhesion_force);
-            let mut legs = outcome.history.legs.into_iter();
-            each.extend(
-                loops.iter().map(|one| LoadingOutcome::of_legs(legs.by_ref().take(one.len()).collect())),
-            );
+            each.push(LoadingOutcome::of_legs(outcome.history.legs));
         }
         Ok((each, zero_load))
     }

@@ -5,10 +5,10 @@ use super::cells::Run;
 use super::grid::{Cell, Estimate, Grid, Layer};
 use super::plan::{ONE_PROFILE, Plan};
 use super::quantity::{Quantity, regime_of};
-use super::record::{Done, Key};
+use super::record::Done;
 use super::recorder::Recorder;
-use super::statistics::{Statistics, mean};
-use super::store::{Folder, ShardFile};
+use super::statistics::Statistics;
+use super::store::{Folder, Record, ShardFile};
 use crate::analysis::{CellRegime, Regime};
 use crate::draw::AxisScale;
 use crate::parallel::on_threads;
@@ -74,11 +74,13 @@ impl Results {
     /// A study without records.
     ///
     /// # Errors
-    /// [`StudyError::OutOfMemory`].
+    /// A table that is too large for the memory.
     pub(super) fn empty(plan: Plan) -> Result<Results, StudyError> {
         let (records, mut values) = (plan.records_in_all(), Vec::new());
         let count = records as usize * plan.record.len();
-        values.try_reserve_exact(count).map_err(|_| StudyError::OutOfMemory { records })?;
+        values
+            .try_reserve_exact(count)
+            .map_err(|_| StudyError::Records(format!("there is not enough memory for {records} records")))?;
         values.resize(count, f64::NAN);
         Ok(Results { plan, values, done: Done::none(records) })
     }
@@ -104,7 +106,7 @@ impl Results {
             let mut recorder = Recorder::new(plan, Simulation::new(folder.to_path_buf()), &|| false);
             move |line| {
                 let solved = recorder.record(&Run { cells: 0..1, line });
-                solved.map_err(|error| StudyError::Profile { seed: plan.seed_of(line), error })
+                solved.map_err(|error| StudyError::profile(plan.seed_of(line), error))
             }
         })?;
         for (line, values) in (0..).zip(&solved) {
@@ -124,25 +126,21 @@ impl Results {
         let mut programs = BTreeSet::new();
         for file in &files {
             let mut has_records = false;
-            damaged += folder.records(file, |key, values| {
+            for record in folder.records(file)? {
+                let Some((place, values)) = record? else {
+                    damaged += 1;
+                    continue;
+                };
                 has_records = true;
-                match results.record(key.cell, folder.place(key) % results.plan.lines) {
-                    None => results.set(folder.place(key), values),
-                    Some(known) if same(known, values) => duplicates += 1,
-                    Some(_) => {
-                        let coordinates = results.plan.coordinates(key.cell);
-                        let (one, other) = (first_with(folder, &files, key)?, path_name(&file.path));
-                        return Err(StudyError::Records(format!(
-                            "{key} ({coordinates}): two records differ, in {one} and {other}; remove the one \
-                             that is wrong"
-                        )));
-                    }
+                match results.at(place) {
+                    None => results.set(place, &values),
+                    Some(known) if same(known, &values) => duplicates += 1,
+                    Some(_) => return Err(results.conflict(folder, &files, place, file)),
                 }
-                Ok(())
-            })?;
+            }
             if has_records {
                 with_records += 1;
-                programs.extend(file.header.as_ref().map(|header| header.program.clone()));
+                programs.insert(file.header.program.clone());
             }
         }
         let plan = &results.plan;
@@ -160,6 +158,20 @@ impl Results {
         Ok((results, merged))
     }
 
+    /// Error for two records at a place that differ, the second one in this file.
+    fn conflict(&self, folder: &Folder, files: &[ShardFile], place: u64, other: &ShardFile) -> StudyError {
+        let is_there = |record: Result<Option<Record>, StudyError>| matches!(record, Ok(Some((found, _))) if found == place);
+        let has = |file: &&ShardFile| folder.records(file).is_ok_and(|mut records| records.any(is_there));
+        let one = files.iter().find(has).unwrap_or(other);
+        let (cell, seed) = (place / self.plan.lines, self.plan.seed_of(place % self.plan.lines));
+        StudyError::Records(format!(
+            "cell {cell}, seed {seed} ({}): two records differ, in {} and {}; remove the one that is wrong",
+            self.plan.coordinates(cell),
+            path_name(&one.path),
+            path_name(&other.path)
+        ))
+    }
+
     /// Sets the record at a place, by cell, then by profile.
     pub(super) fn set(&mut self, place: u64, values: &[f64]) {
         let columns = self.plan.record.len();
@@ -175,7 +187,11 @@ impl Results {
     /// Values of a cell on a profile, in the order of the recorded quantities, NaN for a quantity without a value. The
     /// regime is its place in [`crate::analysis::Regime::ALL`]. `None` for a missing record.
     pub fn record(&self, cell: u64, line: u64) -> Option<&[f64]> {
-        let (place, columns) = (cell * self.plan.lines + line, self.plan.record.len());
+        self.at(cell * self.plan.lines + line)
+    }
+
+    fn at(&self, place: u64) -> Option<&[f64]> {
+        let columns = self.plan.record.len();
         let values = self.values.get(place as usize * columns..)?.get(..columns)?;
         self.done.has(place).then_some(values)
     }
@@ -238,12 +254,8 @@ impl Results {
 
     /// A recorded quantity on one scale for the whole study: that one, or by the range of all its means.
     pub(super) fn layer(&self, quantity: Quantity, scale: Option<AxisScale>) -> Layer {
-        let mean = |cell| {
-            let values = self.values(cell, quantity);
-            (!values.is_empty()).then(|| mean(&values))
-        };
-        let means: Vec<f64> = (0..self.plan.cells()).filter_map(mean).collect();
-        Layer::new(quantity, scale, &means)
+        let means = (0..self.plan.cells()).filter_map(|cell| Some(self.estimate(cell, quantity)?.mean));
+        Layer::new(quantity, scale, &means.collect::<Vec<_>>())
     }
 
     /// The cells over one axis or two, at these places on the others, with quantities on these scales.
@@ -274,21 +286,6 @@ impl Results {
         let regime = self.regimes(cell).and_then(CellRegime::from_shares);
         (lines > 0).then_some(Cell { estimates, regime, lines })
     }
-}
-
-/// The first file with a record of this key.
-fn first_with(folder: &Folder, files: &[ShardFile], key: Key) -> Result<String, StudyError> {
-    for file in files {
-        let mut has = false;
-        folder.records(file, |found, _| {
-            has |= found == key;
-            Ok(())
-        })?;
-        if has {
-            return Ok(path_name(&file.path));
-        }
-    }
-    Ok(path_name(folder.path()))
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::StudyError;
 use super::cells::Cells;
 use super::measured::profile;
-use super::record::{Key, encode};
+use super::record::encode;
 use super::recorder::Recorder;
 use super::shard::Shard;
 use super::status::{count, rate};
@@ -116,11 +116,12 @@ pub fn run(
                 let (cell, seed) = (run.cells.start, plan.seed_of(run.line));
                 let records = recorder.record(&run).map_err(|error| {
                     ended.store(true, Ordering::SeqCst);
-                    StudyError::Run { cell, coordinates: plan.coordinates(cell), seed, error }
+                    let place = format!("cell {cell} ({}), seed {seed}", plan.coordinates(cell));
+                    StudyError::Run { place, error }
                 })?;
                 let mut text = String::new();
                 for (cell, values) in run.cells.zip(&records).filter(|(cell, _)| is_missing(*cell)) {
-                    encode(Key { cell, seed }, values, &mut text);
+                    encode(cell, seed, values, &mut text);
                 }
                 // The text has no receiver once the file cannot be written.
                 ended.fetch_or(sender.send(text).is_err(), Ordering::SeqCst);

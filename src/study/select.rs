@@ -199,8 +199,8 @@ impl Selection {
     }
 }
 
-/// A quantity of curves: a single one is linear, with an inset for small values; of several the highest would hide the
-/// others.
+/// A quantity of curves: a single one is linear, and logarithmic too for small values; of several the highest would hide
+/// the others.
 fn section_layer(grid: &Grid, quantity: Quantity, scale: Option<AxisScale>) -> Layer {
     let estimates = grid.estimates(quantity, false);
     let mut curves = estimates.chunks(grid.size().0.max(1));

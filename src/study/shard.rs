@@ -9,7 +9,6 @@ const MOST: u32 = 1_000_000;
 
 /// The `number`-th of `count` parts, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(try_from = "Parts")]
 pub struct Shard {
     /// Number of the part, from 1.
     pub number: u32,
@@ -17,27 +16,19 @@ pub struct Shard {
     pub count: u32,
 }
 
-/// A shard of a header before the check.
-#[derive(Deserialize)]
-struct Parts {
-    number: u32,
-    count: u32,
-}
-
-impl TryFrom<Parts> for Shard {
-    type Error = String;
-
-    fn try_from(parts: Parts) -> Result<Shard, String> {
-        let Parts { number, count } = parts;
-        let sound = (1..=MOST).contains(&count) && (1..=count).contains(&number);
-        let allowed = || format!("shard {number}/{count}: allowed: K/N with K from 1 to N, N at most {MOST}");
-        if sound { Ok(Shard { number, count }) } else { Err(allowed()) }
-    }
-}
-
 impl Shard {
     /// The whole plan.
     pub const WHOLE: Shard = Shard { number: 1, count: 1 };
+
+    /// A part of a plan.
+    ///
+    /// # Errors
+    /// What is allowed.
+    pub(super) fn new(number: u32, count: u32) -> Result<Shard, String> {
+        let is_sound = (1..=MOST).contains(&count) && (1..=count).contains(&number);
+        let allowed = || format!("shard {number}/{count}: allowed: K/N with K from 1 to N, N at most {MOST}");
+        is_sound.then_some(Shard { number, count }).ok_or_else(allowed)
+    }
 
     /// The units of work of this part, out of so many.
     pub(super) fn units(self, units: u64) -> impl Iterator<Item = u64> {
@@ -55,12 +46,11 @@ impl FromStr for Shard {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Shard, String> {
-        let parts = text.split_once('/').and_then(|(number, count)| {
-            Some(Parts { number: number.trim().parse().ok()?, count: count.trim().parse().ok()? })
+        let parts = text.split_once('/');
+        let shard = parts.and_then(|(number, count)| {
+            Shard::new(number.trim().parse().ok()?, count.trim().parse().ok()?).ok()
         });
-        parts
-            .and_then(|parts| Shard::try_from(parts).ok())
-            .ok_or_else(|| format!("allowed: K/N with K from 1 to N, N at most {MOST}, such as 3/8"))
+        shard.ok_or_else(|| format!("allowed: K/N with K from 1 to N, N at most {MOST}, such as 3/8"))
     }
 }
 
@@ -77,12 +67,6 @@ mod tests {
         assert_eq!(shard.units(2).count(), 0);
         for wrong in ["", "3", "0/8", "9/8", "1/0", "-1/2", "1/2/3", "a/b", "1/99999999999", "1/1000001"] {
             assert!(wrong.parse::<Shard>().unwrap_err().contains("such as 3/8"), "{wrong}");
-        }
-        let read = |text: &str| serde_json::from_str::<Shard>(text);
-        assert_eq!(read(r#"{"number":3,"count":8}"#).unwrap(), shard);
-        for wrong in [(1, 0), (0, 1), (2, 1), (1, 1_000_001)] {
-            let text = format!(r#"{{"number":{},"count":{}}}"#, wrong.0, wrong.1);
-            assert!(read(&text).unwrap_err().to_string().contains("allowed: K/N"), "{text}");
         }
     }
 }

@@ -33,8 +33,10 @@ impl Statistics {
             return None;
         }
         let count = values.len() as f64;
-        let unit = unit_of(values);
-        let mean = scaled_mean(values, unit);
+        // Divided by the largest value, so that no square overflows or underflows.
+        let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+        let unit = if largest > 0.0 { largest } else { 1.0 };
+        let mean = values.iter().map(|value| value / unit).sum::<f64>() / count;
         let squares = values.iter().map(|value| (value / unit - mean).powi(2)).sum::<f64>();
         let (mean, standard_deviation) = (mean * unit, (squares / (count - 1.0)).sqrt() * unit);
         let standard_error = standard_deviation / count.sqrt();
@@ -49,22 +51,6 @@ impl Statistics {
             confidence_interval,
         })
     }
-}
-
-/// The largest of the values, by which they are divided so that no square overflows or underflows.
-fn unit_of(values: &[f64]) -> f64 {
-    let scale = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-    if scale > 0.0 { scale } else { 1.0 }
-}
-
-fn scaled_mean(values: &[f64], unit: f64) -> f64 {
-    values.iter().map(|value| value / unit).sum::<f64>() / values.len() as f64
-}
-
-/// Mean of these values, the same bits as in [`Statistics`]; a single value is its own mean.
-pub(super) fn mean(values: &[f64]) -> f64 {
-    let unit = unit_of(values);
-    if let [only] = values { *only } else { scaled_mean(values, unit) * unit }
 }
 
 /// Lower quartile, median and upper quartile of these values, interpolated between neighbours; `None` without values.

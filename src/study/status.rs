@@ -4,7 +4,7 @@ use super::StudyError;
 use super::cells::{Cells, Run};
 use super::record::Done;
 use super::shard::Shard;
-use super::store::Folder;
+use super::store::{Folder, ShardFile};
 use crate::text::{path_name, printable};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -68,21 +68,24 @@ impl Status {
         let mut attempts: BTreeMap<Shard, Vec<Attempt>> = BTreeMap::new();
         for file in folder.files()? {
             let mut records = 0;
-            damaged += folder.records(&file, |key, _| {
-                records += 1;
-                done.add(folder.place(key));
-                Ok(())
-            })?;
-            let Some(header) = file.header else { continue };
-            let seconds = file.written - header.begun;
+            for record in folder.records(&file)? {
+                match record? {
+                    Some((place, _)) => {
+                        records += 1;
+                        done.add(place);
+                    }
+                    None => damaged += 1,
+                }
+            }
+            let ShardFile { path, header, written } = file;
             attempts.entry(header.shard).or_default().push(Attempt {
-                file: file.path.file_name().map_or_else(String::new, |name| path_name(Path::new(name))),
+                file: path.file_name().map_or_else(String::new, |name| path_name(Path::new(name))),
                 host: printable(&header.host).into_owned(),
                 process: header.process,
                 started: header.begun as u64,
-                written: file.written,
+                written,
                 records,
-                rate: rate(records, seconds),
+                rate: rate(records, written - header.begun),
             });
         }
         let cells = Cells::of(folder.plan());

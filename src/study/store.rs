@@ -8,7 +8,7 @@ use super::StudyError;
 use super::measured::{changed, file_of, with_hash};
 use super::plan::{PLAN_FILE, Plan};
 use super::plan_text::Changes;
-use super::record::{Done, Key, key_of, seal, unseal, values_into};
+use super::record::{Done, decode, seal, unseal};
 use super::shard::Shard;
 use crate::io::{WriteError, open_regular, read_regular_text, sync_folder, write_new};
 use crate::scene::LONGEST_TEXT;
@@ -22,8 +22,8 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Version of the shard files.
 pub const STORE_VERSION: u32 = 1;
-/// Longest line of a shard file; records are much shorter.
-pub(super) const LONGEST_LINE: u64 = 1 << 16;
+/// Longest line of a shard file or of a table; records are much shorter.
+const LONGEST_LINE: u64 = 1 << 16;
 
 const SHARDS: &str = "shards";
 /// Ending of a shard file.
@@ -53,15 +53,6 @@ pub struct Header {
     pub begun: f64,
     /// Version of the program.
     pub program: String,
-    /// SHA-256 of the content of the study's measured file, if any.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub measured_sha256: Option<String>,
-}
-
-/// Part of a header that every version of the program can read.
-#[derive(Deserialize)]
-struct AnyHeader {
-    format: u32,
 }
 
 /// A shard file.
@@ -69,11 +60,15 @@ struct AnyHeader {
 pub struct ShardFile {
     /// Path.
     pub path: PathBuf,
-    /// Header; `None` if the process ended before writing it.
-    pub header: Option<Header>,
+    /// Header.
+    pub header: Header,
     /// Time of the last write, s since 1970.
     pub written: f64,
 }
+
+/// A record: its place among all records of a study, by cell, then by seed, and one value for each quantity of the
+/// plan, NaN for missing ones.
+pub(super) type Record = (u64, Vec<f64>);
 
 impl Folder {
     /// Makes the folder of a plan, or opens one that holds the same plan.
@@ -153,7 +148,6 @@ impl Folder {
             process,
             begun: begun.as_secs_f64(),
             program: env!("CARGO_PKG_VERSION").into(),
-            measured_sha256: self.plan.measured_sha256.clone(),
         };
         let random = RandomState::new().hash_one(started) as u32;
         let Shard { number, count } = shard;
@@ -173,10 +167,10 @@ impl Folder {
         Ok((path, file))
     }
 
-    /// All shard files, by name.
+    /// All shard files with a header, by name; a process that ended before it had written one has no records.
     ///
     /// # Errors
-    /// Files that cannot be read, or that belong to another plan, another measured file or another version.
+    /// Files that cannot be read, or that belong to another plan or another version.
     pub fn files(&self) -> Result<Vec<ShardFile>, StudyError> {
         let shards = self.path.join(SHARDS);
         let listed =
@@ -188,83 +182,29 @@ impl Folder {
         paths.retain(|path| path.extension().is_some_and(|ending| ending == ENDING));
         paths.sort();
         let checksum = self.checksum();
-        paths.iter().map(|path| self.file(path, &checksum)).collect()
+        paths.into_iter().filter_map(|path| file_of_plan(path, &checksum).transpose()).collect()
     }
 
-    fn file(&self, path: &Path, checksum: &str) -> Result<ShardFile, StudyError> {
-        let failed = StudyError::unreadable(path);
-        let file = open_regular(path).map_err(|error| StudyError::folder(path, error))?;
-        let written = file.metadata().and_then(|found| found.modified()).map_err(&failed)?;
-        let written = written.duration_since(UNIX_EPOCH).unwrap_or_default().as_secs_f64();
-        // Of thousands of files, only the first lines are read here.
-        let mut lines = Lines::new(file, 1 << 10);
-        let first = lines.next().map_err(&failed)?.flatten();
-        let header = first.map(|payload| self.header(payload, checksum)).transpose();
-        let header = header.map_err(|reason| StudyError::folder(path, reason))?;
-        Ok(ShardFile { path: path.to_path_buf(), header, written })
-    }
-
-    /// Reads a whole header, which no crash can have made: an error in it was written so.
-    fn header(&self, payload: &str, checksum: &str) -> Result<Header, String> {
-        let unknown = |error: serde_json::Error| {
-            format!(
-                "its first line is not the header of a shard file ({error}); remove the file or bring back another"
-            )
-        };
-        let AnyHeader { format } = serde_json::from_str(payload).map_err(unknown)?;
-        if format != STORE_VERSION {
-            return Err(format!("its format is {format}; this program reads {STORE_VERSION}"));
-        }
-        let header: Header = serde_json::from_str(payload).map_err(unknown)?;
-        if header.measured_sha256 != self.plan.measured_sha256 {
-            let [found, expected] = [&header.measured_sha256, &self.plan.measured_sha256]
-                .map(|hash| hash.as_deref().unwrap_or("none"));
-            return Err(format!(
-                "this file was computed from another measured file: its SHA-256 is {found}, the plan has {expected}"
-            ));
-        }
-        if header.plan != checksum {
-            return Err("this file belongs to another plan".into());
-        }
-        Ok(header)
-    }
-
-    /// Calls `each` with every whole record of a file, in the order of writing: its key, and one value for each quantity
-    /// of the plan, NaN for missing ones. Returns the number of damaged lines: torn, changed since, or no records of
-    /// this plan.
-    pub(super) fn records(
-        &self,
-        file: &ShardFile,
-        mut each: impl FnMut(Key, &[f64]) -> Result<(), StudyError>,
-    ) -> Result<u64, StudyError> {
-        if file.header.is_none() {
-            return Ok(0);
-        }
-        let failed = StudyError::unreadable(&file.path);
+    /// The records of a file in the order of writing; `None` for a line that is torn, was changed since, or is no record
+    /// of this plan.
+    pub(super) fn records<'f>(
+        &'f self,
+        file: &'f ShardFile,
+    ) -> Result<impl Iterator<Item = Result<Option<Record>, StudyError>> + 'f, StudyError> {
         let opened = open_regular(&file.path).map_err(|error| StudyError::folder(&file.path, error))?;
         // Most of many files are small.
-        let size = opened.metadata().map_err(&failed)?.len().clamp(1 << 10, 1 << 18) as usize;
-        let (mut lines, mut values, mut damaged) = (Lines::new(opened, size), Vec::new(), 0);
-        let (cells, count) = (self.plan.cells(), self.plan.record.len());
-        let mut is_header = true;
-        while let Some(payload) = lines.next().map_err(&failed)? {
-            let key = payload.and_then(|payload| {
-                let (key, text) = key_of(payload)?;
-                let is_of_plan = key.cell < cells && key.seed.wrapping_sub(self.plan.seed) < self.plan.lines;
-                (is_of_plan && values_into(text, count, &mut values)).then_some(key)
-            });
-            match key {
-                Some(key) => each(key, &values)?,
-                None => damaged += u64::from(!is_header),
-            }
-            is_header = false;
-        }
-        Ok(damaged)
-    }
-
-    /// Place of a record of the plan among all of them, by cell, then by seed.
-    pub(super) fn place(&self, key: Key) -> u64 {
-        key.cell * self.plan.lines + key.seed.wrapping_sub(self.plan.seed)
+        let size = opened.metadata().map_err(StudyError::unreadable(&file.path))?.len();
+        let lines = lines(BufReader::with_capacity(size.clamp(1 << 10, 1 << 18) as usize, opened));
+        let record = |line: &str| {
+            let (cell, seed, values) = decode(unseal(line)?, self.plan.record.len())?;
+            let profile = seed.wrapping_sub(self.plan.seed);
+            let is_of_plan = cell < self.plan.cells() && profile < self.plan.lines;
+            is_of_plan.then_some((cell * self.plan.lines + profile, values))
+        };
+        Ok(lines.skip(1).map(move |line| {
+            let line = line.map_err(StudyError::unreadable(&file.path))?;
+            Ok(line.and_then(|line| record(&line)))
+        }))
     }
 
     /// The records that exist and survive a power cut: records that a killed process left unsynced would be counted
@@ -272,10 +212,9 @@ impl Folder {
     pub(super) fn done(&self) -> Result<Done, StudyError> {
         let mut done = Done::none(self.plan.records_in_all());
         for file in self.files()? {
-            self.records(&file, |key, _| {
-                done.add(self.place(key));
-                Ok(())
-            })?;
+            for record in self.records(&file)? {
+                record?.into_iter().for_each(|(place, _)| done.add(place));
+            }
             // Windows requires write access.
             let open = OpenOptions::new().read(true).write(cfg!(windows)).open(&file.path);
             open.and_then(|file| file.sync_all()).map_err(StudyError::unwritable(&file.path))?;
@@ -284,6 +223,49 @@ impl Folder {
         sync_folder(&shards).map_err(StudyError::unwritable(&shards))?;
         Ok(done)
     }
+}
+
+/// A shard file of the plan with this checksum; `None` without a header.
+fn file_of_plan(path: PathBuf, checksum: &str) -> Result<Option<ShardFile>, StudyError> {
+    let file = open_regular(&path).map_err(|error| StudyError::folder(&path, error))?;
+    let written =
+        file.metadata().and_then(|found| found.modified()).map_err(StudyError::unreadable(&path))?;
+    let written = written.duration_since(UNIX_EPOCH).unwrap_or_default().as_secs_f64();
+    // Of thousands of files, only the first lines are read here.
+    let first = lines(BufReader::with_capacity(1 << 10, file)).next().transpose();
+    let first = first.map_err(StudyError::unreadable(&path))?.flatten();
+    let Some(payload) = first.as_deref().and_then(unseal) else { return Ok(None) };
+    let header = header_of(payload, checksum).map_err(|reason| StudyError::folder(&path, reason))?;
+    Ok(Some(ShardFile { header, written, path }))
+}
+
+/// Reads a whole header, which no crash can have made: an error in it was written so.
+fn header_of(payload: &str, checksum: &str) -> Result<Header, String> {
+    let header: Header = serde_json::from_str(payload).map_err(|error| {
+        format!(
+            "its first line is not the header of a shard file ({error}); remove the file or bring back another"
+        )
+    })?;
+    if header.format != STORE_VERSION {
+        return Err(format!("its format is {}; this program reads {STORE_VERSION}", header.format));
+    }
+    if header.plan != checksum {
+        return Err("this file belongs to another plan".into());
+    }
+    Ok(Header { shard: Shard::new(header.shard.number, header.shard.count)?, ..header })
+}
+
+/// Lines of a text without their breaks; `None` for a line that is too long, torn or not text.
+pub(super) fn lines(mut text: impl BufRead) -> impl Iterator<Item = io::Result<Option<String>>> {
+    std::iter::from_fn(move || {
+        let mut line = Vec::new();
+        let read = text.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line);
+        let whole = |mut line: Vec<u8>| line.pop().filter(|last| *last == b'\n').map(|_| line);
+        match read {
+            Ok(0) => None,
+            read => Some(read.map(|_| String::from_utf8(whole(line)?).ok())),
+        }
+    })
 }
 
 /// Text of the plan in a folder.
@@ -316,26 +298,6 @@ fn difference(there: &str, asked: &str) -> String {
         line.map_or_else(|| "nothing".into(), |line| printable(line.trim()).into_owned())
     };
     first.map_or_else(String::new, |(a, b)| format!("there: {}\nhere:  {}", shown(a), shown(b)))
-}
-
-/// Reader of the sealed lines of a shard file.
-struct Lines {
-    reader: BufReader<File>,
-    line: Vec<u8>,
-}
-
-impl Lines {
-    /// Lines of a file, read in blocks of so many bytes.
-    fn new(file: File, bytes: usize) -> Lines {
-        Lines { reader: BufReader::with_capacity(bytes, file), line: Vec::new() }
-    }
-
-    /// Next line: its payload if the line is whole; `None` at the end.
-    fn next(&mut self) -> io::Result<Option<Option<&str>>> {
-        self.line.clear();
-        let read = self.reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut self.line)?;
-        Ok((read > 0).then(|| self.line.strip_suffix(b"\n").and_then(unseal)))
-    }
 }
 
 /// Name of this machine, in letters allowed in a file name.

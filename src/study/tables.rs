@@ -6,11 +6,11 @@ use super::plan::Plan;
 use super::quantity::{Quantity, regime_of};
 use super::results::{Merged, Results};
 use super::statistics::CONFIDENCE;
-use super::store::{Folder, LONGEST_LINE};
+use super::store::{Folder, lines};
 use crate::analysis::Regime;
 use crate::io::{Kind, ReadError, Table, TableOf, object, open_regular, write_json_value, write_new_file};
 use serde::Serialize;
-use std::io::{self, BufRead, BufReader, Read};
+use std::io::{self, BufReader};
 use std::path::Path;
 
 /// Version of the merged files.
@@ -183,21 +183,13 @@ impl Results {
         })?;
         let header =
             results.table().columns().iter().map(|(name, _)| name.as_ref()).collect::<Vec<_>>().join(",");
-        let (mut reader, mut line) = (BufReader::new(file), Vec::new());
-        for number in 1.. {
-            line.clear();
-            let read = reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line);
-            if read.map_err(StudyError::unreadable(&path))? == 0 {
-                break;
+        for (number, line) in (1..).zip(lines(BufReader::new(file))) {
+            let line = line.map_err(StudyError::unreadable(&path))?.unwrap_or_default();
+            let row = line.trim_end_matches('\r');
+            if number == 1 && row != header {
+                return Err(wrong("its columns are not those of the plan".into()));
             }
-            // A line that is too long, torn or not text is not a row.
-            let text = line.strip_suffix(b"\n").and_then(|line| std::str::from_utf8(line).ok());
-            let text = text.unwrap_or_default().trim_end_matches('\r');
-            if number == 1 {
-                if text != header {
-                    return Err(wrong("its columns are not those of the plan".into()));
-                }
-            } else if results.add_row(text).is_none() {
+            if number > 1 && results.add_row(row).is_none() {
                 return Err(wrong(format!("line {number} is not a row of this study")));
             }
         }

@@ -71,14 +71,6 @@ impl MeasuredRoughness {
             _ => EquivalentLine::new(faces, options).map(MeasuredRoughness::Equivalent),
         }
     }
-
-    /// Checks that a line of this length (m) can be made on this number of springs; the error is the reason, in one line.
-    pub fn check(&self, length: f64, points: usize) -> Result<(), String> {
-        match self {
-            MeasuredRoughness::Profile(profile) => profile.sample(length, 1, 0.0).map(drop),
-            MeasuredRoughness::Equivalent(line) => line.modes(length, points).map(drop),
-        }
-    }
 }
 
 /// Equivalent line of the measured surfaces of one or both faces: the spectra of the faces add.

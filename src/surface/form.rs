@@ -129,21 +129,7 @@ impl Form {
         }
     }
 
-    /// Depth of the surface below its summit at a distance `distance` from the axis, m, with waves as in
-    /// [`Form::wave_depth`].
-    pub(crate) fn depth(&self, distance: f64) -> f64 {
-        match *self {
-            Form::Paraboloid { radius } => distance * distance / (2.0 * radius),
-            Form::Cone { angle } => distance * angle.tan(),
-            Form::Power { coefficient, exponent } => coefficient * distance.powf(exponent),
-            Form::WavySphere { radius, .. } => {
-                distance * distance / (2.0 * radius) + self.wave_depth(distance)
-            }
-            Form::Punch { .. } => 0.0,
-        }
-    }
-
-    /// Part of the waves in the depth at a distance from the axis, m: on the profile it grows to about π A √(r/λ).
+    /// Bound of the waves in the profile at a distance from the axis, m: π A √(r/λ).
     pub(crate) fn wave_depth(&self, distance: f64) -> f64 {
         match *self {
             Form::WavySphere { amplitude, wavelength, .. } => {

@@ -23,4 +23,4 @@ pub use measured::MeasuredProfile;
 pub use phases::phases;
 pub use roughness::Synthesizer;
 pub use spectrum::SelfAffine;
-pub use struve::{struve_0, struve_1};
+pub use struve::struve_0;

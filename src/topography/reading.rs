@@ -150,8 +150,10 @@ fn check_range(name: &str, lengths: &[f64], counts: fn(f64) -> bool) -> Result<(
 fn check_positions(positions: &[f64]) -> Result<(), TopographyError> {
     check_range("position", positions, |_| true)?;
     // Units divide, and neighbours closer than the last digit coincide.
-    let Some(index) = positions.windows(2).position(|pair| pair[0] >= pair[1]) else { return Ok(()) };
-    Err(refused(Place::Point(index + 2), "the position of the point before", "ascending positions"))
+    let mut pairs = positions.windows(2).enumerate();
+    let Some((index, pair)) = pairs.find(|(_, pair)| pair[0] >= pair[1]) else { return Ok(()) };
+    let fault = format!("x = {:e} m after {:e} m", pair[1], pair[0]);
+    Err(refused(Place::Point(index + 2), fault, "positions that ascend, or descend"))
 }
 
 /// Returns the unit of a quantity: stated by the file, else by the user, else by convention.

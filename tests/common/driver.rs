@@ -4,16 +4,17 @@
 use asperity::explorer::Opening;
 use asperity::explorer::action::Action;
 use asperity::explorer::app::App;
-use asperity::explorer::engine::Engine;
-use asperity::explorer::runtime::{Console, Runtime, Solver, Studies};
+use asperity::explorer::panes::SceneSpectra;
+use asperity::explorer::runtime::{Engine, Runtime};
+use asperity::explorer::snapshot::Preview;
+use asperity::explorer::solver::Solve;
+use asperity::explorer::studies::Study;
 use asperity::explorer::theme::{Appearance, Marker, Theme};
 use asperity::explorer::update::Effect;
-use asperity::scene::Scene;
-use asperity::simulation::{AfterLeg, Outcome, RunError, Simulation, Timings};
-use asperity::surface::Line;
+use asperity::simulation::{Outcome, Simulation, Timings};
+use std::any::Any;
 use std::collections::BTreeMap;
 use std::fs;
-use std::io;
 use std::ops::{Deref, DerefMut};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -27,84 +28,53 @@ pub const APPEARANCE: Appearance = Appearance { theme: Theme::Neutral, marker: M
 /// An explorer without a terminal.
 pub struct Driver {
     runtime: Runtime,
-    pub console: Recorded,
+    /// Copied texts.
+    pub copied: Vec<String>,
     folder: TempDir,
 }
 
-/// What an explorer sent to its terminal.
-#[derive(Default)]
-pub struct Recorded {
-    /// Copied texts.
-    pub copied: Vec<String>,
-}
-
-impl Console for Recorded {
-    fn copy(&mut self, text: String) -> io::Result<()> {
-        self.copied.push(text);
-        Ok(())
-    }
-
-    fn redraw(&mut self) {}
-
-    fn suspend(&mut self) -> io::Result<Option<Action>> {
-        Ok(None)
-    }
-}
-
-/// The engine of the program, without times: they differ from run to run.
-struct Timeless(Simulation);
-
-impl Engine for Timeless {
-    fn run(
-        &mut self,
-        scene: &Scene,
-        stop: &dyn Fn() -> bool,
-        after: &mut AfterLeg<'_>,
-    ) -> Result<Outcome, RunError> {
-        let outcome = self.0.run(scene, stop, after)?;
-        Ok(Outcome { timings: Timings::default(), ..outcome })
-    }
-
-    fn line(&self) -> Option<&Line> {
-        self.0.line()
-    }
-}
-
 impl Driver {
-    /// Opens the explorer, before any computation.
+    /// Opens the explorer, before any computation; of the studies it performs those that are done at once.
     pub fn open(opening: impl Into<Opening>) -> Self {
-        Driver::open_with(opening, Box::new(Timeless(Simulation::default())))
+        // Times differ from run to run.
+        let timeless: Solve = |simulation, scene, stop, after| {
+            let outcome = simulation.run(scene, stop, after)?;
+            Ok(Outcome { timings: Timings::default(), ..outcome })
+        };
+        let is_quick = |study: &Study| study.is::<SceneSpectra>() || study.is::<Preview>();
+        Driver::open_with(opening, timeless, is_quick)
     }
 
-    /// Opens the explorer with another engine.
-    pub fn open_with(opening: impl Into<Opening>, engine: Box<dyn Engine>) -> Self {
-        let Opening { document, study_map, beside } = opening.into();
-        let mut app = App::new(document, (120, 40), APPEARANCE);
-        app.opens_beside = beside;
-        if let Some(study_map) = study_map {
-            app.show_study(study_map);
-        }
+    /// Opens the explorer with another solver, and studies for which a function returns true.
+    pub fn open_with(opening: impl Into<Opening>, solve: Solve, performs: fn(&Study) -> bool) -> Self {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join("folder")).unwrap();
         let runtime = Runtime {
-            app,
-            solver: Solver::inline(engine),
-            studies: Studies::None,
+            app: App::new(opening, (120, 40), APPEARANCE),
+            engine: Engine::inline(solve, performs),
             asked: 0,
             folder: folder.path().to_owned(),
-            draw_seed: Box::new(|| 4711),
         };
-        Driver { runtime, console: Recorded::default(), folder }
+        Driver { runtime, copied: Vec::new(), folder }
     }
 
     /// Performs the effects of an action.
     pub fn perform(&mut self, effects: Vec<Effect>) {
-        self.runtime.perform(effects, &mut self.console).unwrap();
+        for effect in self.runtime.perform(effects) {
+            if let Effect::Copy(text) = effect {
+                self.copied.push(text);
+            }
+        }
     }
 
-    /// Actions that follow an effect.
-    pub fn answer(&mut self, effect: Effect) -> Vec<Action> {
-        self.runtime.answer(effect, &mut self.console).unwrap()
+    /// Reports the result of a study of the present scene, which the explorer waits for.
+    pub fn find<T: Any + Send + Sync>(&mut self, result: Result<T, String>) {
+        let study = Study::new(self.app.edit.generation, false, move |_, _, _| result);
+        let mut found = Vec::new();
+        for study in self.app.studies.begin(vec![study]) {
+            study.perform(&mut Simulation::default(), &|| false, &mut |finding| found.push(finding));
+        }
+        found.into_iter().for_each(|finding| drop(self.act(Action::Found(finding))));
     }
 
     /// The files in the folder of the explorer, as text.

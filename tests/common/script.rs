@@ -65,7 +65,7 @@ impl Driver {
     pub fn select(&mut self, path: &str) {
         self.press("g");
         for _ in 0..self.app.edit.parameters.len() {
-            if self.app.parameter().is_some_and(|parameter| parameter.field.path == path) {
+            if self.app.edit.parameter().is_some_and(|parameter| parameter.field.path == path) {
                 return;
             }
             self.press("j");

@@ -1,4 +1,4 @@
-//! The explorer without a terminal: screens after each key, random keys, and the worker.
+//! The explorer without a terminal: screens after each key, random keys, and the solver.
 
 #[path = "../common"]
 mod common {
@@ -11,4 +11,4 @@ mod common {
 }
 mod random;
 mod screen;
-mod worker;
+mod solver;

@@ -8,10 +8,10 @@ use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_a
 use super::common::study::PLAN;
 use super::common::study::merged;
 use asperity::explorer::action::Action;
-use asperity::explorer::keys::Binding;
+use asperity::explorer::keys::Command;
 use asperity::explorer::parameters::parameters;
-use asperity::explorer::update::{Effect, update};
-use asperity::explorer::worker::Report;
+use asperity::explorer::snapshot::Report;
+use asperity::explorer::update::{Effect, request, update};
 use asperity::explorer::{Opening, view};
 use asperity::scene::{Document, Solver, check};
 use asperity::study::Quantity;
@@ -211,10 +211,10 @@ impl Explorer {
     /// Presses a key that is valid in the present mode, by its number among them.
     fn press(&mut self, number: usize, times: usize) {
         let bindings = self.driver.app.config.bindings.clone();
-        let row_keys = |row: &Binding| row.keys.iter().map(|key| row.command_of(key)).collect::<Vec<_>>();
-        let commands: Vec<_> = bindings.valid_in(self.driver.app.keys()).flat_map(row_keys).collect();
+        let rows: Vec<_> = bindings.valid_in(self.driver.app.keys()).map(|binding| binding.row).collect();
+        let character = char::from_digit(number as u32 % 10, 10);
         for _ in 0..times {
-            self.act(Action::Command(commands[number % commands.len()]));
+            self.act(Action::Command(Command { row: rows[number % rows.len()], character }));
         }
     }
 
@@ -236,7 +236,7 @@ impl Explorer {
         };
         let actions = match &effect {
             Effect::Ask if !is_cheap(&self.driver.app.edit.document) => {
-                let generation = self.driver.app.edit.generation;
+                let generation = request(&mut self.driver.app).generation;
                 vec![Action::Report(Report::Failed {
                     generation,
                     error: "too large for a test\nin two lines".to_owned(),
@@ -267,14 +267,17 @@ impl Explorer {
             assert_eq!(app.edit.parameters, parameters(document));
             assert!(!app.is_refused(), "a changed scene is not refused");
         }
-        assert!(app.listed().contains(&app.edit.selected), "the selected parameter is in no folded group");
+        assert!(
+            app.edit.listed().contains(&app.edit.selected),
+            "the selected parameter is in no folded group"
+        );
         assert!((0.0..=1.0).contains(&app.play.done), "{:?}", app.play);
         assert!(app.indentation().is_finite());
         if let Some(study) = app.chart.shown_study() {
             assert!(study.slice < study.study_map.slices());
         }
-        if let Some(grid) = app.chart.grid() {
-            let charted = app.chart.charted();
+        if let Some(grid) = app.grid() {
+            let charted = app.charted();
             let any = grid.quantities();
             assert!(any.contains(&charted) || any.is_empty() && charted == Quantity::Regime, "{charted:?}");
         }

@@ -24,7 +24,7 @@ pub mod preloads;
 mod saving;
 mod sizes;
 mod spectrum;
-mod stand_in;
+mod studies;
 mod study;
 mod typing;
 mod windows;

@@ -165,10 +165,10 @@ fn the_command_that_is_copied_gives_the_same_curve() {
         terminal.send("l");
         wait_for_another(&mut terminal, &force);
         terminal.send("y");
-        terminal.wait_for("copy: asperity");
+        terminal.wait_for("copied: asperity");
         terminal.settle();
         let command = copied(&terminal).expect("it is sent to the terminal");
-        assert!(row_with(&terminal, "copy: ").starts_with(&format!("copy: {command}")), "{command}");
+        assert!(row_with(&terminal, "copied: ").starts_with(&format!("copied: {command}")), "{command}");
         terminal.send("E");
         answer(&mut terminal, "Export to (.csv .npy .json .svg .png .txt): ", "curve.csv");
         terminal.wait_for("exported to curve.csv");

@@ -9,9 +9,9 @@ fn a_loop_is_kept_compared_and_exchanged() {
         let (program, _folder) = explorer();
         let mut terminal = paused(program);
         terminal.send("x");
-        terminal.wait_for("nothing to exchange with: c keeps a loop");
+        terminal.wait_for("there is no ghost to swap with");
         terminal.send("c");
-        terminal.wait_for("kept; now change something");
+        terminal.wait_for("kept as ghost A");
         terminal.send("c");
         terminal.wait_for("this loop is kept already");
         select(&mut terminal, "κ");

@@ -33,7 +33,7 @@ fn a_folder_opens_as_the_map_of_its_study() {
         terminal.wait_for("Study small");
         // The copied command opens the study again.
         terminal.send("y");
-        terminal.wait_for("copy: asperity small --set");
+        terminal.wait_for("copied: asperity small --set");
         terminal.send("q");
         terminal.wait_for("unsaved changes");
         terminal.send("y");

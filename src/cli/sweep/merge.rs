@@ -34,7 +34,10 @@ pub struct MergeArguments {
 /// Merges and prints the outcome.
 pub(super) fn merge(arguments: &MergeArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     if arguments.parquet && cfg!(not(feature = "parquet")) {
-        return Err(CliError::NoParquet);
+        return Err(CliError::named(
+            "--parquet",
+            "this program was built without it; cargo install --path . --features parquet builds it in",
+        ));
     }
     let folder = Folder::open(&arguments.folder)?;
     let merged = merge_records(&folder, arguments.partial)?;

@@ -9,14 +9,6 @@ mod run;
 mod status;
 mod submit;
 
-pub use boundary::BoundaryArguments;
-pub use merge::MergeArguments;
-pub use plans::PlansArguments;
-pub use plot::PlotArguments;
-pub use run::SweepRunArguments;
-pub use status::StatusArguments;
-pub use submit::SubmitArguments;
-
 use super::CliError;
 use clap::{Args, Subcommand};
 use std::io::Write;
@@ -46,24 +38,24 @@ pub struct SweepArguments {
     pub command: Option<SweepCommand>,
     /// The plan that is computed.
     #[command(flatten)]
-    pub run: SweepRunArguments,
+    pub run: run::SweepRunArguments,
 }
 
 /// Actions on a study.
 #[derive(Debug, Subcommand)]
 pub enum SweepCommand {
     /// Put the records of all processes into tables
-    Merge(MergeArguments),
+    Merge(merge::MergeArguments),
     /// Show the progress of a study and its processes
-    Status(StatusArguments),
+    Status(status::StatusArguments),
     /// Find the κ at which adhesion without a preload vanishes
-    Boundary(BoundaryArguments),
+    Boundary(boundary::BoundaryArguments),
     /// Draw a merged study: a map over two axes, or curves over one
-    Plot(PlotArguments),
+    Plot(plot::PlotArguments),
     /// Submit a plan to Slurm as a job array, whose last task merges
-    Submit(SubmitArguments),
+    Submit(submit::SubmitArguments),
     /// List the built-in plans, or print one of them
-    Plans(PlansArguments),
+    Plans(plans::PlansArguments),
 }
 
 /// Performs one of the commands, or computes a plan.

@@ -4,7 +4,8 @@ use crate::cli::{CliError, OutputArguments};
 use crate::draw::AxisScale;
 use crate::export::{Format, study_curves, study_figure, study_map};
 use crate::study::{Results, Selected, Selection};
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -16,9 +17,9 @@ Examples:
   asperity sweep plot study --quantity adhesion_force --x kappa --y roughness.hurst
 
 Two free axes make a map: colours are means, signs are regimes, and the line is where adhesion
-without a load vanishes. One free axis makes a curve: the mean with its 95 % confidence, and in a
-corner on a logarithmic scale where it spans decades. A second axis of up to five values makes
-several curves, unless --y names it.";
+without a load vanishes. One free axis makes a curve: the mean with its 95 % confidence, and a
+second chart on a logarithmic scale where it spans decades. A second axis of up to five values
+makes several curves, unless --y names it.";
 
 /// Arguments of `sweep plot`.
 #[derive(Args, Debug)]
@@ -43,9 +44,9 @@ pub struct PlotArguments {
     pub at: Vec<(String, String)>,
     /// Scale of quantities
     ///
-    /// Default: by the range of the values; a single curve is linear with an inset.
-    #[arg(long, value_enum)]
-    pub scale: Option<PlotScale>,
+    /// Default: by the range of the values; small values have a second, logarithmic chart.
+    #[arg(long, value_parser = PossibleValuesParser::new(["linear", "logarithmic"]).map(scale))]
+    pub scale: Option<AxisScale>,
     /// Text instead of SVG; the default without FILE
     #[arg(long)]
     pub text: bool,
@@ -53,17 +54,12 @@ pub struct PlotArguments {
     pub output: OutputArguments,
 }
 
-/// Scales of quantities.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum PlotScale {
-    /// In proportion.
-    Linear,
-    /// Equal ratios are equal distances.
-    Logarithmic,
-}
-
 /// Formats of a figure.
 const FORMATS: &[Format] = &[Format::Svg, Format::Png, Format::Text];
+
+fn scale(name: String) -> AxisScale {
+    if name == "linear" { AxisScale::Linear } else { AxisScale::Logarithmic }
+}
 
 fn fixed(text: &str) -> Result<(String, String), String> {
     let parts = text.split_once('=').map(|(axis, value)| (axis.trim(), value.trim()));
@@ -84,14 +80,13 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
         across: arguments.across.clone(),
         up: arguments.up.clone(),
         at: arguments.at.clone(),
-        scale: arguments.scale.map(|scale| match scale {
-            PlotScale::Linear => AxisScale::Linear,
-            PlotScale::Logarithmic => AxisScale::Logarithmic,
-        }),
+        scale: arguments.scale,
     };
     let Selected { grid, quantities, fixed, curves } = selection.of(&study)?;
-    let chart = |quantity| study_map(&grid, quantity, false).filter(|_| !curves);
-    let charts = quantities.into_iter().map(|one| chart(one).unwrap_or_else(|| study_curves(&grid, one)));
+    let map = |quantity| study_map(&grid, quantity, false).filter(|_| !curves);
+    let charts = quantities
+        .into_iter()
+        .flat_map(|one| map(one).map_or_else(|| study_curves(&grid, one), |map| vec![map]));
     let figure = study_figure(&study.plan().title, &fixed, charts.collect());
     arguments.output.write_figure(stdout, &figure, format)
 }

@@ -75,10 +75,9 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
     let mut jobs = wanted;
     if let Some(most) = arguments.memory {
         if memory.of_jobs(1) > most {
-            return Err(CliError::TooLittleMemory {
-                most: memory_size(most),
-                least: memory_size(memory.of_jobs(1)),
-            });
+            let [most, least] = [most, memory.of_jobs(1)].map(memory_size);
+            let reason = format!("this plan takes {least} with one thread; allowed: at least that");
+            return Err(CliError::named(format!("--memory {most}"), reason));
         }
         jobs = jobs.min((most - memory.shared) / memory.job.max(1)).max(1);
     }
@@ -112,7 +111,11 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
     let ended = ended?;
     if !ended.is_complete() {
         let (done, total) = (ended.done, ended.total);
-        return Err(CliError::Stopped { signal: signal(), done, total });
+        let stopped =
+            format!("stopped: {done} of {total} records are complete; the same command continues the study");
+        // As in shells.
+        let exit_code = 128 + u8::try_from(signal()).unwrap_or_default();
+        return Err(CliError { exit_code, ..CliError::message(stopped) });
     }
     if arguments.shard.is_some() {
         let _ = writeln!(stderr, "all {} records of shard {} exist", ended.total, options.shard);

@@ -36,7 +36,6 @@ fn text_of(sample: Sample, marker: Marker) -> String {
 }
 
 /// Entries of the legend of charts: sample and name.
-#[must_use]
 pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>> {
     // Cells of a map hold letters of their classes.
     let classes = || charts.iter().filter_map(Chart::map).flat_map(|map| &map.class_names);

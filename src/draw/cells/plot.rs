@@ -4,7 +4,7 @@ use super::map;
 use super::shapes::LayerShape;
 use super::style::{CellStyle, glyph};
 use crate::draw::axis::Axis;
-use crate::draw::chart::{Chart, HeatMap, Layer, Shape};
+use crate::draw::chart::{Chart, Layer, Shape};
 use crate::draw::colour::Ink;
 use crate::draw::ticks::Tick;
 use ratatui::buffer::Buffer;
@@ -19,9 +19,8 @@ pub(super) const WITH_LEFT_SCALE: (u16, u16) = (26, 6);
 /// Fewest rows of an area whose plot has a scale below, and of one with a line between plot and scale.
 const WITH_SCALE_BELOW: u16 = 5;
 const WITH_LINE_BELOW: u16 = 12;
-/// Fewest rows of an area where the label below has a row of its own if it would hide a number: for a curve, and
-/// for a map, which needs the values of its columns.
-const WITH_LABEL_BELOW: (u16, u16) = (16, 10);
+/// Fewest rows of an area where the label below has a row of its own if it would hide a number.
+const WITH_LABEL_BELOW: u16 = 16;
 
 /// Place of a chart in an area: plot and scales.
 pub struct CellPlot {
@@ -35,12 +34,10 @@ pub struct CellPlot {
 
 impl CellPlot {
     /// Divides an area between the plot and the scales of a chart.
-    #[must_use]
     pub fn within(area: Rect, chart: &Chart) -> CellPlot {
         let below = area.height >= WITH_SCALE_BELOW;
         let line = area.height >= WITH_LINE_BELOW;
-        let least = if chart.map().is_some() { WITH_LABEL_BELOW.1 } else { WITH_LABEL_BELOW.0 };
-        let label = area.height >= least && label_hides_numbers(chart, area.width);
+        let label = area.height >= WITH_LABEL_BELOW && label_hides_numbers(chart, area.width);
         let height = area.height - u16::from(below) - u16::from(line) - u16::from(label);
         let mut left = 0;
         if area.width >= WITH_LEFT_SCALE.0 && area.height >= WITH_LEFT_SCALE.1 {
@@ -52,59 +49,43 @@ impl CellPlot {
         CellPlot { plot, left, line, below, label }
     }
 
-    /// Row of the numbers below the plot.
-    #[must_use]
-    pub fn numbers(&self) -> Option<u16> {
-        self.below.then(|| self.plot.bottom() + u16::from(self.line))
-    }
-
     /// Numbers on both axes at a cell of the screen: on a map those of the value behind the cell, if any, else those of
     /// the middle of the nearest cell of the plot.
-    #[must_use]
     pub fn data_at(&self, chart: &Chart, (column, row): (u16, u16)) -> Option<(f64, f64)> {
+        let plot = self.plot;
         if let Some(map) = chart.map() {
-            return self.values_at(map, (column, row));
+            let inside = plot.contains((column, row).into());
+            let (across, up) = inside.then(|| (column - plot.x, plot.bottom() - 1 - row))?;
+            let value = |axis: &Axis, values: &[f64], cells: u16, cell: u16| {
+                values.get(map::values_behind(axis, values, cells)[usize::from(cell)]).copied()
+            };
+            let x = value(&chart.x, &map.columns, plot.width, across)?;
+            return Some((x, value(&chart.y, &map.rows, plot.height, up)?));
         }
-        let number = |axis: &Axis, at: u16, from: u16, cells: u16, is_down: bool| {
-            let share = (f64::from(at) + 0.5 - f64::from(from)) / f64::from(cells.max(1));
-            let share = share.clamp(0.0, 1.0);
-            let share = if is_down { 1.0 - share } else { share };
-            axis.scale.number(axis.span.low + share * axis.span.width())
+        let share = |at: u16, from: u16, cells: u16| {
+            ((f64::from(at) + 0.5 - f64::from(from)) / f64::from(cells.max(1))).clamp(0.0, 1.0)
         };
-        let x = number(&chart.x, column, self.plot.x, self.plot.width, false);
-        Some((x, number(&chart.y, row, self.plot.y, self.plot.height, true)))
+        let number = |axis: &Axis, share: f64| axis.scale.number(axis.span.low + share * axis.span.width());
+        let x = number(&chart.x, share(column, plot.x, plot.width));
+        Some((x, number(&chart.y, 1.0 - share(row, plot.y, plot.height))))
     }
 
-    /// Cell of a point; `None` outside the chart. On a map all values have equal columns and rows, and a point
-    /// beyond the map is at its edge.
-    #[must_use]
+    /// Cell of a point; `None` outside the chart, except for a map, which has the point at its edge.
     pub fn cell(&self, chart: &Chart, marker: Marker, (x, y): (f64, f64)) -> Option<(u16, u16)> {
-        if let Some(map) = chart.map() {
-            let across =
-                map::cell_of(chart.x.scale.place(&map.columns, x), self.plot.width, map.columns.len());
-            let up = map::cell_of(chart.y.scale.place(&map.rows, y), self.plot.height, map.rows.len());
-            return (!self.plot.is_empty()).then(|| (self.plot.x + across, self.plot.bottom() - 1 - up));
-        }
-        let (across, down) = (chart.x.share(x), 1.0 - chart.y.share(y));
-        let inside = (0.0..=1.0).contains(&across) && (0.0..=1.0).contains(&down) && !self.plot.is_empty();
+        let shares = (chart.x.share(x), 1.0 - chart.y.share(y));
+        let (across, down) = (shares.0.clamp(0.0, 1.0), shares.1.clamp(0.0, 1.0));
+        let inside = chart.map().is_some() || (across, down) == shares;
         let (columns, rows) = dots_of(marker);
-        inside.then(|| {
-            let column = cell_at(across, self.plot.width, columns);
-            (self.plot.x + column, self.plot.y + cell_at(down, self.plot.height, rows))
+        let cell = |share: f64, cells: u16, dots: u16| match chart.map() {
+            Some(_) => ((share * f64::from(cells)) as u16).min(cells - 1),
+            None => cell_at(share, cells, dots),
+        };
+        (inside && !self.plot.is_empty()).then(|| {
+            let column = cell(across, self.plot.width, columns);
+            (self.plot.x + column, self.plot.y + cell(down, self.plot.height, rows))
         })
     }
 
-    /// Values on both axes for the cell of a map behind a cell of the screen; `None` outside the map.
-    fn values_at(&self, map: &HeatMap, (column, row): (u16, u16)) -> Option<(f64, f64)> {
-        if !self.plot.contains((column, row).into()) {
-            return None;
-        }
-        let across = map::index((column - self.plot.x).into(), self.plot.width, map.columns.len());
-        let up = map::index((self.plot.bottom() - 1 - row).into(), self.plot.height, map.rows.len());
-        Some((*map.columns.get(across)?, *map.rows.get(up)?))
-    }
-
-    /// Draws scales and layers.
     pub fn draw(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
         if self.plot.is_empty() {
             return;
@@ -112,7 +93,7 @@ impl CellPlot {
         self.draw_scales(buffer, chart, style);
         for layer in &chart.layers {
             if let Shape::Map(map) = &layer.shape {
-                map::draw(buffer, self.plot, map, style);
+                map::draw(buffer, self.plot, chart, map, style);
             }
         }
         let drawn = |layer: &&Layer| !matches!(layer.shape, Shape::Map(_));
@@ -260,13 +241,7 @@ fn cell_at(share: f64, cells: u16, dots: u16) -> u16 {
 
 /// Rows of a plot of this height with their numbers.
 fn scale_beside(chart: &Chart, height: u16, marker: Marker) -> Vec<(u16, String)> {
-    if let Some(map) = chart.map() {
-        return map::row_labels(&chart.y, map, height);
-    }
-    let place = |Tick { at, label }: Tick| {
-        let down = (chart.y.span.high - at) / chart.y.span.width();
-        Some((cell_at(down, height, dots_of(marker).1), label?.to_string()))
-    };
+    let place = |at: f64| cell_at((chart.y.span.high - at) / chart.y.span.width(), height, dots_of(marker).1);
     let fewest = usize::from(height / 3).clamp(2, 6);
     numbers_at(&chart.y, fewest..=fewest.max(height.into()), place, |_| true)
 }
@@ -275,10 +250,11 @@ fn scale_beside(chart: &Chart, height: u16, marker: Marker) -> Vec<(u16, String)
 fn numbers_at(
     axis: &Axis,
     ticks: RangeInclusive<usize>,
-    place: impl Fn(Tick) -> Option<(u16, String)>,
+    place: impl Fn(f64) -> u16,
     is_seen: impl Fn(&(u16, String)) -> bool,
 ) -> Vec<(u16, String)> {
-    let numbers = |most: usize| axis.ticks(most).into_iter().filter_map(&place).collect::<Vec<_>>();
+    let number = |tick: Tick| Some((place(tick.at), tick.label?.to_string()));
+    let numbers = |most: usize| axis.ticks(most).into_iter().filter_map(number).collect::<Vec<_>>();
     let fewest = *ticks.start();
     // Numbers in one cell count as one.
     let two = |numbers: &Vec<(u16, String)>| {
@@ -296,33 +272,31 @@ fn scale_below(chart: &Chart, width: u16, marker: Marker, own_row: bool) -> (Vec
     if label.chars().count() > usize::from(room) {
         label = chart.x.symbol_with_unit().to_string();
     }
-    if let Some(map) = chart.map() {
-        return (map::column_labels(&chart.x, map, width), label);
-    }
-    let place = |Tick { at, label }: Tick| {
-        let share = (at - chart.x.span.low) / chart.x.span.width();
-        Some((cell_at(share, width, dots_of(marker).0), label?.to_string()))
-    };
+    let place = |at: f64| cell_at((at - chart.x.span.low) / chart.x.span.width(), width, dots_of(marker).0);
     let fewest = usize::from(width / 10).clamp(2, 9);
-    let end = usize::from(width).saturating_sub(label.chars().count() + 1);
-    let is_seen =
-        |(column, text): &(u16, String)| usize::from(*column) + text.chars().count().div_ceil(2) <= end;
+    let is_seen = |number: &(u16, String)| !is_covered(number, width, &label);
     let mut numbers = numbers_at(&chart.x, fewest..=fewest.max(usize::from(width / 4)), place, is_seen);
     numbers.retain(|(column, _)| *column < width);
     (numbers, label)
 }
 
+/// Returns true for a number that a label at the right end of the same row covers.
+fn is_covered((column, text): &(u16, String), width: u16, label: &str) -> bool {
+    let end = usize::from(width).saturating_sub(label.chars().count() + 1);
+    usize::from(*column) + text.chars().count().div_ceil(2) > end
+}
+
 /// Returns true if the label of the horizontal axis would cover a number.
 fn label_hides_numbers(chart: &Chart, width: u16) -> bool {
     let (numbers, label) = scale_below(chart, width, Marker::Braille, true);
-    let end = usize::from(width).saturating_sub(label.chars().count() + 1);
-    numbers.iter().any(|(column, text)| usize::from(*column) + text.chars().count().div_ceil(2) > end)
+    numbers.iter().any(|number| is_covered(number, width, &label))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::draw::cells::Colours;
+    use crate::draw::chart::HeatMap;
     use crate::draw::{AxisScale, Shades, Sign, Span, Stroke};
     use ratatui::style::Style;
 
@@ -390,13 +364,13 @@ mod tests {
         let chart = Chart::new(
             Axis::new(AxisScale::Linear, span(AxisScale::Linear, &columns), "", "H", "1"),
             Axis::new(AxisScale::Logarithmic, span(AxisScale::Logarithmic, &rows), "", "κ", "1"),
-            vec![Layer::unnamed(Ink::Text, Shape::Map(Box::new(map.clone())))],
+            vec![Layer::unnamed(Ink::Text, Shape::Map(Box::new(map)))],
         );
         for (width, height) in [(20, 5), (66, 30), (118, 37), (200, 90)] {
             let place = CellPlot::within(Rect::new(3, 2, width, height), &chart);
             for (x, y) in columns.iter().flat_map(|x| rows.iter().map(move |y| (*x, *y))) {
                 let cell = place.cell(&chart, MARKERS[0], (x, y)).unwrap();
-                let (across, up) = place.values_at(&map, cell).unwrap();
+                let (across, up) = place.data_at(&chart, cell).unwrap();
                 // Of several values in one cell, one whose middle is in that cell or the next.
                 let (column, row) = place.cell(&chart, MARKERS[0], (across, up)).unwrap();
                 assert!(column.abs_diff(cell.0) <= 1 && row.abs_diff(cell.1) <= 1, "{x} {y} {across} {up}");
@@ -405,9 +379,9 @@ mod tests {
                 assert!(!has_room(place.plot.height, &rows) || up == y, "{y} {up}");
             }
             // A point beyond the map is at its edge, and there is none outside the plot.
-            let corner = place.cell(&chart, MARKERS[0], (columns[columns.len() - 1], rows[rows.len() - 1]));
+            let corner = Some((place.plot.right() - 1, place.plot.y));
             assert_eq!(place.cell(&chart, MARKERS[0], (9.0, 1e9)), corner);
-            assert_eq!(place.values_at(&map, (place.plot.right(), place.plot.y)), None);
+            assert_eq!(place.data_at(&chart, (place.plot.right(), place.plot.y)), None);
         }
     }
 
@@ -417,9 +391,7 @@ mod tests {
         let chart = Chart::new(x, y, Vec::new());
         for (width, height) in [(28, 7), (30, 9), (40, 12), (100, 30)] {
             let (numbers, label) = scale_below(&chart, width, Marker::Braille, false);
-            let end = usize::from(width) - label.chars().count() - 1;
-            let seen =
-                numbers.iter().filter(|(column, text)| usize::from(*column) + text.len().div_ceil(2) <= end);
+            let seen = numbers.iter().filter(|number| !is_covered(number, width, &label));
             assert!(seen.count() >= 2, "{width}: {numbers:?}");
             assert!(scale_beside(&chart, height, Marker::Braille).len() >= 2, "{height}");
         }

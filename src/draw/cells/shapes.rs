@@ -65,43 +65,6 @@ impl LayerShape<'_> {
         }
     }
 
-    /// One bar for each column of dots, joined with its neighbours.
-    fn envelope(
-        &self,
-        painter: &mut Painter<'_, '_>,
-        (from, to): (f64, f64),
-        columns: &[Option<(f64, f64)>],
-    ) {
-        let Some((last, _)) = painter.get_point(1.0, 0.0) else { return };
-        let [from, to] = [from, to].map(|x| self.chart.x.share(x) * (last + 1) as f64);
-        let edge = |column: usize| {
-            let place = from + (to - from) * column as f64 / columns.len() as f64;
-            (place + 1e-9).clamp(0.0, (last + 1) as f64) as usize
-        };
-        let mut before: Option<(f64, f64)> = None;
-        for (column, ends) in columns.iter().enumerate() {
-            let Some(ends) = *ends else {
-                before = None;
-                continue;
-            };
-            let (mut low, mut high) = ends;
-            // Up to the end of the neighbour, so that steep flanks are continuous.
-            if let Some((other_low, other_high)) = before {
-                (low, high) = (low.min(other_high), high.max(other_low));
-            }
-            before = Some(ends);
-            let [low, high] = [low, high].map(|y| self.chart.y.share(y));
-            if high < 0.0 || low > 1.0 {
-                continue;
-            }
-            let row = |share: f64| painter.get_point(0.0, share.clamp(0.0, 1.0)).map(|(_, row)| row);
-            let (Some(bottom), Some(top)) = (row(low), row(high)) else { continue };
-            for x in edge(column)..edge(column + 1).max(edge(column) + 1).min(last + 1) {
-                (top..=bottom).for_each(|y| self.paint(painter, (x, y)));
-            }
-        }
-    }
-
     /// Every other dot of the inside of a closed line: dots with an odd number of crossings of the border below them.
     fn inside(&self, painter: &mut Painter<'_, '_>, border: &[(f64, f64)]) {
         let Some((last, _)) = painter.get_point(1.0, 0.0) else { return };
@@ -139,7 +102,9 @@ impl CanvasShape for LayerShape<'_> {
                     self.lines(painter, &runs, Stroke::Sparse);
                 }
             }
-            Shape::Envelope { x, columns } => self.envelope(painter, *x, columns),
+            Shape::Envelope { x, columns } => {
+                self.lines(painter, &self.axes().envelope(*x, columns), Stroke::Solid);
+            }
             Shape::Inside(border) => self.inside(painter, border),
             Shape::Boxes(boxes) => {
                 for ((left, right), (low, high)) in boxes {

@@ -26,7 +26,6 @@ const FEWEST_ROWS: usize = 10;
 const MOST_ROWS: usize = 48;
 
 /// A figure as text of at most so many columns, one chart below the other.
-#[must_use]
 pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String {
     let columns = columns.clamp(COLUMNS.0, COLUMNS.1);
     let ink = |ink: Ink| match (ink, colours) {

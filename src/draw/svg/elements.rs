@@ -1,12 +1,9 @@
 //! Elements of an SVG document, with lengths to a hundredth of a pixel.
 
 use crate::draw::chart::Stroke;
-use crate::draw::colour::{Rgb, Shades, hex};
+use crate::draw::colour::{Rgb, hex};
 use crate::draw::label::{Face, Label, SMALL};
 use std::fmt::{Arguments, Write};
-
-/// Fonts of figures, with nearly the same letters on all systems.
-const FONTS: &str = "Helvetica, Arial, Liberation Sans, DejaVu Sans, sans-serif";
 
 /// A place in a picture, px from the upper left.
 pub(super) type Place = (f64, f64);
@@ -69,27 +66,20 @@ impl Svg {
         self.text.push('\n');
     }
 
-    /// Ends the document.
     pub(crate) fn finish(mut self) -> String {
         self.text.push_str("</svg>\n");
         self.text
     }
 
-    /// Adds the elements drawn by `draw` with the fonts of figures.
-    pub(super) fn in_fonts(&mut self, draw: impl FnOnce(&mut Svg)) {
-        self.push(format_args!("<g font-family=\"{FONTS}\">"));
+    /// Adds the elements drawn by `draw` with common attributes.
+    pub(super) fn group(&mut self, attributes: &str, draw: impl FnOnce(&mut Svg)) {
+        self.push(format_args!("<g {attributes}>"));
         draw(self);
         self.push(format_args!("</g>"));
     }
 
-    /// Adds the elements drawn by `draw` with edges on whole pixels, so that adjacent areas meet without a seam.
-    pub(super) fn crisp(&mut self, draw: impl FnOnce(&mut Svg)) {
-        self.push(format_args!("<g shape-rendering=\"crispEdges\">"));
-        draw(self);
-        self.push(format_args!("</g>"));
-    }
-
-    fn rect(&mut self, from: Place, to: Place, looks: &str) {
+    /// Draws a rectangle with these attributes.
+    pub(super) fn rect(&mut self, from: Place, to: Place, looks: &str) {
         // The ends are rounded, so that adjacent rectangles meet.
         let length = |from: f64, to: f64| px((100.0 * to).round() / 100.0 - (100.0 * from).round() / 100.0);
         let (x, y) = (px(from.0), px(from.1));
@@ -97,22 +87,10 @@ impl Svg {
         self.push(format_args!("<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" {looks}/>"));
     }
 
-    /// Fills a rectangle.
     pub(super) fn rectangle(&mut self, from: Place, to: Place, fill: Rgb) {
         self.rect(from, to, &format!("fill=\"{}\"", hex(fill)));
     }
 
-    /// Hatches a rectangle.
-    pub(super) fn hatched(&mut self, from: Place, to: Place) {
-        self.rect(from, to, "fill=\"url(#hatched)\"");
-    }
-
-    /// Fills a rectangle with shades from low at the bottom to high at the top.
-    pub(super) fn shaded(&mut self, from: Place, to: Place, shades: Shades) {
-        self.rect(from, to, &format!("fill=\"url(#{shades})\""));
-    }
-
-    /// Draws the border of a rectangle.
     pub(super) fn frame(&mut self, from: Place, to: Place, pen: Pen) {
         self.rect(from, to, &format!("fill=\"none\" {}", pen.attributes()));
     }
@@ -124,7 +102,6 @@ impl Svg {
         ));
     }
 
-    /// Fills a polygon.
     pub(super) fn area(&mut self, places: &[Place], fill: Rgb, opacity: f64) {
         let (points, fill) = (points(places), hex(fill));
         let opacity =
@@ -207,7 +184,7 @@ fn px(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// Text with markup escaped. Characters invalid in XML become U+FFFD.
+/// Text with markup escaped. Characters that are invalid in XML become U+FFFD.
 pub(crate) fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {

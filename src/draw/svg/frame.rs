@@ -20,10 +20,7 @@ pub(super) struct Frame<'a> {
     pub from: Place,
     /// Lower right corner.
     pub to: Place,
-    pub x: &'a Axis,
-    pub y: &'a Axis,
-    /// Size of numbers at ticks, px.
-    pub size: f64,
+    pub axes: Axes<'a>,
 }
 
 /// A side of a frame with an axis.
@@ -43,10 +40,6 @@ impl Frame<'_> {
         self.to.1 - self.from.1
     }
 
-    pub(super) fn axes(&self) -> Axes<'_> {
-        Axes { x: self.x, y: self.y }
-    }
-
     /// Place of shares of the axes.
     pub(super) fn at(&self, (x, y): Share) -> Place {
         (self.from.0 + x * self.width(), self.to.1 - y * self.height())
@@ -55,13 +48,12 @@ impl Frame<'_> {
     /// Place for coordinates of the axes.
     pub(super) fn place_of_coordinates(&self, (x, y): (f64, f64)) -> Place {
         let share = |axis: &Axis, at: f64| (at - axis.span.low) / axis.span.width();
-        self.at((share(self.x, x), share(self.y, y)))
+        self.at((share(self.axes.x, x), share(self.axes.y, y)))
     }
 
-    /// Draws an axis; with its label if `labelled`.
-    pub(super) fn axis(&self, svg: &mut Svg, side: Side, labelled: bool) {
-        let size = self.size;
-        let axis = if side == Side::Below { self.x } else { self.y };
+    /// Draws an axis with its label.
+    pub(super) fn axis(&self, svg: &mut Svg, side: Side) {
+        let axis = if side == Side::Below { self.axes.x } else { self.axes.y };
         let ticks = axis.ticks(self.ticks(side));
         // Direction outwards from the frame, and the edge of the frame.
         let (outwards, edge) = match side {
@@ -70,34 +62,31 @@ impl Frame<'_> {
             Side::Right => (1.0, self.to.0),
         };
         for Tick { at, label } in &ticks {
-            let length = outwards * size * if label.is_some() { 0.43 } else { 0.23 };
+            let length = outwards * NUMBER * if label.is_some() { 0.43 } else { 0.23 };
             let (x, y) = self.place_of_coordinates((*at, *at));
             let (ends, place, anchor) = match side {
-                Side::Below => ([(x, edge), (x, edge + length)], (x, edge + 1.2 * size), Anchor::Middle),
-                Side::Left => ([(edge + length, y), (edge, y)], (edge - 0.7 * size, y), Anchor::Right),
-                Side::Right => ([(edge, y), (edge + length, y)], (edge + 0.7 * size, y), Anchor::Left),
+                Side::Below => ([(x, edge), (x, edge + length)], (x, edge + 1.2 * NUMBER), Anchor::Middle),
+                Side::Left => ([(edge + length, y), (edge, y)], (edge - 0.7 * NUMBER, y), Anchor::Right),
+                Side::Right => ([(edge, y), (edge + length, y)], (edge + 0.7 * NUMBER, y), Anchor::Left),
             };
             svg.line(&ends, Pen::solid(TEXT, 1.0));
             if let Some(label) = label {
-                svg.label(label, place, size, anchor, TEXT);
+                svg.label(label, place, NUMBER, anchor, TEXT);
             }
         }
         let label = axis.label_with_unit();
-        if labelled && !label.is_empty() {
+        if !label.is_empty() {
             let middle = self.at((0.5, 0.5));
             let (place, anchor) = match side {
-                Side::Below => ((middle.0, edge + 2.9 * size), Anchor::Middle),
-                _ => ((edge + outwards * beside(&ticks, size), middle.1), Anchor::Upwards),
+                Side::Below => ((middle.0, edge + 2.9 * NUMBER), Anchor::Middle),
+                _ => ((edge + outwards * beside(&ticks), middle.1), Anchor::Upwards),
             };
-            svg.label(&label, place, LABEL * size / NUMBER, anchor, TEXT);
+            svg.label(&label, place, LABEL, anchor, TEXT);
         }
     }
 
     /// Number of labelled ticks that fit a side.
     fn ticks(&self, side: Side) -> usize {
-        if self.size < NUMBER {
-            return 4;
-        }
         // Wide charts have more ticks, low ones fewer.
         let room = if side == Side::Below { self.width() / 55.0 } else { self.height() / 40.0 };
         (room as usize).clamp(3, if side == Side::Below { 9 } else { TICKS })
@@ -105,14 +94,14 @@ impl Frame<'_> {
 
     /// Width of an upright axis beside the frame, px.
     pub(super) fn room(&self, side: Side) -> f64 {
-        let ticks = self.y.ticks(self.ticks(side));
-        beside(&ticks, self.size) + 0.7 * LABEL * self.size / NUMBER
+        let ticks = self.axes.y.ticks(self.ticks(side));
+        beside(&ticks) + 0.7 * LABEL
     }
 }
 
 /// Distance from an axis to the middle of its label, beyond the widest number, px. Some fonts are a tenth wider
 /// than the usual ones.
-fn beside(ticks: &[Tick], size: f64) -> f64 {
+fn beside(ticks: &[Tick]) -> f64 {
     let widest = ticks.iter().filter_map(|tick| tick.label.as_ref()).map(Label::width).fold(0.0, f64::max);
-    (1.1 * widest + 1.9) * size
+    (1.1 * widest + 1.9) * NUMBER
 }

@@ -1,9 +1,9 @@
 //! Layers of a chart in its frame.
 
 use super::elements::{Pen, Place, Svg};
-use super::frame::{Frame, NUMBER};
-use super::{PAPER, QUIET, TEXT};
-use crate::draw::axis::Axis;
+use super::frame::Frame;
+use super::{HATCHED, PAPER, QUIET, TEXT};
+use crate::draw::axis::{Axis, Share};
 use crate::draw::chart::{Contour, HeatMap, Layer, Shape, Sign, Stroke};
 use crate::draw::colour::{Ink, Rgb, ink_on};
 use crate::draw::contour::contour;
@@ -17,7 +17,7 @@ pub(super) const SIGN: f64 = 2.7;
 
 /// Draws the layers, areas below lines.
 pub(super) fn draw(svg: &mut Svg, frame: &Frame<'_>, layers: &[Layer]) {
-    let place = |point| frame.axes().place(point).map(|place| frame.at(place));
+    let place = |point| frame.axes.place(point).map(|place| frame.at(place));
     let is_line = |layer: &&Layer| matches!(layer.shape, Shape::Curve { .. } | Shape::Envelope { .. });
     for layer in layers.iter().filter(|layer| !is_line(layer)).chain(layers.iter().filter(is_line)) {
         let colour = layer.ink.on_paper();
@@ -35,15 +35,18 @@ pub(super) fn draw(svg: &mut Svg, frame: &Frame<'_>, layers: &[Layer]) {
                 svg.boxes(corners, colour);
             }
             Shape::Upright(at) | Shape::Level(at) => {
-                let ends = frame.axes().guide(*at, matches!(layer.shape, Shape::Upright(_)));
+                let ends = frame.axes.guide(*at, matches!(layer.shape, Shape::Upright(_)));
                 ends.iter().for_each(|ends| svg.line(&ends.map(|end| frame.at(end)), guide(layer.ink)));
             }
-            Shape::Envelope { x, columns } => envelope(svg, frame, *x, columns, colour),
+            Shape::Envelope { x, columns } => {
+                let pen = Pen { colour, width: 1.2, stroke: Stroke::Solid };
+                curve(svg, frame, frame.axes.envelope(*x, columns), Some(pen), None);
+            }
             Shape::Curve { points, stroke, sign } => {
-                let width = if frame.size < NUMBER { 1.1 } else { 1.6 };
-                let pen = stroke.map(|stroke| Pen { colour, width, stroke });
+                let pen = stroke.map(|stroke| Pen { colour, width: 1.6, stroke });
                 let sign = sign.map(|sign| (sign, radius(frame, points.len())));
-                curve(svg, frame, points, pen, sign.map(|sign| (sign, colour)));
+                let runs = frame.axes.runs(points.iter().copied());
+                curve(svg, frame, runs, pen, sign.map(|sign| (sign, colour)));
             }
         }
     }
@@ -57,18 +60,17 @@ pub(super) fn guide(ink: Ink) -> Pen {
 
 /// Half the size of signs; smaller for many, so that neighbours do not touch.
 fn radius(frame: &Frame<'_>, points: usize) -> f64 {
-    let usual = if frame.size < NUMBER { 1.7 } else { SIGN };
-    usual.min(0.3 * frame.width() / points.max(1) as f64).max(0.9)
+    SIGN.min(0.3 * frame.width() / points.max(1) as f64).max(0.9)
 }
 
 fn curve(
     svg: &mut Svg,
     frame: &Frame<'_>,
-    points: &[(f64, f64)],
+    runs: Vec<Vec<Share>>,
     pen: Option<Pen>,
     sign: Option<((Sign, f64), Rgb)>,
 ) {
-    for run in frame.axes().runs(points.iter().copied()) {
+    for run in runs {
         let run: Vec<Place> = run.into_iter().map(|place| frame.at(place)).collect();
         if let Some(pen) = pen.filter(|_| run.len() > 1) {
             svg.line(&run, pen);
@@ -79,38 +81,12 @@ fn curve(
     }
 }
 
-fn envelope(
-    svg: &mut Svg,
-    frame: &Frame<'_>,
-    (from, to): (f64, f64),
-    columns: &[Option<(f64, f64)>],
-    colour: Rgb,
-) {
-    let middle = |column: usize| from + (to - from) * (column as f64 + 0.5) / columns.len() as f64;
-    let mut points = Vec::new();
-    let mut last: Option<f64> = None;
-    for (column, ends) in columns.iter().enumerate() {
-        let Some((low, high)) = *ends else {
-            points.push((middle(column), f64::NAN));
-            last = None;
-            continue;
-        };
-        // From the end nearer to the previous point of the line.
-        let falls = last.is_some_and(|last| (last - high).abs() < (last - low).abs());
-        let ends = if falls { [high, low] } else { [low, high] };
-        points.extend(ends.map(|end| (middle(column), end)));
-        last = Some(ends[1]);
-    }
-    let pen = Pen { colour, width: 1.2, stroke: Stroke::Solid };
-    curve(svg, frame, &points, Some(pen), None);
-}
-
 fn band(svg: &mut Svg, frame: &Frame<'_>, points: &[(f64, f64, f64)], colour: Rgb) {
     let ends: Vec<Option<(Place, Place)>> = points
         .iter()
         .map(|(x, low, high)| {
             let is_known = low.is_finite() && high.is_finite();
-            let place = |y| frame.axes().place_at_end((*x, y)).map(|place| frame.at(place));
+            let place = |y| frame.axes.place_at_end((*x, y)).map(|place| frame.at(place));
             let high = place(*high).filter(|_| is_known)?;
             Some((place(*low)?, high))
         })
@@ -167,11 +143,12 @@ pub(super) fn draw_sign(svg: &mut Svg, sign: Sign, (x, y): Place, r: f64, colour
 }
 
 fn heat_map(svg: &mut Svg, frame: &Frame<'_>, map: &HeatMap) {
-    let columns = HeatMap::borders(frame.x.scale, &map.columns);
-    let rows = HeatMap::borders(frame.y.scale, &map.rows);
+    let columns = HeatMap::borders(frame.axes.x.scale, &map.columns);
+    let rows = HeatMap::borders(frame.axes.y.scale, &map.rows);
     let colours: Vec<Option<Rgb>> =
         map.values.iter().map(|value| value.map(|value| map.colour(value))).collect();
-    svg.crisp(|svg| {
+    // With edges on whole pixels adjacent areas meet without a seam.
+    svg.group("shape-rendering=\"crispEdges\"", |svg| {
         for (cells, up) in colours.chunks(map.columns.len().max(1)).zip(rows.windows(2)) {
             let mut column = 0;
             for run in cells.chunk_by(|one, next| one == next) {
@@ -180,7 +157,7 @@ fn heat_map(svg: &mut Svg, frame: &Frame<'_>, map: &HeatMap) {
                 let to = frame.place_of_coordinates((columns[column], up[0]));
                 match run[0] {
                     Some(colour) => svg.rectangle(from, to, colour),
-                    None => svg.hatched(from, to),
+                    None => svg.rect(from, to, HATCHED),
                 }
             }
         }
@@ -188,7 +165,7 @@ fn heat_map(svg: &mut Svg, frame: &Frame<'_>, map: &HeatMap) {
     let coordinates = |axis: &Axis, values: &[f64]| -> Vec<f64> {
         values.iter().map(|value| axis.scale.coordinate(*value)).collect()
     };
-    let (across, up) = (coordinates(frame.x, &map.columns), coordinates(frame.y, &map.rows));
+    let (across, up) = (coordinates(frame.axes.x, &map.columns), coordinates(frame.axes.y, &map.rows));
     if let Some(Contour { field, level, .. }) = &map.contour {
         for line in contour(&across, &up, field, *level) {
             let places: Vec<_> = line.into_iter().map(|point| frame.place_of_coordinates(point)).collect();

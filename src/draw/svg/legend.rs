@@ -2,7 +2,7 @@
 
 use super::elements::{Anchor, Pen, Place, Svg};
 use super::layers::{AREA_OPACITY, SIGN, draw_sign, guide};
-use super::{QUIET, TEXT};
+use super::{HATCHED, QUIET, TEXT};
 use crate::draw::chart::{Entry, Sample};
 
 /// Size of names, px.
@@ -96,7 +96,7 @@ fn sample(svg: &mut Svg, entry: &Entry, (x, y): Place) {
             Sample::Contour => svg.line(&[(x, y), (x + 22.0, y)], Pen::solid(colour, 1.8)),
             Sample::Empty => {
                 let (from, to) = ((x, y - 6.0), (x + 12.0, y + 6.0));
-                svg.hatched(from, to);
+                svg.rect(from, to, HATCHED);
                 svg.frame(from, to, Pen::solid(QUIET, 0.8));
             }
         }

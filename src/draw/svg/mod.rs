@@ -2,7 +2,6 @@
 
 mod elements;
 mod frame;
-mod inset;
 mod layers;
 mod legend;
 
@@ -10,15 +9,18 @@ pub(crate) use elements::{Svg, escaped};
 #[cfg(test)]
 pub(crate) use tests::{attribute, elements, parsed};
 
-use super::axis::Axis;
+use super::axis::Axes;
 use super::chart::{Chart, Figure, HeatMap};
 use super::colour::{Palette, Rgb, Shades, hex};
 use super::label::Label;
-use super::scale::{AxisScale, Span};
 use elements::{Anchor, Pen, Place};
-use frame::{Frame, LABEL, NUMBER, Side};
+use frame::{Frame, LABEL, Side};
 use legend::Legend;
 
+/// Fonts of figures, with nearly the same letters on all systems.
+const FONTS: &str = "font-family=\"Helvetica, Arial, Liberation Sans, DejaVu Sans, sans-serif\"";
+/// Fill of cells without a value.
+const HATCHED: &str = "fill=\"url(#hatched)\"";
 const TEXT: Rgb = Palette::LIGHT.foreground;
 const QUIET: Rgb = [0x96, 0x9c, 0xa2];
 const PAPER: Rgb = Palette::LIGHT.background;
@@ -35,13 +37,11 @@ const MARGIN: f64 = 6.0;
 const TITLE: f64 = 14.5;
 
 impl Figure {
-    /// The figure as SVG.
-    #[must_use]
     pub fn svg(&self) -> String {
         let page = Page::new(self);
         let mut svg = Svg::new(page.width, page.height, &Label::plain(&self.title).to_string());
         definitions(&mut svg, &self.charts);
-        svg.in_fonts(|svg| page.draw(svg));
+        svg.group(FONTS, |svg| page.draw(svg));
         svg.finish()
     }
 }
@@ -133,49 +133,38 @@ fn charts_width(rooms: &[(f64, f64)], frame: f64) -> f64 {
     rooms.iter().map(|(before, beside)| before + frame + beside).sum()
 }
 
-fn frame_of<'a>(chart: &'a Chart, y: &'a Axis, from: Place, size: (f64, f64)) -> Frame<'a> {
-    Frame { from, to: (from.0 + size.0, from.1 + size.1), x: &chart.x, y, size: NUMBER }
+fn frame_of(chart: &Chart, from: Place, size: (f64, f64)) -> Frame<'_> {
+    Frame { from, to: (from.0 + size.0, from.1 + size.1), axes: Axes { x: &chart.x, y: &chart.y } }
+}
+
+/// The frame of the colour scale on the right of a map.
+fn frame_of_colours<'a>(map: &'a HeatMap, chart: Frame<'a>) -> Frame<'a> {
+    let left = chart.to.0 + FROM_MAP;
+    let axes = Axes { y: &map.key, ..chart.axes };
+    Frame { from: (left, chart.from.1), to: (left + BAR, chart.to.1), axes }
 }
 
 /// Room on the left and on the right of a chart.
 fn rooms(chart: &Chart, size: (f64, f64)) -> (f64, f64) {
-    let frame = frame_of(chart, &chart.y, (0.0, 0.0), size);
+    let frame = frame_of(chart, (0.0, 0.0), size);
     let scale = chart
         .map()
-        .map_or(0.0, |map| FROM_MAP + BAR + Frame { y: &map.key, ..frame }.room(Side::Right) + MARGIN);
+        .map_or(0.0, |map| FROM_MAP + BAR + frame_of_colours(map, frame).room(Side::Right) + MARGIN);
     (AXES.0.max(frame.room(Side::Left) + MARGIN), BESIDE.max(scale))
 }
 
 fn draw_chart(svg: &mut Svg, chart: &Chart, from: Place, size: (f64, f64)) {
-    let frame = frame_of(chart, &chart.y, from, size);
-    let y = if chart.inset.is_some() { inset::axis_with_room(chart, &frame) } else { chart.y.clone() };
-    let frame = Frame { y: &y, ..frame };
+    let frame = frame_of(chart, from, size);
     layers::draw(svg, &frame, &chart.layers);
     svg.frame(frame.from, frame.to, Pen::solid(TEXT, 1.0));
-    frame.axis(svg, Side::Below, true);
-    frame.axis(svg, Side::Left, true);
+    frame.axis(svg, Side::Below);
+    frame.axis(svg, Side::Left);
     if let Some(map) = chart.map() {
-        scale_of_colours(svg, map, &frame);
+        let scale = frame_of_colours(map, frame);
+        svg.rect(scale.from, scale.to, &format!("fill=\"url(#{})\"", map.shades));
+        svg.frame(scale.from, scale.to, Pen::solid(TEXT, 1.0));
+        scale.axis(svg, Side::Right);
     }
-    if let Some(inner) = &chart.inset {
-        let (from, to) = inset::place(chart, &frame);
-        let paper = ((from.0 - inset::AXES.0, from.1 - 3.0), (to.0 + 6.0, to.1 + inset::AXES.1));
-        svg.rectangle(paper.0, paper.1, PAPER);
-        let frame = Frame { from, to, x: &inner.x, y: &inner.y, size: 0.8 * NUMBER };
-        layers::draw(svg, &frame, &inner.layers);
-        svg.frame(from, to, Pen::solid(TEXT, 0.8));
-        frame.axis(svg, Side::Left, false);
-        frame.axis(svg, Side::Below, false);
-    }
-}
-
-fn scale_of_colours(svg: &mut Svg, map: &HeatMap, beside: &Frame<'_>) {
-    let left = beside.to.0 + FROM_MAP;
-    let (from, to) = ((left, beside.from.1), (left + BAR, beside.to.1));
-    svg.shaded(from, to, map.shades);
-    svg.frame(from, to, Pen::solid(TEXT, 1.0));
-    let across = Axis::new(AxisScale::Linear, Span { low: 0.0, high: 1.0 }, "", "", "");
-    Frame { from, to, x: &across, y: &map.key, size: NUMBER }.axis(svg, Side::Right, true);
 }
 
 #[cfg(test)]
@@ -183,6 +172,7 @@ mod tests {
     use super::*;
     use crate::draw::chart::{Layer, Shape, Sign, Stroke};
     use crate::draw::colour::Ink;
+    use crate::draw::{Axis, AxisScale, Span};
     use roxmltree::Document;
 
     /// Tags of a document with their attributes, and its text. Panics if the document is not well-formed.

@@ -8,13 +8,12 @@ pub use watch::play;
 
 use super::action::Action;
 use super::app::App;
-use super::runtime::{Runtime, Solver, Studies};
+use super::runtime::{Engine, Runtime};
 use super::theme::Appearance;
 use super::update::Effect;
 use crate::scene::Document;
 use crate::simulation::Simulation;
 use std::collections::VecDeque;
-use std::io;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -49,12 +48,10 @@ impl Demo {
         // Times differ from run to run.
         app.view.shows_times = false;
         app.view.demo = Some("");
-        let solver = Solver::inline(Box::new(Simulation::default()));
-        let mut seeds = 1..;
-        let draw_seed = Box::new(move || seeds.next().unwrap_or_default());
-        let explorer =
-            Runtime { app, solver, studies: Studies::Demo, asked: 0, folder: PathBuf::new(), draw_seed };
-        let mut demo = Demo {
+        let engine = Engine::inline(Simulation::run, |study| !study.is_long);
+        let mut explorer = Runtime { app, engine, asked: 0, folder: PathBuf::new() };
+        explorer.perform(vec![Effect::Ask]);
+        Demo {
             explorer,
             cues: script.iter().copied().collect(),
             typing: VecDeque::new(),
@@ -62,22 +59,7 @@ impl Demo {
             seconds: 0.0,
             frame: frames_per_second.recip(),
             begun: false,
-        };
-        demo.perform(|explorer| explorer.perform(vec![Effect::Ask], &mut ()));
-        demo
-    }
-
-    fn perform(&mut self, step: impl FnOnce(&mut Runtime) -> io::Result<()>) {
-        // Without a terminal nothing fails.
-        drop(step(&mut self.explorer));
-    }
-
-    fn act(&mut self, action: Action) {
-        self.perform(|explorer| explorer.act(action, &mut ()));
-    }
-
-    fn command(&mut self, name: &str) {
-        self.perform(|explorer| explorer.command(name, &mut ()));
+        }
     }
 
     /// Advances to the next frame and returns its time in seconds; `None` when the demo is over.
@@ -88,12 +70,12 @@ impl Demo {
             self.play(self.pause);
             self.pause = 0.0;
             if let Some(character) = self.typing.pop_front() {
-                self.act(Action::Paste(character.to_string()));
+                self.explorer.act(Action::Paste(character.to_string()));
                 self.pause = TYPING;
             } else if let Some(prompt) = &self.explorer.app.prompt {
                 // A refused value stays in the editor.
                 let is_refused = prompt.refused.is_some();
-                self.command(if is_refused { "cancel" } else { "accept" });
+                self.explorer.command(if is_refused { "cancel" } else { "accept" });
             } else {
                 let cue = self.cues.pop_front()?;
                 self.follow(cue);
@@ -113,7 +95,7 @@ impl Demo {
 
     /// Resizes the window.
     pub fn resize(&mut self, columns: u16, rows: u16) {
-        self.act(Action::Resize(columns, rows));
+        self.explorer.act(Action::Resize(columns, rows));
     }
 
     /// Shows a line in place of the keys.
@@ -125,28 +107,28 @@ impl Demo {
     fn play(&mut self, seconds: f64) {
         self.seconds += seconds;
         if seconds > 0.0 && self.explorer.app.manual.is_none() {
-            self.act(Action::Elapse(Duration::from_secs_f64(seconds)));
+            self.explorer.act(Action::Elapse(Duration::from_secs_f64(seconds)));
         }
     }
 
     fn follow(&mut self, cue: Cue) {
         match cue {
             Cue::Wait(seconds) => self.pause = seconds,
-            Cue::Do(command) => self.command(command),
+            Cue::Do(command) => drop(self.explorer.command(command)),
             Cue::Repeat(0, ..) => {}
             Cue::Repeat(times, seconds, command) => {
-                self.command(command);
+                self.explorer.command(command);
                 self.pause = seconds;
                 self.cues.push_front(Cue::Repeat(times - 1, seconds, command));
             }
             Cue::Select(path) => {
-                self.command("first-parameter");
+                self.explorer.command("first-parameter");
                 let place = self.explorer.app.edit.parameters.iter().position(|one| one.path == path);
-                (0..place.unwrap_or(0)).for_each(|_| self.command("next-parameter"));
+                (0..place.unwrap_or(0)).for_each(|_| drop(self.explorer.command("next-parameter")));
             }
             Cue::Enter(value) => {
-                self.command("edit-value");
-                self.command("clear");
+                self.explorer.command("edit-value");
+                self.explorer.command("clear");
                 self.typing = value.chars().collect();
                 self.pause = TYPING;
             }

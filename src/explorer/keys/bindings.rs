@@ -1,24 +1,20 @@
 //! The keys in use: the table with the keys of the configuration, the names of actions, the table of docs/keys.md.
 
-use super::{ANY, Command, Context, EXPLORE, Key, MANUAL, Row, Run, TABLE, names};
+use super::{ANY, Command, Context, EXPLORE, Key, MANUAL, Row, Run, TABLE};
 use crate::explorer::app::App;
 use crate::scene::nearest;
-use crossterm::event::KeyEvent;
+use crossterm::event::{KeyCode, KeyEvent};
 
 impl Row {
     /// Returns true if the configuration may replace the keys of the row: keys for typing, lists and questions are
     /// fixed, and so are digits.
     fn is_rebindable(&self) -> bool {
-        !self.takes_character() && self.contexts.iter().all(|context| EXPLORE.contains(context))
-    }
-
-    /// Returns true if the keys of the row differ in meaning.
-    pub(in crate::explorer) fn takes_character(&self) -> bool {
-        matches!(self.run, Run::Character(_))
+        let is_character = matches!(self.run, Run::Character(_));
+        !is_character && self.contexts.iter().all(|context| EXPLORE.contains(context))
     }
 
     /// Returns true if the list of commands has the row: keys for texts and questions need their prompt.
-    pub(in crate::explorer) fn is_listed(&self) -> bool {
+    fn is_listed(&self) -> bool {
         self.is_listed && self.contexts.iter().any(|one| EXPLORE.contains(one) && *one != Context::Crosshair)
     }
 
@@ -41,25 +37,18 @@ pub struct Binding {
 }
 
 impl Binding {
-    /// The command of one of the keys.
+    /// Names of the keys, apart by blanks.
     #[must_use]
-    pub fn command_of(&self, key: &Key) -> Command {
-        Command { row: self.row, character: key.character().filter(|_| self.row.takes_character()) }
+    pub fn names(&self) -> String {
+        self.keys.iter().map(|key| key.name.as_str()).collect::<Vec<_>>().join(" ")
     }
 
-    /// Names of the keys; consecutive digits have one name: `1–9`.
+    /// Texts of a search: keys, description, section.
     #[must_use]
-    pub fn names(&self) -> Vec<String> {
-        names(&self.keys)
+    pub fn texts(&self) -> Vec<String> {
+        let words = [self.row.help, self.row.section].map(str::to_owned);
+        self.keys.iter().map(|key| key.name.clone()).chain(words).collect()
     }
-}
-
-/// Reason why keys are refused.
-pub struct RebindError {
-    /// Value and allowed values.
-    pub message: String,
-    /// True for the keys, false for the action.
-    pub is_about_keys: bool,
 }
 
 /// The keys in use: the table, with other keys where the configuration has them.
@@ -87,8 +76,15 @@ impl Bindings {
     /// The command of a key in a context.
     #[must_use]
     pub fn command(&self, event: &KeyEvent, context: Context) -> Option<Command> {
-        self.valid_in(context)
-            .find_map(|row| Some(row.command_of(row.keys.iter().find(|key| key.matches(event))?)))
+        let character = if let KeyCode::Char(character) = event.code { Some(character) } else { None };
+        let found = self.valid_in(context).find(|one| one.keys.iter().any(|key| key.matches(event)))?;
+        Some(Command { row: found.row, character })
+    }
+
+    /// The rows of the list of commands.
+    #[must_use]
+    pub fn listed(&self) -> Vec<Binding> {
+        self.rows().filter(|binding| binding.row.is_listed()).cloned().collect()
     }
 
     /// The command of a name in a context, with the character where the row takes one: `preset 3`.
@@ -107,20 +103,19 @@ impl Bindings {
         let mut rows: Vec<&Binding> = self.valid_in(app.keys()).filter(is_shown).collect();
         rows.sort_by_key(|binding| binding.row.place(app));
         let items = rows.chunk_by(|one, next| one.row.label == next.row.label);
-        let first = |binding: &&Binding| binding.names().into_iter().next().unwrap_or_default();
+        let first = |binding: &&Binding| binding.keys.first().map_or("", |key| &key.name).to_owned();
         items.map(|rows| (rows.iter().map(first).collect::<Vec<_>>().join(" "), rows[0].row.label)).collect()
     }
 
     /// Replaces the keys of an action. Ctrl+C always quits.
     ///
     /// # Errors
-    /// An action or a key that does not exist.
-    pub fn rebind(&mut self, action: &str, keys: &[String]) -> Result<(), RebindError> {
+    /// `action` or `keys`, which does not exist, and the reason.
+    pub fn rebind(&mut self, action: &str, keys: &[String]) -> Result<(), (&'static str, String)> {
         let parsed = keys.iter().map(|name| {
-            Key::named(name).ok_or_else(|| RebindError {
-                message: format!("{name}: there is no such key; allowed: one character, Ctrl+c, Shift+Left, F5, PageUp and the like"),
-                is_about_keys: true,
-            })
+            let allowed = "one character, Ctrl+c, Shift+Left, F5, PageUp and the like";
+            Key::named(name)
+                .ok_or_else(|| ("keys", format!("{name}: there is no such key; allowed: {allowed}")))
         });
         let mut parsed = parsed.collect::<Result<Vec<Key>, _>>()?;
         let Some(binding) = self.0.iter_mut().find(|one| one.row.is_rebindable() && one.row.name == action)
@@ -128,10 +123,10 @@ impl Bindings {
             let near = nearest(action, TABLE.iter().filter(|row| row.is_rebindable()).map(|row| row.name));
             let near = near.map_or_else(String::new, |near| format!(" did you mean {near}?"));
             let message = format!("{action}: there is no such action;{near} allowed: docs/keys.md lists all");
-            return Err(RebindError { message, is_about_keys: false });
+            return Err(("action", message));
         };
         if action == "quit" {
-            parsed.extend(Key::named("Ctrl+c").filter(|key| !parsed.contains(key)));
+            parsed.extend(Key::named("Ctrl+c").filter(|quit| !parsed.iter().any(|key| key.overlaps(quit))));
         }
         binding.keys = parsed;
         Ok(())
@@ -144,8 +139,8 @@ impl Bindings {
             let mut seen: Vec<(&Key, &'static str)> = Vec::new();
             for binding in self.valid_in(*context) {
                 for key in &binding.keys {
-                    if let Some((_, other)) = seen.iter().find(|(seen, _)| *seen == key) {
-                        return Some((key.name(), *other, binding.row.name));
+                    if let Some((_, other)) = seen.iter().find(|(seen, _)| seen.overlaps(key)) {
+                        return Some((key.name.clone(), *other, binding.row.name));
                     }
                     seen.push((key, binding.row.name));
                 }
@@ -160,13 +155,12 @@ impl Bindings {
 pub fn markdown() -> String {
     let mut text = String::from("| | key | does | action |\n| --- | --- | --- | --- |\n");
     let mut section = "";
-    for binding in Bindings::default().rows() {
-        let row = binding.row;
+    for row in TABLE {
         let shown = if row.section == section { "" } else { row.section };
         section = row.section;
         // A bar would end the cell.
-        let names = binding.names().into_iter().map(|name| name.replace('|', "\\|"));
-        let keys: Vec<String> = names.map(|name| format!("`{name}`")).collect();
+        let keys: Vec<String> =
+            row.keys.split(' ').map(|name| format!("`{}`", name.replace('|', "\\|"))).collect();
         let action = if row.is_rebindable() { format!("`{}`", row.name) } else { String::new() };
         text += &format!("| {shown} | {} | {} | {action} |\n", keys.join(" "), row.help);
     }
@@ -183,13 +177,9 @@ mod tests {
         assert_eq!(Bindings::default().conflict(), None);
         for binding in Bindings::default().rows() {
             assert_eq!(binding.keys.len(), binding.row.keys.split(' ').count(), "{}", binding.row.keys);
-            for key in &binding.keys {
-                assert_eq!(Key::named(&key.name()), Some(*key), "{}", key.name());
-            }
         }
-        assert_eq!(Key::named("ctrl+y"), Key::named("Ctrl+y"));
         for name in ["", "ab", "Shift+a", "F0", "F13", "Ctrl+", "\u{1b}", "Alt+x"] {
-            assert_eq!(Key::named(name), None, "{name}");
+            assert!(Key::named(name).is_none(), "{name}");
         }
         let mut names: Vec<&str> =
             TABLE.iter().filter(|row| row.is_rebindable()).map(|row| row.name).collect();

@@ -1,11 +1,15 @@
-//! A key with its modifiers, and the names of keys.
+//! A key with its modifiers, by its name.
 
+use crate::text::is_control;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-/// A key with its modifiers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// A key with its modifiers, or a range of characters: `Ctrl+p`, `1–9`.
+#[derive(Clone, Debug)]
 pub struct Key {
-    code: KeyCode,
+    /// Name, as the table of keys or the configuration has it.
+    pub name: String,
+    first: KeyCode,
+    last: KeyCode,
     modifiers: KeyModifiers,
 }
 
@@ -17,32 +21,16 @@ impl Key {
             KeyCode::Char(_) | KeyCode::BackTab => event.modifiers - KeyModifiers::SHIFT,
             _ => event.modifiers,
         };
-        self.code == event.code && self.modifiers == modifiers
+        self.modifiers == modifiers && (self.first..=self.last).contains(&event.code)
     }
 
-    /// Character of the key.
+    /// Returns true if an event matches both keys.
     #[must_use]
-    pub fn character(&self) -> Option<char> {
-        if let KeyCode::Char(character) = self.code { Some(character) } else { None }
+    pub fn overlaps(&self, other: &Key) -> bool {
+        self.modifiers == other.modifiers && self.first <= other.last && other.first <= self.last
     }
 
-    /// The key in the notation of keyboards.
-    #[must_use]
-    pub fn name(&self) -> String {
-        let named = NAMES.iter().find(|(_, code)| *code == self.code);
-        let name = match (named, self.code) {
-            (Some((name, _)), _) => (*name).to_owned(),
-            (None, KeyCode::Char(character)) => character.to_string(),
-            (None, KeyCode::BackTab) => "Shift+Tab".to_owned(),
-            (None, KeyCode::F(number)) => format!("F{number}"),
-            (None, other) => format!("{other:?}"),
-        };
-        let control = if self.modifiers.contains(KeyModifiers::CONTROL) { "Ctrl+" } else { "" };
-        let shift = if self.modifiers.contains(KeyModifiers::SHIFT) { "Shift+" } else { "" };
-        format!("{control}{shift}{name}")
-    }
-
-    /// The key of a name, as [`Key::name`] writes it, or in the words on a keyboard: `Up`, `Ctrl+p`, `Shift+Left`.
+    /// The key of a name: a character, or the words on a keyboard, with modifiers: `Up`, `Ctrl+p`, `Shift+Left`.
     #[must_use]
     pub fn named(name: &str) -> Option<Key> {
         fn without<'a>(name: &'a str, modifier: &str) -> (bool, &'a str) {
@@ -52,28 +40,28 @@ impl Key {
         }
         let (control, rest) = without(name, "Ctrl+");
         let (shift, rest) = without(rest, "Shift+");
-        let mut characters = rest.chars();
-        let code = match (NAMES.iter().find(|(name, _)| *name == rest), characters.next(), characters.next())
-        {
-            (Some((_, KeyCode::Tab)), ..) if shift => KeyCode::BackTab,
-            (Some((_, code)), ..) => *code,
+        let characters: Vec<char> = rest.chars().collect();
+        let known = NAMES.iter().find(|(known, _)| *known == rest).map(|(_, code)| *code);
+        let (first, last) = match (known, &characters[..]) {
+            (Some(KeyCode::Tab), _) if shift => (KeyCode::BackTab, KeyCode::BackTab),
+            (Some(code), _) => (code, code),
             // Shift is part of a character.
-            (None, Some(character), None) if !shift && !crate::text::is_control(character) => {
-                KeyCode::Char(character)
-            }
+            (None, &[one]) if !shift && !is_control(one) => (KeyCode::Char(one), KeyCode::Char(one)),
+            (None, &[first, '–', last]) if !shift => (KeyCode::Char(first), KeyCode::Char(last)),
             _ => {
                 let number = rest.strip_prefix('F')?.parse().ok();
-                KeyCode::F(number.filter(|number| (1..=12).contains(number))?)
+                let code = KeyCode::F(number.filter(|number| (1..=12).contains(number))?);
+                (code, code)
             }
         };
         let mut modifiers = KeyModifiers::NONE;
         modifiers.set(KeyModifiers::CONTROL, control);
-        modifiers.set(KeyModifiers::SHIFT, shift && code != KeyCode::BackTab);
-        Some(Key { code, modifiers })
+        modifiers.set(KeyModifiers::SHIFT, shift && first != KeyCode::BackTab);
+        Some(Key { name: name.to_owned(), first, last, modifiers })
     }
 }
 
-/// Keys with names of their own; of two names of a key the first is shown.
+/// Keys with names of their own.
 const NAMES: [(&str, KeyCode); 19] = [
     ("space", KeyCode::Char(' ')),
     ("↑", KeyCode::Up),
@@ -95,19 +83,3 @@ const NAMES: [(&str, KeyCode); 19] = [
     ("Delete", KeyCode::Delete),
     ("Backspace", KeyCode::Backspace),
 ];
-
-/// Names of keys; consecutive digits have one name: `1–9`.
-#[must_use]
-pub fn names(keys: &[Key]) -> Vec<String> {
-    let digit = |key: &Key| match key.code {
-        KeyCode::Char(character) if key.modifiers.is_empty() => character.to_digit(10),
-        _ => None,
-    };
-    let follows =
-        |one: &Key, next: &Key| digit(one).zip(digit(next)).is_some_and(|(one, next)| one + 1 == next);
-    let run = |run: &[Key]| match run {
-        [first, .., last] => format!("{}–{}", first.name(), last.name()),
-        one => one.iter().map(Key::name).collect(),
-    };
-    keys.chunk_by(follows).map(run).collect()
-}

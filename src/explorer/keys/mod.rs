@@ -4,16 +4,16 @@
 mod bindings;
 mod key;
 
-pub use bindings::{Binding, Bindings, RebindError, markdown};
-pub use key::{Key, names};
+pub use bindings::{Binding, Bindings, markdown};
+pub use key::Key;
 
 use super::app::App;
 use super::effect::Effect;
 use super::panes::Pane;
 use super::parameters::Parameter;
 use super::request::Focus;
-use super::update::{accuracy, chart, compare, crosshair, dialogue, edit, files, look, movement, show};
-use Run::{Act, Character, Edit, Silent, View};
+use super::update::{accuracy, chart, compare, crosshair, dialogue, edit, files, look, movement};
+use Run::{Character, Do, Edit};
 use std::fmt;
 use tui_input::InputRequest;
 
@@ -42,7 +42,7 @@ pub enum Context {
 
 /// A row of the table: keys, the contexts in which they are valid, and their function.
 pub struct Row {
-    /// Names of the keys, apart by blanks.
+    /// Names of the keys, apart by blanks: `Shift+← H`, `1–9`.
     pub keys: &'static str,
     /// The contexts in which they are valid.
     pub contexts: &'static [Context],
@@ -68,45 +68,32 @@ pub struct Row {
 /// Function of a row.
 #[derive(Clone, Copy)]
 enum Run {
-    /// Changes the state without effects.
-    Silent(fn(&mut App)),
-    /// Changes the shown part or state of the contact: a snapshot is requested.
-    View(fn(&mut App)),
-    /// Changes the state and returns the effects.
-    Act(fn(&mut App) -> Vec<Effect>),
-    /// As `Act`, for a row with several keys, with the character of the key.
-    Character(fn(&mut App, char) -> Vec<Effect>),
+    /// Changes the state.
+    Do(fn(&mut App)),
+    /// The same, with the character of the key.
+    Character(fn(&mut App, char)),
     /// Edits the line being typed.
     Edit(InputRequest),
 }
 
-/// A row of the table, with the character of the key where its keys differ in meaning.
+/// A row of the table, with the character of the key where it has one.
 #[derive(Clone, Copy)]
 pub struct Command {
     /// The row.
     pub row: &'static Row,
-    character: Option<char>,
+    /// Character of the key.
+    pub character: Option<char>,
 }
 
 impl Command {
-    pub(super) const fn of(row: &'static Row) -> Self {
-        Command { row, character: None }
-    }
-
-    /// Changes the state and returns the effects.
-    pub(super) fn run(self, app: &mut App) -> Vec<Effect> {
+    /// Changes the state.
+    pub(super) fn run(self, app: &mut App) {
         match (self.row.run, self.character) {
-            (Silent(change), _) => change(app),
-            (View(change), _) => {
-                change(app);
-                return vec![Effect::Ask];
-            }
-            (Act(act), _) => return act(app),
-            (Character(act), Some(character)) => return act(app, character),
+            (Do(change), _) => change(app),
+            (Character(change), Some(character)) => change(app, character),
             (Character(_), None) => {}
-            (Edit(request), _) => return dialogue::edit_line(app, |line| line.edit(request)),
+            (Edit(request), _) => dialogue::edit_line(app, |line| line.edit(request)),
         }
-        Vec::new()
     }
 }
 
@@ -199,122 +186,122 @@ fn is_manual(app: &App) -> bool {
 }
 
 fn takes_number(app: &App) -> bool {
-    app.parameter().is_some_and(Parameter::takes_number)
+    app.edit.parameter().is_some_and(Parameter::takes_number)
 }
 
 /// All keys. A test ensures one meaning of a key in each context.
 #[rustfmt::skip]
 pub const TABLE: &[Row] = &[
-    row("space", EXPLORE, "toggle-play", Act(movement::toggle_play), "play", "play or pause", ANIMATION),
-    row(".", OTHER_PANES, "step-forwards", Act(|app| movement::step(app, 1)), "step", "one step forwards", ANIMATION),
-    row(",", EXPLORE, "step-backwards", Act(|app| movement::step(app, -1)), "", "one step backwards", ANIMATION),
-    row("r", EXPLORE, "restart", Act(movement::restart), "restart", "play from the beginning", ANIMATION),
-    row(">", EXPLORE, "next-stage", Act(|app| movement::go_to_leg(app, 1)), "", "jump to the start of the next loading stage", ANIMATION),
-    row("<", EXPLORE, "previous-stage", Act(|app| movement::go_to_leg(app, -1)), "", "jump to the start of this loading stage or of the previous one", ANIMATION),
-    row("!", EXPLORE, "pull-off", Act(movement::go_to_pull_off), "", "jump to the pull-off, the smallest force of the unloading stages", ANIMATION),
+    row("space", EXPLORE, "toggle-play", Do(movement::toggle_play), "play", "play or pause", ANIMATION),
+    row(".", OTHER_PANES, "step-forwards", Do(|app| movement::step(app, 1)), "step", "one step forwards", ANIMATION),
+    row(",", EXPLORE, "step-backwards", Do(|app| movement::step(app, -1)), "", "one step backwards", ANIMATION),
+    row("r", EXPLORE, "restart", Do(movement::restart), "restart", "play from the beginning", ANIMATION),
+    row(">", EXPLORE, "next-stage", Do(|app| movement::go_to_leg(app, 1)), "", "jump to the start of the next loading stage", ANIMATION),
+    row("<", EXPLORE, "previous-stage", Do(|app| movement::go_to_leg(app, -1)), "", "jump to the start of this loading stage or of the previous one", ANIMATION),
+    row("!", EXPLORE, "pull-off", Do(movement::go_to_pull_off), "", "jump to the pull-off, the smallest force of the unloading stages", ANIMATION),
 
-    row("d", EXPLORE, "toggle-manual", Act(movement::toggle_manual), "manual", "begin manual loading at the present indentation, or end it", MANUAL),
-    row("]", EXPLORE, "press", Act(|app| movement::push(app, 1, false)), "press/pull", "press by a small step", MANUAL).shown_if(is_manual),
-    row("[", EXPLORE, "pull", Act(|app| movement::push(app, -1, false)), "press/pull", "pull by a small step", MANUAL).shown_if(is_manual),
-    row("}", EXPLORE, "press-coarse", Act(|app| movement::push(app, 1, true)), "large step", "press by a large step", MANUAL).shown_if(is_manual),
-    row("{", EXPLORE, "pull-coarse", Act(|app| movement::push(app, -1, true)), "large step", "pull by a large step", MANUAL).shown_if(is_manual),
-    row("F", EXPLORE, "type-force", Silent(movement::type_force), "force", "type a target force", MANUAL).shown_if(is_manual),
-    row("S", EXPLORE, "separate", Act(movement::separate), "separate", "pull to separation", MANUAL).shown_if(is_manual),
+    row("d", EXPLORE, "toggle-manual", Do(movement::toggle_manual), "manual", "begin manual loading at the present indentation, or end it", MANUAL),
+    row("]", EXPLORE, "press", Do(|app| movement::push(app, 1, false)), "press/pull", "press by a small step", MANUAL).shown_if(is_manual),
+    row("[", EXPLORE, "pull", Do(|app| movement::push(app, -1, false)), "press/pull", "pull by a small step", MANUAL).shown_if(is_manual),
+    row("}", EXPLORE, "press-coarse", Do(|app| movement::push(app, 1, true)), "large step", "press by a large step", MANUAL).shown_if(is_manual),
+    row("{", EXPLORE, "pull-coarse", Do(|app| movement::push(app, -1, true)), "large step", "pull by a large step", MANUAL).shown_if(is_manual),
+    row("F", EXPLORE, "type-force", Do(movement::type_force), "force", "type a target force", MANUAL).shown_if(is_manual),
+    row("S", EXPLORE, "separate", Do(movement::separate), "separate", "pull to separation", MANUAL).shown_if(is_manual),
 
-    row("↑ k", LIST, "previous-parameter", Act(|app| edit::move_selection(app, -1)), "", "select the parameter above", PARAMETERS),
-    row("↓ j", LIST, "next-parameter", Act(|app| edit::move_selection(app, 1)), "select", "select the parameter below", PARAMETERS),
-    row("Home g", LIST, "first-parameter", Act(|app| edit::select_end(app, false)), "", "select the first parameter", PARAMETERS),
-    row("End G", LIST, "last-parameter", Act(|app| edit::select_end(app, true)), "", "select the last parameter", PARAMETERS),
-    row("← h", LIST, "decrease", Act(|app| edit::step_value(app, -1, false)), "", "decrease the value by a small step", PARAMETERS),
-    row("→ l", LIST, "increase", Act(|app| edit::step_value(app, 1, false)), "change", "increase the value by a small step", PARAMETERS),
-    row("Shift+← H", LIST, "decrease-coarse", Act(|app| edit::step_value(app, -1, true)), "", "decrease the value by a large step", PARAMETERS),
-    row("Shift+→ L", LIST, "increase-coarse", Act(|app| edit::step_value(app, 1, true)), "", "increase the value by a large step", PARAMETERS),
-    row("Enter e", LIST, "edit-value", Act(|app| edit::edit_value(app, None)), "type", "type a value, with an optional prefix and unit: 2.5 MPa, 10 µm, 50m", PARAMETERS),
-    row("0 1 2 3 4 5 6 7 8 9 - .", VALUES, "start-value", Character(|app, first| edit::edit_value(app, Some(first))), "type", "type a number, while the pane of parameters is selected; not for a choice, a switch or a group", PARAMETERS).unlisted().shown_if(takes_number),
-    row("/", EXPLORE, "find-parameter", Act(dialogue::find_parameter), "find", "find a parameter by words of its name, symbol or meaning", PARAMETERS),
-    row("Z", LIST, "toggle-fold", Act(edit::toggle_fold), "", "fold the group of the selected parameter, or unfold it", PARAMETERS),
-    row("t", LIST, "toggle-effect", Act(edit::toggle_effect), "on/off", "switch the effect of the selected row on or off", PARAMETERS),
-    row("R", EXPLORE, "reseed", Act(|_| vec![Effect::DrawSeed]), "reseed", "draw another random profile", PARAMETERS),
-    row("%", EXPLORE, "type-tolerance", Silent(accuracy::type_tolerance), "", "type a tolerance (0.1 %, 1e-3): selects number of springs and edges", PARAMETERS),
-    row("u", EXPLORE, "undo", Act(|app| edit::undo(app, true)), "undo", "undo the last edit", PARAMETERS),
-    row("U Ctrl+r", EXPLORE, "redo", Act(|app| edit::undo(app, false)), "", "redo the edit", PARAMETERS),
+    row("↑ k", LIST, "previous-parameter", Do(|app| edit::move_selection(app, -1)), "", "select the parameter above", PARAMETERS),
+    row("↓ j", LIST, "next-parameter", Do(|app| edit::move_selection(app, 1)), "select", "select the parameter below", PARAMETERS),
+    row("Home g", LIST, "first-parameter", Do(|app| edit::move_selection(app, i32::MIN)), "", "select the first parameter", PARAMETERS),
+    row("End G", LIST, "last-parameter", Do(|app| edit::move_selection(app, i32::MAX)), "", "select the last parameter", PARAMETERS),
+    row("← h", LIST, "decrease", Do(|app| edit::step_value(app, -1, false)), "", "decrease the value by a small step", PARAMETERS),
+    row("→ l", LIST, "increase", Do(|app| edit::step_value(app, 1, false)), "change", "increase the value by a small step", PARAMETERS),
+    row("Shift+← H", LIST, "decrease-coarse", Do(|app| edit::step_value(app, -1, true)), "", "decrease the value by a large step", PARAMETERS),
+    row("Shift+→ L", LIST, "increase-coarse", Do(|app| edit::step_value(app, 1, true)), "", "increase the value by a large step", PARAMETERS),
+    row("Enter e", LIST, "edit-value", Do(|app| edit::edit_value(app, None)), "type", "type a value, with an optional prefix and unit: 2.5 MPa, 10 µm, 50m", PARAMETERS),
+    row("0–9 - .", VALUES, "start-value", Character(|app, first| edit::edit_value(app, Some(first))), "type", "type a number, while the pane of parameters is selected; not for a choice, a switch or a group", PARAMETERS).unlisted().shown_if(takes_number),
+    row("/", EXPLORE, "find-parameter", Do(dialogue::find_parameter), "find", "find a parameter by words of its name, symbol or meaning", PARAMETERS),
+    row("Z", LIST, "toggle-fold", Do(edit::toggle_fold), "", "fold the group of the selected parameter, or unfold it", PARAMETERS),
+    row("t", LIST, "toggle-effect", Do(edit::toggle_effect), "on/off", "switch the effect of the selected row on or off", PARAMETERS),
+    row("R", EXPLORE, "reseed", Do(edit::draw_seed), "reseed", "draw another random profile", PARAMETERS),
+    row("%", EXPLORE, "type-tolerance", Do(accuracy::type_tolerance), "", "type a tolerance (0.1 %, 1e-3): selects number of springs and edges", PARAMETERS),
+    row("u", EXPLORE, "undo", Do(|app| edit::undo(app, true)), "undo", "undo the last edit", PARAMETERS),
+    row("U Ctrl+r", EXPLORE, "redo", Do(|app| edit::undo(app, false)), "", "redo the edit", PARAMETERS),
 
-    row("c", EXPLORE, "pin", Act(compare::pin), "compare", "keep this loop as a ghost for comparison", COMPARE).rank(2),
-    row("x", EXPLORE, "swap", Act(compare::swap), "", "swap the scene with the newest ghost", COMPARE),
-    row("&", EXPLORE, "toggle-side-by-side", Act(compare::toggle_side_by_side), "", "show the newest ghost beside the scene: profiles above each other, differences, F_a of both", COMPARE),
-    row("|", EXPLORE, "pin-other-use", Act(compare::pin_other_use), "", "keep the loop of the measured profile itself, or of its equivalent line, as a ghost", COMPARE),
-    row("C", EXPLORE, "clear-ghosts", Act(compare::clear), "", "remove all ghosts", COMPARE),
+    row("c", EXPLORE, "pin", Do(compare::pin), "compare", "keep this loop as a ghost for comparison", COMPARE).rank(2),
+    row("x", EXPLORE, "swap", Do(compare::swap), "", "swap the scene with the newest ghost", COMPARE),
+    row("&", EXPLORE, "toggle-side-by-side", Do(compare::toggle_side_by_side), "", "show the newest ghost beside the scene: profiles above each other, differences, F_a of both", COMPARE),
+    row("|", EXPLORE, "pin-other-use", Do(compare::pin_other_use), "", "keep this loop and take the other use of a measured profile: itself, or its equivalent line", COMPARE),
+    row("C", EXPLORE, "clear-ghosts", Do(compare::clear), "", "remove all ghosts", COMPARE),
 
-    row("v", EXPLORE, "next-curve", View(|app| app.view.curve.quantities = app.view.curve.quantities.next()), "", "plot force, contact length or number of contact patches", LOOK),
-    row("N", EXPLORE, "toggle-normalised", View(|app| app.view.curve.normalised ^= true), "", "plot in units of F_a,max and h, or in SI units", LOOK),
-    row("a", EXPLORE, "toggle-loss", View(|app| app.view.curve.loss ^= true), "", "shade the area of the loop: the dissipated energy", LOOK),
-    row("n", EXPLORE, "next-patch", View(|app| look::go_to_fragment(app, Focus::After)), "fragment", "show the next contact patch", LOOK),
-    row("p", EXPLORE, "previous-patch", View(|app| look::go_to_fragment(app, Focus::Before)), "", "show the previous contact patch", LOOK),
-    row("b", EXPLORE, "longest-patch", View(|app| app.view.look.focus = Focus::Largest), "", "show the longest contact patch", LOOK),
-    row("B", EXPLORE, "most-loaded-patch", View(|app| app.view.look.focus = Focus::MostLoaded), "", "show the contact patch under the largest force", LOOK),
-    row("f", EXPLORE, "first-touch", View(|app| app.view.look.focus = Focus::Summit), "", "show the point of first touch", LOOK),
-    row("D", EXPLORE, "toggle-lengths", Act(|app| show::toggle(app, Pane::Lengths)), "", "show the distribution of patch lengths in place of the close-up", LOOK),
-    row("+ =", EXPLORE, "zoom-in", View(|app| look::zoom(app, 1)), "", "zoom in: profile if selected, else close-up", LOOK),
-    row("-", OTHER_PANES, "zoom-out", View(|app| look::zoom(app, -1)), "", "zoom out", LOOK),
-    row("(", EXPLORE, "pan-left", View(|app| look::pan(app, -1)), "", "pan left along the profile", LOOK),
-    row(")", EXPLORE, "pan-right", View(|app| look::pan(app, 1)), "", "pan right along the profile", LOOK),
-    row("w", EXPLORE, "toggle-follow", View(look::toggle_follow), "", "keep the profile centred on the patch of the close-up", LOOK),
-    row("0", OTHER_PANES, "reset-zoom", View(look::reset_zoom), "", "show the whole profile", LOOK),
-    row("A", EXPLORE, "toggle-accuracy", Act(|app| show::toggle(app, Pane::Accuracy)), "accuracy", "show errors against time and the computing stages, in place of profile and close-up", LOOK),
-    row("Q", EXPLORE, "toggle-spectrum", Act(|app| show::toggle(app, Pane::Spectrum)), "", "show spectra over the wave number q in place of profile and close-up", LOOK),
-    row("i", EXPLORE, "toggle-preloads", Act(|app| show::toggle(app, Pane::Preloads)), "", "show adhesion against preload, in place of profile and close-up", LOOK),
-    row("Tab", EXPLORE, "next-pane", View(look::next_pane), "pane", "select the next pane", LOOK).rank(2),
-    row("Ctrl+l", ANY, "redraw", Act(|_| vec![Effect::Redraw]), "", "draw the whole screen again", LOOK),
-    row("z", EXPLORE, "zoom-pane", View(|app| app.view.zoomed ^= true), "zoom", "show the selected pane on the whole screen, or all panes", LOOK),
-    row("Ctrl+s", EXPLORE, "remember-appearance", Act(look::remember_appearance), "", "keep the present colours and markers in the configuration file", LOOK),
-    row("I", EXPLORE, "toggle-work", View(|app| app.view.shows_work ^= true), "", "show springs and stage times in the status line, or contact, stiffness, pressure and energy", LOOK),
-    row("T", EXPLORE, "next-theme", View(look::next_theme), "", "change the colours", LOOK),
-    row("M", EXPLORE, "next-marker", Act(look::next_marker), "", "change the markers: braille, octants, half blocks, ASCII", LOOK),
+    row("v", EXPLORE, "next-curve", Do(|app| app.view.curve.quantities = app.view.curve.quantities.next()), "", "plot force, contact length or number of contact patches", LOOK),
+    row("N", EXPLORE, "toggle-normalised", Do(|app| app.view.curve.normalised ^= true), "", "plot in units of F_a,max and h, or in SI units", LOOK),
+    row("a", EXPLORE, "toggle-loss", Do(|app| app.view.curve.loss ^= true), "", "shade the area of the loop: the dissipated energy", LOOK),
+    row("n", EXPLORE, "next-patch", Do(|app| look::go_to_fragment(app, Focus::After)), "fragment", "show the next contact patch", LOOK),
+    row("p", EXPLORE, "previous-patch", Do(|app| look::go_to_fragment(app, Focus::Before)), "", "show the previous contact patch", LOOK),
+    row("b", EXPLORE, "longest-patch", Do(|app| app.view.look.focus = Focus::Largest), "", "show the longest contact patch", LOOK),
+    row("B", EXPLORE, "most-loaded-patch", Do(|app| app.view.look.focus = Focus::MostLoaded), "", "show the contact patch under the largest force", LOOK),
+    row("f", EXPLORE, "first-touch", Do(|app| app.view.look.focus = Focus::Summit), "", "show the point of first touch", LOOK),
+    row("D", EXPLORE, "toggle-lengths", Do(|app| app.toggle(Pane::Lengths)), "", "show the distribution of patch lengths in place of the close-up", LOOK),
+    row("+ =", EXPLORE, "zoom-in", Do(|app| look::zoom(app, 1)), "", "zoom in: profile if selected, else close-up", LOOK),
+    row("-", OTHER_PANES, "zoom-out", Do(|app| look::zoom(app, -1)), "", "zoom out", LOOK),
+    row("(", EXPLORE, "pan-left", Do(|app| look::pan(app, -1)), "", "pan left along the profile", LOOK),
+    row(")", EXPLORE, "pan-right", Do(|app| look::pan(app, 1)), "", "pan right along the profile", LOOK),
+    row("w", EXPLORE, "toggle-follow", Do(look::toggle_follow), "", "keep the profile centred on the patch of the close-up", LOOK),
+    row("0", OTHER_PANES, "reset-zoom", Do(look::reset_zoom), "", "show the whole profile", LOOK),
+    row("A", EXPLORE, "toggle-accuracy", Do(|app| app.toggle(Pane::Accuracy)), "accuracy", "show errors against time and the computing stages, in place of profile and close-up", LOOK),
+    row("Q", EXPLORE, "toggle-spectrum", Do(|app| app.toggle(Pane::Spectrum)), "", "show spectra over the wave number q in place of profile and close-up", LOOK),
+    row("i", EXPLORE, "toggle-preloads", Do(|app| app.toggle(Pane::Preloads)), "", "show adhesion against preload, in place of profile and close-up", LOOK),
+    row("Tab", EXPLORE, "next-pane", Do(look::next_pane), "pane", "select the next pane", LOOK).rank(2),
+    row("Ctrl+l", ANY, "redraw", Do(|app| app.effects.push(Effect::Redraw)), "", "draw the whole screen again", LOOK),
+    row("z", EXPLORE, "zoom-pane", Do(|app| app.view.zoomed ^= true), "zoom", "show the selected pane on the whole screen, or all panes", LOOK),
+    row("Ctrl+s", EXPLORE, "remember-appearance", Do(look::remember_appearance), "", "keep the present colours and markers in the configuration file", LOOK),
+    row("I", EXPLORE, "toggle-work", Do(|app| app.view.shows_work ^= true), "", "show springs and stage times in the status line, or contact, stiffness, pressure and energy", LOOK),
+    row("T", EXPLORE, "next-theme", Do(look::next_theme), "", "change the colours", LOOK),
+    row("M", EXPLORE, "next-marker", Do(look::next_marker), "", "change the markers: braille, octants, half blocks, ASCII", LOOK),
 
-    row("*", EXPLORE, "toggle-crosshair", View(crosshair::toggle), "read", "show or hide the crosshair: d, F, l, n on the force curve, x, z on profile and close-up", CROSS),
-    row("← h", CROSSHAIR, "crosshair-left", Act(|app| crosshair::move_by(app, -1, false)), "", "move the crosshair left: along the loading stage, or along the profile", CROSS),
-    row("→ l", CROSSHAIR, "crosshair-right", Act(|app| crosshair::move_by(app, 1, false)), "move", "move the crosshair right", CROSS),
-    row("Shift+← H", CROSSHAIR, "crosshair-left-coarse", Act(|app| crosshair::move_by(app, -1, true)), "", "move the crosshair left by a large step", CROSS),
-    row("Shift+→ L", CROSSHAIR, "crosshair-right-coarse", Act(|app| crosshair::move_by(app, 1, true)), "", "move the crosshair right by a large step", CROSS),
-    row("Home g", CROSSHAIR, "crosshair-start", View(|app| crosshair::go_to_end(app, false)), "", "move the crosshair to the left end", CROSS),
-    row("End G", CROSSHAIR, "crosshair-end", View(|app| crosshair::go_to_end(app, true)), "", "move the crosshair to the right end", CROSS),
-    row("↑ k", CROSSHAIR, "crosshair-previous-stage", View(|app| crosshair::go_to_stage(app, -1)), "", "move to the previous loading stage at the same indentation", CROSS),
-    row("↓ j", CROSSHAIR, "crosshair-next-stage", View(|app| crosshair::go_to_stage(app, 1)), "stage", "move to the next loading stage at the same indentation", CROSS),
-    row("Esc", CROSSHAIR, "hide-crosshair", View(crosshair::toggle), "hide", "hide the crosshair", CROSS),
+    row("*", EXPLORE, "toggle-crosshair", Do(crosshair::toggle), "read", "show or hide the crosshair: d, F, l, n on the force curve, x, z on profile and close-up", CROSS),
+    row("← h", CROSSHAIR, "crosshair-left", Do(|app| crosshair::move_by(app, -1, false)), "", "move the crosshair left: along the loading stage, or along the profile", CROSS),
+    row("→ l", CROSSHAIR, "crosshair-right", Do(|app| crosshair::move_by(app, 1, false)), "move", "move the crosshair right", CROSS),
+    row("Shift+← H", CROSSHAIR, "crosshair-left-coarse", Do(|app| crosshair::move_by(app, -1, true)), "", "move the crosshair left by a large step", CROSS),
+    row("Shift+→ L", CROSSHAIR, "crosshair-right-coarse", Do(|app| crosshair::move_by(app, 1, true)), "", "move the crosshair right by a large step", CROSS),
+    row("Home g", CROSSHAIR, "crosshair-start", Do(|app| crosshair::go_to_end(app, false)), "", "move the crosshair to the left end", CROSS),
+    row("End G", CROSSHAIR, "crosshair-end", Do(|app| crosshair::go_to_end(app, true)), "", "move the crosshair to the right end", CROSS),
+    row("↑ k", CROSSHAIR, "crosshair-previous-stage", Do(|app| crosshair::go_to_stage(app, -1)), "", "move to the previous loading stage at the same indentation", CROSS),
+    row("↓ j", CROSSHAIR, "crosshair-next-stage", Do(|app| crosshair::go_to_stage(app, 1)), "stage", "move to the next loading stage at the same indentation", CROSS),
+    row("Esc", CROSSHAIR, "hide-crosshair", Do(crosshair::toggle), "hide", "hide the crosshair", CROSS),
 
-    row("m", EXPLORE, "toggle-map", Act(|app| show::toggle(app, Pane::Chart)), "map", "show the regimes over H and κ or e_el/γ, in place of profile and close-up", MAP).rank(2),
-    row("← h", MAP_PANE, "move-left", Act(|app| chart::step(app, -1, 0)), "", "move the scene to the value on the left: decrease H; successive moves are one edit", MAP).merges(),
-    row("→ l", MAP_PANE, "move-right", Act(|app| chart::step(app, 1, 0)), "move", "move the scene to the value on the right: increase H", MAP).merges(),
-    row("↓ j", MAP_PANE, "move-down", Act(|app| chart::step(app, 0, -1)), "", "move the scene to the value below: decrease κ or e_el/γ", MAP).merges(),
-    row("↑ k", MAP_PANE, "move-up", Act(|app| chart::step(app, 0, 1)), "", "move the scene to the value above: increase κ or e_el/γ", MAP).merges(),
-    row("Shift+← H", MAP_PANE, "move-left-coarse", Act(|app| chart::step(app, -4, 0)), "", "move by four values to the left", MAP).merges(),
-    row("Shift+→ L", MAP_PANE, "move-right-coarse", Act(|app| chart::step(app, 4, 0)), "", "move by four values to the right", MAP).merges(),
-    row("Shift+↓ J", MAP_PANE, "move-down-coarse", Act(|app| chart::step(app, 0, -4)), "", "move by four values down: half the κ, a quarter of e_el/γ", MAP).merges(),
-    row("Shift+↑ K", MAP_PANE, "move-up-coarse", Act(|app| chart::step(app, 0, 4)), "", "move by four values up: twice the κ, four times e_el/γ", MAP).merges(),
-    row("e", MAP_PANE, "next-map-parameter", Act(chart::next_parameter), "e_el/γ", "map over e_el/γ in place of κ, or over κ again", MAP),
-    row("V", MAP_PANE, "next-map-quantity", Silent(|app| app.chart.quantity = app.chart.next_charted()), "quantity", "map another quantity: regime, F_a(0)/F_a,max, F_a/F_n; all recorded ones of a study", MAP),
-    row("W", MAP_PANE, "toggle-study", Act(chart::toggle_study), "", "show the map of the opened study, or the live map", MAP),
-    row("P PageDown", MAP_PANE, "next-slice", Act(|app| chart::step_slice(app, 1)), "", "show the next preload of the study, or value of a further axis; the scene follows", MAP),
-    row("PageUp", MAP_PANE, "previous-slice", Act(|app| chart::step_slice(app, -1)), "", "show the previous one", MAP),
+    row("m", EXPLORE, "toggle-map", Do(|app| app.toggle(Pane::Chart)), "map", "show the regimes over H and κ or e_el/γ, in place of profile and close-up", MAP).rank(2),
+    row("← h", MAP_PANE, "move-left", Do(|app| chart::step(app, -1, 0)), "", "move the scene to the value on the left: decrease H; successive moves are one edit", MAP).merges(),
+    row("→ l", MAP_PANE, "move-right", Do(|app| chart::step(app, 1, 0)), "move", "move the scene to the value on the right: increase H", MAP).merges(),
+    row("↓ j", MAP_PANE, "move-down", Do(|app| chart::step(app, 0, -1)), "", "move the scene to the value below: decrease κ or e_el/γ", MAP).merges(),
+    row("↑ k", MAP_PANE, "move-up", Do(|app| chart::step(app, 0, 1)), "", "move the scene to the value above: increase κ or e_el/γ", MAP).merges(),
+    row("Shift+← H", MAP_PANE, "move-left-coarse", Do(|app| chart::step(app, -4, 0)), "", "move by four values to the left", MAP).merges(),
+    row("Shift+→ L", MAP_PANE, "move-right-coarse", Do(|app| chart::step(app, 4, 0)), "", "move by four values to the right", MAP).merges(),
+    row("Shift+↓ J", MAP_PANE, "move-down-coarse", Do(|app| chart::step(app, 0, -4)), "", "move by four values down: half the κ, a quarter of e_el/γ", MAP).merges(),
+    row("Shift+↑ K", MAP_PANE, "move-up-coarse", Do(|app| chart::step(app, 0, 4)), "", "move by four values up: twice the κ, four times e_el/γ", MAP).merges(),
+    row("e", MAP_PANE, "next-map-parameter", Do(chart::next_parameter), "e_el/γ", "map over e_el/γ in place of κ, or over κ again", MAP),
+    row("V", MAP_PANE, "next-map-quantity", Do(|app| app.chart.quantity = app.next_charted()), "quantity", "map another quantity: regime, F_a(0)/F_a,max, F_a/F_n; all recorded ones of a study", MAP),
+    row("W", MAP_PANE, "toggle-study", Do(chart::toggle_study), "", "show the map of the opened study, or the live map", MAP),
+    row("P PageDown", MAP_PANE, "next-slice", Do(|app| chart::step_slice(app, 1)), "", "show the next preload of the study, or value of a further axis; the scene follows", MAP),
+    row("PageUp", MAP_PANE, "previous-slice", Do(|app| chart::step_slice(app, -1)), "", "show the previous one", MAP),
 
-    row("o", EXPLORE, "open-library", Act(dialogue::open_library), "open", "open a scene: built-in, your own, or by path; or the folder of a study", SCENE).rank(2),
-    row("1 2 3 4 5 6 7 8 9", OTHER_PANES, "preset", Character(edit::open_built_in), "", "open a built-in scene by its number, unless the pane of parameters is selected", SCENE),
-    row("s", EXPLORE, "save", Silent(|app| files::ask_save(app, false)), "save", "save the scene to a file", SCENE).rank(2),
-    row("E", EXPLORE, "export", Silent(files::ask_export), "export", "export curve (.csv, .npy), figures (.json), selected pane (.svg, .png) or screen (.txt)", SCENE),
-    row("y", EXPLORE, "copy-command", Act(files::copy_command), "copy", "copy the command that opens the present scene", SCENE),
-    row(": Ctrl+p", EXPLORE, "open-palette", Silent(dialogue::open_palette), "commands", "find a command by words of its description, and run it", SCENE).rank(2).unlisted(),
-    row("? F1", EXPLORE, "help", Silent(dialogue::help), "help", "show this help", SCENE).rank(0),
-    row("q Ctrl+c", EXPLORE, "quit", Silent(files::ask_quit), "quit", "quit", SCENE).rank(0),
-    row("Ctrl+z", ANY, "suspend", Act(|_| vec![Effect::Suspend]), "", "suspend to the shell; fg resumes", SCENE),
+    row("o", EXPLORE, "open-library", Do(dialogue::open_library), "open", "open a scene: built-in, your own, or by path; or the folder of a study", SCENE).rank(2),
+    row("1–9", OTHER_PANES, "preset", Character(edit::open_built_in), "", "open a built-in scene by its number, unless the pane of parameters is selected", SCENE).unlisted(),
+    row("s", EXPLORE, "save", Do(|app| files::ask_save(app, false)), "save", "save the scene to a file", SCENE).rank(2),
+    row("E", EXPLORE, "export", Do(files::ask_export), "export", "export curve (.csv, .npy), figures (.json), selected pane (.svg, .png) or screen (.txt)", SCENE),
+    row("y", EXPLORE, "copy-command", Do(files::copy_command), "copy", "copy the command that opens the present scene", SCENE),
+    row(": Ctrl+p", EXPLORE, "open-palette", Do(dialogue::open_palette), "commands", "find a command by words of its description, and run it", SCENE).rank(2).unlisted(),
+    row("? F1", EXPLORE, "help", Do(dialogue::help), "help", "show this help", SCENE).rank(0),
+    row("q Ctrl+c", EXPLORE, "quit", Do(files::ask_quit), "quit", "quit", SCENE).rank(0),
+    row("Ctrl+z", ANY, "suspend", Do(|app| app.effects.push(Effect::Suspend)), "", "suspend to the shell; fg resumes", SCENE),
 
-    row("↓ j space", HELP, "next-row", Silent(|app| dialogue::select(app, 1)), "scroll", "scroll down", TEXT),
-    row("↑ k", HELP, "previous-row", Silent(|app| dialogue::select(app, -1)), "", "scroll up", TEXT),
-    row("Esc ? q F1 Ctrl+c", HELP, "close-help", Act(dialogue::cancel), "back", "close the help", TEXT).rank(0),
-    row("↓ Ctrl+n", SEARCHED, "next-row", Silent(|app| dialogue::select(app, 1)), "select", "select the row below", TEXT),
-    row("↑ Ctrl+p", SEARCHED, "previous-row", Silent(|app| dialogue::select(app, -1)), "", "select the row above", TEXT),
-    row("Enter", TYPED, "accept", Act(dialogue::accept), "accept", "accept the typed text, or the selected row", TEXT),
-    row("Tab", TYPED, "complete", Act(dialogue::complete), "complete", "complete the typed path, in a value the one between quotes", TEXT).shown_if(dialogue::can_complete),
-    row("Esc Ctrl+c", TYPED, "cancel", Act(dialogue::cancel), "cancel", "cancel: keep the previous value", TEXT),
+    row("↓ j space", HELP, "next-row", Do(|app| dialogue::select(app, 1)), "scroll", "scroll down", TEXT),
+    row("↑ k", HELP, "previous-row", Do(|app| dialogue::select(app, -1)), "", "scroll up", TEXT),
+    row("Esc ? q F1 Ctrl+c", HELP, "close-help", Do(dialogue::cancel), "back", "close the help", TEXT).rank(0),
+    row("↓ Ctrl+n", SEARCHED, "next-row", Do(|app| dialogue::select(app, 1)), "select", "select the row below", TEXT),
+    row("↑ Ctrl+p", SEARCHED, "previous-row", Do(|app| dialogue::select(app, -1)), "", "select the row above", TEXT),
+    row("Enter", TYPED, "accept", Do(dialogue::accept), "accept", "accept the typed text, or the selected row", TEXT),
+    row("Tab", TYPED, "complete", Do(dialogue::complete), "complete", "complete the typed path, in a value the one between quotes", TEXT).shown_if(dialogue::can_complete),
+    row("Esc Ctrl+c", TYPED, "cancel", Do(dialogue::cancel), "cancel", "cancel: keep the previous value", TEXT),
     row("← Ctrl+b", TYPED, "cursor-left", Edit(InputRequest::GoToPrevChar), "", "move the cursor left", TEXT),
     row("→ Ctrl+f", TYPED, "cursor-right", Edit(InputRequest::GoToNextChar), "", "move the cursor right", TEXT),
     row("Home Ctrl+a", TYPED, "cursor-start", Edit(InputRequest::GoToStart), "", "move the cursor to the start", TEXT),
@@ -325,9 +312,9 @@ pub const TABLE: &[Row] = &[
     row("Ctrl+w", TYPED, "delete-word", Edit(InputRequest::DeletePrevWord), "", "delete the word before the cursor", TEXT),
     row("Delete Ctrl+d", TYPED, "delete-forwards", Edit(InputRequest::DeleteNextChar), "", "delete the character under the cursor", TEXT),
     row("Ctrl+u", TYPED, "clear", Edit(InputRequest::DeleteLine), "clear", "clear the typed text", TEXT),
-    row("y", OVERWRITE, "accept", Act(dialogue::accept), "overwrite", "overwrite the file", TEXT),
-    row("n Esc Ctrl+c", OVERWRITE, "cancel", Act(dialogue::cancel), "keep it", "keep the existing file", TEXT),
-    row("s", LEAVE, "save-then-quit", Act(files::save_before_leaving), "save", "save, then quit", TEXT),
-    row("q y Ctrl+c", LEAVE, "quit-anyway", Silent(|app| app.finished = true), "quit", "quit without saving", TEXT),
-    row("n Esc", LEAVE, "cancel", Act(dialogue::cancel), "stay", "stay", TEXT),
+    row("y", OVERWRITE, "accept", Do(dialogue::accept), "overwrite", "overwrite the file", TEXT),
+    row("n Esc Ctrl+c", OVERWRITE, "cancel", Do(dialogue::cancel), "keep it", "keep the existing file", TEXT),
+    row("s", LEAVE, "save-then-quit", Do(files::save_before_leaving), "save", "save, then quit", TEXT),
+    row("q y Ctrl+c", LEAVE, "quit-anyway", Do(|app| app.finished = true), "quit", "quit without saving", TEXT),
+    row("n Esc", LEAVE, "cancel", Do(dialogue::cancel), "stay", "stay", TEXT),
 ];

@@ -1,13 +1,13 @@
 //! Cost of accuracy: errors over times, both logarithmic, requirements of a good accuracy, and the stages of the run.
 
-use super::{Pane, PaneRow};
+use super::{Costs, PaneRow, costs};
 use crate::accuracy::{CostTable, Estimate, Evidence, Knob};
 use crate::draw::{Chart, Ink, Layer, Shape, Sign, Span};
-use crate::explorer::app::{App, Estimated};
+use crate::explorer::app::App;
 use crate::explorer::keys::Context;
 use crate::explorer::panel::{Panel, names};
-use crate::explorer::study::{PaneData, Task};
 use crate::explorer::theme::{Appearance, Meaning};
+use crate::explorer::update::{Answer, Choosing};
 use crate::explorer::view::stages;
 use crate::explorer::view::text::{filled, wrapped};
 use crate::export::work_precision;
@@ -15,22 +15,12 @@ use crate::scene::{Edges, Numerics, Solver, format_quantity, format_rounded};
 use crate::text::grouped;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
-use std::sync::Arc;
 
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     panel,
     keys: Some(Context::Crosshair),
-    task: |app, computed| {
-        let costs = Some(app.studies.appraisal.costs.clone()).filter(|costs| !costs.is_whole)?;
-        let data = PaneData::Costs(Arc::clone(&computed.scene), costs);
-        Some(Task::Extend { data, waits: true })
-    },
-    take_in: |app, data| {
-        if let PaneData::Costs(_, costs) = data {
-            app.studies.appraisal.costs = costs;
-        }
-    },
+    studies: |_, computed| vec![costs::study(computed)],
     help: &[(
         "Accuracy",
         "A: relative error against the time of a run, with springs and edges between them or at them, and with steps of \
@@ -47,7 +37,7 @@ const LOWEST: f64 = 1e-8;
 
 fn panel(app: &App, size: Size) -> Panel {
     let title = "Accuracy: error over time, log–log".to_owned();
-    let table = app.studies.appraisal.costs.table.as_deref();
+    let table = app.studies.value::<Costs>().and_then(|costs| costs.table.as_ref());
     let chart = table.and_then(|table| Some((table, work_precision("", table).charts.pop()?)));
     let Some((table, chart)) = chart.filter(|(_, chart)| !chart.layers.is_empty()) else {
         let foot = texts(app, None, size);
@@ -60,11 +50,10 @@ fn panel(app: &App, size: Size) -> Panel {
 
 /// Reason why there is no plot.
 fn nothing_yet(app: &App) -> String {
-    let costs = &app.studies.appraisal.costs;
     if app.is_computing() {
         return "the scene is computed first…".to_owned();
     }
-    match (app.studies.failures.get(&Pane::Accuracy), costs.is_whole) {
+    match (app.studies.failure::<Costs>(), app.studies.is_done::<Costs>()) {
         _ if !app.is_current() => "the scene has no curve to estimate an error of".to_owned(),
         (Some(why), _) => format!("nothing is measured: {why}"),
         (None, true) => {
@@ -153,20 +142,19 @@ fn texts(app: &App, table: Option<&CostTable>, area: Size) -> Vec<Line<'static>>
     if let Some(table) = table {
         for bound in TARGETS {
             let percent = format!("{} %", 100.0 * bound);
-            if let Some(answer) = answer(table, bound, app.studies.appraisal.costs.is_whole) {
+            if let Some(answer) = answer(table, bound, app.studies.is_done::<Costs>()) {
                 let percent = Text::styled(format!("{percent}: "), theme.style(Meaning::Title));
                 say(Line::from(vec![percent, Text::raw(answer)]));
             }
         }
     }
-    if let Some((tolerance, trying)) = app.studies.appraisal.choosing {
-        let trying = trying.map_or_else(String::new, |points| format!(", {} springs", grouped(points)));
-        say(Line::styled(format!("trying for {tolerance:e}{trying}…"), theme.style(Meaning::Key)));
-    }
-    if let Some(trying) = &app.studies.appraisal.costs.trying {
+    if let Some(Choosing { tolerance, tried, .. }) = app.studies.value() {
+        let tried = tried.map_or_else(String::new, |points| format!(", {} springs", grouped(points)));
+        say(Line::styled(format!("trying for {tolerance:e}{tried}…"), theme.style(Meaning::Key)));
+    } else if let Some(Costs { trying: Some(trying), .. }) = app.studies.value() {
         say(Line::styled(format!("trying {trying}…"), theme.style(Meaning::Key)));
     }
-    if let Some(answer) = &app.studies.appraisal.answer {
+    if let Some(Answer(answer)) = app.studies.value() {
         say(Line::raw(answer.clone()));
     }
     let rows = if area.height >= 12 { 2 } else { 1 };
@@ -199,11 +187,12 @@ fn now(app: &App, table: Option<&CostTable>) -> Line<'static> {
         (Knob::GridSprings, _) => format!("{springs} whole springs"),
         _ => format!("{springs} springs, edges between springs"),
     };
-    let error = match &app.studies.appraisal.estimated {
-        Estimated::Waiting if app.view.shows_times => ", error …".to_owned(),
-        Estimated::Waiting => String::new(),
-        Estimated::Known(Estimate { near_step: true, .. }) => ", near a step of F_a(F_n)".to_owned(),
-        Estimated::Known(Estimate { error, evidence, .. }) => {
+    let error = match app.studies.value() {
+        None if app.studies.failure::<Estimate>().is_some() => ", error unknown".to_owned(),
+        None if app.view.shows_times => ", error …".to_owned(),
+        None => String::new(),
+        Some(Estimate { near_step: true, .. }) => ", near a step of F_a(F_n)".to_owned(),
+        Some(Estimate { error, evidence, .. }) => {
             let from = match evidence {
                 Evidence::ClosedForm => " by the closed form".to_owned(),
                 Evidence::Solutions(springs) => {
@@ -213,10 +202,9 @@ fn now(app: &App, table: Option<&CostTable>) -> Line<'static> {
             };
             format!(", error {error:.1e}{from}")
         }
-        Estimated::Unknown => ", error unknown".to_owned(),
     };
     let absent = table.is_some_and(|table| {
-        app.studies.appraisal.costs.is_whole && !table.rows.is_empty() && present(&numerics, table).is_none()
+        app.studies.is_done::<Costs>() && !table.rows.is_empty() && present(&numerics, table).is_none()
     });
     let absent = if absent { "; not among those tried" } else { "" };
     Line::from(vec![

@@ -1,7 +1,8 @@
 //! Cost of accuracy, as far as measured.
 
-use crate::accuracy::{CostError, CostTable, Progress, measure};
-use crate::scene::Scene;
+use crate::accuracy::{CostTable, Progress, measure};
+use crate::explorer::snapshot::SolvedScene;
+use crate::explorer::studies::Study;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
@@ -10,35 +11,27 @@ use std::time::Duration;
 const BUDGET: Duration = Duration::from_secs(10);
 
 /// The table of costs so far.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct Costs {
     /// The rows so far.
-    pub table: Option<Arc<CostTable>>,
+    pub table: Option<CostTable>,
     /// Setting tried at present.
     pub trying: Option<String>,
-    /// True once all is measured.
-    pub is_whole: bool,
 }
 
-impl Costs {
-    /// Measures the costs of a scene; `report` receives the costs so far.
-    ///
-    /// # Errors
-    /// When nothing can be compared.
-    pub fn measure(
-        scene: &Scene,
-        folder: &Path,
-        stop: &dyn Fn() -> bool,
-        report: &mut dyn FnMut(&Costs),
-    ) -> Result<Costs, CostError> {
+/// Measures the costs of a scene. Their times are measured together: an interrupted measurement begins anew.
+pub fn study(computed: &SolvedScene) -> Study {
+    let scene = Arc::clone(&computed.scene);
+    Study::new(computed.generation, true, move |_, stop, report| {
         let mut costs = Costs::default();
-        let table = measure(scene, folder, BUDGET, stop, &mut |progress| {
+        let measured = measure(&scene, Path::new(""), BUDGET, stop, &mut |progress| {
             match progress {
                 Progress::Trying(knob, setting) => costs.trying = Some(format!("{}: {setting}", knob.name())),
-                Progress::Rows(table) => costs.table = Some(Arc::new(table.clone())),
+                Progress::Rows(table) => costs.table = Some(table.clone()),
             }
-            report(&costs);
-        })?;
-        Ok(Costs { table: Some(Arc::new(table)), trying: None, is_whole: true })
-    }
+            report(costs.clone());
+        });
+        let table = measured.map_err(|error| error.to_string())?;
+        Ok(Costs { table: Some(table), trying: None })
+    })
 }

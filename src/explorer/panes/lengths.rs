@@ -23,8 +23,10 @@ pub static ROW: PaneRow = PaneRow {
 
 fn panel(app: &App, _: Size) -> Panel {
     let title = "Contact patches by length, log–log".to_owned();
-    let lengths = app.snapshot.as_ref().and_then(|snapshot| snapshot.lengths.as_ref());
-    let (Some(bins), Some(computed)) = (lengths, &app.solved) else { return Panel::of_text(title, "") };
+    let (Some(snapshot), Some(computed)) = (&app.snapshot, &app.solved) else {
+        return Panel::of_text(title, "");
+    };
+    let bins = &snapshot.lengths;
     if bins.is_empty() {
         return Panel::of_text(title, "nothing is in contact");
     }

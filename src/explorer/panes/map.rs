@@ -1,17 +1,16 @@
 //! The map: shades in the colours of the regimes, the mark of the scene, and the values at the mark.
 
-use super::{Pane, PaneRow};
+use super::PaneRow;
 use crate::draw::{Chart, Colours, Figure, Ink, Layer, SHADES, Shape, Sign, key};
 use crate::explorer::app::App;
+use crate::explorer::chart::{self, Live};
 use crate::explorer::keys::Context;
 use crate::explorer::panel::{Panel, in_theme, names};
-use crate::explorer::study::{PaneData, Task};
 use crate::explorer::theme::Meaning;
-use crate::explorer::update::scene_of;
 use crate::explorer::view::text::{Part, filled, wrapped};
 use crate::export::{study_curves, study_figure, study_map};
 use crate::scene::format_rounded;
-use crate::study::map::{Level, LiveMap, Template};
+use crate::study::map::{Level, live_plan};
 use crate::study::{Axis, Cell, Estimate, Grid, Place, Quantity};
 use crate::text::grouped;
 use ratatui::layout::Size;
@@ -20,20 +19,12 @@ use ratatui::text::{Line, Span as Text};
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     panel,
-    figure: |app, _| app.chart.grid().map(|grid| figure(app, grid)),
+    figure: |app, _| app.grid().map(|grid| figure(app, grid)),
     keys: Some(Context::Map),
-    task: |app, computed| {
-        let map = app.chart.wanted(&computed.scene).ok().flatten();
-        let is_live = app.chart.shown_study().is_none();
-        map.filter(|_| is_live)
-            .map(|map| Task::Extend { data: PaneData::Map(map), waits: app.studies.edited })
+    studies: |app, computed| match app.chart.shown_study() {
+        Some(_) => Vec::new(),
+        None => chart::study(app, computed).into_iter().collect(),
     },
-    take_in: |app, data| {
-        if let PaneData::Map(map) = data {
-            app.chart.take_in(map);
-        }
-    },
-    renew: |app| app.chart.renew(&scene_of(&app.edit.document)),
     help: &[
         (
             "Map",
@@ -52,9 +43,9 @@ pub static ROW: PaneRow = PaneRow {
 
 fn panel(app: &App, size: Size) -> Panel {
     let title = title(app);
-    let Some(grid) = app.chart.grid() else { return Panel::of_text(title, &nothing_yet(app)) };
+    let Some(grid) = app.grid() else { return Panel::of_text(title, &nothing_yet(app)) };
     let foot = below(app, size.width);
-    let Some(mut chart) = map(grid, app.chart.charted()) else {
+    let Some(mut chart) = map(grid, app.charted()) else {
         let Some(chart) = curves(app, grid).into_iter().next() else {
             return Panel::of_text(title, "the study has no quantity to draw over its axis");
         };
@@ -83,19 +74,19 @@ fn map(grid: &Grid, charted: Quantity) -> Option<Chart> {
 
 /// Curves over the only axis of a map, with the mark of the scene.
 fn curves(app: &App, grid: &Grid) -> Vec<Chart> {
-    let quantities = shown_quantities(app.chart.charted(), grid);
+    let quantities = shown_quantities(app.charted(), grid);
     let curves = quantities.into_iter().filter(|quantity| *quantity != Quantity::Regime);
     let mark = app.place().map(|(across, _)| across);
     let chart = |quantity| {
-        let mut chart = Chart { inset: None, ..study_curves(grid, quantity) };
+        let mut chart = study_curves(grid, quantity).into_iter().next()?;
         if let Some(mark) = mark {
             let top = chart.y.scale.number(chart.y.span.high);
             chart.layers.push(Layer::unnamed(Ink::Cursor, Shape::Upright(mark)));
             chart.layers.push(Layer::unnamed(Ink::Cursor, Shape::signs(vec![(mark, top)], Sign::Diamond)));
         }
-        chart
+        Some(chart)
     };
-    curves.map(chart).collect()
+    curves.filter_map(chart).collect()
 }
 
 /// Figure of the pane: the map, with the quantities behind the regimes while these are mapped, or curves over the only
@@ -104,7 +95,7 @@ fn figure(app: &App, grid: &Grid) -> Figure {
     let charts = match grid.up {
         None => curves(app, grid),
         Some(_) => {
-            let shown = shown_quantities(app.chart.charted(), grid).into_iter();
+            let shown = shown_quantities(app.charted(), grid).into_iter();
             shown.filter_map(|quantity| study_map(grid, quantity, false)).collect()
         }
     };
@@ -116,19 +107,19 @@ fn figure(app: &App, grid: &Grid) -> Figure {
 
 /// Title of the pane: the mapped quantity, the axes, and the number of profiles of the mean.
 fn title(app: &App) -> String {
-    let template = Template::of(app.edit.document.scene());
-    let Some((across, up)) = app.chart.axes(app.edit.document.scene()) else { return "Map".to_owned() };
+    let plan = live_plan(app.edit.document.scene(), app.chart.parameter);
+    let Some((across, up)) = app.map_axes() else { return "Map".to_owned() };
     let axes: Vec<&str> =
         [Some(&across), up.as_ref()].into_iter().flatten().map(Axis::symbol_or_name).collect();
     let over = axes.join(", ");
-    let charted = app.chart.grid().map(|grid| name_of(grid, app.chart.charted()));
+    let charted = app.grid().map(|grid| name_of(grid, app.charted()));
     let quantity = charted.unwrap_or_else(|| "regime".to_owned());
     let study = app.chart.shown_study().map(|study| (&study.study_map, study.study_map.plan().lines));
-    match (study, template) {
+    match (study, plan) {
         (Some((study_map, count)), _) => {
             format!("Study {}: {quantity} over {over}, {}", study_map.name(), profiles(count))
         }
-        (None, Ok(template)) => format!("Map of {quantity} over {over}, {}", profiles(template.lines())),
+        (None, Ok(plan)) => format!("Map of {quantity} over {over}, {}", profiles(plan.lines)),
         (None, Err(_)) => "Map".to_owned(),
     }
 }
@@ -139,10 +130,10 @@ fn profiles(count: u64) -> String {
 
 /// Reason why there is no map.
 fn nothing_yet(app: &App) -> String {
-    if let Err(why) = Template::of(app.edit.document.scene()) {
+    if let Err(why) = live_plan(app.edit.document.scene(), app.chart.parameter) {
         return why.to_string();
     }
-    if let Some(why) = app.studies.failures.get(&Pane::Chart) {
+    if let Some(why) = app.studies.failure::<Live>() {
         return format!("no map: {why}");
     }
     match (app.is_computing(), app.is_current()) {
@@ -162,11 +153,11 @@ fn name_of(grid: &Grid, quantity: Quantity) -> String {
 
 /// Axis up, shades with their meaning, classes, and the slice of a study.
 fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
-    let (Some(grid), Some(map)) = (app.chart.grid(), chart.map()) else { return Vec::new() };
+    let (Some(grid), Some(map)) = (app.grid(), chart.map()) else { return Vec::new() };
     let look = app.view.appearance;
     let title = |text: String| Text::styled(text, look.theme.style(Meaning::Title));
     let mut parts = vec![vec![title(format!("↑ {}", chart.y.label_with_unit()))]];
-    if app.chart.charted() == Quantity::Regime {
+    if app.charted() == Quantity::Regime {
         // From the densest: the regimes, and cells whose profiles are in one and the next.
         for (class, shade) in map.class_names.iter().zip(SHADES.iter().rev().step_by(2)) {
             let shade = Text::styled(*shade, in_theme(look, |style| (style.ink)(class.ink)));
@@ -205,14 +196,14 @@ fn on_axes(grid: &Grid, (across, up): Place) -> String {
 
 /// Lines below the map, the most important first.
 fn below(app: &App, width: u16) -> Vec<Line<'static>> {
-    let Some(grid) = app.chart.grid() else { return Vec::new() };
+    let Some(grid) = app.grid() else { return Vec::new() };
     let (study, scene) = (app.chart.shown_study(), app.edit.document.scene());
     let mut lines = Vec::new();
     let mut say = |text: String, meaning: Meaning| {
         let line = Line::styled(text, app.view.appearance.theme.style(meaning));
         lines.extend(wrapped(&line, width));
     };
-    let template = Template::of(scene);
+    let plan = live_plan(scene, app.chart.parameter);
     if let Some(place) = app.place() {
         let outside = if grid.contains(place) { "" } else { ", outside the map" };
         let regime = app.current().and_then(|computed| computed.outcome.regime);
@@ -224,7 +215,7 @@ fn below(app: &App, width: u16) -> Vec<Line<'static>> {
             say("the study was merged without this cell".to_owned(), Meaning::Text);
         }
     } else if study.is_some() {
-        let why = template.as_ref().err().map(|why| why.to_string().replacen("no map", "no mark", 1));
+        let why = plan.as_ref().err().map(|why| why.to_string().replacen("no map", "no mark", 1));
         let no_mark = || "no mark: the scene lacks a quantity of the axes".to_owned();
         say(why.unwrap_or_else(no_mark), Meaning::Quiet);
     }
@@ -233,18 +224,18 @@ fn below(app: &App, width: u16) -> Vec<Line<'static>> {
             "the scene is no longer that of the study: it differs in more than the quantities of the axes";
         say(why.to_owned(), Meaning::Key);
     }
-    if let (None, Some(map)) = (study, &app.chart.map) {
+    if let (None, Some(Live { map, .. })) = (study, app.studies.value()) {
         let size = |level: Level| format!("{} × {} cells", level.columns().count(), map.rows_of(level).len());
-        match (map.level(), app.studies.failures.get(&Pane::Chart)) {
+        match (map.level(), app.studies.failure::<Live>()) {
             (_, Some(why)) => say(format!("map incomplete: {why}"), Meaning::Error),
-            (Some(_), None) if LiveMap::is_whole(map) => {}
+            (Some(_), None) if map.is_whole() => {}
             (Some(level), None) => say(format!("{} so far…", size(level)), Meaning::Key),
             (None, None) => say("the coarse map first…".to_owned(), Meaning::Key),
         }
     }
-    if let (None, Ok(template)) = (study, template) {
-        let springs = grouped(template.springs());
-        say(format!("Each cell: {} of {springs} springs.", profiles(template.lines())), Meaning::Quiet);
+    if let (None, Ok(plan)) = (study, plan) {
+        let springs = grouped(plan.scene.numerics.points);
+        say(format!("Each cell: {} of {springs} springs.", profiles(plan.lines)), Meaning::Quiet);
     }
     lines
 }
@@ -284,7 +275,7 @@ fn cell_values(
         }
     });
     // Quantities of the regime are shown together, so that the map keeps its place.
-    let charted = app.chart.charted();
+    let charted = app.charted();
     let charted = if WITH_REGIME.contains(&charted) { Quantity::Regime } else { charted };
     let shown = shown_quantities(charted, grid);
     let known = grid.layers.iter().zip(&cell.estimates).filter(|(layer, _)| shown.contains(&layer.quantity));

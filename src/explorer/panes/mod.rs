@@ -27,7 +27,7 @@ use super::keys::Context;
 use super::layout::{Layout, inside};
 use super::panel::{self, Panel, Under};
 use super::snapshot::SolvedScene;
-use super::study::{PaneData, Task};
+use super::studies::Study;
 use crate::draw::Figure;
 use ratatui::layout::{Position, Size};
 use std::sync::Arc;
@@ -78,14 +78,8 @@ pub struct PaneRow {
     pub figure: fn(&App, &Panel) -> Option<Figure>,
     /// Keys of the selected pane; those of the crosshair, while this is shown.
     pub keys: Option<Context>,
-    /// True if the pane needs the spectra of the scene, computed only then.
-    pub needs_spectra: bool,
-    /// Computation that the shown pane waits for.
-    pub task: fn(&App, &Arc<SolvedScene>) -> Option<Task>,
-    /// Stores an addition to the data of the pane.
-    pub take_in: fn(&mut App, PaneData),
-    /// Drops data of the former scene.
-    pub renew: fn(&mut App),
+    /// Studies of a computed scene whose values the shown pane needs.
+    pub studies: fn(&App, &Arc<SolvedScene>) -> Vec<Study>,
     /// Paragraphs of the help: a name and the meaning of the signs in the pane.
     pub help: &'static [(&'static str, &'static str)],
 }
@@ -97,10 +91,7 @@ impl PaneRow {
         panel: |_, _| Panel::of_text(String::new(), ""),
         figure: |app, panel| Some(Figure::of_chart(app.edit.document.title(), panel.chart()?.clone())),
         keys: None,
-        needs_spectra: false,
-        task: |_, _| None,
-        take_in: |_, _| (),
-        renew: |_| (),
+        studies: |_, _| Vec::new(),
         help: &[],
     };
 }

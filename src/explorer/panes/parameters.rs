@@ -58,7 +58,7 @@ fn shown(app: &App) -> (Vec<usize>, usize) {
     if let Some(Prompt { purpose: Purpose::Parameter { .. }, found, selected, .. }) = &app.prompt {
         return (found.clone(), *selected);
     }
-    let rows = app.listed();
+    let rows = app.edit.listed();
     let selected = rows.iter().position(|index| *index == app.edit.selected).unwrap_or(0);
     (rows, selected)
 }

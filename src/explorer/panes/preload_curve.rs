@@ -5,10 +5,7 @@ use crate::analysis::Figures;
 use crate::explorer::snapshot::SolvedScene;
 use crate::scene::{Scene, Solver};
 use crate::simulation::{RunError, Simulation};
-use crate::study::Preloads;
-use crate::study::{Preloaded, Statistics, preload_statistics, solve_preloads};
-use std::path::Path;
-use std::sync::Arc;
+use crate::study::{Preloaded, Preloads, Statistics, preload_statistics, solve_preloads};
 
 /// Number of preloads on the profile of the scene, and step between those on random profiles.
 const FINE: usize = 257;
@@ -23,12 +20,11 @@ const REACH: f64 = 2.0;
 /// Adhesion forces of a scene for many preloads, as far as computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PreloadCurve {
-    scene: Arc<Scene>,
     forces: Vec<f64>,
     /// Results of the profile of the scene, from the smallest preload on.
     pub own: Vec<Preloaded>,
     /// Results of random profiles, that of the scene the first.
-    profiles: Vec<Vec<Preloaded>>,
+    pub profiles: Vec<Vec<Preloaded>>,
     /// Statistics over these profiles at each of their preloads.
     pub statistics: Vec<Option<Statistics>>,
     /// Number of requested profiles.
@@ -52,9 +48,8 @@ impl PreloadCurve {
         let preloads = scale.and_then(|scale| Preloads::new(0.0, REACH * scale, FINE));
         let forces = preloads.ok_or("no stage presses the bodies together")?.forces();
         let wanted = if computed.scene.seed().is_some() { PROFILES } else { 0 };
-        let scene = Arc::clone(&computed.scene);
         let (own, profiles, statistics) = (Vec::new(), Vec::new(), Vec::new());
-        Ok(PreloadCurve { scene, forces, own, profiles, statistics, wanted })
+        Ok(PreloadCurve { forces, own, profiles, statistics, wanted })
     }
 
     /// Returns true once all profiles are computed.
@@ -63,41 +58,34 @@ impl PreloadCurve {
         self.own.len() == self.forces.len() && self.profiles.len() >= self.wanted
     }
 
-    /// Number of computed random profiles.
-    #[must_use]
-    pub fn profiles(&self) -> usize {
-        self.profiles.len()
-    }
-
     /// The results at the preloads of the statistics.
     #[must_use]
     pub fn coarse(&self) -> &[Preloaded] {
         self.profiles.first().map_or(&[], Vec::as_slice)
     }
 
-    /// Computes the missing part, the profile of the scene first. `report` receives the curve after each addition; an
-    /// interruption by `stop` keeps the curve.
+    /// Computes the missing part for the scene, its own profile first. `report` receives the curve after each addition.
     ///
     /// # Errors
     /// When a profile or its contact fails, or `stop` interrupts.
     pub fn compute(
         &mut self,
-        folder: &Path,
+        scene: &Scene,
+        simulation: &mut Simulation,
         stop: &dyn Fn() -> bool,
         report: &mut dyn FnMut(&PreloadCurve),
     ) -> Result<(), RunError> {
-        let mut simulation = Simulation::new(folder.to_path_buf());
         if self.own.len() < self.forces.len() {
-            let (scene, forces) = (Arc::clone(&self.scene), self.forces.clone());
+            let forces = self.forces.clone();
             self.own.clear();
-            solve_preloads(&mut simulation, &scene, &forces, stop, &mut |one| {
+            solve_preloads(simulation, scene, &forces, stop, &mut |one| {
                 self.own.push(one);
                 if self.own.len().is_multiple_of(SHOWN_EVERY) {
                     report(self);
                 }
             })?;
         }
-        let mut scene = Scene::clone(&self.scene);
+        let mut scene = scene.clone();
         let first = scene.seed().unwrap_or(0);
         let coarse: Vec<f64> = self.forces.iter().copied().step_by(EVERY).collect();
         while self.profiles.len() < self.wanted {
@@ -106,7 +94,7 @@ impl PreloadCurve {
                 found.extend(self.own.iter().copied().step_by(EVERY));
             } else {
                 scene.set_seed(first.wrapping_add(self.profiles.len() as u64));
-                solve_preloads(&mut simulation, &scene, &coarse, stop, &mut |one| found.push(one))?;
+                solve_preloads(simulation, &scene, &coarse, stop, &mut |one| found.push(one))?;
             }
             self.profiles.push(found);
             self.statistics = preload_statistics(&self.profiles);
@@ -121,6 +109,7 @@ mod tests {
     use super::*;
     use crate::scene::{Move, open};
     use std::cell::Cell;
+    use std::sync::Arc;
 
     fn computed(name: &str) -> SolvedScene {
         let mut scene = open(name).unwrap().scene().clone();
@@ -136,15 +125,15 @@ mod tests {
         let reported = Cell::new(0);
         let stop = || reported.get() >= 12;
         let mut sizes = Vec::new();
-        let done = curve.compute(Path::new(""), &stop, &mut |curve| {
+        let done = curve.compute(&computed.scene, &mut Simulation::default(), &stop, &mut |curve| {
             reported.set(reported.get() + 1);
-            sizes.push((curve.own.len(), curve.profiles()));
+            sizes.push((curve.own.len(), curve.profiles.len()));
         });
         assert!(done.unwrap_err().is_interruption());
         assert!(sizes.windows(2).all(|pair| pair[0] < pair[1]), "{sizes:?}");
-        assert!(!curve.is_whole() && curve.own.len() == FINE && curve.profiles() > 1);
-        curve.compute(Path::new(""), &|| false, &mut |_| ()).unwrap();
-        assert!(curve.is_whole() && curve.profiles() == PROFILES);
+        assert!(!curve.is_whole() && curve.own.len() == FINE && curve.profiles.len() > 1);
+        curve.compute(&computed.scene, &mut Simulation::default(), &|| false, &mut |_| ()).unwrap();
+        assert!(curve.is_whole() && curve.profiles.len() == PROFILES);
         assert_eq!(curve.coarse().len(), curve.statistics.len());
         let means: Vec<f64> = curve.statistics.iter().map(|one| one.unwrap().mean).collect();
         assert!(means.windows(2).all(|pair| pair[0] <= pair[1]) && means[0] < 0.2 * means[32], "{means:?}");

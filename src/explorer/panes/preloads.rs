@@ -1,12 +1,12 @@
 //! Adhesion against preload: the curve of the profile, the mean over random profiles with its confidence, and the
 //! preload of the scene.
 
-use super::{Pane, PaneRow, PreloadCurve};
+use super::{PaneRow, PreloadCurve};
 use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Sign};
 use crate::explorer::app::App;
 use crate::explorer::keys::Context;
 use crate::explorer::panel::{Panel, names};
-use crate::explorer::study::{PaneData, Task};
+use crate::explorer::studies::Study;
 use crate::explorer::theme::Meaning;
 use crate::explorer::view::text::filled;
 use crate::export::{preload_axes, preload_layers};
@@ -18,18 +18,14 @@ use std::sync::Arc;
 pub static ROW: PaneRow = PaneRow {
     panel,
     keys: Some(Context::Crosshair),
-    task: |app, computed| {
-        let begun = app.studies.preloads.clone();
-        let curve = begun.or_else(|| PreloadCurve::new(computed).ok().map(Arc::new));
-        let curve = curve.filter(|one| !one.is_whole());
-        curve.map(|curve| Task::Extend { data: PaneData::Preloads(curve), waits: app.studies.edited })
+    studies: |app, computed| {
+        let (begun, computed) = (app.studies.value::<PreloadCurve>().cloned(), Arc::clone(computed));
+        vec![Study::new(computed.generation, false, move |simulation, stop, report| {
+            let mut curve = begun.map_or_else(|| PreloadCurve::new(&computed), Ok)?;
+            let done = curve.compute(&computed.scene, simulation, stop, &mut |curve| report(curve.clone()));
+            done.map(|()| curve).map_err(|error| error.to_string())
+        })]
     },
-    take_in: |app, data| {
-        if let PaneData::Preloads(curve) = data {
-            app.studies.preloads = Some(curve);
-        }
-    },
-    renew: |app| app.studies.preloads = None,
     help: &[(
         "Preloads",
         "i: adhesion force over preload, of this profile and the mean of random profiles with its 95 % confidence; the \
@@ -40,20 +36,13 @@ pub static ROW: PaneRow = PaneRow {
 
 fn panel(app: &App, size: Size) -> Panel {
     let title = "Adhesion against preload".to_owned();
-    let Some(curve) = app.studies.preloads.as_deref().filter(|curve| !curve.own.is_empty()) else {
-        let why = match (app.studies.failures.get(&Pane::Preloads), app.current()) {
-            (Some(why), _) => why.clone(),
-            (None, Some(computed)) => {
-                PreloadCurve::new(computed).map_or_else(str::to_owned, |_| "computing …".to_owned())
-            }
-            (None, None) => "computing …".to_owned(),
-        };
-        return Panel::of_text(title, &why);
+    let Some(curve) = app.studies.value::<PreloadCurve>() else {
+        return Panel::of_text(title, app.studies.failure::<PreloadCurve>().unwrap_or("computing …"));
     };
     let chart = chart(app, curve);
     let mut parts = names(&chart, app.view.appearance);
-    if !curve.is_whole() && curve.profiles() >= 2 {
-        let progress = format!("{} of {} profiles", curve.profiles(), curve.wanted);
+    if !curve.is_whole() && curve.profiles.len() >= 2 {
+        let progress = format!("{} of {} profiles", curve.profiles.len(), curve.wanted);
         parts.insert(1, vec![Text::styled(progress, app.view.appearance.theme.style(Meaning::Title))]);
     }
     Panel { head: filled(parts, "  ", size.width.into()), ..Panel::of_chart(title, chart) }

@@ -3,7 +3,7 @@
 use crate::export::{Spectra, SpectrumPoint};
 use crate::memory::check_room;
 use crate::scene::{Form, Roughness, Scene};
-use crate::simulation::{Outcome, measured_options};
+use crate::simulation::{Outcome, RunError, Simulation};
 use crate::spectrum::{Analysis, LineMoments, line_spectrum};
 use crate::surface::{EquivalentLine, Line, SelfAffine, read_faces};
 use std::f64::consts::TAU;
@@ -28,8 +28,11 @@ pub struct SceneSpectra {
 
 impl SceneSpectra {
     /// Spectra of a scene whose files are named from the working folder.
-    #[must_use]
-    pub fn new(scene: &Scene, outcome: &Outcome, line: &Line) -> Self {
+    ///
+    /// # Errors
+    /// When its profile cannot be made again.
+    pub fn new(scene: &Scene, outcome: &Outcome, simulation: &mut Simulation) -> Result<Self, RunError> {
+        let (line, ..) = simulation.make_line(scene)?;
         let mut missing = None;
         let analyses = analyses(scene).unwrap_or_else(|error| {
             missing = Some(error);
@@ -45,13 +48,13 @@ impl SceneSpectra {
             Vec::new()
         });
         let moments = equivalent.filter(|_| !scene.measured_as_line()).map(|line| line.moments());
-        SceneSpectra { spectra, moments, missing }
+        Ok(SceneSpectra { spectra, moments, missing })
     }
 }
 
 /// Analyses of the measured surfaces.
 fn analyses(scene: &Scene) -> Result<Vec<Analysis>, String> {
-    let options = measured_options(scene);
+    let options = scene.measured_options();
     let faces = read_faces(&scene.measured_paths(Path::new("")));
     let analyses = faces.and_then(|faces| faces.iter().map(|face| options.analyse(face)).collect());
     analyses.map_err(|error| error.to_string())
@@ -98,7 +101,6 @@ fn of_heights(scene: &Scene, line: &Line) -> Result<Vec<SpectrumPoint>, String> 
 mod tests {
     use super::*;
     use crate::scene::Document;
-    use crate::simulation::Simulation;
 
     fn spectra(roughness: &str, form: &str) -> SceneSpectra {
         let text = format!(
@@ -108,7 +110,7 @@ mod tests {
         let document = Document::parse(&text, "test").unwrap();
         let mut simulation = Simulation::default();
         let outcome = simulation.run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
-        SceneSpectra::new(document.scene(), &outcome, simulation.line().unwrap())
+        SceneSpectra::new(document.scene(), &outcome, &mut simulation).unwrap()
     }
 
     #[test]

@@ -1,38 +1,38 @@
 //! Spectra over the wave number, both logarithmic: as measured, fitted, and of the line.
 
-use super::{Pane, PaneRow, SceneSpectra};
-use crate::explorer::adhesion_spread::{AdhesionSpread, PROFILES};
+use super::{PaneRow, SceneSpectra};
 use crate::explorer::app::App;
 use crate::explorer::keys::Context;
 use crate::explorer::panel::{Panel, names};
-use crate::explorer::study::{PaneData, Task};
+use crate::explorer::snapshot::SolvedScene;
+use crate::explorer::studies::Study;
 use crate::explorer::theme::Meaning;
 use crate::explorer::view::text::{filled, wrapped};
 use crate::export::measured_adhesion_text;
-use crate::scene::format_quantity;
+use crate::scene::{Roughness, Scene, Solver, format_quantity};
+use crate::simulation::RunError;
 use crate::spectrum::Moment;
+use crate::study::{MeasuredAdhesion, ProfileAdhesion};
+use crate::surface::{EquivalentLine, read_faces};
 use crate::text::per_cent;
 use ratatui::layout::Size;
 use ratatui::text::Line;
+use std::path::Path;
 use std::sync::Arc;
 
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     panel,
     keys: Some(Context::Crosshair),
-    needs_spectra: true,
-    task: |app, computed| {
-        let begun = app.studies.adhesion_spread.clone();
-        let spread = begun.or_else(|| AdhesionSpread::new(computed).map(Arc::new));
-        let spread = spread.filter(|one| !one.is_whole());
-        spread.map(|spread| Task::Extend { data: PaneData::Adhesion(spread), waits: app.studies.edited })
+    studies: |app, computed| {
+        let solved = Arc::clone(computed);
+        let spectra = Study::new(computed.generation, false, move |simulation, _, _| {
+            let spectra = SceneSpectra::new(&solved.scene, &solved.outcome, simulation);
+            spectra.map_err(|error| error.to_string())
+        });
+        let profiles = is_sampled(&computed.scene).then(|| profiles(app, computed));
+        [spectra].into_iter().chain(profiles).collect()
     },
-    take_in: |app, data| {
-        if let PaneData::Adhesion(spread) = data {
-            app.studies.adhesion_spread = Some(spread);
-        }
-    },
-    renew: |app| app.studies.adhesion_spread = None,
     help: &[(
         "Spectrum",
         "Q: power spectrum C over the wave number q, both logarithmic; below it, for a measured surface, rms height h, rms \
@@ -43,7 +43,7 @@ pub static ROW: PaneRow = PaneRow {
 
 fn panel(app: &App, size: Size) -> Panel {
     let title = "Spectrum: C over q, log–log".to_owned();
-    let shown = app.present().and_then(|snapshot| snapshot.spectra.as_deref());
+    let shown = app.studies.value::<SceneSpectra>();
     let quiet = app.view.appearance.theme.style(Meaning::Quiet);
     let words = words(app, shown).into_iter();
     let words = words.flat_map(|text| wrapped(&Line::styled(text, quiet), size.width)).collect();
@@ -59,7 +59,7 @@ fn panel(app: &App, size: Size) -> Panel {
 fn words(app: &App, shown: Option<&SceneSpectra>) -> Vec<String> {
     let Some(shown) = shown else {
         let text = if app.is_current() { "the spectrum is being computed" } else { "no spectrum yet" };
-        return vec![text.to_owned()];
+        return vec![app.studies.failure::<SceneSpectra>().unwrap_or(text).to_owned()];
     };
     let mut words: Vec<String> = shown.missing.clone().into_iter().collect();
     let governing = app.governing();
@@ -91,15 +91,48 @@ fn words(app: &App, shown: Option<&SceneSpectra>) -> Vec<String> {
 
 /// Adhesion force with its spread over random profiles beside that of the fit, as far as computed.
 fn adhesion(app: &App) -> Option<String> {
-    let none = || AdhesionSpread::new(app.solved.as_ref()?).map(Arc::new);
-    let spread = app.studies.adhesion_spread.clone().or_else(none)?;
-    if let Some(why) = app.studies.failures.get(&Pane::Spectrum) {
-        return Some(why.clone());
+    if !is_sampled(&app.solved.as_ref()?.scene) {
+        return None;
     }
-    let goes_on = match spread.found.profiles.len() {
+    if let Some(why) = app.studies.failure::<MeasuredAdhesion>() {
+        return Some(why.to_owned());
+    }
+    let found = app.studies.value::<MeasuredAdhesion>();
+    let goes_on = match found.map_or(0, |found| found.profiles.len()) {
         PROFILES => String::new(),
         count => format!(" · {count} of {PROFILES} profiles"),
     };
-    let force = measured_adhesion_text(&spread.found).unwrap_or_else(|| "profiles: …".to_owned());
+    let force = found.and_then(measured_adhesion_text).unwrap_or_else(|| "profiles: …".to_owned());
     Some(format!("F_a of {force}{goes_on}"))
+}
+
+/// Random profiles of a measured surface.
+pub const PROFILES: usize = 16;
+
+/// Returns true if the profile of a scene is an equivalent line that adheres.
+fn is_sampled(scene: &Scene) -> bool {
+    let is_measured = matches!(scene.roughness, Some(Roughness::Measured { .. }));
+    let adheres = scene.adhesion.is_some() && scene.numerics.solver == Solver::Exact;
+    is_measured && adheres && !scene.measured_as_line()
+}
+
+/// Computes the adhesion of random profiles that are missing.
+fn profiles(app: &App, computed: &SolvedScene) -> Study {
+    let mut found = app.studies.value::<MeasuredAdhesion>().cloned().unwrap_or_default();
+    let scene = Arc::clone(&computed.scene);
+    Study::new(computed.generation, false, move |_, stop, report| {
+        let mut solve = || -> Result<(), RunError> {
+            let faces = read_faces(&scene.measured_paths(Path::new("")))?;
+            let line = EquivalentLine::new(&faces, &scene.measured_options())?;
+            let first = scene.seed().unwrap_or(0);
+            while found.profiles.len() < PROFILES {
+                let seed = first.wrapping_add(found.profiles.len() as u64);
+                found.profiles.push(ProfileAdhesion::solve(&scene, &line, seed, stop)?);
+                report(found.clone());
+            }
+            Ok(())
+        };
+        solve().map_err(|error| error.to_string())?;
+        Ok(found)
+    })
 }

@@ -1,27 +1,77 @@
-//! Cost of accuracy, and springs for a tolerance.
+//! Studies of the present scene: the error of its outcome, springs for a tolerance, data of the shown pane, and the curve
+//! of a typed value.
 
 use super::{Effect, edit};
-use crate::accuracy::{Choice, ChoiceError, Target, parse_tolerance};
-use crate::explorer::app::{App, Estimated, Message};
+use crate::accuracy::{Choice, ChoiceError, Estimate, Target, choose, estimate, parse_tolerance};
+use crate::explorer::app::{App, Message};
+use crate::explorer::editor::scene_of;
 use crate::explorer::prompt::Purpose;
-use crate::explorer::study::{Finding, Found, Task};
+use crate::explorer::snapshot::Preview;
+use crate::explorer::studies::{Finding, Study};
 use crate::explorer::text_line::TextLine;
-use crate::scene::format_quantity;
+use crate::scene::{Document, Scene, format_quantity};
 use crate::text::grouped;
+use std::path::Path;
+use std::sync::Arc;
 
-/// Remaining studies of the present scene, in this order.
-#[must_use]
-pub fn study_tasks(app: &App) -> Vec<Task> {
-    let Some(computed) = app.current() else { return Vec::new() };
-    let appraisal = &app.studies.appraisal;
-    if let Some((tolerance, _)) = appraisal.choosing {
-        return vec![Task::Choose(computed.scene.clone(), tolerance)];
+/// Most springs for an estimate in a demo: above, viewers would have to wait.
+const MOST_ESTIMATED: u64 = 1 << 17;
+
+/// Files of an explored scene are named by whole paths.
+const FOLDER: &str = "";
+
+/// Search of springs for a tolerance.
+#[derive(Clone, Debug)]
+pub struct Choosing {
+    /// The relative error.
+    pub tolerance: f64,
+    /// Number of springs tried last.
+    pub tried: Option<u64>,
+    /// Choice, or the reason for none.
+    pub found: Option<Result<Choice, ChoiceError>>,
+}
+
+/// Answer to the last tolerance, until the next edit.
+#[derive(Debug)]
+pub struct Answer(pub String);
+
+/// The studies that the present state needs and that have not ended, in the order of their performance.
+pub fn studies(app: &mut App) -> Vec<Study> {
+    let mut wanted: Vec<Study> = app.tried.as_ref().map(preview).into_iter().collect();
+    if let Some(computed) = app.current().map(Arc::clone) {
+        let generation = computed.generation;
+        if let Some(Choosing { tolerance, .. }) = app.studies.value() {
+            wanted.push(choice(generation, Arc::clone(&computed.scene), *tolerance));
+        } else {
+            let is_long = computed.scene.numerics.points > MOST_ESTIMATED;
+            let of = Arc::clone(&computed);
+            wanted.push(Study::new(generation, is_long, move |_, stop, _: &mut dyn FnMut(Estimate)| {
+                let known = estimate(&of.scene, Path::new(FOLDER), &of.outcome, stop);
+                known.ok_or_else(|| "the error cannot be estimated".to_owned())
+            }));
+            wanted.extend(app.view.large.map_or_else(Vec::new, |pane| (pane.row().studies)(app, &computed)));
+        }
     }
-    let estimate =
-        (appraisal.estimated == Estimated::Waiting).then(|| Task::Estimate(std::sync::Arc::clone(computed)));
-    let shown = app.view.large.filter(|pane| !app.studies.failures.contains_key(pane));
-    let shown = shown.and_then(|pane| (pane.row().task)(app, computed));
-    estimate.into_iter().chain(shown).collect()
+    app.studies.begin(wanted)
+}
+
+/// Computes the outcome of a scene that is tried.
+fn preview(document: &Document) -> Study {
+    let (text, scene) = (document.text().to_owned(), scene_of(document));
+    Study::new(document.text(), false, move |simulation, stop, _| {
+        let outcome = simulation.run(&scene, stop, &mut |_, _, _| Ok(()));
+        Ok(Preview { text, outcome: outcome.map_err(|error| error.to_string())? })
+    })
+}
+
+/// Searches the fewest springs of a scene for a tolerance.
+fn choice(generation: u64, scene: Arc<Scene>, tolerance: f64) -> Study {
+    Study::new(generation, false, move |_, stop, report| {
+        let found = choose(&scene, Path::new(FOLDER), tolerance, stop, &mut |points| {
+            report(Choosing { tolerance, tried: Some(points), found: None });
+        });
+        Ok(Choosing { tolerance, tried: None, found: Some(found) })
+    })
 }
 
 const NOT_COMPUTED: &str = "not before the scene is computed";
@@ -36,54 +86,32 @@ pub fn type_tolerance(app: &mut App) {
 }
 
 /// Searches springs for a typed tolerance.
-pub fn accept_tolerance(app: &mut App, typed: &str) -> Result<Vec<Effect>, String> {
+pub fn accept_tolerance(app: &mut App, typed: &str) -> Result<(), String> {
     let tolerance = parse_tolerance(typed)?;
     if !app.is_current() {
         return Err(NOT_COMPUTED.to_owned());
     }
-    app.studies.appraisal.choosing = Some((tolerance, None));
-    app.studies.appraisal.answer = None;
-    // The search ends a measurement.
-    app.studies.appraisal.costs.trying = None;
-    Ok(vec![Effect::Study])
+    app.studies.set(app.edit.generation, Choosing { tolerance, tried: None, found: None }, false);
+    app.studies.forget::<Answer>();
+    app.effects.push(Effect::Study);
+    Ok(())
 }
 
-/// Stores a finding.
-pub fn found(app: &mut App, found: Found) -> Vec<Effect> {
-    if found.generation != app.edit.generation {
-        // The scene has been changed since.
-        return Vec::new();
-    }
-    match found.finding {
-        Finding::Chosen(tolerance, result) => {
-            // Without a search under way the choice is no longer wanted.
-            if app.studies.appraisal.choosing.take().is_none() {
-                return Vec::new();
-            }
-            match result {
-                Ok(choice) => return take_over(app, &choice),
-                Err(error) => {
-                    refuse(app, tolerance, &error);
-                    return vec![Effect::Study];
-                }
-            }
-        }
-        Finding::Extended(data) => (data.pane().row().take_in)(app, data),
-        Finding::NotExtended(pane, why) => drop(app.studies.failures.insert(pane, why)),
-        Finding::Estimated(estimate) => {
-            app.studies.appraisal.estimated = estimate.map_or(Estimated::Unknown, Estimated::Known);
-        }
-        Finding::Choosing(points) => {
-            if let Some((_, trying)) = &mut app.studies.appraisal.choosing {
-                *trying = Some(points);
-            }
+/// Stores a finding; the outcome of a search has further effects.
+pub fn found(app: &mut App, finding: Finding) {
+    app.studies.take_in(finding);
+    if let Some(Choosing { tolerance, found: Some(found), .. }) = app.studies.value::<Choosing>().cloned() {
+        app.studies.forget::<Choosing>();
+        app.effects.push(Effect::Study);
+        match found {
+            Ok(choice) => take_over(app, &choice),
+            Err(error) => refuse(app, tolerance, &error),
         }
     }
-    Vec::new()
 }
 
 /// Makes a choice an edit.
-fn take_over(app: &mut App, choice: &Choice) -> Vec<Effect> {
+fn take_over(app: &mut App, choice: &Choice) {
     let sentence = choice.sentence();
     let numerics = app.edit.document.scene().numerics;
     let short = format!(
@@ -93,25 +121,23 @@ fn take_over(app: &mut App, choice: &Choice) -> Vec<Effect> {
         if choice.target == Target::Curve { "curve" } else { "F_a" },
         per_cent(choice.tolerance),
     );
-    let mut effects = vec![Effect::Study];
     let is_so = (numerics.points, numerics.edges) == (choice.points, choice.edges);
     if !is_so {
         let points = choice.points.to_string();
         let fields = [("numerics.points", points.as_str()), ("numerics.edges", choice.edges.name())];
         let fields = fields.map(|(path, value)| (path.to_owned(), value.to_owned()));
-        effects = edit::take_over(app, app.edit.document.set_all(&fields));
+        edit::take_over(app, app.edit.document.set_all(&fields));
         if let Some(Message::Refused(why)) = &app.message {
-            app.studies.appraisal.answer = Some(why.clone());
-            return effects;
+            app.studies.set(app.edit.generation, Answer(why.clone()), true);
+            return;
         }
     }
     // From finer solutions than those of an estimate.
-    app.studies.appraisal.estimated = Estimated::Known(choice.estimate());
+    app.studies.set(app.edit.generation, choice.estimate(), true);
     let already = if is_so { "as it is: " } else { "" };
     let text = fitting(app, format!("{already}{sentence}"), format!("{already}{short}"));
     app.set_done(text);
-    app.studies.appraisal.answer = Some(sentence);
-    effects
+    app.studies.set(app.edit.generation, Answer(sentence), true);
 }
 
 /// States the accuracy within reach instead.
@@ -132,7 +158,7 @@ fn refuse(app: &mut App, tolerance: f64, error: &ChoiceError) {
     };
     let why = fitting(app, sentence.clone(), short);
     app.set_error(why);
-    app.studies.appraisal.answer = Some(sentence);
+    app.studies.set(app.edit.generation, Answer(sentence), true);
 }
 
 /// The long text where the status line has room, else the short one.

@@ -2,52 +2,53 @@
 
 use super::{Effect, edit};
 use crate::explorer::app::App;
+use crate::explorer::chart::Live;
 use crate::explorer::opening::Opening;
-use crate::explorer::panes::Pane;
-use crate::scene::{Document, SceneErrors};
-use crate::study::map::{Template, moved};
+use crate::scene::{Document, RoughnessParameter, SceneErrors};
+use crate::study::map::{live_plan, moved};
 use crate::study::{Axis, Place};
 use std::sync::Arc;
 
 /// Explores a scene or a study opened by its path.
-pub fn open(app: &mut App, opening: Opening) -> Vec<Effect> {
+pub fn open(app: &mut App, opening: Opening) {
     let Opening { document, study_map, beside } = opening;
     app.opens_beside = beside;
-    let effects = edit::open(app, document);
+    edit::open(app, document);
     if let Some(study_map) = study_map {
         app.show_study(study_map);
     }
-    effects
 }
 
 /// Message where no study is open.
 const NO_STUDY: &str = "no study is open; o and the path of its folder open one";
 
 /// Shows the map of the study, or the live map.
-pub fn toggle_study(app: &mut App) -> Vec<Effect> {
+pub fn toggle_study(app: &mut App) {
     if app.chart.study.is_none() {
         app.set_error(NO_STUDY);
-        return Vec::new();
+        return;
     }
     app.chart.of_study = !app.chart.of_study;
-    app.studies.edited = false;
-    vec![Effect::Study]
+    app.effects.push(Effect::Study);
 }
 
 /// Maps over the other parameter of roughness.
-pub fn next_parameter(app: &mut App) -> Vec<Effect> {
+pub fn next_parameter(app: &mut App) {
     if app.chart.shown_study().is_some() {
         app.set_error("a study has its own axes; W shows the map that is computed here");
-        return Vec::new();
+        return;
     }
-    app.chart.next_parameter();
-    app.studies.failures.remove(&Pane::Chart);
-    app.studies.edited = false;
-    vec![Effect::Study]
+    app.chart.parameter = match app.chart.parameter {
+        RoughnessParameter::Kappa => RoughnessParameter::ElasticEnergyRatio,
+        RoughnessParameter::ElasticEnergyRatio => RoughnessParameter::Kappa,
+    };
+    app.chart.moving = false;
+    app.studies.forget::<Live>();
+    app.effects.push(Effect::Study);
 }
 
 /// Shows another map of the study. A scene that belongs to the former map follows.
-pub fn step_slice(app: &mut App, steps: i32) -> Vec<Effect> {
+pub fn step_slice(app: &mut App, steps: i32) {
     let Some(study) = app.chart.shown_study() else {
         let why = if app.chart.study.is_some() {
             "this is the map that is computed here; W shows the study's"
@@ -55,35 +56,42 @@ pub fn step_slice(app: &mut App, steps: i32) -> Vec<Effect> {
             NO_STUDY
         };
         app.set_error(why);
-        return Vec::new();
+        return;
     };
     if study.study_map.slices() == 1 {
         app.set_done("this study has one map");
-        return Vec::new();
+        return;
     }
     let next = study.stepped(steps);
     let goes_with = study.study_map.is_of(study.slice, app.edit.document.scene());
     let followed = goes_with.then(|| study.study_map.follow(next, &app.edit.document));
     let study_map = Arc::clone(&study.study_map);
     app.chart.open_study(study_map, next);
-    followed.map_or_else(Vec::new, |followed| edit::take_over(app, followed))
+    if let Some(followed) = followed {
+        let was_unsaved = app.edit.is_unsaved();
+        edit::take_over(app, followed);
+        // Browsing is no change that anyone has to save.
+        if !was_unsaved && !app.is_refused() {
+            app.edit.set_saved();
+        }
+    }
 }
 
 /// Moves the mark by columns and rows of the map.
-pub fn step(app: &mut App, columns: i32, rows: i32) -> Vec<Effect> {
+pub fn step(app: &mut App, columns: i32, rows: i32) {
     let Some((at_across, at_up)) = app.place() else {
-        let why = match Template::of(app.edit.document.scene()) {
+        let why = match live_plan(app.edit.document.scene(), app.chart.parameter) {
             Err(why) => why.to_string(),
             Ok(_) if app.chart.shown_study().is_some() => NO_PLACE.to_owned(),
             Ok(_) => "not before the scene is computed: its κ and e_el/γ follow from its profile".to_owned(),
         };
         app.set_error(why);
-        return Vec::new();
+        return;
     };
-    let Some((across, up)) = app.chart.axes(app.edit.document.scene()) else { return Vec::new() };
+    let Some((across, up)) = app.map_axes() else { return };
     if rows != 0 && up.is_none() {
         app.set_error(format!("this map has one axis, {}", across.symbol_or_name()));
-        return Vec::new();
+        return;
     }
     let next = |at: f64, steps: i32, axis: &Axis| {
         if steps == 0 { Some(at) } else { axis.next_beyond(at, steps) }
@@ -94,10 +102,7 @@ pub fn step(app: &mut App, columns: i32, rows: i32) -> Vec<Effect> {
     };
     match (next(at_across, columns, &across), to_up) {
         (Some(across), Some(up)) => move_to(app, (across, up)),
-        _ => {
-            app.set_done("here the map ends");
-            Vec::new()
-        }
+        _ => app.set_done("edge of the map"),
     }
 }
 
@@ -105,19 +110,18 @@ pub fn step(app: &mut App, columns: i32, rows: i32) -> Vec<Effect> {
 const NO_PLACE: &str = "the scene has no place on this map: it lacks a quantity of the axes";
 
 /// Sets the scene to the values of a place on the map. Successive moves are one edit.
-pub fn move_to(app: &mut App, place: Place) -> Vec<Effect> {
+pub fn move_to(app: &mut App, place: Place) {
     let goes_on = app.chart.moving;
-    let effects = match moved_to(app, place) {
+    match moved_to(app, place) {
         Ok(document) if goes_on => edit::replace(app, document),
         moved => edit::take_over(app, moved),
-    };
+    }
     app.chart.moving = !app.is_refused();
-    effects
 }
 
 /// The scene at a place on the map. A preload in units of E* h L may change with the place.
 fn moved_to(app: &App, (to_across, to_up): Place) -> Result<Document, SceneErrors> {
-    let axes = app.chart.axes(app.edit.document.scene());
+    let axes = app.map_axes();
     let (across, up) = axes.as_ref().map_or((None, None), |(across, up)| (Some(across), up.as_ref()));
     let values: Vec<(&Axis, f64)> = across.zip(Some(to_across)).into_iter().chain(up.zip(to_up)).collect();
     let moved = moved(&app.edit.document, &values)?;

@@ -1,29 +1,22 @@
-//! Loops kept beside the present one.
+//! Loops kept for comparison.
 
-use super::ghosts::name_ghosts;
-use super::{Effect, edit, show};
+use super::edit;
 use crate::explorer::app::{App, Ghost, Pane};
-use crate::explorer::snapshot::{Preview, SolvedScene};
-use crate::scene::{Document, Roughness};
+use crate::explorer::panes::newest_letter;
+use crate::scene::{Change, Document, Roughness};
 use std::sync::Arc;
 
 /// Most kept curves; more could not be distinguished.
 const MOST_GHOSTS: usize = 8;
 
 /// Removes all ghosts.
-pub fn clear(app: &mut App) -> Vec<Effect> {
+pub fn clear(app: &mut App) {
     app.hide(Pane::Beside);
     app.ghosts.clear();
-    vec![Effect::Ask]
 }
 
-/// Shows the newest ghost beside the scene, or hides it.
-pub fn toggle_side_by_side(app: &mut App) -> Vec<Effect> {
-    show::change(app, toggle)
-}
-
-/// Shows or hides the newest ghost beside the scene; without a ghost the present scene becomes one.
-fn toggle(app: &mut App) {
+/// Shows the newest ghost beside the scene, or hides it; without a ghost the present scene becomes one.
+pub fn toggle_side_by_side(app: &mut App) {
     if app.is_shown(Pane::Beside) {
         return app.hide(Pane::Beside);
     }
@@ -36,21 +29,20 @@ fn toggle(app: &mut App) {
 }
 
 /// Keeps the computed scene as a ghost and opens another scene beside it.
-pub fn open_beside(app: &mut App, document: Document) -> Vec<Effect> {
+pub fn open_beside(app: &mut App, document: Document) {
     pin(app);
     app.show(Pane::Beside);
-    let effects = edit::open(app, document);
+    edit::open(app, document);
     app.message = None;
     // There is no edit to undo: both scenes are as opened.
     app.edit.past.clear();
-    effects
 }
 
+/// The present loop as a ghost.
 fn ghost(app: &App) -> Option<Ghost> {
-    let computed = app.current()?;
     Some(Ghost {
         document: app.edit.document.clone(),
-        computed: Arc::clone(computed),
+        computed: Arc::clone(app.current()?),
         snapshot: app.snapshot.clone(),
         differs: String::new(),
         changes: String::new(),
@@ -58,82 +50,52 @@ fn ghost(app: &App) -> Option<Ghost> {
 }
 
 /// Keeps the present loop as a ghost.
-pub fn pin(app: &mut App) -> Vec<Effect> {
-    let Some(ghost) = ghost(app) else {
-        app.set_error("there is no curve yet to keep");
-        return Vec::new();
-    };
-    if keep(app, ghost) {
-        app.set_done("kept; now change something, x exchanges the two");
-    }
-    vec![Effect::Ask]
-}
-
-/// Adds a ghost; returns false if it was kept already.
-fn keep(app: &mut App, ghost: Ghost) -> bool {
+pub fn pin(app: &mut App) {
+    let Some(ghost) = ghost(app) else { return app.set_error("there is no curve yet to keep") };
     if app.ghosts.iter().any(|kept| kept.document.scene() == ghost.document.scene()) {
-        app.set_done("this loop is kept already");
-        return false;
+        return app.set_done("this loop is kept already");
     }
     if app.ghosts.len() == MOST_GHOSTS {
         app.ghosts.remove(0);
     }
     app.ghosts.push(ghost);
     name_ghosts(app);
-    true
+    let name = newest_letter(app);
+    app.set_done(format!("kept as ghost {name}; x swaps it with the scene"));
 }
 
-/// Requests the other use of a measured profile, which becomes a ghost once computed.
-pub fn pin_other_use(app: &mut App) -> Vec<Effect> {
+/// Keeps the present loop as a ghost and takes the other use of a measured profile.
+pub fn pin_other_use(app: &mut App) {
     let scene = app.edit.document.scene();
     if !matches!(scene.roughness, Some(Roughness::Measured { .. })) {
-        app.set_error("the roughness of this scene is not measured");
-        return Vec::new();
+        return app.set_error("the roughness of this scene is not measured");
     }
     let as_line = !scene.measured_as_line();
-    match app.edit.document.set("roughness.as_line", &as_line.to_string()) {
-        Ok(document) => {
-            app.tried = Some(edit::tried_of(&document));
-            app.next_ghost = Some(document);
-            vec![Effect::Ask]
-        }
-        Err(errors) => {
-            app.set_error(errors.to_string());
-            Vec::new()
-        }
+    pin(app);
+    if app.is_current() {
+        edit::change(app, "roughness.as_line", &as_line.to_string());
     }
 }
 
-/// Stores a computed preview, or keeps it as the requested ghost.
-pub fn previewed(app: &mut App, preview: Arc<Preview>) -> Vec<Effect> {
-    let Some(document) = app.next_ghost.take_if(|document| document.text() == preview.text) else {
-        app.preview = Some(preview);
-        return Vec::new();
-    };
-    match &preview.outcome {
-        Ok(outcome) => {
-            let what = if document.scene().measured_as_line() { "profile itself" } else { "equivalent line" };
-            let scene = Arc::new(document.scene().clone());
-            let computed = Arc::new(SolvedScene { generation: 0, scene, outcome: outcome.clone() });
-            let (differs, changes) = (String::new(), String::new());
-            let ghost = Ghost { document, computed, snapshot: None, differs, changes };
-            if keep(app, ghost) {
-                app.set_done(format!("kept: the {what}; x exchanges the two"));
-            }
-        }
-        Err(why) => app.set_error(why.clone()),
-    }
-    app.tried = None;
-    vec![Effect::Ask]
-}
-
-/// Exchanges the scene and the newest ghost.
-pub fn swap(app: &mut App) -> Vec<Effect> {
-    let Some(present) = ghost(app) else { return Vec::new() };
+/// Swaps the scene and the newest ghost.
+pub fn swap(app: &mut App) {
+    let Some(present) = ghost(app) else { return };
     let Some(last) = app.ghosts.pop() else {
-        app.set_error("nothing to exchange with: c keeps a loop");
-        return Vec::new();
+        return app.set_error("there is no ghost to swap with; c keeps the present loop as one");
     };
     app.ghosts.push(present);
-    edit::adopt(app, last.document)
+    edit::adopt(app, last.document);
+}
+
+/// Names the differences between each ghost and the present scene anew.
+pub fn name_ghosts(app: &mut App) {
+    for ghost in &mut app.ghosts {
+        let changes = ghost.document.changes_to(&app.edit.document);
+        let join = |part: &dyn Fn(&Change) -> String| {
+            let parts: Vec<String> = changes.iter().map(part).collect();
+            if parts.is_empty() { "the same scene".to_owned() } else { parts.join(", ") }
+        };
+        ghost.differs = join(&|change| format!("{} {}", change.name, change.from));
+        ghost.changes = join(&Change::to_string);
+    }
 }

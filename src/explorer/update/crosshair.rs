@@ -1,7 +1,7 @@
 //! The crosshair: on the force curve at the shown state, so that moving the crosshair moves the body; on profile and
 //! close-up at one spring, on other charts at a share of the horizontal axis, to be read.
 
-use super::{Effect, movement};
+use super::movement;
 use crate::explorer::app::{App, Crosshair, Pane};
 use crate::explorer::keys::Context;
 use crate::explorer::panes::{nearest, spring_at};
@@ -15,7 +15,7 @@ const COARSE: usize = 10;
 const AXIS_STEPS: (f64, f64) = (100.0, 10.0);
 
 /// Moves the crosshair of the selected pane by steps, positive to the right; on the force curve the body moves with it.
-pub fn move_by(app: &mut App, steps: i32, coarse: bool) -> Vec<Effect> {
+pub fn move_by(app: &mut App, steps: i32, coarse: bool) {
     if app.view.pane != Pane::Force {
         if section(app).is_some() {
             step(app, steps, coarse);
@@ -24,12 +24,11 @@ pub fn move_by(app: &mut App, steps: i32, coarse: bool) -> Vec<Effect> {
             crosshair.position = (crosshair.position + share).clamp(0.0, 1.0);
         }
     } else if app.manual.is_some() {
-        return movement::push(app, steps, coarse);
+        movement::push(app, steps, coarse);
     } else {
         let share = f64::from(steps) / if coarse { STEPS.1 } else { STEPS.0 };
         put(app, app.play.leg, app.play.done + direction(app) * share);
     }
-    vec![Effect::Ask]
 }
 
 /// Moves the crosshair to the left or right end of the loading stage or of the section.

@@ -1,122 +1,84 @@
 //! Edits of the scene. Each results in a document of its own and can be undone.
 
-use super::ghosts::name_ghosts;
-use super::{Effect, scene_of, show};
-use crate::explorer::app::{App, Appraisal, CloseUpTarget, Message, Pane, Player};
+use super::Effect;
+use super::compare::name_ghosts;
+use crate::explorer::app::{App, CloseUpTarget, Message, Pane, Player};
+use crate::explorer::editor::scene_of;
 use crate::explorer::layout::Layout;
-use crate::explorer::parameters::{Parameter, Setting, parameters, text_of};
+use crate::explorer::parameters::{Parameter, Setting, text_of};
 use crate::explorer::prompt::Purpose;
-use crate::explorer::request::{Focus, LineView, Tried};
+use crate::explorer::request::{Focus, LineView};
+use crate::explorer::snapshot::Preview;
 use crate::explorer::text_line::TextLine;
 use crate::scene::{
     Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, parse_quantity, presets,
+    stage_targets,
 };
 
-/// Most edits that can be undone.
-const UNDO_DEPTH: usize = 1000;
-
-/// Moves the selection in the list of parameters.
-pub fn move_selection(app: &mut App, rows: i32) -> Vec<Effect> {
-    let listed = app.listed();
-    let place = listed.iter().position(|index| *index == app.edit.selected).unwrap_or(0);
-    let last = listed.len().saturating_sub(1);
-    let next = listed.get(place.saturating_add_signed(rows as isize).min(last));
-    select(app, next.copied().unwrap_or(0));
-    show_parameters(app)
-}
-
-/// Selects the first or last parameter.
-pub fn select_end(app: &mut App, last: bool) -> Vec<Effect> {
-    let listed = app.listed();
-    let end = if last { listed.last() } else { listed.first() };
-    select(app, end.copied().unwrap_or(0));
-    show_parameters(app)
+/// Moves the selection in the list of parameters, as far as there are rows.
+pub fn move_selection(app: &mut App, rows: i32) {
+    app.edit.move_selection(rows);
+    show_parameters(app);
 }
 
 /// Folds the group of the selected parameter, or unfolds it.
-pub fn toggle_fold(app: &mut App) -> Vec<Effect> {
-    let is_folded = app.parameter().is_some_and(|one| app.edit.folded.contains(one.group));
-    fold(app, !is_folded);
-    show_parameters(app)
+pub fn toggle_fold(app: &mut App) {
+    app.edit.fold(!app.edit.is_folded());
+    show_parameters(app);
 }
 
 /// Opens the built-in scene of a digit.
-pub fn open_built_in(app: &mut App, digit: char) -> Vec<Effect> {
+pub fn open_built_in(app: &mut App, digit: char) {
     let place = digit.to_digit(10).and_then(|digit| (digit as usize).checked_sub(1));
-    let Some(preset) = place.and_then(|place| presets().get(place)) else { return Vec::new() };
-    open_read(app, Document::parse(preset.text, preset.name))
+    if let Some(preset) = place.and_then(|place| presets().get(place)) {
+        open_read(app, Document::parse(preset.text, preset.name));
+    }
 }
 
 /// Explores a scene just read, or states the reason why it is not allowed.
-pub fn open_read(app: &mut App, read: Result<Document, SceneErrors>) -> Vec<Effect> {
+pub fn open_read(app: &mut App, read: Result<Document, SceneErrors>) {
     match read {
         Ok(document) => open(app, document),
-        Err(errors) => {
-            app.set_error(errors.to_string());
-            Vec::new()
-        }
+        Err(errors) => app.set_error(errors.to_string()),
     }
 }
 
 /// Explores another scene from its beginning.
-pub fn open(app: &mut App, document: Document) -> Vec<Effect> {
-    if app.is_unsaved() {
-        app.edit.left.insert(app.edit.document.name().to_owned(), app.edit.document.clone());
-        app.set_done("the changed scene is kept: undo brings it back");
+pub fn open(app: &mut App, document: Document) {
+    if app.edit.is_unsaved() {
+        app.edit.leave(app.edit.document.clone());
+        app.set_done("unsaved changes kept; u returns to them");
     }
     app.play = Player::START;
     app.view.look = CloseUpTarget { focus: Focus::Summit, springs: CloseUpTarget::springs_shown(&document) };
     app.view.profile = LineView::WHOLE;
     // The shown map is that of the scene; a study stays loaded.
     app.chart.of_study = false;
-    let effects = adopt(app, document);
-    app.set_saved();
-    effects
-}
-
-/// Selects a parameter, or the last one, and unfolds its group.
-pub fn select(app: &mut App, row: usize) {
-    app.edit.selected = row.min(app.edit.parameters.len().saturating_sub(1));
-    app.message.take_if(|message| matches!(message, Message::Refused(_)));
-    let hidden = app.parameter().filter(|parameter| !parameter.is_head()).map(|parameter| parameter.group);
-    if let Some(group) = hidden {
-        app.edit.folded.remove(group);
-    }
-}
-
-/// Folds the group of the selected parameter and selects its first row, or unfolds the group.
-fn fold(app: &mut App, folds: bool) {
-    let Some(group) = app.parameter().map(|parameter| parameter.group) else { return };
-    if folds {
-        app.edit.selected = row_of(app, group);
-        app.edit.folded.insert(group);
-    } else {
-        app.edit.folded.remove(group);
-    }
+    adopt(app, document);
+    app.edit.set_saved();
 }
 
 /// Opens the editor on the selected value, which the first typed character replaces.
-pub fn edit_value(app: &mut App, first: Option<char>) -> Vec<Effect> {
-    if let Some(parameter) = app.parameter() {
-        match parameter.setting {
-            _ if first.is_some() && !parameter.takes_number() => {
-                let way = way_of_changing(parameter);
-                app.set_done(way);
-            }
-            Setting::Switch(_) => return switch(app),
-            Setting::Heading => return toggle_fold(app),
-            Setting::Field | Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion => {
-                let mut line = TextLine::selected(&editable(app, parameter));
-                first.into_iter().for_each(|character| line.insert(&character.to_string()));
-                app.ask(Purpose::Value, line);
-                // No preview of an earlier edit.
-                (app.tried, app.preview) = (None, None);
-            }
+pub fn edit_value(app: &mut App, first: Option<char>) {
+    let Some(parameter) = app.edit.parameter() else { return };
+    match parameter.setting {
+        _ if first.is_some() && !parameter.takes_number() => {
+            let way = way_of_changing(parameter);
+            app.set_done(way);
+        }
+        Setting::Switch(_) => return switch(app),
+        Setting::Heading => return toggle_fold(app),
+        Setting::Field | Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion => {
+            let mut line = TextLine::selected(&editable(app, parameter));
+            first.into_iter().for_each(|character| line.insert(&character.to_string()));
+            app.ask(Purpose::Value, line);
+            // No preview of an earlier edit.
+            app.tried = None;
+            app.studies.forget::<Preview>();
         }
     }
-    let mut effects = show_parameters(app);
-    effects.extend(preview(app));
-    effects
+    show_parameters(app);
+    preview(app);
 }
 
 /// The way to change a parameter without a number.
@@ -131,25 +93,21 @@ fn way_of_changing(parameter: &Parameter) -> String {
 }
 
 /// Chooses the list of parameters where a small window hides it: no value changes unseen.
-pub fn show_parameters(app: &mut App) -> Vec<Effect> {
-    if Layout::of(app).pane(Pane::Parameters).is_some() {
-        return Vec::new();
+pub fn show_parameters(app: &mut App) {
+    if Layout::of(app).pane(Pane::Parameters).is_none() {
+        app.show(Pane::Parameters);
     }
-    show::choose(app, Pane::Parameters)
 }
 
 /// Steps the selected value.
-pub fn step_value(app: &mut App, steps: i32, coarse: bool) -> Vec<Effect> {
-    [show_parameters(app), stepped(app, steps, coarse)].concat()
-}
-
-fn stepped(app: &mut App, steps: i32, coarse: bool) -> Vec<Effect> {
-    let Some(parameter) = app.parameter() else { return Vec::new() };
+pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
+    show_parameters(app);
+    let Some(parameter) = app.edit.parameter() else { return };
     match parameter.setting {
         Setting::Switch(_) => return switch(app),
         Setting::Heading => {
-            fold(app, steps < 0);
-            return Vec::new();
+            app.edit.fold(steps < 0);
+            return;
         }
         Setting::Field if matches!(parameter.field.range, Range::Text { .. }) => {
             return refuse(app, way_of_changing(parameter));
@@ -177,6 +135,7 @@ fn stepped(app: &mut App, steps: i32, coarse: bool) -> Vec<Effect> {
 fn editable(app: &App, parameter: &Parameter) -> String {
     let written = app.written(parameter).unwrap_or_default();
     match (parameter.field.range, written.parse()) {
+        _ if parameter.path == "loading" => stage_targets(&app.edit.document.scene().loading, exact_quantity),
         (Range::Real { .. }, Ok(value)) => exact_quantity(value, parameter.field.unit),
         (Range::Text { .. }, _) => text_of(&written),
         _ => written,
@@ -184,20 +143,21 @@ fn editable(app: &App, parameter: &Parameter) -> String {
 }
 
 /// Sets the selected parameter to the typed value.
-pub fn accept_value(app: &mut App, typed: &str) -> Result<Vec<Effect>, String> {
-    let Some(parameter) = app.parameter() else { return Ok(Vec::new()) };
+pub fn accept_value(app: &mut App, typed: &str) -> Result<(), String> {
+    let Some(parameter) = app.edit.parameter() else { return Ok(()) };
     if typed == editable(app, parameter) {
-        return Ok(Vec::new());
+        return Ok(());
     }
     let allowed = parameter.field.allowed();
     let written =
         parameter.field.read_typed(typed).map_err(|error| format!("{error}; allowed: {allowed}"))?;
     let document = with_selected(app, &written)?;
-    Ok(take_over(app, Ok(document)))
+    take_over(app, Ok(document));
+    Ok(())
 }
 
 /// Sets the selected parameter to a value in the notation of the scene.
-fn set_selected(app: &mut App, written: &str) -> Vec<Effect> {
+fn set_selected(app: &mut App, written: &str) {
     match with_selected(app, written) {
         Ok(document) => take_over(app, Ok(document)),
         Err(why) => refuse(app, why),
@@ -206,7 +166,7 @@ fn set_selected(app: &mut App, written: &str) -> Vec<Effect> {
 
 /// The scene with another value of the selected parameter, in the notation of the scene; or why there is none.
 fn with_selected(app: &App, written: &str) -> Result<Document, String> {
-    let parameter = app.parameter().ok_or("no parameter is selected")?;
+    let parameter = app.edit.parameter().ok_or("no parameter is selected")?;
     let document = &app.edit.document;
     let number = || parse_quantity(written, parameter.field.unit).map_err(|error| error.to_string());
     let adhesion = document.scene().adhesion.unwrap_or_default();
@@ -247,32 +207,28 @@ fn is_previewed(document: &Document) -> bool {
 }
 
 /// Requests the curve with the value typed so far, or none where that is not an allowed value.
-pub fn preview(app: &mut App) -> Vec<Effect> {
+pub fn preview(app: &mut App) {
     let typed = app.prompt.as_ref().filter(|_| app.is_typing_value()).map(|prompt| prompt.line.text());
     let tried = typed.and_then(|typed| {
-        let written = app.parameter()?.field.read_typed(typed).ok()?;
+        let written = app.edit.parameter()?.field.read_typed(typed).ok()?;
         with_selected(app, &written).ok()
     });
     let tried = tried.filter(|tried| tried.text() != app.edit.document.text() && is_previewed(tried));
-    if tried.as_ref().map(Document::text) == app.tried.as_ref().map(|tried| tried.text.as_str()) {
-        return Vec::new();
+    if tried.as_ref().map(Document::text) == app.tried.as_ref().map(Document::text) {
+        return;
     }
-    app.tried = tried.as_ref().map(tried_of);
-    vec![Effect::Ask]
-}
-
-/// A document whose outcome alone is of interest.
-pub fn tried_of(document: &Document) -> Tried {
-    Tried { text: document.text().to_owned(), scene: scene_of(document) }
+    app.tried = tried;
+    app.effects.push(Effect::Study);
 }
 
 /// Switches the effect of the selected row on or off.
-pub fn toggle_effect(app: &mut App) -> Vec<Effect> {
-    [show_parameters(app), switch(app)].concat()
+pub fn toggle_effect(app: &mut App) {
+    show_parameters(app);
+    switch(app);
 }
 
-fn switch(app: &mut App) -> Vec<Effect> {
-    let Some(effect) = app.parameter().and_then(|parameter| parameter.effect) else {
+fn switch(app: &mut App) {
+    let Some(effect) = app.edit.parameter().and_then(|parameter| parameter.effect) else {
         return refuse(app, "no effect to switch; form, roughness, adhesion, loading have one".to_owned());
     };
     let document = &app.edit.document;
@@ -295,99 +251,75 @@ fn computed(app: &App) -> Computed {
     }
 }
 
-fn refuse(app: &mut App, why: String) -> Vec<Effect> {
+fn refuse(app: &mut App, why: String) {
     app.message = Some(Message::Refused(why));
-    Vec::new()
 }
 
 /// Sets a field; an invalid value leaves the scene unchanged.
-pub fn change(app: &mut App, path: &str, value: &str) -> Vec<Effect> {
+pub fn change(app: &mut App, path: &str, value: &str) {
     let changed = app.edit.document.set(path, value);
     take_over(app, changed)
 }
 
+/// Draws another random profile, of a seed with at most six digits, which can be read out to a colleague. The seeds
+/// follow each other in an order of full length.
+pub fn draw_seed(app: &mut App) {
+    match app.edit.document.scene().seed() {
+        Some(seed) => {
+            let next = (seed % 1_000_000 * 7621 + 211_327) % 1_000_000;
+            change(app, "roughness.seed", &next.to_string());
+        }
+        None => app.set_error("the scene has no random profile to draw anew"),
+    }
+}
+
 /// Makes a changed document the explored one, or states the reason why it is not allowed.
-pub fn take_over(app: &mut App, changed: Result<Document, SceneErrors>) -> Vec<Effect> {
+pub fn take_over(app: &mut App, changed: Result<Document, SceneErrors>) {
     match changed {
         Ok(document) => {
             let lost = app.edit.document.comments().saturating_sub(document.comments());
-            let effects = adopt(app, document);
+            adopt(app, document);
             if lost > 0 {
-                let gone = if lost == 1 { "a comment is" } else { "comments are" };
-                app.set_done(format!("{gone} gone with what was replaced: undo brings it all back"));
+                let (comments, them) = if lost == 1 { ("comment", "it") } else { ("comments", "them") };
+                app.set_done(format!("{lost} {comments} removed with the replaced value; u restores {them}"));
             }
-            effects
         }
         Err(errors) => refuse(app, reasons(&errors)),
     }
 }
 
 /// Makes a document the explored one; undo returns to the former one.
-pub fn adopt(app: &mut App, document: Document) -> Vec<Effect> {
-    let before = std::mem::replace(&mut app.edit.document, document);
-    app.edit.past.push(before);
-    if app.edit.past.len() > UNDO_DEPTH {
-        app.edit.past.remove(0);
-    }
-    app.edit.future.clear();
-    renew(app)
+pub fn adopt(app: &mut App, document: Document) {
+    app.edit.adopt(document);
+    renewed(app);
 }
 
 /// Continues the last edit: its new result replaces the former one.
-pub fn replace(app: &mut App, document: Document) -> Vec<Effect> {
-    app.edit.document = document;
-    app.edit.future.clear();
-    renew(app)
+pub fn replace(app: &mut App, document: Document) {
+    app.edit.replace(document);
+    renewed(app);
 }
 
 /// Undoes the last edit, or redoes it.
-pub fn undo(app: &mut App, back: bool) -> Vec<Effect> {
-    let (from, to) = if back {
-        (&mut app.edit.past, &mut app.edit.future)
-    } else {
-        (&mut app.edit.future, &mut app.edit.past)
-    };
-    let Some(document) = from.pop() else { return Vec::new() };
-    let before = std::mem::replace(&mut app.edit.document, document);
-    to.push(before.clone());
-    if before.name() != app.edit.document.name() && app.is_changed(&before) {
-        app.edit.left.insert(before.name().to_owned(), before);
+pub fn undo(app: &mut App, back: bool) {
+    let name = if back { "undo" } else { "redo" };
+    let Some(what) = app.edit.undo(back) else { return app.set_done(format!("nothing to {name}")) };
+    renewed(app);
+    if !matches!(app.message, Some(Message::Done(_))) {
+        app.set_done(format!("{name}: {what}"));
     }
-    renew(app)
 }
 
-/// Row of the field at a path, or of the group around it: the selection stays in place when rows come and go, and the
-/// row that switched an effect off can switch the effect on again.
-fn row_of(app: &App, path: &str) -> usize {
-    let around = std::iter::successors(Some(path), |path| path.rsplit_once('.').map(|(group, _)| group));
-    let row = |path: &str| app.edit.parameters.iter().position(|parameter| parameter.path == path);
-    around
-        .filter_map(row)
-        .next()
-        .unwrap_or(app.edit.selected)
-        .min(app.edit.parameters.len().saturating_sub(1))
-}
-
-/// Requests the computation of the changed scene.
-fn renew(app: &mut App) -> Vec<Effect> {
-    let selected = app.parameter().map(|parameter| parameter.path.clone()).unwrap_or_default();
-    // A scene left before is the present one again.
-    let document = &app.edit.document;
-    app.edit.left.retain(|_, left| left.name() != document.name() || left.scene() != document.scene());
-    app.edit.parameters = parameters(&app.edit.document);
-    select(app, row_of(app, &selected));
-    app.edit.generation += 1;
+/// Drops what belongs to the former scene.
+fn renewed(app: &mut App) {
+    app.message.take_if(|message| matches!(message, Message::Refused(_)));
     app.progress = Some(0);
-    app.studies.edited = true;
-    app.studies.failures.clear();
-    app.studies.appraisal = Appraisal::default();
-    for pane in Pane::ALL {
-        (pane.row().renew)(app);
-    }
+    app.chart.moving = false;
+    let map = app.chart.key(&scene_of(&app.edit.document)).unwrap_or_default();
+    app.studies.keep(&[&map, app.edit.document.text()]);
     // Manual loading belongs to the former profile and contact.
     if app.manual.take().is_some() {
         app.set_done("the body is back on the scene's loading");
     }
     name_ghosts(app);
-    vec![Effect::Ask]
 }

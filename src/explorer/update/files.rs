@@ -19,28 +19,26 @@ pub fn ask_save(app: &mut App, then_quit: bool) {
 }
 
 /// Saves the scene.
-pub fn save(path: PathBuf, then_quit: bool) -> Result<Vec<Effect>, String> {
-    check_extension(&path, &["ron"]).map_err(|error| error.to_string())?;
-    write(path, Content::Scene, then_quit)
+pub fn save(app: &mut App, path: PathBuf, then_quit: bool) -> Result<(), String> {
+    check_extension(&path, &["ron"])?;
+    write(app, path, Content::Scene, then_quit)
 }
 
-fn write(path: PathBuf, content: Content, then_quit: bool) -> Result<Vec<Effect>, String> {
+fn write(app: &mut App, path: PathBuf, content: Content, then_quit: bool) -> Result<(), String> {
     if path.as_os_str().is_empty() {
         return Err("type the name of a file".to_owned());
     }
-    Ok(vec![Effect::Write(OutputFile { path, content, overwrite: false, then_quit })])
+    app.effects.push(Effect::Write(OutputFile { path, content, overwrite: false, then_quit }));
+    Ok(())
 }
 
 /// Asks for the file of the scene or, where that is saved, of one left with unsaved changes.
-pub fn save_before_leaving(app: &mut App) -> Vec<Effect> {
-    let mut effects = Vec::new();
-    if !app.is_unsaved()
-        && let Some(document) = app.unsaved().first().map(|document| Document::clone(document))
-    {
-        effects = edit::adopt(app, document);
+pub fn save_before_leaving(app: &mut App) {
+    let left = app.edit.unsaved().first().map(|document| Document::clone(document));
+    if let Some(document) = left.filter(|_| !app.edit.is_unsaved()) {
+        edit::adopt(app, document);
     }
     ask_save(app, true);
-    effects
 }
 
 /// Asks for the name of the file to export to.
@@ -51,9 +49,9 @@ pub fn ask_export(app: &mut App) {
 }
 
 /// Exports to a file; the extension of its name selects the content.
-pub fn export(app: &App, path: PathBuf) -> Result<Vec<Effect>, String> {
+pub fn export(app: &mut App, path: PathBuf) -> Result<(), String> {
     let content = content_for(app, &path)?;
-    write(path, content, false)
+    write(app, path, content, false)
 }
 
 /// Content for an exported file; or why there is none.
@@ -67,10 +65,10 @@ fn content_for(app: &App, path: &Path) -> Result<Content, String> {
                 extensions.iter().map(|extension| format!(".{extension}")).collect();
             return Err(format!("the extension chooses the format; use one of {}", extensions.join(", ")));
         }
-        Err(error) => return Err(error.to_string()),
+        Err(error) => return Err(error),
     };
     match content {
-        Content::MapCells if app.chart.grid().is_none() => Err("there is no map yet to export".to_owned()),
+        Content::MapCells if app.grid().is_none() => Err("there is no map yet to export".to_owned()),
         Content::Figure(_) if app.figure().is_none() => {
             Err("the selected pane is empty; there is no figure to export".to_owned())
         }
@@ -87,7 +85,7 @@ pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>
             let how = if file.content == Content::Scene { "saved" } else { "exported" };
             app.set_done(format!("{how} to {path}"));
             if file.content == Content::Scene {
-                app.set_saved_as(&file.path);
+                app.edit.set_saved_as(&file.path);
             }
             if file.then_quit {
                 ask_quit(app);
@@ -105,7 +103,7 @@ pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>
 
 /// Leaves the explorer, or asks about unsaved changes first.
 pub fn ask_quit(app: &mut App) {
-    if app.unsaved().is_empty() {
+    if app.edit.unsaved().is_empty() {
         app.finished = true;
     } else {
         app.ask(Purpose::Leave, TextLine::default());
@@ -113,14 +111,14 @@ pub fn ask_quit(app: &mut App) {
 }
 
 /// Copies the command that opens the present scene.
-pub fn copy_command(app: &mut App) -> Vec<Effect> {
+pub fn copy_command(app: &mut App) {
     let command = command_line("asperity", app.edit.document.name(), app.edit.document.overrides());
     if command.contains(is_control) {
         // Pasted into a shell they would act on its terminal.
         app.set_error("not copied: control characters in the name of the file; allowed: a name without any");
-        return Vec::new();
+        return;
     }
     // The terminal does not confirm a copy, so the notice has the command too.
     app.set_done(format!("copied: {command}"));
-    vec![Effect::Copy(command)]
+    app.effects.push(Effect::Copy(command));
 }

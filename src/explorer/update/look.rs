@@ -45,7 +45,7 @@ pub fn next_theme(app: &mut App) {
 }
 
 /// Changes the markers of the plots.
-pub fn next_marker(app: &mut App) -> Vec<Effect> {
+pub fn next_marker(app: &mut App) {
     let mut marker = app.view.appearance.marker.next();
     if marker == Marker::Octant && app.view.lacks_octants {
         marker = marker.next();
@@ -53,16 +53,16 @@ pub fn next_marker(app: &mut App) -> Vec<Effect> {
     app.view.appearance.marker = marker;
     app.set_done(format!("markers: {}", marker.name()));
     // A terminal may have given the former markers another width than the program.
-    vec![Effect::Redraw, Effect::Ask]
+    app.effects.push(Effect::Redraw);
 }
 
 /// Keeps colours and markers in the configuration file.
-pub fn remember_appearance(app: &mut App) -> Vec<Effect> {
+pub fn remember_appearance(app: &mut App) {
     let Some(path) = app.config.path.clone() else {
         app.set_error("there is no configuration file: asperity was started with --no-config");
-        return Vec::new();
+        return;
     };
-    vec![Effect::Remember { path, appearance: app.view.appearance }]
+    app.effects.push(Effect::Remember { path, appearance: app.view.appearance });
 }
 
 fn springs(app: &App) -> usize {

@@ -8,83 +8,78 @@ pub(super) mod crosshair;
 pub(super) mod dialogue;
 pub(super) mod edit;
 pub(super) mod files;
-mod ghosts;
 pub(super) mod look;
 mod mouse;
 pub(super) mod movement;
-pub(super) mod show;
 
 pub use super::effect::Effect;
-pub use accuracy::study_tasks;
+pub use accuracy::{Answer, Choosing, studies};
 
 use super::action::Action;
-use super::app::{App, Message};
+use super::app::{App, Awaited, Message};
+use super::editor::scene_of;
 use super::keys::Command;
 use super::layout::Layout;
 use super::prompt::Purpose;
 use super::request::{Place, Request, SnapshotRequest};
 use super::snapshot::Report;
-use crate::scene::{Document, Scene};
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
-use std::sync::Arc;
 
-/// Applies an action and returns the effects to perform outside.
+/// Applies an action and returns the effects to perform outside, a request of the state that the screen waits for among
+/// them.
 pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
+    apply(app, action);
+    if app.asked.is_some_and(|asked| asked != awaited(app)) {
+        app.effects.push(Effect::Ask);
+    }
+    std::mem::take(&mut app.effects)
+}
+
+fn apply(app: &mut App, action: Action) {
     match action {
-        Action::Command(command) => return run(app, command),
-        Action::Key(key) => return pressed(app, &key),
-        Action::Paste(text) => return dialogue::edit_line(app, |line| line.insert(&text)),
-        Action::Resize(columns, rows) => {
-            app.view.size = (columns, rows);
-            return vec![Effect::Ask];
-        }
-        Action::Elapse(time) => return movement::elapse(app, time),
-        Action::SetSeed(seed) => match app.edit.document.scene().seed() {
-            Some(_) => {
-                return edit::change(app, "roughness.seed", &seed.to_string());
-            }
-            _ => app.set_error("the scene has no random line to draw anew"),
-        },
-        Action::Report(report) => return reported(app, report),
-        Action::Found(found) => return accuracy::found(app, found),
+        Action::Command(command) => run(app, command),
+        Action::Key(key) => pressed(app, &key),
+        Action::Paste(text) => dialogue::edit_line(app, |line| line.insert(&text)),
+        Action::Resize(columns, rows) => app.view.size = (columns, rows),
+        Action::Elapse(time) => movement::elapse(app, time),
+        Action::Report(report) => reported(app, report),
+        Action::Found(found) => accuracy::found(app, found),
         Action::Written(file, result) => files::written(app, file, result),
         Action::Listed(entries) => dialogue::listed(app, entries),
-        Action::Completed(paths) => return dialogue::completed(app, paths),
-        Action::Opened(_, Ok(opening)) => return chart::open(app, *opening),
+        Action::Completed(paths) => dialogue::completed(app, paths),
+        Action::Opened(_, Ok(opening)) => chart::open(app, *opening),
         Action::Opened(path, Err(why)) => {
             dialogue::ask_again(app, Purpose::Scene(Vec::new()), &path, &why);
-            return vec![Effect::List];
+            app.effects.push(Effect::List);
         }
         Action::Remembered(Err(why)) => app.set_error(why),
         Action::Remembered(Ok(path)) => {
             app.set_done(format!("colours and markers are kept in {}", path.display()));
         }
-        Action::Mouse(mouse) => return mouse::act(app, mouse),
+        Action::Mouse(mouse) => mouse::act(app, mouse),
     }
-    Vec::new()
 }
 
 /// Runs the command of a key, or types its character.
-fn pressed(app: &mut App, key: &KeyEvent) -> Vec<Effect> {
+fn pressed(app: &mut App, key: &KeyEvent) {
+    let is_typed = !key.modifiers.intersects(KeyModifiers::CONTROL | KeyModifiers::ALT);
     match (app.config.bindings.command(key, app.keys()), key.code) {
         (Some(command), _) => run(app, command),
-        (None, KeyCode::Char(typed))
-            if !key.modifiers.intersects(KeyModifiers::CONTROL | KeyModifiers::ALT) =>
-        {
-            dialogue::edit_line(app, |line| line.insert(typed.encode_utf8(&mut [0; 4])))
+        (None, KeyCode::Char(typed)) if is_typed => {
+            dialogue::edit_line(app, |line| line.insert(typed.encode_utf8(&mut [0; 4])));
         }
-        _ => Vec::new(),
+        _ => {}
     }
 }
 
 /// Runs a command.
-pub(super) fn run(app: &mut App, command: Command) -> Vec<Effect> {
+pub(super) fn run(app: &mut App, command: Command) {
     if app.prompt.is_none() {
         let moving = app.chart.moving && command.row.merges;
         begin(app);
         app.chart.moving = moving;
     }
-    command.run(app)
+    command.run(app);
 }
 
 /// Begins a command on scene or panes: ends the notice, and the edit of successive moves in the map.
@@ -97,7 +92,7 @@ pub(super) fn begin(app: &mut App) {
 }
 
 /// Stores a report of the worker, unless the scene or the text has been changed since.
-fn reported(app: &mut App, report: Report) -> Vec<Effect> {
+fn reported(app: &mut App, report: Report) {
     match report {
         Report::Solved(computed, snapshot) if computed.generation == app.edit.generation => {
             app.progress = None;
@@ -112,10 +107,10 @@ fn reported(app: &mut App, report: Report) -> Vec<Effect> {
             if let Some(document) = app.opens_beside.take() {
                 return compare::open_beside(app, document);
             }
-            return vec![Effect::Study];
+            app.effects.push(Effect::Study);
         }
         Report::Shown(snapshot) if snapshot.generation == app.edit.generation => {
-            movement::shown(app, snapshot)
+            movement::shown(app, snapshot);
         }
         Report::Progress { generation, legs } if generation == app.edit.generation => {
             app.progress = app.progress.map(|_| legs);
@@ -125,34 +120,27 @@ fn reported(app: &mut App, report: Report) -> Vec<Effect> {
             app.set_error(error);
         }
         Report::Solved(..) | Report::Shown(_) | Report::Progress { .. } | Report::Failed { .. } => {}
-        Report::Tried(preview)
-            if app.is_typing_value()
-                && app.tried.as_ref().is_none_or(|tried| tried.text != preview.text)
-                && app.next_ghost.is_none() => {}
-        Report::Tried(preview) => return compare::previewed(app, preview),
     }
-    Vec::new()
 }
 
 /// The state that the screen waits for; takes the manual moves.
 pub fn request(app: &mut App) -> Request {
+    app.asked = Some(awaited(app));
     Request {
         generation: app.edit.generation,
         scene: scene_of(&app.edit.document),
         moves: app.manual.as_mut().map_or_else(Vec::new, |manual| std::mem::take(&mut manual.moves)),
         snapshot: snapshot_request(app),
-        tried: app.tried.clone(),
     }
 }
 
-/// The scene for the worker, with files named from the working folder.
-pub(super) fn scene_of(document: &Document) -> Arc<Scene> {
-    let mut scene = document.scene().clone();
-    scene.rename_measured_files(|file| document.resolve(file).to_string_lossy().into_owned());
-    Arc::new(scene)
+/// Generation, snapshot and number of manual moves that the screen waits for.
+fn awaited(app: &App) -> Awaited {
+    let moves = app.manual.as_ref().map_or(0, |manual| manual.moves.len());
+    (app.edit.generation, snapshot_request(app), moves)
 }
 
-/// Request for a snapshot in the panes of this model.
+/// Request for a snapshot in the panes.
 #[must_use]
 pub fn snapshot_request(app: &App) -> SnapshotRequest {
     let layout = Layout::of(app);
@@ -166,8 +154,6 @@ pub fn snapshot_request(app: &App) -> SnapshotRequest {
         strip_cells: layout.close_up_cells(),
         focus: app.view.look.focus,
         close_up_springs: app.view.look.springs,
-        large: app.view.large,
-        lower: app.view.lower,
         crosshair: app.view.crosshair.map(|crosshair| crosshair.position),
     }
 }

@@ -1,6 +1,6 @@
 //! The mouse: selects panes and rows, drags the body and scrolls. Keys can do all this too.
 
-use super::{Effect, begin, chart, crosshair, dialogue, edit, look, movement};
+use super::{begin, chart, crosshair, dialogue, edit, look, movement};
 use crate::explorer::action::{Gesture, Mouse};
 use crate::explorer::app::{App, Pane};
 use crate::explorer::panel::Under;
@@ -9,19 +9,19 @@ use crate::explorer::request::ManualMove;
 use ratatui::layout::Position;
 
 /// Performs a gesture of the mouse.
-pub fn act(app: &mut App, mouse: Mouse) -> Vec<Effect> {
+pub fn act(app: &mut App, mouse: Mouse) {
     if app.prompt.is_some() {
         if let Gesture::Wheel(turns) = mouse.gesture {
             dialogue::select(app, -turns);
         }
-        return Vec::new();
+        return;
     }
     let here = Position::new(mouse.column, mouse.row);
-    let Some((pane, under)) = under(app, here) else { return Vec::new() };
+    let Some((pane, under)) = under(app, here) else { return };
     match mouse.gesture {
         Gesture::Wheel(turns) => wheel(app, pane, under, turns),
         // A drag stays in the pane in which it began.
-        Gesture::Drag if pane != app.view.pane => Vec::new(),
+        Gesture::Drag if pane != app.view.pane => {}
         gesture => {
             app.view.pane = pane;
             point(app, here, under, gesture == Gesture::Press)
@@ -29,7 +29,7 @@ pub fn act(app: &mut App, mouse: Mouse) -> Vec<Effect> {
     }
 }
 
-fn wheel(app: &mut App, pane: Pane, under: Under, turns: i32) -> Vec<Effect> {
+fn wheel(app: &mut App, pane: Pane, under: Under, turns: i32) {
     match (pane, under) {
         (Pane::Parameters, _) => {
             begin(app);
@@ -38,50 +38,48 @@ fn wheel(app: &mut App, pane: Pane, under: Under, turns: i32) -> Vec<Effect> {
         (Pane::Profile | Pane::CloseUp, under) => {
             app.view.pane = pane;
             look::zoom_at(app, turns, if let Under::Data(x, _) = under { Some(x) } else { None });
-            vec![Effect::Ask]
         }
-        _ => Vec::new(),
+        _ => {}
     }
 }
 
 /// Acts on what is under the mouse in the selected pane: at a press, or during a drag.
-fn point(app: &mut App, here: Position, under: Under, is_press: bool) -> Vec<Effect> {
-    let ask = vec![Effect::Ask];
+fn point(app: &mut App, here: Position, under: Under, is_press: bool) {
     match (app.view.pane, under) {
         (Pane::Chart, Under::Data(across, up)) if is_press || app.chart.moving => {
             app.chart.moving &= !is_press;
             chart::move_to(app, (across, Some(up)))
         }
         (Pane::Parameters, Under::Row(row)) if is_press => {
-            let Some(row) = parameter_in(app, row) else { return ask };
+            begin(app);
+            let Some(row) = parameter_in(app, row) else { return };
             // A second press on the first row of a group folds the group.
             let is_again = row == app.edit.selected && app.edit.parameters[row].is_head();
-            edit::select(app, row);
-            if is_again { edit::toggle_fold(app) } else { ask }
+            app.edit.select(row);
+            if is_again {
+                edit::toggle_fold(app);
+            }
         }
         (Pane::Force, Under::Data(x, _)) if app.view.crosshair.is_none() || app.manual.is_some() => {
             drag(app, here, x)
         }
-        (_, Under::Data(x, y)) => {
-            crosshair::point_at(app, (x, y));
-            ask
-        }
-        _ => ask,
+        (_, Under::Data(x, y)) => crosshair::point_at(app, (x, y)),
+        _ => {}
     }
 }
 
 /// Moves the body to the indentation under the mouse.
-fn drag(app: &mut App, here: Position, x: f64) -> Vec<Effect> {
+fn drag(app: &mut App, here: Position, x: f64) {
     if indentation_at(app, x).is_none() {
-        return vec![Effect::Ask];
+        return;
     }
     // Manual loading begins first: its axis may reach further than that of the loading.
-    let mut effects = if app.manual.is_none() { movement::take(app, None) } else { Vec::new() };
-    effects.retain(|effect| *effect != Effect::Ask);
+    if app.manual.is_none() {
+        movement::take(app, None);
+    }
     if let Some((_, Under::Data(x, _))) = under(app, here)
         && let Some(indentation) = indentation_at(app, x)
     {
-        effects.extend(movement::take(app, Some(ManualMove::To(indentation))));
+        movement::take(app, Some(ManualMove::To(indentation)));
     }
-    effects
 }

@@ -1,13 +1,12 @@
 //! Movement of the body: animation of the scene's loading, or manual loading.
 
-use super::Effect;
 use crate::analysis::pull_off_point;
 use crate::explorer::app::{App, ManualState, Player};
 use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{Focus, ManualMove};
 use crate::explorer::snapshot::{ContactSnapshot, Refusal};
 use crate::explorer::text_line::TextLine;
-use crate::scene::{parse_quantity, quantity_as_typed};
+use crate::scene::{format_quantity, parse_quantity};
 use crate::text::round_to;
 use std::sync::Arc;
 use std::time::Duration;
@@ -22,19 +21,21 @@ const HAND_STEPS: (f64, f64) = (400.0, 40.0);
 const PATH_KEPT: usize = 20_000;
 
 /// Begins manual loading, or returns to the loading of the scene.
-pub fn toggle_manual(app: &mut App) -> Vec<Effect> {
-    if app.manual.is_some() { animate(app, |_| ()) } else { take(app, None) }
+pub fn toggle_manual(app: &mut App) {
+    if app.manual.take().is_none() {
+        take(app, None);
+    }
 }
 
 /// Presses (positive) or pulls the body by so many steps of manual loading.
-pub fn push(app: &mut App, steps: i32, coarse: bool) -> Vec<Effect> {
+pub fn push(app: &mut App, steps: i32, coarse: bool) {
     let (low, high) = app.indentations().unwrap_or_default();
     let step = (high - low) / if coarse { HAND_STEPS.1 } else { HAND_STEPS.0 };
     take(app, Some(ManualMove::By(f64::from(steps) * step)))
 }
 
 /// Pulls the body until nothing touches.
-pub fn separate(app: &mut App) -> Vec<Effect> {
+pub fn separate(app: &mut App) {
     take(app, Some(ManualMove::Separate))
 }
 
@@ -43,48 +44,47 @@ pub fn type_force(app: &mut App) {
     app.ask(Purpose::Force, TextLine::default());
 }
 
-/// Plays or pauses the animation; at its end it begins again.
-pub fn toggle_play(app: &mut App) -> Vec<Effect> {
-    animate(app, |app| {
-        let at_end = app.play.done >= 1.0 && app.play.leg + 1 >= app.legs().len();
-        if at_end && !app.play.playing {
-            app.play = Player::START;
-        } else {
-            app.play.playing = !app.play.playing;
-        }
-    })
+/// Plays or pauses the animation; at its end it begins again. Like all movements of the animation this ends manual
+/// loading: the animation is the loading of the scene.
+pub fn toggle_play(app: &mut App) {
+    app.manual = None;
+    let at_end = app.play.done >= 1.0 && app.play.leg + 1 >= app.legs().len();
+    if at_end && !app.play.playing {
+        app.play = Player::START;
+    } else {
+        app.play.playing = !app.play.playing;
+    }
 }
 
 /// Moves the paused animation by steps.
-pub fn step(app: &mut App, steps: i32) -> Vec<Effect> {
-    animate(app, |app| {
-        app.play.playing = false;
-        let legs = app.legs().len();
-        advance(&mut app.play, f64::from(steps) / STEPS, legs);
-    })
+pub fn step(app: &mut App, steps: i32) {
+    app.manual = None;
+    app.play.playing = false;
+    let legs = app.legs().len();
+    advance(&mut app.play, f64::from(steps) / STEPS, legs);
 }
 
 /// Begins the animation again.
-pub fn restart(app: &mut App) -> Vec<Effect> {
-    animate(app, |app| app.play = Player::START)
+pub fn restart(app: &mut App) {
+    app.manual = None;
+    app.play = Player::START;
 }
 
 /// Goes to the start of the leg `legs` after this one; back from inside a leg, to its own start first.
-pub fn go_to_leg(app: &mut App, legs: i32) -> Vec<Effect> {
-    animate(app, |app| {
-        let back = legs < 0 && app.play.done > 0.0;
-        let leg = app.play.leg.saturating_add_signed(if back { 0 } else { legs as isize });
-        app.play.leg = leg.min(app.legs().len().saturating_sub(1));
-        app.play.done = 0.0;
-    })
+pub fn go_to_leg(app: &mut App, legs: i32) {
+    app.manual = None;
+    let back = legs < 0 && app.play.done > 0.0;
+    let leg = app.play.leg.saturating_add_signed(if back { 0 } else { legs as isize });
+    app.play.leg = leg.min(app.legs().len().saturating_sub(1));
+    app.play.done = 0.0;
 }
 
 /// Goes to the pull-off, while the contact still holds.
-pub fn go_to_pull_off(app: &mut App) -> Vec<Effect> {
+pub fn go_to_pull_off(app: &mut App) {
     let legs = app.legs();
     let Some((leg, point)) = pull_off_point(legs).filter(|(_, point)| point.force < 0.0) else {
         app.set_error("there is no pull-off: the force does not fall below 0 N in the last unloading stage");
-        return Vec::new();
+        return;
     };
     let indentation = point.indentation;
     // Rounding must not pass the indentation: below it springs detach.
@@ -92,21 +92,14 @@ pub fn go_to_pull_off(app: &mut App) -> Vec<Effect> {
     let paused = |done| Player { leg, done, playing: false };
     let ulps = (0..8).map(|ulps| paused(done - f64::from(ulps) * f64::EPSILON));
     let holds = ulps.into_iter().find(|player| player.indentation(legs) >= indentation);
-    let player = holds.unwrap_or(paused(done));
-    animate(app, |app| app.play = player)
-}
-
-/// Changes the animation, which ends manual loading: the animation is the loading of the scene.
-fn animate(app: &mut App, change: impl FnOnce(&mut App)) -> Vec<Effect> {
+    app.play = holds.unwrap_or(paused(done));
     app.manual = None;
-    change(app);
-    vec![Effect::Ask]
 }
 
 /// Advances the animation by a time.
-pub fn elapse(app: &mut App, time: Duration) -> Vec<Effect> {
+pub fn elapse(app: &mut App, time: Duration) {
     if !app.play.playing || app.legs().is_empty() || !app.is_current() {
-        return Vec::new();
+        return;
     }
     let legs = app.legs().len();
     let player = &mut app.play;
@@ -124,7 +117,6 @@ pub fn elapse(app: &mut App, time: Duration) -> Vec<Effect> {
             playing: repeats,
         };
     }
-    vec![Effect::Ask]
 }
 
 /// Moves the animation by a share of a leg, but not past the boundary to another leg.
@@ -163,9 +155,9 @@ pub fn shown(app: &mut App, snapshot: Arc<ContactSnapshot>) {
     app.snapshot = Some(snapshot);
 }
 
-/// Reason why the body was not moved, with forces in the unit of the typed one, rounded into the allowed range.
+/// Reason why the body was not moved, with forces rounded into the allowed range.
 fn refusal(refusal: &Refusal, typed: &str) -> String {
-    let force = |value| quantity_as_typed(value, typed, "N");
+    let force = |value| format_quantity(value, "N");
     match *refusal {
         Refusal::Detaches { smallest } => {
             let least = force(rounded_up(smallest));
@@ -188,9 +180,9 @@ fn rounded_up(value: f64) -> f64 {
 }
 
 /// Begins manual loading where it has not begun, and moves the body.
-pub fn take(app: &mut App, order: Option<ManualMove>) -> Vec<Effect> {
+pub fn take(app: &mut App, order: Option<ManualMove>) {
     if !app.is_current() || app.legs().is_empty() {
-        return Vec::new();
+        return;
     }
     if app.manual.is_none() {
         let (leg, indentation) = (app.play.leg, app.indentation());
@@ -203,16 +195,15 @@ pub fn take(app: &mut App, order: Option<ManualMove>) -> Vec<Effect> {
     if let Some(manual) = &mut app.manual {
         manual.moves.extend(order);
     }
-    vec![Effect::Ask]
 }
 
 /// Moves the body to a typed force.
-pub fn accept_force(app: &mut App, typed: &str) -> Result<Vec<Effect>, String> {
+pub fn accept_force(app: &mut App, typed: &str) -> Result<(), String> {
     let force = parse_quantity(typed.trim(), "N");
     let force = force.map_err(|error| format!("{error}; for example 10 µN, or -2e-6 to pull"))?;
-    let effects = take(app, Some(ManualMove::ToForce(force)));
+    take(app, Some(ManualMove::ToForce(force)));
     if let Some(manual) = &mut app.manual {
         manual.typed_force = typed.trim().to_owned();
     }
-    Ok(effects)
+    Ok(())
 }

@@ -3,14 +3,16 @@
 use super::stages;
 use super::text::{filled, fitted, wrapped_within};
 use super::typed::typed;
+use crate::accuracy::Estimate;
 use crate::analysis::SteepWaves;
 use crate::contact::CurvePoint;
 use crate::explorer::action::{Content, Traffic};
-use crate::explorer::app::{App, Estimated, Message};
+use crate::explorer::app::{App, Message};
 use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::{Meaning, Theme};
+use crate::explorer::update::Choosing;
 use crate::scene::{format_quantity, format_rounded};
 use crate::text::grouped;
 use ratatui::text::{Line, Span};
@@ -23,10 +25,10 @@ pub fn title(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     let name = if scene.title.is_empty() { app.edit.document.name() } else { &scene.title };
     let mut spans = vec![Span::styled(name.to_owned(), theme.style(Meaning::Title))];
     let saved = app.edit.saved.get(app.edit.document.name()).map(|saved| &saved.scene().notice);
-    if app.is_unsaved() {
+    if app.edit.is_unsaved() {
         spans.push(Span::styled(" [changed]", theme.style(Meaning::Title)));
     }
-    if !app.is_unsaved() || saved != Some(&scene.notice) {
+    if !app.edit.is_unsaved() || saved != Some(&scene.notice) {
         let notice = scene.notice.split_whitespace().collect::<Vec<_>>().join(" ");
         spans.push(Span::styled(format!("  {notice}"), theme.style(Meaning::Quiet)));
     }
@@ -56,7 +58,7 @@ pub fn status(app: &App, width: u16) -> Line<'static> {
         (Some((_, Purpose::Overwrite(file))), _) => {
             error(format!("{} exists. Overwrite it?", file.path.display()))
         }
-        (Some((_, Purpose::Leave)), _) => error(match app.unsaved()[..] {
+        (Some((_, Purpose::Leave)), _) => error(match app.edit.unsaved()[..] {
             [] | [_] => "The scene has unsaved changes. Leave?".to_owned(),
             ref several => {
                 let names: Vec<&str> = several.iter().map(|document| document.name()).collect();
@@ -69,8 +71,12 @@ pub fn status(app: &App, width: u16) -> Line<'static> {
         (_, Some(Message::Error(text) | Message::Refused(text))) => {
             error(format!("! {}", text.replace('\n', " · ")))
         }
-        (_, Some(Message::Done(text))) => Line::raw(text.clone()),
-        (None, None) if app.studies.appraisal.choosing.is_some() => choosing(app),
+        (_, Some(Message::Done(text))) => {
+            let mut line = Line::raw(format!("{text}  "));
+            line.extend(headline(app, usize::from(width).saturating_sub(line.width())));
+            line
+        }
+        (None, None) if app.studies.value::<Choosing>().is_some() => choosing(app),
         _ => headline(app, width.into()),
     }
 }
@@ -238,11 +244,10 @@ fn work(app: &App) -> Vec<String> {
 
 /// The estimated error of the headline: `…` while awaited, `None` without an estimate.
 fn error(app: &App) -> Option<String> {
-    match &app.studies.appraisal.estimated {
-        Estimated::Known(estimate) => Some(estimate.words()),
-        Estimated::Waiting if app.view.shows_times => Some("± …".to_owned()),
-        Estimated::Waiting => None,
-        Estimated::Unknown => {
+    match app.studies.value::<Estimate>() {
+        Some(estimate) => Some(estimate.words()),
+        None if app.studies.failure::<Estimate>().is_none() => app.view.shows_times.then(|| "± …".to_owned()),
+        None => {
             let pulls = app.solved.as_ref()?.outcome.figures.adhesion_force.is_some();
             pulls.then(|| "error unknown".to_owned())
         }
@@ -251,9 +256,9 @@ fn error(app: &App) -> Option<String> {
 
 /// Progress of the search of springs for a tolerance.
 fn choosing(app: &App) -> Line<'static> {
-    let Some((tolerance, trying)) = app.studies.appraisal.choosing else { return Line::default() };
-    let trying = trying.map_or_else(String::new, |points| format!(": {} springs", grouped(points)));
-    Line::raw(format!("trying for {tolerance:e}{trying}…"))
+    let Some(Choosing { tolerance, tried, .. }) = app.studies.value() else { return Line::default() };
+    let tried = tried.map_or_else(String::new, |points| format!(": {} springs", grouped(points)));
+    Line::raw(format!("trying for {tolerance:e}{tried}…"))
 }
 
 /// Springs and patches in contact.

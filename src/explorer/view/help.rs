@@ -54,7 +54,7 @@ fn lines(width: u16, app: &App) -> Vec<Line<'static>> {
             lines.push(Line::default());
             lines.push(title(section));
         }
-        entry(&mut lines, &binding.names().join(" "), row.help, width, theme);
+        entry(&mut lines, &binding.names(), row.help, width, theme);
     }
     lines
 }

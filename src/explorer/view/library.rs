@@ -15,8 +15,8 @@ const WITH_SCENE: u16 = 62;
 /// Draws the scenes that fit, and the selected one.
 pub fn draw(area: Rect, look: Appearance, prompt: &Prompt, entries: &[Entry], buffer: &mut Buffer) {
     let title = format!("Scenes, {} of {}", prompt.found.len(), entries.len());
-    let is_wide = area.width >= WITH_SCENE;
-    let width = if is_wide { area.width * 2 / 5 } else { area.width };
+    let beside = prompt.scene().filter(|_| area.width >= WITH_SCENE);
+    let width = if beside.is_some() { area.width * 2 / 5 } else { area.width };
     let query = prompt.line.text();
     let rows = prompt.found.iter().enumerate().filter_map(|(place, index)| {
         Some(row(entries.get(*index)?, place == prompt.selected, query, look.theme))
@@ -30,7 +30,7 @@ pub fn draw(area: Rect, look: Appearance, prompt: &Prompt, entries: &[Entry], bu
         }
     };
     panel::draw(&list, Rect { width, ..area }, false, look, buffer);
-    if let Some(entry) = prompt.scene().filter(|_| is_wide) {
+    if let Some(entry) = beside {
         let right = Rect { x: area.x + width, width: area.width - width, ..area };
         let head = text(entry, query, right.width - 2, look.theme);
         let scene = Panel { head, ..Panel::of_text(entry.name.clone(), "") };

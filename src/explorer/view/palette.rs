@@ -1,7 +1,7 @@
 //! The list of all commands, over the panes.
 
 use super::text::{fitted, found};
-use crate::explorer::palette::Listed;
+use crate::explorer::keys::{Binding, Key};
 use crate::explorer::panel::{self, Body, Panel};
 use crate::explorer::prompt::Prompt;
 use crate::explorer::theme::{Appearance, Meaning, Theme};
@@ -14,7 +14,7 @@ use ratatui::widgets::{Clear, Widget};
 const WIDEST: u16 = 100;
 
 /// Draws the list.
-pub fn draw(area: Rect, look: Appearance, prompt: &Prompt, entries: &[Listed], buffer: &mut Buffer) {
+pub fn draw(area: Rect, look: Appearance, prompt: &Prompt, entries: &[Binding], buffer: &mut Buffer) {
     let title = format!("Commands, {} of {}", prompt.found.len(), entries.len());
     let width = area.width.min(WIDEST);
     let height = area.height.min(prompt.found.len().max(1) as u16 + 2);
@@ -32,12 +32,12 @@ pub fn draw(area: Rect, look: Appearance, prompt: &Prompt, entries: &[Listed], b
 }
 
 /// A command, and its keys at the right end.
-fn row(entry: &Listed, is_selected: bool, query: &str, width: u16, theme: Theme) -> Line<'static> {
-    let key = |key: &String| found(key, query, theme.style(Meaning::Key), theme);
+fn row(entry: &Binding, is_selected: bool, query: &str, width: u16, theme: Theme) -> Line<'static> {
+    let key = |key: &Key| found(&key.name, query, theme.style(Meaning::Key), theme);
     let keys: Vec<_> = entry.keys.iter().map(key).collect();
     let keys = Line::from(keys.join(&Span::raw(" ")));
     let style = theme.style(if is_selected { Meaning::Selected } else { Meaning::Text });
-    let help = found(&entry.help, query, style, theme);
+    let help = found(entry.row.help, query, style, theme);
     let mark = Span::styled(if is_selected { "› " } else { "  " }, style);
     let room = width.saturating_sub(keys.width() as u16 + 1);
     let mut line = fitted([mark].into_iter().chain(help).collect(), room);

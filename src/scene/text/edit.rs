@@ -4,20 +4,8 @@ use std::ops::Range;
 
 use super::index::{Span, Text};
 
-const NOT_ONE_VALUE: &str = "not one RON value by itself, such as 1.0e-3 or (1, 512)";
-
-/// A value without the surrounding blanks, if it is exactly one RON value.
-///
-/// # Errors
-/// The reason why the text is not one value.
-pub(in crate::scene) fn one_value(value: &str) -> Result<&str, String> {
-    let value = value.trim();
-    if value.is_empty() {
-        return Err("a value is missing".into());
-    }
-    let text = Text::new(value).map_err(|unreadable| format!("not one RON value: {}", unreadable.reason))?;
-    if text.is_one_value() { Ok(value) } else { Err(NOT_ONE_VALUE.into()) }
-}
+/// Message for a value that another one follows, or that ends within the text around it.
+pub(in crate::scene) const NOT_ONE_VALUE: &str = "not one RON value by itself, such as 1.0e-3 or (1, 512)";
 
 impl Text {
     /// The text with another value at a path.

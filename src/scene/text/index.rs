@@ -125,11 +125,6 @@ impl Text {
         let around = self.spans.iter().filter(|span| span.entry.contains(&offset));
         around.max_by_key(|span| span.entry.start).map_or("", |span| &span.path)
     }
-
-    /// Returns true if the text is exactly one value.
-    pub(super) fn is_one_value(&self) -> bool {
-        self.spans.first().is_some_and(|root| root.value == (0..self.source.len()))
-    }
 }
 
 /// Tokens of a text.

@@ -8,7 +8,7 @@ mod edit;
 mod index;
 mod scan;
 
-pub(super) use edit::one_value;
+pub(super) use edit::NOT_ONE_VALUE;
 pub use index::{Span, Text, line_column};
 pub(super) use index::{is_within, offset_of};
 pub use scan::Unreadable;

@@ -7,6 +7,10 @@ pub const COLUMNS: usize = 33;
 /// Values of H, from 0.05 to 0.95.
 pub const HURSTS: usize = 19;
 
+/// Number of springs above which a map gets fewer cells, and still fewer far above.
+const MANY: u64 = 1 << 14;
+const VERY_MANY: u64 = 1 << 17;
+
 /// The κ or e_el/γ of a column, to three digits, so that a scene set to a shown value is that of the cell.
 pub fn parameter_value(parameter: RoughnessParameter, column: usize) -> f64 {
     let per_octave = match parameter {
@@ -38,6 +42,17 @@ pub enum Level {
 impl Level {
     /// All levels, the coarsest first.
     pub const ALL: [Level; 4] = [Level::Coarse, Level::Medium, Level::Fine, Level::Whole];
+
+    /// Finest level of maps with so many springs: waves that need very many have fewer cells.
+    pub fn finest(springs: u64) -> Level {
+        if springs <= MANY {
+            Level::Whole
+        } else if springs <= VERY_MANY {
+            Level::Fine
+        } else {
+            Level::Medium
+        }
+    }
 
     /// Columns of the level.
     pub fn columns(self) -> impl Iterator<Item = usize> {

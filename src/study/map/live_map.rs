@@ -1,12 +1,11 @@
 //! The live map over H and κ or e_el/γ: a study in memory, computed from coarse to fine.
 
 use super::levels::{COLUMNS, HURSTS, Level};
-use super::template::Template;
-use crate::scene::{RoughnessParameter, Scene};
 use crate::simulation::Simulation;
 use crate::study::StudyError;
 use crate::study::cells::Cells;
-use crate::study::grid::{Cell, Grid};
+use crate::study::grid::Grid;
+use crate::study::plan::Plan;
 use crate::study::recorder::Recorder;
 use crate::study::results::Results;
 use std::collections::BTreeMap;
@@ -15,34 +14,36 @@ use std::path::Path;
 /// A map with the cells computed so far.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveMap {
-    template: Template,
     results: Results,
     /// Reasons for cells that could not be computed.
     failed: BTreeMap<u64, String>,
 }
 
 impl LiveMap {
-    /// A map without cells.
+    /// A map of a plan of [`live_plan`](super::live_plan), without cells.
     ///
     /// # Errors
     /// [`StudyError::OutOfMemory`].
-    pub fn new(template: Template) -> Result<Self, StudyError> {
-        Ok(LiveMap { results: Results::empty(template.plan())?, template, failed: BTreeMap::new() })
+    pub fn new(plan: Plan) -> Result<Self, StudyError> {
+        Ok(LiveMap { results: Results::empty(plan)?, failed: BTreeMap::new() })
     }
 
-    /// Template of the map.
-    pub fn template(&self) -> &Template {
-        &self.template
+    /// The plan of all cells: number row · [`COLUMNS`] + column.
+    pub fn plan(&self) -> &Plan {
+        self.results.plan()
     }
 
-    /// Returns true if a scene has this map.
-    pub fn is_of(&self, scene: &Scene, parameter: RoughnessParameter) -> bool {
-        Template::of(scene).is_ok_and(|template| template.over(parameter) == self.template)
+    fn has_hurst(&self) -> bool {
+        self.plan().axes.len() > 1
+    }
+
+    fn finest(&self) -> Level {
+        Level::finest(self.plan().scene.numerics.points)
     }
 
     /// The rows of a level on this map: one for a scene without H.
     pub fn rows_of(&self, level: Level) -> &'static [usize] {
-        if self.template.has_hurst() { level.rows() } else { &[0] }
+        if self.has_hurst() { level.rows() } else { &[0] }
     }
 
     /// Number of a cell, row by row.
@@ -57,7 +58,7 @@ impl LiveMap {
 
     /// Sets the values of a cell on a profile, in the order of [`super::RECORD`].
     pub fn set(&mut self, column: usize, row: usize, line: u64, values: &[f64; super::RECORD.len()]) {
-        self.results.set(Self::number(column, row) * self.template.lines() + line, values);
+        self.results.set(Self::number(column, row) * self.plan().lines + line, values);
     }
 
     /// Returns true if all cells of a level are known.
@@ -73,7 +74,7 @@ impl LiveMap {
 
     /// Returns true for a complete map.
     pub fn is_whole(&self) -> bool {
-        self.has(self.template.finest())
+        self.has(self.finest())
     }
 
     /// Computes the missing cells, from coarse to fine and row by row: all κ of a row are on the same profiles. `report`
@@ -83,7 +84,7 @@ impl LiveMap {
         let plan = self.results.plan().clone();
         let cells = Cells::of(&plan);
         let mut recorder = Recorder::new(&plan, Simulation::new(folder.to_path_buf()), stop);
-        let finest = self.template.finest();
+        let finest = self.finest();
         for level in Level::ALL.into_iter().take_while(|level| *level <= finest) {
             for &row in self.rows_of(level) {
                 let wanted: Vec<u64> = level.columns().map(|column| Self::number(column, row)).collect();
@@ -115,29 +116,20 @@ impl LiveMap {
     /// The map for display: H across, and κ or e_el/γ up as in the paper. Of too few profiles for a confidence, cells
     /// have the range of the profiles alone.
     pub fn grid(&self) -> Grid {
-        let axes = &self.results.plan().axes;
-        let layers = self.results.layers();
-        let cell = |cell: u64| -> Option<Result<Cell, String>> {
-            if let Some(why) = self.failed.get(&cell) {
-                return Some(Err(why.clone()));
-            }
-            let mut computed = self.results.cell(cell, &layers)?;
-            computed.estimates.iter_mut().flatten().for_each(|estimate| estimate.interval = None);
-            self.results.is_whole(cell).then_some(Ok(computed))
-        };
-        let mut grid = match axes.as_slice() {
-            [hurst, parameter] => {
-                let places = (0..COLUMNS).flat_map(|up| (0..HURSTS).map(move |across| (up, across)));
-                let cells = places.map(|(column, row)| cell(Self::number(column, row))).collect();
-                Grid::new(hurst.clone(), Some(parameter.clone()), layers.clone(), cells)
-            }
-            axes => Grid::new(axes[0].clone(), None, layers.clone(), (0..COLUMNS as u64).map(cell).collect()),
-        };
-        for (index, stand_in) in grid.stand_ins.iter_mut().enumerate() {
-            let has_hurst = self.template.has_hurst();
+        let (has_hurst, count) = (self.has_hurst(), self.plan().axes.len());
+        let mut grid = self.results.grid((0, has_hurst.then_some(1)), vec![0; count], self.results.layers());
+        for index in 0..grid.cells.len() {
             let (column, row) = if has_hurst { (index / HURSTS, index % HURSTS) } else { (index, 0) };
+            let (number, cell) = (Self::number(column, row), &mut grid.cells[index]);
+            if let Some(why) = self.failed.get(&number) {
+                *cell = Some(Err(why.clone()));
+            } else if !self.results.is_whole(number) {
+                *cell = None;
+            }
+            let estimates = cell.iter_mut().flatten().flat_map(|cell| &mut cell.estimates);
+            estimates.flatten().for_each(|estimate| estimate.interval = None);
             let (column, row) = self.stand_in(column, row);
-            *stand_in = if has_hurst { column * HURSTS + row } else { column };
+            grid.stand_ins[index] = if has_hurst { column * HURSTS + row } else { column };
         }
         grid
     }
@@ -158,11 +150,11 @@ impl LiveMap {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{StudyMap, hurst, parameter_value};
+    use super::super::{StudyMap, hurst, live_plan, parameter_value};
     use super::*;
     use crate::analysis::Regime;
-    use crate::scene::{Adhesion, Roughness, open, to_ron};
-    use crate::study::{Changes, Folder, Options, Plan, Quantity, Shard, merge, run};
+    use crate::scene::{Adhesion, Roughness, RoughnessParameter, open, to_ron};
+    use crate::study::{Changes, Folder, Options, Quantity, Shard, merge, run};
     use std::cell::Cell;
 
     fn kappa(column: usize) -> f64 {
@@ -179,7 +171,7 @@ mod tests {
         let small = [("numerics.points", "128"), ("roughness.modes", "(1, 32)")];
         let small = small.map(|(path, value)| (path.to_owned(), value.to_owned()));
         let document = document.set_all(&small).unwrap();
-        LiveMap::new(Template::of(document.scene()).unwrap().over(parameter)).unwrap()
+        LiveMap::new(live_plan(document.scene(), parameter).unwrap()).unwrap()
     }
 
     #[test]
@@ -207,8 +199,8 @@ mod tests {
         let (_, column, row) = grid.nearest((0.31, Some(1.02))).unwrap();
         assert_eq!((kappa(row), hurst(column)), (1.0, 0.3));
         // The cell is the mean over its scenes.
-        let values = (0..map.template.lines()).map(|line| {
-            let mut scene = map.template.plan().scene;
+        let values = (0..map.plan().lines).map(|line| {
+            let mut scene = map.plan().scene.clone();
             scene.adhesion = Some(Adhesion::by_parameter(RoughnessParameter::Kappa, 1.0));
             if let Some(Roughness::SelfAffine { hurst, seed, .. }) = &mut scene.roughness {
                 (*hurst, *seed) = (0.3, *seed + line);
@@ -238,8 +230,8 @@ mod tests {
                 "(version: 1, title: \"Map\", scene: {}, lines: {}, record: [zero_load_adhesion_share, \
                  adhesion_coefficient, regime], axes: [List(path: \"{}\", values: [{}]), \
                  List(path: \"roughness.hurst\", values: [{}])])",
-                to_ron(&live.template.plan().scene),
-                live.template.lines(),
+                to_ron(&live.plan().scene),
+                live.plan().lines,
                 parameter.name(),
                 list(columns.iter().map(|&column| parameter_value(parameter, column)).collect()),
                 list(rows.iter().map(|&row| hurst(row)).collect()),
@@ -297,7 +289,7 @@ mod tests {
     fn a_cell_that_cannot_be_computed_keeps_the_reason() {
         let document = open("pressure-sensitive").unwrap();
         let never = document.set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]").unwrap();
-        let mut map = LiveMap::new(Template::of(never.scene()).unwrap()).unwrap();
+        let mut map = LiveMap::new(live_plan(never.scene(), RoughnessParameter::Kappa).unwrap()).unwrap();
         let reported = Cell::new(false);
         map.compute(Path::new(""), &|| reported.get(), &mut |_| reported.set(true));
         assert!(

@@ -88,12 +88,12 @@ mod tests {
     use super::*;
     use crate::scene::{RoughnessParameter, open};
     use crate::simulation::Simulation;
-    use crate::study::map::Template;
+    use crate::study::map::live_plan;
 
     #[test]
     fn steps_go_to_the_next_value_of_the_axis_and_end_with_it() {
-        let template = Template::of(open("pressure-sensitive").unwrap().scene()).unwrap();
-        let axes = template.over(RoughnessParameter::Kappa).axes();
+        let scene = open("pressure-sensitive").unwrap().scene().clone();
+        let axes = live_plan(&scene, RoughnessParameter::Kappa).unwrap().axes;
         let to = |value, steps| axes[1].next_beyond(value, steps);
         assert_eq!((to(6.0, 1), to(6.0, -1), to(6.0, 4)), (Some(6.73), Some(5.66), Some(11.3)));
         // A value of the axis but for rounding.
@@ -111,7 +111,7 @@ mod tests {
             ("adhesion".to_owned(), "(work: 0.05, kappa: 2.0)".to_owned()),
         ]);
         let by_work = by_kappa.set("adhesion", "(work: 0.05)").unwrap();
-        let axes = Template::of(by_kappa.scene()).unwrap().axes();
+        let axes = live_plan(by_kappa.scene(), RoughnessParameter::Kappa).unwrap().axes;
         for document in [by_kappa.clone(), both.unwrap(), by_work] {
             let moved = moved(&document, &[(&axes[0], 0.4), (&axes[1], 3.0)]).unwrap();
             let (before, after) = (document.scene().adhesion.unwrap(), moved.scene().adhesion.unwrap());

@@ -1,14 +1,14 @@
 //! The maps of a finished study: over H and κ, or over other axes; one map for each value of the remaining axes.
 
+use super::live_plan::live_plan;
 use super::place::{force_unit, moved};
-use super::template::Template;
-use crate::scene::{Adhesion, Document, Move, RoughnessParameter, Scene, SceneErrors};
+use crate::scene::{Adhesion, Document, Move, Roughness, RoughnessParameter, Scene, SceneErrors};
 use crate::study::axis::Axis;
 use crate::study::error::StudyError;
 use crate::study::grid::{Grid, Layer, across_and_up, fixed};
 use crate::study::plan::{PRELOAD, Plan};
 use crate::study::results::Results;
-use crate::study::target::{scene_with, strip};
+use crate::study::target::{governing, scene_with, strip};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -172,10 +172,8 @@ impl StudyMap {
         let known: Vec<_> =
             self.over().filter_map(|axis| Some((axis, axis.value_in(scene, None)?))).collect();
         let [mut of_map, mut scene] = [self.scene(slice, &known), scene.clone()];
-        match (Template::of(&of_map), Template::of(&scene)) {
-            (Ok(one), Ok(other)) => {
-                one == other && is_close(Template::place(&of_map), Template::place(&scene))
-            }
+        match [&of_map, &scene].map(|scene| live_plan(scene, RoughnessParameter::Kappa)) {
+            [Ok(one), Ok(other)] => one == other && is_close(place(&of_map), place(&scene)),
             _ => {
                 strip(&mut of_map);
                 strip(&mut scene);
@@ -194,6 +192,12 @@ impl StudyMap {
     }
 }
 
+/// κ and H of a scene, if stated by the scene itself. Those of a measured profile follow only from its file.
+fn place(scene: &Scene) -> Option<(f64, f64)> {
+    let Some(Roughness::SelfAffine { hurst, .. }) = scene.roughness else { return None };
+    Some((governing(scene)?.kappa?, hurst))
+}
+
 /// Returns true if κ and H are equal but for rounding; unknown values are not compared.
 fn is_close(one: Option<(f64, f64)>, other: Option<(f64, f64)>) -> bool {
     let is_close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
@@ -205,7 +209,6 @@ mod tests {
     use super::*;
     use crate::analysis::{CellRegime, Regime};
     use crate::draw::AxisScale;
-    use crate::scene::Roughness;
     use crate::study::{Changes, Folder, Quantity};
 
     /// κ not in the order of its values and before H, two preloads, another axis, five profiles.
@@ -310,7 +313,7 @@ mod tests {
             assert_eq!(study_map.is_of(slice, moved.scene()), slice == 0, "κ and H are the mark's");
             let followed = study_map.follow(slice, &moved).unwrap();
             assert!(study_map.is_of(slice, followed.scene()), "{}", followed.text());
-            assert_eq!(Template::place(followed.scene()), Some((3.0, 0.25)));
+            assert_eq!(place(followed.scene()), Some((3.0, 0.25)));
         }
         let unpressed = self::study_map(&PLAN.replace("preloads: [0.5, 2.0],", ""));
         let legs = unpressed.document().unwrap().scene().loading.clone();

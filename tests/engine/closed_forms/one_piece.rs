@@ -4,7 +4,7 @@
 
 use crate::numerics::{integral, invert};
 use asperity::scene::Form;
-use asperity::surface::{power_law_factor, struve_0, struve_1};
+use asperity::surface::{power_law_factor, struve_0};
 use std::f64::consts::PI;
 
 /// A body on a half-space with adhesion. With the equivalent profile g(a), of area G(a) from 0 to a, its contact of radius
@@ -49,10 +49,12 @@ impl OnePiece {
             Form::WavySphere { radius, amplitude, wavelength } => {
                 let [g, slope, area] = power(1.0 / radius, 2.0);
                 let (turns, scale) = (2.0 * PI * a / wavelength, 0.5 * PI * amplitude);
-                let (h0, h1) = (struve_0(turns), struve_1(turns));
-                // d(z H₀)/dz = H₀ + z (2/π − H₁), and ∫ z H₀ dz = z H₁.
-                let rise = 2.0 * PI / wavelength * (h0 + turns * (2.0 / PI - h1));
-                [g + scale * turns * h0, slope + scale * rise, area + scale * a * h1]
+                let h0 = struve_0(turns);
+                let difference = |step: f64| struve_0(turns + step) - struve_0(turns - step);
+                let derivative = (8.0 * difference(1e-3) - difference(2e-3)) / 12e-3;
+                // ∫ z H₀ dz = z H₁ with H₁ = 2/π − dH₀/dz.
+                let rise = 2.0 * PI / wavelength * (h0 + turns * derivative);
+                [g + scale * turns * h0, slope + scale * rise, area + scale * a * (2.0 / PI - derivative)]
             }
             Form::Punch { .. } => unreachable!("not in one piece with a smooth edge"),
         }

@@ -4,25 +4,17 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough, without_adhesion};
 use super::is_up_to_date;
-use super::stand_in::StandIn;
 use asperity::accuracy::{
     Choice, ChoiceError, CostError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Reference, Row, Target,
     Timing,
 };
-use asperity::explorer::action::Action;
-use asperity::explorer::app::{Estimated, Message, Pane};
+use asperity::explorer::app::{Message, Pane};
 use asperity::explorer::panes::Costs;
-use asperity::explorer::runtime::Studies;
-use asperity::explorer::study::{Finding, Found, PaneData, Study, Task};
-use asperity::explorer::update::Effect;
-use asperity::scene::{Document, Edges, Scene};
-use std::sync::Arc;
-use std::sync::mpsc::{Receiver, channel};
-use std::time::Duration;
+use asperity::explorer::update::{Answer, Choosing, Effect, studies};
+use asperity::scene::{Document, Edges};
 
-/// Springs of 4e-4 at best.
-fn choose(tolerance: f64, trying: &mut dyn FnMut(u64)) -> Result<Choice, ChoiceError> {
-    trying(2048);
+/// Springs of 4e-4 at best, as found by a search.
+fn chosen(tolerance: f64) -> Result<Choosing, String> {
     let choice = Choice {
         tolerance,
         target: Target::AdhesionForce,
@@ -32,27 +24,14 @@ fn choose(tolerance: f64, trying: &mut dyn FnMut(u64)) -> Result<Choice, ChoiceE
         closed_form: false,
         finest: 8192,
     };
-    if tolerance >= choice.error {
-        return Ok(choice);
-    }
-    Err(ChoiceError::Unreached { tolerance, best: Some(Box::new(choice)) })
+    let is_reached = tolerance >= choice.error;
+    let unreached = || ChoiceError::Unreached { tolerance, best: Some(Box::new(choice.clone())) };
+    let found = Some(if is_reached { Ok(choice.clone()) } else { Err(unreached()) });
+    Ok(Choosing { tolerance, tried: None, found })
 }
 
-/// Measures a table of costs in steps.
-fn measuring(measured: Result<CostTable, CostError>) -> StandIn {
-    StandIn::new(move |data, _, report| {
-        let PaneData::Costs(scene, mut costs) = data else { return Ok(data) };
-        costs.trying = Some("sub-cell springs: 32 springs".to_owned());
-        report(PaneData::Costs(Arc::clone(&scene), costs.clone()));
-        costs.table = measured.clone().ok().map(Arc::new);
-        report(PaneData::Costs(Arc::clone(&scene), costs.clone()));
-        let table = measured.clone().map_err(|error| error.to_string())?;
-        Ok(PaneData::Costs(scene, measured_costs(table)))
-    })
-}
-
-fn measured_costs(table: CostTable) -> Costs {
-    Costs { table: Some(Arc::new(table)), trying: None, is_whole: true }
+fn costs(table: CostTable) -> Costs {
+    Costs { table: Some(table), trying: None }
 }
 
 /// A row whose error falls with a power of its setting, and whose time grows with it.
@@ -93,10 +72,10 @@ fn driver_with(
     estimate: Option<Estimate>,
     table: Result<CostTable, CostError>,
 ) -> Driver {
-    let mut driver = Driver::open(document);
-    driver.studies = Studies::Inline(Box::new(StandIn { estimate, choose, ..measuring(table) }));
-    driver.perform(vec![Effect::Ask]);
+    let mut driver = Driver::start(document);
     driver.press("Space");
+    driver.find(estimate.ok_or_else(String::new));
+    driver.find(table.map(costs).map_err(|error| error.to_string()));
     driver
 }
 
@@ -128,9 +107,8 @@ fn what_accuracy_costs_is_shown_beside_what_can_be_changed() {
         assert_eq!((driver.app.view.large, driver.app.view.pane), (None, Pane::Force));
         assert!(driver.text().contains("Profile"), "{}", driver.text());
         // Costs are not measured twice.
-        assert!(driver.app.studies.appraisal.costs.is_whole);
         assert_eq!(driver.press("A"), [Effect::Study, Effect::Ask]);
-        assert!(driver.text().contains("order 2.0"));
+        assert!(studies(&mut driver.app).is_empty() && driver.text().contains("order 2.0"));
     });
 }
 
@@ -157,28 +135,17 @@ fn a_scene_with_nothing_to_show_says_so() {
 fn an_edit_forgets_what_was_found_out() {
     within(60, || {
         let mut driver = measured(rough());
-        let before = driver.app.edit.generation;
-        // No answers any more.
-        driver.studies = Studies::None;
         driver.select("roughness.hurst");
         assert_eq!(driver.press("l"), [Effect::Ask]);
         assert!(driver.app.is_shown(Pane::Accuracy));
-        assert_eq!(driver.app.studies.appraisal.estimated, Estimated::Waiting);
-        assert_eq!(driver.app.studies.appraisal.costs, Costs::default());
+        assert!(driver.app.studies.value::<Estimate>().is_none());
+        assert!(driver.app.studies.value::<Costs>().is_none());
         assert!(driver.status().contains("± …"), "{}", driver.status());
         assert!(driver.text().contains("measuring"), "{}", driver.text());
-        // Late answers change nothing.
-        let screen = driver.screen();
-        let scene = Arc::new(rough().scene().clone());
-        for finding in [
-            Finding::Estimated(estimate(0.5)),
-            Finding::Extended(trying(&scene, "grid springs: 64 springs")),
-            Finding::Extended(PaneData::Costs(Arc::clone(&scene), measured_costs(table()))),
-            Finding::NotExtended(Pane::Accuracy, "late".to_owned()),
-        ] {
-            assert!(driver.act(Action::Found(Found { generation: before, finding })).is_empty());
-            assert_eq!(driver.screen(), screen);
-        }
+        let setting = |setting: &str| Costs { table: None, trying: Some(setting.to_owned()) };
+        let generation = driver.app.edit.generation;
+        driver.app.studies.set(generation, setting("grid springs: 64 springs"), false);
+        assert!(driver.text().contains("trying grid springs: 64 springs…"), "{}", driver.text());
     });
 }
 
@@ -199,7 +166,7 @@ fn the_headline_has_its_error_and_its_time() {
         driver.app.view.shows_times = false;
         assert!(driver.status().contains("N grid ± 0.4 % "), "{}", driver.status());
         assert!(!driver.status().trim_end().ends_with(" 0 s"), "{}", driver.status());
-        driver.app.studies.appraisal.estimated = Estimated::Waiting;
+        driver.app.studies.forget::<Estimate>();
         assert!(!driver.status().contains('±'), "{}", driver.status());
         driver.app.view.shows_times = true;
         assert!(
@@ -222,6 +189,9 @@ fn ask(driver: &mut Driver, tolerance: &str) {
     driver.press("%");
     driver.type_text(tolerance);
     driver.press("Enter");
+    if let Some(Choosing { tolerance, .. }) = driver.app.studies.value() {
+        driver.find(chosen(*tolerance));
+    }
 }
 
 #[test]
@@ -232,22 +202,20 @@ fn a_tolerance_is_an_edit_that_can_be_taken_back() {
         ask(&mut driver, "0.1 %");
         let after = driver.app.edit.document.scene().numerics;
         assert_eq!((after.points, after.edges), (2048, Edges::SubCell));
-        assert!(is_up_to_date(&driver.app) && driver.app.studies.appraisal.choosing.is_none());
+        assert!(is_up_to_date(&driver.app) && driver.app.studies.value::<Choosing>().is_none());
         assert!(driver.status().contains("2 048 springs"), "{}", driver.status());
-        let answer = driver.app.studies.appraisal.answer.clone().unwrap();
+        let Some(Answer(answer)) = driver.app.studies.value() else { panic!("no answer") };
         assert!(answer.contains("the fewest found to keep the adhesion force within 1e-3"), "{answer}");
         assert!(driver.text().contains("2 048 springs with edges SubCell: the fewest"), "{}", driver.text());
         // The known error is from finer solutions than an estimate.
-        assert!(
-            matches!(&driver.app.studies.appraisal.estimated, Estimated::Known(known) if known.error == 4e-4)
-        );
+        assert!(driver.app.studies.value::<Estimate>().is_some_and(|known| known.error == 4e-4));
         let generation = driver.app.edit.generation;
         ask(&mut driver, "0.1 %");
         assert_eq!(driver.app.edit.generation, generation, "it is so already");
         assert!(driver.status().contains("as it is"), "{}", driver.status());
         driver.press("u");
         assert_eq!(driver.app.edit.document.scene().numerics, before);
-        assert!(driver.app.studies.appraisal.answer.is_none());
+        assert!(driver.app.studies.value::<Answer>().is_none());
     });
 }
 
@@ -266,7 +234,7 @@ fn a_tolerance_out_of_reach_changes_nothing() {
             assert!(driver.status().contains("allowed: a relative error"), "{wrong}: {}", driver.status());
         }
         driver.press("% 1 Esc");
-        assert!(driver.app.message.is_none() && driver.app.studies.appraisal.choosing.is_none());
+        assert!(driver.app.message.is_none() && driver.app.studies.value::<Choosing>().is_none());
         assert_eq!(
             (driver.app.edit.document.text(), driver.app.edit.generation),
             (text.as_str(), generation)
@@ -275,71 +243,5 @@ fn a_tolerance_out_of_reach_changes_nothing() {
         let mut driver = Driver::open(rough());
         driver.press("%");
         assert!(driver.status().contains("not before"), "{}", driver.status());
-    });
-}
-
-const PATIENCE: Duration = Duration::from_secs(20);
-
-fn trying(scene: &Arc<Scene>, setting: &str) -> PaneData {
-    let costs = Costs { trying: Some(setting.to_owned()), ..Costs::default() };
-    PaneData::Costs(Arc::clone(scene), costs)
-}
-
-fn measure(scene: &Arc<Scene>) -> Task {
-    Task::Extend { data: PaneData::Costs(Arc::clone(scene), Costs::default()), waits: true }
-}
-
-fn endless() -> (Study, Receiver<Found>, Receiver<&'static str>) {
-    let (sender, events) = channel();
-    let (report, reports) = channel();
-    let endless = StandIn::endless(sender, |data, report| {
-        let PaneData::Costs(scene, _) = data else { return data };
-        report(trying(&scene, "grid springs: 32 springs"));
-        trying(&scene, "too late")
-    });
-    let study = Study::start(Box::new(endless), move |found| report.send(found).is_ok()).unwrap();
-    (study, reports, events)
-}
-
-#[test]
-fn what_is_measured_ends_as_soon_as_something_else_is_asked_for() {
-    within(60, || {
-        let (study, reports, events) = endless();
-        let scene = Arc::new(rough().scene().clone());
-        let next = || reports.recv_timeout(PATIENCE).expect("a finding");
-        for round in 1..=2 {
-            study.ask(round, vec![measure(&scene)]);
-            assert_eq!(events.recv_timeout(PATIENCE), Ok("begun"));
-            assert_eq!(next().finding, Finding::Extended(trying(&scene, "grid springs: 32 springs")));
-            // An edit stops the measurement, a tolerance takes its place.
-            if round == 1 {
-                study.stop();
-            } else {
-                study.ask(round, vec![Task::Choose(Arc::clone(&scene), 0.1)]);
-            }
-            assert_eq!(events.recv_timeout(PATIENCE), Ok("stopped"));
-        }
-        // No message was shown in between.
-        let chosen = Finding::Chosen(0.1, Err(ChoiceError::Stepwise));
-        assert_eq!(next(), Found { generation: 2, finding: chosen });
-        // Leaving the explorer ends the study.
-        drop(study);
-        assert!(reports.recv_timeout(PATIENCE).is_err());
-    });
-}
-
-#[test]
-fn a_key_held_down_begins_nothing() {
-    within(60, || {
-        let (study, reports, events) = endless();
-        let scene = Arc::new(rough().scene().clone());
-        for generation in 1..=50 {
-            study.ask(generation, vec![measure(&scene)]);
-        }
-        assert_eq!(events.recv_timeout(PATIENCE), Ok("begun"));
-        assert_eq!(reports.recv_timeout(PATIENCE).map(|found| found.generation), Ok(50));
-        assert!(events.try_recv().is_err(), "of fifty only the last was begun");
-        study.stop();
-        assert_eq!(events.recv_timeout(PATIENCE), Ok("stopped"));
     });
 }

@@ -4,21 +4,16 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough, smooth, without_adhesion};
 use super::is_up_to_date;
-use super::stand_in::{Reported, StandIn};
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::app::Pane;
+use asperity::explorer::chart::Live;
 use asperity::explorer::keys::Context;
 use asperity::explorer::layout::{Layout, inside};
-use asperity::explorer::runtime::Studies;
-use asperity::explorer::study::{Finding, Found, PaneData, Study, Task};
 use asperity::explorer::theme::Marker;
-use asperity::explorer::update::{Effect, study_tasks};
+use asperity::explorer::update::{Effect, studies};
 use asperity::scene::{Document, RoughnessParameter};
 use asperity::study::Quantity;
-use asperity::study::map::{COLUMNS, HURSTS, LINES, Level, LiveMap, Template, hurst, parameter_value};
-use std::sync::Arc;
-use std::sync::mpsc::channel;
-use std::time::Duration;
+use asperity::study::map::{COLUMNS, HURSTS, LINES, Level, LiveMap, hurst, live_plan, parameter_value};
 
 fn kappa(column: usize) -> f64 {
     parameter_value(RoughnessParameter::Kappa, column)
@@ -39,30 +34,25 @@ fn set(map: &mut LiveMap, column: usize, row: usize) {
     }
 }
 
-/// Fills levels of a map.
-fn fill(levels: &[Level], data: PaneData, report: Reported<'_>) -> PaneData {
-    let PaneData::Map(mut map) = data else { return data };
-    let whole = Arc::make_mut(&mut map);
+/// Fills levels of the map of the scene, if it has one.
+fn fill(driver: &mut Driver, levels: &[Level]) {
+    let (scene, chart) = (driver.app.edit.document.scene(), &driver.app.chart);
+    let Ok(plan) = live_plan(scene, chart.parameter) else { return };
+    let key = chart.key(scene).unwrap();
+    let mut map = LiveMap::new(plan).unwrap();
     for level in levels {
-        for &row in whole.rows_of(*level) {
-            level.columns().for_each(|column| set(whole, column, row));
-            report(PaneData::Map(Arc::new(whole.clone())));
+        for &row in map.rows_of(*level) {
+            level.columns().for_each(|column| set(&mut map, column, row));
         }
     }
-    PaneData::Map(map)
-}
-
-fn empty() -> Arc<LiveMap> {
-    Arc::new(LiveMap::new(Template::of(rough().scene()).unwrap()).unwrap())
+    driver.app.studies.set(key, Live::of(&map), map.is_whole());
 }
 
 fn driver_with(document: Document, levels: &[Level]) -> Driver {
-    let mut driver = Driver::open(document);
-    let levels = levels.to_vec();
-    driver.studies =
-        Studies::Inline(Box::new(StandIn::new(move |data, _, report| Ok(fill(&levels, data, report)))));
-    driver.perform(vec![Effect::Ask]);
-    driver.press("Space m");
+    let mut driver = Driver::start(document);
+    driver.press("Space");
+    fill(&mut driver, levels);
+    driver.press("m");
     driver
 }
 
@@ -83,6 +73,7 @@ fn e_maps_over_the_elastic_energy() {
         let mut driver = charted(rough());
         let over_kappa = place(&driver);
         driver.press("e");
+        fill(&mut driver, &Level::ALL);
         for size in [(120, 40), (80, 24)] {
             driver.resize(size);
             assert!(driver.text().contains("over H, e_el/γ, 4 profiles"), "{}", driver.text());
@@ -99,6 +90,7 @@ fn e_maps_over_the_elastic_energy() {
         let kappa = driver.app.governing().unwrap().kappa.unwrap();
         assert!((kappa / over_kappa.0 - (moved / ratio).sqrt()).abs() < 1e-9, "{kappa}");
         driver.press("e");
+        fill(&mut driver, &Level::ALL);
         assert!(driver.text().contains("over H, κ, 4 profiles"), "{}", driver.text());
         assert!((place(&driver).0 / kappa - 1.0).abs() < 1e-12);
     });
@@ -216,7 +208,7 @@ fn moves_in_a_row_are_one_edit() {
         let mut driver = charted(rough());
         assert_eq!(driver.app.keys(), Context::Map);
         let before = driver.app.edit.document.clone();
-        let (edits, map) = (driver.app.edit.past.len(), driver.app.chart.map.clone());
+        let (edits, map) = (driver.app.edit.past.len(), driver.app.grid().cloned());
         assert_eq!(driver.press("Down"), [Effect::Ask]);
         assert_eq!(place(&driver), (6.73, 0.7));
         driver.press("Down Left h k Shift+Down Right");
@@ -224,7 +216,7 @@ fn moves_in_a_row_are_one_edit() {
         assert_eq!(driver.app.edit.past.len(), edits + 1);
         assert!(is_up_to_date(&driver.app));
         // The map is that of all of them.
-        assert_eq!(driver.app.chart.map, map);
+        assert_eq!(driver.app.grid(), map.as_ref());
         assert!(driver.text().contains("◆ H 0.65, κ 3.36"), "{}", driver.text());
         // Any other key ends the row.
         driver.press("V Up");
@@ -235,7 +227,7 @@ fn moves_in_a_row_are_one_edit() {
         assert_eq!(driver.app.edit.document, before);
         driver.press("U");
         assert_eq!(place(&driver), (3.36, 0.65));
-        assert_eq!(driver.app.chart.map, map);
+        assert_eq!(driver.app.grid(), map.as_ref());
     });
 }
 
@@ -247,7 +239,7 @@ fn the_mark_stays_on_the_map() {
         assert_eq!(place(&driver), (32.0, 0.95));
         let generation = driver.app.edit.generation;
         driver.press("Up");
-        assert!(driver.status().contains("here the map ends"), "{}", driver.status());
+        assert!(driver.status().contains("edge of the map"), "{}", driver.status());
         assert_eq!(driver.app.edit.generation, generation);
         // A scene beyond it comes back with the first step.
         driver.press("Tab Tab");
@@ -297,31 +289,20 @@ fn the_mouse_moves_the_mark() {
 }
 
 #[test]
-fn other_edits_begin_the_map_anew_and_wait_for_quiet() {
+fn other_edits_begin_the_map_anew() {
     within(60, || {
         let mut driver = charted(rough());
-        let chart = |driver: &Driver| {
-            study_tasks(&driver.app).into_iter().find_map(|task| match task {
-                Task::Extend { data: PaneData::Map(map), waits } => Some((map.level(), waits)),
-                _ => None,
-            })
-        };
-        assert_eq!(chart(&driver), None, "it is whole");
-        driver.studies = Studies::None;
+        let begins = |driver: &mut Driver| studies(&mut driver.app).iter().any(|study| study.is::<Live>());
+        assert!(!begins(&mut driver), "it is whole");
         driver.press("Tab Tab R");
-        assert_eq!(chart(&driver), Some((None, true)));
+        assert!(begins(&mut driver));
         assert!(driver.text().contains("computing the map"), "{}", driver.text());
-        // Late reports are dropped.
-        let generation = driver.app.edit.generation - 1;
-        let late = empty();
-        driver.act(Action::Found(Found { generation, finding: Finding::Extended(PaneData::Map(late)) }));
-        assert!(driver.app.chart.map.is_none());
         // The map is hidden.
         driver.press("m m");
         assert!(!driver.app.is_shown(Pane::Chart));
-        assert_eq!(chart(&driver), None);
+        assert!(!begins(&mut driver));
         assert_eq!(driver.press("m"), [Effect::Study, Effect::Ask]);
-        assert_eq!(chart(&driver), Some((None, false)), "shown, it begins at once");
+        assert!(begins(&mut driver));
         // Accuracy takes the place of the map, and vice versa.
         driver.press("A");
         assert_eq!(driver.app.view.large, Some(Pane::Accuracy));
@@ -340,25 +321,5 @@ fn a_scene_without_a_map_says_why() {
             driver.press("Left Up");
             assert_eq!(driver.app.edit.generation, generation);
         }
-    });
-}
-
-const PATIENCE: Duration = Duration::from_secs(20);
-
-#[test]
-fn an_edit_ends_the_computing_of_the_map() {
-    within(60, || {
-        let (sender, events) = channel();
-        let (report, reports) = channel();
-        let endless = StandIn::endless(sender, |data, report| fill(&[Level::Coarse], data, report));
-        let study = Study::start(Box::new(endless), move |found| report.send(found).is_ok()).unwrap();
-        let map = empty();
-        study.ask(1, vec![Task::Extend { data: PaneData::Map(map), waits: false }]);
-        assert_eq!(events.recv_timeout(PATIENCE), Ok("begun"));
-        study.stop();
-        assert_eq!(events.recv_timeout(PATIENCE), Ok("stopped"));
-        drop(study);
-        let found: Vec<Found> = reports.iter().collect();
-        assert_eq!(found.len(), 5, "a finding for each row, and none after the stop");
     });
 }

@@ -79,7 +79,8 @@ fn the_footer_shows_keys_of_the_table_that_are_valid_now() {
                 let label = ends.max_by_key(|label| label.len());
                 let Some(label) = label else { return false };
                 let rows = bindings.valid_in(mode).filter(|one| one.row.label == *label);
-                let names: Vec<String> = rows.flat_map(|row| row.names()).collect();
+                let names: Vec<String> =
+                    rows.flat_map(|row| row.keys.iter().map(|key| key.name.clone())).collect();
                 one[..one.len() - label.len()]
                     .split_whitespace()
                     .all(|key| names.iter().any(|name| name == key))
@@ -190,9 +191,7 @@ fn the_help_lists_every_binding() {
             let lines = help(size);
             for binding in Bindings::default().rows() {
                 let (row, keys) = (binding.row, binding.names());
-                let listed = lines.iter().any(|line| {
-                    line.contains(row.help) && keys.iter().all(|key| line.contains(key.as_str()))
-                });
+                let listed = lines.iter().any(|line| line.contains(row.help) && line.contains(&keys));
                 assert!(listed, "{keys:?}: {}\n{}", row.help, lines.join("\n"));
             }
             for section in Bindings::default().rows().map(|one| one.row.section) {

@@ -54,7 +54,7 @@ fn the_third_step_of_the_preload_raises_the_pull_off_as_the_tour_states() {
 fn ghosts_have_letters_and_say_where_they_differ() {
     within(30, || {
         let mut driver = pressed("c");
-        assert!(message(&driver).contains("x exchanges"), "{}", message(&driver));
+        assert!(message(&driver).contains("x swaps"), "{}", message(&driver));
         assert!(driver.text().contains("· the same scene"), "{}", driver.text());
         driver.press("L");
         assert!(driver.text().contains("A: F_a ") && driver.text().contains("· H 0.7"), "{}", driver.text());
@@ -155,7 +155,7 @@ fn what_cannot_be_kept_or_exchanged_says_why() {
         let mut driver = pressed("");
         let before = driver.app.edit.document.clone();
         driver.press("x");
-        assert!(message(&driver).contains("nothing to exchange"), "{}", message(&driver));
+        assert!(message(&driver).contains("no ghost to swap with"), "{}", message(&driver));
         assert_eq!(driver.app.edit.document, before);
         driver.select("loading");
         driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
@@ -230,7 +230,7 @@ fn two_scenes_that_are_opened_are_shown_side_by_side() {
         let scenes: Vec<_> = kept(&driver).iter().map(|document| document.scene().clone()).collect();
         assert_eq!(scenes, [rough().scene().clone()]);
         assert_eq!(driver.app.edit.document.scene(), second.scene());
-        assert!(!driver.app.is_unsaved() && driver.app.edit.past.is_empty());
+        assert!(!driver.app.edit.is_unsaved() && driver.app.edit.past.is_empty());
         let text = driver.text();
         assert!(text.contains("Stickier") && text.contains("A → this scene: κ 8 → 4"), "{text}");
         // After the exchange, the other scene is beside.

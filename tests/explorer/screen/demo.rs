@@ -92,7 +92,7 @@ fn the_tour_shows_what_it_is_to_show() {
                 app.view.curve.loss,
                 app.view.lower == Pane::Lengths,
                 app.is_typing_value(),
-                app.is_unsaved() && app.edit.document.scene().roughness.is_none(),
+                app.edit.is_unsaved() && app.edit.document.scene().roughness.is_none(),
             ];
             seen.iter_mut().zip(shown).for_each(|(seen, shown)| *seen |= shown);
             assert!(!app.is_refused() && !app.is_computing(), "{:?}", app.message);

@@ -10,7 +10,7 @@ use asperity::scene::{Adhesion, Effect, RoughnessParameter};
 /// Selects a row by its path.
 fn select(driver: &mut Driver, path: &str) {
     driver.press("g");
-    while driver.app.parameter().is_some_and(|parameter| parameter.path != path) {
+    while driver.app.edit.parameter().is_some_and(|parameter| parameter.path != path) {
         let before = driver.app.edit.selected;
         driver.press("j");
         assert_ne!(driver.app.edit.selected, before, "no row {path}");
@@ -57,7 +57,7 @@ fn an_effect_goes_and_comes_back_as_it_was() {
             driver.press("t");
             assert!(!is_on(&driver, effect) && is_up_to_date(&driver.app), "{path}");
             assert!(row(&driver).contains('○'), "{path}: {}", row(&driver));
-            assert_eq!(driver.app.parameter().unwrap().path, path, "its row stays selected");
+            assert_eq!(driver.app.edit.parameter().unwrap().path, path, "its row stays selected");
             driver.press("t");
             assert!(is_on(&driver, effect) && is_up_to_date(&driver.app), "{path}");
             assert_eq!(driver.app.edit.document.scene(), before.scene(), "{path}");
@@ -91,7 +91,7 @@ fn a_row_of_an_effect_switches_the_same_effect_off_and_on() {
             driver.press("t");
             let off: Vec<Effect> =
                 Effect::ALL.into_iter().filter(|effect| !is_on(&driver, *effect)).collect();
-            assert_eq!(driver.app.parameter().unwrap().path, head, "{path}: {off:?}");
+            assert_eq!(driver.app.edit.parameter().unwrap().path, head, "{path}: {off:?}");
             driver.press("t");
             assert_eq!(driver.app.edit.document.text(), text, "{path}: {off:?}");
             assert!(is_up_to_date(&driver.app), "{path}");

@@ -6,12 +6,9 @@ use super::common::scenes::rough;
 use super::{generation, is_up_to_date, pressed};
 use asperity::contact::ContactError;
 use asperity::explorer::action::Action;
+use asperity::explorer::snapshot::Report;
 use asperity::explorer::update::Effect;
-use asperity::explorer::worker::Engine;
-use asperity::explorer::worker::Report;
-use asperity::scene::Scene;
-use asperity::simulation::{AfterLeg, Outcome, RunError, Simulation};
-use asperity::surface::Line;
+use asperity::simulation::RunError;
 
 #[test]
 fn reports_of_another_scene_change_nothing() {
@@ -50,36 +47,25 @@ fn a_scene_that_fails_is_stated_and_the_next_edit_mends_it() {
         }
         assert!(driver.text().contains("the contact detaches above that force"), "{}", driver.text());
         driver.press("u");
+        assert!(driver.status().starts_with("undo: "), "{}", driver.status());
+        driver.press("j");
         let text = driver.text();
         assert!(text.contains("F_a ") && !text.contains("detaches above"), "{text}");
         assert!(is_up_to_date(&driver.app));
     });
 }
 
-/// An engine that panics on the seed 13.
-struct Superstitious(Simulation);
-
-impl Engine for Superstitious {
-    fn run(
-        &mut self,
-        scene: &Scene,
-        stop: &dyn Fn() -> bool,
-        after: &mut AfterLeg<'_>,
-    ) -> Result<Outcome, RunError> {
-        let unlucky = format!("{:?}", scene.roughness).contains("seed: 13 ");
-        assert!(!unlucky, "thirteen");
-        self.0.run(scene, stop, after)
-    }
-
-    fn line(&self) -> Option<&Line> {
-        self.0.line()
-    }
-}
-
 #[test]
 fn a_panic_of_the_worker_is_a_line_and_the_explorer_goes_on() {
     within(30, || {
-        let mut driver = Driver::open_with(rough(), Box::new(Superstitious(Simulation::default())));
+        let mut driver = Driver::open_with(
+            rough(),
+            |simulation, scene, stop, after| {
+                assert!(scene.seed() != Some(13), "thirteen");
+                simulation.run(scene, stop, after)
+            },
+            |_| false,
+        );
         driver.perform(vec![Effect::Ask]);
         driver.select("roughness.seed");
         driver.enter("13");

@@ -55,7 +55,7 @@ fn the_ending_of_a_name_shows_what_is_exported() {
             );
             assert!(driver.app.prompt.is_none());
             assert!(driver.status().contains(&format!("exported to {name}")), "{}", driver.status());
-            assert!(!driver.app.is_unsaved() && !driver.app.finished);
+            assert!(!driver.app.edit.is_unsaved() && !driver.app.finished);
         }
         let unknown = |extension| {
             format!("unsupported file extension .{extension}; use .csv, .npy, .json, .svg, .png or .txt")
@@ -114,7 +114,7 @@ fn the_curve_and_the_figures_are_those_of_the_command_line() {
         let scene = driver.app.edit.document.scene().clone();
         let command = command_line("asperity run", driver.app.edit.document.name(), &[]);
         let provenance = scene_provenance(&command, &scene, Path::new(""), Path::new("")).unwrap();
-        let estimate = driver.app.studies.appraisal.estimate();
+        let estimate = driver.app.studies.value();
         let report = RunReport { title: "", scene: &scene, outcome: &outcome, choice: None, estimate };
         let (mut curve, mut figures) = (Vec::new(), Vec::new());
         write(&mut curve, &report, Format::Csv, &provenance).unwrap();
@@ -141,6 +141,7 @@ fn the_text_is_the_screen_without_the_prompt() {
         for marker in [Marker::Braille, Marker::HalfBlock, Marker::Ascii] {
             let mut driver = pressed("c L d { j");
             driver.app.view.appearance.marker = marker;
+            driver.perform(vec![Effect::Ask]);
             let seen = picture::text(&driver.screen());
             let written = exported(&mut driver, "a.txt");
             assert_eq!(written, seen);
@@ -288,11 +289,11 @@ fn the_copied_command_opens_the_scene_as_it_is() {
             assert_eq!(effects, [Effect::Copy(format!("asperity {}", preset.name))]);
             for path in ["form", "adhesion", "observe.contact fragments"] {
                 driver.press("g");
-                while driver.app.parameter().is_some_and(|parameter| parameter.path != path) {
+                while driver.app.edit.parameter().is_some_and(|parameter| parameter.path != path) {
                     driver.press("j");
                 }
                 driver.press("t y");
-                let command = driver.console.copied.last().unwrap();
+                let command = driver.copied.last().unwrap();
                 assert_eq!(opened(command).scene(), driver.app.edit.document.scene(), "{command}");
                 assert!(driver.status().starts_with("copied: asperity "), "{}", driver.status());
             }
@@ -300,7 +301,7 @@ fn the_copied_command_opens_the_scene_as_it_is() {
             driver.enter("[ToForce(1.0e-6), ToIndentation(-1.0e-9), ToSeparation]");
             driver.select("length");
             driver.press("L y");
-            let command = driver.console.copied.last().unwrap();
+            let command = driver.copied.last().unwrap();
             assert_eq!(opened(command).scene(), driver.app.edit.document.scene(), "{command}");
         }
     });
@@ -324,14 +325,14 @@ fn a_saved_scene_goes_on_under_its_new_name() {
         driver.type_text(&path.display().to_string());
         driver.press("Enter");
         assert_eq!(driver.app.edit.document.name(), path.display().to_string());
-        assert!(!driver.app.is_unsaved());
+        assert!(!driver.app.edit.is_unsaved());
         // The command opens the file, without options for the saved changes.
         driver.press("y");
-        let command = driver.console.copied.last().unwrap().clone();
+        let command = driver.copied.last().unwrap().clone();
         assert_eq!(words(&command), ["asperity".to_owned(), path.display().to_string()]);
         assert_eq!(opened(&command).scene(), driver.app.edit.document.scene());
         driver.press("l y");
-        let command = driver.console.copied.last().unwrap().clone();
+        let command = driver.copied.last().unwrap().clone();
         assert_eq!(opened(&command).scene(), driver.app.edit.document.scene(), "{command}");
         // At the next save the name is proposed, with a question.
         driver.press("s Enter");

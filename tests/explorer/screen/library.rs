@@ -98,7 +98,7 @@ fn enter_opens_and_escape_leaves() {
         assert!(is_up_to_date(&driver.app));
         assert_eq!(driver.app.edit.document.text(), smooth().text());
         assert_eq!(driver.app.edit.document.name(), folder.path().join("mine.ron").display().to_string());
-        assert!(!driver.app.is_unsaved() && driver.app.play.playing);
+        assert!(!driver.app.edit.is_unsaved() && driver.app.play.playing);
         driver.press("u");
         assert_eq!(driver.app.edit.document, before);
         // The smallest window shows the whole list by scrolling.

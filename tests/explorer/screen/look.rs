@@ -10,7 +10,7 @@ use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::panel::Under;
 use asperity::explorer::panes::{indentation_at, under};
 use asperity::explorer::snapshot::Section;
-use asperity::scene::format_quantity;
+use asperity::scene::{format_quantity, parse_quantity};
 use ratatui::layout::Position;
 
 fn profile(driver: &Driver) -> Section {
@@ -154,7 +154,9 @@ fn the_curve_has_three_views_in_two_units() {
         // The label of an axis with its unit, and the end of the axis in that unit.
         let end = |symbol: &str, (low, high): (f64, f64), room: f64, unit: f64, name: &str| {
             let value = (high + room * (high - low)) / unit;
-            let (divisor, prefixed) = asperity::draw::prefixed(name, value.max(-low / unit));
+            let shown = format_quantity(value.max(-low / unit), name);
+            let prefixed = shown.split_once(' ').map_or("", |(_, unit)| unit);
+            let divisor = parse_quantity(&format!("1 {prefixed}"), name).unwrap();
             let label =
                 if prefixed.is_empty() { symbol.to_owned() } else { format!("{symbol} ({prefixed})") };
             (label, value / divisor)

@@ -77,7 +77,7 @@ fn strong_contrast_is_bold_and_nothing_in_it_is_dim() {
         assert_eq!(driver.app.view.appearance.theme, Theme::Plain);
         let screen = driver.screen();
         let dim = screen.content.iter().filter(|cell| cell.modifier.contains(Modifier::DIM));
-        assert!(dim.clone().any(|cell| cell.symbol() == "│") && dim.clone().all(|cell| cell.symbol() != "◆"));
+        assert!(dim.clone().any(|cell| cell.symbol() == "│") && dim.clone().all(|cell| cell.symbol() != "▼"));
     });
 }
 
@@ -207,7 +207,7 @@ fn the_selected_row_is_marked_by_a_glyph_and_by_style() {
             driver.app.view.appearance.theme = *theme;
             for path in ["length", "roughness.hurst", "numerics.samples"] {
                 driver.select(path);
-                let name = driver.app.parameter().unwrap().field.name;
+                let name = driver.app.edit.parameter().unwrap().field.name;
                 let screen = driver.screen();
                 let row = row_with(&screen, "›");
                 assert!(reversed(row).contains(name), "{name}: {:?}", reversed(row));

@@ -48,7 +48,7 @@ fn a_press_chooses_the_pane_and_the_row() {
                 let before = driver.app.edit.selected;
                 mouse(&mut driver, area.x + 3, row, Gesture::Press);
                 if driver.app.edit.selected != before || text.contains('›') {
-                    let name = driver.app.parameter().unwrap().name();
+                    let name = driver.app.edit.parameter().unwrap().name();
                     assert!(text.contains(&name), "{name}: {text}");
                     chosen += 1;
                 }
@@ -59,13 +59,16 @@ fn a_press_chooses_the_pane_and_the_row() {
         driver.press("g");
         let area = place(&driver, Pane::Parameters);
         let loading = driver.rows().iter().position(|row| row.contains("▾●loading")).unwrap() as u16;
-        let all = driver.app.listed().len();
+        let all = driver.app.edit.listed().len();
         mouse(&mut driver, area.x + 5, loading, Gesture::Press);
-        assert_eq!(driver.app.listed().len(), all);
+        assert_eq!(driver.app.edit.listed().len(), all);
         mouse(&mut driver, area.x + 5, loading, Gesture::Press);
-        assert_eq!((driver.app.listed().len(), driver.app.parameter().unwrap().group), (all - 1, "loading"));
+        assert_eq!(
+            (driver.app.edit.listed().len(), driver.app.edit.parameter().unwrap().group),
+            (all - 1, "loading")
+        );
         mouse(&mut driver, area.x + 5, loading, Gesture::Press);
-        assert_eq!(driver.app.listed().len(), all);
+        assert_eq!(driver.app.edit.listed().len(), all);
         assert!(mouse(&mut driver, 500, 500, Gesture::Press).is_empty(), "nothing is there");
     });
 }

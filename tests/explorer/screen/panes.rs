@@ -7,12 +7,8 @@ use super::common::scenes::{one_spring, punch, rough, smooth, without_adhesion};
 use super::preloads::computed_preloads;
 use super::{SIZES, accuracy, chart, default_scene, keep, mid_retraction, pressed};
 use asperity::contact::ContactError;
-use asperity::explorer::engine::Engine;
 use asperity::explorer::picture;
 use asperity::explorer::theme::{Marker, Theme};
-use asperity::scene::Scene;
-use asperity::simulation::{AfterLeg, Outcome, RunError};
-use asperity::surface::Line;
 use clap::ValueEnum;
 
 /// The screen as text: the same in all colours and without any.
@@ -68,19 +64,6 @@ fn each_pane() {
     });
 }
 
-/// An engine without a result.
-struct Waiting;
-
-impl Engine for Waiting {
-    fn run(&mut self, _: &Scene, _: &dyn Fn() -> bool, _: &mut AfterLeg<'_>) -> Result<Outcome, RunError> {
-        Err(ContactError::Interrupted.into())
-    }
-
-    fn line(&self) -> Option<&Line> {
-        None
-    }
-}
-
 #[test]
 fn every_kind_of_scene_has_the_same_text_in_all_colours() {
     within(60, || {
@@ -88,7 +71,7 @@ fn every_kind_of_scene_has_the_same_text_in_all_colours() {
         failed.select("loading");
         failed.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
         for mut driver in [
-            Driver::open_with(default_scene(), Box::new(Waiting)),
+            Driver::open_with(default_scene(), |_, _, _, _| Err(ContactError::Interrupted.into()), |_| false),
             mid_retraction(without_adhesion()),
             mid_retraction(punch()),
             mid_retraction(one_spring()),

@@ -26,7 +26,7 @@ fn thumb(driver: &Driver) -> Vec<u16> {
 }
 
 fn selected(app: &App) -> &str {
-    &app.parameter().expect("a parameter is selected").path
+    &app.edit.parameter().expect("a parameter is selected").path
 }
 
 fn scenes() -> [Document; 5] {
@@ -64,7 +64,7 @@ fn what_is_changed_first_comes_first() {
 fn a_group_folds_to_its_first_row_and_unfolds_for_what_is_selected() {
     within(30, || {
         let mut driver = pressed("");
-        let all = driver.app.listed().len();
+        let all = driver.app.edit.listed().len();
         assert_eq!(all, driver.app.edit.parameters.len());
         // Rows of a group except the first.
         let rows =
@@ -72,7 +72,7 @@ fn a_group_folds_to_its_first_row_and_unfolds_for_what_is_selected() {
         let (roughness, title, adhesion) = (rows("roughness"), rows("title"), rows("adhesion"));
         driver.press("Z");
         assert_eq!(selected(&driver.app), "roughness", "the first row takes the selection");
-        assert_eq!(driver.app.listed().len(), all - roughness);
+        assert_eq!(driver.app.edit.listed().len(), all - roughness);
         assert!(pane(&driver).iter().any(|row| row.contains("▸●roughness")), "{}", driver.text());
         assert!(!pane(&driver).iter().any(|row| row.contains("Hurst")), "{}", driver.text());
         // Keys of motion skip folded rows.
@@ -82,17 +82,17 @@ fn a_group_folds_to_its_first_row_and_unfolds_for_what_is_selected() {
         assert_eq!(selected(&driver.app), "loading.0.0");
         // An edit and its undoing leave the group folded.
         driver.press("l u");
-        assert_eq!(driver.app.listed().len(), all - roughness);
+        assert_eq!(driver.app.edit.listed().len(), all - roughness);
         driver.press("j Z");
-        assert_eq!(driver.app.listed().len(), all);
+        assert_eq!(driver.app.edit.listed().len(), all);
         driver.press("Z G Z g Z");
-        assert_eq!(driver.app.listed().len(), all - roughness - title - adhesion);
+        assert_eq!(driver.app.edit.listed().len(), all - roughness - title - adhesion);
         driver.press("G");
         assert_eq!(selected(&driver.app), "title");
         // A search also finds folded rows.
         driver.press("/ h u r s t Enter");
         assert_eq!(
-            (selected(&driver.app), driver.app.listed().len()),
+            (selected(&driver.app), driver.app.edit.listed().len()),
             ("roughness.hurst", all - title - adhesion)
         );
     });
@@ -104,12 +104,12 @@ fn a_heading_folds_by_its_own_keys() {
         let mut driver = pressed("");
         driver.select("numerics");
         let text = driver.app.edit.document.text().to_owned();
-        let all = driver.app.listed().len();
+        let all = driver.app.edit.listed().len();
         for (key, folded) in
             [("Enter", true), ("Enter", false), ("h", true), ("h", true), ("l", false), ("t", false)]
         {
             driver.press(key);
-            assert_eq!(driver.app.listed().len() < all, folded, "{key}");
+            assert_eq!(driver.app.edit.listed().len() < all, folded, "{key}");
             assert_eq!(driver.app.edit.document.text(), text);
         }
     });
@@ -152,7 +152,7 @@ fn values_are_whole_in_narrow_panes() {
                 driver.app.view.pane = Pane::Parameters;
                 driver.press("g");
                 for _ in 0..driver.app.edit.parameters.len() {
-                    let parameter = driver.app.parameter().unwrap();
+                    let parameter = driver.app.edit.parameter().unwrap();
                     // A list of stages is in the rows below, the name of a group of choices in its text.
                     if parameter.field.unit.is_empty() {
                         driver.press("j");

@@ -3,31 +3,28 @@
 use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{rough, without_adhesion};
-use super::stand_in::StandIn;
+use asperity::explorer::action::Action;
 use asperity::explorer::app::Pane;
-use asperity::explorer::panes::PROFILES;
-use asperity::explorer::runtime::Studies;
-use asperity::explorer::study::{PaneData, Task};
-use asperity::explorer::update::{Effect, study_tasks};
+use asperity::explorer::panes::{PROFILES, PreloadCurve};
+use asperity::explorer::update::studies;
 use asperity::scene::Document;
-use std::cell::RefCell;
+use asperity::simulation::Simulation;
+use std::cell::Cell;
 
 /// Computes the curve up to this number of profiles.
-fn computing(profiles: usize) -> StandIn {
-    StandIn::new(move |data, _, report| {
-        let last = RefCell::new(data.clone());
-        let is_enough =
-            || matches!(&*last.borrow(), PaneData::Preloads(curve) if curve.profiles() >= profiles);
-        let done = data.extended(&is_enough, &mut |data| {
-            last.replace(data.clone());
-            report(data);
+fn compute(driver: &mut Driver, profiles: usize) {
+    let known = Cell::new(0);
+    for study in studies(&mut driver.app).into_iter().filter(|study| study.is::<PreloadCurve>()) {
+        study.perform(&mut Simulation::default(), &|| known.get() == profiles, &mut |finding| {
+            driver.act(Action::Found(finding));
+            known.set(computed(driver) % PROFILES);
         });
-        match done {
-            // The data suffice.
-            Err(_) if is_enough() => Ok(last.into_inner()),
-            done => done,
-        }
-    })
+    }
+}
+
+/// Number of profiles computed so far.
+fn computed(driver: &Driver) -> usize {
+    driver.app.studies.value::<PreloadCurve>().map_or(0, |curve| curve.profiles.len())
 }
 
 /// The explorer with the curve of few profiles computed, and shown.
@@ -36,10 +33,9 @@ pub fn computed_preloads(document: Document) -> Driver {
 }
 
 fn shown(document: Document, profiles: usize) -> Driver {
-    let mut driver = Driver::open(document);
-    driver.studies = Studies::Inline(Box::new(computing(profiles)));
-    driver.perform(vec![Effect::Ask]);
+    let mut driver = Driver::start(document);
     driver.press("Space i");
+    compute(&mut driver, profiles);
     driver
 }
 
@@ -66,8 +62,6 @@ fn the_pane_takes_the_place_of_map_and_accuracy_and_gives_it_back() {
     within(60, || {
         let mut driver = shown(rough(), 1);
         assert_eq!(driver.app.panes(), [Pane::Force, Pane::Preloads, Pane::Parameters]);
-        // No map and no table is computed.
-        driver.studies = Studies::None;
         for (keys, pane) in
             [("m", Some(Pane::Chart)), ("i", Some(Pane::Preloads)), ("A", Some(Pane::Accuracy))]
         {
@@ -83,23 +77,16 @@ fn the_pane_takes_the_place_of_map_and_accuracy_and_gives_it_back() {
 fn an_edit_begins_a_new_curve_and_a_scene_without_one_says_why() {
     within(60, || {
         let mut driver = shown(rough(), 2);
-        let before = driver.app.studies.preloads.clone().unwrap();
-        assert_eq!(before.profiles(), 2);
+        assert_eq!(computed(&driver), 2);
         // The computation continues from the present data.
-        let goes_on = |driver: &Driver| {
-            study_tasks(&driver.app).into_iter().find_map(|task| match task {
-                Task::Extend { data: PaneData::Preloads(curve), waits } => Some((curve.profiles(), waits)),
-                _ => None,
-            })
-        };
-        assert_eq!(goes_on(&driver), Some((2, false)));
-        driver.studies = Studies::None;
+        compute(&mut driver, 3);
+        assert_eq!(computed(&driver), 3);
         driver.select("roughness.hurst");
         driver.press("l");
-        assert_eq!(driver.app.studies.preloads, None);
-        assert_eq!(goes_on(&driver), Some((0, true)));
+        assert!(driver.app.studies.value::<PreloadCurve>().is_none());
+        compute(&mut driver, 1);
+        assert_eq!(computed(&driver), 1);
         let driver = shown(without_adhesion(), 2);
-        assert_eq!(goes_on(&driver), None);
         assert!(driver.text().contains("without adhesion nothing holds"), "{}", driver.text());
     });
 }

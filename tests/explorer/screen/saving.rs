@@ -6,7 +6,7 @@ use super::common::scenes::rough;
 use super::pressed;
 use asperity::explorer::action::{Content, OutputFile};
 
-use asperity::explorer::autosave::{Autosave, left_behind};
+use asperity::explorer::autosave::{Autosave, offer};
 use asperity::explorer::keys::Context;
 use asperity::explorer::update::Effect;
 use asperity::scene::Document;
@@ -34,7 +34,7 @@ fn a_saved_scene_is_read_back_as_it_is() {
         assert_eq!(again.scene(), driver.app.edit.document.scene());
         assert!(text.contains("// soft"), "the comments are kept");
         assert!(driver.text().contains("saved to folder/mine.ron"), "{}", driver.text());
-        assert!(!driver.app.is_unsaved());
+        assert!(!driver.app.edit.is_unsaved());
         driver.press("q");
         assert!(driver.app.finished, "nothing is left to be asked");
     });
@@ -50,10 +50,10 @@ fn a_file_is_overwritten_only_when_asked() {
         assert!(driver.text().contains("Overwrite"), "{}", driver.text());
         driver.press("n");
         assert_eq!(driver.files()[&name], rough().text());
-        assert!(driver.app.is_unsaved());
+        assert!(driver.app.edit.is_unsaved());
         driver.press("s Enter y");
         assert_eq!(driver.files()[&name], driver.app.edit.document.text());
-        assert!(!driver.app.is_unsaved());
+        assert!(!driver.app.edit.is_unsaved());
     });
 }
 
@@ -65,7 +65,7 @@ fn what_could_not_be_saved_is_stated_and_not_forgotten() {
         driver.press("Enter");
         let status = driver.status();
         assert!(status.starts_with("! ") && status.ends_with(REFUSED), "{status}");
-        assert!(driver.app.is_unsaved());
+        assert!(driver.app.edit.is_unsaved());
         // The typed name stays, and can be corrected.
         driver.press("Home Delete");
         assert!(driver.status().starts_with(&format!("Save as: {}", &REFUSED[1..])), "{}", driver.status());
@@ -159,7 +159,7 @@ fn a_comment_that_goes_with_what_is_replaced_is_stated() {
         driver.select("loading");
         driver.enter("[ToForce(1.0e-5), ToSeparation]");
         assert_eq!(driver.app.edit.document.comments(), comments - 1);
-        assert!(driver.text().contains("a comment is gone"), "{}", driver.text());
+        assert!(driver.text().contains("1 comment removed"), "{}", driver.text());
         driver.press("u");
         assert_eq!(driver.app.edit.document.text(), text);
         driver.select("roughness.hurst");
@@ -184,7 +184,7 @@ fn title_and_notice_are_rows_and_the_name_gets_its_extension() {
         let scene = saved.scene();
         assert_eq!((scene.title.as_str(), scene.notice.as_str()), ("My \"own\" line", "Look here."));
         assert_eq!(saved.comments(), rough().comments());
-        assert!(!driver.app.is_unsaved() && driver.app.edit.document.name() == "mine.ron");
+        assert!(!driver.app.edit.is_unsaved() && driver.app.edit.document.name() == "mine.ron");
     });
 }
 
@@ -197,7 +197,7 @@ fn scenes_in_whose_place_others_were_opened_are_not_forgotten() {
         assert!(driver.status().contains("2 scenes have unsaved changes"), "{}", driver.status());
         driver.press("n u u");
         assert_eq!(driver.app.edit.document.name(), "rough-line");
-        assert_eq!(driver.app.unsaved().len(), 1, "it is the explored scene again");
+        assert_eq!(driver.app.edit.unsaved().len(), 1, "it is the explored scene again");
         // Each is saved before the explorer ends.
         driver.press("l 1 l q s Ctrl+u");
         driver.type_text("first");
@@ -222,7 +222,7 @@ fn what_changes_only_the_view_or_the_writing_of_a_number_is_no_change() {
         let mut driver = pressed("v N a n + - A A m t X m z z M T D d d");
         driver.select("roughness.hurst");
         driver.press("l h");
-        assert!(driver.app.unsaved().is_empty(), "{}", driver.app.edit.document.text());
+        assert!(driver.app.edit.unsaved().is_empty(), "{}", driver.app.edit.document.text());
         driver.press("q");
         assert!(driver.app.finished);
     });
@@ -231,25 +231,18 @@ fn what_changes_only_the_view_or_the_writing_of_a_number_is_no_change() {
 #[test]
 fn unsaved_changes_of_another_session_are_offered_and_restored() {
     within(30, || {
-        let mut driver = Driver::start(rough());
         let folder = tempfile::tempdir().unwrap();
         let mine = Document::parse(rough().text(), "folder/mine.ron").unwrap();
         let mut session = Autosave::new(folder.path(), None);
         session.keep(&[&mine, &rough()]).unwrap();
         drop(session);
-        driver.app.offer(&left_behind(folder.path()));
-        assert!(
-            driver.status().contains("unsaved changes of mine.ron, rough-line are kept"),
-            "{}",
-            driver.status()
-        );
-        driver.press("j");
-        assert!(!driver.status().contains("unsaved"), "{}", driver.status());
+        let offer = offer(folder.path()).unwrap();
+        assert!(offer.starts_with("unsaved changes of mine.ron, rough-line are kept"), "{offer}");
         let changed = rough().set("roughness.hurst", "0.5").unwrap();
         let other = Document::parse(rough().text(), "other").unwrap().set("length", "2.0e-4").unwrap();
         let mut driver = Driver::start(changed.clone());
-        driver.app.restore(&[changed, other]);
-        let names: Vec<&str> = driver.app.unsaved().iter().map(|document| document.name()).collect();
+        driver.app.edit.restore(&[changed, other]);
+        let names: Vec<&str> = driver.app.edit.unsaved().iter().map(|document| document.name()).collect();
         assert_eq!(names, ["rough-line", "other"]);
         driver.press("q");
         assert!(driver.status().contains("2 scenes have unsaved changes"), "{}", driver.status());

@@ -4,12 +4,13 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough};
 use super::pressed;
-use asperity::explorer::adhesion_spread::PROFILES;
 use asperity::explorer::app::{Message, Pane};
-use asperity::explorer::runtime::Studies;
-use asperity::explorer::study::Accuracy;
-use asperity::explorer::update::{Effect, study_tasks};
+use asperity::explorer::panes::SceneSpectra;
+use asperity::explorer::studies::Study;
+use asperity::explorer::update::{Effect, studies};
 use asperity::scene::Document;
+use asperity::simulation::Simulation;
+use asperity::study::MeasuredAdhesion;
 use std::path::Path;
 
 #[test]
@@ -27,12 +28,18 @@ fn q_shows_the_spectrum_in_place_of_the_line() {
             assert_eq!(driver.app.view.large, Some(pane), "{keys}");
         }
         // Another scene has another spectrum.
-        let before = driver.app.present().unwrap().spectra.clone().unwrap();
+        let spectra = |driver: &Driver| driver.app.studies.value::<SceneSpectra>().cloned().unwrap();
+        let before = spectra(&driver);
         driver.press("R");
-        let after = driver.app.present().unwrap().spectra.clone().unwrap();
+        let after = spectra(&driver);
         assert_eq!(before.spectra.line, after.spectra.line);
-        assert!(!after.spectra.heights.is_empty() && before.spectra.measured.is_empty());
+        assert!(!after.spectra.heights.is_empty());
     });
+}
+
+/// Number of random profiles computed so far.
+fn profiles(driver: &Driver) -> Option<usize> {
+    driver.app.studies.value::<MeasuredAdhesion>().map(|found| found.profiles.len())
 }
 
 /// A scene of a measured profile of 512 µm, with its file.
@@ -51,14 +58,13 @@ fn the_spread_over_lines_is_beside_that_of_the_fit() {
         let folder = tempfile::tempdir().unwrap();
         let document = measured(&folder.path().join("stylus.txt"));
         let document = document.set("numerics.points", "1024").unwrap();
-        let mut driver = Driver::open(document);
-        driver.studies = Studies::Inline(Box::new(Accuracy));
+        let mut driver = Driver::open_with(document, Simulation::run, |_| true);
         driver.perform(vec![Effect::Ask]);
         // Not before the pane is shown.
-        assert_eq!(driver.app.studies.adhesion_spread, None);
+        assert_eq!(profiles(&driver), None);
         driver.press("Q");
-        assert_eq!(driver.app.studies.adhesion_spread.as_ref().unwrap().found.profiles.len(), PROFILES);
-        assert!(study_tasks(&driver.app).is_empty());
+        assert_eq!(profiles(&driver), Some(16));
+        assert!(studies(&mut driver.app).is_empty());
         driver.press("z");
         for size in [(120, 40), (80, 24)] {
             driver.resize(size);
@@ -68,15 +74,13 @@ fn the_spread_over_lines_is_beside_that_of_the_fit() {
                 "{screen}"
             );
         }
-        driver.studies = Studies::None;
-        driver.press("R");
-        assert_eq!(driver.app.studies.adhesion_spread, None);
+        driver.app.studies.forget::<MeasuredAdhesion>();
         assert!(driver.text().contains("0 of 16 profiles"), "{}", driver.text());
     });
 }
 
 #[test]
-fn the_profile_itself_is_kept_beside_its_equivalent_line() {
+fn the_profile_itself_is_compared_with_its_equivalent_line() {
     within(60, || {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("stylus.txt");
@@ -86,25 +90,15 @@ fn the_profile_itself_is_kept_beside_its_equivalent_line() {
         let mut driver = Driver::start(document.unwrap());
         let equivalent = driver.app.edit.document.clone();
         driver.press("|");
-        let ghost = driver.app.ghosts.last().unwrap();
-        assert!(ghost.document.scene().measured_as_line());
-        let profile = ghost.computed.outcome.figures.adhesion_force;
-        assert!(profile.is_some() && ghost.computed.outcome.governing.kappa.is_some());
-        assert!(driver.text().contains("profile as line true"), "{}", driver.text());
-        // A small pane has room for the letter only.
-        driver.resize((80, 24));
-        driver.press("z");
-        assert!(driver.text().contains("profile as line true"), "{}", driver.text());
-        driver.press("z");
-        driver.resize((120, 40));
-        assert_eq!(driver.app.edit.document.scene(), equivalent.scene());
+        assert_eq!(driver.app.ghosts.last().unwrap().document, equivalent);
+        assert!(driver.app.edit.document.scene().measured_as_line());
+        let figures = driver.app.solved.as_ref().unwrap().outcome.figures;
+        assert!(figures.adhesion_force.is_some());
+        assert!(driver.text().contains("profile as line"), "{}", driver.text());
+        // Back again, the loop of the profile itself is kept as well.
         driver.press("|");
-        assert_eq!(driver.app.ghosts.len(), 1);
-        // And the other way round.
-        driver.press("x");
-        assert_eq!(driver.app.solved.as_ref().unwrap().outcome.figures.adhesion_force, profile);
-        driver.press("C |");
-        assert!(!driver.app.ghosts[0].document.scene().measured_as_line());
+        assert_eq!(driver.app.edit.document.scene(), equivalent.scene());
+        assert_eq!(driver.app.ghosts.len(), 2);
         // A missing file, and roughness that is not measured.
         let mut driver = Driver::start(equivalent);
         std::fs::remove_file(&file).unwrap();
@@ -113,10 +107,10 @@ fn the_profile_itself_is_kept_beside_its_equivalent_line() {
             Some(Message::Error(text)) => text.clone(),
             other => panic!("{other:?}"),
         };
-        assert!(message(&driver).contains("stylus.txt") && driver.app.ghosts.is_empty());
+        assert!(message(&driver).contains("stylus.txt"));
         let mut other = Driver::start(rough());
         other.press("|");
-        assert!(message(&other).contains("not measured"));
+        assert!(message(&other).contains("not measured") && other.app.ghosts.is_empty());
     });
 }
 
@@ -159,7 +153,9 @@ fn a_measured_surface_is_the_roughness_by_its_path_alone() {
             let text = changed(&rough(), &[("adhesion", "(work: 0.05)"), ("numerics.points", "1024")]);
             let name = folder.path().join("scene.ron");
             let document = Document::parse(text.text(), name.to_str().unwrap()).unwrap();
-            let mut driver = Driver::start(document);
+            let performs = |study: &Study| study.is::<SceneSpectra>() || study.is::<MeasuredAdhesion>();
+            let mut driver = Driver::open_with(document, Simulation::run, performs);
+            driver.perform(vec![Effect::Ask]);
             driver.resize(size);
             driver.select("roughness");
             driver.press("Enter");
@@ -177,9 +173,8 @@ fn a_measured_surface_is_the_roughness_by_its_path_alone() {
             assert!(computed.outcome.figures.adhesion_force.is_some_and(|force| force > 0.0));
             let screen = driver.text();
             assert!(screen.contains("F_a"), "{screen}");
-            driver.studies = Studies::Inline(Box::new(Accuracy));
             driver.press("Q");
-            assert_eq!(driver.app.studies.adhesion_spread.as_ref().unwrap().found.profiles.len(), PROFILES);
+            assert_eq!(profiles(&driver), Some(16));
             driver.press("z");
             let screen = driver.text();
             // The smallest screen has room for the spectra only.

@@ -8,10 +8,10 @@ use super::{is_up_to_date, pressed};
 use asperity::explorer::Opening;
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::app::Pane;
+use asperity::explorer::chart::Live;
 use asperity::explorer::keys::Context;
 use asperity::explorer::layout::{Layout, inside};
-use asperity::explorer::study::Task;
-use asperity::explorer::update::{Effect, study_tasks};
+use asperity::explorer::update::{Effect, studies};
 use asperity::scene::{Move, Roughness};
 use asperity::study::Quantity;
 use tempfile::TempDir;
@@ -63,14 +63,14 @@ fn glyphs_show_all_that_was_recorded() {
     within(60, || {
         let (_folder, mut driver) = opened();
         assert_eq!(driver.app.keys(), Context::Map);
-        assert_eq!(driver.app.chart.charted(), Quantity::Regime);
+        assert_eq!(driver.app.charted(), Quantity::Regime);
         for (quantity, text) in [
             (Quantity::ZeroLoadAdhesionShare, "F_a(0)/F_a,max over H, κ"),
             (Quantity::AdhesionCoefficient, "F_a/F_n over H, κ"),
             (Quantity::AdhesionForce, "F_a (mN) "),
         ] {
             driver.press("V");
-            assert_eq!(driver.app.chart.charted(), quantity);
+            assert_eq!(driver.app.charted(), quantity);
             assert!(driver.text().contains(text), "{text}\n{}", driver.text());
         }
         // The map computed here does not have this quantity, and shows its own.
@@ -79,7 +79,7 @@ fn glyphs_show_all_that_was_recorded() {
         driver.press("W");
         assert!(driver.text().contains("F_a (mN) "), "{}", driver.text());
         driver.press("V");
-        assert_eq!(driver.app.chart.charted(), Quantity::Regime);
+        assert_eq!(driver.app.charted(), Quantity::Regime);
         for text in ["█ pressure-insensitive", "· non-adhesive", "▓ ░ profiles disagree", "of 12 profiles"]
         {
             assert!(driver.text().contains(text), "{text}\n{}", driver.text());
@@ -101,7 +101,7 @@ fn the_mark_goes_from_cell_to_cell_and_beyond_the_map_stays_at_its_edge() {
         driver.press(&"K ".repeat(4));
         assert_eq!(place(&driver), (16.0, 0.9));
         driver.press("k");
-        assert!(driver.status().contains("here the map ends"), "{}", driver.status());
+        assert!(driver.status().contains("edge of the map"), "{}", driver.status());
         driver.press("u u");
         assert_eq!(driver.app.edit.document, before);
         for (kappa, hurst, back) in [("100", "0.5", (16.0, 0.5)), ("0.01", "0.97", (0.25, 0.9))] {
@@ -134,13 +134,13 @@ fn the_scene_follows_to_the_next_preload() {
         let (_folder, mut driver) = opened();
         let first = preload(&driver);
         assert!(driver.text().contains("F_n/(E* h L) = 0.01  1 of 3, P: the next"), "{}", driver.text());
-        let mut regimes = vec![driver.app.chart.grid().cloned()];
+        let mut regimes = vec![driver.app.grid().cloned()];
         for (times, share) in [(10.0, "0.1  2 of 3"), (100.0, "1  3 of 3"), (1.0, "0.01  1 of 3")] {
             driver.press("P");
             assert!((preload(&driver) / first / times - 1.0).abs() < 1e-9);
             assert!(driver.text().contains(&format!("F_n/(E* h L) = {share}")), "{}", driver.text());
             assert!(is_up_to_date(&driver.app));
-            regimes.push(driver.app.chart.grid().cloned());
+            regimes.push(driver.app.grid().cloned());
         }
         assert!(regimes[0] != regimes[1] && regimes[0] == regimes[3]);
         driver.press("PageUp");
@@ -172,11 +172,10 @@ fn a_preload_in_units_that_follow_from_h_goes_with_the_mark() {
 fn the_computed_map_can_be_had_instead() {
     within(60, || {
         let (_folder, mut driver) = opened();
-        let charts =
-            |driver: &Driver| study_tasks(&driver.app).iter().any(|task| matches!(task, Task::Extend { .. }));
-        assert!(!charts(&driver), "nothing is computed that is not shown");
+        let charts = |driver: &mut Driver| studies(&mut driver.app).iter().any(|study| study.is::<Live>());
+        assert!(!charts(&mut driver), "nothing is computed that is not shown");
         assert_eq!(driver.press("W"), [Effect::Study]);
-        assert!(charts(&driver));
+        assert!(charts(&mut driver));
         assert!(driver.text().contains("over H, κ, 4 profiles"), "{}", driver.text());
         driver.press("Up");
         assert_eq!(place(&driver).0, 1.19, "from cell to cell of the map that is shown");
@@ -306,7 +305,7 @@ fn a_study_is_opened_by_its_path() {
         driver.act(Action::Paste(path("small")));
         driver.press("Enter");
         assert!(driver.text().contains("Study small: regime over H, κ, 12 profiles"), "{}", driver.text());
-        assert!(is_up_to_date(&driver.app) && !driver.app.is_unsaved());
+        assert!(is_up_to_date(&driver.app) && !driver.app.edit.is_unsaved());
         let Some(Roughness::SelfAffine { modes, .. }) = driver.app.edit.document.scene().roughness else {
             panic!()
         };

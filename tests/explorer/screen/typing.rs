@@ -7,13 +7,10 @@ use super::{SIZES, generation, is_up_to_date, mid_retraction, pressed, reversed,
 use asperity::explorer::action::Action;
 use asperity::explorer::keys::Context;
 use asperity::explorer::layout::Layout;
-use asperity::explorer::snapshot::Preview;
 use asperity::explorer::theme::Theme;
 use asperity::explorer::update::{Effect, update};
-use asperity::explorer::worker::Report;
 use asperity::scene::Move;
 use ratatui::buffer::Cell;
-use std::sync::Arc;
 
 #[test]
 fn values_are_typed_with_prefix_and_unit() {
@@ -268,7 +265,7 @@ fn a_value_that_is_typed_shows_its_curve_before_it_is_taken() {
             driver.press("Backspace Backspace");
             assert!(driver.app.tried_outcome().is_some());
             let effects = driver.press("Esc");
-            assert_eq!((effects, driver.app.tried.is_none()), (vec![Effect::Ask], true));
+            assert_eq!((effects, driver.app.tried.is_none()), (vec![Effect::Study], true));
             assert_eq!(driver.text(), before);
             driver.press("e Ctrl+u");
             driver.type_text("300 nm");
@@ -287,18 +284,12 @@ fn no_older_curve_is_shown_between_a_preview_and_the_next_one() {
         driver.type_text("300 nm");
         let force = |driver: &Driver| driver.app.tried_outcome().and_then(|one| one.figures.adhesion_force);
         let first = force(&driver).expect("a preview");
-        let older = driver.app.preview.clone().unwrap();
         // The next value is typed, and its curve is not there yet: the previous one remains.
         driver.press("Home Delete");
         let waiting = update(&mut driver.app, Action::Paste('4'.to_string()));
-        assert_eq!(waiting, [Effect::Ask]);
+        assert_eq!(waiting, [Effect::Study]);
         // "00 nm" is no allowed height, and has no curve.
         assert!(driver.status().starts_with("preview: computing…") || force(&driver).is_none());
-        let seen = force(&driver);
-        // A late curve, of a value typed over since, is not shown.
-        let late = Preview { text: older.text.clone() + " ", outcome: older.outcome.clone() };
-        driver.act(Action::Report(Report::Tried(Arc::new(late))));
-        assert_eq!(force(&driver), seen);
         driver.perform(waiting);
         let second = force(&driver).expect("a preview");
         assert_ne!(first, second);

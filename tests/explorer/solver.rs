@@ -1,47 +1,45 @@
-//! The worker of the explorer, driven through its channels: the newest request wins, failures are shown, and a snapshot
+//! The solver of the explorer, driven through its channels: the newest request wins, failures are shown, and a snapshot
 //! of the animation is a point of the computed curve.
 
 use super::common::deadline::within;
 use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
 use asperity::contact::{ContactError, CurvePoint, Patch};
-use asperity::explorer::panes::Pane;
-use asperity::explorer::snapshot::{ContactSnapshot, Drive, SolvedScene};
-use asperity::explorer::worker::{
-    self, Engine, Focus, LineView, ManualMove, Newest, Place, Report, Request, SnapshotRequest, Tried, Worker,
-};
-use asperity::scene::{Document, Observer, Scene};
-use asperity::simulation::{AfterLeg, Outcome, RunError, Simulation};
-use asperity::surface::Line;
+use asperity::explorer::request::{Drive, Focus, LineView, ManualMove, Place, Request, SnapshotRequest};
+use asperity::explorer::snapshot::{ContactSnapshot, Report, SolvedScene};
+use asperity::explorer::solver::{Solve, Solver, SolverThread, serve};
+use asperity::scene::{Document, Observer};
+use asperity::simulation::{Outcome, Simulation};
 use std::cell::RefCell;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
 /// Longest wait for an answer.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// A worker on a thread of its own, and its channel of reports.
+/// A solver on a thread of its own, and its channel of reports.
 struct Served {
-    worker: Worker,
+    thread: SolverThread,
     reports: Receiver<Report>,
     /// The request of the last scene.
     last: RefCell<Request>,
 }
 
 impl Served {
-    fn by(engine: impl Engine + 'static) -> Self {
-        let (requests, outbox) = channel();
+    fn start() -> Self {
+        Served::by(Simulation::run)
+    }
+
+    fn by(solve: Solve) -> Self {
         let (report, reports) = channel();
-        let newest = Newest::default();
-        worker::start(Box::new(engine), Arc::clone(&newest), outbox, move |one| report.send(one).is_ok())
-            .unwrap();
-        let last = RefCell::new(compute(0, &rough()));
-        Served { worker: Worker::new(requests, newest), reports, last }
+        let thread = SolverThread::start(solve, move |one| drop(report.send(one))).unwrap();
+        Served { thread, reports, last: RefCell::new(compute(0, &rough())) }
     }
 
     fn compute(&self, generation: u64, document: &Document) {
         *self.last.borrow_mut() = compute(generation, document);
-        self.worker.ask(compute(generation, document));
+        self.thread.ask(compute(generation, document));
     }
 
     fn report(&self) -> Report {
@@ -68,7 +66,7 @@ impl Served {
 
     /// A snapshot of the last scene.
     fn shown(&self, snapshot: SnapshotRequest) -> Arc<ContactSnapshot> {
-        self.worker.ask(Request { snapshot, ..self.last.borrow().clone() });
+        self.thread.ask(Request { snapshot, ..self.last.borrow().clone() });
         match self.answer() {
             Report::Shown(snapshot) => snapshot,
             other => panic!("not shown: {other:?}"),
@@ -87,30 +85,24 @@ fn snapshot(leg: usize, indentation: f64) -> SnapshotRequest {
         strip_cells: 50,
         focus: Focus::Summit,
         close_up_springs: 64,
-        large: None,
-        lower: Pane::CloseUp,
         crosshair: None,
     }
 }
 
 fn compute(generation: u64, document: &Document) -> Request {
     let scene = Arc::new(document.scene().clone());
-    Request { generation, scene, moves: Vec::new(), snapshot: snapshot(0, 0.0), tried: None }
+    Request { generation, scene, moves: Vec::new(), snapshot: snapshot(0, 0.0) }
 }
 
-/// Sends all requests to a worker at once and returns all its reports.
-fn serve_all(engine: impl Engine + 'static, newest: u64, requests: Vec<Request>) -> Vec<Report> {
+/// Sends all requests to a solver at once and returns all its reports.
+fn serve_all(awaited: u64, requests: Vec<Request>) -> Vec<Report> {
     let (sender, receiver) = channel();
     requests.into_iter().for_each(|request| sender.send(request).unwrap());
     drop(sender);
-    let reports = RefCell::new(Vec::new());
-    let generation = Newest::default();
-    generation.ask(&compute(newest, &rough()));
-    worker::serve(Box::new(engine), &generation, &receiver, &|report| {
-        reports.borrow_mut().push(report);
-        true
-    });
-    reports.into_inner()
+    let mut reports = Vec::new();
+    let solver = Solver::new(Simulation::run, Arc::new(AtomicU64::new(awaited)));
+    serve(solver, &receiver, &mut |report| reports.push(report));
+    reports
 }
 
 /// The computed scenes.
@@ -123,39 +115,6 @@ fn solved(reports: &[Report]) -> Vec<Arc<SolvedScene>> {
     reports.iter().filter_map(computed).collect()
 }
 
-/// Replacement of a run in a [`Double`].
-type Run = dyn FnMut(&Scene, &dyn Fn() -> bool) -> Option<RunError> + Send;
-
-/// An engine that may act before a run, or in its place.
-struct Double {
-    simulation: Simulation,
-    before: Box<Run>,
-}
-
-impl Double {
-    fn new(before: impl FnMut(&Scene, &dyn Fn() -> bool) -> Option<RunError> + Send + 'static) -> Self {
-        Double { simulation: Simulation::default(), before: Box::new(before) }
-    }
-}
-
-impl Engine for Double {
-    fn run(
-        &mut self,
-        scene: &Scene,
-        stop: &dyn Fn() -> bool,
-        after: &mut AfterLeg<'_>,
-    ) -> Result<Outcome, RunError> {
-        match (self.before)(scene, stop) {
-            Some(error) => Err(error),
-            None => self.simulation.run(scene, stop, after),
-        }
-    }
-
-    fn line(&self) -> Option<&Line> {
-        self.simulation.line()
-    }
-}
-
 fn seed(document: &Document, seed: u64) -> Document {
     document.set("roughness.seed", &seed.to_string()).unwrap()
 }
@@ -163,7 +122,7 @@ fn seed(document: &Document, seed: u64) -> Document {
 #[test]
 fn a_scene_is_computed_leg_by_leg_and_then_whole() {
     within(30, || {
-        let served = Served::by(Simulation::default());
+        let served = Served::start();
         served.compute(7, &rough());
         for done in 1..=2 {
             assert!(matches!(served.report(), Report::Progress { generation: 7, legs } if legs == done));
@@ -183,9 +142,9 @@ fn a_scene_is_computed_leg_by_leg_and_then_whole() {
 fn of_all_that_wait_only_the_newest_is_done() {
     within(30, || {
         let requests: Vec<_> = (1..=5).map(|number| compute(number, &seed(&rough(), number))).collect();
-        let reports = serve_all(Simulation::default(), 5, requests.clone());
+        let reports = serve_all(5, requests.clone());
         assert_eq!(solved(&reports).iter().map(|one| one.outcome.line.seed).collect::<Vec<_>>(), [Some(5)]);
-        assert!(serve_all(Simulation::default(), 6, requests).is_empty(), "a newer scene is awaited");
+        assert!(serve_all(6, requests).is_empty(), "a newer scene is awaited");
         // No manual move is lost, but those of another scene.
         let moved =
             |generation, by| Request { moves: vec![ManualMove::By(by)], ..compute(generation, &rough()) };
@@ -195,52 +154,24 @@ fn of_all_that_wait_only_the_newest_is_done() {
 }
 
 #[test]
-fn a_tried_scene_that_is_no_longer_wanted_is_not_computed() {
-    within(30, || {
-        let tried = |number| {
-            let document = seed(&rough(), number);
-            let scene = Arc::new(document.scene().clone());
-            let tried = Some(Tried { text: document.text().to_owned(), scene });
-            Request { tried, ..compute(1, &rough()) }
-        };
-        let mut desk = worker::WorkerState::new(Box::new(Simulation::default()));
-        let mut serve = |awaited: &Request, served: &Request| {
-            let newest = Newest::default();
-            newest.ask(awaited);
-            let texts = RefCell::new(Vec::new());
-            desk.serve(served.clone(), &newest, &|report| {
-                if let Report::Tried(preview) = report {
-                    texts.borrow_mut().push(preview.text.clone());
-                }
-                true
-            });
-            texts.into_inner()
-        };
-        let (one, other) = (tried(1), tried(2));
-        assert!(serve(&other, &one).is_empty(), "another one is awaited");
-        let text = |request: &Request| request.tried.as_ref().unwrap().text.clone();
-        assert_eq!(serve(&other, &other), [text(&other)]);
-        assert!(serve(&other, &other).is_empty(), "it is computed once");
-        assert!(serve(&compute(1, &rough()), &one).is_empty(), "none is awaited");
-    });
-}
-
-#[test]
 fn a_newer_scene_stops_the_one_that_is_being_computed() {
     within(30, || {
-        let (started, wait) = channel();
-        let (go_on, words) = channel();
-        let served = Served::by(Double::new(move |scene, stop| {
+        static BEGUN: AtomicBool = AtomicBool::new(false);
+        let served = Served::by(|simulation, scene, stop, after| {
             if scene.title != "endless" {
-                return None;
+                return simulation.run(scene, stop, after);
             }
-            started.send(()).unwrap();
-            Some(stop_when_asked(&words, stop))
-        }));
+            BEGUN.store(true, Ordering::Relaxed);
+            while !stop() {
+                std::thread::yield_now();
+            }
+            Err(ContactError::Interrupted.into())
+        });
         served.compute(1, &rough().set("title", "\"endless\"").unwrap());
-        wait.recv_timeout(PATIENCE).expect("the first scene is begun");
+        while !BEGUN.load(Ordering::Relaxed) {
+            std::thread::yield_now();
+        }
         served.compute(2, &rough());
-        go_on.send(()).unwrap();
         let reports: Vec<_> = std::iter::from_fn(|| Some(served.report()))
             .take_while(|report| !matches!(report, Report::Solved(..)))
             .collect();
@@ -249,43 +180,24 @@ fn a_newer_scene_stops_the_one_that_is_being_computed() {
     });
 }
 
-/// A run that waits for a message, and then stops if asked to.
-fn stop_when_asked(words: &Receiver<()>, stop: &dyn Fn() -> bool) -> RunError {
-    words.recv_timeout(PATIENCE).expect("a word to go on");
-    assert!(stop(), "the run is asked to stop");
-    ContactError::Interrupted.into()
-}
-
 #[test]
-fn the_worker_ends_with_the_explorer() {
+fn the_solver_ends_with_the_explorer() {
     within(30, || {
-        let served = Served::by(Simulation::default());
+        let served = Served::start();
         served.computed(1, &rough());
-        drop(served.worker);
+        drop(served.thread);
         assert_eq!(served.reports.recv_timeout(PATIENCE).unwrap_err(), RecvTimeoutError::Disconnected);
-        // Without a receiver no second report is sent.
-        let (sender, receiver) = channel();
-        sender.send(compute(1, &rough())).unwrap();
-        let generation = Newest::default();
-        generation.ask(&compute(1, &rough()));
-        let calls = RefCell::new(0);
-        worker::serve(Box::new(Simulation::default()), &generation, &receiver, &|_| {
-            *calls.borrow_mut() += 1;
-            false
-        });
-        assert_eq!(calls.into_inner(), 1);
-        assert!(sender.send(compute(2, &rough())).is_ok(), "the queue itself is still there");
     });
 }
 
 #[test]
 fn a_panic_is_stated_and_the_next_scene_is_computed() {
     within(30, || {
-        let served = Served::by(Double::new(|scene, _| match scene.title.as_str() {
+        let served = Served::by(|simulation, scene, stop, after| match scene.title.as_str() {
             "text" => panic!("no such spring"),
             "formatted" => panic!("no spring {}", scene.numerics.points),
-            _ => None,
-        }));
+            _ => simulation.run(scene, stop, after),
+        });
         let mut generation = 0;
         for (title, expected) in [("\"text\"", "no such spring"), ("\"formatted\"", "no spring 1024")] {
             generation += 1;
@@ -304,7 +216,7 @@ fn a_panic_is_stated_and_the_next_scene_is_computed() {
 #[test]
 fn a_leg_that_cannot_be_gone_is_stated_in_one_line() {
     within(30, || {
-        let served = Served::by(Simulation::default());
+        let served = Served::start();
         let beyond = rough().set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]").unwrap();
         served.compute(1, &beyond);
         let Report::Failed { generation: 1, error } = served.answer() else { panic!("not failed") };
@@ -313,7 +225,7 @@ fn a_leg_that_cannot_be_gone_is_stated_in_one_line() {
         let alone = Simulation::default().run(beyond.scene(), &|| false, &mut |_, _, _| Ok(()));
         assert_eq!(error, alone.unwrap_err().to_string());
         // Nothing of the failed scene can be shown, and the next one is computed.
-        served.worker.ask(compute(1, &beyond));
+        served.thread.ask(compute(1, &beyond));
         served.computed(2, &rough());
     });
 }
@@ -358,7 +270,7 @@ fn some(curve: &[CurvePoint]) -> impl Iterator<Item = &CurvePoint> {
 fn a_moment_at_a_sample_is_the_sample() {
     within(60, || {
         for (name, document) in scenes() {
-            let served = Served::by(Simulation::default());
+            let served = Served::start();
             let computed = served.computed(1, &document);
             for (leg, record) in computed.outcome.history.legs.iter().enumerate() {
                 for sample in some(&record.curve) {
@@ -396,7 +308,7 @@ fn a_moment_between_samples_is_the_one_a_finer_curve_has() {
         for (name, document) in
             [("rough", rough()), ("rough sphere", rough_sphere()), ("no adhesion", without_adhesion())]
         {
-            let served = Served::by(Simulation::default());
+            let served = Served::start();
             let coarse = served.computed(1, &document.set("numerics.samples", "17").unwrap());
             let finer = document.set("numerics.samples", "65").unwrap();
             let fine = Simulation::default().run(finer.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
@@ -418,7 +330,7 @@ fn a_moment_between_samples_is_the_one_a_finer_curve_has() {
 #[test]
 fn above_the_foundation_nothing_touches() {
     within(30, || {
-        let served = Served::by(Simulation::default());
+        let served = Served::start();
         served.computed(1, &rough());
         let shown = served.shown(SnapshotRequest { close_up_springs: 1024, ..snapshot(0, -1e-8) });
         assert_eq!((shown.point.springs, shown.point.fragments, shown.point.force), (0, 0, 0.0));
@@ -437,7 +349,7 @@ fn fragments(snapshot: &ContactSnapshot) -> Vec<Patch> {
 fn picture_counts_and_boundaries_say_the_same() {
     within(60, || {
         for (name, document) in scenes() {
-            let served = Served::by(Simulation::default());
+            let served = Served::start();
             let computed = served.computed(1, &document);
             for (leg, record) in computed.outcome.history.legs.iter().enumerate() {
                 for sample in some(&record.curve).step_by(4) {
@@ -491,7 +403,7 @@ fn picture_counts_and_boundaries_say_the_same() {
 #[test]
 fn at_the_end_of_a_leg_the_fragments_are_those_observed() {
     within(30, || {
-        let served = Served::by(Simulation::default());
+        let served = Served::start();
         let fields = [("loading", "[ToForce(2.0e-5), ToZeroForce]"), ("observe", "[Fragments]")];
         let document = changed(&rough(), &fields);
         let computed = served.computed(1, &document);
@@ -507,7 +419,7 @@ fn at_the_end_of_a_leg_the_fragments_are_those_observed() {
 #[test]
 fn next_and_previous_fragment_go_round() {
     within(60, || {
-        let served = Served::by(Simulation::default());
+        let served = Served::start();
         let computed = served.computed(1, &rough());
         let leg = &computed.outcome.history.legs[0];
         let request = SnapshotRequest { close_up_springs: 16, ..snapshot(0, leg.end()) };
@@ -542,7 +454,7 @@ fn next_and_previous_fragment_go_round() {
 #[test]
 fn the_close_up_stays_on_the_line() {
     within(30, || {
-        let served = Served::by(Simulation::default());
+        let served = Served::start();
         let computed = served.computed(1, &rough());
         let end = computed.outcome.history.legs[0].end();
         for focus in [Focus::Spring(0), Focus::Spring(1023), Focus::Spring(usize::MAX), Focus::Summit] {
@@ -566,7 +478,7 @@ fn the_close_up_stays_on_the_line() {
 #[test]
 fn a_section_knows_its_heights_without_a_column_to_show_them() {
     within(30, || {
-        let served = Served::by(Simulation::default());
+        let served = Served::start();
         served.computed(1, &rough());
         let wide = served.shown(SnapshotRequest { profile_columns: 1024, ..snapshot(0, 0.0) });
         let none =
@@ -582,7 +494,7 @@ fn a_section_knows_its_heights_without_a_column_to_show_them() {
 #[test]
 fn a_fragment_bears_what_the_rule_of_hess_allows() {
     within(30, || {
-        let served = Served::by(Simulation::default());
+        let served = Served::start();
         let computed = served.computed(1, &rough());
         let spacing = computed.outcome.line.spacing;
         let governing = computed.outcome.governing;
@@ -597,7 +509,7 @@ fn a_fragment_bears_what_the_rule_of_hess_allows() {
             assert!((facts.largest_stretch / bears - 1.0).abs() < 1e-12, "{facts:?}, not {bears}");
             assert!(facts.most_stretched <= facts.largest_stretch * (1.0 + 1e-9), "{facts:?}");
         }
-        let served = Served::by(Simulation::default());
+        let served = Served::start();
         let computed = served.computed(1, &without_adhesion());
         let end = computed.outcome.history.legs[0].end();
         let facts = served.shown(snapshot(0, end)).close_up.fragment.unwrap();
@@ -609,7 +521,7 @@ fn a_fragment_bears_what_the_rule_of_hess_allows() {
 #[test]
 fn the_histogram_is_there_whatever_a_scene_observes() {
     within(30, || {
-        let served = Served::by(Simulation::default());
+        let served = Served::start();
         let all = ["[]", "[Fragments]", "[HeightHistogram]", "[Fragments, HeightHistogram]"];
         for (generation, observe) in (1..).zip(all) {
             let document = rough().set("observe", observe).unwrap();

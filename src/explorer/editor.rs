@@ -1,0 +1,220 @@
+//! The scene as edited: its list of parameters, its history, and its state on disk.
+
+use super::parameters::{Parameter, parameters};
+use crate::scene::{Document, Scene};
+use std::collections::{BTreeMap, BTreeSet};
+use std::iter::successors;
+use std::mem::replace;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Most edits that can be undone.
+const UNDO_DEPTH: usize = 1000;
+
+/// The scene as edited, its history, and its list of parameters.
+#[derive(Clone, Debug)]
+pub struct Editor {
+    /// The scene as edited.
+    pub document: Document,
+    /// Documents before each edit.
+    pub past: Vec<Document>,
+    /// Documents after each undone edit.
+    future: Vec<Document>,
+    /// Document on disk or as opened, for each scene by its name.
+    pub saved: BTreeMap<String, Document>,
+    /// Number of times that a scene was saved or opened.
+    pub saves: u64,
+    /// Scenes left with unsaved changes, by their names.
+    left: BTreeMap<String, Document>,
+    /// Number of the newest scene.
+    pub generation: u64,
+    /// The parameters of the scene.
+    pub parameters: Vec<Parameter>,
+    /// Index of the selected parameter, which is never in a folded group.
+    pub selected: usize,
+    /// Groups of parameters of which only the first row is listed.
+    pub folded: BTreeSet<&'static str>,
+}
+
+impl Editor {
+    /// A scene just opened.
+    #[must_use]
+    pub fn new(document: Document) -> Self {
+        let mut editor = Editor {
+            parameters: parameters(&document),
+            document,
+            past: Vec::new(),
+            future: Vec::new(),
+            saved: BTreeMap::new(),
+            saves: 0,
+            left: BTreeMap::new(),
+            generation: 1,
+            selected: 0,
+            folded: BTreeSet::new(),
+        };
+        editor.set_saved();
+        editor
+    }
+
+    /// Indices of the listed parameters: of a folded group only the first.
+    #[must_use]
+    pub fn listed(&self) -> Vec<usize> {
+        let is_listed = |one: &Parameter| one.is_head() || !self.folded.contains(one.group);
+        (0..self.parameters.len()).filter(|index| is_listed(&self.parameters[*index])).collect()
+    }
+
+    /// The selected parameter.
+    #[must_use]
+    pub fn parameter(&self) -> Option<&Parameter> {
+        self.parameters.get(self.selected)
+    }
+
+    /// Selects a parameter, or the last one, and unfolds its group.
+    pub fn select(&mut self, row: usize) {
+        self.selected = row.min(self.parameters.len().saturating_sub(1));
+        if let Some(group) = self.parameter().filter(|one| !one.is_head()).map(|one| one.group) {
+            self.folded.remove(group);
+        }
+    }
+
+    /// Moves the selection by so many listed rows, as far as there are any.
+    pub fn move_selection(&mut self, rows: i32) {
+        let listed = self.listed();
+        let place = listed.iter().position(|index| *index == self.selected).unwrap_or(0);
+        let next = place.saturating_add_signed(rows as isize).min(listed.len().saturating_sub(1));
+        self.select(listed.get(next).copied().unwrap_or(0));
+    }
+
+    /// Folds the group of the selected parameter and selects its first row, or unfolds the group.
+    pub fn fold(&mut self, folds: bool) {
+        let Some(group) = self.parameter().map(|parameter| parameter.group) else { return };
+        if folds {
+            self.selected = self.row_of(group);
+            self.folded.insert(group);
+        } else {
+            self.folded.remove(group);
+        }
+    }
+
+    /// Returns true if the group of the selected parameter is folded.
+    #[must_use]
+    pub fn is_folded(&self) -> bool {
+        self.parameter().is_some_and(|parameter| self.folded.contains(parameter.group))
+    }
+
+    /// Row of the field at a path, or of the group around it: the selection stays in place when rows come and go, and
+    /// the row that switched an effect off can switch the effect on again.
+    fn row_of(&self, path: &str) -> usize {
+        let row = |path: &str| self.parameters.iter().position(|parameter| parameter.path == path);
+        let around = successors(Some(path), |path| path.rsplit_once('.').map(|(group, _)| group));
+        around.filter_map(row).next().unwrap_or(self.selected)
+    }
+
+    /// Makes a document the explored one; undo returns to the former one.
+    pub fn adopt(&mut self, document: Document) {
+        self.past.push(replace(&mut self.document, document));
+        if self.past.len() > UNDO_DEPTH {
+            self.past.remove(0);
+        }
+        self.future.clear();
+        self.renew();
+    }
+
+    /// Continues the last edit: its new result replaces the former one.
+    pub fn replace(&mut self, document: Document) {
+        self.document = document;
+        self.future.clear();
+        self.renew();
+    }
+
+    /// Undoes the last edit, or redoes it. Returns what has changed, or `None` if there is no such edit.
+    pub fn undo(&mut self, back: bool) -> Option<String> {
+        let (from, to) =
+            if back { (&mut self.past, &mut self.future) } else { (&mut self.future, &mut self.past) };
+        let before = replace(&mut self.document, from.pop()?);
+        to.push(before.clone());
+        let changes = before.changes_to(&self.document);
+        let mut what = changes.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+        if before.name() != self.document.name() {
+            self.document.name().clone_into(&mut what);
+            self.leave(before);
+        }
+        self.renew();
+        Some(what)
+    }
+
+    /// Keeps the unsaved changes of a scene that another one replaces.
+    pub fn leave(&mut self, document: Document) {
+        if self.is_changed(&document) {
+            self.left.insert(document.name().to_owned(), document);
+        }
+    }
+
+    fn renew(&mut self) {
+        let selected = self.parameter().map(|parameter| parameter.path.clone()).unwrap_or_default();
+        // A scene left before is the present one again.
+        let document = &self.document;
+        self.left.retain(|_, left| left.name() != document.name() || left.scene() != document.scene());
+        self.parameters = parameters(&self.document);
+        self.select(self.row_of(&selected));
+        self.generation += 1;
+    }
+
+    /// Returns true if the scene differs from its saved document.
+    #[must_use]
+    pub fn is_unsaved(&self) -> bool {
+        self.is_changed(&self.document)
+    }
+
+    /// Returns true if a document differs from its saved one by a value or a comment; another notation of a number is
+    /// no change.
+    fn is_changed(&self, document: &Document) -> bool {
+        let is_same = |saved: &Document| {
+            saved.text() == document.text()
+                || saved.scene() == document.scene() && saved.comments() == document.comments()
+        };
+        !self.saved.get(document.name()).is_some_and(is_same)
+    }
+
+    /// All scenes with unsaved changes, starting with the explored one.
+    #[must_use]
+    pub fn unsaved(&self) -> Vec<&Document> {
+        let all = [&self.document].into_iter().chain(self.left.values());
+        all.filter(|document| self.is_changed(document)).collect()
+    }
+
+    /// Registers scenes as unsaved changes of another session, the first of them as the explored scene.
+    pub fn restore(&mut self, documents: &[Document]) {
+        for (number, document) in documents.iter().enumerate() {
+            match Document::parse(document.opened(), document.name()) {
+                Ok(opened) => drop(self.saved.insert(document.name().to_owned(), opened)),
+                Err(_) => drop(self.saved.remove(document.name())),
+            }
+            if number > 0 {
+                self.left.insert(document.name().to_owned(), document.clone());
+            }
+        }
+    }
+
+    /// Marks the scene as saved to a file, which becomes the file of the scene.
+    pub fn set_saved_as(&mut self, path: &Path) {
+        if let Ok(document) = Document::parse(self.document.text(), &path.to_string_lossy()) {
+            self.document = document;
+        }
+        self.set_saved();
+    }
+
+    /// Marks the scene as saved.
+    pub fn set_saved(&mut self) {
+        self.saves += 1;
+        self.saved.insert(self.document.name().to_owned(), self.document.clone());
+    }
+}
+
+/// The scene of a document, with files named from the working folder.
+#[must_use]
+pub fn scene_of(document: &Document) -> Arc<Scene> {
+    let mut scene = document.scene().clone();
+    scene.rename_measured_files(|file| document.resolve(file).to_string_lossy().into_owned());
+    Arc::new(scene)
+}

@@ -1,0 +1,273 @@
+//! The solver: it owns the simulation and the legs of the newest scene, and answers the newest request of the explorer,
+//! on a thread of its own or at once.
+
+use super::close_up::close_up;
+use super::manual_body::ManualBody;
+use super::player::{Player, indentations};
+use super::request::{Drive, ManualMove, Place, Request, SnapshotRequest};
+use super::snapshot::{ContactSnapshot, Probe, Report, SolvedScene, lengths, profile_part, strip};
+use crate::contact::{ContactError, CurvePoint, Leg};
+use crate::export::section::{Contact, LineColumns};
+use crate::scene::{Observer, Scene, Solver as SceneSolver};
+use crate::simulation::{AfterLeg, Outcome, RunError, Simulation};
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, Sender, channel};
+
+/// Most bytes of kept legs: further legs are computed again when the animation reaches them.
+const BYTES_KEPT: usize = 1 << 29;
+
+/// Points of the curve over the range of indentations, when the body is pulled off manually.
+const STEPS_OF_A_PULL: f64 = 200.0;
+
+/// Function that computes a scene, as [`Simulation::run`].
+pub type Solve =
+    fn(&mut Simulation, &Scene, &dyn Fn() -> bool, &mut AfterLeg<'_>) -> Result<Outcome, RunError>;
+
+/// Solver of the newest scene.
+pub struct Solver {
+    solve: Solve,
+    simulation: Simulation,
+    /// Generation of the scene that the explorer waits for: a run of another one stops.
+    awaited: Arc<AtomicU64>,
+    newest: Newest,
+}
+
+/// The newest scene.
+#[derive(Default)]
+struct Newest {
+    generation: u64,
+    /// The scene as computed; `None` where that failed.
+    scene: Option<Scene>,
+    solved: Option<Arc<SolvedScene>>,
+    /// Legs of the loading, as far as kept.
+    legs: Vec<Option<Leg>>,
+    body: Option<ManualBody>,
+    /// Columns of the line, independent of the contact.
+    profile: LineColumns,
+    close_up: LineColumns,
+}
+
+impl Solver {
+    /// A solver by this function for the scene of the awaited generation.
+    #[must_use]
+    pub fn new(solve: Solve, awaited: Arc<AtomicU64>) -> Self {
+        Solver { solve, simulation: Simulation::default(), awaited, newest: Newest::default() }
+    }
+
+    /// Marks the scene of a request as awaited, and answers.
+    pub fn answer(&mut self, request: Request, report: &mut dyn FnMut(Report)) {
+        self.awaited.store(request.generation, Ordering::Relaxed);
+        self.serve(request, report);
+    }
+
+    /// Answers a request. A panic ends the request, not the explorer.
+    pub fn serve(&mut self, request: Request, report: &mut dyn FnMut(Report)) {
+        let generation = request.generation;
+        if let Err(panic) = catch_unwind(AssertUnwindSafe(|| self.try_serve(request, report))) {
+            self.newest = Newest { generation, ..Newest::default() };
+            self.simulation = Simulation::default();
+            let error = format!("internal error, please report it: {}", panic_text(panic.as_ref()));
+            report(Report::Failed { generation, error });
+        }
+    }
+
+    fn try_serve(&mut self, request: Request, report: &mut dyn FnMut(Report)) {
+        let Request { generation, scene, moves, snapshot } = request;
+        let is_new = generation != self.newest.generation;
+        if is_new {
+            match self.compute(generation, scene, report) {
+                Ok(()) => {}
+                // Unless the scene is awaited again.
+                Err(error) if error.is_interruption() => return self.newest.generation = 0,
+                Err(error) => report(Report::Failed { generation, error: error.to_string() }),
+            }
+        }
+        for order in moves {
+            self.obey(order);
+        }
+        let shown = self.snapshot(&snapshot).map(Arc::new);
+        match (self.newest.solved.clone().filter(|_| is_new), shown) {
+            (Some(solved), shown) => report(Report::Solved(solved, shown)),
+            (None, Some(shown)) => report(Report::Shown(shown)),
+            (None, None) => {}
+        }
+    }
+
+    fn compute(
+        &mut self,
+        generation: u64,
+        scene: Arc<Scene>,
+        report: &mut dyn FnMut(Report),
+    ) -> Result<(), RunError> {
+        self.newest = Newest { generation, ..Newest::default() };
+        // The histogram beside the profile needs the heights.
+        let mut observed = scene.as_ref().clone();
+        if !observed.observe.contains(&Observer::HeightHistogram) {
+            observed.observe.push(Observer::HeightHistogram);
+        }
+        let stop = || self.awaited.load(Ordering::Relaxed) != generation;
+        let (mut bytes, mut legs) = (0, Vec::new());
+        let outcome = (self.solve)(&mut self.simulation, &observed, &stop, &mut |stage, _, leg| {
+            legs.push(Some(leg.clone()).filter(|_| bytes <= BYTES_KEPT));
+            bytes += leg.bytes();
+            report(Report::Progress { generation, legs: stage + 1 });
+            Ok(())
+        })?;
+        let solved = Some(Arc::new(SolvedScene { generation, scene, outcome }));
+        self.newest = Newest { generation, scene: Some(observed), solved, legs, ..Newest::default() };
+        Ok(())
+    }
+
+    /// Moves the body manually.
+    fn obey(&mut self, order: ManualMove) {
+        match order {
+            ManualMove::Take { leg, indentation } => self.newest.body = self.take(leg, indentation),
+            order => {
+                if let Some(body) = &mut self.newest.body {
+                    body.obey(order);
+                }
+            }
+        }
+    }
+
+    /// The body at an indentation of a leg.
+    fn take(&mut self, leg: usize, indentation: f64) -> Option<ManualBody> {
+        self.newest.body = None;
+        let solved = self.newest.solved.clone()?;
+        let leg = if solved.scene.numerics.solver == SceneSolver::Exact {
+            self.leg(leg)
+        } else {
+            // The stepwise solver knows no leg but those of the loading.
+            let mut scene = solved.scene.as_ref().clone();
+            scene.numerics.solver = SceneSolver::Exact;
+            self.leg_of(&scene, leg)
+        }?;
+        let preload = solved.outcome.figures.preload.unwrap_or(0.0);
+        let (low, high) = indentations(&solved.outcome.history.legs).unwrap_or_default();
+        ManualBody::take(&leg, indentation, ((high - low) / STEPS_OF_A_PULL, preload))
+    }
+
+    /// The requested snapshot; `None` where the leg does not exist or manual loading has not begun.
+    fn snapshot(&mut self, request: &SnapshotRequest) -> Option<ContactSnapshot> {
+        let (drive, leg, point) = match request.drive {
+            Drive::Leg(number) => {
+                self.newest.body = None;
+                let (number, indentation) = self.place(number, request.place)?;
+                let leg = self.leg(number)?;
+                let point = leg.point(indentation).ok()?;
+                (Drive::Leg(number), leg, point)
+            }
+            Drive::Manual => {
+                let body = self.newest.body.as_ref()?;
+                (Drive::Manual, body.leg().clone(), body.point())
+            }
+        };
+        let Newest { generation, solved, body, profile, close_up: columns, .. } = &mut self.newest;
+        let line = solved.as_deref()?.outcome.line;
+        let patches = leg.patches(point.indentation);
+        let CurvePoint { indentation, .. } = point;
+        let gaps = leg.contact().gaps();
+        let contact = Contact { gaps, summit: line.summit, indentation, patches: &patches };
+        let close_up = close_up(&contact, &leg, request, columns);
+        let middle = close_up.section.first + close_up.section.springs / 2;
+        let part = profile_part(request, gaps.len(), middle);
+        Some(ContactSnapshot {
+            generation: *generation,
+            drive,
+            line,
+            focus: request.focus,
+            point,
+            contact_radius: leg.contact().foundation().contact_radius(&patches, point),
+            profile: contact.section(part, profile),
+            close_up,
+            strip: strip(&contact, request.strip_cells),
+            probe: request.crosshair.and_then(|position| Probe::at(&contact, position)),
+            lengths: lengths(&patches),
+            manual: body.as_mut().map(ManualBody::travel),
+        })
+    }
+
+    /// The existing leg nearest to a number, and an indentation on it.
+    fn place(&self, number: usize, place: Place) -> Option<(usize, f64)> {
+        let legs = &self.newest.solved.as_deref()?.outcome.history.legs;
+        Some(match place {
+            Place::Indentation(indentation) => (number, indentation),
+            Place::Share(done) => {
+                let player = Player { leg: number, done, playing: false }.within(legs);
+                (player.leg, player.indentation(legs))
+            }
+        })
+    }
+
+    /// A leg of the loading, computed again if it has not been kept.
+    fn leg(&mut self, number: usize) -> Option<Leg> {
+        if self.newest.legs.get(number)?.is_none() {
+            let scene = self.newest.scene.take()?;
+            let found = self.leg_of(&scene, number);
+            self.newest.scene = Some(scene);
+            // Only one recalled leg is kept at a time.
+            let firsts = found.as_ref().map_or(0, |leg| BYTES_KEPT / leg.bytes().max(1));
+            self.newest.legs.iter_mut().skip(firsts + 1).for_each(|leg| *leg = None);
+            self.newest.legs[number] = found;
+        }
+        self.newest.legs[number].clone()
+    }
+
+    /// Runs a scene up to a leg.
+    fn leg_of(&mut self, scene: &Scene, wanted: usize) -> Option<Leg> {
+        let mut found = None;
+        // The run ends as soon as the leg is found.
+        let _ = (self.solve)(&mut self.simulation, scene, &|| false, &mut |stage, _, leg| {
+            if stage < wanted {
+                return Ok(());
+            }
+            found = Some(leg.clone());
+            Err(ContactError::Interrupted)
+        });
+        found
+    }
+}
+
+fn panic_text(panic: &(dyn Any + Send)) -> &str {
+    let text = panic.downcast_ref::<&str>().copied();
+    text.or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("unknown cause")
+}
+
+/// The thread of the solver.
+pub struct SolverThread {
+    requests: Sender<Request>,
+    awaited: Arc<AtomicU64>,
+}
+
+impl SolverThread {
+    /// Starts the thread. `report` receives its reports.
+    ///
+    /// # Errors
+    /// When the system refuses a thread.
+    pub fn start(solve: Solve, report: impl Fn(Report) + Send + 'static) -> std::io::Result<Self> {
+        let (requests, inbox) = channel();
+        let awaited = Arc::new(AtomicU64::new(0));
+        let solver = Solver::new(solve, Arc::clone(&awaited));
+        let serve = move || serve(solver, &inbox, &mut |one| report(one));
+        std::thread::Builder::new().name("simulation".to_owned()).spawn(serve)?;
+        Ok(SolverThread { requests, awaited })
+    }
+
+    /// Sends a request; a run of another scene stops.
+    pub fn ask(&self, request: Request) {
+        self.awaited.store(request.generation, Ordering::Relaxed);
+        // The thread only ends with the explorer.
+        let _ = self.requests.send(request);
+    }
+}
+
+/// Serves the newest request until the explorer is gone.
+pub fn serve(mut solver: Solver, requests: &Receiver<Request>, report: &mut dyn FnMut(Report)) {
+    while let Ok(first) = requests.recv() {
+        let newest = requests.try_iter().fold(first, |earlier, later| later.after(earlier));
+        solver.serve(newest, report);
+    }
+}
