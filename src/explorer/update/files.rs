@@ -4,7 +4,6 @@ use super::{Effect, dialogue, edit};
 use crate::explorer::action::{Content, OutputFile, WriteFailure};
 use crate::explorer::app::App;
 use crate::explorer::prompt::Purpose;
-use crate::explorer::text_line::TextLine;
 use crate::export::check_extension;
 use crate::scene::{Document, command_line};
 use crate::text::is_control;
@@ -15,7 +14,7 @@ pub fn ask_save(app: &mut App, then_quit: bool) {
     let name = app.edit.document.name();
     let is_file = Path::new(name).extension().is_some_and(|extension| extension == "ron");
     let file = if is_file { name.to_owned() } else { format!("{name}.ron") };
-    app.ask(Purpose::Save { then_quit }, TextLine::new(&file));
+    app.ask(Purpose::Save { then_quit }, &file);
 }
 
 /// Saves the scene.
@@ -45,7 +44,7 @@ pub fn save_before_leaving(app: &mut App) {
 pub fn ask_export(app: &mut App) {
     let name = Path::new(app.edit.document.name());
     let stem = name.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
-    app.ask(Purpose::Export, TextLine::new(&format!("{stem}.csv")));
+    app.ask(Purpose::Export, &format!("{stem}.csv"));
 }
 
 /// Exports to a file; the extension of its name selects the content.
@@ -91,7 +90,7 @@ pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>
                 ask_quit(app);
             }
         }
-        Err(WriteFailure::Exists) => app.ask(Purpose::Overwrite(file), TextLine::default()),
+        Err(WriteFailure::Exists) => app.ask(Purpose::Overwrite(file), ""),
         Err(WriteFailure::Refused(error)) => {
             let is_scene = file.content == Content::Scene;
             let purpose =
@@ -106,7 +105,7 @@ pub fn ask_quit(app: &mut App) {
     if app.edit.unsaved().is_empty() {
         app.finished = true;
     } else {
-        app.ask(Purpose::Leave, TextLine::default());
+        app.ask(Purpose::Leave, "");
     }
 }
 

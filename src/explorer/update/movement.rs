@@ -2,10 +2,8 @@
 
 use crate::analysis::pull_off_point;
 use crate::explorer::app::{App, ManualState, Player};
-use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{Focus, ManualMove};
 use crate::explorer::snapshot::{ContactSnapshot, Refusal};
-use crate::explorer::text_line::TextLine;
 use crate::scene::{format_quantity, parse_quantity};
 use crate::text::round_to;
 use std::sync::Arc;
@@ -37,11 +35,6 @@ pub fn push(app: &mut App, steps: i32, coarse: bool) {
 /// Pulls the body until nothing touches.
 pub fn separate(app: &mut App) {
     take(app, Some(ManualMove::Separate))
-}
-
-/// Asks for a target force.
-pub fn type_force(app: &mut App) {
-    app.ask(Purpose::Force, TextLine::default());
 }
 
 /// Plays or pauses the animation; at its end it begins again. Like all movements of the animation this ends manual
