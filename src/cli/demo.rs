@@ -6,7 +6,7 @@ use super::{CliError, Overrides};
 use crate::explorer::demo::{Demo, ONE_SCENE, TOUR, play};
 use crate::explorer::picture::{Cast, text};
 use crate::explorer::theme::{Appearance, Marker, Theme};
-use crate::explorer::{FrameBytes, Screen, picture_of, screenshot};
+use crate::explorer::{Screen, picture_of, screenshot};
 use crate::io::write_new;
 use crate::scene::{open_argument, presets};
 use clap::Args;
@@ -142,7 +142,7 @@ fn record(out: &mut dyn Write, demo: &mut Demo, size: (u16, u16), name: &str) ->
     let mut cast = Cast::new(out, size.0, size.1, &format!("Asperity: {name}"))?;
     let mut screen = Screen::new(size)?;
     while let Some(seconds) = demo.advance() {
-        let FrameBytes(bytes) = screen.draw(demo.app())?;
+        let bytes = screen.draw(demo.app())?;
         cast.frame(seconds, &bytes)?;
     }
     cast.finish().map(drop)

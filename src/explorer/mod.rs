@@ -41,7 +41,7 @@ pub mod view;
 mod writing;
 
 pub use opening::{Opening, OpeningError};
-pub use screen::{FrameBytes, Screen};
-pub use session::{Draw, Options, SessionEnd, open, open_with};
+pub use screen::Screen;
+pub use session::{Draw, Options, SessionEnd, open};
 pub use signals::end_by;
 pub use writing::{picture_of, screenshot};

@@ -10,9 +10,6 @@ use std::cell::RefCell;
 use std::io::{self, Write};
 use std::rc::Rc;
 
-/// Bytes of one frame.
-pub struct FrameBytes(pub Vec<u8>);
-
 /// Screen of the explorer on a terminal.
 pub struct Screen {
     terminal: Terminal<CrosstermBackend<FrameWriter<Shared>>>,
@@ -52,8 +49,8 @@ impl Screen {
     ///
     /// # Errors
     /// None known.
-    pub fn draw(&mut self, app: &App) -> io::Result<FrameBytes> {
+    pub fn draw(&mut self, app: &App) -> io::Result<Vec<u8>> {
         self.terminal.draw(|frame| view::draw(frame, app))?;
-        Ok(FrameBytes(self.sent.0.take()))
+        Ok(self.sent.0.take())
     }
 }
