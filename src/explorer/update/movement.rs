@@ -79,13 +79,9 @@ pub fn go_to_pull_off(app: &mut App) {
         app.set_error("there is no pull-off: the force does not fall below 0 N in the last unloading stage");
         return;
     };
-    let indentation = point.indentation;
     // Rounding must not pass the indentation: below it springs detach.
-    let done = app.done_at(leg, indentation);
-    let paused = |done| Player { leg, done, playing: false };
-    let ulps = (0..8).map(|ulps| paused(done - f64::from(ulps) * f64::EPSILON));
-    let holds = ulps.into_iter().find(|player| player.indentation(legs) >= indentation);
-    app.play = holds.unwrap_or(paused(done));
+    let done = app.done_at(leg, point.indentation) - 8.0 * f64::EPSILON;
+    app.play = Player { leg, done, playing: false };
     app.manual = None;
 }
 
