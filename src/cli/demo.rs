@@ -4,9 +4,13 @@ use super::explore::failed;
 use super::output::check_file;
 use super::{CliError, Overrides};
 use crate::explorer::demo::{Demo, ONE_SCENE, TOUR, play};
-use crate::explorer::picture::{Cast, text};
+use crate::explorer::picture::text;
 use crate::explorer::theme::{Appearance, Marker, Theme};
+<<<<<<< HEAD
+use crate::explorer::{Recording, picture_of, screenshot};
+=======
 use crate::explorer::{Screen, picture_of, screenshot};
+>>>>>>> main
 use crate::io::write_new;
 use crate::scene::{open_argument, presets};
 use clap::Args;
@@ -139,11 +143,14 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
 
 /// Records the demo as the output to a terminal.
 fn record(out: &mut dyn Write, demo: &mut Demo, size: (u16, u16), name: &str) -> io::Result<()> {
-    let mut cast = Cast::new(out, size.0, size.1, &format!("Asperity: {name}"))?;
-    let mut screen = Screen::new(size)?;
+    let mut recording = Recording::new(out, size, &format!("Asperity: {name}"))?;
     while let Some(seconds) = demo.advance() {
+<<<<<<< HEAD
+        recording.frame(seconds, demo.app())?;
+=======
         let bytes = screen.draw(demo.app())?;
         cast.frame(seconds, &bytes)?;
+>>>>>>> main
     }
-    cast.finish().map(drop)
+    Ok(())
 }

@@ -178,7 +178,7 @@ pub struct App {
     pub finished: bool,
     /// Effects of the present action.
     pub(super) effects: Vec<Effect>,
-    /// The state that the solver was asked for last.
+    /// The last order to the solver.
     pub(super) asked: Option<Awaited>,
 }
 

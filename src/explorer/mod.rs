@@ -23,9 +23,9 @@ pub mod parameters;
 pub mod picture;
 mod player;
 pub mod prompt;
+mod recording;
 pub mod request;
 pub mod runtime;
-mod screen;
 mod search;
 mod session;
 mod shown;
@@ -41,7 +41,12 @@ pub mod view;
 mod writing;
 
 pub use opening::{Opening, OpeningError};
+<<<<<<< HEAD
+pub use recording::Recording;
+pub use session::{Draw, Options, SessionEnd, open, open_with};
+=======
 pub use screen::Screen;
 pub use session::{Draw, Options, SessionEnd, open};
+>>>>>>> main
 pub use signals::end_by;
 pub use writing::{picture_of, screenshot};

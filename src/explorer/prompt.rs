@@ -71,7 +71,7 @@ impl Prompt {
         prompt
     }
 
-    /// What the keys act on.
+    /// Returns the context of keys: a list, a line or a question.
     #[must_use]
     pub fn context(&self) -> Context {
         match self.purpose {

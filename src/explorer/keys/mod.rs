@@ -18,7 +18,7 @@ use Run::{Character, Do, Edit};
 use std::fmt;
 use tui_input::InputRequest;
 
-/// What the keys act on: chosen by the prompt or, without one, by the selected pane.
+/// Context of keys: the prompt chooses it or, without one, the selected pane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Context {
     /// Scene and panes.

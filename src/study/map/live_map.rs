@@ -23,7 +23,7 @@ impl LiveMap {
     /// A map of a plan of [`live_plan`](super::live_plan), without cells.
     ///
     /// # Errors
-    /// [`StudyError::OutOfMemory`].
+    /// A map that is too large for the memory.
     pub fn new(plan: Plan) -> Result<Self, StudyError> {
         Ok(LiveMap { results: Results::empty(plan)?, failed: BTreeMap::new() })
     }
