@@ -66,7 +66,7 @@
 
 pub mod accuracy;
 pub mod analysis;
-pub mod check;
+mod check;
 #[cfg(feature = "tui")]
 pub mod cli;
 pub mod contact;

@@ -11,7 +11,6 @@ use crate::text::grouped;
 use realfft::RealFftPlanner;
 use std::path::Path;
 use std::time::{Duration, Instant};
-use thiserror::Error;
 
 /// Least time left for another rung over that of the last one: a rung takes about twice as long, the error of the finest
 /// solution as long as the last one, and a busy machine longer.
@@ -31,28 +30,6 @@ const MOST_RUNS: usize = 9;
 const ENOUGH_RUNS: f64 = 0.05;
 /// Points of the transform that is the unit of time.
 const TRANSFORM_POINTS: usize = 1 << 20;
-
-/// Error of the measurement of a table of costs.
-#[derive(Clone, Debug, PartialEq, Error)]
-pub enum CostError {
-    /// The scene could not be computed.
-    #[error(transparent)]
-    Run(#[from] RunError),
-    /// Fewer than two solutions fit into the budget, so that their errors are unknown.
-    #[error(
-        "the budget of {budget} s is spent before two solutions could be compared, of which the coarsest has \
-         {springs} springs"
-    )]
-    BudgetTooShort {
-        /// The budget, s.
-        budget: f64,
-        /// Fewest springs that the scene allows.
-        springs: u64,
-    },
-    /// The measurement was stopped.
-    #[error("the measurement was stopped")]
-    Stopped,
-}
 
 /// Progress of a measurement.
 pub enum Progress<'a> {
@@ -76,31 +53,34 @@ struct Ladder<'a> {
 /// then; `watch` receives each setting and its result.
 ///
 /// # Errors
-/// [`CostError`].
+/// The reason in a sentence: a scene that cannot be computed, a budget for fewer than two solutions, or a stop.
 pub fn measure(
     scene: &Scene,
     folder: &Path,
     budget: Duration,
     stop: &dyn Fn() -> bool,
     watch: &mut dyn FnMut(Progress<'_>),
-) -> Result<CostTable, CostError> {
+) -> Result<CostTable, String> {
     let (begun, budget) = (Instant::now(), budget.as_secs_f64());
     let left = || if stop() { 0.0 } else { budget - begun.elapsed().as_secs_f64() };
     let is_over = || left() <= 0.0;
     let transform_seconds = time_of_transform().unwrap_or(f64::NAN);
     let table = CostTable { budget, transform_seconds, ..CostTable::default() };
     let mut ladder = Ladder { scene, folder, is_over: &is_over, rungs: Vec::new(), table };
-    let refused = ladder.climb(&left, watch)?;
+    let refused = ladder.climb(&left, watch).map_err(|error| error.to_string())?;
     let own = ladder.finest().and_then(|[finest, _]| {
         let mut runs = Runs::new(folder, &is_over);
         own_errors(&compared(scene), finest, &mut runs)
     });
     let springs = allowed_points(scene).next().unwrap_or(scene.numerics.points);
     match refused {
-        _ if stop() => Err(CostError::Stopped),
+        _ if stop() => Err("the measurement was stopped".to_owned()),
         _ if ladder.count(own) => Ok(CostTable { spent: begun.elapsed().as_secs_f64(), ..ladder.table }),
-        Some(error) if ladder.rungs.is_empty() => Err(error.into()),
-        _ => Err(CostError::BudgetTooShort { budget, springs }),
+        Some(error) if ladder.rungs.is_empty() => Err(error.to_string()),
+        _ => Err(format!(
+            "the budget of {budget} s is spent before two solutions could be compared, of which the coarsest has \
+             {springs} springs"
+        )),
     }
 }
 

@@ -14,6 +14,6 @@ mod table;
 
 pub use choose::{Choice, ChoiceError, choose, parse_tolerance};
 pub use estimate::{Estimate, Evidence, estimate};
-pub use ladder::{CostError, Progress, measure};
+pub use ladder::{Progress, measure};
 pub use solution::Target;
 pub use table::{CostTable, ErrorFigure, Knob, QUANTITIES, Reference, Row, Timing};

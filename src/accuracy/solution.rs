@@ -5,7 +5,7 @@ use crate::analysis::pull_off_point;
 use crate::contact::ContactError;
 use crate::reference::{PowerLaw, smooth_adhesion_force};
 use crate::scene::{Edges, Form, Move, Numerics, Scene, Solver, check};
-use crate::simulation::{Outcome, RunError, Simulation};
+use crate::simulation::{FEW_SAMPLES, Outcome, RunError, Simulation};
 use crate::surface::SurfaceError;
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -15,8 +15,6 @@ use std::path::Path;
 pub(super) const FEWEST: u64 = 16;
 /// Factors of the loads of a scene for the loads around them.
 const AROUND: [f64; 2] = [0.5, 2.0];
-/// Samples of a loading stage whose curve is not used: the adhesion force is an exact extreme.
-const FEW_SAMPLES: u64 = 2;
 
 /// Relative errors or differences in the order of [`super::QUANTITIES`]; `None` without such a figure.
 pub(super) type Errors = [Option<f64>; 4];
@@ -108,6 +106,7 @@ impl Target {
         let mut scene = scene.clone();
         scene.observe.clear();
         if self == Target::AdhesionForce {
+            // The adhesion force is an exact extreme.
             scene.numerics.samples = FEW_SAMPLES;
         }
         scene

@@ -3,6 +3,7 @@
 use crate::scene::format_rounded;
 use crate::text::grouped;
 use serde::{Serialize, Serializer};
+use strum::IntoStaticStr;
 
 /// Finer solutions that confirm an error.
 pub(super) const REFINEMENTS: usize = 2;
@@ -14,8 +15,9 @@ pub const QUANTITIES: [&str; 4] = ["adhesion_force", "curve", "dissipated_energy
 const TARGETS: [(f64, &str); 2] = [(0.01, "1 %"), (0.001, "0.1 %")];
 
 /// Setting that affects accuracy.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum Knob {
     /// Springs N with edges between them.
     SubCellSprings,

@@ -6,7 +6,6 @@ use crate::surface::{SelfAffine, phases};
 use crate::{Contact, Cycle, Profile};
 use std::f64::consts::{PI, TAU};
 
-/// Number of random bodies.
 pub const RANDOM: u64 = 48;
 
 /// E* of random bodies, Pa; their length, m; and their rms height or largest height, m.

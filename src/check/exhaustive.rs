@@ -23,9 +23,6 @@ const AGREE: f64 = 1e-12;
 /// Compares the thresholds of a loading to full contact with both edge models, and of the way back with whole springs, on
 /// every line of this number of springs with gaps in any order, ties included. Springs out of reach on the left, `before`
 /// of them, move the others across the ends of blocks. Returns the number of lines.
-///
-/// # Errors
-/// The first line on which a threshold differs from its definition, as a sentence; insufficient memory.
 pub fn every_order(springs: usize, before: usize) -> Result<u64, String> {
     let mut gaps: Vec<f64> = (0..before).map(|place| 3.0 + (before - place) as f64).collect();
     gaps.resize(before + springs, 0.0);
@@ -134,9 +131,6 @@ impl Definition<'_> {
 
 /// Compares the patches after each move with those of the bare rules, for every history of three moves on every `step`-th
 /// line of five springs, under one and two works of adhesion. Returns the number of contacts compared.
-///
-/// # Errors
-/// The first history with other patches, as a sentence; insufficient memory.
 pub fn every_history(step: usize) -> Result<u64, String> {
     let mut compared = 0;
     for heights in sequences(HEIGHTS.len(), 5).step_by(step) {

@@ -36,20 +36,15 @@ enum Subject {
     Bodies(fn(&Body) -> Measured),
 }
 
-/// A row of the catalogue.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
     /// Name: words with hyphens.
     pub name: &'static str,
     /// Family: bodies with a known loop, laws valid for every body, or input at the limits of numbers and of the rules.
     pub family: &'static str,
-    /// Claim, one sentence.
     pub holds: &'static str,
-    /// Kind of evidence.
     pub evidence: &'static str,
-    /// Quantity of the error.
     pub error_of: &'static str,
-    /// Bounds of the edge models.
     bounds: &'static [(Edges, f64)],
     /// True for a case that takes seconds and hundreds of megabytes.
     pub large: bool,
@@ -73,21 +68,15 @@ const fn both(grid: f64, sub_cell: f64) -> [(Edges, f64); 2] {
     [(Edges::Grid, grid), (Edges::SubCell, sub_cell)]
 }
 
-/// A case with one edge model.
 #[derive(Clone, Copy, Debug)]
 pub struct Check {
-    /// The case.
     pub case: Case,
-    /// Edge model.
     pub edges: Edges,
-    /// Largest error allowed.
     pub bound: f64,
 }
 
-/// Result of a check.
 #[derive(Debug)]
 pub struct Verdict {
-    /// Check.
     pub check: Check,
     /// The error, or the reason why there is none.
     pub error: Result<f64, String>,
@@ -97,7 +86,6 @@ pub struct Verdict {
 
 impl Verdict {
     /// Returns true if the case holds.
-    #[must_use]
     pub fn passes(&self) -> bool {
         // NaN is not within any bound.
         self.error.as_ref().is_ok_and(|&error| error <= self.check.bound)
@@ -105,20 +93,16 @@ impl Verdict {
 }
 
 /// Returns all cases in the order of display.
-#[must_use]
 pub fn catalogue() -> Vec<Case> {
     [closed_forms::CASES, laws::CASES, hard_cases::CASES].concat()
 }
 
 /// Returns all checks of the cases selected by `choose`.
-#[must_use]
 pub fn checks(choose: impl Fn(&Case) -> bool) -> Vec<Check> {
     let of = |case: Case| case.bounds.iter().map(move |&(edges, bound)| Check { case, edges, bound });
     catalogue().into_iter().filter(|case| choose(case)).flat_map(of).collect()
 }
 
-/// Runs a check.
-#[must_use]
 pub fn judge(check: Check) -> Verdict {
     let (clock, edges) = (Instant::now(), check.edges);
     let error = match check.case.subject {
@@ -170,6 +154,24 @@ fn largest(errors: impl IntoIterator<Item = Measured>) -> Measured {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_check_of_the_catalogue_passes() {
+        let mut failed = Vec::new();
+        let checks = checks(|case| !case.large);
+        assert!(checks.len() >= 30, "{} checks", checks.len());
+        for check in checks {
+            let verdict = judge(check);
+            let error =
+                verdict.error.as_ref().map_or_else(ToString::to_string, |error| format!("{error:.1e}"));
+            let line = format!("{} {:?}: {error} against {:e}", check.case.name, check.edges, check.bound);
+            println!("{line}, {:.1} s", verdict.seconds);
+            if !verdict.passes() {
+                failed.push(line);
+            }
+        }
+        assert!(failed.is_empty(), "{}", failed.join("\n"));
+    }
 
     #[test]
     fn cases_have_names_of_their_own_and_sentences() {

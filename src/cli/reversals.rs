@@ -1,12 +1,12 @@
 //! `asperity reversals`: the unloadings of a scene from many turning points.
 
 use super::output::{Origin, TABLES, format_of};
-use super::preloads::parse_preloads;
+use super::preloads::parse_range;
 use super::scene::simulation_of;
 use super::{CliError, OutputArguments, SceneArguments};
 use crate::export::{Format, ReversalReport};
 use crate::simulation::{RunError, TURNING_POINTS};
-use crate::study::{Preloads, solve_preloads};
+use crate::study::{Axis, Results};
 use clap::Args;
 use std::io::Write;
 
@@ -73,7 +73,7 @@ fn forces(text: &str) -> Result<(f64, f64), String> {
     if text.contains(':') {
         return Err("allowed: two forces, such as 1uN..20uN; --count is the number of turning points".into());
     }
-    parse_preloads(text).map(|preloads| preloads.ends())
+    parse_range(text).map(|(from, to, _)| (from, to))
 }
 
 /// Unloads a scene from many turning points and writes the result.
@@ -87,7 +87,7 @@ pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) 
     let mut simulation = simulation_of(&document);
     let (count, never) = (usize::from(options.count), || false);
     let map = simulation.reversal_map(scene, options.preloads, count, &never).map_err(failed)?;
-    let (mut loops, mut preloads) = (None, Vec::new());
+    let (mut loops, mut preloads) = (None, None);
     // Tables hold the map alone.
     if !format.is_table() {
         if let levels @ 1.. = usize::from(options.loops) {
@@ -95,16 +95,17 @@ pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) 
         }
         let largest = map.reversals.iter().map(|reversal| reversal.turn.force).fold(0.0, f64::max);
         let (from, to) = options.preloads.unwrap_or((0.0, largest));
-        if let Some(asked) = Preloads::new(from, to, count) {
-            let mut keep = |one| preloads.push(one);
-            solve_preloads(&mut simulation, scene, &asked.forces(), &never, &mut keep).map_err(failed)?;
+        if let Some(asked) = Axis::of_preloads(from, to, count) {
+            let (record, folder) = (&Results::OF_PRELOADS, document.resolve(""));
+            let solved = Results::of_scene(scene, &folder, record, 1, Some(&asked), 1);
+            preloads = Some(solved.map_err(|error| CliError::named(document.name(), error))?);
         }
     }
     let report = ReversalReport {
         title: document.title(),
         scene,
         map: &map,
-        preloads: &preloads,
+        preloads: preloads.as_ref(),
         loops,
         smoothing: usize::from(options.smoothing),
         map_table: options.map,

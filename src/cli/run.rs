@@ -11,7 +11,7 @@ use crate::export::{
     ContactSets, Format, LinesReport, PreloadReport, Report, RunReport, check_measured_files, force_figure,
 };
 use crate::scene::{Document, Scene, open_argument};
-use crate::study::{self, Preloaded, Preloads, Results};
+use crate::study::{Axis, Quantity, Results};
 use crate::text::wrap;
 use clap::Args;
 use std::io::{self, Write};
@@ -74,7 +74,7 @@ pub struct RunArguments {
     /// and one unloading from each preload; with --lines, the mean over the profiles and its
     /// 95 % confidence interval.
     #[arg(long, value_name = "A..B", conflicts_with_all = ["more", "profile", "fragments"], value_parser = parse_preloads, verbatim_doc_comment)]
-    pub preloads: Option<Preloads>,
+    pub preloads: Option<Axis>,
     /// Threads that share the profiles; default: one for each core
     #[arg(long, value_name = "COUNT", requires = "lines", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
@@ -131,15 +131,16 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     let mut write = |report: &dyn Report| {
         arguments.output.write(stdout, report, format, Origin::Scene(&document, &scene))
     };
-    if let Some(preloads) = arguments.preloads {
-        let results = over_preloads(arguments, &document, &scene, preloads)?;
-        return write(&PreloadReport::new(title, &scene, choice, results));
+    let solved = |record: &[Quantity]| {
+        let (lines, jobs) = (arguments.lines.map_or(1, u64::from), threads(arguments.jobs));
+        let results = Results::of_scene(&scene, &folder, record, lines, arguments.preloads.as_ref(), jobs);
+        results.map_err(|error| CliError::named(document.name(), error))
+    };
+    if arguments.preloads.is_some() {
+        return write(&PreloadReport { title, choice, results: &solved(&Results::OF_PRELOADS)? });
     }
-    if let Some(lines) = arguments.lines {
-        let (lines, jobs) = (u64::from(lines), threads(arguments.jobs));
-        let results = Results::of_profiles(&scene, &folder, LinesReport::RECORD, lines, jobs)
-            .map_err(|error| CliError::named(document.name(), error))?;
-        return write(&LinesReport { choice, results: &results });
+    if arguments.lines.is_some() {
+        return write(&LinesReport { choice, results: &solved(LinesReport::RECORD)? });
     }
     let outcome = compute(&document, &scene)?;
     let estimate = match choice {
@@ -179,28 +180,4 @@ fn figure(arguments: &RunArguments, document: Document, format: Format) -> Resul
     }
     let scenes: Vec<_> = computed.iter().map(|(title, outcome)| (*title, outcome)).collect();
     Ok(force_figure(&scenes))
-}
-
-/// Results for many preloads on profiles, each with its seed if it has one.
-type Profiles = Vec<(Option<u64>, Vec<Preloaded>)>;
-
-/// Computes a scene for many preloads, on one or several profiles.
-fn over_preloads(
-    arguments: &RunArguments,
-    document: &Document,
-    scene: &Scene,
-    preloads: Preloads,
-) -> Result<Profiles, CliError> {
-    let forces = preloads.forces();
-    if let Some(lines) = arguments.lines {
-        let (folder, jobs) = (document.resolve(""), threads(arguments.jobs));
-        let solved = study::solve_preloads_on_lines(scene, &folder, &forces, u64::from(lines), jobs)
-            .map_err(|error| CliError::named(document.name(), error))?;
-        return Ok(solved.into_iter().map(|(seed, line)| (Some(seed), line)).collect());
-    }
-    let mut line = Vec::with_capacity(forces.len());
-    let mut simulation = simulation_of(document);
-    study::solve_preloads(&mut simulation, scene, &forces, &|| false, &mut |one| line.push(one))
-        .map_err(|error| CliError::named(document.name(), error))?;
-    Ok(vec![(scene.seed(), line)])
 }

@@ -1,6 +1,7 @@
 //! Text of figures: italic symbols, indices and exponents, SI prefixes, numbers.
 
-use crate::text::{grouped, printable, round_to, si_prefix};
+use crate::scene::format_rounded;
+use crate::text::{grouped, printable, si_prefix};
 use std::fmt;
 
 /// Powers of ten of the smallest and the largest prefix on an axis, femto and giga.
@@ -58,16 +59,6 @@ impl Label {
     /// Symbol of a quantity, or the name of a quantity without one.
     pub fn symbol_or_name(symbol: &str, name: &str) -> Label {
         if symbol.is_empty() { Label::plain(name) } else { Label::symbol(symbol) }
-    }
-
-    /// The symbol of a quantity with name and symbol; else the whole label.
-    pub fn without_name(&self) -> Label {
-        match self.runs.split_first() {
-            Some(((Face::Upright, name), rest)) if name.ends_with(' ') && !rest.is_empty() => {
-                Label { runs: rest.to_vec() }
-            }
-            _ => self.clone(),
-        }
     }
 
     /// A statement such as `H = 0.3`: a symbol before ` = `, upright text after it.
@@ -203,15 +194,6 @@ pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
     (10_f64.powi(power), format!("{prefix}{unit}"))
 }
 
-/// A number to three significant digits in the shortest form.
-pub fn short(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return if value == 0.0 { "0".into() } else { value.to_string() };
-    }
-    let rounded = round_to(value, 3);
-    if (1e-3..1e5).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
-}
-
 /// A number with the decimals of `step`.
 pub fn number(value: f64, step: f64) -> String {
     let decimals = (-step.abs().log10() - 1e-9).ceil().clamp(0.0, 12.0) as usize;
@@ -222,13 +204,11 @@ pub fn number(value: f64, step: f64) -> String {
 
 /// A value with its symbol, or with its name if `symbol` is empty: `H = 0.3`, `points 12.5 µN`.
 pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
-    let (divisor, unit) = prefixed(unit, value.abs());
-    let is_count = unit.is_empty() && value.fract() == 0.0 && (0.0..1e8).contains(&value);
-    let number = if is_count { grouped(value as u64) } else { short(value / divisor) };
-    let space = if unit.is_empty() { "" } else { " " };
+    let is_count = matches!(unit, "" | "1") && value.fract() == 0.0 && (0.0..1e8).contains(&value);
+    let text = if is_count { grouped(value as u64) } else { format_rounded(value, 3, unit) };
     let label =
         if symbol.is_empty() { Label::plain(name).then(" ") } else { Label::symbol(symbol).then(" = ") };
-    label.then(&format!("{number}{space}{unit}"))
+    label.then(&text)
 }
 
 #[cfg(test)]
@@ -280,10 +260,6 @@ mod tests {
 
     #[test]
     fn numbers_have_the_digits_they_need() {
-        assert_eq!(
-            [0.0, 0.30000000000000004, 12345.6, 1.5e-6, -2.0].map(short),
-            ["0", "0.3", "12300", "1.5e-6", "-2"]
-        );
         assert_eq!(number(0.30000000000000004, 0.1), "0.3");
         assert_eq!(number(-0.5, 0.05), "-0.50");
         assert_eq!(number(20.0, 10.0), "20");

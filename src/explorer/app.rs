@@ -15,7 +15,6 @@ use super::prompt::{Prompt, Purpose};
 use super::request::{Focus, LineView, ManualMove, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Drive, Preview, SolvedScene};
 use super::studies::Findings;
-use super::text_line::TextLine;
 use super::theme::Appearance;
 use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
@@ -179,7 +178,7 @@ pub struct App {
     pub finished: bool,
     /// Effects of the present action.
     pub(super) effects: Vec<Effect>,
-    /// What the solver was asked for last.
+    /// The last order to the solver.
     pub(super) asked: Option<Awaited>,
 }
 
@@ -253,9 +252,9 @@ impl App {
         self.prompt.as_ref().is_some_and(|prompt| matches!(prompt.purpose, Purpose::Value))
     }
 
-    /// Opens a prompt.
-    pub(super) fn ask(&mut self, purpose: Purpose, line: TextLine) {
-        self.prompt = Some(Prompt::new(purpose, line, &self.edit.parameters));
+    /// Opens a prompt with this text.
+    pub(super) fn ask(&mut self, purpose: Purpose, text: &str) {
+        self.prompt = Some(Prompt::new(purpose, text, &self.edit.parameters));
     }
 
     /// Governing parameters of the present scene from the newest computation, which must have the same line; its

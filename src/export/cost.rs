@@ -42,11 +42,7 @@ impl Report for CostReport<'_> {
     /// Times in s, errors relative.
     fn table(&self) -> Option<Table<'_>> {
         let mut table = Table::of(|| self.table.rows.iter())
-            .with("knob", Kind::Text("sub-cell-springs".len()), |row| match row.knob {
-                Knob::SubCellSprings => "sub-cell-springs",
-                Knob::GridSprings => "grid-springs",
-                Knob::Step => "step",
-            })
+            .with("knob", Kind::Text("sub-cell-springs".len()), |row| <&str>::from(row.knob))
             .real("setting", |row| row.setting)
             .whole("springs", |row| row.springs)
             .real("minimum_seconds", |row| row.seconds.map(|time| time.minimum))

@@ -5,72 +5,69 @@ use super::sheet::{Sheet, thinned};
 use crate::accuracy::Choice;
 use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use crate::io::{Table, object};
-use crate::scene::{Scene, format_quantity};
-use crate::study::{Preloaded, Statistics, preload_statistics};
+use crate::scene::format_quantity;
+use crate::study::{Results, Statistics};
 use crate::text::grouped;
+use std::ops::Range;
 
 /// Most rows of the table.
 const MOST_ROWS: usize = 32;
 /// Most preloads that are drawn as single signs.
 const MOST_SIGNS: usize = 128;
 
-/// Results for the same preloads on one or more profiles.
-#[derive(Clone, Debug)]
+/// Adhesion against preload on one or more profiles.
+#[derive(Clone, Copy, Debug)]
 pub struct PreloadReport<'a> {
-    title: &'a str,
-    choice: Option<&'a Choice>,
-    scene: &'a Scene,
-    seeds: Vec<Option<u64>>,
-    lines: Vec<Vec<Preloaded>>,
-    statistics: Vec<Option<Statistics>>,
+    /// Title of the figure.
+    pub title: &'a str,
+    /// Choice of springs for a tolerance, if one was given.
+    pub choice: Option<&'a Choice>,
+    /// The records of [`Results::OF_PRELOADS`].
+    pub results: &'a Results,
 }
 
-impl<'a> PreloadReport<'a> {
-    /// The results of profiles, each with its seed if it has one, with the title of their figure and the choice of
-    /// springs for a tolerance if there is one.
-    #[must_use]
-    pub fn new(
-        title: &'a str,
-        scene: &'a Scene,
-        choice: Option<&'a Choice>,
-        results: Vec<(Option<u64>, Vec<Preloaded>)>,
-    ) -> Self {
-        let (seeds, lines): (Vec<_>, Vec<_>) = results.into_iter().unzip();
-        PreloadReport { title, choice, scene, seeds, statistics: preload_statistics(&lines), lines }
-    }
-
+impl PreloadReport<'_> {
     fn is_mean(&self) -> bool {
-        self.lines.len() > 1
+        self.results.plan().lines > 1
     }
 
-    fn first(&self) -> &[Preloaded] {
-        self.lines.first().map_or(&[], Vec::as_slice)
+    /// Seeds of the profiles, if they have any.
+    fn seed(&self, line: u64) -> Option<u64> {
+        let plan = self.results.plan();
+        plan.scene.seed().map(|_| plan.seed_of(line))
     }
 }
 
 impl Report for PreloadReport<'_> {
     fn text(&self) -> Option<String> {
+        let plan = self.results.plan();
         let mut sheet = Sheet::default();
-        sheet.paragraph(&self.scene.title);
-        let profiles = match self.lines.len() {
+        sheet.paragraph(&plan.scene.title);
+        let profiles = match plan.lines {
             1 => "one profile".to_owned(),
-            count => format!("{} random profiles", grouped(count as u64)),
+            count => format!("{} random profiles", grouped(count)),
         };
-        let springs = grouped(self.scene.numerics.points);
+        let springs = grouped(plan.scene.numerics.points);
         sheet.heading(&format!("Adhesion against preload, {profiles} of {springs} springs"));
-        let shown = thinned(self.first().iter().zip(&self.statistics), MOST_ROWS);
         if self.is_mean() {
             let header = ["preload F_n", "mean F_a", "standard error", "95 % confidence of the mean"];
             let force = |value: f64| format_quantity(value, "N");
-            let rows = shown.filter_map(|(one, statistics)| {
+            let means = self.results.mean_adhesion_forces();
+            let rows = thinned(means.iter(), MOST_ROWS).filter_map(|(preload, statistics)| {
                 let Statistics { mean, standard_error, confidence_interval: (low, high), .. } =
                     (*statistics)?;
                 let band = format!("{} to {}", force(low), force(high));
-                Some([force(one.preload), force(mean), force(standard_error), band])
+                Some([force(*preload), force(mean), force(standard_error), band])
             });
             sheet.table(&std::iter::once(header.map(String::from)).chain(rows).collect::<Vec<_>>());
         } else {
-            unloadings(&mut sheet, ["preload F_n", "indentation"], shown.map(|(one, _)| *one));
+            let cells: Vec<u64> = (0..plan.cells()).collect();
+            let rows = thinned(cells.iter(), MOST_ROWS).map(|&cell| {
+                let [at, force, pull_off, energy] =
+                    Results::OF_PRELOADS.map(|quantity| self.results.value(cell, 0, quantity));
+                [Some(plan.values(cell)[0]), at, force, pull_off, energy]
+            });
+            unloadings(&mut sheet, ["preload F_n", "indentation"], rows);
         }
         if let Some(choice) = self.choice {
             sheet.heading(&choice.sentence());
@@ -79,69 +76,70 @@ impl Report for PreloadReport<'_> {
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let means = self.first().iter().zip(&self.statistics).map(|(one, statistics)| {
-            object! { "preload": one.preload, "adhesion_force": statistics }
-        });
-        let lines = self.seeds.iter().zip(&self.lines).map(|(seed, preloads)| {
-            object! { "seed": seed, "preloads": preloads }
-        });
+        let plan = self.results.plan();
+        let mean = |(preload, statistics)| object! { "preload": preload, "adhesion_force": statistics };
+        let means = || self.results.mean_adhesion_forces().into_iter().map(mean).collect::<Vec<_>>();
+        let line = |line| {
+            object! { "seed": self.seed(line), "preloads": preload_table(self.results, line..line + 1, false) }
+        };
         Some(Box::new(object! {
-            "scene": self.scene,
-            "mean": self.is_mean().then(|| means.collect::<Vec<_>>()),
-            "lines": lines.collect::<Vec<_>>(),
+            "scene": &plan.scene,
+            "mean": self.is_mean().then(means),
+            "lines": (0..plan.lines).map(line).collect::<Vec<_>>(),
         }))
     }
 
     /// One row for each preload of each profile, beginning with the seed if profiles have one.
     fn table(&self) -> Option<Table<'_>> {
-        let rows = || {
-            let lines = self.seeds.iter().zip(&self.lines);
-            lines.flat_map(|(seed, line)| line.iter().map(|one| (seed.unwrap_or(0), one)))
-        };
-        let mut table = Table::of(rows);
-        if !self.seeds.contains(&None) {
-            table = table.whole("seed", |(seed, _)| *seed);
-        }
-        let table = table
-            .real("preload", |(_, one)| one.preload)
-            .real("preload_indentation", |(_, one)| one.preload_indentation)
-            .real("adhesion_force", |(_, one)| one.adhesion_force)
-            .real("pull_off_indentation", |(_, one)| one.pull_off_indentation)
-            .real("dissipated_energy", |(_, one)| one.dissipated_energy);
-        Some(table.done())
+        Some(preload_table(self.results, 0..self.results.plan().lines, self.seed(0).is_some()))
     }
 
     /// The adhesion force over the preload: of the first profile, and the mean with its 95 % confidence.
     fn figure(&self) -> Option<Figure> {
-        let chart = preload_axes(preload_layers(self.first(), &self.statistics));
-        Some(Figure::of_chart(self.title, chart))
+        let layers = preload_layers(&self.results.adhesion_forces(0), &self.results.mean_adhesion_forces());
+        Some(Figure::of_chart(self.title, preload_axes(layers)))
     }
 }
 
-/// Writes a table of unloadings, the turning point under these headings.
-pub(super) fn unloadings(sheet: &mut Sheet, [force, at]: [&str; 2], rows: impl Iterator<Item = Preloaded>) {
+/// The unloadings from all preloads on these profiles, with the seeds if they are `seeded`.
+pub(super) fn preload_table(results: &Results, lines: Range<u64>, seeded: bool) -> Table<'_> {
+    let plan = results.plan();
+    let rows = move || lines.clone().flat_map(move |line| (0..plan.cells()).map(move |cell| (cell, line)));
+    let mut table = Table::of(rows);
+    if seeded {
+        table = table.whole("seed", |(_, line)| plan.seed_of(*line));
+    }
+    table = table.real("preload", |(cell, _)| plan.values(*cell)[0]);
+    for quantity in Results::OF_PRELOADS {
+        table = table.real(quantity.name(), move |(cell, line)| results.value(*cell, *line, quantity));
+    }
+    table.done()
+}
+
+/// Writes a table of unloadings: force and indentation of the turning point under these headings, adhesion force,
+/// indentation at pull-off, dissipated energy.
+pub(super) fn unloadings(
+    sheet: &mut Sheet,
+    [force, at]: [&str; 2],
+    rows: impl Iterator<Item = [Option<f64>; 5]>,
+) {
     let header = [force, at, "adhesion force F_a", "pull-off at", "dissipated"].map(String::from);
-    let row = |one: Preloaded| {
-        [
-            format_quantity(one.preload, "N"),
-            format_quantity(one.preload_indentation, "m"),
-            one.adhesion_force.map_or("-".to_owned(), |force| format_quantity(force, "N")),
-            format_quantity(one.pull_off_indentation, "m"),
-            format_quantity(one.dissipated_energy, "J"),
-        ]
+    let units = ["N", "m", "N", "m", "J"];
+    let row = |row: [Option<f64>; 5]| {
+        let mut units = units.into_iter();
+        row.map(|value| {
+            let unit = units.next().unwrap_or_default();
+            value.map_or("-".to_owned(), |value| format_quantity(value, unit))
+        })
     };
     sheet.table(&std::iter::once(header).chain(rows.map(row)).collect::<Vec<_>>());
 }
 
-/// Layers of the adhesion force over the preload: one profile, and the mean of several with the 95 % confidence of the mean.
+/// Layers of the adhesion force, N, over the preload, N: one profile, and the mean of several with its 95 % confidence.
 #[must_use]
-pub fn preload_layers(one: &[Preloaded], statistics: &[Option<Statistics>]) -> Vec<Layer> {
+pub fn preload_layers(one: &[(f64, f64)], means: &[(f64, Option<Statistics>)]) -> Vec<Layer> {
     let mut layers = Vec::new();
-    let mean: Vec<(f64, Statistics)> = one
-        .iter()
-        .zip(statistics)
-        .filter_map(|(one, statistics)| Some((one.preload, (*statistics)?)))
-        .collect();
+    let mean: Vec<(f64, Statistics)> = means.iter().filter_map(|(at, of)| Some((*at, (*of)?))).collect();
     if !mean.is_empty() {
         let band = |&(preload, of): &(f64, Statistics)| {
             (preload, of.confidence_interval.0, of.confidence_interval.1)
@@ -152,11 +150,10 @@ pub fn preload_layers(one: &[Preloaded], statistics: &[Option<Statistics>]) -> V
         let points = mean.iter().map(|&(preload, of)| (preload, of.mean)).collect();
         layers.push(Layer::new(name, Ink::Kept, Shape::line(points, Stroke::Dashed)));
     }
-    let points: Vec<_> = one.iter().map(|one| (one.preload, one.adhesion_force.unwrap_or(0.0))).collect();
     // The force of one profile is a staircase, whose steps lie anywhere between two preloads.
-    let shape = match points.len() {
-        0..=MOST_SIGNS => Shape::signs(points, Sign::Dot),
-        _ => Shape::line(points, Stroke::Solid),
+    let shape = match one.len() {
+        0..=MOST_SIGNS => Shape::signs(one.to_vec(), Sign::Dot),
+        _ => Shape::line(one.to_vec(), Stroke::Solid),
     };
     layers.push(Layer::new("this profile".into(), Ink::Unloading, shape));
     layers

@@ -6,6 +6,7 @@ use crate::text::{path_name, printable};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::Path;
+use strum::IntoStaticStr;
 
 /// A result that has one or more of four shapes.
 pub trait Report {
@@ -67,7 +68,8 @@ pub fn write(
 }
 
 /// Format of a result.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "lowercase")]
 pub enum Format {
     /// Text for a reader.
     Text,
@@ -90,19 +92,12 @@ impl Format {
 
     /// Name on the command line.
     pub fn name(self) -> &'static str {
-        if self == Format::Text { "text" } else { self.extension() }
+        self.into()
     }
 
     /// Extension of files.
     pub fn extension(self) -> &'static str {
-        match self {
-            Format::Text => "txt",
-            Format::Json => "json",
-            Format::Csv => "csv",
-            Format::Npy => "npy",
-            Format::Svg => "svg",
-            Format::Png => "png",
-        }
+        if self == Format::Text { "txt" } else { self.name() }
     }
 
     /// Returns true for the formats of a table.

@@ -1,13 +1,13 @@
 //! First-order reversal curves of a scene as text, JSON, tables and a figure.
 
-use super::preloads::{preload_axes, preload_layers, unloadings};
+use super::preloads::{preload_axes, preload_layers, preload_table, unloadings};
 use super::report::{Json, Report};
 use super::sheet::{Sheet, thinned};
 use crate::analysis::{MinorLoops, ReversalMap};
 use crate::draw::{Axis, AxisScale, Chart, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Span};
 use crate::io::{Table, object};
 use crate::scene::{Scene, format_quantity};
-use crate::study::Preloaded;
+use crate::study::Results;
 use crate::text::grouped;
 
 /// Most rows of the table.
@@ -21,8 +21,8 @@ pub struct ReversalReport<'a> {
     pub title: &'a str,
     pub scene: &'a Scene,
     pub map: &'a ReversalMap,
-    /// The adhesion force for exactly these preloads.
-    pub preloads: &'a [Preloaded],
+    /// Adhesion against preload, with the records of [`Results::OF_PRELOADS`], if a preload presses the bodies together.
+    pub preloads: Option<&'a Results>,
     /// Minor loops, if they were compared.
     pub loops: Option<MinorLoops>,
     /// Steps on either side over which the density is fitted.
@@ -54,7 +54,10 @@ impl Report for ReversalReport<'_> {
         let (count, springs) = (grouped(reversals.len() as u64), grouped(scene.numerics.points));
         sheet.heading(&format!("{count} reversals of one loading, {springs} springs"));
         let shown = thinned(reversals.iter(), MOST_ROWS);
-        let shown = shown.map(|reversal| Preloaded::new(reversal.turn.force, reversal));
+        let shown = shown.map(|one| {
+            let [at, pull_off] = [one.turn, one.smallest].map(|point| Some(point.indentation));
+            [Some(one.turn.force), at, one.adhesion_force(), pull_off, Some(one.dissipated_energy)]
+        });
         unloadings(&mut sheet, ["force at turn", "turning at"], shown);
         sheet.heading("Map");
         sheet.quantity("step of indentations", map.step(), "m");
@@ -77,7 +80,10 @@ impl Report for ReversalReport<'_> {
         };
         Some(Box::new(object! {
             "scene": scene,
-            "preloads": preloads,
+            "preloads": preloads.map_or_else(
+                || Table::of(std::iter::empty::<()>).done(),
+                |results| preload_table(results, 0..1, false),
+            ),
             "reversals": turning_points(map),
             "indentations": &map.points,
             "step": map.step(),
@@ -103,6 +109,7 @@ impl Report for ReversalReport<'_> {
         let mut notes =
             vec![Label::plain(&format!("density: quadratic fit, {smoothing} steps on either side"))];
         notes.extend(loops.map(|loops| Label::plain(&format!("incongruent: {}", congruency(loops)))));
+        let forces = preloads.map_or_else(Vec::new, |results| results.adhesion_forces(0));
         let everett = |turn, point| map.everett(turn, point);
         let density = |turn, point| map.density(turn, point, smoothing);
         Some(Figure {
@@ -111,7 +118,7 @@ impl Report for ReversalReport<'_> {
             charts: vec![
                 Chart {
                     heading: Label::quantity("adhesion force", "F_a"),
-                    ..preload_axes(preload_layers(preloads, &[]))
+                    ..preload_axes(preload_layers(&forces, &[]))
                 },
                 map_chart(map, "Everett function", ("E", "N"), Shades::Sequential, &everett),
                 map_chart(map, "FORC density", ("ρ", "N/m²"), Shades::Diverging, &density),

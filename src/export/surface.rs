@@ -5,7 +5,7 @@ use super::report::{Json, Report};
 use super::sheet::Sheet;
 use super::spectrum_figure::{Spectra, spectrum_name, wave_numbers};
 use crate::draw::Figure;
-use crate::io::{Kind, Table, object};
+use crate::io::{Kind, Pairs, Table, object};
 use crate::scene::{Move, Scene, format_quantity, format_rounded};
 use crate::spectrum::{Analysis, Bin, Direction, End, Estimate, LineMoments, Moment};
 use crate::study::MeasuredAdhesion;
@@ -94,8 +94,7 @@ impl Report for SurfaceReport {
             self_affine(&mut sheet, analysis);
         }
         sheet.heading("Equivalent line");
-        let line = self.line.moments();
-        moments(&mut sheet, self, &line);
+        moments(&mut sheet, self);
         let [low, high] = self.line.range().map(|q| format_quantity(TAU / q, "m"));
         let last = |analysis: &Analysis| analysis.isotropic.range()[1];
         let analyses = self.faces.iter().map(|face| &face.analysis);
@@ -105,7 +104,7 @@ impl Report for SurfaceReport {
             _ => "the last resolved wave; shorter ones are left out",
         };
         sheet.row("wavelengths", format!("{low} to {high} ({end})"));
-        let gradient = format_quantity(line.rms_gradient.value * FRAC_1_SQRT_2, "1");
+        let gradient = format_quantity(self.line.moments().rms_gradient.value * FRAC_1_SQRT_2, "1");
         let energy = 100.0 * FRAC_2_PI;
         sheet.row(
             "the profile itself",
@@ -130,15 +129,7 @@ impl Report for SurfaceReport {
     /// The opposite face is an object inside, without equivalent line and adhesion.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let (first, others) = self.faces.split_first()?;
-        let moments = self.line.moments();
-        let line = object! {
-            "rms_height": moments.rms_height,
-            "rms_gradient": moments.rms_gradient,
-            "energy_per_modulus": moments.energy_per_modulus,
-            "elastic_energy": self.elastic_energy(&moments),
-            "kappa": self.kappa(&moments),
-            "elastic_energy_ratio": self.energy_ratio(&moments),
-        };
+        let line = Pairs(self.moments().map(|(_, key, _, moment)| (key, moment)));
         let adhesion = self.adhesion.as_ref().and_then(|(scene, computed)| Some((scene, computed.as_ref()?)));
         let adhesion = adhesion.map(|(scene, computed)| {
             object! {
@@ -183,19 +174,22 @@ impl Report for SurfaceReport {
 }
 
 impl SurfaceReport {
-    /// Elastic energy of full contact, J/m².
-    fn elastic_energy(&self, moments: &LineMoments) -> Option<Moment> {
-        Some(moments.energy_per_modulus.scaled(self.modulus?))
-    }
-
-    /// κ = √(h⟨∇z⟩E*/γ), with half the relative error of h⟨∇z⟩.
-    fn kappa(&self, moments: &LineMoments) -> Option<Moment> {
-        Some(moments.height_gradient.scaled(self.modulus?).scaled(1.0 / self.work?).root())
-    }
-
-    /// Elastic energy of full contact over the work of adhesion.
-    fn energy_ratio(&self, moments: &LineMoments) -> Option<Moment> {
-        Some(self.elastic_energy(moments)?.scaled(1.0 / self.work?))
+    /// Moments of the equivalent line and what follows from them: label, key, unit, and value if it is known.
+    fn moments(&self) -> [(&'static str, &'static str, &'static str, Option<Moment>); 6] {
+        let LineMoments { rms_height, rms_gradient, height_gradient, energy_per_modulus } =
+            self.line.moments();
+        let stiff = |moment: Moment| Some(moment.scaled(self.modulus?));
+        let over_work = |moment: Moment| Some(moment.scaled(1.0 / self.work?));
+        let energy = stiff(energy_per_modulus);
+        [
+            ("rms height h", "rms_height", "m", Some(rms_height)),
+            ("rms gradient ⟨∇z⟩", "rms_gradient", "1", Some(rms_gradient)),
+            ("e_el/E*", "energy_per_modulus", "m", Some(energy_per_modulus)),
+            ("elastic energy e_el", "elastic_energy", "J/m²", energy),
+            // κ has half the relative error of h⟨∇z⟩.
+            ("κ", "kappa", "1", stiff(height_gradient).and_then(over_work).map(Moment::root)),
+            ("e_el/γ", "elastic_energy_ratio", "1", energy.and_then(over_work)),
+        ]
     }
 }
 
@@ -266,12 +260,13 @@ fn measured(sheet: &mut Sheet, analysis: &Analysis) {
     sheet.quantity("reliability cut-off", analysis.reliability_cutoff, "m");
 }
 
-/// Moments with their errors, a column for each kind.
-fn moments(sheet: &mut Sheet, report: &SurfaceReport, moments: &LineMoments) {
-    let heading = ["", "value", "statistical", "method", "missing short waves"].map(str::to_owned);
-    let mut rows = vec![heading];
-    let mut row = |label: &str, moment: Option<Moment>, unit: &str| {
-        let Some(moment) = moment else { return };
+/// Moments with their errors, a column for each kind; without e_el/E* if e_el is known.
+fn moments(sheet: &mut Sheet, report: &SurfaceReport) {
+    let mut rows = vec![["", "value", "statistical", "method", "missing short waves"].map(str::to_owned)];
+    for (label, key, unit, moment) in report.moments() {
+        let Some(moment) = moment.filter(|_| key != "energy_per_modulus" || report.modulus.is_none()) else {
+            continue;
+        };
         let share = |error: f64| per_cent(error / moment.value);
         let [statistical, method] =
             [moment.statistical, moment.method].map(|error| format!("± {}", share(error)));
@@ -282,16 +277,6 @@ fn moments(sheet: &mut Sheet, report: &SurfaceReport, moments: &LineMoments) {
         // As wide as the labels of the other rows.
         let (label, value) = (format!("  {label:22}"), format_quantity(moment.value, unit));
         rows.push([label, value, statistical, method, missing]);
-    };
-    row("rms height h", Some(moments.rms_height), "m");
-    row("rms gradient ⟨∇z⟩", Some(moments.rms_gradient), "1");
-    match report.elastic_energy(moments) {
-        None => row("e_el/E*", Some(moments.energy_per_modulus), "m"),
-        energy => {
-            row("elastic energy e_el", energy, "J/m²");
-            row("κ", report.kappa(moments), "1");
-            row("e_el/γ", report.energy_ratio(moments), "1");
-        }
     }
     sheet.table(&rows);
 }

@@ -45,7 +45,14 @@ pub(crate) fn open_regular(path: &Path) -> Result<File, ReadError> {
     check_regular(&path.metadata()?)?;
     let mut options = OpenOptions::new();
     options.read(true);
-    without_waiting(&mut options);
+    // Opening returns at once, as does reading of files such as `/proc/kmsg`, which the system reports as regular
+    // although they are not. A terminal does not become that of the process.
+    #[cfg(unix)]
+    {
+        use rustix::fs::OFlags;
+        use std::os::unix::fs::OpenOptionsExt;
+        options.custom_flags((OFlags::NONBLOCK | OFlags::NOCTTY).bits().cast_signed());
+    }
     let file = options.open(path)?;
     // Another file may have taken the name meanwhile.
     check_regular(&file.metadata()?)?;
@@ -85,19 +92,6 @@ fn check_regular(found: &std::fs::Metadata) -> Result<(), ReadError> {
         Err(ReadError::NotRegular)
     }
 }
-
-/// Makes opening return at once, and reading of files such as `/proc/kmsg`, which the system reports as regular
-/// although they are not. Regular files on disks are read as usual. A terminal does not become that of the process.
-#[cfg(unix)]
-pub(crate) fn without_waiting(options: &mut OpenOptions) {
-    use rustix::fs::OFlags;
-    use std::os::unix::fs::OpenOptionsExt;
-    options.custom_flags((OFlags::NONBLOCK | OFlags::NOCTTY).bits().cast_signed());
-}
-
-/// Elsewhere a name found to be a regular file is opened at once.
-#[cfg(not(unix))]
-pub(crate) fn without_waiting(_: &mut OpenOptions) {}
 
 #[cfg(test)]
 mod tests {

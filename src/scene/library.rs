@@ -15,25 +15,27 @@ use crate::text::{path_name, printable};
 /// Name of the default scene.
 pub const DEFAULT: &str = "pressure-sensitive";
 
-/// A built-in scene.
+/// A built-in scene or plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Preset {
-    /// Name of the scene on the command line.
+    /// Name on the command line.
     pub name: &'static str,
     /// Text in RON.
     pub text: &'static str,
 }
 
-macro_rules! presets {
-    ($($name:literal),* $(,)?) => {
-        &[$(Preset {
+/// Built-in files of a folder of presets, by their names.
+macro_rules! built_in {
+    ($folder:literal: $($name:literal),* $(,)?) => {
+        &[$($crate::scene::Preset {
             name: $name,
-            text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/presets/", $name, ".ron")),
+            text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/presets/", $folder, $name, ".ron")),
         }),*]
     };
 }
+pub(crate) use built_in;
 
-const PRESETS: &[Preset] = presets![
+const PRESETS: &[Preset] = built_in!["":
     "ideal-adhesion",
     "pressure-sensitive",
     "non-adhesive",

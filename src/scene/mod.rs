@@ -50,6 +50,7 @@ pub(crate) use errors::nearest;
 pub use errors::{Origin, SceneError, SceneErrors};
 pub use field::{Field, LEG_FORCE, LEG_INDENTATION, Step, stage_targets};
 pub use fields::{FIELDS, MOST_POINTS, SCENE_VERSIONS, field};
+pub(crate) use library::built_in;
 pub use library::{DEFAULT, Entry, Preset, Source, find, own_folder, presets, scenes, typed_path};
 pub use measured::Measured;
 pub use model::*;

@@ -1,66 +1,54 @@
 //! The loading of a prepared contact by the solver of the scene, and F_a(0).
 
+use super::Timings;
 use crate::analysis::Figures;
 use crate::contact::{Body, Contact, ContactError, History, Leg, LegRecord, Solver, Stepwise, run};
 use crate::scene::{Move, Scene, Solver as SolverChoice};
 use std::time::Instant;
 
-/// Result of a loading.
-pub(super) struct Loaded {
-    pub history: History,
-    /// Seconds spent on curves and extremes.
-    pub curve_seconds: f64,
-    /// F_a(0), N, if requested and if the contact of first touch pulls.
-    pub zero_load_adhesion_force: Option<f64>,
-    /// Additional seconds for F_a(0).
-    pub zero_load_seconds: f64,
-}
-
-impl Loaded {
-    fn new(history: History, solver: &dyn Solver) -> Self {
-        let curve_seconds = solver.curve_seconds();
-        Loaded { history, curve_seconds, zero_load_adhesion_force: None, zero_load_seconds: 0.0 }
-    }
-}
-
-/// Loads a contact with the solver of the scene, and by the touch protocol if F_a(0) is requested.
+/// Loads a contact with the solver of the scene, and by the touch protocol if F_a(0) is requested. Returns the history,
+/// and F_a(0), N, if the contact of first touch pulls.
 pub(super) fn load(
     scene: &Scene,
     contact: &Contact,
     zero_load: bool,
+    timings: &mut Timings,
     stop: &dyn Fn() -> bool,
     see: &mut dyn FnMut(&LegRecord, &Leg) -> Result<(), ContactError>,
-) -> Result<Loaded, ContactError> {
+) -> Result<(History, Option<f64>), ContactError> {
     let samples = scene.numerics.samples as usize;
+    let mut force = None;
     match scene.numerics.solver {
         SolverChoice::Stepwise { step } => {
             let body = |samples| Stepwise::new(contact, step, samples, stop);
             let mut solver = body(samples)?;
-            let mut loaded = Loaded::new(run(&mut solver, &scene.loading, see)?, &solver);
+            let mut history = run(&mut solver, &scene.loading, see)?;
+            timings.curve = solver.curve_seconds();
             if zero_load {
                 let clock = Instant::now();
                 let touch = run(&mut body(2)?, &[Move::ToTouch, Move::ToSeparation], |_, _| Ok(()))?;
-                loaded.zero_load_adhesion_force = Figures::of(&touch).adhesion_force;
-                let work = &mut loaded.history.work;
+                force = Figures::of(&touch).adhesion_force;
+                let work = &mut history.work;
                 work.steps += touch.work.steps;
                 work.relaxation_sweeps += touch.work.relaxation_sweeps;
                 work.spring_updates += touch.work.spring_updates;
-                loaded.zero_load_seconds = clock.elapsed().as_secs_f64();
+                timings.zero_load = clock.elapsed().as_secs_f64();
             }
-            Ok(loaded)
+            Ok((history, force))
         }
         SolverChoice::Exact => {
             let mut body = Body::new(contact, samples);
-            let mut loaded = Loaded::new(run(&mut body, &scene.loading, see)?, &body);
+            let mut history = run(&mut body, &scene.loading, see)?;
+            timings.curve = body.curve_seconds();
             if zero_load && contact.has_adhesion() {
                 let clock = Instant::now();
-                let force = body.pull_off_at_touch()?;
-                loaded.history.work = body.work();
+                let least = body.pull_off_at_touch()?;
+                history.work = body.work();
                 // Not −F, which would make a force of zero negative.
-                loaded.zero_load_adhesion_force = Some(0.0 - force).filter(|_| force <= 0.0);
-                loaded.zero_load_seconds = clock.elapsed().as_secs_f64();
+                force = Some(0.0 - least).filter(|_| least <= 0.0);
+                timings.zero_load = clock.elapsed().as_secs_f64();
             }
-            Ok(loaded)
+            Ok((history, force))
         }
     }
 }

@@ -1,7 +1,6 @@
 //! Heights of the roughness of a scene, synthesised or measured.
 
 use super::RunError;
-use super::cached::Cached;
 use crate::scene::{MOST_POINTS, Roughness, SPRINGS_PER_WAVE, Scene};
 use crate::surface::{
     Amplitude, EquivalentLine, MeasuredOptions, MeasuredRoughness, SelfAffine, SurfaceError, Synthesizer,
@@ -35,6 +34,7 @@ enum Source {
 
 /// Heights of the roughness before scaling.
 pub(super) struct Rough {
+    pub key: RoughnessKey,
     /// Empty once they have become the gaps of the profile.
     pub heights: Vec<f64>,
     /// Amplitude of the self-affine profile of rms height 1 on a length of 1 m.
@@ -52,7 +52,7 @@ pub(super) struct RoughnessMaker {
     /// A measured surface in place of the scenes' files.
     pub measured: Option<Arc<MeasuredRoughness>>,
     /// The equivalent line of the last files: it is small, and serves all seeds.
-    equivalent: Cached<(Vec<Vec<PathBuf>>, MeasuredOptions), Arc<MeasuredRoughness>>,
+    equivalent: Option<(Vec<Vec<PathBuf>>, MeasuredOptions, Arc<MeasuredRoughness>)>,
     pub synthesizer: Synthesizer,
     /// Number of random phases drawn so far.
     pub phases_drawn: u64,
@@ -88,18 +88,14 @@ impl RoughnessMaker {
     ///
     /// # Errors
     /// An unreadable measured surface, waves that do not fit the points, insufficient memory.
-    pub fn make(&mut self, key: &RoughnessKey, memory: Vec<f64>) -> Result<Rough, RunError> {
-        let RoughnessKey { ref source, seed, points, shift } = *key;
+    pub fn make(&mut self, key: RoughnessKey, memory: Vec<f64>) -> Result<Rough, RunError> {
+        let RoughnessKey { ref source, seed, points, shift } = key;
         let (faces, options, length) = match source {
             Source::SelfAffine(spectrum) => {
                 let heights = self.synthesizer.synthesize(*spectrum, seed, points, shift, memory)?;
                 self.phases_drawn += spectrum.last + 1 - spectrum.first;
-                return Ok(Rough {
-                    heights,
-                    unit: Some(spectrum.unit_amplitude(1.0)),
-                    measured: None,
-                    modes: Some((spectrum.first, spectrum.last)),
-                });
+                let (unit, modes) = (spectrum.unit_amplitude(1.0), (spectrum.first, spectrum.last));
+                return Ok(Rough { key, heights, unit: Some(unit), measured: None, modes: Some(modes) });
             }
             Source::Measured { faces, options, length } => (faces, options, *length),
         };
@@ -119,7 +115,7 @@ impl RoughnessMaker {
                 (heights, line.amplitude_of_modes(length, modes), Some(modes))
             }
         };
-        Ok(Rough { heights, unit: None, measured: Some(amplitude), modes })
+        Ok(Rough { key, heights, unit: None, measured: Some(amplitude), modes })
     }
 
     /// Returns the surface of the faces: the given one, the last equivalent line, or a new one.
@@ -128,13 +124,13 @@ impl RoughnessMaker {
         faces: &[Vec<PathBuf>],
         options: &MeasuredOptions,
     ) -> Result<Arc<MeasuredRoughness>, SurfaceError> {
-        let key = (faces.to_vec(), *options);
-        if let Some(known) = self.measured.as_ref().or(self.equivalent.get(&key)) {
+        let last = self.equivalent.as_ref().filter(|(of, with, _)| of == faces && with == options);
+        if let Some(known) = self.measured.as_ref().or(last.map(|(.., surface)| surface)) {
             return Ok(Arc::clone(known));
         }
         let surface = Arc::new(MeasuredRoughness::new(&read_faces(faces)?, options)?);
         if let MeasuredRoughness::Equivalent(_) = *surface {
-            self.equivalent.keep(key, Arc::clone(&surface));
+            self.equivalent = Some((faces.to_vec(), *options, Arc::clone(&surface)));
         }
         Ok(surface)
     }

@@ -1,6 +1,5 @@
 //! Execution of the stages of a scene whose input has changed since the last run.
 
-use super::cached::Cached;
 use super::loading::load;
 use super::roughness::{Rough, RoughnessKey, RoughnessMaker, spectrum};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
@@ -38,8 +37,8 @@ pub struct Simulation {
     /// True for a single scene: memory for another one is released at once.
     single: bool,
     maker: RoughnessMaker,
-    roughness: Cached<RoughnessKey, Rough>,
-    line: Cached<LineKey, Line>,
+    roughness: Option<Rough>,
+    line: Option<(LineKey, Line)>,
     /// Histogram of the heights of the profile, once observed.
     histogram: Option<Histogram>,
     /// Springs of the profile.
@@ -98,7 +97,7 @@ impl Simulation {
     /// The profile of the last scene.
     #[must_use]
     pub fn line(&self) -> Option<&Line> {
-        self.line.value()
+        self.line.as_ref().map(|(_, line)| line)
     }
 
     /// Makes the profile of a checked scene, unless unchanged since the last one, and returns its known values.
@@ -108,13 +107,13 @@ impl Simulation {
     pub fn make_line(&mut self, scene: &Scene) -> Result<(&Line, LineFacts, Governing), RunError> {
         let (points, length) = (scene.numerics.points as usize, scene.length);
         let roughness = self.maker.key(scene);
-        if roughness.as_ref().is_none_or(|key| self.roughness.get(key).is_none()) {
+        if self.roughness.as_ref().map(|rough| &rough.key) != roughness.as_ref() {
             let before = self.roughness.take().map(|rough| rough.heights);
             if let Some(key) = &roughness {
                 self.roughen(scene, key, before.unwrap_or_default())?;
             }
         }
-        let rough = self.roughness.value();
+        let rough = self.roughness.as_ref();
         let unit = rough.and_then(|rough| rough.unit).map(|unit| unit.stretched(length));
         let measured = rough.and_then(|rough| rough.measured);
         let governing = Governing::of(scene, unit, measured);
@@ -123,12 +122,12 @@ impl Simulation {
         let scale = if measured.is_some() { 1.0 } else { rms_height };
         let modes = rough.and_then(|rough| rough.modes);
         let key = LineKey { roughness, scale, length, points, form: scene.form };
-        if self.line.get(&key).is_none() {
+        if self.line.as_ref().is_none_or(|(of, _)| *of != key) {
             let line = self.lay_line(scene, &key)?;
             self.springs = Arc::new(Springs::new(Arc::clone(&line.gaps)));
-            self.line.keep(key, line);
+            self.line = Some((key, line));
         }
-        let Some(line) = self.line.value() else { return Err(NO_PROFILE.into()) };
+        let Some((_, line)) = &self.line else { return Err(NO_PROFILE.into()) };
         let facts = LineFacts {
             points,
             length,
@@ -152,17 +151,18 @@ impl Simulation {
         if let Some(springs) = Arc::into_inner(take(&mut self.springs)) {
             self.former_tree = springs.into_tree();
         }
-        let mut memory = self.line.take().and_then(|line| Arc::into_inner(line.gaps)).unwrap_or_default();
-        if let (Some(of), Some(rough)) = (&key.roughness, self.roughness.value())
+        let mut memory =
+            self.line.take().and_then(|(_, line)| Arc::into_inner(line.gaps)).unwrap_or_default();
+        if let (Some(of), Some(rough)) = (&key.roughness, &self.roughness)
             && rough.heights.is_empty()
         {
             self.roughen(scene, of, take(&mut memory))?;
         }
         let form = scene.form.as_ref();
-        let line = match self.roughness.value_mut() {
+        let line = match &mut self.roughness {
             Some(rough) if self.single => Line::from_roughness(take(&mut rough.heights), length, form, scale),
             rough => {
-                let heights = rough.map(|rough| rough.heights.as_slice());
+                let heights = rough.as_ref().map(|rough| rough.heights.as_slice());
                 Line::new_in(memory, length, points, form, heights, scale)
             }
         };
@@ -174,7 +174,7 @@ impl Simulation {
         let points = scene.numerics.points as usize;
         // The transform allocates its own memory, and would end the process on failure.
         check_room(Plan::of(scene).line_bytes()).map_err(|_| SurfaceError::OutOfMemory(points))?;
-        self.roughness.keep(key.clone(), self.maker.make(key, memory)?);
+        self.roughness = Some(self.maker.make(key.clone(), memory)?);
         if self.single {
             self.maker.synthesizer = Synthesizer::default();
         }
@@ -184,7 +184,7 @@ impl Simulation {
     /// Makes the missing parts of the profile required by the plan: its histogram and its tree. Returns the number
     /// of heights sorted into bins.
     fn look_at_line(&mut self, plan: &Plan, edges: Edges) -> Result<u64, ContactError> {
-        let Some(line) = self.line.value() else { return Err(NO_PROFILE) };
+        let Some((_, line)) = &self.line else { return Err(NO_PROFILE) };
         let count = plan.runs(Stage::HeightHistogram) && self.histogram.is_none();
         let build = plan.runs(Stage::Tree) && !self.springs.has_tree(edges);
         let (springs, memory) = (&self.springs, take(&mut self.former_tree));
@@ -280,19 +280,15 @@ impl Simulation {
             after(stage - 1, record, leg)
         };
         let zero_load = plan.runs(Stage::ZeroLoadAdhesion);
-        let loaded = load(scene, &contact, zero_load, stop, &mut see)?;
-        timings.curve = loaded.curve_seconds;
-        timings.zero_load = loaded.zero_load_seconds;
+        let (mut history, at_touch) = load(scene, &contact, zero_load, &mut timings, stop, &mut see)?;
         timings.passes = (clock.elapsed().as_secs_f64() - timings.curve - timings.zero_load).max(0.0);
-        let mut history = loaded.history;
         history.contacts.iter_mut().for_each(|contact| *contact = on_foundation(*contact));
         let transforms = u64::from(random_phases > 0);
         history.work = Work { random_phases, transforms, heights_binned, ..history.work };
 
         let figures = Figures::of(&history);
         let is_touch = contact.has_adhesion() && Figures::is_touch_protocol(scene);
-        let zero_load_adhesion_force =
-            loaded.zero_load_adhesion_force.or(figures.adhesion_force.filter(|_| is_touch));
+        let zero_load_adhesion_force = at_touch.or(figures.adhesion_force.filter(|_| is_touch));
         let (work, modulus, length) = (governing.adhesive_work(), governing.effective_modulus, scene.length);
         let smooth = work.map(|work| smooth_adhesion_force(scene.form.as_ref(), length, modulus, work));
         Ok(Outcome {

@@ -70,54 +70,51 @@ impl Axis {
     /// # Errors
     /// What is wrong with the axis, and what is allowed.
     pub(super) fn of(text: AxisText, scene: &Scene) -> Result<Axis, String> {
-        let (AxisText::Linear { path, .. }
-        | AxisText::Logarithmic { path, .. }
-        | AxisText::List { path, .. }) = &text;
+        let (path, spacing) = match &text {
+            AxisText::Linear { path, .. } => (path, Spacing::Linear),
+            AxisText::Logarithmic { path, .. } => (path, Spacing::Logarithmic),
+            AxisText::List { path, .. } => (path, Spacing::List),
+        };
         let path = printable(path).into_owned();
-        let wrong = |what: String| format!("axis {path}: {what}");
-        let axis = |spacing| Axis::new(&path, spacing, Vec::new(), scene).map_err(wrong);
+        let axis = Axis::new(&path, spacing, Vec::new(), scene).and_then(|axis| axis.with_values(text));
+        axis.map_err(|what| format!("axis {path}: {what}"))
+    }
+
+    fn with_values(self, text: AxisText) -> Result<Axis, String> {
         let axis = match text {
-            AxisText::List { values, .. } => {
-                let axis = axis(Spacing::List)?;
-                if values.is_empty() {
-                    return Err(wrong("no values; allowed: at least one".into()));
-                }
-                if values.len() as u64 > MOST_VALUES {
-                    return Err(wrong(format!("{} values; allowed: at most {MOST_VALUES}", values.len())));
-                }
-                if let Some(value) = values.iter().find(|value| !value.is_finite()) {
-                    return Err(wrong(format!("{value:?}: values must be finite")));
-                }
-                Axis { values, ..axis }
+            AxisText::List { values, .. } if values.is_empty() => {
+                return Err("no values; allowed: at least one".into());
             }
+            AxisText::List { values, .. } if values.len() as u64 > MOST_VALUES => {
+                return Err(format!("{} values; allowed: at most {MOST_VALUES}", values.len()));
+            }
+            AxisText::List { values, .. } => Axis { values, ..self },
             AxisText::Linear { from, to, count, .. } => {
-                let axis = axis(Spacing::Linear)?;
-                check_ends(from, to, count).map_err(wrong)?;
+                check_ends(from, to, count)?;
                 if !(to - from).is_finite() {
-                    return Err(wrong(format!(
-                        "from {from:?} to {to:?}: the range overflows a 64-bit float"
-                    )));
+                    return Err(format!("from {from:?} to {to:?}: the range overflows a 64-bit float"));
                 }
-                axis.between(from, to, count, |share| from * (1.0 - share) + to * share)
+                self.between(from, to, count, |share| from * (1.0 - share) + to * share)
             }
             AxisText::Logarithmic { from, to, count, .. } => {
-                let axis = axis(Spacing::Logarithmic)?;
-                check_ends(from, to, count).map_err(wrong)?;
+                check_ends(from, to, count)?;
                 if from <= 0.0 {
-                    return Err(wrong(format!("from {from:?}: a logarithmic axis begins above 0")));
+                    return Err(format!("from {from:?}: a logarithmic axis begins above 0"));
                 }
                 let (first, last) = (from.ln(), to.ln());
-                axis.between(from, to, count, |share| (first * (1.0 - share) + last * share).exp())
+                self.between(from, to, count, |share| (first * (1.0 - share) + last * share).exp())
             }
         };
-        if axis.is_whole()
-            && let Some(value) = axis.values.iter().find(|value| **value < 0.0 || value.fract() != 0.0)
-        {
-            return Err(wrong(format!("{value:?}: allowed: whole numbers")));
+        if let Some(value) = axis.values.iter().find(|value| !value.is_finite()) {
+            return Err(format!("{value:?}: values must be finite"));
+        }
+        let is_whole = |value: &f64| *value >= 0.0 && value.fract() == 0.0;
+        if let Some(value) = axis.values.iter().find(|value| axis.is_whole() && !is_whole(value)) {
+            return Err(format!("{value:?}: allowed: whole numbers"));
         }
         let ascending = axis.ascending();
         let twice = ascending.values.windows(2).find(|pair| pair[0] == pair[1]);
-        twice.map_or(Ok(axis), |pair| Err(wrong(format!("the value {:?} appears twice", pair[0]))))
+        twice.map_or(Ok(axis), |pair| Err(format!("the value {:?} appears twice", pair[0])))
     }
 
     /// The axis with `count` values from one end to the other. Those between the ends are rounded to 12 significant

@@ -1,24 +1,8 @@
 //! Built-in plans.
 
-/// A built-in plan.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct BuiltInPlan {
-    /// Name of the plan on the command line.
-    pub name: &'static str,
-    /// Text in RON.
-    pub text: &'static str,
-}
+use crate::scene::{Preset, built_in};
 
-macro_rules! plans {
-    ($($name:literal),* $(,)?) => {
-        &[$(BuiltInPlan {
-            name: $name,
-            text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/presets/plans/", $name, ".ron")),
-        }),*]
-    };
-}
-
-const PLANS: &[BuiltInPlan] = plans![
+const PLANS: &[Preset] = built_in!("plans/":
     "figure-5a",
     "figure-5b",
     "figure-6",
@@ -26,14 +10,14 @@ const PLANS: &[BuiltInPlan] = plans![
     "elastic-energy",
     "stiffness-exponent",
     "self-averaging"
-];
+);
 
 /// All built-in plans.
-pub fn plans() -> &'static [BuiltInPlan] {
+pub fn plans() -> &'static [Preset] {
     PLANS
 }
 
 /// Built-in plan of this name.
-pub fn find(name: &str) -> Option<&'static BuiltInPlan> {
+pub fn find(name: &str) -> Option<&'static Preset> {
     PLANS.iter().find(|plan| plan.name == name)
 }

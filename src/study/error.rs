@@ -1,5 +1,6 @@
 //! Errors of studies.
 
+use super::plan::Plan;
 use super::plan_text::PlanErrors;
 use crate::io::WriteError;
 use crate::simulation::RunError;
@@ -29,10 +30,10 @@ pub enum StudyError {
     /// A file could not be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// A cell or a random profile could not be computed.
-    #[error("{place}: {error}")]
+    /// A cell or a profile could not be computed.
+    #[error("{place}{error}")]
     Run {
-        /// Cell with its coordinates, and seed of the profile.
+        /// Cell with its coordinates and seed of the profile, before a colon; empty for a single profile.
         place: String,
         /// Error of the run.
         error: RunError,
@@ -46,9 +47,10 @@ pub enum StudyError {
 }
 
 impl StudyError {
-    /// Error of the random profile of this seed.
-    pub(super) fn profile(seed: u64, error: RunError) -> StudyError {
-        StudyError::Run { place: format!("seed {seed}"), error }
+    /// Error of a profile of a study of one cell, or one at each preload.
+    pub(super) fn of_profile(plan: &Plan, line: u64, error: RunError) -> StudyError {
+        let place = if plan.lines > 1 { format!("seed {}: ", plan.seed_of(line)) } else { String::new() };
+        StudyError::Run { place, error }
     }
 
     /// Error of a folder or file that cannot be used, with the reason.

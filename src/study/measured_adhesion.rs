@@ -87,7 +87,7 @@ impl MeasuredAdhesion {
             |number| {
                 let seed = scene.seed().unwrap_or(0).wrapping_add(number);
                 let solved = ProfileAdhesion::solve(scene, line, seed, &|| false);
-                solved.map_err(|error| StudyError::profile(seed, error))
+                solved.map_err(|error| StudyError::Run { place: format!("seed {seed}: "), error })
             }
         })?;
         Ok(MeasuredAdhesion { profiles })

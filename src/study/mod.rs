@@ -65,7 +65,7 @@ mod target;
 
 pub use axis::{Axis, MOST_VALUES, Spacing};
 pub use boundary::{Boundaries, Boundary, Crossing, DEFINITIONS, USUAL_LEVELS, boundaries, protocol_name};
-pub use builtin::{BuiltInPlan, find, plans};
+pub use builtin::{find, plans};
 pub use error::StudyError;
 pub use grid::{Cell, Estimate, Grid, Layer, Place};
 pub use measured_adhesion::{MeasuredAdhesion, ProfileAdhesion};
@@ -75,9 +75,7 @@ pub use parquet::write_parquet;
 pub use plan::{Plan, StiffnessRange};
 pub use plan_check::{MOST_CELLS, MOST_LINES, MOST_RECORDS};
 pub use plan_text::{Changes, PLAN_VERSION, PlanErrors};
-pub use preloads::{
-    PRELOADS, Preloaded, Preloads, preload_statistics, solve_preloads, solve_preloads_on_lines,
-};
+pub use preloads::PRELOADS;
 pub use quantity::Quantity;
 pub use regime_counts::RegimeCounts;
 pub use results::{Merged, Results};

@@ -11,23 +11,16 @@ use crate::scene::{
 };
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use std::fmt;
 use std::path::Path;
+use thiserror::Error;
 
 /// The only supported version of the plan file.
 pub const PLAN_VERSION: u32 = 1;
 
 /// All errors of a plan, one line each.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{}", .0.join("\n"))]
 pub struct PlanErrors(pub Vec<String>);
-
-impl fmt::Display for PlanErrors {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0.join("\n"))
-    }
-}
-
-impl std::error::Error for PlanErrors {}
 
 /// Changes of a plan for one study, in addition to the text.
 #[derive(Clone, Debug, Default, PartialEq)]

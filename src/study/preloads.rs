@@ -1,172 +1,111 @@
-//! Adhesion against preload: the adhesion force of one profile for many preloads, and its mean over random profiles.
+//! Adhesion against preload: a study in memory over preloads in N, in place of the unit of a plan.
 
-use super::error::StudyError;
-use super::plan::ONE_PROFILE;
+use super::axis::{Axis, Spacing};
+use super::plan::PRELOAD;
 use super::quantity::Quantity;
+use super::results::Results;
 use super::statistics::Statistics;
-use crate::contact::Reversal;
-use crate::parallel::on_threads;
-use crate::scene::{Move, Scene};
-use crate::simulation::{RunError, Simulation};
-use serde::Serialize;
+use super::target::Target;
 use std::ops::RangeInclusive;
-use std::path::Path;
 
 /// Numbers of preloads.
 pub const PRELOADS: RangeInclusive<usize> = 2..=512;
 
-/// Equally spaced preloads, N.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Preloads {
-    from: f64,
-    to: f64,
-    count: usize,
-}
-
-impl Preloads {
-    /// Preloads between two forces, N, the first at least 0 and below the second; `None` for other forces, or a
-    /// number outside [`PRELOADS`].
-    pub fn new(from: f64, to: f64, count: usize) -> Option<Self> {
+impl Axis {
+    /// Equally spaced preloads between two forces, N, the first at least 0 and below the second; `None` for other forces,
+    /// or a number outside [`PRELOADS`].
+    pub fn of_preloads(from: f64, to: f64, count: usize) -> Option<Axis> {
         let is_allowed = from >= 0.0 && to > from && to.is_finite() && PRELOADS.contains(&count);
-        is_allowed.then_some(Preloads { from, to, count })
-    }
-
-    /// Smallest and largest preload, N.
-    pub fn ends(&self) -> (f64, f64) {
-        (self.from, self.to)
-    }
-
-    /// The forces, N, in ascending order.
-    pub fn forces(&self) -> Vec<f64> {
-        let last = (self.count - 1) as f64;
-        let at = |index: usize| (self.from + (self.to - self.from) * (index as f64 / last)).min(self.to);
-        (0..self.count).map(at).collect()
+        let last = count.saturating_sub(1) as f64;
+        let at = |index: usize| (from + (to - from) * (index as f64 / last)).min(to);
+        is_allowed.then(|| Axis {
+            path: PRELOAD.into(),
+            name: "preload".into(),
+            symbol: "F_n",
+            unit: "N",
+            spacing: Spacing::Linear,
+            values: (0..count).map(at).collect(),
+            target: Target::Preload,
+        })
     }
 }
 
-/// The unloading from one preload to separation, in SI units.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Preloaded {
-    /// Preload F_n, N.
-    pub preload: f64,
-    /// Indentation at the preload, m.
-    pub preload_indentation: f64,
-    /// Adhesion force F_a, N.
-    pub adhesion_force: Option<f64>,
-    /// Indentation at the smallest force, m.
-    pub pull_off_indentation: f64,
-    /// Energy dissipated from separation to separation, J.
-    pub dissipated_energy: f64,
-}
+impl Results {
+    /// Recorded quantities of adhesion against preload.
+    pub const OF_PRELOADS: [Quantity; 4] = [
+        Quantity::PreloadIndentation,
+        Quantity::AdhesionForce,
+        Quantity::PullOffIndentation,
+        Quantity::DissipatedEnergy,
+    ];
 
-impl Preloaded {
-    /// Figures of a reversal at this preload, N.
-    pub fn new(preload: f64, reversal: &Reversal) -> Self {
-        Preloaded {
-            preload,
-            preload_indentation: reversal.turn.indentation,
-            adhesion_force: reversal.adhesion_force(),
-            pull_off_indentation: reversal.smallest.indentation,
-            dissipated_energy: reversal.dissipated_energy,
-        }
+    /// Adhesion force of a profile at each preload, N; one without a tensile force counts as 0 N.
+    pub fn adhesion_forces(&self, line: u64) -> Vec<(f64, f64)> {
+        let force = |cell| self.value(cell, line, Quantity::AdhesionForce).unwrap_or(0.0);
+        (0..self.plan.cells()).map(|cell| (self.plan.value(cell, 0), force(cell))).collect()
     }
-}
 
-/// Solves a checked scene for these preloads, N, in place of its own loading: one loading, one unloading from each.
-/// `see` receives each result as soon as it is ready, in the order of ascending preloads.
-///
-/// # Errors
-/// Those of [`Simulation::reverse`].
-pub fn solve_preloads(
-    simulation: &mut Simulation,
-    scene: &Scene,
-    forces: &[f64],
-    stop: &dyn Fn() -> bool,
-    see: &mut dyn FnMut(Preloaded),
-) -> Result<(), RunError> {
-    let ends: Vec<Move> = forces.iter().map(|&force| Move::ToForce(force)).collect();
-    simulation.reverse(scene, (&ends, &[]), stop, &mut |index, reversal| {
-        see(Preloaded::new(forces[index], &reversal));
-        Ok(())
-    })
-}
-
-/// Solves a checked scene for these preloads, N, on `lines` profiles: its seed and the seeds that follow. `jobs` threads
-/// share the profiles; no bit of a result depends on their number. The seed of each profile comes with its results.
-///
-/// # Errors
-/// A scene with a single profile, or the first profile that fails.
-pub fn solve_preloads_on_lines(
-    scene: &Scene,
-    folder: &Path,
-    forces: &[f64],
-    lines: u64,
-    jobs: usize,
-) -> Result<Vec<(u64, Vec<Preloaded>)>, StudyError> {
-    let first = scene.seed().ok_or_else(|| StudyError::Records(ONE_PROFILE.into()))?;
-    on_threads(lines, jobs, || {
-        let (mut simulation, mut scene) = (Simulation::new(folder.to_path_buf()), scene.clone());
-        move |line| {
-            let (seed, mut found) = (first.wrapping_add(line), Vec::with_capacity(forces.len()));
-            scene.set_seed(seed);
-            solve_preloads(&mut simulation, &scene, forces, &|| false, &mut |one| found.push(one))
-                .map_err(|error| StudyError::profile(seed, error))?;
-            Ok((seed, found))
-        }
-    })
-}
-
-/// Statistics of the adhesion force over profiles for each preload; a profile without a tensile force counts as 0
-/// N, so that the mean is the mean adhesion force. `None` for fewer than two profiles.
-pub fn preload_statistics(lines: &[Vec<Preloaded>]) -> Vec<Option<Statistics>> {
-    let count = lines.iter().map(Vec::len).min().unwrap_or(0);
-    let forces = |index: usize| lines.iter().map(move |line| line[index].adhesion_force.unwrap_or(0.0));
-    let statistics =
-        |index| Statistics::of(&forces(index).collect::<Vec<_>>(), Quantity::AdhesionForce.bounds());
-    (0..count).map(statistics).collect()
+    /// Statistics of the adhesion force at each preload over the computed profiles, N. A profile without a tensile force
+    /// counts as 0 N, so that the mean is the mean adhesion force; `None` for fewer than two profiles.
+    pub fn mean_adhesion_forces(&self) -> Vec<(f64, Option<Statistics>)> {
+        let mean = |cell| {
+            let column = self.plan.column(Quantity::AdhesionForce)?;
+            let force = |values: &[f64]| if values[column].is_nan() { 0.0 } else { values[column] };
+            let forces: Vec<f64> = self.records_of(cell).map(|(_, values)| force(values)).collect();
+            Statistics::of(&forces, Quantity::AdhesionForce.bounds())
+        };
+        (0..self.plan.cells()).map(|cell| (self.plan.value(cell, 0), mean(cell))).collect()
+    }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::plan::ONE_PROFILE;
     use super::*;
-    use crate::scene::open;
+    use crate::scene::{Document, Move, open};
+    use crate::simulation::Simulation;
+
+    fn solved(document: &Document, preloads: &Axis, lines: u64, jobs: usize) -> Result<Results, String> {
+        let (scene, folder) = (document.scene(), document.resolve(""));
+        let results = Results::of_scene(scene, &folder, &Results::OF_PRELOADS, lines, Some(preloads), jobs);
+        results.map_err(|error| error.to_string())
+    }
 
     #[test]
     fn adhesion_grows_with_the_preload_over_sixteen_profiles() {
         let document = open("pressure-sensitive").unwrap();
-        let forces = Preloads::new(0.0, 2e-5, 9).unwrap().forces();
-        assert_eq!((forces[0], forces[8], forces.len()), (0.0, 2e-5, 9));
-        let of = |jobs| {
-            solve_preloads_on_lines(document.scene(), &document.resolve(""), &forces, 16, jobs).unwrap()
-        };
-        let lines = of(2);
+        let preloads = Axis::of_preloads(0.0, 2e-5, 9).unwrap();
+        assert_eq!((preloads.values[0], preloads.values[8], preloads.values.len()), (0.0, 2e-5, 9));
+        let results = solved(&document, &preloads, 16, 2).unwrap();
         // One profile is the scene itself, loaded to one of the forces.
         let mut scene = document.scene().clone();
-        scene.set_seed(lines[3].0);
-        scene.loading = vec![Move::ToForce(forces[4]), Move::ToSeparation];
+        scene.set_seed(results.plan().seed_of(3));
+        scene.loading = vec![Move::ToForce(preloads.values[4]), Move::ToSeparation];
         let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
-        assert_eq!(lines[3].1[4].adhesion_force, outcome.figures.adhesion_force);
-        assert_eq!(lines[3].1[4].dissipated_energy, outcome.figures.dissipated_energy.unwrap());
-        let curves: Vec<_> = lines.iter().map(|(_, line)| line.clone()).collect();
-        for curve in &curves {
-            assert!(
-                curve.windows(2).all(|pair| pair[0].adhesion_force <= pair[1].adhesion_force),
-                "{curve:?}"
-            );
+        let found = |quantity| results.value(4, 3, quantity);
+        assert_eq!(found(Quantity::AdhesionForce), outcome.figures.adhesion_force);
+        assert_eq!(found(Quantity::DissipatedEnergy), outcome.figures.dissipated_energy);
+        for line in 0..16 {
+            let curve = results.adhesion_forces(line);
+            assert!(curve.windows(2).all(|pair| pair[0].1 <= pair[1].1), "{curve:?}");
         }
-        let means: Vec<f64> = preload_statistics(&curves).iter().map(|one| one.unwrap().mean).collect();
+        let means: Vec<f64> =
+            results.mean_adhesion_forces().iter().map(|(_, one)| one.unwrap().mean).collect();
         assert!(means.windows(2).all(|pair| pair[0] < pair[1]), "{means:?}");
         // Twice the preload about doubles the mean.
         assert!(means[8] > 1.5 * means[4] && means[4] > 1.5 * means[2], "{means:?}");
         assert!(means[0] < 0.1 * means[8], "{means:?}");
-        assert_eq!(of(1), lines);
+        assert_eq!(solved(&document, &preloads, 16, 1), Ok(results));
     }
 
     #[test]
     fn smooth_bodies_have_but_one_profile() {
-        let smooth = open("jkr-sphere").unwrap();
-        let failed = solve_preloads_on_lines(smooth.scene(), &smooth.resolve(""), &[1e-6], 2, 1);
-        assert_eq!(failed.unwrap_err().to_string(), ONE_PROFILE);
-        assert_eq!(preload_statistics(&[vec![]]), vec![]);
+        let (smooth, preloads) = (open("jkr-sphere").unwrap(), Axis::of_preloads(0.0, 1e-6, 2).unwrap());
+        assert_eq!(solved(&smooth, &preloads, 2, 1), Err(ONE_PROFILE.into()));
+        let one = solved(&smooth, &preloads, 1, 1).unwrap();
+        assert_eq!((one.adhesion_forces(0).len(), one.mean_adhesion_forces()[1].1), (2, None));
+        let stepwise = smooth.set("numerics.solver", "Stepwise(step: 1e-9)").unwrap();
+        let error = solved(&stepwise, &preloads, 1, 1).unwrap_err();
+        assert!(error.starts_with("numerics.solver = Stepwise: reversals need the exact solver"), "{error}");
     }
 }

@@ -17,7 +17,7 @@ pub(super) type Records = Vec<Vec<f64>>;
 /// Recorder of the cases of a plan. Keeps the profile, its tree and the properties of the profile from case to case.
 pub(super) struct Recorder<'p> {
     plan: &'p Plan,
-    simulation: Simulation,
+    pub simulation: Simulation,
     /// Properties of the last profile, and their scene without adhesion and loading.
     profile: Option<(Scene, ProfileRecord)>,
     stop: &'p dyn Fn() -> bool,
@@ -45,7 +45,9 @@ impl<'p> Recorder<'p> {
         if plan.records(Needs::Loading) {
             match plan.preloads() {
                 Some(preloads) => {
-                    let unit = governing.force_unit(scene.length).unwrap_or(f64::NAN);
+                    // Preloads in units of E* h L, or in N.
+                    let unit = || governing.force_unit(scene.length).unwrap_or(f64::NAN);
+                    let unit = if preloads.unit == "N" { 1.0 } else { unit() };
                     let press = |preload| vec![Move::ToForce(preload * unit), Move::ToSeparation];
                     loops.extend(preloads.values.iter().map(press));
                 }

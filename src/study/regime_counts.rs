@@ -19,16 +19,10 @@ pub struct RegimeCounts {
 impl RegimeCounts {
     /// Counts the regimes of profiles.
     pub fn of(regimes: impl Iterator<Item = Option<Regime>>) -> Self {
-        let mut counts = RegimeCounts::default();
-        for regime in regimes {
-            *match regime {
-                Some(Regime::PressureInsensitive) => &mut counts.pressure_insensitive,
-                Some(Regime::PressureSensitive) => &mut counts.pressure_sensitive,
-                Some(Regime::NonAdhesive) => &mut counts.non_adhesive,
-                None => &mut counts.none,
-            } += 1;
-        }
-        counts
+        let mut counts = [0; 4];
+        regimes.for_each(|regime| counts[regime.map_or(3, |regime| regime as usize)] += 1);
+        let [pressure_insensitive, pressure_sensitive, non_adhesive, none] = counts;
+        RegimeCounts { pressure_insensitive, pressure_sensitive, non_adhesive, none }
     }
 
     /// Regimes that occur, by name, with their numbers of profiles.

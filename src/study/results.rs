@@ -1,19 +1,20 @@
 //! All records of a study: from its shard files, from its merged table, or computed in memory.
 
 use super::StudyError;
+use super::axis::Axis;
 use super::cells::Run;
 use super::grid::{Cell, Estimate, Grid, Layer};
 use super::plan::{ONE_PROFILE, Plan};
 use super::quantity::{Quantity, regime_of};
 use super::record::Done;
-use super::recorder::Recorder;
+use super::recorder::{Recorder, Records};
 use super::statistics::Statistics;
 use super::store::{Folder, Record, ShardFile};
 use crate::analysis::{CellRegime, Regime};
 use crate::draw::AxisScale;
 use crate::parallel::on_threads;
-use crate::scene::Scene;
-use crate::simulation::Simulation;
+use crate::scene::{Scene, Solver};
+use crate::simulation::{RunError, Simulation};
 use crate::text::path_name;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -85,34 +86,85 @@ impl Results {
         Ok(Results { plan, values, done: Done::none(records) })
     }
 
-    /// Computes a checked scene on so many random profiles in memory: one cell. Its files are relative to `folder`.
-    /// `jobs` threads share the profiles; no bit of a result depends on their number.
+    /// A study in memory of a checked scene on random profiles, at each of these preloads, N, if there are any; without
+    /// records.
     ///
     /// # Errors
-    /// A scene with a single profile, or the first profile that fails.
-    pub fn of_profiles(
+    /// A scene with a single profile if there are to be several, preloads without the exact solver, or a study that is
+    /// too large for the memory.
+    pub fn begin(
+        scene: &Scene,
+        record: &[Quantity],
+        lines: u64,
+        preloads: Option<&Axis>,
+    ) -> Result<Results, StudyError> {
+        if lines > 1 && scene.seed().is_none() {
+            return Err(StudyError::Records(ONE_PROFILE.into()));
+        }
+        if preloads.is_some() && scene.numerics.solver != Solver::Exact {
+            return Err(StudyError::Run { place: String::new(), error: RunError::NeedsExactSolver });
+        }
+        let axes = preloads.into_iter().cloned().collect();
+        Results::empty(Plan { axes, ..Plan::of_scene(scene, lines, record) })
+    }
+
+    /// Computes a study as that of [`Results::begin`]. Files of the scene are relative to `folder`. `jobs` threads share
+    /// the profiles; no bit of a result depends on their number.
+    ///
+    /// # Errors
+    /// As [`Results::begin`], or the first profile that fails.
+    pub fn of_scene(
         scene: &Scene,
         folder: &Path,
         record: &[Quantity],
         lines: u64,
+        preloads: Option<&Axis>,
         jobs: usize,
     ) -> Result<Results, StudyError> {
-        if scene.seed().is_none() {
-            return Err(StudyError::Records(ONE_PROFILE.into()));
-        }
-        let mut results = Results::empty(Plan::of_scene(scene, lines, record))?;
+        let mut results = Results::begin(scene, record, lines, preloads)?;
         let plan = &results.plan;
         let solved = on_threads(lines, jobs, || {
-            let mut recorder = Recorder::new(plan, Simulation::new(folder.to_path_buf()), &|| false);
+            let simulation = Simulation::new(folder.to_path_buf());
+            let simulation = if lines == 1 { simulation.for_one_scene() } else { simulation };
+            let mut recorder = Recorder::new(plan, simulation, &|| false);
             move |line| {
-                let solved = recorder.record(&Run { cells: 0..1, line });
-                solved.map_err(|error| StudyError::profile(plan.seed_of(line), error))
+                let solved = recorder.record(&Run { cells: 0..plan.cells(), line });
+                solved.map_err(|error| StudyError::of_profile(plan, line, error))
             }
         })?;
-        for (line, values) in (0..).zip(&solved) {
-            results.set(line, &values.concat());
-        }
+        (0..).zip(&solved).for_each(|(line, records)| results.set_profile(line, records));
         Ok(results)
+    }
+
+    /// Computes the missing profiles of a study as that of [`Results::begin`], one after the other. `report` receives the
+    /// results after each.
+    ///
+    /// # Errors
+    /// When a profile or its contact fails, or `stop` interrupts.
+    pub fn extend(
+        &mut self,
+        simulation: &mut Simulation,
+        stop: &dyn Fn() -> bool,
+        report: &mut dyn FnMut(&Results),
+    ) -> Result<(), RunError> {
+        let plan = self.plan.clone();
+        let mut recorder = Recorder::new(&plan, std::mem::take(simulation), stop);
+        let mut missing = (0..plan.lines).filter(|line| !self.has(0, *line)).collect::<Vec<_>>().into_iter();
+        let done = missing.try_for_each(|line| {
+            let records = recorder.record(&Run { cells: 0..plan.cells(), line })?;
+            self.set_profile(line, &records);
+            report(self);
+            Ok(())
+        });
+        *simulation = recorder.simulation;
+        done
+    }
+
+    /// Sets the records of all cells on a profile.
+    fn set_profile(&mut self, line: u64, records: &Records) {
+        for (cell, values) in (0..).zip(records) {
+            self.set(cell * self.plan.lines + line, values);
+        }
     }
 
     /// Reads all shard files of a study.
@@ -300,7 +352,7 @@ mod tests {
         scene.numerics.points = 1024;
         scene.set_seed(u64::MAX - 2);
         let record = [Quantity::AdhesionForce, Quantity::DissipatedEnergy];
-        let of = |jobs| Results::of_profiles(&scene, &document.resolve(""), &record, 7, jobs).unwrap();
+        let of = |jobs| Results::of_scene(&scene, &document.resolve(""), &record, 7, None, jobs).unwrap();
         let alone = of(1);
         assert_eq!((of(3), of(64)), (alone.clone(), alone.clone()));
         assert_eq!([0, 3].map(|line| alone.plan().seed_of(line)), [u64::MAX - 2, 0]);
@@ -314,9 +366,6 @@ mod tests {
             assert_eq!(alone.value(0, 3, quantity), expected);
         }
         assert_eq!(alone.statistics(0, record[0]).unwrap().count, 7);
-        let smooth = open("jkr-sphere").unwrap();
-        let failed = Results::of_profiles(smooth.scene(), &smooth.resolve(""), &record, 2, 1);
-        assert_eq!(failed.unwrap_err().to_string(), ONE_PROFILE);
     }
 
     #[test]

@@ -116,7 +116,7 @@ pub fn run(
                 let (cell, seed) = (run.cells.start, plan.seed_of(run.line));
                 let records = recorder.record(&run).map_err(|error| {
                     ended.store(true, Ordering::SeqCst);
-                    let place = format!("cell {cell} ({}), seed {seed}", plan.coordinates(cell));
+                    let place = format!("cell {cell} ({}), seed {seed}: ", plan.coordinates(cell));
                     StudyError::Run { place, error }
                 })?;
                 let mut text = String::new();

@@ -11,8 +11,6 @@ use thiserror::Error;
 
 /// Most values of a second axis that makes curves of a section rather than rows of a map.
 const MOST_CURVES: usize = 5;
-/// F_a(0)/F_a,max by the two protocols.
-const SHARES: [Quantity; 2] = Quantity::ADHESION_SHARES;
 /// Most values named in a message.
 const MOST_NAMED: usize = 12;
 
@@ -88,7 +86,8 @@ impl Selection {
         let all = grid.layers.iter().map(|one| one.quantity);
         let mut layers: Vec<Layer> = all.map(|quantity| layer(quantity, self.scale)).collect();
         // The same quantity by two protocols has one scale.
-        let shares = self.scale.is_none() && quantities.iter().all(|quantity| SHARES.contains(quantity));
+        let shares = self.scale.is_none()
+            && quantities.iter().all(|quantity| Quantity::ADHESION_SHARES.contains(quantity));
         let logarithmic = |one: &Layer| is_shown(one.quantity) && one.scale == AxisScale::Logarithmic;
         if shares && layers.iter().any(logarithmic) {
             for one in layers.iter_mut().filter(|one| is_shown(one.quantity)) {
@@ -110,7 +109,7 @@ impl Selection {
             let paper = [Quantity::ZeroLoadAdhesionShare, Quantity::AdhesionCoefficient];
             let recorded = |one: &Quantity| plan.record.contains(one);
             // Without a preload there is no coefficient, and both protocols are side by side.
-            let usual = if recorded(&paper[1]) { paper } else { SHARES };
+            let usual = if recorded(&paper[1]) { paper } else { Quantity::ADHESION_SHARES };
             let mut all: Vec<_> = usual.into_iter().filter(recorded).collect();
             if all.is_empty() {
                 all.extend(plan.record.iter().copied().find(drawn));

@@ -12,7 +12,6 @@ use std::ffi::OsString;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
-use thiserror::Error;
 
 /// A study for a cluster. All paths are absolute paths on its nodes.
 #[derive(Clone, Debug)]
@@ -31,28 +30,23 @@ pub struct Submission {
     pub memory: Option<u64>,
 }
 
-/// Reason for not submitting a study.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("{0}")]
-pub struct SlurmError(pub String);
-
 impl Submission {
     /// Returns the script of the array. Its directives are defaults: variables `SBATCH_…` and options of sbatch override
     /// them.
     ///
     /// # Errors
     /// A path that a script of Slurm cannot contain.
-    pub fn script(&self) -> Result<String, SlurmError> {
+    pub fn script(&self) -> Result<String, String> {
         let [program, folder] = [&self.program, &self.folder].map(|path| {
             // Slurm ends directives at a backslash and reads double quotes.
             let text =
                 path.to_str().filter(|text| !text.contains(|c| c == '\\' || c == '"' || is_control(c)));
             text.ok_or_else(|| {
-                SlurmError(format!(
+                format!(
                     "{}: a script of Slurm cannot contain this path; allowed: UTF-8 without backslashes, double \
                      quotes and control characters",
                     path_name(path)
-                ))
+                )
             })
         });
         let (program, folder) = (program?, folder?);
@@ -90,19 +84,22 @@ done
     /// Submits the array with further options of sbatch and returns the answer of sbatch.
     ///
     /// # Errors
-    /// [`SlurmError`].
-    pub fn submit(&self, options: &[OsString]) -> Result<String, SlurmError> {
-        let not_run = |error: io::Error| SlurmError(format!("sbatch could not be run: {error}"));
+    /// As [`Submission::script`], and refusals of sbatch.
+    pub fn submit(&self, options: &[OsString]) -> Result<String, String> {
+        let not_run = |error: io::Error| {
+            match error.kind() {
+            io::ErrorKind::NotFound => {
+                "sbatch was not found; run this command on a login node of a Slurm cluster, or see asperity sweep \
+                 submit --help for hosts without a scheduler"
+                    .to_owned()
+            }
+            _ => format!("sbatch could not be run: {error}"),
+        }
+        };
         let script = self.script()?;
         let mut command = Command::new("sbatch");
         command.args(options).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        let mut sbatch = command.spawn().map_err(|error| match error.kind() {
-            io::ErrorKind::NotFound => SlurmError(format!(
-                "sbatch was not found; run this command on a login node of a Slurm cluster. Without a scheduler: {}",
-                self.without_scheduler()
-            )),
-            _ => not_run(error),
-        })?;
+        let mut sbatch = command.spawn().map_err(not_run)?;
         if let Some(mut stdin) = sbatch.stdin.take() {
             // sbatch may refuse its options before it reads the script.
             let _ = stdin.write_all(script.as_bytes());
@@ -114,17 +111,6 @@ done
             return Ok(message + &answer);
         }
         let reason = if message.trim().is_empty() { "no error message" } else { message.trim() };
-        Err(SlurmError(format!("sbatch failed ({}): {reason}", output.status)))
-    }
-
-    /// Command for hosts without a scheduler, with GNU parallel.
-    fn without_scheduler(&self) -> String {
-        let plan = self.folder.join(PLAN_FILE);
-        let [program, plan, folder] = [&self.program, &plan, &self.folder].map(quoted);
-        let shards = self.shards;
-        format!(
-            "seq {shards} | parallel --joblog shards.log --resume-failed --retries 3 \
-             {program} sweep {plan} -o {folder} --shard {{}}/{shards} --jobs 1"
-        )
+        Err(format!("sbatch failed ({}): {reason}", output.status))
     }
 }

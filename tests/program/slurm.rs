@@ -321,7 +321,7 @@ fn what_slurm_refuses_is_passed_on() {
     let (code, _, message) = submit_to(none.path(), &["--shards", "4"]);
     assert_eq!(code, Some(1));
     assert!(message.contains("sbatch was not found"), "{message}");
-    assert!(message.contains("parallel --joblog shards.log --resume-failed --retries 3"), "{message}");
+    assert!(message.contains("asperity sweep submit --help"), "{message}");
 
     let refusing = stand_ins(&[("sbatch", "echo 'sbatch: error: invalid partition' >&2; exit 1")]);
     let (code, stdout, message) = submit_to(refusing.path(), &["--shards", "4"]);

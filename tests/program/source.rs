@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Rooms of the source from the ground up: each imports only earlier rooms.
-const ROOMS: &str = "text draw memory parallel io topography contact spectrum surface scene analysis reference simulation \
+const ROOMS: &str = "text memory parallel io topography contact spectrum surface scene draw analysis reference simulation \
     profile contact_cycle study accuracy check export explorer cli main";
 
 /// Rooms in which files use each other in a circle, and the most files of the circle. The list only becomes shorter: a room

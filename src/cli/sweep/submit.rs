@@ -72,12 +72,12 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
         retries: arguments.retries,
         memory: arguments.memory,
     };
-    let script = submission.script()?;
+    let script = submission.script().map_err(CliError::message)?;
     if arguments.dry_run {
         return Ok(stdout.write_all(script.as_bytes())?);
     }
     let folder = Folder::create(&arguments.output, &plan)?;
-    let answer = submission.submit(&arguments.options)?;
+    let answer = submission.submit(&arguments.options).map_err(CliError::message)?;
     let path = quoted(folder.path());
     writeln!(stdout, "{}\nasperity sweep status {path} shows the progress", printable_lines(answer.trim()))?;
     Ok(())

@@ -4,7 +4,7 @@ use super::style::{CellStyle, Colours};
 use crate::draw::axis::Axis;
 use crate::draw::chart::{Chart, Class, HeatMap};
 use crate::draw::colour::ink_on;
-use crate::draw::label::short;
+use crate::scene::format_rounded;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
@@ -93,7 +93,8 @@ pub fn key(map: &HeatMap, columns: usize, colours: Colours) -> Vec<(String, Styl
     let steps = SHADES.len();
     let number = |step: usize| {
         let share = step as f64 / steps as f64;
-        short(map.key.scale.number(map.key.span.low + share * map.key.span.width()) / divisor)
+        let value = map.key.scale.number(map.key.span.low + share * map.key.span.width());
+        format_rounded(value / divisor, 3, "")
     };
     // Without room for all numbers, only those at the ends are shown.
     let all = (0..=steps).map(|step| number(step).chars().count()).sum::<usize>() + 5 * steps <= columns;

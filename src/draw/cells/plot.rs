@@ -114,54 +114,38 @@ impl CellPlot {
         self.draw_signs(buffer, chart, style);
     }
 
-    /// Writes each name beside its point where the plot is blank; returns the written names.
-    pub fn draw_names<'n>(
+    /// Writes each name beside its point where the plot is blank.
+    pub fn draw_names(
         &self,
         buffer: &mut Buffer,
         chart: &Chart,
         style: &CellStyle<'_>,
-        names: &[((f64, f64), &'n str, Ink)],
-    ) -> Vec<&'n str> {
-        let mut written = Vec::new();
-        for &(point, name, ink) in names {
-            let width = name.chars().count() as u16;
-            let Some(cell) = self.cell(chart, style.marker, point) else { continue };
-            let free = self.beside(cell, width).into_iter().find(|&(x, y)| {
+        names: &[((f64, f64), String, Ink)],
+    ) {
+        let plot = self.plot;
+        let all_columns = i32::from(plot.x)..i32::from(plot.right());
+        let all_rows = i32::from(plot.y)..i32::from(plot.bottom());
+        for (point, name, ink) in names {
+            let Some(cell) = self.cell(chart, style.marker, *point) else { continue };
+            let (column, row) = (i32::from(cell.0), i32::from(cell.1));
+            let wide = name.chars().count() as i32;
+            let rows = [row, row + 1, row - 1].into_iter();
+            let sides = rows.flat_map(|y| [(column + 2, y), (column - 1 - wide, y)]);
+            let mut places = sides.chain([row + 1, row - 1].map(|y| (column - wide / 2, y)));
+            let free = places.find(|&(x, y)| {
+                let inside = all_columns.start <= x && x + wide <= all_columns.end && all_rows.contains(&y);
                 // With a blank column on either side, unless the plot ends there.
-                let columns = x.saturating_sub(1).max(self.plot.x)..(x + width + 1).min(self.plot.right());
-                let is_blank = |column| matches!(buffer[(column, y)].symbol(), " " | "\u{2800}");
-                columns.filter(|column| (*column, y) != cell).all(is_blank)
+                let mut columns = (x - 1).max(all_columns.start)..(x + wide + 1).min(all_columns.end);
+                inside
+                    && columns.all(|column| {
+                        let at = (column as u16, y as u16);
+                        at == cell || matches!(buffer[at].symbol(), " " | "\u{2800}")
+                    })
             });
             if let Some((x, y)) = free {
-                buffer.set_string(x, y, name, (style.ink)(ink));
-                written.push(name);
+                buffer.set_string(x as u16, y as u16, name, (style.ink)(*ink));
             }
         }
-        written
-    }
-
-    /// Places within the plot for a text of this width beside a cell, the best first.
-    fn beside(&self, (column, row): (u16, u16), width: u16) -> Vec<(u16, u16)> {
-        let (column, row, wide) = (i32::from(column), i32::from(row), i32::from(width));
-        let (right, left, middle) = (column + 2, column - 1 - wide, column - wide / 2);
-        let places = [
-            (right, 0),
-            (left, 0),
-            (right, 1),
-            (left, 1),
-            (right, -1),
-            (left, -1),
-            (middle, 1),
-            (middle, -1),
-        ];
-        let plot = self.plot;
-        let columns = i32::from(plot.x)..=i32::from(plot.right()) - wide;
-        let rows = i32::from(plot.y)..i32::from(plot.bottom());
-        let inside = |(x, down): (i32, i32)| {
-            let y = row + down;
-            (columns.contains(&x) && rows.contains(&y)).then_some((x as u16, y as u16))
-        };
-        places.into_iter().filter_map(inside).collect()
     }
 
     fn draw_signs(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
@@ -433,22 +417,27 @@ mod tests {
             let mut after = before.clone();
             let style = CellStyle { marker, ink: &|_| Style::new(), colours: Colours::None };
             let names = [(points[9], "preload"), (points[30], "pull-off"), ((1.0, 0.0), "outside")];
-            let names = names.map(|(at, name)| (at, name, Ink::Quiet));
-            let written = place.draw_names(&mut after, &chart, &style, &names);
+            let names = names.map(|(at, name)| (at, name.to_owned(), Ink::Quiet));
+            place.draw_names(&mut after, &chart, &style, &names);
+            let rows = after.content.chunks(usize::from(after.area.width));
+            let text: String =
+                rows.flat_map(|row| row.iter().map(|cell| cell.symbol()).chain(["\n"])).collect();
+            let written: Vec<&str> =
+                names.iter().map(|(_, name, _)| name.as_str()).filter(|name| text.contains(name)).collect();
             assert!(!written.contains(&"outside"));
             found += written.len();
             for (cell, old) in after.content.iter().zip(&before.content) {
                 let is_blank = [" ", "\u{2800}"].contains(&old.symbol());
                 assert!(cell.symbol() == old.symbol() || is_blank, "{size:?} {marker}");
             }
-            for (point, name, _) in names.into_iter().filter(|(_, name, _)| written.contains(name)) {
-                let (column, row) = place.cell(&chart, marker, point).unwrap();
+            for (point, name, _) in names.iter().filter(|(_, name, _)| written.contains(&name.as_str())) {
+                let (column, row) = place.cell(&chart, marker, *point).unwrap();
                 let near = (row.saturating_sub(1).max(after.area.y)..=(row + 1).min(after.area.bottom() - 1))
                     .any(|y| {
                         let from = column.saturating_sub(name.len() as u16 + 1).max(after.area.x);
                         let to = (column + name.len() as u16 + 2).min(after.area.right());
                         let text: String = (from..to).map(|x| after[(x, y)].symbol()).collect();
-                        text.contains(name)
+                        text.contains(name.as_str())
                     });
                 assert!(near, "{size:?} {marker} {name}");
             }

@@ -31,7 +31,6 @@ pub fn study(computed: &SolvedScene) -> Study {
             }
             report(costs.clone());
         });
-        let table = measured.map_err(|error| error.to_string())?;
-        Ok(Costs { table: Some(table), trying: None })
+        Ok(Costs { table: Some(measured?), trying: None })
     })
 }

@@ -3,32 +3,25 @@
 
 use crate::analysis::Figures;
 use crate::explorer::snapshot::SolvedScene;
-use crate::scene::{Scene, Solver};
+use crate::scene::Solver;
 use crate::simulation::{RunError, Simulation};
-use crate::study::{Preloaded, Preloads, Statistics, preload_statistics, solve_preloads};
+use crate::study::{Axis, Results};
 
 /// Number of preloads on the profile of the scene, and step between those on random profiles.
 const FINE: usize = 257;
 const EVERY: usize = 8;
 /// Random profiles of the mean.
 pub const PROFILES: usize = 16;
-/// Results of the profile of the scene after which the curve is shown anew.
-const SHOWN_EVERY: usize = 32;
 /// Largest preload in preloads of the scene.
 const REACH: f64 = 2.0;
 
 /// Adhesion forces of a scene for many preloads, as far as computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PreloadCurve {
-    forces: Vec<f64>,
-    /// Results of the profile of the scene, from the smallest preload on.
-    pub own: Vec<Preloaded>,
-    /// Results of random profiles, that of the scene the first.
-    pub profiles: Vec<Vec<Preloaded>>,
-    /// Statistics over these profiles at each of their preloads.
-    pub statistics: Vec<Option<Statistics>>,
-    /// Number of requested profiles.
-    pub wanted: usize,
+    /// The profile of the scene.
+    pub own: Results,
+    /// Random profiles at some of the preloads, that of the scene the first; `None` for a scene with one profile.
+    pub random: Option<Results>,
 }
 
 impl PreloadCurve {
@@ -45,69 +38,58 @@ impl PreloadCurve {
         }
         let Figures { preload, adhesion_force, .. } = computed.outcome.figures;
         let scale = preload.filter(|&force| force > 0.0).or(adhesion_force).filter(|&force| force > 0.0);
-        let preloads = scale.and_then(|scale| Preloads::new(0.0, REACH * scale, FINE));
-        let forces = preloads.ok_or("no stage presses the bodies together")?.forces();
-        let wanted = if computed.scene.seed().is_some() { PROFILES } else { 0 };
-        let (own, profiles, statistics) = (Vec::new(), Vec::new(), Vec::new());
-        Ok(PreloadCurve { forces, own, profiles, statistics, wanted })
+        let fine = scale.and_then(|scale| Axis::of_preloads(0.0, REACH * scale, FINE));
+        let fine = fine.ok_or("no stage presses the bodies together")?;
+        let mut coarse = fine.clone();
+        coarse.values = coarse.values.into_iter().step_by(EVERY).collect();
+        let begin = |lines: usize, preloads: &Axis| {
+            let results =
+                Results::begin(&computed.scene, &Results::OF_PRELOADS, lines as u64, Some(preloads));
+            results.map_err(|_| "there is not enough memory for the curve")
+        };
+        let random = computed.scene.seed().map(|_| begin(PROFILES, &coarse)).transpose()?;
+        Ok(PreloadCurve { own: begin(1, &fine)?, random })
     }
 
     /// Returns true once all profiles are computed.
     #[must_use]
     pub fn is_whole(&self) -> bool {
-        self.own.len() == self.forces.len() && self.profiles.len() >= self.wanted
+        self.own.is_whole(0) && self.random.as_ref().is_none_or(|random| random.is_whole(0))
     }
 
-    /// The results at the preloads of the statistics.
+    /// Number of computed random profiles.
     #[must_use]
-    pub fn coarse(&self) -> &[Preloaded] {
-        self.profiles.first().map_or(&[], Vec::as_slice)
+    pub fn profiles(&self) -> usize {
+        self.random.as_ref().map_or(0, |random| random.records_of(0).count())
     }
 
-    /// Computes the missing part for the scene, its own profile first. `report` receives the curve after each addition.
+    /// Computes the missing part, the profile of the scene first. `report` receives the curve after each addition.
     ///
     /// # Errors
     /// When a profile or its contact fails, or `stop` interrupts.
     pub fn compute(
         &mut self,
-        scene: &Scene,
         simulation: &mut Simulation,
         stop: &dyn Fn() -> bool,
         report: &mut dyn FnMut(&PreloadCurve),
     ) -> Result<(), RunError> {
-        if self.own.len() < self.forces.len() {
-            let forces = self.forces.clone();
-            self.own.clear();
-            solve_preloads(simulation, scene, &forces, stop, &mut |one| {
-                self.own.push(one);
-                if self.own.len().is_multiple_of(SHOWN_EVERY) {
-                    report(self);
-                }
-            })?;
-        }
-        let mut scene = scene.clone();
-        let first = scene.seed().unwrap_or(0);
-        let coarse: Vec<f64> = self.forces.iter().copied().step_by(EVERY).collect();
-        while self.profiles.len() < self.wanted {
-            let mut found = Vec::with_capacity(coarse.len());
-            if self.profiles.is_empty() {
-                found.extend(self.own.iter().copied().step_by(EVERY));
-            } else {
-                scene.set_seed(first.wrapping_add(self.profiles.len() as u64));
-                solve_preloads(simulation, &scene, &coarse, stop, &mut |one| found.push(one))?;
-            }
-            self.profiles.push(found);
-            self.statistics = preload_statistics(&self.profiles);
+        if !self.own.is_whole(0) {
+            self.own.extend(simulation, stop, &mut |_| ())?;
             report(self);
         }
-        Ok(())
+        let Some(mut random) = self.random.take() else { return Ok(()) };
+        let done = random.extend(simulation, stop, &mut |random| {
+            report(&PreloadCurve { own: self.own.clone(), random: Some(random.clone()) });
+        });
+        self.random = Some(random);
+        done
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Move, open};
+    use crate::scene::{Move, Scene, open};
     use std::cell::Cell;
     use std::sync::Arc;
 
@@ -123,31 +105,29 @@ mod tests {
         let computed = computed("pressure-sensitive");
         let mut curve = PreloadCurve::new(&computed).unwrap();
         let reported = Cell::new(0);
-        let stop = || reported.get() >= 12;
+        let stop = || reported.get() >= 4;
         let mut sizes = Vec::new();
-        let done = curve.compute(&computed.scene, &mut Simulation::default(), &stop, &mut |curve| {
+        let done = curve.compute(&mut Simulation::default(), &stop, &mut |curve| {
             reported.set(reported.get() + 1);
-            sizes.push((curve.own.len(), curve.profiles.len()));
+            sizes.push(curve.profiles());
         });
         assert!(done.unwrap_err().is_interruption());
-        assert!(sizes.windows(2).all(|pair| pair[0] < pair[1]), "{sizes:?}");
-        assert!(!curve.is_whole() && curve.own.len() == FINE && curve.profiles.len() > 1);
-        curve.compute(&computed.scene, &mut Simulation::default(), &|| false, &mut |_| ()).unwrap();
-        assert!(curve.is_whole() && curve.profiles.len() == PROFILES);
-        assert_eq!(curve.coarse().len(), curve.statistics.len());
-        let means: Vec<f64> = curve.statistics.iter().map(|one| one.unwrap().mean).collect();
+        assert_eq!((sizes, curve.profiles(), curve.own.is_whole(0)), (vec![0, 1, 2, 3], 3, true));
+        curve.compute(&mut Simulation::default(), &|| false, &mut |_| ()).unwrap();
+        assert!(curve.is_whole() && curve.profiles() == PROFILES);
+        let means = curve.random.as_ref().unwrap().mean_adhesion_forces();
+        let means: Vec<f64> = means.iter().map(|(_, one)| one.unwrap().mean).collect();
         assert!(means.windows(2).all(|pair| pair[0] <= pair[1]) && means[0] < 0.2 * means[32], "{means:?}");
         // In the middle is the preload of the scene.
-        let preload = computed.outcome.figures.preload.unwrap();
-        assert!((curve.own[FINE / 2].preload / preload - 1.0).abs() < 1e-12);
-        let force = computed.outcome.figures.adhesion_force.unwrap();
-        assert!((curve.own[FINE / 2].adhesion_force.unwrap() / force - 1.0).abs() < 1e-9);
+        let (preload, force) = curve.own.adhesion_forces(0)[FINE / 2];
+        assert!((preload / computed.outcome.figures.preload.unwrap() - 1.0).abs() < 1e-12);
+        assert!((force / computed.outcome.figures.adhesion_force.unwrap() - 1.0).abs() < 1e-9);
     }
 
     #[test]
     fn scenes_without_preload_or_exact_solver_have_no_curve() {
         let mut one = computed("jkr-sphere");
-        assert_eq!(PreloadCurve::new(&one).unwrap().wanted, 0);
+        assert_eq!(PreloadCurve::new(&one).unwrap().random, None);
         let mut scene = Scene::clone(&one.scene);
         scene.numerics.solver = Solver::Stepwise { step: 1e-9 };
         one.scene = Arc::new(scene.clone());

@@ -1,9 +1,9 @@
 //! The place of a scene on the axes of a map, and scenes moved to another place.
 
 use crate::analysis::Governing;
-use crate::scene::{Document, Move, Scene, SceneErrors, ron_float};
+use crate::scene::{Document, Move, Scene, SceneErrors, Tree, ron_float};
 use crate::study::axis::Axis;
-use crate::study::target::{Target, governing, value_in};
+use crate::study::target::{Target, governing};
 
 /// Smallest relative difference of two values of an axis; a smaller one is rounding.
 const APART: f64 = 1e-6;
@@ -17,9 +17,12 @@ impl Axis {
             let stated = scene.adhesion?.parameter().filter(|(stated, _)| *stated == parameter);
             return known.and_then(|known| known.parameter(parameter)).or(stated.map(|(_, value)| value));
         }
+        let number = |path: &str| Tree::of(scene).get(path);
         match (self.target, scene.loading.first()) {
             (Target::Preload, Some(Move::ToForce(force))) => Some(force / force_unit(scene)?),
-            _ => value_in(scene, &self.path, self.target),
+            (Target::Preload, _) => None,
+            (Target::SpringsPerWave, _) => Some(scene.numerics.points as f64 / number("roughness.modes.1")?),
+            _ => number(&self.path),
         }
     }
 

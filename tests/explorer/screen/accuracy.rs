@@ -5,8 +5,7 @@ use super::common::driver::Driver;
 use super::common::scenes::{changed, rough, without_adhesion};
 use super::is_up_to_date;
 use asperity::accuracy::{
-    Choice, ChoiceError, CostError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Reference, Row, Target,
-    Timing,
+    Choice, ChoiceError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Reference, Row, Target, Timing,
 };
 use asperity::explorer::app::{Message, Pane};
 use asperity::explorer::panes::Costs;
@@ -67,15 +66,11 @@ fn estimate(error: f64) -> Option<Estimate> {
     Some(Estimate { target: Target::AdhesionForce, error, near_step: error > 1.0, evidence })
 }
 
-fn driver_with(
-    document: Document,
-    estimate: Option<Estimate>,
-    table: Result<CostTable, CostError>,
-) -> Driver {
+fn driver_with(document: Document, estimate: Option<Estimate>, table: Result<CostTable, String>) -> Driver {
     let mut driver = Driver::start(document);
     driver.press("Space");
     driver.find(estimate.ok_or_else(String::new));
-    driver.find(table.map(costs).map_err(|error| error.to_string()));
+    driver.find(table.map(costs));
     driver
 }
 
@@ -123,7 +118,7 @@ fn a_scene_with_nothing_to_show_says_so() {
             assert!(driver.text().contains("nothing to show"), "{}", driver.text());
             assert!(driver.text().contains("F_a(0) skipped"), "{}", driver.text());
         }
-        let short = CostError::BudgetTooShort { budget: 10.0, springs: 1 << 27 };
+        let short = "the budget of 10 s is spent".to_owned();
         let mut driver = driver_with(rough(), None, Err(short));
         driver.press("A");
         assert!(driver.text().contains("nothing is measured: the budget of 10 s"), "{}", driver.text());

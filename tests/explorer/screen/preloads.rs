@@ -24,7 +24,7 @@ fn compute(driver: &mut Driver, profiles: usize) {
 
 /// Number of profiles computed so far.
 fn computed(driver: &Driver) -> usize {
-    driver.app.studies.value::<PreloadCurve>().map_or(0, |curve| curve.profiles.len())
+    driver.app.studies.value::<PreloadCurve>().map_or(0, |curve| curve.profiles())
 }
 
 /// The explorer with the curve of few profiles computed, and shown.
