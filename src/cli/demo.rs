@@ -6,11 +6,7 @@ use super::{CliError, Overrides};
 use crate::explorer::demo::{Demo, ONE_SCENE, TOUR, play};
 use crate::explorer::picture::text;
 use crate::explorer::theme::{Appearance, Marker, Theme};
-<<<<<<< HEAD
 use crate::explorer::{Recording, picture_of, screenshot};
-=======
-use crate::explorer::{Screen, picture_of, screenshot};
->>>>>>> main
 use crate::io::write_new;
 use crate::scene::{open_argument, presets};
 use clap::Args;
@@ -145,12 +141,7 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
 fn record(out: &mut dyn Write, demo: &mut Demo, size: (u16, u16), name: &str) -> io::Result<()> {
     let mut recording = Recording::new(out, size, &format!("Asperity: {name}"))?;
     while let Some(seconds) = demo.advance() {
-<<<<<<< HEAD
         recording.frame(seconds, demo.app())?;
-=======
-        let bytes = screen.draw(demo.app())?;
-        cast.frame(seconds, &bytes)?;
->>>>>>> main
     }
     Ok(())
 }

@@ -41,12 +41,7 @@ pub mod view;
 mod writing;
 
 pub use opening::{Opening, OpeningError};
-<<<<<<< HEAD
 pub use recording::Recording;
-pub use session::{Draw, Options, SessionEnd, open, open_with};
-=======
-pub use screen::Screen;
 pub use session::{Draw, Options, SessionEnd, open};
->>>>>>> main
 pub use signals::end_by;
 pub use writing::{picture_of, screenshot};

@@ -6,11 +6,7 @@ use super::common::scenes::rough;
 use asperity::explorer::app::Pane;
 use asperity::explorer::demo::{Cue, Demo, ONE_SCENE, TOUR};
 use asperity::explorer::theme::{Appearance, Theme};
-<<<<<<< HEAD
 use asperity::explorer::{Recording, picture, picture_of};
-=======
-use asperity::explorer::{Screen, picture, picture_of};
->>>>>>> main
 use asperity::scene::{Document, open, presets};
 
 /// Columns and rows of the large window, and frames in a second, for which the bytes are counted.
@@ -139,11 +135,7 @@ fn a_frame_costs_no_more_than_it_must() {
                 let (mut changed, mut total, mut last) = (Vec::new(), 0, 0.0);
                 let mut seen = picture_of(demo.app());
                 while let Some(seconds) = demo.advance() {
-<<<<<<< HEAD
                     let bytes = recording.frame(seconds, demo.app()).unwrap();
-=======
-                    let bytes = screen.draw(demo.app()).unwrap();
->>>>>>> main
                     // The first frame is the whole screen.
                     let shown = picture_of(demo.app());
                     if seconds > 0.0 && shown != seen {
