@@ -16,7 +16,7 @@ use super::request::{Focus, LineView, ManualMove, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Drive, Preview, SolvedScene};
 use super::studies::Findings;
 use super::theme::Appearance;
-use crate::analysis::Governing;
+use crate::analysis::{Governing, marks};
 use crate::contact::{CurvePoint, LegRecord};
 use crate::export::LoopQuantities;
 use crate::scene::{Document, Observer, Scene, ron_float};
@@ -348,6 +348,14 @@ impl App {
     #[must_use]
     pub fn legs(&self) -> &[LegRecord] {
         self.solved.as_ref().map_or(&[], |computed| &computed.outcome.history.legs)
+    }
+
+    /// Returns a force of the shown scene, N; zero where it is a rounding error of the largest marked force, as after a
+    /// stage to zero force.
+    #[must_use]
+    pub fn without_rounding(&self, force: f64) -> f64 {
+        let largest = marks(self.legs()).iter().map(|(_, point)| point.force.abs()).fold(0.0, f64::max);
+        if force.abs() < 1e-12 * largest { 0.0 } else { force }
     }
 
     /// A parameter's value in the notation of the scene; computed where the value follows from others.

@@ -179,7 +179,11 @@ fn facts(app: &App, is_wide: bool) -> Vec<Fact> {
     } else if let Some(snapshot) = snapshot {
         let CurvePoint { indentation, force: pressing, contact_length, .. } = snapshot.point;
         let title = if is_wide && app.manual.is_some() { "manual: " } else { "" };
-        let place = format!("{title}d {} F {}", format_quantity(indentation, "m"), force(pressing));
+        let place = format!(
+            "{title}d {} F {}",
+            format_quantity(indentation, "m"),
+            force(app.without_rounding(pressing))
+        );
         facts.push(of_state(place));
         if let Some(state) = &app.manual {
             facts.push(of_state(format!("{} changed", counted(state.changed, "spring"))));
