@@ -285,7 +285,7 @@ impl Session<'_> {
                 }
                 Effect::Redraw => self.redraw = true,
                 Effect::Suspend => {
-                    // The signal of continuation leads to a size of the window.
+                    // With the signal of continuation the size of the window is read again.
                     self.guard.suspend()?;
                     self.redraw = true;
                 }
