@@ -4,7 +4,7 @@
 
 use asperity::contact::ContactError;
 use asperity::explorer::app::App;
-use asperity::explorer::{Options, open_with, view};
+use asperity::explorer::{Options, open as explore, view};
 use asperity::scene::{DEFAULT, Scene, open};
 use asperity::simulation::{AfterLeg, Outcome, RunError, Simulation};
 use ratatui::Frame;
@@ -48,9 +48,9 @@ fn main() -> ExitCode {
         }
     };
     let opened = if std::env::args().nth(1).as_deref() == Some("draw") {
-        open_with(document, Options::default(), Simulation::run, draw)
+        explore(document, Options::default(), Simulation::run, draw)
     } else {
-        open_with(document, Options::default(), solve, view::draw)
+        explore(document, Options::default(), solve, view::draw)
     };
     match opened {
         Ok(_) => ExitCode::SUCCESS,

@@ -15,7 +15,7 @@ pub use quantity::quantity;
 pub use scene::scene;
 pub use surface::surface;
 
-use asperity::scene::{Document, Origin, SceneError, SceneErrors, to_ron};
+use asperity::scene::{Document, Origin, SceneError, SceneErrors, Tree, to_ron};
 use std::borrow::Cow;
 
 /// A property of any bytes.
@@ -79,6 +79,7 @@ fn assert_document(document: &Document) {
     let read =
         |text: &str| Document::parse(text, "again").unwrap_or_else(|errors| panic!("{errors}\n{text}"));
     assert_eq!(read(document.text()).scene(), scene, "the text is that of the scene");
+    assert_eq!(Tree::of(scene).scene().as_ref(), Ok(scene));
     // Written in canonical form the scene is the same, and remains so.
     let written = to_ron(scene);
     assert_eq!(read(&written).scene(), scene, "{written}");

@@ -39,6 +39,7 @@ fn assert_fields(document: &Document) {
         let Some(value) = document.value(field.path) else { continue };
         let same = document.set(field.path, value).unwrap_or_else(|errors| panic!("{errors}"));
         assert_eq!(same.scene(), document.scene(), "{} = {value}", field.path);
+        assert_eq!(field.read_typed(value).as_deref(), Ok(value), "{}", field.path);
         for (steps, coarse) in [(1, false), (-1, false), (1, true), (-1, true)] {
             let Some(next) = field.stepped(value, steps, coarse) else { continue };
             assert_ne!(next, value, "{}", field.path);
@@ -75,6 +76,11 @@ fn assert_effects(document: &Document) {
         let off = document.without(effect, &computed);
         sound(&off, effect, false);
         let Ok(off) = off else { continue };
+        for also in Effect::ALL.into_iter().filter(|also| *also != effect) {
+            assert_eq!(also.is_on(off.scene()), also.is_on(document.scene()), "{}", also.name());
+        }
+        let forgotten = Document::parse(off.text(), NAME).and_then(|off| off.with(effect));
+        sound(&forgotten, effect, true);
         let back = off.with(effect);
         sound(&back, effect, true);
         if let (true, Ok(back)) = (effect.is_on(document.scene()), back) {

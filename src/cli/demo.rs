@@ -4,9 +4,9 @@ use super::explore::failed;
 use super::output::check_file;
 use super::{CliError, Overrides};
 use crate::explorer::demo::{Demo, ONE_SCENE, TOUR, play};
-use crate::explorer::picture::{Cast, text};
+use crate::explorer::picture::text;
 use crate::explorer::theme::{Appearance, Marker, Theme};
-use crate::explorer::{FrameBytes, Screen, picture_of, screenshot};
+use crate::explorer::{Recording, picture_of, screenshot};
 use crate::io::write_new;
 use crate::scene::{open_argument, presets};
 use clap::Args;
@@ -139,11 +139,9 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
 
 /// Records the demo as the output to a terminal.
 fn record(out: &mut dyn Write, demo: &mut Demo, size: (u16, u16), name: &str) -> io::Result<()> {
-    let mut cast = Cast::new(out, size.0, size.1, &format!("Asperity: {name}"))?;
-    let mut screen = Screen::new(size)?;
+    let mut recording = Recording::new(out, size, &format!("Asperity: {name}"))?;
     while let Some(seconds) = demo.advance() {
-        let FrameBytes(bytes) = screen.draw(demo.app())?;
-        cast.frame(seconds, &bytes)?;
+        recording.frame(seconds, demo.app())?;
     }
-    cast.finish().map(drop)
+    Ok(())
 }

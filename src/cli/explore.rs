@@ -4,9 +4,10 @@ use super::{Arguments, CliError, Overrides};
 use crate::explorer::autosave;
 use crate::explorer::config::{Config, default_path};
 use crate::explorer::theme::{Marker, Theme};
-use crate::explorer::{self, Opening, OpeningError, Options};
+use crate::explorer::{self, Opening, OpeningError, Options, view};
 use crate::export::brief_summary;
 use crate::scene::{Document, quoted};
+use crate::simulation::Simulation;
 use clap::{Args, CommandFactory};
 use std::fmt::Display;
 use std::io::{IsTerminal, Write, stdin, stdout};
@@ -101,7 +102,7 @@ pub(super) fn open(opening: Opening, options: Options, out: &mut dyn Write) -> R
             quoted(opening.document.name())
         )));
     }
-    let left = explorer::open(opening, options).map_err(failed)?;
+    let left = explorer::open(opening, options, Simulation::run, view::draw).map_err(failed)?;
     if let Some(signal) = left.signal {
         explorer::end_by(signal);
     }
@@ -113,7 +114,7 @@ pub(super) fn open(opening: Opening, options: Options, out: &mut dyn Write) -> R
 
 /// Newest unsaved changes of an ended session: their file and scenes.
 fn restored(folder: Option<&Path>) -> Result<(PathBuf, Vec<Document>), CliError> {
-    let newest = folder.and_then(|folder| autosave::left_behind(folder).into_iter().next());
+    let newest = folder.and_then(autosave::newest);
     let none = || CliError::named("--restore", "no unsaved changes are kept; asperity opens a scene");
     let newest = newest.ok_or_else(none)?;
     let documents = autosave::read(&newest).map_err(|error| CliError::named("--restore", error))?;

@@ -12,16 +12,16 @@ pub struct Axis {
     pub scale: AxisScale,
     /// Range, coordinates.
     pub span: Span,
-    /// Name and symbol without unit; may be empty.
-    pub label: Label,
+    pub name: String,
+    /// Symbol such as `F_n`; may be empty, as may the name.
+    pub symbol: String,
     /// SI unit; `1` or empty for numbers.
     pub unit: String,
 }
 
 impl Axis {
-    /// An axis with a name, a symbol such as `F_n`, and a unit, each of which may be empty.
     pub fn new(scale: AxisScale, span: Span, name: &str, symbol: &str, unit: &str) -> Axis {
-        Axis { scale, span, label: Label::quantity(name, symbol), unit: unit.to_owned() }
+        Axis { scale, span, name: name.to_owned(), symbol: symbol.to_owned(), unit: unit.to_owned() }
     }
 
     /// Position of a number from 0 at the lower to 1 at the upper end; not finite if the scale has no coordinate
@@ -44,14 +44,18 @@ impl Axis {
         (10_f64.powi(power), format!("{} {unit}", Label::power_of_ten(power)).trim_end().to_owned())
     }
 
-    /// Label with the prefixed unit in brackets.
+    /// Name and symbol with the prefixed unit in brackets.
     pub fn label_with_unit(&self) -> Label {
-        self.with_unit(self.label.clone())
+        self.with_unit(Label::quantity(&self.name, &self.symbol))
     }
 
-    /// Symbol with the prefixed unit in brackets; the label if the axis has no symbol.
+    /// Symbol with the prefixed unit in brackets; the name of an axis without a symbol.
     pub fn symbol_with_unit(&self) -> Label {
-        self.with_unit(self.label.without_name())
+        self.with_unit(self.symbol_or_name())
+    }
+
+    pub fn symbol_or_name(&self) -> Label {
+        Label::symbol_or_name(&self.symbol, &self.name)
     }
 
     fn with_unit(&self, label: Label) -> Label {

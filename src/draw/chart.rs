@@ -58,8 +58,8 @@ impl Chart {
 
     /// The chart with symbols alone on its axes, where they have symbols.
     pub fn with_symbols(mut self) -> Chart {
-        for axis in [&mut self.x, &mut self.y] {
-            axis.label = axis.label.without_name();
+        for axis in [&mut self.x, &mut self.y].into_iter().filter(|axis| !axis.symbol.is_empty()) {
+            axis.name.clear();
         }
         self
     }

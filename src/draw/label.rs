@@ -61,16 +61,6 @@ impl Label {
         if symbol.is_empty() { Label::plain(name) } else { Label::symbol(symbol) }
     }
 
-    /// The symbol of a quantity with name and symbol; else the whole label.
-    pub fn without_name(&self) -> Label {
-        match self.runs.split_first() {
-            Some(((Face::Upright, name), rest)) if name.ends_with(' ') && !rest.is_empty() => {
-                Label { runs: rest.to_vec() }
-            }
-            _ => self.clone(),
-        }
-    }
-
     /// A statement such as `H = 0.3`: a symbol before ` = `, upright text after it.
     pub fn statement(text: &str) -> Label {
         match text.split_once(" = ") {

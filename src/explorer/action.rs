@@ -68,35 +68,13 @@ pub enum WriteFailure {
 pub enum Content {
     /// The scene, in RON.
     Scene,
-    /// The outcome of the scene in JSON, or its force curve as a table.
-    Outcome(Format),
-    /// The selected pane as a picture.
-    Figure(Format),
-    /// The panes as plain text.
-    Text,
-    /// The cells of the map as comma-separated values.
-    MapCells,
+    /// The selected pane: its picture, its result, or, as text, all panes.
+    Pane(Format),
 }
 
-impl Content {
-    /// Contents that can be exported, by the extension of the file.
-    pub const EXPORTS: &[(Format, Content)] = &[
-        (Format::Csv, Content::Outcome(Format::Csv)),
-        (Format::Npy, Content::Outcome(Format::Npy)),
-        (Format::Json, Content::Outcome(Format::Json)),
-        (Format::Svg, Content::Figure(Format::Svg)),
-        (Format::Png, Content::Figure(Format::Png)),
-        (Format::Text, Content::Text),
-    ];
-
-    /// Exports of the map, while its pane is selected.
-    pub const MAP_EXPORTS: &[(Format, Content)] = &[
-        (Format::Csv, Content::MapCells),
-        (Format::Svg, Content::Figure(Format::Svg)),
-        (Format::Png, Content::Figure(Format::Png)),
-        (Format::Text, Content::Text),
-    ];
-}
+/// Formats of exported files.
+pub const EXPORTS: [Format; 6] =
+    [Format::Csv, Format::Npy, Format::Json, Format::Svg, Format::Png, Format::Text];
 
 /// Gesture of the mouse at a cell of the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -15,9 +15,8 @@ use super::prompt::{Prompt, Purpose};
 use super::request::{Focus, LineView, ManualMove, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Drive, Preview, SolvedScene};
 use super::studies::Findings;
-use super::text_line::TextLine;
 use super::theme::Appearance;
-use crate::analysis::Governing;
+use crate::analysis::{Governing, marks};
 use crate::contact::{CurvePoint, LegRecord};
 use crate::export::LoopQuantities;
 use crate::scene::{Document, Observer, Scene, ron_float};
@@ -179,7 +178,7 @@ pub struct App {
     pub finished: bool,
     /// Effects of the present action.
     pub(super) effects: Vec<Effect>,
-    /// What the solver was asked for last.
+    /// The last order to the solver.
     pub(super) asked: Option<Awaited>,
 }
 
@@ -253,9 +252,9 @@ impl App {
         self.prompt.as_ref().is_some_and(|prompt| matches!(prompt.purpose, Purpose::Value))
     }
 
-    /// Opens a prompt.
-    pub(super) fn ask(&mut self, purpose: Purpose, line: TextLine) {
-        self.prompt = Some(Prompt::new(purpose, line, &self.edit.parameters));
+    /// Opens a prompt with this text.
+    pub(super) fn ask(&mut self, purpose: Purpose, text: &str) {
+        self.prompt = Some(Prompt::new(purpose, text, &self.edit.parameters));
     }
 
     /// Governing parameters of the present scene from the newest computation, which must have the same line; its
@@ -349,6 +348,14 @@ impl App {
     #[must_use]
     pub fn legs(&self) -> &[LegRecord] {
         self.solved.as_ref().map_or(&[], |computed| &computed.outcome.history.legs)
+    }
+
+    /// Returns a force of the shown scene, N; zero where it is a rounding error of the largest marked force, as after a
+    /// stage to zero force.
+    #[must_use]
+    pub fn without_rounding(&self, force: f64) -> f64 {
+        let largest = marks(self.legs()).iter().map(|(_, point)| point.force.abs()).fold(0.0, f64::max);
+        if force.abs() < 1e-12 * largest { 0.0 } else { force }
     }
 
     /// A parameter's value in the notation of the scene; computed where the value follows from others.

@@ -29,8 +29,6 @@ pub struct Autosave {
     path: PathBuf,
     /// The file, locked; `None` without unsaved changes.
     own: Option<File>,
-    /// File of an ended session, removed once its scenes are in the own file.
-    restored: Option<PathBuf>,
 }
 
 /// Returns the folder of the files; `None` where the system has none.
@@ -41,30 +39,24 @@ pub fn folder() -> Option<PathBuf> {
     Some(state.join("asperity").join("unsaved"))
 }
 
-/// Returns the files of ended sessions, the newest first.
+/// Returns the newest file of an ended session.
 #[must_use]
-pub fn left_behind(folder: &Path) -> Vec<PathBuf> {
+pub fn newest(folder: &Path) -> Option<PathBuf> {
     let is_ended = |path: &PathBuf| {
         path.extension().is_some_and(|extension| extension == "ron")
             && File::open(path).is_ok_and(|file| !matches!(file.try_lock(), Err(TryLockError::WouldBlock)))
     };
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).filter(is_ended).collect();
-    files.sort_by_key(|path| fs::metadata(path).and_then(|found| found.modified()).ok());
-    files.reverse();
-    files
+    let files = fs::read_dir(folder).ok()?.flatten().map(|entry| entry.path()).filter(is_ended);
+    files.max_by_key(|path| fs::metadata(path).and_then(|found| found.modified()).ok())
 }
 
-/// Returns the message that offers the unsaved changes of ended sessions, the newest first.
+/// Returns the message that offers the newest unsaved changes of an ended session.
 #[must_use]
 pub fn offer(folder: &Path) -> Option<String> {
-    let scenes = left_behind(folder).into_iter().filter_map(|path| read(&path).ok()).flatten();
-    let name =
-        |document: Document| Some(Path::new(document.name()).file_name()?.to_string_lossy().into_owned());
-    let mut names: Vec<String> = scenes.filter_map(name).collect();
-    names.dedup();
-    let names = Some(names.join(", ")).filter(|names| !names.is_empty())?;
-    Some(format!("unsaved changes of {names} are kept: asperity --restore opens the newest"))
+    let documents = read(&newest(folder)?).ok()?;
+    let name = |document: &Document| Some(Path::new(document.name()).file_name()?.display().to_string());
+    let names: Vec<String> = documents.iter().filter_map(name).collect();
+    Some(format!("unsaved changes of {} are kept: asperity --restore opens them", names.join(", ")))
 }
 
 /// Reads the scenes of a file, the explored one first.
@@ -83,12 +75,15 @@ pub fn read(path: &Path) -> Result<Vec<Document>, String> {
 }
 
 impl Autosave {
-    /// Creates the copies of a session, without a file. `restored` is the file whose scenes the session opened.
+    /// Creates the copies of a session, without a file or with the file of an ended session.
     #[must_use]
     pub fn new(folder: &Path, restored: Option<PathBuf>) -> Self {
-        let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default().as_nanos();
-        let path = folder.join(format!("{}-{now}.ron", std::process::id()));
-        Autosave { path, own: None, restored }
+        let now = || SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default().as_nanos();
+        let path = restored.unwrap_or_else(|| folder.join(format!("{}-{}.ron", std::process::id(), now())));
+        let own = File::open(&path).ok();
+        // A file system without locks offers the copies to other sessions too early, which harms nobody.
+        own.iter().for_each(|file| drop(file.try_lock()));
+        Autosave { path, own }
     }
 
     /// Keeps these scenes in place of all before; without any, there is no file. The file is whole at every moment.
@@ -99,26 +94,24 @@ impl Autosave {
         if documents.is_empty() {
             return self.own.take().map_or(Ok(()), |_| fs::remove_file(&self.path));
         }
-        let copy = |document: &&Document| Copy {
-            name: absolute(document.name())
-                .ok()
-                .filter(|path| path.is_file())
-                .map_or_else(|| document.name().to_owned(), |path| path.to_string_lossy().into_owned()),
-            opened: document.opened().to_owned(),
-            text: document.text().to_owned(),
-            overrides: document.overrides().to_vec(),
+        let copy = |document: &&Document| {
+            let file = absolute(document.name()).ok().filter(|path| path.is_file());
+            Copy {
+                name: file.map_or_else(|| document.name().to_owned(), |path| path.display().to_string()),
+                opened: document.opened().to_owned(),
+                text: document.text().to_owned(),
+                overrides: document.overrides().to_vec(),
+            }
         };
-        let text =
-            ron::to_string(&documents.iter().map(copy).collect::<Vec<_>>()).map_err(io::Error::other)?;
+        let copies: Vec<Copy> = documents.iter().map(copy).collect();
+        let text = ron::to_string(&copies).map_err(io::Error::other)?;
         fs::create_dir_all(self.path.parent().unwrap_or(Path::new("")))?;
         let unfinished = self.path.with_extension("new");
         let mut file = File::create(&unfinished)?;
-        // A file system without locks offers the copies to other sessions too early, which harms nobody.
         let _ = file.try_lock();
         file.write_all(text.as_bytes())?;
-        fs::rename(&unfinished, &self.path)?;
         self.own = Some(file);
-        self.restored.take().map_or(Ok(()), fs::remove_file)
+        fs::rename(&unfinished, &self.path)
     }
 }
 
@@ -131,28 +124,27 @@ mod tests {
     fn copies_are_read_back_as_they_were_once_their_session_has_ended() {
         let folder = tempfile::tempdir().unwrap();
         let folder = folder.path().join("state/unsaved");
-        assert!(left_behind(&folder).is_empty());
+        assert_eq!(newest(&folder), None);
         let changed = open("pressure-sensitive").unwrap().set("adhesion.kappa", "3.0").unwrap();
         let other = open("rough-sphere").unwrap().set("length", "2.0e-4").unwrap();
         let mut session = Autosave::new(&folder, None);
         session.keep(&[&changed]).unwrap();
         session.keep(&[&changed, &other]).unwrap();
-        assert!(left_behind(&folder).is_empty(), "the session runs");
+        assert_eq!(newest(&folder), None, "the session runs");
         drop(session);
-        let files = left_behind(&folder);
-        let documents = read(&files[0]).unwrap();
+        let file = newest(&folder).unwrap();
+        let documents = read(&file).unwrap();
         assert_eq!(documents, [changed.clone(), other]);
         assert_eq!(documents[0].overrides(), changed.overrides());
-        let mut next = Autosave::new(&folder, Some(files[0].clone()));
-        assert!(files[0].exists());
+        let mut next = Autosave::new(&folder, Some(file.clone()));
+        assert_eq!(newest(&folder), None, "the session that opened the scenes continues their file");
         next.keep(&[&changed]).unwrap();
-        assert!(!files[0].exists(), "the scenes are in the file of the session that opened them");
         next.keep(&[]).unwrap();
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 0, "nothing is unsaved any more");
         for (text, reason) in [("(", "1:1"), ("[(name: \"a\")]", "opened"), ("[(name", "1:")] {
-            fs::write(&files[0], text).unwrap();
-            let why = read(&files[0]).unwrap_err();
-            assert!(why.contains(reason) && why.contains(files[0].to_str().unwrap()), "{why}");
+            fs::write(&file, text).unwrap();
+            let why = read(&file).unwrap_err();
+            assert!(why.contains(reason) && why.contains(file.to_str().unwrap()), "{why}");
         }
     }
 }

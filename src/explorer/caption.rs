@@ -29,7 +29,8 @@ fn event(stage: &LegRecord, point: CurvePoint) -> Option<&'static str> {
         Direction::Loading => Some(match point {
             CurvePoint { springs: 0, .. } => "approach",
             _ if is_near(last) => "turning point",
-            CurvePoint { force, .. } if force < 0.0 => "jump-in",
+            _ if stage.curve.iter().find(|point| point.springs > 0).is_some_and(is_near) => "jump-in",
+            CurvePoint { force, .. } if force < 0.0 => "spreads under tension",
             _ => "contact spreads",
         }),
         Direction::Unloading => Some(match point {
@@ -70,7 +71,10 @@ mod tests {
     fn a_loop_passes_its_events_in_order() {
         let history = history("pressure-sensitive");
         let [loading, unloading] = &history.legs[..] else { panic!("two stages") };
-        assert_eq!(events(loading), ["approach", "jump-in", "contact spreads", "turning point"]);
+        assert_eq!(
+            events(loading),
+            ["approach", "jump-in", "spreads under tension", "contact spreads", "turning point"]
+        );
         assert_eq!(
             events(unloading),
             ["turning point", "contact shrinks", "under tension", "pull-off", "detachment", "separated"]

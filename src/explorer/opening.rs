@@ -1,8 +1,8 @@
 //! Arguments of the explorer: a scene, or a finished study around one.
 
 use crate::scene::{Document, SceneErrors, open, open_argument};
-use crate::study::Folder;
-use crate::study::map::{StudyMap, StudyMapError};
+use crate::study::map::StudyMap;
+use crate::study::{Folder, StudyError};
 use std::path::Path;
 use std::sync::Arc;
 use thiserror::Error;
@@ -32,7 +32,7 @@ pub enum OpeningError {
     Folder(String),
     /// The folder of a study that cannot be shown.
     #[error(transparent)]
-    Study(Box<StudyMapError>),
+    Study(Box<StudyError>),
 }
 
 impl From<Document> for Opening {
@@ -65,13 +65,10 @@ impl Opening {
             return open(name).map(Opening::from).map_err(|errors| OpeningError::Scene(Box::new(errors)));
         }
         if Folder::is_at(folder) {
-            return Opening::of_study(folder).map_err(|error| OpeningError::Study(Box::new(error)));
+            let study_map = StudyMap::open(folder).map_err(|error| OpeningError::Study(Box::new(error)))?;
+            let document = study_map.document().map_err(|errors| OpeningError::Scene(Box::new(errors)))?;
+            return Ok(Opening { document, study_map: Some(Arc::new(study_map)), beside: None });
         }
         open(name).map(Opening::from).map_err(|_| OpeningError::Folder(name.to_owned()))
-    }
-
-    fn of_study(folder: &Path) -> Result<Self, StudyMapError> {
-        let study_map = StudyMap::open(folder)?;
-        Ok(Opening { document: study_map.document()?, study_map: Some(Arc::new(study_map)), beside: None })
     }
 }

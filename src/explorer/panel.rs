@@ -84,7 +84,7 @@ impl Panel {
         let at = across.span.low + share * across.span.width();
         let x = across.scale.number(at);
         let value = |axis: &Axis, number| format_rounded(number, 3, &axis.unit);
-        let mut parts = vec![format!("{} {}", across.label.without_name(), value(across, x))];
+        let mut parts = vec![format!("{} {}", across.symbol_or_name(), value(across, x))];
         for layer in layers.iter().filter(|layer| !layer.name.is_empty()) {
             let Shape::Curve { points, .. } = &layer.shape else { continue };
             let place = |point: &(f64, f64)| (across.scale.coordinate(point.0), up.scale.coordinate(point.1));

@@ -60,16 +60,18 @@ pub enum Purpose {
 }
 
 impl Prompt {
-    /// A prompt with this line, for a scene with these parameters.
+    /// A prompt with this text, for a scene with these parameters. The first typed character replaces a value.
     #[must_use]
-    pub fn new(purpose: Purpose, line: TextLine, parameters: &[Parameter]) -> Self {
+    pub fn new(purpose: Purpose, text: &str, parameters: &[Parameter]) -> Self {
+        let is_value = matches!(purpose, Purpose::Value);
+        let line = if is_value { TextLine::selected(text) } else { TextLine::new(text) };
         let (found, paths) = (Vec::new(), Vec::new());
         let mut prompt = Prompt { purpose, line, found, selected: 0, paths, refused: None };
         prompt.search(parameters);
         prompt
     }
 
-    /// What the keys act on.
+    /// Returns the context of keys: a list, a line or a question.
     #[must_use]
     pub fn context(&self) -> Context {
         match self.purpose {

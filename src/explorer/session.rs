@@ -14,9 +14,7 @@ use super::studies::StudyThread;
 use super::terminal::{self, FrameWriter, TerminalGuard};
 use super::theme::{Appearance, Marker, Theme};
 use super::update::Effect;
-use super::view;
 use crate::scene::Document;
-use crate::simulation::Simulation;
 use crossterm::clipboard::CopyToClipboard;
 use crossterm::event::Event;
 use crossterm::queue;
@@ -70,7 +68,7 @@ pub struct SessionEnd {
     pub signal: Option<i32>,
 }
 
-/// Function that draws the state of the explorer, as [`view::draw`].
+/// Function that draws the state of the explorer, as [`super::view::draw`].
 pub type Draw = fn(&mut Frame<'_>, &App);
 
 /// Message of another thread.
@@ -83,19 +81,11 @@ enum Message {
     Act(Box<Action>),
 }
 
-/// Opens the explorer on a scene or a finished study and returns its final state.
+/// Opens the explorer on a scene or a finished study, with a solver and a view, and returns its final state.
 ///
 /// # Errors
 /// When the terminal refuses.
-pub fn open(opening: impl Into<Opening>, options: Options) -> io::Result<SessionEnd> {
-    open_with(opening, options, Simulation::run, view::draw)
-}
-
-/// Opens the explorer with another solver and another view.
-///
-/// # Errors
-/// When the terminal refuses.
-pub fn open_with(
+pub fn open(
     opening: impl Into<Opening>,
     options: Options,
     solve: Solve,
@@ -147,7 +137,6 @@ pub fn open_with(
         terminal: &mut terminal,
         guard,
         redraw: false,
-        own_stops: 0,
         draw,
         remote,
         frames: if remote { frame_rate.min(REMOTE_FRAMES) } else { frame_rate },
@@ -187,8 +176,6 @@ struct Session<'a> {
     guard: TerminalGuard,
     /// True if the content of the screen is unknown.
     redraw: bool,
-    /// Own stops without a signal of continuation so far.
-    own_stops: u32,
     draw: Draw,
     /// True over SSH.
     remote: bool,
@@ -239,11 +226,6 @@ impl Session<'_> {
                 let action = match message {
                     Message::Input(None) => return Ok(None),
                     Message::Signal(SystemSignal::End(signal)) => return Ok(Some(signal)),
-                    // The terminal has been taken again already.
-                    Message::Signal(SystemSignal::Continue) if self.own_stops > 0 => {
-                        self.own_stops -= 1;
-                        None
-                    }
                     Message::Signal(SystemSignal::Continue) => {
                         self.guard.take_again()?;
                         Some(self.resize()?)
@@ -303,11 +285,9 @@ impl Session<'_> {
                 }
                 Effect::Redraw => self.redraw = true,
                 Effect::Suspend => {
-                    self.own_stops += 1;
+                    // With the signal of continuation the size of the window is read again.
                     self.guard.suspend()?;
-                    // The window may have another size by now.
-                    let resize = self.resize()?;
-                    self.act(resize)?;
+                    self.redraw = true;
                 }
                 _ => {}
             }

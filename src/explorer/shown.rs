@@ -1,13 +1,11 @@
 //! Shown panes, the selected one, and its valid keys and exports.
 
-use super::action::Content;
 use super::app::App;
 use super::effect::Effect;
 use super::keys::Context;
 use super::layout::Layout;
 use super::panes::{Pane, Place};
 use crate::draw::Figure;
-use crate::export::Format;
 use crate::study::map::StudyMap;
 use std::sync::Arc;
 
@@ -84,12 +82,6 @@ impl App {
             (None, Some(Context::Crosshair)) if self.view.crosshair.is_none() => Context::Explore,
             (None, of_pane) => of_pane.unwrap_or(Context::Explore),
         }
-    }
-
-    /// Contents that can be exported, by the extension of the file; those of the map while its pane is selected.
-    #[must_use]
-    pub fn exports(&self) -> &'static [(Format, Content)] {
-        if self.view.pane == Pane::Chart { Content::MAP_EXPORTS } else { Content::EXPORTS }
     }
 
     /// The selected pane as a figure; the force curve while the parameters are selected.

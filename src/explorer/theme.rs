@@ -149,7 +149,11 @@ impl Theme {
         match meaning {
             Meaning::Title | Meaning::Key | Meaning::Error => style.add_modifier(Modifier::BOLD),
             Meaning::Selected => style.add_modifier(Modifier::REVERSED),
-            Meaning::Quiet | Meaning::Ghost if self == Theme::Plain => style.add_modifier(Modifier::DIM),
+            // Without colours the surface differs from the profile, and the contact from both.
+            Meaning::Quiet | Meaning::Ghost | Meaning::Surface if self == Theme::Plain => {
+                style.add_modifier(Modifier::DIM)
+            }
+            Meaning::Contact if self == Theme::Plain => style.add_modifier(Modifier::BOLD),
             _ if self == Theme::HighContrast => style.add_modifier(Modifier::BOLD),
             _ => style,
         }

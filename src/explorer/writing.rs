@@ -6,7 +6,7 @@ use super::picture::{svg, text};
 use super::theme::Theme;
 use super::view;
 use crate::draw::Palette;
-use crate::export::{self, Format, RunReport, scene_provenance};
+use crate::export::{self, Format, scene_provenance};
 use crate::io::{WriteError, write_new_file};
 use crate::scene::command_line;
 use ratatui::Terminal;
@@ -35,31 +35,26 @@ pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
     Action::Written(file, result)
 }
 
-fn write_content(file: &mut dyn Write, app: &App, path: &Path, content: Content) -> io::Result<()> {
-    let no_map = || io::Error::other("there is no map yet");
-    let no_curve = || io::Error::other("the scene has no curve yet");
-    let computed = || app.current().ok_or_else(no_curve);
+fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) -> io::Result<()> {
+    let missing = || io::Error::other("the selected pane has nothing yet to export");
     match content {
-        Content::Scene => file.write_all(app.edit.document.text().as_bytes()),
-        Content::Outcome(format) => {
-            let (document, destination) = (&app.edit.document, path.parent().unwrap_or(Path::new("")));
-            let (scene, folder) = (document.scene(), document.resolve(""));
-            let command = command_line("asperity run", document.name(), document.overrides());
+        Content::Scene => out.write_all(app.edit.document.text().as_bytes()),
+        Content::Pane(Format::Text) => out.write_all(text(&picture_of(app)).as_bytes()),
+        Content::Pane(format @ (Format::Svg | Format::Png)) => {
+            export::write(out, &app.figure().ok_or_else(missing)?, format, "")
+        }
+        Content::Pane(format) => {
+            let (command, report) = (app.view.pane.row().report)(app).ok_or_else(missing)?;
+            let document = &app.edit.document;
+            let command = command_line(command, document.name(), document.overrides());
+            let (folder, destination) = (document.resolve(""), path.parent().unwrap_or(Path::new("")));
             let provenance = match format {
                 Format::Json => String::new(),
-                _ => scene_provenance(&command, scene, &folder, destination).map_err(io::Error::other)?,
+                _ => scene_provenance(&command, document.scene(), &folder, destination)
+                    .map_err(io::Error::other)?,
             };
-            let (title, outcome) = (document.title(), &computed()?.outcome);
-            let estimate = app.studies.value();
-            let report = RunReport { title, scene, outcome, choice: None, estimate };
-            export::write(file, &report, format, &provenance)
+            export::write(out, &*report, format, &provenance)
         }
-        Content::Figure(format) => {
-            let figure = app.figure().ok_or_else(|| io::Error::other("the pane is empty"))?;
-            export::write(file, &figure, format, "")
-        }
-        Content::MapCells => export::write(file, app.grid().ok_or_else(no_map)?, Format::Csv, ""),
-        Content::Text => file.write_all(text(&picture_of(app)).as_bytes()),
     }
 }
 

@@ -63,7 +63,7 @@ mod tests {
             (chart.x.span, chart.y.span),
             (Span { low: -4.0, high: -2.0 }, Span { low: -3.0, high: -1.0 })
         );
-        assert_eq!(chart.y.label.to_string(), "relative error of the curve");
+        assert_eq!(chart.y.name, "relative error of the curve");
         let legend: Vec<String> = figure.legend().iter().map(|entry| entry.name.to_string()).collect();
         assert_eq!(legend, [Knob::SubCellSprings.name(), "error below that of the reference"]);
         assert!(figure.svg().contains("a &lt; b"));

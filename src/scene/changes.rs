@@ -1,11 +1,11 @@
 //! Differences between two scenes, by technical names.
 
 use super::document::Document;
-use super::field::Field;
+use super::field::{Field, stage_targets};
 use super::fields::fields_inside;
 use super::model::{Move, Roughness, Scene};
 use super::quantity::format_quantity;
-use super::tree::{Tree, in_ron};
+use super::tree::Tree;
 use std::fmt;
 
 /// A field with different values in two scenes.
@@ -17,13 +17,6 @@ pub struct Change {
     pub from: String,
     /// Value in the second scene.
     pub to: String,
-}
-
-impl Change {
-    fn of(field: &Field, values: [String; 2]) -> Change {
-        let [from, to] = values.map(|value| with_unit(field, &value));
-        Change { name: symbol_or_name(field).to_owned(), from, to }
-    }
 }
 
 impl fmt::Display for Change {
@@ -66,10 +59,9 @@ impl Document {
         let fields = fields_inside("", None);
         let mut changes = Vec::new();
         for field in fields.filter(|field| !["title", "notice", "version"].contains(&field.path)) {
-            let stages = changed_stages(&scenes).filter(|_| field.path == "loading");
-            match stages {
-                Some(stages) => changes.extend(stages),
-                None => add_changes(field, &trees, &mut changes),
+            match field.path {
+                "loading" => changes.extend(changed_stages(&scenes)),
+                _ => add_changes(field, &trees, &mut changes),
             }
         }
         changes
@@ -93,25 +85,27 @@ fn add_changes(field: &Field, trees: &[Tree; 2], changes: &mut Vec<Change>) {
     }
 }
 
-/// The changed stages of two histories with as many stages; `None` if the histories as a whole are shorter to name.
-fn changed_stages(scenes: &[Scene; 2]) -> Option<Vec<Change>> {
+/// The changed stages of two histories, or the histories as a whole where these are shorter to name.
+fn changed_stages(scenes: &[Scene; 2]) -> Vec<Change> {
     let [one, other] = scenes.each_ref().map(|scene| &scene.loading);
     let pairs = one.iter().zip(other).enumerate().filter(|(_, (one, other))| one != other);
     let changes: Vec<Change> = pairs.map(change_of_stage).collect();
+    let [from, to] = [one, other].map(|loading| stage_targets(loading, format_quantity));
     // A change takes the room of its value and of some fourteen characters.
     let length: usize = changes.iter().map(|change| 14 + change.from.len()).sum();
-    (one.len() == other.len() && length < 14 + in_ron(one).len()).then_some(changes)
+    if one == other || one.len() == other.len() && length < 14 + from.len() {
+        return changes;
+    }
+    vec![Change { name: "loading".to_owned(), from, to }]
 }
 
 fn change_of_stage((index, (one, other)): (usize, (&Move, &Move))) -> Change {
-    let stage = format!("stage {}", index + 1);
-    match (one.field(), other.field()) {
-        (Some((field, from)), Some((same, to))) if field == same => {
-            let change = Change::of(field, [from, to].map(|value| in_ron(&value)));
-            Change { name: format!("{stage} {}", change.name), ..change }
-        }
-        _ => Change { name: stage, from: in_ron(one), to: in_ron(other) },
-    }
+    let [from, to] = [one, other].map(|stage| stage_targets(&[*stage], format_quantity));
+    let symbol = match (one.field(), other.field()) {
+        (Some((field, _)), Some((same, _))) if field == same => format!(" {}", field.symbol),
+        _ => String::new(),
+    };
+    Change { name: format!("stage {}{symbol}", index + 1), from, to }
 }
 
 /// The scene with an explicit use of its measured profile as the line, which is mostly omitted.
@@ -129,8 +123,7 @@ mod tests {
     use crate::scene::open;
 
     fn changes(from: &Document, to: &Document) -> Vec<String> {
-        let text = |change: Change| format!("{} {} → {}", change.name, change.from, change.to);
-        from.changes_to(to).into_iter().map(text).collect()
+        from.changes_to(to).iter().map(Change::to_string).collect()
     }
 
     #[test]
@@ -142,6 +135,8 @@ mod tests {
         assert_eq!(changes(&other, &scene), ["H 0.5 → 0.7"]);
         let other = scene.set("loading.0.0", "2e-5").unwrap();
         assert_eq!(changes(&scene, &other), ["stage 1 F 10 µN → 20 µN"]);
+        let other = scene.set("loading", "5 µN").unwrap();
+        assert_eq!(changes(&scene, &other), ["loading 10 µN, separation → 5 µN"]);
         let text = "(version: 2, material: (effective_modulus: 1.0e6), length: 1.0e-4, roughness: Measured(file: \"a\"))";
         let line = Document::parse(text, "test").unwrap();
         let profile = line.set("roughness.as_line", "true").unwrap();

@@ -143,7 +143,6 @@ fn preferred(value: f64, series: &[f64], up: bool) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fields::FIELDS;
     use super::super::fields::field;
 
     fn stepped(path: &str, value: &str, steps: i32, coarse: bool) -> Option<String> {
@@ -179,29 +178,6 @@ mod tests {
             let [path, value, steps, next] = row.split('|').collect::<Vec<_>>()[..] else { panic!("{row}") };
             let (number, coarse) = (steps.trim_end_matches('c').parse().unwrap(), steps.ends_with('c'));
             assert_eq!(stepped(path, value, number, coarse).unwrap_or_default(), next, "{row}");
-        }
-    }
-
-    #[test]
-    fn no_value_makes_stepping_panic_or_leave_the_range() {
-        for field in FIELDS {
-            for value in ["", "(", "()", "(,)", "(1,2)", "0", "-1", "1e308", "-1e-320", "NaN", "inf", "x"] {
-                for steps in [i32::MIN, -1, 0, 1, 1000] {
-                    for coarse in [false, true] {
-                        if let Some(next) = field.stepped(value, steps, coarse)
-                            && let Ok(next) = next.parse::<f64>()
-                        {
-                            assert!(
-                                field.range.contains(next)
-                                    || field
-                                        .range
-                                        .ends()
-                                        .is_some_and(|(min, max)| (min..=max).contains(&next))
-                            );
-                        }
-                    }
-                }
-            }
         }
     }
 }

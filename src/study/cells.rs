@@ -75,11 +75,6 @@ impl<'p> Cells<'p> {
         Unit { group: rest / self.plan.lines, line: rest % self.plan.lines, steps }
     }
 
-    /// All runs of one profile with the same roughness, by the number of the roughness.
-    pub fn whole_unit(&self, group: u64, line: u64) -> Unit {
-        Unit { group, line, steps: 0..self.count(&self.inner) }
-    }
-
     /// The runs of a unit in the most efficient order.
     pub fn runs_of(&self, unit: &Unit) -> impl Iterator<Item = Run> + use<'_> {
         let Unit { group, line, .. } = *unit;

@@ -63,7 +63,6 @@ fn read(plan: &Plan, origin: impl Fn() -> String) -> Result<Option<(MeasuredRoug
 
 #[cfg(test)]
 mod tests {
-    use super::super::plan_check::is_hash;
     use super::*;
 
     #[test]
@@ -77,9 +76,5 @@ mod tests {
         let scene = scene.set("roughness", &format!("Measured(file: {file:?}, as_line: true)")).unwrap();
         let plan = Plan::of_scene(scene.scene(), 1, &[]);
         assert_eq!(with_hash(&plan).unwrap().measured_sha256.as_deref(), Some(known));
-        assert!(is_hash(known));
-        for wrong in [&known[1..], &known.to_uppercase(), &format!("{known}0"), "", &"x".repeat(64)] {
-            assert!(!is_hash(wrong), "{wrong}");
-        }
     }
 }

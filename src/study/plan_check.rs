@@ -4,7 +4,7 @@
 use super::axis::Axis;
 use super::plan::{ONE_PROFILE, PRELOAD, Plan, StiffnessRange};
 use super::quantity::Needs;
-use crate::scene::{Roughness, Scene, SceneError, check, ron_string};
+use crate::scene::{Scene, SceneError, check};
 
 /// Most cells of a plan.
 pub const MOST_CELLS: u64 = 10_000_000;
@@ -24,11 +24,6 @@ const SAME: [&[&str]; 2] = [
     &["springs_per_wave", "roughness.modes.1"],
     &["kappa", "elastic_energy_ratio", "adhesion.kappa", "adhesion.work", "adhesion.elastic_energy_ratio"],
 ];
-
-/// Returns true for a hash in the form of a plan.
-pub(super) fn is_hash(text: &str) -> bool {
-    text.len() == 64 && text.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f'))
-}
 
 impl Plan {
     /// Errors of the plan itself.
@@ -93,23 +88,17 @@ impl Plan {
         wrong
     }
 
-    /// Errors of title and notice, by the rules of a scene, and of the hash.
+    /// Errors of title and notice, by the rules of a scene, and of the hash without a measured file.
     fn errors_of_texts(&self) -> Vec<String> {
         let (title, notice) = (self.title.clone(), self.notice.clone());
         let texts = Scene { title, notice, ..self.scene.clone() };
         let is_text = |error: &&SceneError| ["title", "notice"].contains(&error.field.as_str());
         let mut wrong: Vec<String> =
             check(&texts).iter().filter(is_text).map(SceneError::to_string).collect();
-        if let Some(hash) = &self.measured_sha256 {
-            if !is_hash(hash) {
-                let hash = ron_string(hash);
-                wrong.push(format!("measured_sha256 = {hash}: allowed: 64 digits from 0 to 9 and a to f"));
-            }
-            if !matches!(self.scene.roughness, Some(Roughness::Measured { .. })) {
-                wrong.push(
-                    "measured_sha256: allowed with roughness: Measured; this scene has no such file".into(),
-                );
-            }
+        if self.measured_sha256.is_some() && self.scene.measured().is_none() {
+            wrong.push(
+                "measured_sha256: allowed with roughness: Measured; this scene has no such file".into(),
+            );
         }
         wrong
     }

@@ -70,11 +70,6 @@ impl Program {
         self
     }
 
-    pub fn without_env(mut self, name: &str) -> Self {
-        self.command.env_remove(name);
-        self
-    }
-
     pub fn folder(mut self, folder: &Path) -> Self {
         self.command.cwd(folder);
         self
@@ -266,17 +261,12 @@ impl Terminal {
     #[track_caller]
     pub fn wait(&mut self, what: &str, is_there: impl Fn(&[String]) -> bool) {
         let deadline = Instant::now() + PATIENCE;
-        while self.is_within_frame() || !is_there(&self.rows()) {
+        while self.begun.is_some() || !is_there(&self.rows()) {
             let gone = self.closed && self.ended.is_some();
             if gone || !self.take(deadline.saturating_duration_since(Instant::now())) {
                 panic!("no {what} on the screen (ended: {:?}):\n{}", self.ended, self.text());
             }
         }
-    }
-
-    /// True if the last byte so far is between the beginning of a frame and its end.
-    fn is_within_frame(&self) -> bool {
-        self.begun.is_some()
     }
 
     /// Waits until a text is on the screen.

@@ -1,6 +1,5 @@
 //! No work without events.
 
-use crate::common::deadline::within;
 use crate::common::terminal::Terminal;
 use crate::driving::{explorer, paused, quit};
 use std::fs;
@@ -32,62 +31,44 @@ pub fn assert_idle(terminal: &mut Terminal) {
 
 #[test]
 fn nothing_happens_while_nothing_happens() {
-    within(60, || {
-        let (program, _folder) = explorer();
-        let mut terminal = paused(program.env("SSH_CONNECTION", "192.0.2.1 50000 192.0.2.2 22"));
-        assert_idle(&mut terminal);
-        // Also with a window open above the panes.
-        terminal.send("?");
-        terminal.wait_for("What you see");
-        assert_idle(&mut terminal);
-        terminal.send("?");
-        terminal.wait_without("What you see");
-        // With manual loading.
-        terminal.send("}}}");
-        terminal.wait_for("manual: d ");
-        assert_idle(&mut terminal);
-        terminal.send("d");
-        terminal.wait_without("manual: d ");
-        // While a scene is chosen, with its curve beside.
-        terminal.send("o");
-        terminal.wait_for("built-in");
-        assert_idle(&mut terminal);
-        terminal.send("kendall");
-        terminal.wait_for("› kendall-punch");
-        assert_idle(&mut terminal);
-        terminal.send("\x1b");
-        terminal.wait_without("Search:");
-        // While a text is typed.
-        terminal.send("F1");
-        terminal.wait_for("Go to the force: 1");
-        assert_idle(&mut terminal);
-        terminal.send("\x1b");
-        terminal.wait_without("Go to the force:");
-        // Played to its end the animation stops by itself: to the last leg, near its end, and on.
-        terminal.send(">");
-        terminal.settle();
-        terminal.send(&".".repeat(110));
-        terminal.settle();
-        let before = terminal.text();
-        terminal.send(" ");
-        terminal.wait("next snapshot", |rows| rows.join("\n") != before);
-        assert_idle(&mut terminal);
-        quit(&mut terminal);
-    });
-}
-
-#[test]
-fn the_animation_goes_on_while_it_plays() {
-    within(40, || {
-        let (program, _folder) = explorer();
-        let mut terminal = program.start();
-        terminal.wait_for("F_a ");
-        for _ in 0..5 {
-            let before = terminal.text();
-            terminal.wait("next snapshot", |rows| rows.join("\n") != before);
-        }
-        terminal.send(" ");
-        assert_idle(&mut terminal);
-        quit(&mut terminal);
-    });
+    let (program, _folder) = explorer();
+    let mut terminal = paused(program.env("SSH_CONNECTION", "192.0.2.1 50000 192.0.2.2 22"));
+    assert_idle(&mut terminal);
+    // Also with a window open above the panes.
+    terminal.send("?");
+    terminal.wait_for("What you see");
+    assert_idle(&mut terminal);
+    terminal.send("?");
+    terminal.wait_without("What you see");
+    // With manual loading.
+    terminal.send("}}}");
+    terminal.wait_for("manual: d ");
+    assert_idle(&mut terminal);
+    terminal.send("d");
+    terminal.wait_without("manual: d ");
+    // While a scene is chosen, with its curve beside.
+    terminal.send("o");
+    terminal.wait_for("built-in");
+    assert_idle(&mut terminal);
+    terminal.send("kendall");
+    terminal.wait_for("› kendall-punch");
+    assert_idle(&mut terminal);
+    terminal.send("\x1b");
+    terminal.wait_without("Search:");
+    // While a text is typed.
+    terminal.send("F1");
+    terminal.wait_for("Go to the force: 1");
+    assert_idle(&mut terminal);
+    terminal.send("\x1b");
+    terminal.wait_without("Go to the force:");
+    // Played to its end the animation stops by itself: to the last leg, near its end, and on.
+    terminal.send(">");
+    terminal.settle();
+    terminal.send(&".".repeat(110));
+    terminal.settle();
+    let before = terminal.text();
+    terminal.send(" ");
+    terminal.wait("next snapshot", |rows| rows.join("\n") != before);
+    assert_idle(&mut terminal);
+    quit(&mut terminal);
 }

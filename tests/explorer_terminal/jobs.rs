@@ -1,8 +1,7 @@
 //! Ctrl-Z returns the terminal to the shell, and `fg` resumes.
 
-use crate::common::deadline::within;
 use crate::common::terminal::{Program, Terminal};
-use crate::driving::{ASPERITY, assert_given_back, explorer, headline, row_with};
+use crate::driving::{ASPERITY, assert_given_back, explorer, row_with};
 use std::path::Path;
 use vt100::MouseProtocolMode;
 
@@ -77,83 +76,35 @@ impl LastFilled for [String] {
 
 #[test]
 fn suspended_and_continued_it_is_as_it_was() {
-    within(120, || {
-        in_each_shell(|mut terminal| {
-            terminal.wait_without("± …");
-            let before = without_times(&terminal);
-            // Twice: the second time works like the first.
-            for _ in 0..2 {
-                terminal.send(SUSPEND);
-                wait_for_shell(&mut terminal);
-                // Text typed now goes to the shell, with echo.
-                terminal.send("echo it''self\r");
-                terminal.wait("answer", |rows| rows.iter().any(|row| row == "itself"));
-                terminal.send("fg\r");
-                terminal.wait("screen as before", |rows| rows.iter().any(|row| row.contains("F_a ")));
-                terminal.settle();
-                assert_eq!(without_times(&terminal), before);
-                assert!(terminal.screen().alternate_screen() && terminal.screen().hide_cursor());
-                assert_eq!(terminal.screen().mouse_protocol_mode(), MouseProtocolMode::ButtonMotion);
-                assert!(terminal.screen().bracketed_paste() && !terminal.is_as_before());
-            }
-            let selected = row_with(&terminal, "›");
-            terminal.send("j");
-            terminal.wait("other row selected", |rows| {
-                rows.iter().any(|row| row.contains('›') && *row != selected)
-            });
-            terminal.send("q");
-            wait_for_shell(&mut terminal);
-            assert!(terminal.text().contains("adhesion force F_a"), "{}", terminal.text());
-            terminal.send("exit\r");
-            terminal.wait_end();
-        });
-    });
-}
-
-#[test]
-fn a_window_that_changes_meanwhile_is_filled() {
-    within(120, || {
-        in_each_shell(|mut terminal| {
-            let force = headline(&terminal.rows());
+    in_each_shell(|mut terminal| {
+        terminal.wait_without("± …");
+        let before = without_times(&terminal);
+        // The second time in another window, the third time as at first.
+        for (columns, rows) in [(120, 40), (90, 30), (120, 40)] {
             terminal.send(SUSPEND);
             wait_for_shell(&mut terminal);
-            terminal.resize(90, 30);
+            // Text typed now goes to the shell, with echo.
+            terminal.send("echo it''self\r");
+            terminal.wait("answer", |rows| rows.iter().any(|row| row == "itself"));
+            terminal.resize(columns, rows);
             terminal.send("fg\r");
-            terminal.wait("frame at the new edge", |rows| {
-                rows.iter().any(|row| row.chars().nth(89) == Some('┐')) && rows[29].contains("q quit")
-            });
-            assert_eq!(headline(&terminal.rows()), force);
-            assert_eq!(terminal.rows().len(), 30);
-            terminal.send("q");
-            wait_for_shell(&mut terminal);
-        });
-    });
-}
-
-#[test]
-fn it_is_suspended_while_something_is_typed_and_while_it_plays() {
-    within(120, || {
-        in_each_shell(|mut terminal| {
-            terminal.send("F12");
-            terminal.wait_for("Go to the force: 12");
-            terminal.send(SUSPEND);
-            wait_for_shell(&mut terminal);
-            terminal.send("fg\r");
-            terminal.wait_for("Go to the force: 12");
-            terminal.send("\x1b");
-            terminal.wait_without("Go to the force");
-            terminal.send("r");
-            terminal.send(SUSPEND);
-            wait_for_shell(&mut terminal);
-            terminal.send("fg\r");
-            terminal.wait_for("F_a ");
-            // The animation continues.
-            for _ in 0..3 {
-                let now = terminal.text();
-                terminal.wait("next snapshot", |rows| rows.join("\n") != now);
-            }
-            terminal.send("q");
-            wait_for_shell(&mut terminal);
-        });
+            let edge = usize::from(columns) - 1;
+            terminal
+                .wait("frame at the edge", |rows| rows.iter().any(|row| row.chars().nth(edge) == Some('┐')));
+            terminal.settle();
+            assert!(columns == 90 || without_times(&terminal) == before, "{}", terminal.text());
+            assert!(terminal.screen().alternate_screen() && terminal.screen().hide_cursor());
+            assert_eq!(terminal.screen().mouse_protocol_mode(), MouseProtocolMode::ButtonMotion);
+            assert!(terminal.screen().bracketed_paste() && !terminal.is_as_before());
+        }
+        let selected = row_with(&terminal, "›");
+        terminal.send("j");
+        terminal
+            .wait("other row selected", |rows| rows.iter().any(|row| row.contains('›') && *row != selected));
+        terminal.send("q");
+        wait_for_shell(&mut terminal);
+        assert!(terminal.text().contains("adhesion force F_a"), "{}", terminal.text());
+        terminal.send("exit\r");
+        terminal.wait_end();
     });
 }

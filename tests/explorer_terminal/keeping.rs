@@ -1,6 +1,5 @@
 //! Files that outlive a session: unsaved changes and the configuration, in the folders of a separate user.
 
-use crate::common::deadline::within;
 use crate::common::terminal::{Program, Terminal};
 use crate::driving::{ASPERITY, SCENE, explorer, paused, quit, select};
 use std::fs;
@@ -40,81 +39,77 @@ fn changed(program: Program, home: &Path) -> Terminal {
 #[test]
 fn unsaved_changes_outlive_a_killed_explorer_and_a_lost_connection() {
     for is_killed in [true, false] {
-        within(60, move || {
-            let (program, folder) = explorer();
-            let home = folder.path();
-            let mut terminal = changed(program, home);
-            if is_killed {
-                let status = Command::new("kill").args(["-KILL", &terminal.pid().to_string()]).status();
-                assert!(status.unwrap().success());
-                terminal.wait_process();
-            } else {
-                terminal.hang_up();
-                terminal.wait_process();
-            }
-            assert_eq!(fs::read_to_string(home.join("scene.ron")).unwrap(), SCENE);
-            // The next explorer reports the kept change in a line that ends with the next key.
-            let mut terminal = again(home, "scene.ron").start();
-            terminal.wait_for("unsaved changes of scene.ron are kept");
-            terminal.send(".");
-            terminal.wait_without("unsaved changes");
-            quit(&mut terminal);
-            let mut terminal = again(home, "--restore").start();
-            terminal.wait("changed scene", |rows| rows[0].starts_with("Rough line [changed]"));
-            terminal.wait_until("own file", || kept(home).len() == 1);
-            terminal.send("u");
-            terminal.send("q");
-            terminal.wait_for("unsaved changes");
-            quit(&mut terminal);
-            assert!(kept(home).is_empty(), "the question was answered");
-            let output = command(home).arg("--restore").output().unwrap();
-            let message = String::from_utf8(output.stderr).unwrap();
-            assert!(message.contains("--restore: no unsaved changes are kept"), "{message}");
-        });
+        let (program, folder) = explorer();
+        let home = folder.path();
+        let mut terminal = changed(program, home);
+        if is_killed {
+            let status = Command::new("kill").args(["-KILL", &terminal.pid().to_string()]).status();
+            assert!(status.unwrap().success());
+            terminal.wait_process();
+        } else {
+            terminal.hang_up();
+            terminal.wait_process();
+        }
+        assert_eq!(fs::read_to_string(home.join("scene.ron")).unwrap(), SCENE);
+        // The next explorer reports the kept change in a line that ends with the next key.
+        let mut terminal = again(home, "scene.ron").start();
+        terminal.wait_for("unsaved changes of scene.ron are kept");
+        terminal.send(".");
+        terminal.wait_without("unsaved changes");
+        quit(&mut terminal);
+        let mut terminal = again(home, "--restore").start();
+        terminal.wait("changed scene", |rows| rows[0].starts_with("Rough line [changed]"));
+        terminal.wait_until("own file", || kept(home).len() == 1);
+        terminal.send("u");
+        terminal.send("q");
+        terminal.wait_for("unsaved changes");
+        quit(&mut terminal);
+        assert!(kept(home).is_empty(), "the question was answered");
+        let output = command(home).arg("--restore").output().unwrap();
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert!(message.contains("--restore: no unsaved changes are kept"), "{message}");
     }
 }
 
 #[test]
 fn a_configuration_is_read_and_written_when_asked() {
-    within(60, || {
-        let (program, folder) = explorer();
-        let home = folder.path();
-        let file = home.join(".config/asperity/config.ron");
-        let mut terminal = paused(program);
-        terminal.send("TTM\x13");
-        terminal.wait_for("colours and markers are kept in");
-        quit(&mut terminal);
-        let text = fs::read_to_string(&file).unwrap();
-        assert!(text.contains("theme: Light") && text.contains("markers: Octant"), "{text}");
-        // A default scene and a key.
-        let keys = "keys: [(action: \"quit\", keys: [\"_\"])]";
-        let text = text.replace("version: 1,", &format!("version: 1, scene: \"scene.ron\", {keys},"));
-        fs::write(&file, &text).unwrap();
-        let mut terminal = Program::new(ASPERITY).folder(home).env("HOME", home.to_str().unwrap()).start();
-        terminal.wait("default scene", |rows| rows[0].starts_with("Rough line"));
-        terminal.wait_for("_ quit");
-        terminal.send("_");
-        assert!(terminal.wait_end().success());
-        let mut terminal = paused(again(home, "--no-config"));
-        assert!(!terminal.rows()[0].starts_with("Rough line"), "{}", terminal.text());
-        quit(&mut terminal);
-        let run = |arguments: &[&str]| {
-            let output = command(home).args(arguments).output().unwrap();
-            let text = |bytes| String::from_utf8(bytes).unwrap();
-            (output.status.code(), text(output.stdout), text(output.stderr))
-        };
-        let (code, printed, _) = run(&["config"]);
-        assert_eq!(code, Some(0));
-        assert!(printed.contains("scene: \"scene.ron\"") && printed.contains("keys: [\"_\"]"), "{printed}");
-        let (code, _, message) = run(&["config", "--write"]);
-        assert!(code == Some(1) && message.contains("there is a file of that name already"), "{message}");
-        fs::write(&file, "(version: 1, theme: Pink)").unwrap();
-        let (code, _, message) = run(&["--config", file.to_str().unwrap()]);
-        assert!(code == Some(1) && message.contains("config.ron:1:21: Pink: allowed: Neutral"), "{message}");
-        // The user's own file does not keep the explorer from opening.
-        let mut terminal = again(home, "--no-mouse").start();
-        terminal.wait_for("config.ron:1:21: Pink");
-        quit(&mut terminal);
-        assert_eq!(fs::read_to_string(&file).unwrap(), "(version: 1, theme: Pink)");
-    });
+    let (program, folder) = explorer();
+    let home = folder.path();
+    let file = home.join(".config/asperity/config.ron");
+    let mut terminal = paused(program);
+    terminal.send("TTM\x13");
+    terminal.wait_for("colours and markers are kept in");
+    quit(&mut terminal);
+    let text = fs::read_to_string(&file).unwrap();
+    assert!(text.contains("theme: Light") && text.contains("markers: Octant"), "{text}");
+    // A default scene and a key.
+    let keys = "keys: [(action: \"quit\", keys: [\"_\"])]";
+    let text = text.replace("version: 1,", &format!("version: 1, scene: \"scene.ron\", {keys},"));
+    fs::write(&file, &text).unwrap();
+    let mut terminal = Program::new(ASPERITY).folder(home).env("HOME", home.to_str().unwrap()).start();
+    terminal.wait("default scene", |rows| rows[0].starts_with("Rough line"));
+    terminal.wait_for("_ quit");
+    terminal.send("_");
+    assert!(terminal.wait_end().success());
+    let mut terminal = paused(again(home, "--no-config"));
+    assert!(!terminal.rows()[0].starts_with("Rough line"), "{}", terminal.text());
+    quit(&mut terminal);
+    let run = |arguments: &[&str]| {
+        let output = command(home).args(arguments).output().unwrap();
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        (output.status.code(), text(output.stdout), text(output.stderr))
+    };
+    let (code, printed, _) = run(&["config"]);
+    assert_eq!(code, Some(0));
+    assert!(printed.contains("scene: \"scene.ron\"") && printed.contains("keys: [\"_\"]"), "{printed}");
+    let (code, _, message) = run(&["config", "--write"]);
+    assert!(code == Some(1) && message.contains("there is a file of that name already"), "{message}");
+    fs::write(&file, "(version: 1, theme: Pink)").unwrap();
+    let (code, _, message) = run(&["--config", file.to_str().unwrap()]);
+    assert!(code == Some(1) && message.contains("config.ron:1:21: Pink: allowed: Neutral"), "{message}");
+    // The user's own file does not keep the explorer from opening.
+    let mut terminal = again(home, "--no-mouse").start();
+    terminal.wait_for("config.ron:1:21: Pink");
+    quit(&mut terminal);
+    assert_eq!(fs::read_to_string(&file).unwrap(), "(version: 1, theme: Pink)");
 }

@@ -1,9 +1,8 @@
 //! Leaving the explorer, and the remains on the terminal.
 
-use crate::common::deadline::within;
 use crate::common::terminal::{Program, Terminal};
 use crate::driving::{
-    ASPERITY, CLEAR_LINE, ENTER, ENTER_ALTERNATE_SCREEN, ESCAPE, INTERRUPT, LEAVE_ALTERNATE_SCREEN, SCENE,
+    ASPERITY, CLEAR_LINE, ENTER_ALTERNATE_SCREEN, ESCAPE, INTERRUPT, LEAVE_ALTERNATE_SCREEN,
     assert_given_back, explorer, headline, last_place, paused, quit, select, wait_for_another,
 };
 use std::fs;
@@ -11,98 +10,20 @@ use std::path::Path;
 use std::process::Command;
 
 #[test]
-fn a_changed_scene_asks_before_it_is_left() {
-    within(40, || {
-        let (program, folder) = explorer();
-        let mut terminal = paused(program);
-        select(&mut terminal, "κ");
-        terminal.send("h");
-        terminal.wait_for("[changed]");
-        for (ask, stay) in [("q", "n"), (INTERRUPT, ESCAPE)] {
-            terminal.send(ask);
-            terminal.wait_for("unsaved changes");
-            terminal.send(stay);
-            terminal.wait_without("unsaved changes");
-        }
-        terminal.send("q");
-        terminal.wait_for("unsaved changes");
-        terminal.send("s");
-        terminal.wait_for("Save as: scene.ron");
-        terminal.send(ENTER);
-        terminal.wait_for("Overwrite");
-        terminal.send("y");
-        assert!(terminal.wait_end().success());
-        assert_given_back(&terminal);
-        assert_ne!(fs::read_to_string(folder.path().join("scene.ron")).unwrap(), SCENE);
-    });
-}
-
-#[test]
-fn a_changed_scene_can_be_left_as_it_is() {
-    within(40, || {
-        let (program, folder) = explorer();
-        let mut terminal = paused(program);
-        select(&mut terminal, "κ");
-        terminal.send("h");
-        terminal.wait_for("[changed]");
-        terminal.send("q");
-        terminal.wait_for("unsaved changes");
-        quit(&mut terminal);
-        assert_eq!(fs::read_to_string(folder.path().join("scene.ron")).unwrap(), SCENE);
-    });
-}
-
-#[test]
-fn an_interrupt_leaves_the_explorer_cleanly() {
-    within(40, || {
-        let (program, _folder) = explorer();
-        let mut terminal = paused(program);
-        terminal.send(INTERRUPT);
-        assert!(terminal.wait_end().success());
-        assert_given_back(&terminal);
-    });
-}
-
-#[test]
-fn a_terminal_that_goes_away_ends_the_explorer() {
-    within(60, || {
-        for keys in [".", ""] {
-            let (program, _folder) = explorer();
-            let mut terminal = program.start();
-            terminal.wait_for("F_a ");
-            terminal.send(keys);
-            terminal.hang_up();
-            terminal.wait_end();
-        }
-    });
-}
-
-#[test]
 fn a_terminal_that_goes_away_ends_the_explorer_even_if_hang_ups_are_ignored() {
-    within(60, || {
-        let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join("scene.ron"), SCENE).unwrap();
+    // Paused, and while the animation plays.
+    for (trap, key) in [("", ""), ("", "."), ("trap '' HUP;", ".")] {
+        let (_, folder) = explorer();
         let mut terminal = Program::new("/bin/sh")
             .argument("-c")
-            .argument(format!("trap '' HUP; exec '{ASPERITY}' scene.ron"))
+            .argument(format!("{trap} exec '{ASPERITY}' scene.ron"))
             .folder(folder.path())
             .start();
         terminal.wait_for("F_a ");
-        terminal.send(".");
-        terminal.settle();
+        terminal.send(key);
         terminal.hang_up();
         terminal.wait_end();
-    });
-}
-
-#[test]
-fn a_hang_up_signal_ends_the_explorer() {
-    within(40, || {
-        let (program, _folder) = explorer();
-        let mut terminal = paused(program);
-        signal(&terminal, "HUP");
-        assert!(!terminal.wait_end().success());
-    });
+    }
 }
 
 fn signal(terminal: &Terminal, name: &str) {
@@ -112,73 +33,67 @@ fn signal(terminal: &Terminal, name: &str) {
 
 #[test]
 fn whatever_signal_ends_it_the_terminal_is_given_back() {
-    within(120, || {
-        for name in ["TERM", "INT", "HUP", "QUIT"] {
-            let (program, _folder) = explorer();
-            let mut terminal = paused(program);
-            signal(&terminal, name);
-            assert!(!terminal.wait_end().success(), "{name}: it is seen that a signal ended it");
-            assert_given_back(&terminal);
-        }
-    });
+    for name in ["TERM", "INT", "HUP", "QUIT"] {
+        let (program, _folder) = explorer();
+        let mut terminal = paused(program);
+        signal(&terminal, name);
+        assert!(!terminal.wait_end().success(), "{name}: it is seen that a signal ended it");
+        assert_given_back(&terminal);
+    }
 }
 
 #[test]
 fn a_terminal_that_reads_nothing_keeps_no_signal_from_ending_it() {
-    within(120, || {
-        let ends = |name| {
-            let (program, _folder) = explorer();
-            let mut terminal = paused(program);
-            terminal.rest(true);
-            // Each size is a whole frame; some frames exceed the buffer of a terminal.
-            for columns in (100..140).step_by(4) {
-                terminal.resize(columns, 40);
-                std::thread::sleep(std::time::Duration::from_millis(50));
-            }
-            assert!(is_waiting_to_write(terminal.pid()), "the explorer waits for the terminal");
-            signal(&terminal, name);
-            assert!(!terminal.wait_process().success(), "{name}");
-            // Line by line and with echo already, while output still waits.
-            assert!(terminal.is_as_before(), "{name}");
-            // Nothing leaves the alternate screen of a terminal that reads nothing.
-            terminal.rest(false);
-            terminal.wait_end();
-        };
-        std::thread::scope(|scope| {
-            for name in ["TERM", "INT", "HUP", "QUIT"] {
-                scope.spawn(move || ends(name));
-            }
-        });
+    let ends = |name| {
+        let (program, _folder) = explorer();
+        let mut terminal = paused(program);
+        terminal.rest(true);
+        // Each size is a whole frame; some frames exceed the buffer of a terminal.
+        for columns in (100..140).step_by(4) {
+            terminal.resize(columns, 40);
+            std::thread::sleep(std::time::Duration::from_millis(50));
+        }
+        assert!(is_waiting_to_write(terminal.pid()), "the explorer waits for the terminal");
+        signal(&terminal, name);
+        assert!(!terminal.wait_process().success(), "{name}");
+        // Line by line and with echo already, while output still waits.
+        assert!(terminal.is_as_before(), "{name}");
+        // Nothing leaves the alternate screen of a terminal that reads nothing.
+        terminal.rest(false);
+        terminal.wait_end();
+    };
+    std::thread::scope(|scope| {
+        for name in ["TERM", "INT", "HUP", "QUIT"] {
+            scope.spawn(move || ends(name));
+        }
     });
 }
 
 #[test]
 #[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn with_whatever_memory_there_is_the_terminal_is_given_back() {
-    within(300, || {
-        let (_, folder) = explorer();
-        let mut computed = 0;
-        // Up to more than the memory of the scene and the reservations of its threads.
-        for mebibytes in [40, 70, 100, 130, 160, 190, 220, 250, 280, 310, 400, 2000] {
-            let limited = format!("ulimit -v {}; exec '{ASPERITY}' million-springs", mebibytes << 10);
-            let mut terminal =
-                Program::new("/bin/sh").argument("-c").argument(limited).folder(folder.path()).start();
-            // Without an animation, which would go on for twelve seconds.
-            terminal.send_if_open(".");
-            terminal.settle_for(std::time::Duration::from_millis(1500));
-            computed += u32::from(terminal.text().contains("F_a "));
-            terminal.send_if_open("q");
-            if terminal.wait_end().signal().is_some() {
-                // Without memory for a small allocation the system ends the process, which restores nothing.
-                continue;
-            }
-            assert!(terminal.is_as_before(), "{mebibytes} MiB");
-            if last_place(terminal.written(), ENTER_ALTERNATE_SCREEN).is_some() {
-                assert_given_back(&terminal);
-            }
+    let (_, folder) = explorer();
+    let mut computed = 0;
+    // Up to more than the memory of the scene and the reservations of its threads.
+    for mebibytes in [40, 70, 100, 130, 160, 190, 220, 250, 280, 310, 400, 2000] {
+        let limited = format!("ulimit -v {}; exec '{ASPERITY}' million-springs", mebibytes << 10);
+        let mut terminal =
+            Program::new("/bin/sh").argument("-c").argument(limited).folder(folder.path()).start();
+        // Without an animation, which would go on for twelve seconds.
+        terminal.send_if_open(".");
+        terminal.settle_for(std::time::Duration::from_millis(1500));
+        computed += u32::from(terminal.text().contains("F_a "));
+        terminal.send_if_open("q");
+        if terminal.wait_end().signal().is_some() {
+            // Without memory for a small allocation the system ends the process, which restores nothing.
+            continue;
         }
-        assert!(computed > 0, "with enough of it the scene is computed");
-    });
+        assert!(terminal.is_as_before(), "{mebibytes} MiB");
+        if last_place(terminal.written(), ENTER_ALTERNATE_SCREEN).is_some() {
+            assert_given_back(&terminal);
+        }
+    }
+    assert!(computed > 0, "with enough of it the scene is computed");
 }
 
 /// True if the main thread of a process sleeps in a call that writes.
@@ -191,20 +106,18 @@ fn is_waiting_to_write(pid: u32) -> bool {
 
 #[test]
 fn stopped_and_continued_from_outside_it_draws_everything_anew() {
-    within(40, || {
-        let (program, _folder) = explorer();
-        let mut terminal = paused(program);
-        let before = terminal.rows();
-        let entered = terminal.written().len();
-        signal(&terminal, "STOP");
-        signal(&terminal, "CONT");
-        while !String::from_utf8_lossy(&terminal.written()[entered..]).contains("\x1b[?1049h") {
-            terminal.settle();
-        }
+    let (program, _folder) = explorer();
+    let mut terminal = paused(program);
+    let before = terminal.rows();
+    let entered = terminal.written().len();
+    signal(&terminal, "STOP");
+    signal(&terminal, "CONT");
+    while !String::from_utf8_lossy(&terminal.written()[entered..]).contains("\x1b[?1049h") {
         terminal.settle();
-        assert_eq!(terminal.rows(), before);
-        quit(&mut terminal);
-    });
+    }
+    terminal.settle();
+    assert_eq!(terminal.rows(), before);
+    quit(&mut terminal);
 }
 
 /// The text below the last switch back to the terminal's own screen.
@@ -234,43 +147,27 @@ fn summary(folder: &Path, arguments: &[&str]) -> String {
 }
 
 #[test]
-fn the_summary_of_the_last_scene_stays_to_be_read() {
-    within(60, || {
-        for (key, interrupts) in [("q", false), (INTERRUPT, true)] {
-            let (program, folder) = explorer();
-            let mut terminal = paused(program);
-            terminal.send(key);
-            assert!(terminal.wait_end().success());
-            assert_given_back(&terminal);
-            let left = left_behind(&terminal);
-            let wanted = summary(folder.path(), &[]);
-            assert!(left.contains("adhesion force F_a"), "by interrupt: {interrupts}\n{left}");
-            assert_rows_of(&left, &wanted);
-            assert!(!left[left.find("Rough line").unwrap()..].contains('\x1b'), "{left:?}");
-        }
-    });
-}
-
-#[test]
-fn the_summary_is_that_of_the_scene_as_edited() {
-    within(60, || {
-        let (program, folder) = explorer();
-        let mut terminal = paused(program);
-        select(&mut terminal, "κ");
-        let before = headline(&terminal.rows()).unwrap();
-        terminal.send("e");
-        terminal.wait_for("Esc cancel");
-        terminal.send(CLEAR_LINE);
-        terminal.send("5\r");
-        let force = wait_for_another(&mut terminal, &before);
-        terminal.settle();
-        terminal.send("q");
-        terminal.wait_for("unsaved changes");
-        terminal.send("q");
-        assert!(terminal.wait_end().success());
-        let left = left_behind(&terminal);
-        let wanted = summary(folder.path(), &["--set", "adhesion.kappa=5.0"]);
-        assert_rows_of(&left, &wanted);
-        assert!(left.contains(&force), "{left}\n{force}");
-    });
+fn a_changed_scene_asks_before_it_is_left_and_its_summary_stays_to_be_read() {
+    let (program, folder) = explorer();
+    let mut terminal = paused(program);
+    select(&mut terminal, "κ");
+    let before = headline(&terminal.rows()).unwrap();
+    terminal.send("e");
+    terminal.wait_for("Esc cancel");
+    terminal.send(CLEAR_LINE);
+    terminal.send("5\r");
+    let force = wait_for_another(&mut terminal, &before);
+    terminal.settle();
+    terminal.send(INTERRUPT);
+    terminal.wait_for("unsaved changes");
+    terminal.send(ESCAPE);
+    terminal.wait_without("unsaved changes");
+    terminal.send("q");
+    terminal.wait_for("unsaved changes");
+    quit(&mut terminal);
+    let left = left_behind(&terminal);
+    assert!(!left[left.find("Rough line").unwrap()..].contains('\x1b'), "{left:?}");
+    let wanted = summary(folder.path(), &["--set", "adhesion.kappa=5.0"]);
+    assert_rows_of(&left, &wanted);
+    assert!(left.contains(&force), "{left}\n{force}");
 }

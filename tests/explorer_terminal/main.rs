@@ -7,22 +7,17 @@
 
 #[path = "../common"]
 mod common {
-    pub mod deadline;
     pub mod study;
     pub mod terminal;
 }
 mod appearance;
 mod devices;
 mod driving;
-mod editing;
 mod files;
-mod ghosts;
 mod idle;
 mod jobs;
 mod keeping;
 mod leaving;
-mod library;
-mod manual;
 mod mouse;
 mod opening;
 mod panics;

@@ -1,6 +1,5 @@
 //! Panics of the engine and of the view, and an endless engine.
 
-use crate::common::deadline::within;
 use crate::common::terminal::{Program, Terminal};
 use crate::driving::{
     ASPERITY, CLEAR_LINE, ENTER, assert_given_back, headline, paused, quit, row_with, select,
@@ -27,66 +26,60 @@ fn seed(terminal: &mut Terminal, seed: &str) {
 
 #[test]
 fn a_panic_of_the_engine_is_a_line_and_the_explorer_goes_on() {
-    within(60, || {
-        let mut terminal = paused(panicking());
-        let before = headline(&terminal.rows()).unwrap();
-        select(&mut terminal, "seed");
-        seed(&mut terminal, "13");
-        terminal.wait_for("thirteen is unlucky");
-        assert!(row_with(&terminal, "thirteen").contains("internal error"), "{}", terminal.text());
-        assert!(terminal.screen().alternate_screen(), "the explorer is still there");
-        assert!(!terminal.text().contains("panicked at"), "{}", terminal.text());
-        terminal.send("..");
-        assert_idle(&mut terminal);
-        // The seed of the default scene.
-        seed(&mut terminal, "5");
-        terminal.wait_without("thirteen is unlucky");
-        terminal.wait("force as before", |rows| headline(rows).as_ref() == Some(&before));
-        quit(&mut terminal);
-    });
+    let mut terminal = paused(panicking());
+    let before = headline(&terminal.rows()).unwrap();
+    select(&mut terminal, "seed");
+    seed(&mut terminal, "13");
+    terminal.wait_for("thirteen is unlucky");
+    assert!(row_with(&terminal, "thirteen").contains("internal error"), "{}", terminal.text());
+    assert!(terminal.screen().alternate_screen(), "the explorer is still there");
+    assert!(!terminal.text().contains("panicked at"), "{}", terminal.text());
+    terminal.send("..");
+    assert_idle(&mut terminal);
+    // The seed of the default scene.
+    seed(&mut terminal, "5");
+    terminal.wait_without("thirteen is unlucky");
+    terminal.wait("force as before", |rows| headline(rows).as_ref() == Some(&before));
+    quit(&mut terminal);
 }
 
 #[test]
 fn a_panic_while_drawing_gives_the_terminal_back_and_shows_why() {
-    within(60, || {
-        let mut terminal = paused(panicking().argument("draw"));
-        select(&mut terminal, "seed");
-        terminal.send("e");
-        terminal.wait_for("Esc cancel");
-        terminal.send(CLEAR_LINE);
-        terminal.send("13");
-        terminal.send(ENTER);
-        assert_eq!(terminal.wait_end().exit_code(), 101);
-        assert_given_back(&terminal);
-        // One line below the other: each line starts at the left again.
-        let rows = terminal.rows();
-        assert!(rows.iter().any(|row| row.starts_with("thirteen is unlucky")), "{}", terminal.text());
-    });
+    let mut terminal = paused(panicking().argument("draw"));
+    select(&mut terminal, "seed");
+    terminal.send("e");
+    terminal.wait_for("Esc cancel");
+    terminal.send(CLEAR_LINE);
+    terminal.send("13");
+    terminal.send(ENTER);
+    assert_eq!(terminal.wait_end().exit_code(), 101);
+    assert_given_back(&terminal);
+    // One line below the other: each line starts at the left again.
+    let rows = terminal.rows();
+    assert!(rows.iter().any(|row| row.starts_with("thirteen is unlucky")), "{}", terminal.text());
 }
 
 #[test]
 fn a_typed_digit_is_in_the_next_frame_whatever_the_engine_does() {
-    within(60, || {
-        let mut terminal = paused(panicking());
-        select(&mut terminal, "seed");
-        seed(&mut terminal, "14");
-        terminal.wait_for("computing");
-        terminal.settle();
-        terminal.send("e");
-        terminal.settle();
-        let mut typed = String::new();
-        for digit in ["2", "7", "1", "8", "2", "8"] {
-            let before = terminal.frames().len();
-            terminal.send(digit);
-            typed.push_str(digit);
-            terminal.wait("typed digits", |rows| rows.iter().any(|row| row.contains(&format!(": {typed}"))));
-            assert_eq!(terminal.frames().len() - before, 1, "frames from the key to its echo");
-        }
-        // The engine stops for the newer scene.
-        terminal.send(CLEAR_LINE);
-        terminal.send("5");
-        terminal.send(ENTER);
-        terminal.wait_without("computing");
-        quit(&mut terminal);
-    });
+    let mut terminal = paused(panicking());
+    select(&mut terminal, "seed");
+    seed(&mut terminal, "14");
+    terminal.wait_for("computing");
+    terminal.settle();
+    terminal.send("e");
+    terminal.settle();
+    let mut typed = String::new();
+    for digit in ["2", "7", "1", "8", "2", "8"] {
+        let before = terminal.frames().len();
+        terminal.send(digit);
+        typed.push_str(digit);
+        terminal.wait("typed digits", |rows| rows.iter().any(|row| row.contains(&format!(": {typed}"))));
+        assert_eq!(terminal.frames().len() - before, 1, "frames from the key to its echo");
+    }
+    // The engine stops for the newer scene.
+    terminal.send(CLEAR_LINE);
+    terminal.send("5");
+    terminal.send(ENTER);
+    terminal.wait_without("computing");
+    quit(&mut terminal);
 }

@@ -3,8 +3,8 @@
 //!
 //! Needs `sshd`, `ssh` and `ssh-keygen`; if one of them is missing the tests report so and end.
 
-use crate::common::deadline::within;
 use crate::common::terminal::{Frame, Program, Terminal};
+use crate::driving::{ASPERITY, headline, row_with, select};
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::net::TcpListener;
@@ -12,8 +12,6 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
-
-const ASPERITY: &str = env!("CARGO_BIN_EXE_asperity");
 
 /// Most bytes in a second on a slow connection.
 const MOST_BYTES: f64 = 20_000.0;
@@ -184,116 +182,91 @@ fn fullest_second(frames: &[Frame]) -> usize {
     frames.iter().map(within).max().unwrap_or(0)
 }
 
-/// The adhesion force as on the screen.
-fn headline(rows: &[String]) -> Option<String> {
-    let after = rows.iter().find_map(|row| row.split_once("F_a "))?.1;
-    Some(after.split_whitespace().take(2).collect::<Vec<_>>().join(" "))
-}
-
 #[test]
 #[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn a_whole_loop_is_edited_and_played_over_a_slow_line() {
-    within(120, || {
-        let Some(server) = Server::start() else { return };
-        let mut terminal = server.explorer("pressure-sensitive");
-        terminal.wait_for("F_a ");
-        terminal.send(".");
-        terminal.wait_for("B/s, at most 12 frames/s");
+    let Some(server) = Server::start() else { return };
+    let mut terminal = server.explorer("pressure-sensitive");
+    terminal.wait_for("F_a ");
+    terminal.send(".");
+    terminal.wait_for("B/s, at most 12 frames/s");
 
-        // An edit: the force of the first leg, from 10 µN to 2 µN.
-        let before = headline(&terminal.rows()).unwrap();
-        for _ in 0..40 {
-            let selected = |rows: &[String]| rows.iter().find(|row| row.contains('›')).cloned();
-            let row = selected(&terminal.rows()).expect("a row is selected");
-            if row.contains("force of a stage") {
-                break;
-            }
-            terminal.send("j");
-            terminal.wait("other row selected", |rows| selected(rows).is_some_and(|now| now != row));
-        }
-        terminal.send("e");
-        terminal.wait_for("Esc cancel");
-        terminal.send("\x152 µN\r");
-        terminal.wait("other force", |rows| headline(rows).is_some_and(|now| now != before));
-        terminal.settle();
+    // An edit: the force of the first leg, from 10 µN to 2 µN.
+    let before = headline(&terminal.rows()).unwrap();
+    select(&mut terminal, "force of a stage");
+    terminal.send("e");
+    terminal.wait_for("Esc cancel");
+    terminal.send("\x152 µN\r");
+    terminal.wait("other force", |rows| headline(rows).is_some_and(|now| now != before));
+    terminal.settle();
 
-        // Approach and retraction, from the start to the end: twelve seconds.
-        let (start, first) = (terminal.written().len(), terminal.frames().len());
-        let begun = Instant::now();
-        terminal.send("r");
-        // Until a pause longer than between any two frames.
-        terminal.settle_for(Duration::from_millis(1500));
-        let frames = &terminal.frames()[first..];
-        let seconds = frames.last().unwrap().arrived.duration_since(begun).as_secs_f64();
-        let bytes = terminal.written().len() - start;
-        let rate = bytes as f64 / seconds;
-        println!("{bytes} bytes in {} frames and {seconds:.2} s: {rate:.0} B/s", frames.len());
-        assert!(seconds > 11.0, "a leg takes six seconds: {seconds} s");
-        assert!(rate < MOST_BYTES, "{rate} B/s");
-        assert!(frames.len() > 60, "it plays: {} frames", frames.len());
-        assert!(frames.len() as f64 <= MOST_FRAMES * seconds + 2.0, "{} frames in {seconds} s", frames.len());
-        assert!(fullest_second(frames) <= 14, "{} frames in a second", fullest_second(frames));
-        let row = terminal
-            .rows()
-            .into_iter()
-            .find(|row| row.contains("frames/s"))
-            .expect("the row of the output rate");
-        assert!(!row.contains(" 0 B/s"), "{row}");
+    // Approach and retraction, from the start to the end: twelve seconds.
+    let (start, first) = (terminal.written().len(), terminal.frames().len());
+    let begun = Instant::now();
+    terminal.send("r");
+    // Until a pause longer than between any two frames.
+    terminal.settle_for(Duration::from_millis(1500));
+    let frames = &terminal.frames()[first..];
+    let seconds = frames.last().unwrap().arrived.duration_since(begun).as_secs_f64();
+    let bytes = terminal.written().len() - start;
+    let rate = bytes as f64 / seconds;
+    println!("{bytes} bytes in {} frames and {seconds:.2} s: {rate:.0} B/s", frames.len());
+    assert!(seconds > 11.0, "a leg takes six seconds: {seconds} s");
+    assert!(rate < MOST_BYTES, "{rate} B/s");
+    assert!(frames.len() > 60, "it plays: {} frames", frames.len());
+    assert!(frames.len() as f64 <= MOST_FRAMES * seconds + 2.0, "{} frames in {seconds} s", frames.len());
+    assert!(fullest_second(frames) <= 14, "{} frames in a second", fullest_second(frames));
+    let row = row_with(&terminal, "frames/s");
+    assert!(!row.contains(" 0 B/s"), "{row}");
 
-        terminal.send("q");
-        terminal.wait_for("unsaved changes");
-        terminal.send("q");
-        assert!(terminal.wait_end().success(), "{}", terminal.text());
-        assert!(!terminal.screen().alternate_screen() && !terminal.screen().hide_cursor());
-        assert!(terminal.text().contains("adhesion force F_a"), "{}", terminal.text());
-        assert!(terminal.is_as_before());
-    });
+    terminal.send("q");
+    terminal.wait_for("unsaved changes");
+    terminal.send("q");
+    assert!(terminal.wait_end().success(), "{}", terminal.text());
+    assert!(!terminal.screen().alternate_screen() && !terminal.screen().hide_cursor());
+    assert!(terminal.text().contains("adhesion force F_a"), "{}", terminal.text());
+    assert!(terminal.is_as_before());
 }
 
 #[test]
 fn a_held_key_does_not_flood_a_slow_line() {
-    within(120, || {
-        let Some(server) = Server::start() else { return };
-        let mut terminal = server.explorer("pressure-sensitive");
-        terminal.wait_for("F_a ");
-        terminal.send(".");
-        terminal.settle();
-        let (start, first) = (terminal.written().len(), terminal.frames().len());
-        let begun = Instant::now();
-        // As from a keyboard that repeats a held key: thirty in a second, for three seconds.
-        for key in 1..=90 {
-            terminal.send("]");
-            let next = begun + Duration::from_secs(key) / 30;
-            terminal.take_until(next);
-        }
-        let frames = terminal.frames().len() - first;
-        let bytes = terminal.written().len() - start;
-        println!("{bytes} bytes in {frames} frames in 3 s of a held key");
-        assert!(frames as f64 <= 3.0 * MOST_FRAMES + 4.0, "{frames} frames in 3 s");
-        assert!(bytes as f64 / 3.0 < MOST_BYTES, "{bytes} bytes in 3 s");
-        // The last key also has its effect at once.
-        terminal.settle();
-        assert!(terminal.text().contains("manual: d "), "{}", terminal.text());
-        terminal.send("q");
-        assert!(terminal.wait_end().success());
-    });
+    let Some(server) = Server::start() else { return };
+    let mut terminal = server.explorer("pressure-sensitive");
+    terminal.wait_for("F_a ");
+    terminal.send(".");
+    terminal.settle();
+    let (start, first) = (terminal.written().len(), terminal.frames().len());
+    let begun = Instant::now();
+    // As from a keyboard that repeats a held key: thirty in a second, for three seconds.
+    for key in 1..=90 {
+        terminal.send("]");
+        let next = begun + Duration::from_secs(key) / 30;
+        terminal.take_until(next);
+    }
+    let frames = terminal.frames().len() - first;
+    let bytes = terminal.written().len() - start;
+    println!("{bytes} bytes in {frames} frames in 3 s of a held key");
+    assert!(frames as f64 <= 3.0 * MOST_FRAMES + 4.0, "{frames} frames in 3 s");
+    assert!(bytes as f64 / 3.0 < MOST_BYTES, "{bytes} bytes in 3 s");
+    // The last key also has its effect at once.
+    terminal.settle();
+    assert!(terminal.text().contains("manual: d "), "{}", terminal.text());
+    terminal.send("q");
+    assert!(terminal.wait_end().success());
 }
 
 #[test]
 fn a_connection_that_drops_ends_the_explorer() {
-    within(60, || {
-        let Some(server) = Server::start() else { return };
-        let mut terminal = server.explorer("pressure-sensitive");
-        terminal.wait_for("F_a ");
-        let pid = fs::read_to_string(server.pid_file()).unwrap();
-        let process = PathBuf::from(format!("/proc/{}", pid.trim()));
-        let is_asperity =
-            || fs::read_to_string(process.join("comm")).is_ok_and(|name| name.trim() == "asperity");
-        assert!(is_asperity(), "{}", process.display());
-        let client = terminal.pid();
-        assert!(
-            Command::new("/bin/sh").arg("-c").arg(format!("kill -KILL {client}")).status().unwrap().success()
-        );
-        terminal.wait_until("the explorer has ended", || !is_asperity());
-    });
+    let Some(server) = Server::start() else { return };
+    let mut terminal = server.explorer("pressure-sensitive");
+    terminal.wait_for("F_a ");
+    let pid = fs::read_to_string(server.pid_file()).unwrap();
+    let process = PathBuf::from(format!("/proc/{}", pid.trim()));
+    let is_asperity = || fs::read_to_string(process.join("comm")).is_ok_and(|name| name.trim() == "asperity");
+    assert!(is_asperity(), "{}", process.display());
+    let client = terminal.pid();
+    assert!(
+        Command::new("/bin/sh").arg("-c").arg(format!("kill -KILL {client}")).status().unwrap().success()
+    );
+    terminal.wait_until("the explorer has ended", || !is_asperity());
 }

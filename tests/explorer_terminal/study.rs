@@ -1,61 +1,38 @@
 //! A finished study opens as a map; another folder is refused with its kind.
 
-use crate::common::deadline::within;
 use crate::common::study::{PLAN, begun, merged};
 use crate::common::terminal::Program;
-use crate::driving::{ASPERITY, answer, explorer, paused, quit};
+use crate::driving::{ASPERITY, paused};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
 #[test]
 fn a_folder_opens_as_the_map_of_its_study() {
-    within(60, || {
-        let folder = tempfile::tempdir().unwrap();
-        merged(&folder.path().join("small"), PLAN);
-        let home = folder.path().to_str().unwrap();
-        let program = Program::new(ASPERITY).argument("small/").folder(folder.path()).env("HOME", home);
-        let mut terminal = paused(program);
-        for message in [
-            "Small study",
-            "Study small: regime over H, κ, 12 profiles",
-            "F_n/(E* h L) = 0.01",
-            "◆ H 0.5, κ 1",
-        ] {
-            terminal.wait_for(message);
-        }
-        terminal.send("P");
-        terminal.wait_for("F_n/(E* h L) = 0.1");
-        terminal.send("\x1b[A");
-        terminal.wait_for("◆ H 0.5, κ 1.41");
-        terminal.send("W");
-        terminal.wait_for("Map of regime over H, κ, 4 profiles");
-        terminal.send("W");
-        terminal.wait_for("Study small");
-        // The copied command opens the study again.
-        terminal.send("y");
-        terminal.wait_for("copied: asperity small --set");
-        terminal.send("q");
-        terminal.wait_for("unsaved changes");
-        terminal.send("y");
-        assert!(terminal.wait_end().success());
-    });
-}
-
-#[test]
-fn a_study_is_opened_by_its_path_from_within() {
-    within(60, || {
-        let (program, folder) = explorer();
-        merged(&folder.path().join("small"), PLAN);
-        begun(&folder.path().join("begun"), PLAN);
-        let mut terminal = paused(program);
-        terminal.send("o");
-        answer(&mut terminal, "Search: ", "./begun");
-        terminal.wait_for("has not been merged yet");
-        terminal.send("o");
-        answer(&mut terminal, "Search: ", "./small");
-        terminal.wait_for("Study small: regime over H, κ, 12 profiles");
-        quit(&mut terminal);
-    });
+    let folder = tempfile::tempdir().unwrap();
+    merged(&folder.path().join("small"), PLAN);
+    let home = folder.path().to_str().unwrap();
+    let program = Program::new(ASPERITY).argument("small/").folder(folder.path()).env("HOME", home);
+    let mut terminal = paused(program);
+    for message in
+        ["Small study", "Study small: regime over H, κ, 12 profiles", "F_n/(E* h L) = 0.01", "◆ H 0.5, κ 1"]
+    {
+        terminal.wait_for(message);
+    }
+    terminal.send("P");
+    terminal.wait_for("F_n/(E* h L) = 0.1");
+    terminal.send("\x1b[A");
+    terminal.wait_for("◆ H 0.5, κ 1.41");
+    terminal.send("W");
+    terminal.wait_for("Map of regime over H, κ, 4 profiles");
+    terminal.send("W");
+    terminal.wait_for("Study small");
+    // The copied command opens the study again.
+    terminal.send("y");
+    terminal.wait_for("copied: asperity small --set");
+    terminal.send("q");
+    terminal.wait_for("unsaved changes");
+    terminal.send("y");
+    assert!(terminal.wait_end().success());
 }
 
 /// Message of the program about a folder, without a terminal.
@@ -69,51 +46,41 @@ fn message(folder: &Path, name: &str) -> String {
 
 #[test]
 fn a_folder_without_a_map_says_why() {
-    within(60, || {
-        let folder = tempfile::tempdir().unwrap();
-        let at = |name: &str| folder.path().join(name);
-        begun(&at("begun"), PLAN);
-        merged(&at("whole"), PLAN);
-        merged(
-            &at("narrow one"),
-            &PLAN.replace("from: 0.1, to: 0.9, count: 9", "from: 0.1, to: 0.9, count: 2"),
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    begun(&at("begun"), PLAN);
+    merged(&at("whole"), PLAN);
+    let one_axis = PLAN.replace("Linear(path: \"roughness.hurst\", from: 0.1, to: 0.9, count: 9),", "");
+    merged(&at("one axis"), &one_axis);
+    let one_cell = one_axis
+        .replace("Logarithmic(path: \"kappa\", from: 0.25, to: 16, count: 13),", "")
+        .replace("preloads: [0.01, 0.1, 1.0],", "");
+    merged(&at("one cell"), &one_cell);
+    std::fs::create_dir(at("notes")).unwrap();
+    std::fs::create_dir(at("jkr-sphere")).unwrap();
+    for (name, expected) in [
+        ("begun", "begun: the study has not been merged yet; asperity sweep merge begun does it"),
+        (
+            "notes",
+            "notes: this folder is not that of a study: there is no plan.ron in it; allowed: a scene, or",
+        ),
+        (
+            "one axis",
+            "the explorer needs a terminal; asperity sweep plot 'one axis' draws the study without one",
+        ),
+        (
+            "one cell",
+            "one cell: this study has neither a map nor a curve: it has no axes; a curve needs an axis",
+        ),
+        ("whole", "the explorer needs a terminal; asperity sweep plot whole draws the study without one"),
+        // A folder with the name of a built-in scene does not hide the scene.
+        ("jkr-sphere", "asperity run jkr-sphere computes the scene without one"),
+    ] {
+        let message = message(folder.path(), name);
+        assert!(
+            message.starts_with(expected) || message.ends_with(&format!("{expected}\n")),
+            "{name}: {message}"
         );
-        let one_axis = PLAN.replace("Linear(path: \"roughness.hurst\", from: 0.1, to: 0.9, count: 9),", "");
-        merged(&at("one axis"), &one_axis);
-        let one_cell = one_axis
-            .replace("Logarithmic(path: \"kappa\", from: 0.25, to: 16, count: 13),", "")
-            .replace("preloads: [0.01, 0.1, 1.0],", "");
-        merged(&at("one cell"), &one_cell);
-        std::fs::create_dir(at("notes")).unwrap();
-        std::fs::create_dir(at("jkr-sphere")).unwrap();
-        for (name, expected) in [
-            ("begun", "begun: the study has not been merged yet; asperity sweep merge begun does it"),
-            (
-                "notes",
-                "notes: this folder is not that of a study: there is no plan.ron in it; allowed: a scene, or",
-            ),
-            (
-                "one axis",
-                "the explorer needs a terminal; asperity sweep plot 'one axis' draws the study without one",
-            ),
-            (
-                "one cell",
-                "one cell: this study has neither a map nor a curve: it has no axes; a curve needs an axis",
-            ),
-            ("whole", "the explorer needs a terminal; asperity sweep plot whole draws the study without one"),
-            (
-                "narrow one",
-                "the explorer needs a terminal; asperity sweep plot 'narrow one' draws the study without one",
-            ),
-            // A folder with the name of a built-in scene does not hide the scene.
-            ("jkr-sphere", "asperity run jkr-sphere computes the scene without one"),
-        ] {
-            let message = message(folder.path(), name);
-            assert!(
-                message.starts_with(expected) || message.ends_with(&format!("{expected}\n")),
-                "{name}: {message}"
-            );
-            assert_eq!(message.lines().count(), 1, "{message}");
-        }
-    });
+        assert_eq!(message.lines().count(), 1, "{message}");
+    }
 }

@@ -1,106 +1,75 @@
 //! The window changes its size.
 
-use crate::common::deadline::within;
 use crate::driving::{ESCAPE, explorer, paused, quit};
-use std::time::Duration;
 
 #[test]
 fn another_size_of_the_window_is_filled() {
-    within(60, || {
-        let (program, _folder) = explorer();
-        let mut terminal = paused(program);
-        let before = terminal.text();
-        for (columns, rows) in [(40, 12), (20, 5), (200, 50), (120, 40)] {
-            terminal.resize(columns, rows);
-            terminal.wait_for("F_a ");
-            terminal.settle();
-            let filled = terminal.rows().iter().filter(|row| !row.is_empty()).count();
-            assert!(filled + 2 >= usize::from(rows).min(40), "{columns} × {rows}:\n{}", terminal.text());
-        }
-        assert_eq!(terminal.text(), before);
-        quit(&mut terminal);
-    });
+    let (program, _folder) = explorer();
+    let mut terminal = paused(program);
+    let before = terminal.text();
+    for (columns, rows) in [(40, 12), (20, 5), (200, 50), (120, 40)] {
+        terminal.resize(columns, rows);
+        terminal.wait_for("F_a ");
+        terminal.settle();
+        let filled = terminal.rows().iter().filter(|row| !row.is_empty()).count();
+        assert!(filled + 2 >= usize::from(rows).min(40), "{columns} × {rows}:\n{}", terminal.text());
+    }
+    assert_eq!(terminal.text(), before);
+    quit(&mut terminal);
 }
 
 #[test]
 fn a_window_that_shrinks_and_grows_back_at_once_is_drawn_anew() {
-    within(40, || {
-        let (program, _folder) = explorer();
-        let mut terminal = paused(program);
-        let before = terminal.text();
-        for _ in 0..30 {
-            terminal.resize(40, 12);
-            terminal.resize(120, 40);
-            terminal.wait("screen as before", |rows| rows.join("\n") == before);
-        }
-        quit(&mut terminal);
-    });
+    let (program, _folder) = explorer();
+    let mut terminal = paused(program);
+    let before = terminal.text();
+    for _ in 0..30 {
+        terminal.resize(40, 12);
+        terminal.resize(120, 40);
+        terminal.wait("screen as before", |rows| rows.join("\n") == before);
+    }
+    quit(&mut terminal);
 }
 
 #[test]
 fn a_window_of_millions_of_cells_is_refused() {
-    within(40, || {
-        let (program, _folder) = explorer();
-        let mut terminal = program.size(4001, 1000).start();
-        assert_eq!(terminal.wait_end().exit_code(), 1);
-        let message = "a window of 4001 × 1000 cells; allowed: at most 4000000 cells";
-        assert!(terminal.text().contains(message), "{}", terminal.text().trim());
-    });
+    let (program, _folder) = explorer();
+    let mut terminal = program.size(4001, 1000).start();
+    assert_eq!(terminal.wait_end().exit_code(), 1);
+    let message = "a window of 4001 × 1000 cells; allowed: at most 4000000 cells";
+    assert!(terminal.text().contains(message), "{}", terminal.text().trim());
 }
 
 #[test]
 fn a_window_of_one_cell_is_survived() {
-    within(40, || {
-        let (program, _folder) = explorer();
-        let mut terminal = program.size(1, 1).start();
-        terminal.wait("first frame", |rows| !rows[0].is_empty());
-        terminal.send(".?");
-        terminal.send(ESCAPE);
-        for (columns, rows) in [(2, 1), (1, 50), (300, 1), (1, 1)] {
-            terminal.resize(columns, rows);
-            terminal.settle();
-        }
-        terminal.resize(120, 40);
-        terminal.wait_for("F_a ");
-        quit(&mut terminal);
-    });
+    let (program, _folder) = explorer();
+    let mut terminal = program.size(1, 1).start();
+    terminal.wait("first frame", |rows| !rows[0].is_empty());
+    terminal.send(".?");
+    terminal.send(ESCAPE);
+    for (columns, rows) in [(2, 1), (1, 50), (300, 1), (1, 1)] {
+        terminal.resize(columns, rows);
+        terminal.settle();
+    }
+    terminal.resize(120, 40);
+    terminal.wait_for("F_a ");
+    quit(&mut terminal);
 }
 
 #[test]
 fn keys_and_changes_of_the_window_that_come_together_all_count() {
-    within(60, || {
-        let (program, _folder) = explorer();
-        let mut terminal = paused(program);
-        let marked = |rows: &[String]| rows.iter().find(|row| row.contains('›')).cloned();
-        for round in 0..60 {
-            let before = marked(&terminal.rows()).expect("a parameter is selected");
-            let name: String = before.split('›').nth(1).expect("it has a name").chars().take(16).collect();
-            // The width of this window shows that the new size is known.
-            terminal.resize(100 + round % 2, 40);
-            terminal.send(if round / 10 % 2 == 0 { "j" } else { "k" });
-            terminal.wait("other row selected", |rows| marked(rows).is_some_and(|row| !row.contains(&name)));
-            let right = 99 + usize::from(round % 2);
-            terminal
-                .wait("frame at the edge", |rows| rows.iter().any(|row| row.chars().nth(right) == Some('┐')));
-        }
-        quit(&mut terminal);
-    });
-}
-
-#[test]
-fn a_window_that_changes_while_the_animation_plays_is_survived() {
-    within(60, || {
-        let (program, _folder) = explorer();
-        let mut terminal = program.start();
-        terminal.wait_for("F_a ");
-        for round in 0..60 {
-            let (columns, rows) = if round % 2 == 0 { (30 + round, 8) } else { (120, 40) };
-            terminal.resize(columns, rows);
-            // Two frames of the animation, or fewer.
-            terminal.is_silent_for(Duration::from_millis(20));
-            terminal.is_silent_for(Duration::from_millis(20));
-        }
-        terminal.wait_for("F_a ");
-        quit(&mut terminal);
-    });
+    let (program, _folder) = explorer();
+    let mut terminal = paused(program);
+    let marked = |rows: &[String]| rows.iter().find(|row| row.contains('›')).cloned();
+    for round in 0..60 {
+        let before = marked(&terminal.rows()).expect("a parameter is selected");
+        let name: String = before.split('›').nth(1).expect("it has a name").chars().take(16).collect();
+        // The width of this window shows that the new size is known.
+        terminal.resize(100 + round % 2, 40);
+        terminal.send(if round / 10 % 2 == 0 { "j" } else { "k" });
+        terminal.wait("other row selected", |rows| marked(rows).is_some_and(|row| !row.contains(&name)));
+        let right = 99 + usize::from(round % 2);
+        terminal.wait("frame at the edge", |rows| rows.iter().any(|row| row.chars().nth(right) == Some('┐')));
+    }
+    quit(&mut terminal);
 }

@@ -5,17 +5,11 @@
 
 mod plans;
 mod runs;
-#[allow(dead_code, reason = "unit tests of the scene use the rest")]
-#[path = "../common/strategies.rs"]
 mod strategies;
 
 use super::effort::cases;
 use super::properties::{overrides, profile, scene};
-// For the strategies, which use the names of the scene module.
-use asperity::scene::{
-    DEFAULT, Document, FIELDS, Field, LEG_FORCE, LEG_INDENTATION, Range, Scene, find, is_control, ron_float,
-    ron_string,
-};
+use asperity::scene::{Document, FIELDS, Field, Range, Scene, ron_float, ron_string};
 use proptest::prelude::*;
 use proptest::strategy::{Union, ValueTree};
 use strategies::Drawn;

@@ -47,10 +47,13 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
     let study = Results::open(&arguments.folder)?;
     let selected = arguments.selection.of(&study).map_err(CliError::message)?;
     let Selected { grid, quantities, fixed, curves } = selected;
-    let map = |quantity| study_map(&grid, quantity, false).filter(|_| !curves);
-    let charts = quantities
-        .into_iter()
-        .flat_map(|one| map(one).map_or_else(|| study_curves(&grid, one), |map| vec![map]));
-    let figure = study_figure(&study.plan().title, &fixed, charts.collect());
+    // By request there is one scale alone.
+    let scales = if arguments.selection.scale.is_some() { 1 } else { 2 };
+    let charts = |quantity| match study_map(&grid, quantity, false).filter(|_| !curves) {
+        Some(map) => vec![map],
+        None => study_curves(&grid, quantity).into_iter().take(scales).collect(),
+    };
+    let charts: Vec<_> = quantities.into_iter().flat_map(charts).collect();
+    let figure = study_figure(&study.plan().title, &fixed, charts);
     arguments.output.write_figure(stdout, &figure, format)
 }

@@ -11,13 +11,14 @@ use super::app::App;
 use super::effect::Effect;
 use super::panes::Pane;
 use super::parameters::Parameter;
+use super::prompt::Purpose;
 use super::request::Focus;
 use super::update::{accuracy, chart, compare, crosshair, dialogue, edit, files, look, movement};
 use Run::{Character, Do, Edit};
 use std::fmt;
 use tui_input::InputRequest;
 
-/// What the keys act on: chosen by the prompt or, without one, by the selected pane.
+/// Context of keys: the prompt chooses it or, without one, the selected pane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Context {
     /// Scene and panes.
@@ -205,7 +206,7 @@ pub const TABLE: &[Row] = &[
     row("[", EXPLORE, "pull", Do(|app| movement::push(app, -1, false)), "press/pull", "pull by a small step", MANUAL).shown_if(is_manual),
     row("}", EXPLORE, "press-coarse", Do(|app| movement::push(app, 1, true)), "large step", "press by a large step", MANUAL).shown_if(is_manual),
     row("{", EXPLORE, "pull-coarse", Do(|app| movement::push(app, -1, true)), "large step", "pull by a large step", MANUAL).shown_if(is_manual),
-    row("F", EXPLORE, "type-force", Do(movement::type_force), "force", "type a target force", MANUAL).shown_if(is_manual),
+    row("F", EXPLORE, "type-force", Do(|app| app.ask(Purpose::Force, "")), "force", "type a target force", MANUAL).shown_if(is_manual),
     row("S", EXPLORE, "separate", Do(movement::separate), "separate", "pull to separation", MANUAL).shown_if(is_manual),
 
     row("↑ k", LIST, "previous-parameter", Do(|app| edit::move_selection(app, -1)), "", "select the parameter above", PARAMETERS),
@@ -287,10 +288,10 @@ pub const TABLE: &[Row] = &[
     row("o", EXPLORE, "open-library", Do(dialogue::open_library), "open", "open a scene: built-in, your own, or by path; or the folder of a study", SCENE).rank(2),
     row("1–9", OTHER_PANES, "preset", Character(edit::open_built_in), "", "open a built-in scene by its number, unless the pane of parameters is selected", SCENE).unlisted(),
     row("s", EXPLORE, "save", Do(|app| files::ask_save(app, false)), "save", "save the scene to a file", SCENE).rank(2),
-    row("E", EXPLORE, "export", Do(files::ask_export), "export", "export curve (.csv, .npy), figures (.json), selected pane (.svg, .png) or screen (.txt)", SCENE),
+    row("E", EXPLORE, "export", Do(files::ask_export), "export", "export the selected pane: result (.csv, .npy, .json) or figure (.svg, .png); or the screen (.txt)", SCENE),
     row("y", EXPLORE, "copy-command", Do(files::copy_command), "copy", "copy the command that opens the present scene", SCENE),
-    row(": Ctrl+p", EXPLORE, "open-palette", Do(dialogue::open_palette), "commands", "find a command by words of its description, and run it", SCENE).rank(2).unlisted(),
-    row("? F1", EXPLORE, "help", Do(dialogue::help), "help", "show this help", SCENE).rank(0),
+    row(": Ctrl+p", EXPLORE, "open-palette", Do(|app| app.ask(Purpose::Command(app.config.bindings.listed()), "")), "commands", "find a command by words of its description, and run it", SCENE).rank(2).unlisted(),
+    row("? F1", EXPLORE, "help", Do(|app| app.ask(Purpose::Help, "")), "help", "show this help", SCENE).rank(0),
     row("q Ctrl+c", EXPLORE, "quit", Do(files::ask_quit), "quit", "quit", SCENE).rank(0),
     row("Ctrl+z", ANY, "suspend", Do(|app| app.effects.push(Effect::Suspend)), "", "suspend to the shell; fg resumes", SCENE),
 

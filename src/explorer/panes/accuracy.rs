@@ -1,6 +1,6 @@
 //! Cost of accuracy: errors over times, both logarithmic, requirements of a good accuracy, and the stages of the run.
 
-use super::{Costs, PaneRow, costs};
+use super::{Costs, Exported, PaneRow, costs};
 use crate::accuracy::{CostTable, Estimate, Evidence, Knob};
 use crate::draw::{Chart, Ink, Layer, Shape, Sign, Span};
 use crate::explorer::app::App;
@@ -10,7 +10,7 @@ use crate::explorer::theme::{Appearance, Meaning};
 use crate::explorer::update::{Answer, Choosing};
 use crate::explorer::view::stages;
 use crate::explorer::view::text::{filled, wrapped};
-use crate::export::work_precision;
+use crate::export::{CostReport, work_precision};
 use crate::scene::{Edges, Numerics, Solver, format_quantity, format_rounded};
 use crate::text::grouped;
 use ratatui::layout::Size;
@@ -19,6 +19,7 @@ use ratatui::text::{Line, Span as Text};
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     panel,
+    report,
     keys: Some(Context::Crosshair),
     studies: |_, computed| vec![costs::study(computed)],
     help: &[(
@@ -28,6 +29,11 @@ pub static ROW: PaneRow = PaneRow {
     )],
     ..PaneRow::EMPTY
 };
+
+fn report(app: &App) -> Exported<'_> {
+    let (document, table) = (&app.edit.document, app.studies.value::<Costs>()?.table.as_ref()?);
+    Some(("asperity cost", Box::new(CostReport::new(document.title(), document.scene(), table))))
+}
 
 /// Relative errors whose requirements are stated, with lines in the plot.
 const TARGETS: [f64; 2] = [0.01, 0.001];

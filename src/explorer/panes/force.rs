@@ -140,7 +140,7 @@ fn reading(app: &App) -> Option<Vec<Part>> {
     let [d, length] = [point.indentation, point.contact_length].map(|value| format_rounded(value, 3, "m"));
     let mut parts = vec![
         format!("d {d}"),
-        format!("F {}", format_rounded(point.force, 3, "N")),
+        format!("F {}", format_rounded(app.without_rounding(point.force), 3, "N")),
         format!("l {length}"),
         format!("n {}", point.fragments),
     ];
@@ -217,9 +217,6 @@ fn chart(app: &App) -> Option<Chart> {
     Some(chart)
 }
 
-/// Share of the largest force below which a force is rounding.
-const ROUNDING: f64 = 1e-12;
-
 /// The marked forces with their values, the most important first, in words if there is room for all.
 fn values(app: &App, width: usize) -> Option<Line<'static>> {
     let mut marks = marks(app.legs());
@@ -229,12 +226,9 @@ fn values(app: &App, width: usize) -> Option<Line<'static>> {
         Mark::JumpIn => 2,
         Mark::JumpOut => 3,
     });
-    let largest = marks.iter().map(|(_, point)| point.force.abs()).fold(0.0, f64::max);
     let lines = |words: bool| {
         let part = |&(mark, point): &(Mark, CurvePoint)| {
-            // A stage to zero force ends there but for rounding.
-            let is_zero = point.force.abs() < ROUNDING * largest;
-            let force = format_rounded(if is_zero { 0.0 } else { point.force }, 3, "N");
+            let force = format_rounded(app.without_rounding(point.force), 3, "N");
             let name = if words { format!(" {}", mark.name()) } else { String::new() };
             let sign = Text::styled(glyph(sign(mark)), app.view.appearance.theme.style(Meaning::Title));
             vec![sign, Text::raw(format!("{name} {force}"))]

@@ -1,6 +1,6 @@
 //! The map: shades in the colours of the regimes, the mark of the scene, and the values at the mark.
 
-use super::PaneRow;
+use super::{Exported, PaneRow};
 use crate::draw::{Chart, Colours, Figure, Ink, Layer, SHADES, Shape, Sign, key};
 use crate::explorer::app::App;
 use crate::explorer::chart::{self, Live};
@@ -20,6 +20,7 @@ use ratatui::text::{Line, Span as Text};
 pub static ROW: PaneRow = PaneRow {
     panel,
     figure: |app, _| app.grid().map(|grid| figure(app, grid)),
+    report: cells,
     keys: Some(Context::Map),
     studies: |app, computed| match app.chart.shown_study() {
         Some(_) => Vec::new(),
@@ -40,6 +41,10 @@ pub static ROW: PaneRow = PaneRow {
     ],
     ..PaneRow::EMPTY
 };
+
+fn cells(app: &App) -> Exported<'_> {
+    Some(("asperity", Box::new(app.grid()?.clone())))
+}
 
 fn panel(app: &App, size: Size) -> Panel {
     let title = title(app);

@@ -29,6 +29,7 @@ use super::panel::{self, Panel, Under};
 use super::snapshot::SolvedScene;
 use super::studies::Study;
 use crate::draw::Figure;
+use crate::export::{Report, RunReport};
 use ratatui::layout::{Position, Size};
 use std::sync::Arc;
 
@@ -68,6 +69,9 @@ pub enum Place {
     Large,
 }
 
+/// Command and result of an exported pane.
+pub type Exported<'a> = Option<(&'static str, Box<dyn Report + 'a>)>;
+
 /// Properties of one pane.
 pub struct PaneRow {
     /// Place in a window with room for all.
@@ -76,6 +80,8 @@ pub struct PaneRow {
     pub panel: fn(&App, Size) -> Panel,
     /// Content as a figure for a file, where this is more than the chart of the panel.
     pub figure: fn(&App, &Panel) -> Option<Figure>,
+    /// Command and result of tables and JSON for a file; `None` while there is no result.
+    pub report: for<'a> fn(&'a App) -> Exported<'a>,
     /// Keys of the selected pane; those of the crosshair, while this is shown.
     pub keys: Option<Context>,
     /// Studies of a computed scene whose values the shown pane needs.
@@ -90,10 +96,19 @@ impl PaneRow {
         place: Place::Large,
         panel: |_, _| Panel::of_text(String::new(), ""),
         figure: |app, panel| Some(Figure::of_chart(app.edit.document.title(), panel.chart()?.clone())),
+        report: outcome,
         keys: None,
         studies: |_, _| Vec::new(),
         help: &[],
     };
+}
+
+/// The outcome of the scene, with its force curve.
+fn outcome(app: &App) -> Exported<'_> {
+    let (title, scene, outcome) =
+        (app.edit.document.title(), app.edit.document.scene(), &app.current()?.outcome);
+    let report = RunReport { title, scene, outcome, choice: None, estimate: app.studies.value() };
+    Some(("asperity run", Box::new(report)))
 }
 
 /// Size within the frame of a pane that is exported.

@@ -1,7 +1,7 @@
 //! Adhesion against preload: the curve of the profile, the mean over random profiles with its confidence, and the
 //! preload of the scene.
 
-use super::{PROFILES, PaneRow, PreloadCurve};
+use super::{Exported, PROFILES, PaneRow, PreloadCurve};
 use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Sign};
 use crate::explorer::app::App;
 use crate::explorer::keys::Context;
@@ -9,7 +9,7 @@ use crate::explorer::panel::{Panel, names};
 use crate::explorer::studies::Study;
 use crate::explorer::theme::Meaning;
 use crate::explorer::view::text::filled;
-use crate::export::{preload_axes, preload_layers};
+use crate::export::{PreloadReport, preload_axes, preload_layers};
 use crate::study::Results;
 use ratatui::layout::Size;
 use ratatui::text::Span as Text;
@@ -18,6 +18,7 @@ use std::sync::Arc;
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     panel,
+    report,
     keys: Some(Context::Crosshair),
     studies: |app, computed| {
         let (begun, computed) = (app.studies.value::<PreloadCurve>().cloned(), Arc::clone(computed));
@@ -34,6 +35,15 @@ pub static ROW: PaneRow = PaneRow {
     )],
     ..PaneRow::EMPTY
 };
+
+fn report(app: &App) -> Exported<'_> {
+    let curve = app.studies.value::<PreloadCurve>()?;
+    // The mean once all random profiles are computed, until then the profile of the scene.
+    let whole = |results: &&Results| results.is_whole(0);
+    let results = curve.random.as_ref().filter(whole).or(Some(&curve.own).filter(whole))?;
+    let report = PreloadReport { title: app.edit.document.title(), choice: None, results };
+    Some(("asperity run", Box::new(report)))
+}
 
 fn panel(app: &App, size: Size) -> Panel {
     let title = "Adhesion against preload".to_owned();

@@ -119,10 +119,11 @@ mod tests {
         else {
             panic!("{chart:?}")
         };
-        let area: f64 = boxes.iter().map(|((_, density), (low, high))| density * (high - low) * 1e6).sum();
-        assert!((area - 1.0).abs() < 1e-12 && chart.x.label.to_string() == "1/µm");
+        // Heights in mm and densities per mm.
+        let area: f64 = boxes.iter().map(|((_, density), (low, high))| density * (high - low) * 1e3).sum();
+        assert!((area - 1.0).abs() < 1e-12 && chart.x.name == "1/mm");
         let moment = |power: i32| -> f64 {
-            points.iter().map(|(density, at)| density * (at * 1e6).powi(power)).sum::<f64>() * 0.25
+            points.iter().map(|(density, at)| density * (at * 1e6).powi(power)).sum::<f64>() * 0.25e-3
         };
         assert!((moment(0) - 1.0).abs() < 1e-9 && moment(1).abs() < 1e-9);
         // (20 · 1.5² + 60 · 0.5²) / 80

@@ -50,7 +50,7 @@ fn panel(app: &App, size: Size) -> Panel {
     let chart = shown.map(|shown| shown.spectra.chart()).filter(|chart| !chart.layers.is_empty());
     let Some(mut chart) = chart else { return Panel { head: words, ..Panel::of_text(title, "") } };
     // The title has the names of both axes.
-    chart.y.label = chart.y.label.without_name();
+    chart.y.name.clear();
     let head = filled(names(&chart, app.view.appearance), "  ", size.width.into());
     Panel { head, foot: words, ..Panel::of_chart(title, chart) }
 }

@@ -1,19 +1,15 @@
-//! Screens in forms for use outside of the terminal: plain text, ASCII, an SVG document, a recording. Nothing here
-//! depends on the panes.
+//! Screens in forms for use outside of the terminal: plain text, ASCII and an SVG document.
 
 mod ascii;
-mod cast;
-mod palette;
 mod svg;
 mod text;
 
 pub use ascii::to_ascii;
-pub use cast::Cast;
 pub use svg::svg;
 pub use text::text;
 
-use crate::text::is_control;
-use ratatui::buffer::{Buffer, Cell, CellDiffOption, CellWidth};
+use ratatui::buffer::{Buffer, Cell, CellWidth};
+use ratatui::layout::Rect;
 
 /// A symbol on the screen, with its cells.
 struct Glyph<'a> {
@@ -27,10 +23,9 @@ struct Glyph<'a> {
 }
 
 impl<'a> Glyph<'a> {
-    /// Visible symbol: a blank in place of marks without a width and of control characters.
+    /// The symbol; a blank for one without a width.
     fn symbol(&self) -> &'a str {
-        let symbol = self.cell.symbol();
-        if symbol.contains(is_control) || symbol.cell_width() == 0 { " " } else { symbol }
+        if self.cell.symbol().cell_width() == 0 { " " } else { self.cell.symbol() }
     }
 
     /// The character, if only one.
@@ -42,28 +37,17 @@ impl<'a> Glyph<'a> {
 
 /// The symbols of a screen, row by row, without the cells behind wide characters.
 fn glyphs(buffer: &Buffer) -> impl Iterator<Item = Glyph<'_>> {
-    let area = buffer.area;
-    (0..area.height).flat_map(move |row| {
+    let Rect { x, y, width, height } = buffer.area;
+    (0..height).flat_map(move |row| {
         let mut next = 0;
         std::iter::from_fn(move || {
-            let column = next;
-            let left = area.width.checked_sub(column).filter(|left| *left > 0)?;
-            let cell = buffer.cell((area.x + column, area.y + row))?;
-            let width = width_of(cell).min(left);
+            let (column, left) = (next, width.checked_sub(next).filter(|left| *left > 0)?);
+            let cell = buffer.cell((x + column, y + row))?;
+            let width = cell.symbol().cell_width().clamp(1, left);
             next += width;
             Some(Glyph { column, row, width, cell })
         })
     })
-}
-
-/// Cells that the symbol of a cell covers.
-fn width_of(cell: &Cell) -> u16 {
-    match cell.diff_option {
-        CellDiffOption::ForcedWidth(width) => width.get(),
-        // ratatui measures no control characters.
-        _ if cell.symbol().contains(is_control) => 1,
-        _ => cell.cell_width().max(1),
-    }
 }
 
 /// The dots of a Braille pattern, two across and four down, bits row by row from the upper left.

@@ -3,11 +3,10 @@
 //! Letters are text, stretched to the grid of cells. Dots, blocks and lines are drawn, so that they meet from cell to
 //! cell with any font.
 
-use super::palette::{mixed, rgb};
 use super::{Glyph, dots, glyphs};
 use crate::draw::{Palette, Rgb, Svg, escaped, hex};
 use ratatui::buffer::Buffer;
-use ratatui::style::Modifier;
+use ratatui::style::{Color, Modifier};
 use ratatui::symbols::pixel::OCTANTS;
 use std::collections::BTreeMap;
 
@@ -23,14 +22,13 @@ const FONT_SIZE: f64 = 13.3;
 /// Remaining share of a dimmed colour, percent.
 const DIMMED: u8 = 60;
 
-/// Appearance of a path or of a text, in the order of drawing.
+/// Kind of a shape, in the order of drawing.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Look {
-    Ground(Rgb),
-    Block(Rgb),
-    Line(Rgb),
-    Dots(Rgb),
-    Text { colour: Rgb, is_bold: bool, is_underlined: bool },
+enum Kind {
+    Ground,
+    Block,
+    Line,
+    Dots,
 }
 
 /// The screen as a self-contained document, the same bytes for the same screen.
@@ -45,113 +43,89 @@ pub fn svg(buffer: &Buffer, palette: &Palette, title: &str) -> String {
         "<g transform=\"translate({MARGIN} {MARGIN})\" font-family=\"{FONTS}\" font-size=\"{FONT_SIZE}\" \
          xml:space=\"preserve\">"
     ));
-    for (look, drawn) in parts(buffer, palette) {
-        match look {
-            Look::Ground(colour) | Look::Block(colour) => svg.push(format_args!(
-                "<path fill=\"{}\" shape-rendering=\"crispEdges\" d=\"{drawn}\"/>",
-                hex(colour)
-            )),
-            Look::Line(colour) => svg.push(format_args!(
-                "<path fill=\"none\" stroke=\"{}\" stroke-width=\"1.2\" stroke-linecap=\"square\" d=\"{drawn}\"/>",
-                hex(colour)
-            )),
-            Look::Dots(colour) => svg.push(format_args!(
-                "<path fill=\"none\" stroke=\"{}\" stroke-width=\"2.8\" stroke-linecap=\"round\" d=\"{drawn}\"/>",
-                hex(colour)
-            )),
-            Look::Text { colour, is_bold, is_underlined } => {
-                let bold = if is_bold { " font-weight=\"bold\"" } else { "" };
-                let underlined = if is_underlined { " text-decoration=\"underline\"" } else { "" };
-                svg.push(format_args!("<g fill=\"{}\"{bold}{underlined}>\n{drawn}</g>", hex(colour)));
-            }
-        }
+    for ((kind, colour), path) in paths(buffer, palette) {
+        let colour = hex(colour);
+        let stroke = |width: f64, cap: &str| {
+            format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linecap=\"{cap}\"")
+        };
+        let looks = match kind {
+            Kind::Ground | Kind::Block => format!("fill=\"{colour}\" shape-rendering=\"crispEdges\""),
+            Kind::Line => stroke(1.2, "square"),
+            Kind::Dots => stroke(2.8, "round"),
+        };
+        svg.push(format_args!("<path {looks} d=\"{path}\"/>"));
+    }
+    for ((colour, is_bold, is_underlined), texts) in texts(buffer, palette) {
+        let bold = if is_bold { " font-weight=\"bold\"" } else { "" };
+        let underlined = if is_underlined { " text-decoration=\"underline\"" } else { "" };
+        svg.push(format_args!("<g fill=\"{}\"{bold}{underlined}>\n{texts}</g>", hex(colour)));
     }
     svg.push(format_args!("</g>"));
     svg.finish()
 }
 
-/// Data of the paths, and elements of the texts.
-fn parts(buffer: &Buffer, palette: &Palette) -> BTreeMap<Look, String> {
-    let mut parts: BTreeMap<Look, String> = BTreeMap::new();
-    let mut runs: Vec<Run> = Vec::new();
+/// Backgrounds and characters that are drawn, as data of paths.
+fn paths(buffer: &Buffer, palette: &Palette) -> BTreeMap<(Kind, Rgb), String> {
+    let mut paths = BTreeMap::<_, String>::new();
     for glyph in glyphs(buffer) {
-        let Glyph { column, row, width, cell } = glyph;
+        let (x, y) = (u32::from(glyph.column) * WIDTH, u32::from(glyph.row) * HEIGHT);
         let (colour, ground) = colours(&glyph, palette);
-        let (x, y) = (u32::from(column) * WIDTH, u32::from(row) * HEIGHT);
-        let mut draw = |look: Look, path: String| parts.entry(look).or_default().push_str(&path);
+        let mut draw = |kind, colour, path: &dyn std::fmt::Display| {
+            *paths.entry((kind, colour)).or_default() += &path.to_string()
+        };
+        let boxed =
+            |[left, top, wide, high]: [u32; 4]| format!("M{} {}h{wide}v{high}h-{wide}z", x + left, y + top);
         if ground != palette.background {
-            let wide = u32::from(width) * WIDTH;
-            draw(Look::Ground(ground), format!("M{x} {y}h{wide}v{HEIGHT}h-{wide}z"));
+            draw(Kind::Ground, ground, &boxed([0, 0, u32::from(glyph.width) * WIDTH, HEIGHT]));
         }
         match shape(&glyph) {
             Some(Shape::Boxes(boxes, quarters)) => {
-                let path = |[left, top, wide, high]: [u32; 4]| {
-                    format!("M{} {}h{wide}v{high}h-{wide}z", x + left, y + top)
-                };
-                draw(
-                    Look::Block(mixed(colour, ground, 25 * quarters)),
-                    boxes.into_iter().map(path).collect(),
-                );
+                let colour = mixed(colour, ground, 25 * quarters);
+                boxes.into_iter().for_each(|part| draw(Kind::Block, colour, &boxed(part)));
             }
-            Some(Shape::Lines(lines)) => {
-                let path = |line: &&str| format!("M{} {}{line}", x + WIDTH / 2, y + HEIGHT / 2);
-                draw(Look::Line(colour), lines.iter().map(path).collect());
-            }
-            Some(Shape::Dots(dots)) => {
-                let path = |dot: u32| format!("M{} {}h.1", x + 2 + dot % 2 * 4, y + 2 + dot / 2 * 4);
-                draw(Look::Dots(colour), (0..8).filter(|dot| dots >> dot & 1 == 1).map(path).collect());
-            }
-            None if glyph.symbol() == " " => {}
-            None => {
-                let is_bold = cell.modifier.contains(Modifier::BOLD);
-                let is_underlined = cell.modifier.contains(Modifier::UNDERLINED);
-                let look = Look::Text { colour, is_bold, is_underlined };
-                add_letters(
-                    &mut runs,
-                    Run { look, column, row, columns: width, text: glyph.symbol().into() },
-                );
-            }
+            Some(Shape::Lines(lines)) => lines.iter().for_each(|line| {
+                draw(Kind::Line, colour, &format_args!("M{} {}{line}", x + WIDTH / 2, y + HEIGHT / 2));
+            }),
+            Some(Shape::Dots(dots)) => (0..8).filter(|dot| dots >> dot & 1 == 1).for_each(|dot: u32| {
+                let path = format_args!("M{} {}h.1", x + 2 + dot % 2 * 4, y + 2 + dot / 2 * 4);
+                draw(Kind::Dots, colour, &path);
+            }),
+            None => {}
         }
     }
-    for Run { look, column, row, columns, text } in runs {
-        let (x, y) = (u32::from(column) * WIDTH, u32::from(row) * HEIGHT + BASE);
-        let (length, text) = (u32::from(columns) * WIDTH, escaped(&text));
-        parts
-            .entry(look)
-            .or_default()
-            .push_str(&format!("<text x=\"{x}\" y=\"{y}\" textLength=\"{length}\">{text}</text>\n"));
-    }
-    parts
+    paths
 }
 
-/// Letters on one row, set as one element.
-struct Run {
-    look: Look,
-    column: u16,
-    row: u16,
-    columns: u16,
-    text: String,
-}
-
-/// Adds letters to the last run if they have the same look and at most one blank lies between them.
-fn add_letters(runs: &mut Vec<Run>, letters: Run) {
+/// Elements of text by colour, weight and underline: letters of one look on one row, at most one blank apart, are one
+/// element.
+fn texts(buffer: &Buffer, palette: &Palette) -> BTreeMap<(Rgb, bool, bool), String> {
+    let looks = |glyph: &Glyph<'_>| {
+        let has = |modifier| glyph.cell.modifier.contains(modifier);
+        (colours(glyph, palette).0, has(Modifier::BOLD), has(Modifier::UNDERLINED))
+    };
     // Other characters come from a font of another width.
-    let is_plain = |run: &Run| run.text.chars().all(is_common);
-    let gap = |run: &Run| letters.column - run.column - run.columns;
-    match runs.last_mut() {
-        Some(run)
-            if (run.look, run.row) == (letters.look, letters.row)
-                && gap(run) <= 1
-                && is_plain(run)
-                && is_plain(&letters) =>
-        {
-            let gap = gap(run);
-            run.columns += gap + letters.columns;
-            run.text.push_str(if gap == 1 { " " } else { "" });
-            run.text.push_str(&letters.text);
+    let is_common = |glyph: &Glyph<'_>| glyph.symbol().chars().all(is_common);
+    let gap = |one: &Glyph<'_>, next: &Glyph<'_>| next.column - one.column - one.width;
+    let is_letter = |glyph: &Glyph<'_>| shape(glyph).is_none() && glyph.symbol() != " ";
+    let letters: Vec<Glyph<'_>> = glyphs(buffer).filter(is_letter).collect();
+    let runs = letters.chunk_by(|one, next| {
+        let is_near = one.row == next.row && gap(one, next) <= 1;
+        is_near && looks(one) == looks(next) && is_common(one) && is_common(next)
+    });
+    let mut texts = BTreeMap::<_, String>::new();
+    for run in runs {
+        let (first, last) = (&run[0], &run[run.len() - 1]);
+        let mut text = first.symbol().to_owned();
+        for pair in run.windows(2) {
+            text += if gap(&pair[0], &pair[1]) == 1 { " " } else { "" };
+            text += pair[1].symbol();
         }
-        _ => runs.push(letters),
+        let (x, y) = (u32::from(first.column) * WIDTH, u32::from(first.row) * HEIGHT + BASE);
+        let length = u32::from(last.column + last.width - first.column) * WIDTH;
+        let text = format!("<text x=\"{x}\" y=\"{y}\" textLength=\"{length}\">{}</text>\n", escaped(&text));
+        texts.entry(looks(first)).or_default().push_str(&text);
     }
+    texts
 }
 
 /// Colours of a symbol and of its background.
@@ -166,6 +140,41 @@ fn colours(glyph: &Glyph<'_>, palette: &Palette) -> (Rgb, Rgb) {
         std::mem::swap(&mut ink, &mut ground);
     }
     (ink, ground)
+}
+
+/// Colour of the palette; `reset` where the terminal chooses. The explorer has the sixteen colours of ANSI.
+fn rgb(palette: &Palette, colour: Color, reset: Rgb) -> Rgb {
+    use Color::{
+        Black, Blue, Cyan, DarkGray, Gray, Green, LightBlue, LightCyan, LightGreen, LightMagenta, LightRed,
+        LightYellow, Magenta, Red, White, Yellow,
+    };
+    const ANSI: [Color; 16] = [
+        Black,
+        Red,
+        Green,
+        Yellow,
+        Blue,
+        Magenta,
+        Cyan,
+        Gray,
+        DarkGray,
+        LightRed,
+        LightGreen,
+        LightYellow,
+        LightBlue,
+        LightMagenta,
+        LightCyan,
+        White,
+    ];
+    ANSI.iter().position(|one| *one == colour).map_or(reset, |index| palette.ansi[index])
+}
+
+/// A colour between two others: a share in percent of the first.
+fn mixed(one: Rgb, other: Rgb, percent: u8) -> Rgb {
+    std::array::from_fn(|channel| {
+        let part = |colour: Rgb, percent: u8| u32::from(colour[channel]) * u32::from(percent);
+        ((part(one, percent) + part(other, 100 - percent)) / 100) as u8
+    })
 }
 
 /// Shape of a character other than a letter.
@@ -222,7 +231,7 @@ mod tests {
     use super::*;
     use crate::draw::parsed;
     use ratatui::layout::Rect;
-    use ratatui::style::{Color, Style};
+    use ratatui::style::Style;
     use ratatui::symbols::braille::BRAILLE;
 
     /// The elements within the margins of a screen of one row.
@@ -277,8 +286,8 @@ mod tests {
             text,
         ];
         assert_eq!(drawn("x", Style::new().reversed()), reversed);
-        let ground = r##"<path fill="#0000ff" shape-rendering="crispEdges" d="M8 0h8v16h-8z"/>"##;
-        assert_eq!(drawn(" ", Style::new().bg(Color::Indexed(21))), [ground]);
+        let ground = r##"<path fill="#ff6b3d" shape-rendering="crispEdges" d="M8 0h8v16h-8z"/>"##;
+        assert_eq!(drawn(" ", Style::new().bg(Color::Red)), [ground]);
     }
 
     #[test]
@@ -308,5 +317,28 @@ mod tests {
         let mut buffer = Buffer::empty(Rect::new(0, 0, 1, 1));
         buffer[(0, 0)].set_char(character);
         glyphs(&buffer).next().and_then(|glyph| shape(&glyph))
+    }
+
+    /// Contrast ratio of WCAG 2.
+    fn contrast(one: Rgb, other: Rgb) -> f64 {
+        let light = |channel: u8| {
+            let share = f64::from(channel) / 255.0;
+            if share <= 0.04045 { share / 12.92 } else { ((share + 0.055) / 1.055).powf(2.4) }
+        };
+        let [one, other] = [one, other].map(|[red, green, blue]| {
+            0.2126 * light(red) + 0.7152 * light(green) + 0.0722 * light(blue) + 0.05
+        });
+        one.max(other) / one.min(other)
+    }
+
+    #[test]
+    fn colours_can_be_read() {
+        for palette in [Palette::DARK, Palette::LIGHT] {
+            assert!(contrast(palette.foreground, palette.background) > 12.0);
+            // Black and white may be those of the ground.
+            for colour in &palette.ansi[1..15] {
+                assert!(contrast(*colour, palette.background) > 4.5, "{colour:02x?}");
+            }
+        }
     }
 }

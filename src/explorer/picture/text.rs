@@ -23,10 +23,8 @@ pub fn text(buffer: &Buffer) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ratatui::buffer::CellDiffOption;
     use ratatui::layout::Rect;
     use ratatui::style::Style;
-    use std::num::NonZeroU16;
 
     #[test]
     fn rows_lose_the_blanks_at_their_ends() {
@@ -39,9 +37,6 @@ mod tests {
         let mut buffer = Buffer::empty(Rect::new(3, 2, 8, 1));
         buffer.set_string(3, 2, "漢字e\u{301}x", Style::new());
         assert_eq!(text(&buffer), "漢字e\u{301}x\n");
-        // The cell behind a wide character is not seen.
-        buffer[(4, 2)].set_symbol("?");
-        assert_eq!(text(&buffer), "漢字e\u{301}x\n");
     }
 
     #[test]
@@ -50,17 +45,6 @@ mod tests {
         buffer[(0, 0)].set_bg(Color::Red);
         buffer[(1, 0)].set_bg(Color::Red);
         assert_eq!(text(&buffer), "██▀\n");
-    }
-
-    #[test]
-    fn what_has_no_shape_leaves_its_place_blank() {
-        let mut buffer = Buffer::with_lines(["abcdef"]);
-        buffer[(0, 0)].set_symbol("\n");
-        buffer[(1, 0)].set_symbol("");
-        buffer[(2, 0)].set_symbol("\u{301}");
-        let two = CellDiffOption::ForcedWidth(NonZeroU16::new(2).unwrap());
-        buffer[(3, 0)].set_symbol("\u{1b}[7mlink").set_diff_option(two);
-        assert_eq!(text(&buffer), "     f\n");
     }
 
     #[test]

@@ -8,7 +8,6 @@ use crate::explorer::editor::scene_of;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::snapshot::Preview;
 use crate::explorer::studies::{Finding, Study};
-use crate::explorer::text_line::TextLine;
 use crate::scene::{Document, Scene, format_quantity};
 use crate::text::grouped;
 use std::path::Path;
@@ -79,7 +78,7 @@ const NOT_COMPUTED: &str = "not before the scene is computed";
 /// Asks for a tolerance.
 pub fn type_tolerance(app: &mut App) {
     if app.is_current() {
-        app.ask(Purpose::Tolerance, TextLine::default());
+        app.ask(Purpose::Tolerance, "");
     } else {
         app.set_error(NOT_COMPUTED);
     }

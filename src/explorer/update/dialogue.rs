@@ -12,25 +12,15 @@ use crate::explorer::view::help_end;
 use crate::scene::{Entry, typed_path};
 use tui_input::InputRequest;
 
-/// Opens the help.
-pub fn help(app: &mut App) {
-    app.ask(Purpose::Help, TextLine::default());
-}
-
 /// Opens the search of the list of parameters, in its pane.
 pub fn find_parameter(app: &mut App) {
-    app.ask(Purpose::Parameter { before: app.view.pane }, TextLine::default());
+    app.ask(Purpose::Parameter { before: app.view.pane }, "");
     edit::show_parameters(app)
-}
-
-/// Opens the list of all commands.
-pub fn open_palette(app: &mut App) {
-    app.ask(Purpose::Command(app.config.bindings.listed()), TextLine::default());
 }
 
 /// Opens the list of scenes.
 pub fn open_library(app: &mut App) {
-    app.ask(Purpose::Scene(Vec::new()), TextLine::default());
+    app.ask(Purpose::Scene(Vec::new()), "");
     app.effects.push(Effect::List);
 }
 
@@ -45,7 +35,7 @@ pub fn listed(app: &mut App, entries: Vec<Entry>) {
 /// Asks again for a path that could not be used, for this reason, which may begin with the path.
 pub fn ask_again(app: &mut App, purpose: Purpose, path: &str, why: &str) {
     let reason = why.strip_prefix(path).and_then(|rest| rest.strip_prefix(": ")).unwrap_or(why);
-    app.ask(purpose, TextLine::new(path));
+    app.ask(purpose, path);
     refuse(app, Some(reason.to_owned()));
 }
 

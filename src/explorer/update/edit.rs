@@ -1,7 +1,7 @@
 //! Edits of the scene. Each results in a document of its own and can be undone.
 
-use super::Effect;
 use super::compare::name_ghosts;
+use super::{Effect, dialogue};
 use crate::explorer::app::{App, CloseUpTarget, Message, Pane, Player};
 use crate::explorer::editor::scene_of;
 use crate::explorer::layout::Layout;
@@ -9,7 +9,6 @@ use crate::explorer::parameters::{Parameter, Setting, text_of};
 use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{Focus, LineView};
 use crate::explorer::snapshot::Preview;
-use crate::explorer::text_line::TextLine;
 use crate::scene::{
     Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, parse_quantity, presets,
     stage_targets,
@@ -69,16 +68,17 @@ pub fn edit_value(app: &mut App, first: Option<char>) {
         Setting::Switch(_) => return switch(app),
         Setting::Heading => return toggle_fold(app),
         Setting::Field | Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion => {
-            let mut line = TextLine::selected(&editable(app, parameter));
-            first.into_iter().for_each(|character| line.insert(&character.to_string()));
-            app.ask(Purpose::Value, line);
+            let text = editable(app, parameter);
+            app.ask(Purpose::Value, &text);
             // No preview of an earlier edit.
             app.tried = None;
             app.studies.forget::<Preview>();
+            if let Some(first) = first {
+                dialogue::edit_line(app, |line| line.insert(first.encode_utf8(&mut [0; 4])));
+            }
         }
     }
     show_parameters(app);
-    preview(app);
 }
 
 /// The way to change a parameter without a number.

@@ -1,11 +1,10 @@
 //! Output of the explorer: the scene, exports, the command to open the scene.
 
 use super::{Effect, dialogue, edit};
-use crate::explorer::action::{Content, OutputFile, WriteFailure};
+use crate::explorer::action::{Content, EXPORTS, OutputFile, WriteFailure};
 use crate::explorer::app::App;
 use crate::explorer::prompt::Purpose;
-use crate::explorer::text_line::TextLine;
-use crate::export::check_extension;
+use crate::export::{Format, check_extension};
 use crate::scene::{Document, command_line};
 use crate::text::is_control;
 use std::path::{Path, PathBuf};
@@ -15,7 +14,7 @@ pub fn ask_save(app: &mut App, then_quit: bool) {
     let name = app.edit.document.name();
     let is_file = Path::new(name).extension().is_some_and(|extension| extension == "ron");
     let file = if is_file { name.to_owned() } else { format!("{name}.ron") };
-    app.ask(Purpose::Save { then_quit }, TextLine::new(&file));
+    app.ask(Purpose::Save { then_quit }, &file);
 }
 
 /// Saves the scene.
@@ -45,36 +44,17 @@ pub fn save_before_leaving(app: &mut App) {
 pub fn ask_export(app: &mut App) {
     let name = Path::new(app.edit.document.name());
     let stem = name.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
-    app.ask(Purpose::Export, TextLine::new(&format!("{stem}.csv")));
+    app.ask(Purpose::Export, &format!("{stem}.csv"));
 }
 
-/// Exports to a file; the extension of its name selects the content.
+/// Exports the selected pane to a file; the extension of its name chooses the format.
 pub fn export(app: &mut App, path: PathBuf) -> Result<(), String> {
-    let content = content_for(app, &path)?;
-    write(app, path, content, false)
-}
-
-/// Content for an exported file; or why there is none.
-fn content_for(app: &App, path: &Path) -> Result<Content, String> {
-    let exports = app.exports();
-    let extensions: Vec<_> = exports.iter().map(|(format, _)| format.extension()).collect();
-    let content = match check_extension(path, &extensions) {
-        Ok(Some(place)) => exports[place].1,
-        Ok(None) => {
-            let extensions: Vec<String> =
-                extensions.iter().map(|extension| format!(".{extension}")).collect();
-            return Err(format!("the extension chooses the format; use one of {}", extensions.join(", ")));
-        }
-        Err(error) => return Err(error),
-    };
-    match content {
-        Content::MapCells if app.grid().is_none() => Err("there is no map yet to export".to_owned()),
-        Content::Figure(_) if app.figure().is_none() => {
-            Err("the selected pane is empty; there is no figure to export".to_owned())
-        }
-        Content::Outcome(_) if !app.is_current() => Err("the scene has no curve yet to export".to_owned()),
-        content => Ok(content),
-    }
+    let extensions = EXPORTS.map(Format::extension);
+    let place = check_extension(&path, &extensions)?.ok_or_else(|| {
+        let extensions = extensions.map(|extension| format!(".{extension}")).join(", ");
+        format!("the extension chooses the format; use one of {extensions}")
+    })?;
+    write(app, path, Content::Pane(EXPORTS[place]), false)
 }
 
 /// Handles the result of writing.
@@ -91,7 +71,7 @@ pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>
                 ask_quit(app);
             }
         }
-        Err(WriteFailure::Exists) => app.ask(Purpose::Overwrite(file), TextLine::default()),
+        Err(WriteFailure::Exists) => app.ask(Purpose::Overwrite(file), ""),
         Err(WriteFailure::Refused(error)) => {
             let is_scene = file.content == Content::Scene;
             let purpose =
@@ -106,7 +86,7 @@ pub fn ask_quit(app: &mut App) {
     if app.edit.unsaved().is_empty() {
         app.finished = true;
     } else {
-        app.ask(Purpose::Leave, TextLine::default());
+        app.ask(Purpose::Leave, "");
     }
 }
 

@@ -2,10 +2,8 @@
 
 use crate::analysis::pull_off_point;
 use crate::explorer::app::{App, ManualState, Player};
-use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{Focus, ManualMove};
 use crate::explorer::snapshot::{ContactSnapshot, Refusal};
-use crate::explorer::text_line::TextLine;
 use crate::scene::{format_quantity, parse_quantity};
 use crate::text::round_to;
 use std::sync::Arc;
@@ -37,11 +35,6 @@ pub fn push(app: &mut App, steps: i32, coarse: bool) {
 /// Pulls the body until nothing touches.
 pub fn separate(app: &mut App) {
     take(app, Some(ManualMove::Separate))
-}
-
-/// Asks for a target force.
-pub fn type_force(app: &mut App) {
-    app.ask(Purpose::Force, TextLine::default());
 }
 
 /// Plays or pauses the animation; at its end it begins again. Like all movements of the animation this ends manual
@@ -86,13 +79,9 @@ pub fn go_to_pull_off(app: &mut App) {
         app.set_error("there is no pull-off: the force does not fall below 0 N in the last unloading stage");
         return;
     };
-    let indentation = point.indentation;
     // Rounding must not pass the indentation: below it springs detach.
-    let done = app.done_at(leg, indentation);
-    let paused = |done| Player { leg, done, playing: false };
-    let ulps = (0..8).map(|ulps| paused(done - f64::from(ulps) * f64::EPSILON));
-    let holds = ulps.into_iter().find(|player| player.indentation(legs) >= indentation);
-    app.play = holds.unwrap_or(paused(done));
+    let done = app.done_at(leg, point.indentation) - 8.0 * f64::EPSILON;
+    app.play = Player { leg, done, playing: false };
     app.manual = None;
 }
 

@@ -6,7 +6,7 @@ use super::typed::typed;
 use crate::accuracy::Estimate;
 use crate::analysis::SteepWaves;
 use crate::contact::CurvePoint;
-use crate::explorer::action::{Content, Traffic};
+use crate::explorer::action::{EXPORTS, Traffic};
 use crate::explorer::app::{App, Message};
 use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::snapshot::ContactSnapshot;
@@ -66,7 +66,7 @@ pub fn status(app: &App, width: u16) -> Line<'static> {
             }
         }),
         (Some((prompt, purpose)), _) if !matches!(purpose, Purpose::Value | Purpose::Help) => {
-            prompted(Line::raw(label(prompt, app, width)), &prompt.line, width, theme)
+            prompted(Line::raw(label(prompt, width)), &prompt.line, width, theme)
         }
         (_, Some(Message::Error(text) | Message::Refused(text))) => {
             error(format!("! {}", text.replace('\n', " · ")))
@@ -91,7 +91,7 @@ fn prompted(label: Line<'static>, line: &TextLine, width: u16, theme: Theme) -> 
 }
 
 /// Label of a prompt; a short one where the typed text would be out of sight.
-fn label(prompt: &Prompt, app: &App, width: u16) -> String {
+fn label(prompt: &Prompt, width: u16) -> String {
     let is_narrow = width < 60;
     match &prompt.purpose {
         Purpose::Value | Purpose::Overwrite(_) | Purpose::Leave | Purpose::Help => String::new(),
@@ -101,11 +101,8 @@ fn label(prompt: &Prompt, app: &App, width: u16) -> String {
         Purpose::Save { .. } => "Save as: ".to_owned(),
         Purpose::Export if is_narrow => "Export to: ".to_owned(),
         Purpose::Export => {
-            let exports = app.exports();
-            let what = if exports == Content::MAP_EXPORTS { "Export the map" } else { "Export" };
-            let extensions: Vec<String> =
-                exports.iter().map(|(format, _)| format!(".{}", format.extension())).collect();
-            format!("{what} to ({}): ", extensions.join(" "))
+            let extensions = EXPORTS.map(|format| format!(".{}", format.extension()));
+            format!("Export to ({}): ", extensions.join(" "))
         }
         Purpose::Scene(_) => "Search: ".to_owned(),
         Purpose::Parameter { .. } => "Find: ".to_owned(),
@@ -182,7 +179,11 @@ fn facts(app: &App, is_wide: bool) -> Vec<Fact> {
     } else if let Some(snapshot) = snapshot {
         let CurvePoint { indentation, force: pressing, contact_length, .. } = snapshot.point;
         let title = if is_wide && app.manual.is_some() { "manual: " } else { "" };
-        let place = format!("{title}d {} F {}", format_quantity(indentation, "m"), force(pressing));
+        let place = format!(
+            "{title}d {} F {}",
+            format_quantity(indentation, "m"),
+            force(app.without_rounding(pressing))
+        );
         facts.push(of_state(place));
         if let Some(state) = &app.manual {
             facts.push(of_state(format!("{} changed", counted(state.changed, "spring"))));

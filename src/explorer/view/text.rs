@@ -15,26 +15,45 @@ pub type Part = Vec<Span<'static>>;
 /// A line in as many lines as needed, none of them wider than so many columns. A wider word is broken
 /// anywhere, a number neither at its thousands nor before its unit.
 pub fn wrapped(line: &Line<'_>, columns: u16) -> Vec<Line<'static>> {
-    let mut page = Page { lines: Vec::new(), line: Line::default(), left: columns, columns };
     let graphemes: Vec<_> = line.styled_graphemes(Style::default()).collect();
     let is_blank = |grapheme: &StyledGrapheme<'_>| grapheme.symbol.trim().is_empty();
+    let width =
+        |part: &[StyledGrapheme<'_>]| part.iter().map(|one| Span::raw(one.symbol).width()).sum::<usize>();
+    let room = usize::from(columns);
     let words: Vec<_> = graphemes.split_inclusive(is_blank).collect();
     let text = |word: &[StyledGrapheme<'_>]| -> String {
         word.iter().filter(|grapheme| !is_blank(grapheme)).map(|grapheme| grapheme.symbol).collect()
     };
+    let mut lines: Vec<Vec<StyledGrapheme<'_>>> = vec![Vec::new()];
     for together in words.chunk_by(|word, next| belong_together(&text(word), &text(next))) {
         let symbols = together.concat();
+        let last = lines.len() - 1;
         let blank_end = usize::from(symbols.last().is_some_and(is_blank));
-        let width: usize = symbols.iter().map(|grapheme| Span::raw(grapheme.symbol).width()).sum();
-        if width.saturating_sub(blank_end) > usize::from(page.left) {
-            page.turn();
+        if !lines[last].is_empty() && width(&lines[last]) + width(&symbols).saturating_sub(blank_end) > room {
+            lines.push(Vec::new());
         }
         for grapheme in symbols {
-            page.push(grapheme.symbol, grapheme.style);
+            let last = lines.len() - 1;
+            let (before, more) = (width(&lines[last]), width(std::slice::from_ref(&grapheme)));
+            let is_full = before + more > room;
+            if more > room || is_blank(&grapheme) && (is_full || lines[last].is_empty()) {
+                continue;
+            }
+            if is_full {
+                lines.push(Vec::new());
+            }
+            lines[if is_full { last + 1 } else { last }].push(grapheme);
         }
     }
-    page.turn();
-    page.lines
+    lines.retain(|line| !line.is_empty());
+    lines.iter().map(|line| styled(line)).collect()
+}
+
+/// A line of graphemes: one span for each style.
+fn styled(graphemes: &[StyledGrapheme<'_>]) -> Line<'static> {
+    let spans = graphemes.chunk_by(|one, next| one.style == next.style);
+    let text = |span: &[StyledGrapheme<'_>]| span.iter().map(|grapheme| grapheme.symbol).collect::<String>();
+    spans.map(|span| Span::styled(text(span), span[0].style)).collect()
 }
 
 /// A line in at most so many lines, the last with `…` in place of the rest.
@@ -42,48 +61,32 @@ pub fn wrapped_within(line: &Line<'_>, columns: u16, rows: u16) -> Vec<Line<'sta
     let mut lines = wrapped(line, columns);
     if lines.len() > usize::from(rows) {
         lines.truncate(rows.into());
-        let last = lines.pop().map(|last| clipped(last, columns));
-        lines.extend(last);
+        lines.last_mut().into_iter().for_each(|last| *last = clipped(last, columns));
     }
     lines
 }
 
 /// A line that is at most `columns` wide: whole, or cut with an `…`.
 pub fn fitted(line: Line<'static>, columns: u16) -> Line<'static> {
-    if line.width() > usize::from(columns) { clipped(line, columns) } else { line }
+    if line.width() > usize::from(columns) { clipped(&line, columns) } else { line }
 }
 
 /// A line with `…` in place of the rest: at most `columns` wide.
-fn clipped(line: Line<'static>, columns: u16) -> Line<'static> {
-    let room = usize::from(columns).saturating_sub(1);
-    let mut clipped = Line { spans: Vec::new(), ..line };
-    let mut width = 0;
-    for span in line.spans {
-        let mut kept = String::new();
-        let mut all = true;
-        for c in span.content.chars() {
-            let next = unicode_width(c);
-            if width + next > room {
-                all = false;
-                break;
-            }
-            width += next;
-            kept.push(c);
-        }
-        clipped.spans.push(Span::styled(kept, span.style));
-        if !all {
-            break;
-        }
+fn clipped(line: &Line<'static>, columns: u16) -> Line<'static> {
+    let graphemes: Vec<_> = line.styled_graphemes(Style::default()).collect();
+    let mut width = 1;
+    let kept = graphemes.iter().take_while(|grapheme| {
+        width += Span::raw(grapheme.symbol).width();
+        width <= usize::from(columns)
+    });
+    let (kept, rest) = graphemes.split_at(kept.count());
+    let blanks = kept.iter().rev().take_while(|grapheme| grapheme.symbol.trim().is_empty()).count();
+    let mut clipped = styled(&kept[..kept.len() - blanks]);
+    if columns > 0 {
+        let style = rest.first().or(kept.last()).map_or(line.style, |grapheme| grapheme.style);
+        clipped.push_span(Span::styled("…", style));
     }
-    if let Some(last) = clipped.spans.last_mut().filter(|_| columns > 0) {
-        last.content = format!("{}…", last.content.trim_end()).into();
-    }
-    clipped
-}
-
-/// Columns of a character.
-fn unicode_width(c: char) -> usize {
-    Span::raw(c.to_string()).width()
+    clipped.style(line.style)
 }
 
 /// Parts in as many lines as needed, with the text between them on a line; a part wider than the columns is
@@ -119,41 +122,6 @@ pub fn marked(text: &str, letters: &[usize], style: Style, theme: Theme) -> Part
         Span::styled(run.iter().map(|(_, character)| character).collect::<String>(), style)
     });
     spans.collect()
-}
-
-/// The lines so far, the last of them unfinished.
-struct Page {
-    lines: Vec<Line<'static>>,
-    line: Line<'static>,
-    /// Columns left on the last line.
-    left: u16,
-    columns: u16,
-}
-
-impl Page {
-    /// Begins a new line, unless this one is empty.
-    fn turn(&mut self) {
-        if !self.line.spans.is_empty() {
-            self.lines.push(std::mem::take(&mut self.line));
-        }
-        self.left = self.columns;
-    }
-
-    fn push(&mut self, symbol: &str, style: Style) {
-        let is_blank = symbol.trim().is_empty();
-        let width = Span::raw(symbol).width() as u16;
-        if width > self.columns || (is_blank && (width > self.left || self.line.spans.is_empty())) {
-            return;
-        }
-        if width > self.left {
-            self.turn();
-        }
-        self.left -= width;
-        match self.line.spans.last_mut() {
-            Some(span) if span.style == style => span.content.to_mut().push_str(symbol),
-            _ => self.line.push_span(Span::styled(symbol.to_owned(), style)),
-        }
-    }
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::levels::{COLUMNS, HURSTS, Level};
 use crate::simulation::Simulation;
 use crate::study::StudyError;
-use crate::study::cells::Cells;
+use crate::study::cells::Run;
 use crate::study::grid::Grid;
 use crate::study::plan::Plan;
 use crate::study::recorder::Recorder;
@@ -23,7 +23,7 @@ impl LiveMap {
     /// A map of a plan of [`live_plan`](super::live_plan), without cells.
     ///
     /// # Errors
-    /// [`StudyError::OutOfMemory`].
+    /// A map that is too large for the memory.
     pub fn new(plan: Plan) -> Result<Self, StudyError> {
         Ok(LiveMap { results: Results::empty(plan)?, failed: BTreeMap::new() })
     }
@@ -82,7 +82,6 @@ impl LiveMap {
     /// and keeps the records so far. A cell that cannot be computed keeps the reason.
     pub fn compute(&mut self, folder: &Path, stop: &dyn Fn() -> bool, report: &mut dyn FnMut(&LiveMap)) {
         let plan = self.results.plan().clone();
-        let cells = Cells::of(&plan);
         let mut recorder = Recorder::new(&plan, Simulation::new(folder.to_path_buf()), stop);
         let finest = self.finest();
         for level in Level::ALL.into_iter().take_while(|level| *level <= finest) {
@@ -92,16 +91,14 @@ impl LiveMap {
                     continue;
                 }
                 for line in 0..plan.lines {
-                    for run in cells.runs_of(&cells.whole_unit(row as u64, line)) {
-                        let cell = run.cells.start;
-                        let is_known = || self.failed.contains_key(&cell) || self.results.has(cell, line);
-                        if !wanted.contains(&cell) || is_known() {
+                    for &cell in &wanted {
+                        if self.failed.contains_key(&cell) || self.results.has(cell, line) {
                             continue;
                         }
                         if stop() {
                             return;
                         }
-                        match recorder.record(&run) {
+                        match recorder.record(&Run { cells: cell..cell + 1, line }) {
                             Ok(records) => self.results.set(cell * plan.lines + line, &records.concat()),
                             Err(error) if error.is_interruption() => return,
                             Err(error) => drop(self.failed.insert(cell, error.to_string())),

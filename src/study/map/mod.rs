@@ -19,4 +19,4 @@ pub use levels::{COLUMNS, HURSTS, Level, hurst, parameter_value};
 pub use live_map::LiveMap;
 pub use live_plan::{LINES, NoMap, RECORD, live_plan};
 pub use place::moved;
-pub use study_map::{StudyMap, StudyMapError};
+pub use study_map::StudyMap;

@@ -10,28 +10,6 @@ use crate::study::plan::{PRELOAD, Plan};
 use crate::study::results::Results;
 use crate::study::target::{governing, scene_with, strip};
 use std::path::{Path, PathBuf};
-use thiserror::Error;
-
-/// Reason why a folder has no maps.
-#[derive(Debug, Error)]
-pub enum StudyMapError {
-    /// The folder holds no merged study.
-    #[error(transparent)]
-    Study(#[from] StudyError),
-    /// The study has one cell.
-    #[error(
-        "{folder}: this study has neither a map nor a curve: {axes}; a curve needs an axis with two values at least"
-    )]
-    OneCell {
-        /// The folder.
-        folder: String,
-        /// Axes of the study, each with its number of values.
-        axes: String,
-    },
-    /// The scene cannot be explored.
-    #[error(transparent)]
-    Scene(#[from] SceneErrors),
-}
 
 /// Map of a finished study.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,7 +29,7 @@ impl StudyMap {
     ///
     /// # Errors
     /// The folder of no study, or of a study of one cell.
-    pub fn open(folder: &Path) -> Result<StudyMap, StudyMapError> {
+    pub fn open(folder: &Path) -> Result<StudyMap, StudyError> {
         StudyMap::of(Results::open(folder)?, folder)
     }
 
@@ -59,7 +37,7 @@ impl StudyMap {
     ///
     /// # Errors
     /// A study of one cell.
-    pub fn of(study: Results, folder: &Path) -> Result<StudyMap, StudyMapError> {
+    pub fn of(study: Results, folder: &Path) -> Result<StudyMap, StudyError> {
         let axes = &study.plan().axes;
         let free: Vec<usize> = (0..axes.len()).filter(|axis| axes[*axis].values.len() > 1).collect();
         let Some((across, up)) = across_and_up(axes, &free) else {
@@ -69,7 +47,9 @@ impl StudyMap {
             } else {
                 format!("it has {}", named.join(", "))
             };
-            return Err(StudyMapError::OneCell { folder: folder.display().to_string(), axes });
+            let reason = "this study has neither a map nor a curve";
+            let reason = format!("{reason}: {axes}; a curve needs an axis with two values at least");
+            return Err(StudyError::folder(folder, reason));
         };
         let others = (0..axes.len()).filter(|axis| *axis != across && Some(*axis) != up).collect();
         // Without a separator at its end.

@@ -161,14 +161,14 @@ fn the_map_is_exported_as_it_is_seen() {
         let mut export = |keys: &str, name: &str| {
             driver.press(keys);
             driver.press("E Ctrl+u");
-            assert!(driver.status().contains("Export the map to"), "{}", driver.status());
+            assert!(driver.status().contains("Export to"), "{}", driver.status());
             let path = folder.path().join(name);
             driver.act(Action::Paste(path.to_str().unwrap().to_owned()));
             driver.press("Enter");
             (std::fs::read_to_string(path).unwrap_or_default(), driver.status())
         };
         let (cells, _) = export("", "map.csv");
-        let rows: Vec<&str> = cells.lines().collect();
+        let rows: Vec<&str> = cells.lines().filter(|line| !line.starts_with('#')).collect();
         assert_eq!(rows.len(), 1 + COLUMNS * HURSTS);
         assert_eq!(
             rows[0],
@@ -191,11 +191,7 @@ fn the_map_is_exported_as_it_is_seen() {
         assert!(message.starts_with("exported to"), "{message}");
         assert!(std::fs::read(folder.path().join("map.png")).unwrap().starts_with(b"\x89PNG\r\n\x1a\n"));
         let (nothing, message) = export("", "map.json");
-        assert!(
-            nothing.is_empty()
-                && message.contains("unsupported file extension .json; use .csv, .svg, .png or .txt"),
-            "{message}"
-        );
+        assert!(nothing.is_empty() && message.contains("this result has no json form"), "{message}");
         // The curve, with another pane selected.
         driver.press("Esc Tab Tab E");
         assert!(driver.status().contains("Export to"), "{}", driver.status());

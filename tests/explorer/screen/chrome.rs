@@ -2,7 +2,7 @@
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
-use super::common::scenes::{punch, rough, smooth};
+use super::common::scenes::{changed, punch, rough, smooth};
 use super::{SIZES, default_scene, everywhere, mid_retraction, pressed};
 
 use asperity::explorer::keys::{Bindings, Context};
@@ -153,6 +153,18 @@ fn the_status_line_has_mechanics_or_the_work_of_the_computation() {
         driver.press("d { I");
         assert!(driver.status().contains("springs changed"), "{}", driver.status());
         assert!(driver.status().contains("released "), "{}", driver.status());
+    });
+}
+
+/// A stage to zero force ends there but for rounding.
+#[test]
+fn a_rounding_error_is_a_force_of_zero() {
+    within(30, || {
+        let mut driver =
+            Driver::start(changed(&rough(), &[("loading", "[ToForce(1e-5), ToForce(0), ToTouch]")]));
+        driver.press("> >");
+        let force = driver.app.snapshot.as_ref().unwrap().point.force;
+        assert!(force != 0.0 && driver.status().contains(" F 0 N"), "{force:e}: {}", driver.status());
     });
 }
 

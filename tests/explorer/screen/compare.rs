@@ -71,7 +71,7 @@ fn ghosts_have_letters_and_say_where_they_differ() {
         driver.select("loading");
         driver.enter("[ToForce(1.0e-5), ToIndentation(0.0)]");
         let text = driver.text();
-        assert!(text.contains("· κ 8, loading ["), "{text}");
+        assert!(text.contains("· κ 8, loading "), "{text}");
         driver.press("u");
         // The letters are in the plot too.
         driver.press("z");

@@ -6,7 +6,7 @@ use super::common::scenes::rough;
 use asperity::explorer::app::Pane;
 use asperity::explorer::demo::{Cue, Demo, ONE_SCENE, TOUR};
 use asperity::explorer::theme::{Appearance, Theme};
-use asperity::explorer::{FrameBytes, Screen, picture, picture_of};
+use asperity::explorer::{Recording, picture, picture_of};
 use asperity::scene::{Document, open, presets};
 
 /// Columns and rows of the large window, and frames in a second, for which the bytes are counted.
@@ -131,18 +131,18 @@ fn a_frame_costs_no_more_than_it_must() {
                 let document = Document::parse(preset.text, preset.name).unwrap();
                 let appearance = Appearance { theme, ..APPEARANCE };
                 let mut demo = Demo::new(document, ONE_SCENE, LARGE, appearance, WATCHED);
-                let mut screen = Screen::new(LARGE).unwrap();
+                let mut recording = Recording::new(std::io::sink(), LARGE, "").unwrap();
                 let (mut changed, mut total, mut last) = (Vec::new(), 0, 0.0);
                 let mut seen = picture_of(demo.app());
                 while let Some(seconds) = demo.advance() {
-                    let FrameBytes(bytes) = screen.draw(demo.app()).unwrap();
+                    let bytes = recording.frame(seconds, demo.app()).unwrap();
                     // The first frame is the whole screen.
                     let shown = picture_of(demo.app());
                     if seconds > 0.0 && shown != seen {
-                        changed.push(bytes.len());
+                        changed.push(bytes);
                     }
                     seen = shown;
-                    total += bytes.len();
+                    total += bytes;
                     last = seconds;
                 }
                 changed.sort_unstable();

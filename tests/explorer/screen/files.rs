@@ -35,12 +35,12 @@ fn exported(driver: &mut Driver, name: &str) -> String {
 fn the_ending_of_a_name_shows_what_is_exported() {
     within(30, || {
         for (name, content) in [
-            ("a.csv", Content::Outcome(Format::Csv)),
-            ("a.npy", Content::Outcome(Format::Npy)),
-            ("folder/b.JSON", Content::Outcome(Format::Json)),
-            ("c.d.svg", Content::Figure(Format::Svg)),
-            ("c.png", Content::Figure(Format::Png)),
-            ("e.txt", Content::Text),
+            ("a.csv", Content::Pane(Format::Csv)),
+            ("a.npy", Content::Pane(Format::Npy)),
+            ("folder/b.JSON", Content::Pane(Format::Json)),
+            ("c.d.svg", Content::Pane(Format::Svg)),
+            ("c.png", Content::Pane(Format::Png)),
+            ("e.txt", Content::Pane(Format::Text)),
         ] {
             let mut driver = pressed("");
             let effects = export(&mut driver, Path::new(name));
@@ -128,7 +128,7 @@ fn the_curve_and_the_figures_are_those_of_the_command_line() {
         let folder = tempfile::tempdir().unwrap();
         for name in ["b.csv", "b.json"] {
             export(&mut driver, &folder.path().join(name));
-            assert!(driver.status().contains("no curve yet"), "{}", driver.status());
+            assert!(driver.status().contains("nothing yet to export"), "{}", driver.status());
         }
         export(&mut driver, &folder.path().join("b.txt"));
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
@@ -209,10 +209,21 @@ fn every_pane_is_exported_as_a_figure() {
         let mut driver = super::preloads::computed_preloads(rough());
         driver.app.view.pane = Pane::Preloads;
         assert!(exported(&mut driver, "a.svg").contains("present preload"));
+        // A table is that of the pane.
+        let tables = [
+            (super::preloads::computed_preloads(rough()), Pane::Preloads, "asperity run", "preload,"),
+            (super::accuracy::measured(rough()), Pane::Accuracy, "asperity cost", "error,"),
+        ];
+        for (mut driver, pane, command, column) in tables {
+            driver.app.view.pane = pane;
+            let table = exported(&mut driver, "a.csv");
+            assert!(table.contains(command) && table.contains(column), "{pane:?}: {table}");
+        }
         let mut driver = pressed("");
         driver.app.view.pane = Pane::Spectrum;
-        assert!(export(&mut driver, Path::new("a.svg")).is_empty());
-        assert!(driver.status().contains("there is no figure to export"), "{}", driver.status());
+        export(&mut driver, Path::new("a.svg"));
+        assert!(driver.status().contains("nothing yet to export"), "{}", driver.status());
+        assert!(driver.files().is_empty());
         let folder = tempfile::tempdir().unwrap();
         driver.app.view.pane = Pane::Force;
         export(&mut driver, &folder.path().join("a.png"));

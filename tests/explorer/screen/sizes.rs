@@ -7,14 +7,13 @@ use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::crosshair::read;
 use super::preloads::computed_preloads;
-use super::{SIZES, default_scene, is_up_to_date, mid_retraction, pressed};
+use super::{SIZES, default_scene, mid_retraction, pressed};
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::app::Pane;
 use asperity::explorer::layout::{Layout, inside, is_framed};
 use asperity::explorer::theme::{Marker, Theme};
-use asperity::scene::{Effect, format_quantity, open};
+use asperity::scene::{format_quantity, open};
 use std::collections::BTreeSet;
-use std::path::Path;
 
 /// A window with room for every message.
 const WIDE: (u16, u16) = (400, 40);
@@ -170,23 +169,6 @@ fn ends_of_contact_patches_are_seen_where_a_scene_observes_them() {
 }
 
 #[test]
-fn an_effect_is_switched_off_and_on_and_its_row_stays_selected() {
-    within(60, || {
-        for size in SIZES {
-            let mut driver = pressed("");
-            driver.resize(size);
-            let before = driver.app.edit.document.text().to_owned();
-            driver.select("roughness.hurst");
-            driver.press("t");
-            assert!(!Effect::Roughness.is_on(driver.app.edit.document.scene()));
-            assert!(driver.rows().iter().any(|row| row.contains("›▾○")), "{size:?}\n{}", driver.text());
-            driver.press("t");
-            assert_eq!(driver.app.edit.document.text(), before, "{size:?}");
-        }
-    });
-}
-
-#[test]
 fn keys_of_the_footer_are_apart_from_what_the_connection_carries() {
     within(60, || {
         for size in &SIZES[..4] {
@@ -223,33 +205,6 @@ fn completion_is_offered_only_where_a_path_is_typed() {
                 let footer = driver.rows()[usize::from(area.y)].clone();
                 let offers = footer.contains("Tab complete");
                 assert!(offers == is_path || is_path && size.0 < 60, "{size:?} {keys}: {footer}");
-            }
-        }
-    });
-}
-
-#[test]
-fn another_way_to_give_the_adhesion_and_another_roughness_can_be_computed() {
-    within(60, || {
-        for size in SIZES {
-            let mut driver = pressed("");
-            driver.resize(size);
-            let work = |driver: &Driver| driver.app.governing().unwrap().work_of_adhesion.unwrap();
-            let (before, ways) = (work(&driver), driver.app.edit.document.scene().adhesion);
-            driver.select("adhesion");
-            driver.press("Right");
-            assert_ne!(driver.app.edit.document.scene().adhesion, ways, "{size:?}");
-            assert!((work(&driver) / before - 1.0).abs() < 1e-9, "{size:?}: {before} {}", work(&driver));
-            driver.select("roughness");
-            for _ in 0..3 {
-                let before = driver.app.edit.document.scene().roughness.clone();
-                driver.press("Right");
-                let is_changed = driver.app.edit.document.scene().roughness != before;
-                let status = driver.status();
-                assert!(
-                    is_up_to_date(&driver.app) && (is_changed || status.starts_with('!')),
-                    "{size:?} {status}"
-                );
             }
         }
     });
@@ -347,41 +302,6 @@ fn the_crosshair_reads_the_curve() {
 }
 
 #[test]
-fn scenes_are_saved_under_an_extension_and_kept_when_others_are_opened() {
-    within(60, || {
-        for size in SIZES {
-            let mut driver = pressed("");
-            driver.resize(size);
-            driver.press("q");
-            assert!(driver.app.finished, "{size:?}: nothing has changed");
-            let mut driver = pressed("");
-            driver.resize(size);
-            driver.select("roughness.hurst");
-            driver.press("l q");
-            assert!(!driver.app.finished && driver.status().starts_with("The scene has"), "{size:?}");
-            driver.press("Esc s Ctrl+u");
-            driver.type_text("mine");
-            assert!(driver.status().contains("mine"), "{size:?}: {}", driver.status());
-            driver.press("Enter");
-            assert!(
-                driver.files().contains_key(Path::new("mine.ron")),
-                "{size:?}: {:?}",
-                driver.files().keys()
-            );
-            driver.select("roughness.hurst");
-            driver.press("l");
-            let changed = driver.app.edit.document.text().to_owned();
-            driver.app.view.pane = Pane::Force;
-            driver.press("1");
-            assert_ne!(driver.app.edit.document.text(), changed, "{size:?}");
-            assert!(driver.status().starts_with("unsaved changes k"), "{size:?}: {}", driver.status());
-            driver.press("u");
-            assert_eq!(driver.app.edit.document.text(), changed, "{size:?}");
-        }
-    });
-}
-
-#[test]
 fn the_map_has_hurst_exponents_across_and_is_exported() {
     within(120, || {
         for size in SIZES {
@@ -470,7 +390,7 @@ fn the_wheel_zooms_at_the_pointer_and_strong_contrast_keeps_profile_and_surface_
 #[test]
 fn a_digit_on_a_choice_says_how_choices_are_changed() {
     within(60, || {
-        for size in SIZES {
+        for size in [SIZES[0], SIZES[4]] {
             let switch = |driver: &Driver| {
                 let switches = driver.app.edit.parameters.iter().find(|one| one.path.starts_with("observe."));
                 switches.map(|one| (one.path.clone(), format!("{} is a switch: t changes it", one.name())))

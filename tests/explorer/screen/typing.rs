@@ -3,14 +3,12 @@
 use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough};
-use super::{SIZES, generation, is_up_to_date, mid_retraction, pressed, reversed, row_with};
+use super::{SIZES, is_up_to_date, mid_retraction, pressed, reversed};
 use asperity::explorer::action::Action;
 use asperity::explorer::keys::Context;
 use asperity::explorer::layout::Layout;
-use asperity::explorer::theme::Theme;
 use asperity::explorer::update::{Effect, update};
 use asperity::scene::Move;
-use ratatui::buffer::Cell;
 
 #[test]
 fn values_are_typed_with_prefix_and_unit() {
@@ -157,36 +155,6 @@ fn the_cursor_of_what_is_typed_is_on_the_screen() {
             let from = usize::from(status.y) * usize::from(status.width);
             let status = &screen.content[from..from + usize::from(status.width)];
             assert_eq!(reversed(status).chars().count(), 1, "{size:?}\n{}", driver.text());
-        }
-    });
-}
-
-#[test]
-fn a_value_that_is_refused_says_so_beside_its_field_and_leaves_the_scene() {
-    within(30, || {
-        for theme in [Theme::Plain, Theme::Neutral] {
-            let mut driver = pressed("");
-            driver.app.view.appearance.theme = theme;
-            let before = driver.app.edit.document.clone();
-            let of_before = generation(&driver);
-            driver.select("roughness.hurst");
-            driver.enter("1.5");
-            assert_eq!(driver.app.edit.document, before);
-            assert_eq!(generation(&driver), of_before);
-            assert!(is_up_to_date(&driver.app), "the curve is kept");
-            let screen = driver.screen();
-            let row = row_with(&screen, "Hurst exponent");
-            let text: String = row.iter().map(Cell::symbol).collect();
-            assert!(text.contains('!') && text.contains("1.5"), "{text}");
-            assert!(driver.text().contains("above 0 and below 1"), "{}", driver.text());
-            // The error disappears with the value, or with its correction.
-            driver.press("Esc");
-            assert!(!driver.text().contains('!'), "{}", driver.text());
-            driver.select("roughness.hurst");
-            driver.enter("1.5");
-            driver.enter("0.6");
-            assert!(!driver.text().contains('!'), "{}", driver.text());
-            assert!(driver.text().contains("0.6"));
         }
     });
 }

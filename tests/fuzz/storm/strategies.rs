@@ -1,9 +1,7 @@
 //! Strategies for random scenes, which draw every field of the table of fields.
-//!
-//! The tests of the engine and those of random input include the file.
 
-use super::{
-    DEFAULT, Document, FIELDS, Field, LEG_FORCE, LEG_INDENTATION, Range, Scene, find, is_control, ron_float,
+use asperity::scene::{
+    DEFAULT, Document, FIELDS, Field, LEG_FORCE, LEG_INDENTATION, Range, find, is_control, ron_float,
     ron_string,
 };
 use proptest::prelude::*;
@@ -235,9 +233,4 @@ fn usual(field: &Field) -> Option<f64> {
         let scene = find(DEFAULT)?;
         number(Document::parse(scene.text, scene.name).ok()?.value(field.path)?)
     })
-}
-
-/// Scenes without a violation.
-pub fn sound_scenes() -> impl Strategy<Value = Scene> {
-    Drawn::default().documents().prop_map(|document| document.scene().clone())
 }
