@@ -4,7 +4,6 @@ mod boundary;
 mod merge;
 mod plans;
 mod plot;
-mod progress;
 mod run;
 mod status;
 mod submit;

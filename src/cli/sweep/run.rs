@@ -1,11 +1,11 @@
 //! `asperity sweep PLAN`: computation of a study, or of its missing records.
 
 use super::merge::write_merged;
-use super::progress::StudyProgress;
+use crate::cli::progress::ProgressLine;
 use crate::cli::scene::threads;
 use crate::cli::{CliError, Overrides};
 use crate::study::{
-    Changes, Folder, Memory, Options, Plan, Shard, Status, StudyError, merge, run as compute,
+    Changes, Folder, Memory, Options, Plan, Progress, Shard, Status, StudyError, merge, run as compute,
 };
 use crate::text::memory_size;
 use clap::Args;
@@ -13,6 +13,10 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+/// Time between two lines of progress without a terminal.
+const BETWEEN: Duration = Duration::from_secs(10);
 
 /// Arguments of a run.
 #[derive(Args, Debug)]
@@ -101,13 +105,18 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
     let Some(output) = &arguments.output else { return Ok(()) };
     let folder = Folder::create(output, &plan)?;
     let stop = stop_by_signal()?;
-    let mut shown = StudyProgress::default();
+    let (mut line, mut last) = (ProgressLine::default(), None::<Instant>);
     let options = Options { jobs: jobs as usize, shard: arguments.shard.unwrap_or(Shard::WHOLE) };
     let signal = || stop.load(Ordering::SeqCst);
     let ended = compute(&folder, options, &|| signal() != 0, &mut |progress| {
-        shown.show(progress);
+        let text = text_of(progress);
+        let is_due = progress.is_complete() || last.is_none_or(|last| last.elapsed() >= BETWEEN);
+        if is_due {
+            last = Some(Instant::now());
+        }
+        line.show(&text, is_due.then_some(&text));
     });
-    shown.end();
+    line.keep();
     let ended = ended?;
     if !ended.is_complete() {
         let (done, total) = (ended.done, ended.total);
@@ -125,6 +134,34 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
         }
     }
     write_merged(&folder, &merge(&folder, false)?, stdout)
+}
+
+/// Progress as a line of text.
+fn text_of(progress: &Progress) -> String {
+    let Progress { done, before, total, elapsed: _ } = *progress;
+    let share = if total == 0 { 100.0 } else { 100.0 * done as f64 / total as f64 };
+    let mut text = format!("{done} of {total} records, {share:.1} %");
+    if let Some(rate) = progress.rate().filter(|_| done > before) {
+        let decimals = if rate >= 100.0 { 0 } else { 2 };
+        text.push_str(&format!(", {rate:.decimals$} per second"));
+        if let Some(left) = progress.left().filter(|_| done < total) {
+            text.push_str(&format!(", {} left", duration(left)));
+        }
+    } else if before > 0 {
+        text.push_str(" were there before");
+    }
+    text
+}
+
+fn duration(time: Duration) -> String {
+    let seconds = time.as_secs();
+    let (hours, minutes) = (seconds / 3600, seconds / 60 % 60);
+    match (hours, minutes) {
+        (0, 0) => format!("{seconds} s"),
+        (0, _) => format!("{minutes} min {} s", seconds % 60),
+        (48.., _) => format!("{} d {} h", hours / 24, hours % 24),
+        _ => format!("{hours} h {minutes} min"),
+    }
 }
 
 /// Number of the first signal to end, 0 until then; a second signal ends the process at once.
@@ -156,5 +193,18 @@ mod tests {
         for wrong in ["", "G", "-1G", "1X", "1GG", "nan", "0", "1e3M"] {
             assert!(size(wrong).is_err(), "{wrong}");
         }
+    }
+
+    #[test]
+    fn progress_is_one_line() {
+        let at = |done, before, seconds| {
+            let elapsed = Duration::from_secs(seconds);
+            text_of(&Progress { done, before, total: 4000, elapsed })
+        };
+        assert_eq!(at(0, 0, 0), "0 of 4000 records, 0.0 %");
+        assert_eq!(at(1000, 1000, 0), "1000 of 4000 records, 25.0 % were there before");
+        assert_eq!(at(2000, 1000, 10), "2000 of 4000 records, 50.0 %, 100 per second, 20 s left");
+        assert_eq!(at(1001, 1000, 10), "1001 of 4000 records, 25.0 %, 0.10 per second, 8 h 19 min left");
+        assert_eq!(at(4000, 0, 10), "4000 of 4000 records, 100.0 %, 400 per second");
     }
 }
