@@ -7,37 +7,57 @@ use super::quantity::Quantity;
 use super::results::Results;
 use crate::draw::AxisScale;
 use crate::scene::parse_quantity;
-use thiserror::Error;
 
 /// Most values of a second axis that makes curves of a section rather than rows of a map.
 const MOST_CURVES: usize = 5;
 /// Most values named in a message.
 const MOST_NAMED: usize = 12;
 
-/// Selection by the user.
-#[derive(Clone, Debug, PartialEq)]
+/// Selection by the user; an option of `asperity sweep plot` for each field.
+#[cfg_attr(feature = "tui", derive(clap::Args))]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
-    /// Names of quantities; if empty, F_a(0) and the adhesion coefficient if they were recorded, or F_a(0) by both
-    /// protocols, else the first recorded one.
+    /// Quantity of each panel; default: F_a(0) and F_a/F_n
+    ///
+    /// Where no F_a/F_n was recorded: F_a(0) by both protocols; where neither was: the first one.
+    #[cfg_attr(feature = "tui", arg(long = "quantity", value_name = "NAME"))]
     pub quantities: Vec<String>,
-    /// Path of the axis across.
+    /// Axis across
+    #[cfg_attr(feature = "tui", arg(long = "x", value_name = "AXIS"))]
     pub across: Option<String>,
-    /// Path of the axis up.
+    /// Axis up
+    #[cfg_attr(feature = "tui", arg(long = "y", value_name = "AXIS"))]
     pub up: Option<String>,
-    /// Fixed axes, with their values.
+    /// Fix an axis at one of its values, as often as needed
+    #[cfg_attr(feature = "tui", arg(long, value_name = "AXIS=VALUE", value_parser = axis_and_value))]
     pub at: Vec<(String, String)>,
-    /// Scale of the quantities; by default, a map or several curves are logarithmic if a linear scale
-    /// would show little but its lowest end.
+    /// Scale of quantities
+    ///
+    /// Default: by the range of the values; small values have a second, logarithmic chart.
+    #[cfg_attr(feature = "tui", arg(long, value_parser = scale_names()))]
     pub scale: Option<AxisScale>,
 }
 
-/// Reason why the figure cannot be made.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("{0}")]
-pub struct FigureError(pub String);
+/// Parses an axis and its value.
+#[cfg(feature = "tui")]
+fn axis_and_value(text: &str) -> Result<(String, String), String> {
+    let parts = text.split_once('=').map(|(axis, value)| (axis.trim(), value.trim()));
+    let parts = parts.filter(|(axis, value)| !axis.is_empty() && !value.is_empty());
+    let owned = parts.map(|(axis, value)| (axis.to_owned(), value.to_owned()));
+    owned.ok_or_else(|| "allowed: AXIS=VALUE, such as roughness.hurst=0.3".into())
+}
 
-fn no_quantity(name: &str, allowed: &str) -> FigureError {
-    FigureError(format!("--quantity {name}: this study has no such quantity; allowed: {allowed}"))
+#[cfg(feature = "tui")]
+fn scale_names() -> impl clap::builder::TypedValueParser<Value = AxisScale> {
+    use clap::builder::{PossibleValuesParser, TypedValueParser};
+    PossibleValuesParser::new(["linear", "logarithmic"]).map(|name| match name.as_str() {
+        "linear" => AxisScale::Linear,
+        _ => AxisScale::Logarithmic,
+    })
+}
+
+fn no_quantity(name: &str, allowed: &str) -> String {
+    format!("--quantity {name}: this study has no such quantity; allowed: {allowed}")
 }
 
 /// A selected part of a study.
@@ -61,7 +81,7 @@ impl Selection {
     ///
     /// # Errors
     /// Unknown quantity, axis or value, with those that the study has; more than two free axes.
-    pub fn of(&self, study: &Results) -> Result<Selected, FigureError> {
+    pub fn of(&self, study: &Results) -> Result<Selected, String> {
         let plan = study.plan();
         let quantities = self.quantities(plan)?;
         let (named, at) = self.axes(&plan.axes)?;
@@ -99,7 +119,7 @@ impl Selection {
         Ok(Selected { fixed: fixed.collect(), grid, quantities, curves })
     }
 
-    fn quantities(&self, plan: &Plan) -> Result<Vec<Quantity>, FigureError> {
+    fn quantities(&self, plan: &Plan) -> Result<Vec<Quantity>, String> {
         let drawn = |quantity: &Quantity| *quantity != Quantity::Regime;
         let allowed = || {
             let names = plan.record.iter().filter(|one| drawn(one)).map(|one| one.name());
@@ -125,14 +145,12 @@ impl Selection {
     }
 
     /// The named axes, which exist and are named once; an axis with one value is fixed.
-    fn axes(&self, axes: &[Axis]) -> Result<Chosen, FigureError> {
+    fn axes(&self, axes: &[Axis]) -> Result<Chosen, String> {
         let mut named: Vec<(usize, &str)> = Vec::new();
         let mut name = |path: &str, option| {
             let index = find(axes, path, option)?;
             if let Some((_, other)) = named.iter().find(|(known, _)| *known == index) {
-                return Err(FigureError(format!(
-                    "{path}: named by {other} and by {option}; allowed: one of them"
-                )));
+                return Err(format!("{path}: named by {other} and by {option}; allowed: one of them"));
             }
             named.push((index, option));
             Ok(index)
@@ -149,7 +167,7 @@ impl Selection {
                 |there: &f64| wanted.is_some_and(|wanted| (there - wanted).abs() <= 1e-9 * there.abs());
             let none = || {
                 let allowed = values_of(axis);
-                FigureError(format!("--at {path}={value}: the study has no such value; allowed: {allowed}"))
+                format!("--at {path}={value}: the study has no such value; allowed: {allowed}")
             };
             fixed[index] = Some(axis.values.iter().position(same).ok_or_else(none)?);
         }
@@ -162,7 +180,7 @@ impl Selection {
         axes: &[Axis],
         [across, up]: [Option<usize>; 2],
         fixed: &[Option<usize>],
-    ) -> Result<(usize, Option<usize>), FigureError> {
+    ) -> Result<(usize, Option<usize>), String> {
         let is_named = |index: &usize| Some(*index) == across || Some(*index) == up;
         let free: Vec<usize> =
             (0..axes.len()).filter(|index| fixed[*index].is_none() || is_named(index)).collect();
@@ -176,9 +194,9 @@ impl Selection {
             (None, None, free @ ([] | [_] | [_, _])) => {
                 let fixed = if self.at.is_empty() { "" } else { " left by --at" };
                 across_and_up(axes, free).ok_or_else(|| {
-                    FigureError(format!(
+                    format!(
                         "no axis is free: the study has one cell{fixed}; a curve needs an axis with two values at least"
-                    ))
+                    )
                 })?
             }
             _ => {
@@ -187,12 +205,12 @@ impl Selection {
                 let example = shortest.map_or_else(String::new, example);
                 let said = |index: &usize| format!("{} ({})", axes[*index].path, values_of(&axes[*index]));
                 let all: Vec<String> = free.iter().map(said).collect();
-                return Err(FigureError(format!(
+                return Err(format!(
                     "{} axes are free: {}; a figure has two. Fix {}, such as {example}",
                     free.len(),
                     all.join(", "),
                     if free.len() == 3 { "one of them" } else { "the others" }
-                )));
+                ));
             }
         })
     }
@@ -210,11 +228,11 @@ fn section_layer(grid: &Grid, quantity: Quantity, scale: Option<AxisScale>) -> L
     Layer { quantity, scale: scale.unwrap_or_else(usual), range: None }
 }
 
-fn find(axes: &[Axis], path: &str, option: &'static str) -> Result<usize, FigureError> {
+fn find(axes: &[Axis], path: &str, option: &'static str) -> Result<usize, String> {
     axes.iter().position(|axis| axis.path == path).ok_or_else(|| {
         let all: Vec<_> = axes.iter().map(|axis| axis.path.as_str()).collect();
         let allowed = if all.is_empty() { "none, it has one cell".into() } else { all.join(", ") };
-        FigureError(format!("{option} {path}: this study has no such axis; allowed: {allowed}"))
+        format!("{option} {path}: this study has no such axis; allowed: {allowed}")
     })
 }
 

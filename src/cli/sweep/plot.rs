@@ -1,11 +1,9 @@
 //! `asperity sweep plot`: figures of a merged study.
 
 use crate::cli::{CliError, OutputArguments};
-use crate::draw::AxisScale;
 use crate::export::{Format, study_curves, study_figure, study_map};
 use crate::study::{Results, Selected, Selection};
 use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -28,25 +26,8 @@ pub struct PlotArguments {
     /// Folder of the study
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
-    /// Quantity of each panel; default: F_a(0) and F_a/F_n
-    ///
-    /// Where no F_a/F_n was recorded: F_a(0) by both protocols; where neither was: the first one.
-    #[arg(long = "quantity", value_name = "NAME")]
-    pub quantities: Vec<String>,
-    /// Axis across
-    #[arg(long = "x", value_name = "AXIS")]
-    pub across: Option<String>,
-    /// Axis up
-    #[arg(long = "y", value_name = "AXIS")]
-    pub up: Option<String>,
-    /// Fix an axis at one of its values, as often as needed
-    #[arg(long, value_name = "AXIS=VALUE", value_parser = fixed)]
-    pub at: Vec<(String, String)>,
-    /// Scale of quantities
-    ///
-    /// Default: by the range of the values; small values have a second, logarithmic chart.
-    #[arg(long, value_parser = PossibleValuesParser::new(["linear", "logarithmic"]).map(scale))]
-    pub scale: Option<AxisScale>,
+    #[command(flatten)]
+    pub selection: Selection,
     /// Text instead of SVG; the default without FILE
     #[arg(long)]
     pub text: bool,
@@ -57,17 +38,6 @@ pub struct PlotArguments {
 /// Formats of a figure.
 const FORMATS: &[Format] = &[Format::Svg, Format::Png, Format::Text];
 
-fn scale(name: String) -> AxisScale {
-    if name == "linear" { AxisScale::Linear } else { AxisScale::Logarithmic }
-}
-
-fn fixed(text: &str) -> Result<(String, String), String> {
-    let parts = text.split_once('=').map(|(axis, value)| (axis.trim(), value.trim()));
-    let parts = parts.filter(|(axis, value)| !axis.is_empty() && !value.is_empty());
-    let owned = parts.map(|(axis, value)| (axis.to_owned(), value.to_owned()));
-    owned.ok_or_else(|| "allowed: AXIS=VALUE, such as roughness.hurst=0.3".into())
-}
-
 /// Draws a study.
 pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     // `-o -` writes an SVG into a pipe.
@@ -75,16 +45,10 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
     let usual = if is_text { Format::Text } else { Format::Svg };
     let format = arguments.output.format(arguments.text.then_some(Format::Text), FORMATS, usual)?;
     let study = Results::open(&arguments.folder)?;
-    let selection = Selection {
-        quantities: arguments.quantities.clone(),
-        across: arguments.across.clone(),
-        up: arguments.up.clone(),
-        at: arguments.at.clone(),
-        scale: arguments.scale,
-    };
-    let Selected { grid, quantities, fixed, curves } = selection.of(&study)?;
+    let selected = arguments.selection.of(&study).map_err(CliError::message)?;
+    let Selected { grid, quantities, fixed, curves } = selected;
     // By request there is one scale alone.
-    let scales = if arguments.scale.is_some() { 1 } else { 2 };
+    let scales = if arguments.selection.scale.is_some() { 1 } else { 2 };
     let charts = |quantity| match study_map(&grid, quantity, false).filter(|_| !curves) {
         Some(map) => vec![map],
         None => study_curves(&grid, quantity).into_iter().take(scales).collect(),

@@ -1,15 +1,20 @@
-//! `asperity sweep submit`: a study as an array of jobs of a Slurm cluster.
+//! `asperity sweep submit`: a study as an array of jobs of a Slurm cluster, one task for each shard.
+//!
+//! Slurm starts a task at least once: a task whose node is lost is started again, while the lost one may still be
+//! running. That does no harm, as each attempt writes a file of its own and the merge counts a cell once. Slurm
+//! is slow at restarts, so the script restarts a killed program at once, which continues where its results end. The task
+//! that completes the study merges it.
 
 use super::run::size;
 use crate::cli::{CliError, Overrides};
 use crate::scene::quoted;
-use crate::study::slurm::Submission;
 use crate::study::{Changes, Folder, Plan, StudyError};
-use crate::text::printable_lines;
+use crate::text::{is_control, path_name, printable_lines};
 use clap::Args;
 use std::ffi::OsString;
-use std::io::Write;
-use std::path::PathBuf;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -64,21 +69,86 @@ pub struct SubmitArguments {
 pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let changes = Changes { set: arguments.overrides.set.clone(), lines: arguments.lines };
     let plan = Plan::open(&arguments.plan, &changes).map_err(StudyError::from)?;
-    let submission = Submission {
-        program: std::env::current_exe()?,
-        folder: std::path::absolute(&arguments.output)?,
-        shards: arguments.shards,
-        at_once: arguments.at_once,
-        retries: arguments.retries,
-        memory: arguments.memory,
-    };
-    let script = submission.script().map_err(CliError::message)?;
+    let script = script(arguments, &std::env::current_exe()?, &std::path::absolute(&arguments.output)?)?;
     if arguments.dry_run {
         return Ok(stdout.write_all(script.as_bytes())?);
     }
     let folder = Folder::create(&arguments.output, &plan)?;
-    let answer = submission.submit(&arguments.options).map_err(CliError::message)?;
+    let answer = answer_of_sbatch(&script, &arguments.options).map_err(CliError::message)?;
     let path = quoted(folder.path());
     writeln!(stdout, "{}\nasperity sweep status {path} shows the progress", printable_lines(answer.trim()))?;
     Ok(())
+}
+
+/// The script of the array, with absolute paths on its nodes. Its directives are defaults: variables `SBATCH_…` and
+/// options of sbatch override them.
+fn script(arguments: &SubmitArguments, program: &Path, folder: &Path) -> Result<String, CliError> {
+    // Slurm ends directives at a backslash and reads double quotes.
+    let allowed = "allowed: UTF-8 without backslashes, double quotes and control characters";
+    let text_of = |path: &Path| {
+        let text = path.to_str().filter(|text| !text.contains(|c| c == '\\' || c == '"' || is_control(c)));
+        text.map(str::to_owned).ok_or_else(|| {
+            let refused = format!("a script of Slurm cannot contain this path; {allowed}");
+            CliError::named(path_name(path), refused)
+        })
+    };
+    let (program, folder) = (text_of(program)?, text_of(folder)?);
+    let limit = arguments.at_once.map_or_else(String::new, |tasks| format!("%{tasks}"));
+    let memory = arguments.memory.map_or_else(String::new, |bytes| format!(" --memory {bytes}"));
+    Ok(format!(
+        r#"#!/bin/sh
+#SBATCH --job-name=asperity
+#SBATCH --array=1-{shards}{limit}
+#SBATCH --output="{log}/slurm-%A_%a.log"
+#SBATCH --open-mode=append
+#SBATCH --requeue
+program={program}
+folder={folder}
+retry=0
+while :; do
+    "$program" sweep "$folder/plan.ron" -o "$folder" --shard "$SLURM_ARRAY_TASK_ID/{shards}" \
+        --jobs "${{SLURM_CPUS_PER_TASK:-${{SLURM_CPUS_ON_NODE:-1}}}}"{memory}
+    status=$?
+    # Statuses above 128 are signals; after hangup, interrupt and termination the task ends.
+    case $status in 129 | 130 | 143) exit $status ;; esac
+    [ $status -gt 128 ] && [ $retry -lt {retries} ] || exit $status
+    retry=$((retry + 1))
+    echo "killed by signal $((status - 128)): retry $retry of {retries}" >&2
+done
+"#,
+        log = folder.replace('%', "%%"),
+        program = quoted(&program),
+        folder = quoted(&folder),
+        shards = arguments.shards,
+        retries = arguments.retries,
+    ))
+}
+
+/// Submits a script with further options of sbatch; returns the answer of sbatch, or the reason of a refusal.
+fn answer_of_sbatch(script: &str, options: &[OsString]) -> Result<String, String> {
+    let not_run = |error: io::Error| {
+        match error.kind() {
+        io::ErrorKind::NotFound => {
+            "sbatch was not found; run this command on a login node of a Slurm cluster, or see asperity sweep submit \
+             --help for hosts without a scheduler"
+                .to_owned()
+        }
+        _ => format!("sbatch could not be run: {error}"),
+    }
+    };
+    let mut command = Command::new("sbatch");
+    command.args(options).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut sbatch = command.spawn().map_err(not_run)?;
+    if let Some(mut stdin) = sbatch.stdin.take() {
+        // sbatch may refuse its options before it reads the script.
+        let _ = stdin.write_all(script.as_bytes());
+    }
+    let output = sbatch.wait_with_output().map_err(not_run)?;
+    let [answer, message] =
+        [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
+    if output.status.success() {
+        return Ok(message + &answer);
+    }
+    let reason = if message.trim().is_empty() { "no error message" } else { message.trim() };
+    Err(format!("sbatch failed ({}): {reason}", output.status))
 }
