@@ -4,7 +4,7 @@ use super::output::{Origin, TABLES, format_of};
 use super::preloads::parse_range;
 use super::scene::simulation_of;
 use super::{CliError, OutputArguments, SceneArguments};
-use crate::export::{Format, ReversalReport};
+use crate::export::{Format, ReversalReport, SMOOTHING};
 use crate::simulation::{RunError, TURNING_POINTS};
 use crate::study::{Axis, Results};
 use clap::Args;
@@ -24,8 +24,7 @@ const MOST_SMOOTHING: i64 = 16;
 /// Most upper, and most lower, indentations of the minor loops.
 const MOST_LEVELS: i64 = 64;
 
-/// Default steps of the fit, and ends of minor loops.
-const SMOOTHING: u8 = 3;
+/// Default number of ends of minor loops.
 const LOOPS: u8 = 12;
 
 /// Arguments of `reversals`.
@@ -55,7 +54,7 @@ pub struct ReversalOptions {
     #[arg(long, value_name = "FROM..TO", value_parser = forces)]
     pub preloads: Option<(f64, f64)>,
     /// Steps on either side of the quadratic fit of the density
-    #[arg(long, value_name = "STEPS", default_value_t = SMOOTHING, value_parser = clap::value_parser!(u8).range(1..=MOST_SMOOTHING))]
+    #[arg(long, value_name = "STEPS", default_value_t = SMOOTHING as u8, value_parser = clap::value_parser!(u8).range(1..=MOST_SMOOTHING))]
     pub smoothing: u8,
     /// Upper, and lower, ends of minor loops; 0: none
     #[arg(long, value_name = "LEVELS", default_value_t = LOOPS, value_parser = clap::value_parser!(u8).range(0..=MOST_LEVELS))]

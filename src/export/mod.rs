@@ -34,7 +34,7 @@ pub(crate) use loop_chart::{ForceLoop, LoopQuantities, LoopUnits, force_figure, 
 pub(crate) use preloads::{PreloadReport, preload_axes, preload_layers};
 pub(crate) use provenance::{check_measured_files, files_provenance, named_from};
 pub(crate) use report::check_extension;
-pub(crate) use reversals::ReversalReport;
+pub(crate) use reversals::{ReversalReport, SMOOTHING, density_chart, everett_chart};
 pub(crate) use scene_figure::ContactSets;
 pub(crate) use spectrum_figure::{Spectra, SpectrumPoint};
 pub(crate) use study_figure::{study_curves, study_figure, study_map};

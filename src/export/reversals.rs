@@ -15,6 +15,9 @@ const MOST_ROWS: usize = 16;
 /// Most cells of a map on either axis of a figure.
 const MOST_CELLS: usize = 128;
 
+/// Default number of steps on either side over which the density is fitted.
+pub const SMOOTHING: usize = 3;
+
 /// Reversals of a scene, their minor loops, and the smoothing of the density.
 #[derive(Clone, Copy, Debug)]
 pub struct ReversalReport<'a> {
@@ -110,8 +113,6 @@ impl Report for ReversalReport<'_> {
             vec![Label::plain(&format!("density: quadratic fit, {smoothing} steps on either side"))];
         notes.extend(loops.map(|loops| Label::plain(&format!("incongruent: {}", congruency(loops)))));
         let forces = preloads.map_or_else(Vec::new, |results| results.adhesion_forces(0));
-        let everett = |turn, point| map.everett(turn, point);
-        let density = |turn, point| map.density(turn, point, smoothing);
         Some(Figure {
             title: self.title.to_owned(),
             notes,
@@ -120,8 +121,8 @@ impl Report for ReversalReport<'_> {
                     heading: Label::quantity("adhesion force", "F_a"),
                     ..preload_axes(preload_layers(&forces, &[]))
                 },
-                map_chart(map, "Everett function", ("E", "N"), Shades::Sequential, &everett),
-                map_chart(map, "FORC density", ("ρ", "N/m²"), Shades::Diverging, &density),
+                everett_chart(map),
+                density_chart(map, smoothing),
             ],
             size: Figure::SMALL,
         })
@@ -153,6 +154,18 @@ fn points(map: &ReversalMap, smoothing: usize) -> Table<'_> {
         .real("everett", |&(turn, point)| map.everett(turn, point))
         .real("density", move |&(turn, point)| map.density(turn, point, smoothing))
         .done()
+}
+
+/// Returns the chart of the Everett function, N, over indentation and turning point.
+pub fn everett_chart(map: &ReversalMap) -> Chart {
+    let everett = |turn, point| map.everett(turn, point);
+    map_chart(map, "Everett function", ("E", "N"), Shades::Sequential, &everett)
+}
+
+/// Returns the chart of the density, N/m², fitted over so many steps on either side.
+pub fn density_chart(map: &ReversalMap, smoothing: usize) -> Chart {
+    let density = |turn, point| map.density(turn, point, smoothing);
+    map_chart(map, "FORC density", ("ρ", "N/m²"), Shades::Diverging, &density)
 }
 
 fn map_chart(

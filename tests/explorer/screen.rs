@@ -21,6 +21,7 @@ mod panes;
 mod parameters;
 mod play;
 pub mod preloads;
+mod reversals;
 mod saving;
 mod sizes;
 mod spectrum;

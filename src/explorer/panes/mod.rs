@@ -11,6 +11,7 @@ mod parameters;
 mod preload_curve;
 mod preloads;
 mod profile;
+mod reversals;
 mod scene_spectra;
 mod section;
 mod spectrum;
@@ -52,6 +53,10 @@ pub enum Pane {
     Spectrum,
     /// Adhesion against preload, in place of profile and close-up.
     Preloads,
+    /// Everett function of first-order reversal curves, in place of profile and close-up.
+    Everett,
+    /// Density of first-order reversal curves, in place of profile and close-up.
+    Density,
     /// The map over κ and H, in place of profile and close-up.
     Chart,
     /// The list of parameters.
@@ -116,7 +121,7 @@ const EXPORTED: Size = Size { width: 120, height: 40 };
 
 impl Pane {
     /// All panes, in the order of the help.
-    pub const ALL: [Pane; 10] = [
+    pub const ALL: [Pane; 12] = [
         Pane::Force,
         Pane::Profile,
         Pane::CloseUp,
@@ -125,6 +130,8 @@ impl Pane {
         Pane::Accuracy,
         Pane::Spectrum,
         Pane::Preloads,
+        Pane::Everett,
+        Pane::Density,
         Pane::Chart,
         Pane::Parameters,
     ];
@@ -141,6 +148,8 @@ impl Pane {
             Pane::Accuracy => &accuracy::ROW,
             Pane::Spectrum => &spectrum::ROW,
             Pane::Preloads => &preloads::ROW,
+            Pane::Everett => &reversals::EVERETT,
+            Pane::Density => &reversals::DENSITY,
             Pane::Chart => &map::ROW,
             Pane::Parameters => &parameters::ROW,
         }

@@ -213,6 +213,7 @@ fn every_pane_is_exported_as_a_figure() {
         let tables = [
             (super::preloads::computed_preloads(rough()), Pane::Preloads, "asperity run", "preload,"),
             (super::accuracy::measured(rough()), Pane::Accuracy, "asperity cost", "error,"),
+            (super::reversals::reversed(rough()), Pane::Density, "asperity reversals", "everett,density"),
         ];
         for (mut driver, pane, command, column) in tables {
             driver.app.view.pane = pane;

@@ -5,6 +5,7 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{one_spring, punch, rough, smooth, without_adhesion};
 use super::preloads::computed_preloads;
+use super::reversals::reversed;
 use super::{SIZES, accuracy, chart, default_scene, keep, mid_retraction, pressed};
 use asperity::contact::ContactError;
 use asperity::explorer::picture;
@@ -54,6 +55,7 @@ fn each_pane() {
             sphere("& Tab Tab Tab z"),
             with(mid_retraction(rough()), "Q z"),
             with(computed_preloads(rough()), "z *"),
+            with(reversed(rough()), "z"),
             with(accuracy::measured(rough()), "z"),
             with(chart::charted(rough()), "z"),
         ] {

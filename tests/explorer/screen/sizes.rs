@@ -216,6 +216,7 @@ fn zoomed(pane: Pane, size: (u16, u16)) -> Driver {
         Pane::Chart => charted(rough()),
         Pane::Accuracy => measured(rough()),
         Pane::Preloads => computed_preloads(rough()),
+        Pane::Everett | Pane::Density => super::reversals::reversed(rough()),
         Pane::Lengths => pressed("D"),
         Pane::Spectrum => pressed("Q"),
         Pane::Beside => pressed("c & Tab Tab"),
@@ -240,6 +241,8 @@ fn axes_have_numbers_quantities_and_units_in_every_pane() {
                 (Pane::Lengths, "δx (", "○ n"),
                 (Pane::Spectrum, "q (", "C ("),
                 (Pane::Preloads, "F_n (", "F_a ("),
+                (Pane::Everett, "d (", "d_r ("),
+                (Pane::Density, "d (", "d_r ("),
                 (Pane::Accuracy, "t (", "error"),
                 (Pane::Chart, " H", "κ"),
             ] {

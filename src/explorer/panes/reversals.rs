@@ -1,0 +1,83 @@
+//! First-order reversal curves of the loading: the Everett function, and the density, over indentation and turning point.
+
+use super::{Exported, PaneRow};
+use crate::analysis::ReversalMap;
+use crate::draw::{Chart, Colours, key};
+use crate::explorer::app::App;
+use crate::explorer::panel::Panel;
+use crate::explorer::snapshot::SolvedScene;
+use crate::explorer::studies::Study;
+use crate::explorer::theme::Meaning;
+use crate::explorer::view::text::wrapped;
+use crate::export::{ReversalReport, SMOOTHING, density_chart, everett_chart};
+use crate::scene::format_rounded;
+use ratatui::layout::Size;
+use ratatui::text::{Line, Span as Text};
+use std::sync::Arc;
+
+/// Turning points of a map.
+const TURNS: usize = 64;
+
+/// Row of the pane with the Everett function.
+pub static EVERETT: PaneRow = PaneRow {
+    panel: |app, size| {
+        panel(app, size, "Everett function E, half of the fall since the turning point", everett_chart)
+    },
+    report,
+    studies,
+    help: &[(
+        "Everett",
+        "O: Everett function E = ½ (F(d_r) − F) of first-order reversal curves over the indentation d and the turning point \
+         d_r",
+    )],
+    ..PaneRow::EMPTY
+};
+
+/// Row of the pane with the density.
+pub static DENSITY: PaneRow = PaneRow {
+    panel: |app, size| panel(app, size, "FORC density ρ", |map| density_chart(map, SMOOTHING)),
+    report,
+    studies,
+    help: &[("Density", "O again: the density ρ = −½ ∂²F/∂d_r∂d of the same curves")],
+    ..PaneRow::EMPTY
+};
+
+fn studies(_: &App, computed: &Arc<SolvedScene>) -> Vec<Study> {
+    let scene = Arc::clone(&computed.scene);
+    vec![Study::new(computed.generation, false, move |simulation, stop, _: &mut dyn FnMut(ReversalMap)| {
+        simulation.reversal_map(&scene, None, TURNS, stop).map_err(|error| error.to_string())
+    })]
+}
+
+fn report(app: &App) -> Exported<'_> {
+    let (document, map) = (&app.edit.document, app.studies.value::<ReversalMap>()?);
+    let report = ReversalReport {
+        title: document.title(),
+        scene: document.scene(),
+        map,
+        preloads: None,
+        loops: None,
+        smoothing: SMOOTHING,
+        map_table: true,
+    };
+    Some(("asperity reversals --map", Box::new(report)))
+}
+
+fn panel(app: &App, size: Size, title: &str, chart: impl Fn(&ReversalMap) -> Chart) -> Panel {
+    let title = title.to_owned();
+    let Some(map) = app.studies.value::<ReversalMap>() else {
+        return Panel::of_text(title, app.studies.failure::<ReversalMap>().unwrap_or("computing …"));
+    };
+    let theme = app.view.appearance.theme;
+    let chart = chart(map).with_symbols();
+    let shades = chart.map().map(|map| {
+        let names = format!("↑ {}  {} ", chart.y.label_with_unit(), map.key.label_with_unit());
+        let names = Text::styled(names, theme.style(Meaning::Title));
+        let scale = key(map, size.width.into(), Colours::None).into_iter().map(|(text, _)| Text::raw(text));
+        Line::from_iter([names].into_iter().chain(scale))
+    });
+    let step = format_rounded(map.step(), 3, "m");
+    let facts = format!("{} turning points d_r with a step of {step}", map.reversals.len());
+    let foot = wrapped(&Line::styled(facts, theme.style(Meaning::Quiet)), size.width);
+    Panel { head: shades.into_iter().collect(), foot, ..Panel::of_chart(title, chart) }
+}
