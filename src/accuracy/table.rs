@@ -35,8 +35,8 @@ impl Knob {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Knob::SubCellSprings => "springs N, edges SubCell",
-            Knob::GridSprings => "springs N, edges Grid",
+            Knob::SubCellSprings => "springs N, edges between springs",
+            Knob::GridSprings => "whole springs N",
             Knob::Step => "step Δd of the stepwise solver",
         }
     }

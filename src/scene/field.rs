@@ -126,14 +126,14 @@ pub(super) const FILE_NAME: Range = Range::Text { least: 1, most: 4096, lines: f
 /// The force of a loading stage [`ToForce`](super::Move::ToForce), at `loading.0.0` for the first stage.
 pub const LEG_FORCE: Field = row("loading", Range::closed(-1e30, 1e30))
     .of("ToForce")
-    .quantity("force of a stage", "F", "N")
+    .quantity("force of stage", "F", "N")
     .meaning("target: the stage ends where the force first reaches this value; compression is positive");
 
 /// The indentation of a loading stage [`ToIndentation`](super::Move::ToIndentation), at `loading.0.0`
 /// for the first stage.
 pub const LEG_INDENTATION: Field = row("loading", Range::closed(-1e6, 1e6))
     .of("ToIndentation")
-    .quantity("indentation of a stage", "d", "m")
+    .quantity("indentation of stage", "d", "m")
     .meaning("target: the stage ends at this indentation; 0 is first touch, positive is deeper");
 
 impl Move {

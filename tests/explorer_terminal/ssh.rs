@@ -193,7 +193,7 @@ fn a_whole_loop_is_edited_and_played_over_a_slow_line() {
 
     // An edit: the force of the first leg, from 10 µN to 2 µN.
     let before = headline(&terminal.rows()).unwrap();
-    select(&mut terminal, "force of a stage");
+    select(&mut terminal, "force of stage");
     terminal.send("e");
     terminal.wait_for("Esc cancel");
     terminal.send("\x152 µN\r");

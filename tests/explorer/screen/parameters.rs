@@ -40,7 +40,7 @@ fn what_is_changed_first_comes_first() {
         driver.press("g");
         let shown = pane(&driver).join("\n");
         for name in
-            ["work of adhesion γ", "roughness-adhesion parameter κ", "force of a stage 1 F", "rms height h"]
+            ["work of adhesion γ", "roughness-adhesion parameter κ", "force of stage 1 F", "rms height h"]
         {
             assert!(shown.contains(name), "{name}\n{shown}");
         }
