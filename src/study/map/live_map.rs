@@ -20,7 +20,7 @@ pub struct LiveMap {
 }
 
 impl LiveMap {
-    /// A map of a plan of [`live_plan`](super::live_plan), without cells.
+    /// A map of a plan of [`live_plan`](super::live_plan()), without cells.
     ///
     /// # Errors
     /// A map that is too large for the memory.

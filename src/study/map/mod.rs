@@ -1,6 +1,6 @@
 //! Maps of adhesion: the regime of a scene, and forces, under other values of two of its quantities.
 //!
-//! The live map is a study over H and κ or e_el/γ in memory. [`live_plan`] is its plan, [`LiveMap`] holds
+//! The live map is a study over H and κ or e_el/γ in memory. [`live_plan()`] is its plan, [`LiveMap`] holds
 //! the cells so far, and [`LiveMap::compute`] computes the missing ones, from coarse to fine. The live map shows the
 //! course of the boundaries; it is computed on fewer springs than the scene may have and is the mean over a few random
 //! profiles.
