@@ -53,13 +53,11 @@ pub struct Choice {
 
 impl Choice {
     /// The scene with these springs and edges.
-    #[must_use]
     pub fn apply(&self, scene: &Scene) -> Scene {
         refined(scene, self.points, self.edges)
     }
 
     /// The error of the scene with these springs and edges.
-    #[must_use]
     pub fn estimate(&self) -> Estimate {
         let evidence =
             if self.closed_form { Evidence::ClosedForm } else { Evidence::Solutions(vec![self.finest]) };
@@ -67,7 +65,6 @@ impl Choice {
     }
 
     /// Choice and reason in one sentence.
-    #[must_use]
     pub fn sentence(&self) -> String {
         let Choice { tolerance, target, points, edges, error, closed_form, finest } = *self;
         let (points, target, edges) = (grouped(points), target.name(), edges.name());

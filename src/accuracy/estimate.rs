@@ -41,7 +41,6 @@ pub struct Estimate {
 
 impl Estimate {
     /// Absolute error of the adhesion force of an outcome, N; `None` for an estimate of the curve.
-    #[must_use]
     pub fn of_adhesion_force(&self, outcome: &Outcome) -> Option<f64> {
         let force = outcome.figures.adhesion_force.filter(|_| self.target == Target::AdhesionForce)?;
         Some(self.error * force.abs()).filter(|error| error.is_finite())
@@ -49,7 +48,6 @@ impl Estimate {
 
     /// The error in words that name its kind, to follow the adhesion force: in per cent, with one digit, or two after
     /// a leading one, according to the accuracy of an estimate.
-    #[must_use]
     pub fn words(&self) -> String {
         match self.target {
             Target::AdhesionForce if self.near_step => "near a step of F_a(F_n)".to_owned(),
@@ -79,7 +77,6 @@ pub enum Evidence {
 /// Returns `None` if the scene has no such figure, if the foundation allows no other number of springs or would need more
 /// than the limit, if a solution on another number of springs cannot reach a target of the loading, or if `stop` ends the
 /// computation.
-#[must_use]
 pub fn estimate(
     scene: &Scene,
     folder: &Path,

@@ -88,7 +88,6 @@ pub enum Target {
 
 impl Target {
     /// Name in words.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Target::AdhesionForce => "adhesion force",

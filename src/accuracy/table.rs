@@ -32,7 +32,6 @@ impl Knob {
     pub const ALL: [Knob; 3] = [Knob::SubCellSprings, Knob::GridSprings, Knob::Step];
 
     /// Name of the knob in words.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Knob::SubCellSprings => "springs N, edges between springs",
@@ -55,7 +54,6 @@ pub struct Timing {
 
 impl Timing {
     /// Timing from the times of some runs, s; `None` without any.
-    #[must_use]
     pub fn of(mut seconds: Vec<f64>) -> Option<Self> {
         seconds.sort_by(f64::total_cmp);
         let runs = seconds.len();
@@ -137,21 +135,18 @@ impl CostTable {
     }
 
     /// The main error: that of the adhesion force, or of the curve without a tensile force.
-    #[must_use]
     pub fn main_error(&self, row: &Row) -> Option<ErrorFigure> {
         let [adhesion_force, curve, ..] = row.errors;
         if self.reference.adhesion_force.is_some() { adhesion_force } else { curve }
     }
 
     /// Least time, s, and main error of a row, if both have logarithms.
-    #[must_use]
     pub fn point(&self, row: &Row) -> Option<(f64, ErrorFigure)> {
         let (seconds, figure) = (row.seconds?.minimum, self.main_error(row)?);
         (seconds > 0.0 && figure.error > 0.0 && figure.error.is_finite()).then_some((seconds, figure))
     }
 
     /// The first row of a knob from which on the main error is within a bound, as at least two finer rows confirm.
-    #[must_use]
     pub fn first_row_within(&self, knob: Knob, bound: f64) -> Option<&Row> {
         let rows: Vec<_> = self.rows_of(knob).collect();
         let errors = rows.iter().map(|row| Some(self.main_error(row)?.error));
@@ -160,7 +155,6 @@ impl CostTable {
 
     /// Order of convergence of a knob over all its rows with resolved errors, by least squares. `None` with fewer than
     /// three such rows.
-    #[must_use]
     pub fn order(&self, knob: Knob) -> Option<f64> {
         let point = |row: &Row| {
             let figure = self.main_error(row).filter(|figure| figure.resolved)?;
@@ -172,7 +166,6 @@ impl CostTable {
 
     /// Returns the springs and times for one per cent and one per mille of the adhesion force, or of the force curve
     /// without a tensile force: one sentence each.
-    #[must_use]
     pub fn answer(&self) -> Vec<String> {
         let of_force = self.reference.adhesion_force.is_some();
         let what = if of_force { "the adhesion force" } else { "the force curve" };
@@ -205,7 +198,6 @@ pub(super) fn slope(points: &[(f64, f64)]) -> Option<f64> {
 
 /// Index of the first of these errors, from coarse to fine, from which on none is above a bound. Two finer ones confirm
 /// an error: one that changes its sign may be small by chance.
-#[must_use]
 pub(super) fn first_within(
     errors: impl DoubleEndedIterator<Item = Option<f64>>,
     bound: f64,

@@ -11,7 +11,6 @@ use std::f64::consts::PI;
 
 /// Ideal adhesion force F_a,max = √(πγE*L³), N, of a flat face of length L, m, with a work of adhesion γ, J/m², and an
 /// effective modulus E*, Pa. Popov and Filippov (2012), eq. (14); Kendall (1971).
-#[must_use]
 pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, length: f64) -> f64 {
     (PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
 }
@@ -24,7 +23,6 @@ pub const LEAST_TABOR_NUMBER: f64 = 5.0;
 
 /// Tabor number μ of a scene, (ργ²/(E*²z₀³))^(1/3); `None` without adhesion, and for bodies without a radius of
 /// curvature. Of two works of adhesion, that of opening is used.
-#[must_use]
 pub fn scene_tabor_number(scene: &Scene, governing: &Governing) -> Option<f64> {
     let (radius, work) = (curvature_radius(scene.form.as_ref(), governing)?, governing.adhesive_work()?);
     let range = scene.adhesion?.range.unwrap_or(DEFAULT_RANGE);
@@ -65,7 +63,6 @@ impl SteepWaves {
     pub const LEAST_RATIO: f64 = 12.391;
 
     /// Finds the waves of an adhesive scene that are too steep; `None` for any other scene.
-    #[must_use]
     pub fn of(scene: &Scene, governing: &Governing) -> Option<Self> {
         let Some(Form::WavySphere { radius, amplitude, wavelength }) = scene.form else { return None };
         let stretch = governing.adhesive_work()? / governing.effective_modulus;

@@ -24,7 +24,6 @@ pub struct Figures {
 
 impl Figures {
     /// Figures of `history`.
-    #[must_use]
     pub fn of(history: &History) -> Self {
         let legs = &history.legs;
         let ends_separated =
@@ -37,7 +36,6 @@ impl Figures {
     }
 
     /// Figures of a loading from separation to the end of this stage, at the turning point of `reversal`, and back.
-    #[must_use]
     pub fn of_reversal(leg: Move, reversal: &Reversal) -> Self {
         let touches = reversal.turn.springs > 0;
         Figures::at(
@@ -73,7 +71,6 @@ impl Figures {
     }
 
     /// Returns true if a scene's own loading is that of the touch protocol, so that its adhesion force is F_a(0).
-    #[must_use]
     pub fn is_touch_protocol(scene: &Scene) -> bool {
         scene.loading == [Move::ToTouch, Move::ToSeparation]
     }
@@ -89,7 +86,6 @@ fn touching(
 }
 
 /// Finds the preload, the largest force of the loading stages with contact: the number of its stage, and its point.
-#[must_use]
 pub fn preload_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
     let largest = touching(legs, Direction::Loading).map(|(stage, leg)| (stage, leg.largest));
     largest.max_by(|a, b| a.1.force.total_cmp(&b.1.force))
@@ -97,7 +93,6 @@ pub fn preload_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
 
 /// Finds the pull-off, the smallest force of the last unloading stage with contact, unless that force is above zero:
 /// the number of its stage, and its point.
-#[must_use]
 pub fn pull_off_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
     let last = touching(legs, Direction::Unloading).next_back();
     last.map(|(stage, leg)| (stage, leg.smallest)).filter(|(_, point)| point.force <= 0.0)
@@ -119,14 +114,12 @@ pub enum Mark {
 
 impl Mark {
     /// Technical name.
-    #[must_use]
     pub fn name(self) -> &'static str {
         self.into()
     }
 }
 
 /// Existing marks of a loading history, in their order.
-#[must_use]
 pub fn marks(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
     let jump_in = touching(legs, Direction::Loading).next().and_then(|(_, leg)| {
         let pair = leg.curve.windows(2).find(|pair| pair[0].springs == 0 && pair[1].springs > 0)?;

@@ -27,7 +27,6 @@ impl Governing {
     ///
     /// Given κ alone, γ = h⟨∇z⟩E*/κ²; given γ and κ, h = κ √(γ/(E* ⟨∇z⟩/h)). Similarly for e_el/γ, with e_el = E*
     /// h² q̄/4 and the mean wave number q̄.
-    #[must_use]
     pub fn of(scene: &Scene, unit: Option<Amplitude>, measured: Option<Amplitude>) -> Self {
         let effective_modulus = scene.material.effective_modulus();
         let amplitude = measured.or_else(|| {
@@ -59,7 +58,6 @@ impl Governing {
     }
 
     /// The same profile with another adhesion.
-    #[must_use]
     pub fn with_adhesion(self, adhesion: Option<Adhesion>) -> Self {
         let adhesion = adhesion.unwrap_or_default();
         let given = adhesion.parameter();
@@ -79,13 +77,11 @@ impl Governing {
     }
 
     /// Work of adhesion for this value of a parameter, J/m²; `None` without roughness.
-    #[must_use]
     pub fn work_for(&self, parameter: RoughnessParameter, value: f64) -> Option<f64> {
         Some(self.energy(parameter)? / parameter.energy_over_work(value))
     }
 
     /// Value of a parameter; `None` without roughness or adhesion.
-    #[must_use]
     pub fn parameter(&self, parameter: RoughnessParameter) -> Option<f64> {
         match parameter {
             RoughnessParameter::Kappa => self.kappa,
@@ -94,7 +90,6 @@ impl Governing {
     }
 
     /// Elastic energy of conformity e_el per area, J/m²; `None` without roughness.
-    #[must_use]
     pub fn elastic_energy(&self) -> Option<f64> {
         self.energy(RoughnessParameter::ElasticEnergyRatio)
     }
@@ -105,20 +100,17 @@ impl Governing {
     }
 
     /// Unit of forces E* h L, N, of a body of this length, m; `None` without roughness. Pohrt, Popov and Filippov (2012).
-    #[must_use]
     pub fn force_unit(&self, length: f64) -> Option<f64> {
         Some(self.effective_modulus * self.amplitude?.rms_height * length)
     }
 
     /// The rule of Hess on the foundation under a profile; `None` without adhesion.
-    #[must_use]
     pub fn hess_rule(&self, foundation: Foundation) -> Option<HessRule> {
         let work = self.adhesive_work()?;
         Some(HessRule::from_works(foundation, self.closing_work.unwrap_or(work), work))
     }
 
     /// The work of adhesion if there is any, J/m².
-    #[must_use]
     pub fn adhesive_work(&self) -> Option<f64> {
         self.work_of_adhesion.filter(|&work| work > 0.0)
     }

@@ -45,7 +45,6 @@ impl Regime {
     /// [`VANISHING_SHARE`] of the smooth body's. Otherwise non-adhesive if F_a(F_n)/F_n is below
     /// [`NEGLIGIBLE_COEFFICIENT`] or, without a preload, if the adhesion force is below [`VANISHING_SHARE`] of the smooth
     /// body's; pressure-sensitive in all other cases.
-    #[must_use]
     pub fn of_loading(figures: &Figures, zero_load: Option<f64>, smooth: Option<f64>) -> Option<Self> {
         let preload = figures.preload.unwrap_or(0.0);
         match (figures.adhesion_force, zero_load, smooth) {
@@ -74,13 +73,11 @@ impl Regime {
     pub const LONGEST_NAME: usize = "pressure-insensitive".len();
 
     /// The name in words.
-    #[must_use]
     pub fn name(self) -> &'static str {
         self.into()
     }
 
     /// The name with the protocol of F_a(0) that decides: a turn at first touch.
-    #[must_use]
     pub fn by_protocol(self) -> &'static str {
         match self {
             Regime::PressureInsensitive => "pressure-insensitive from first touch",
@@ -103,7 +100,6 @@ pub struct CellRegime {
 
 impl CellRegime {
     /// From the shares of profiles in the regimes, in the order of [`Regime::ALL`]; `None` if all are zero.
-    #[must_use]
     pub fn from_shares(shares: [f64; 3]) -> Option<Self> {
         let mut order = [0, 1, 2];
         // Stable: of equal shares the one with more adhesion remains first.

@@ -21,26 +21,22 @@ pub struct ReversalMap {
 
 impl ReversalMap {
     /// Indentations of the turning points, m.
-    #[must_use]
     pub fn turns(&self) -> &[f64] {
         &self.points[self.below..]
     }
 
     /// Distance between points, m.
-    #[must_use]
     pub fn step(&self) -> f64 {
         let intervals = self.points.len().saturating_sub(1).max(1);
         (self.points[self.points.len() - 1] - self.points[0]) / intervals as f64
     }
 
     /// Force on the reversal from a turning point at a point, both by number, N; `None` above the turning point.
-    #[must_use]
     pub fn force(&self, turn: usize, point: usize) -> Option<f64> {
         self.reversals.get(turn)?.forces.get(point).copied()
     }
 
     /// Everett function E(d_r, d) = ½ (F(d_r) − F(d_r, d)), N: half of the fall of the force from the turning point.
-    #[must_use]
     pub fn everett(&self, turn: usize, point: usize) -> Option<f64> {
         let reversal = self.reversals.get(turn)?;
         Some(0.5 * (reversal.turn.force - self.force(turn, point)?))
@@ -51,7 +47,6 @@ impl ReversalMap {
     ///
     /// On a uniform grid the products of the two distances are orthogonal to all other terms of the quadratic, so
     /// that the mixed derivative is Σ u v F / Σ u² v².
-    #[must_use]
     pub fn density(&self, turn: usize, point: usize, smoothing: usize) -> Option<f64> {
         let reach = smoothing as i64;
         let mut products = 0.0;
@@ -78,7 +73,6 @@ pub struct MinorLoops {
 
 impl MinorLoops {
     /// Counts pairs of dissipated energies, J, of minor loops inside one with the dissipated energy `whole`, J.
-    #[must_use]
     pub fn new(losses: &[[f64; 2]], whole: f64) -> MinorLoops {
         let larger = |[one, other]: &[f64; 2]| one.max(*other);
         let with_loss = losses.iter().filter(|pair| larger(pair) > LEAST_LOSS * whole);
@@ -87,7 +81,6 @@ impl MinorLoops {
     }
 
     /// Share of incongruent loops among those that dissipate energy.
-    #[must_use]
     pub fn incongruent_share(&self) -> Option<f64> {
         (self.with_loss > 0).then(|| self.incongruent as f64 / self.with_loss as f64)
     }

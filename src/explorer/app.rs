@@ -36,7 +36,6 @@ pub struct CloseUpTarget {
 impl CloseUpTarget {
     /// Springs shown when a scene opens: a small part of the line, but several asperities; a larger part of a scene
     /// that observes its contact patches, with both ends of the patch at first touch.
-    #[must_use]
     pub fn springs_shown(document: &Document) -> usize {
         let scene = document.scene();
         let part = if scene.observe.contains(&Observer::Fragments) { 4 } else { 32 };
@@ -184,7 +183,6 @@ pub struct App {
 
 impl App {
     /// The explorer just opened on a scene or a study.
-    #[must_use]
     pub fn new(opening: impl Into<Opening>, size: (u16, u16), appearance: Appearance) -> Self {
         let Opening { document, study_map, beside } = opening.into();
         let springs = CloseUpTarget::springs_shown(&document);
@@ -241,13 +239,11 @@ impl App {
     }
 
     /// Returns true if the last change of a parameter was refused.
-    #[must_use]
     pub fn is_refused(&self) -> bool {
         matches!(self.message, Some(Message::Refused(_)))
     }
 
     /// Returns true while the value of the selected parameter is typed.
-    #[must_use]
     pub fn is_typing_value(&self) -> bool {
         self.prompt.as_ref().is_some_and(|prompt| matches!(prompt.purpose, Purpose::Value))
     }
@@ -259,7 +255,6 @@ impl App {
 
     /// Governing parameters of the present scene from the newest computation, which must have the same line; its
     /// adhesion may differ.
-    #[must_use]
     pub fn governing(&self) -> Option<Governing> {
         let computed = self.solved.as_ref()?;
         let (before, now) = (&computed.scene, scene_of(&self.edit.document));
@@ -276,26 +271,22 @@ impl App {
     }
 
     /// Returns true if the present scene has been computed.
-    #[must_use]
     pub fn is_current(&self) -> bool {
         self.current().is_some()
     }
 
     /// The computed scene, if this is the present one.
-    #[must_use]
     pub fn current(&self) -> Option<&Arc<SolvedScene>> {
         self.solved.as_ref().filter(|computed| computed.generation == self.edit.generation)
     }
 
     /// Returns true while a newer scene than the shown one is computed.
-    #[must_use]
     pub fn is_computing(&self) -> bool {
         self.progress.is_some()
     }
 
     /// Outcome for the value being typed, until then for the one typed before; for an accepted value until the scene is
     /// computed.
-    #[must_use]
     pub fn tried_outcome(&self) -> Option<&Outcome> {
         let preview = self.studies.value::<Preview>()?;
         let is_shown = match self.prompt {
@@ -307,7 +298,6 @@ impl App {
     }
 
     /// Returns true once the typed value itself has an outcome.
-    #[must_use]
     pub fn is_tried(&self) -> bool {
         let tried = self.tried.as_ref().map(Document::text);
         self.studies.value::<Preview>().is_some_and(|preview| tried == Some(&preview.text))
@@ -315,7 +305,6 @@ impl App {
 
     /// Values of the scene on the axes of the map: its mark. `None` where the scene has no such quantity, or its value
     /// is not known yet.
-    #[must_use]
     pub fn place(&self) -> Option<Place> {
         let scene = self.edit.document.scene();
         let (across, up) = self.map_axes()?;
@@ -326,40 +315,34 @@ impl App {
     }
 
     /// The ghost shown beside the scene.
-    #[must_use]
     pub fn beside(&self) -> Option<&Ghost> {
         self.ghosts.last().filter(|_| self.view.lower == Pane::Beside)
     }
 
     /// Drive of the body.
-    #[must_use]
     pub fn drive(&self) -> Drive {
         if self.manual.is_some() { Drive::Manual } else { Drive::Leg(self.play.leg) }
     }
 
     /// The newest snapshot, where it belongs to the present scene and kind of loading.
-    #[must_use]
     pub fn present(&self) -> Option<&ContactSnapshot> {
         let snapshot = self.snapshot.as_deref()?;
         (snapshot.generation == self.edit.generation && snapshot.drive == self.drive()).then_some(snapshot)
     }
 
     /// The legs of the shown scene.
-    #[must_use]
     pub fn legs(&self) -> &[LegRecord] {
         self.solved.as_ref().map_or(&[], |computed| &computed.outcome.history.legs)
     }
 
     /// Returns a force of the shown scene, N; zero where it is a rounding error of the largest marked force, as after a
     /// stage to zero force.
-    #[must_use]
     pub fn without_rounding(&self, force: f64) -> f64 {
         let largest = marks(self.legs()).iter().map(|(_, point)| point.force.abs()).fold(0.0, f64::max);
         if force.abs() < 1e-12 * largest { 0.0 } else { force }
     }
 
     /// A parameter's value in the notation of the scene; computed where the value follows from others.
-    #[must_use]
     pub fn written(&self, parameter: &Parameter) -> Option<String> {
         if !parameter.written.is_empty() {
             return Some(parameter.written.clone());
@@ -373,19 +356,16 @@ impl App {
     }
 
     /// Lowest and highest indentation of the curves shown, m; `None` when there is no curve.
-    #[must_use]
     pub fn indentations(&self) -> Option<(f64, f64)> {
         indentations(self.legs())
     }
 
     /// The indentation of the animation, m.
-    #[must_use]
     pub fn indentation(&self) -> f64 {
         self.play.indentation(self.legs())
     }
 
     /// Part of a loading stage done at an indentation, 0 to 1: the inverse of [`App::indentation`].
-    #[must_use]
     pub fn done_at(&self, leg: usize, indentation: f64) -> f64 {
         let Some(end) = self.legs().get(leg).map(LegRecord::end) else { return 0.0 };
         let start = start_of(self.legs(), leg);

@@ -32,7 +32,6 @@ pub struct Autosave {
 }
 
 /// Returns the folder of the files; `None` where the system has none.
-#[must_use]
 pub fn folder() -> Option<PathBuf> {
     let strategy = choose_base_strategy().ok()?;
     let state = strategy.state_dir().unwrap_or_else(|| strategy.data_dir());
@@ -40,7 +39,6 @@ pub fn folder() -> Option<PathBuf> {
 }
 
 /// Returns the newest file of an ended session.
-#[must_use]
 pub fn newest(folder: &Path) -> Option<PathBuf> {
     let is_ended = |path: &PathBuf| {
         path.extension().is_some_and(|extension| extension == "ron")
@@ -51,7 +49,6 @@ pub fn newest(folder: &Path) -> Option<PathBuf> {
 }
 
 /// Returns the message that offers the newest unsaved changes of an ended session.
-#[must_use]
 pub fn offer(folder: &Path) -> Option<String> {
     let documents = read(&newest(folder)?).ok()?;
     let name = |document: &Document| Some(Path::new(document.name()).file_name()?.display().to_string());
@@ -76,7 +73,6 @@ pub fn read(path: &Path) -> Result<Vec<Document>, String> {
 
 impl Autosave {
     /// Creates the copies of a session, without a file or with the file of an ended session.
-    #[must_use]
     pub fn new(folder: &Path, restored: Option<PathBuf>) -> Self {
         let now = || SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default().as_nanos();
         let path = restored.unwrap_or_else(|| folder.join(format!("{}-{}.ron", std::process::id(), now())));

@@ -10,7 +10,6 @@ const NEAR: f64 = 0.01;
 
 /// Event at the shown state, short enough for the title of a pane of 34 columns; `None` before the first result and
 /// where the body rests.
-#[must_use]
 pub fn caption(app: &App) -> Option<&'static str> {
     let snapshot = app.present()?;
     match snapshot.drive {

@@ -60,7 +60,6 @@ impl Default for Chart {
 
 impl OpenStudy {
     /// Number of the map `steps` after this one; the first follows the last.
-    #[must_use]
     pub fn stepped(&self, steps: i32) -> u64 {
         let slices = i128::from(self.study_map.slices().max(1));
         (i128::from(self.slice) + i128::from(steps)).rem_euclid(slices) as u64
@@ -69,7 +68,6 @@ impl OpenStudy {
 
 impl Live {
     /// The cells of a map so far.
-    #[must_use]
     pub fn of(map: &LiveMap) -> Self {
         Live { map: map.clone(), grid: map.grid() }
     }
@@ -77,7 +75,6 @@ impl Live {
 
 impl Chart {
     /// The study whose map is shown.
-    #[must_use]
     pub fn shown_study(&self) -> Option<&OpenStudy> {
         self.study.as_ref().filter(|_| self.of_study)
     }
@@ -94,7 +91,6 @@ impl Chart {
     }
 
     /// Key of the live map of a scene: kept while the parameter of the map and H change.
-    #[must_use]
     pub fn key(&self, scene: &Scene) -> Option<String> {
         self.plan(scene).map(|plan| format!("{plan:?}"))
     }
@@ -114,7 +110,6 @@ pub fn study(app: &App, computed: &SolvedScene) -> Option<Study> {
 
 impl App {
     /// The shown map, if any.
-    #[must_use]
     pub fn grid(&self) -> Option<&Grid> {
         match self.chart.shown_study() {
             Some(study) => Some(&study.grid),
@@ -123,7 +118,6 @@ impl App {
     }
 
     /// Axes across and up of the shown map or, before there is one, of the live map.
-    #[must_use]
     pub fn map_axes(&self) -> Option<(Axis, Option<Axis>)> {
         if let Some(grid) = self.grid() {
             return Some((grid.across.clone(), grid.up.clone()));
@@ -133,7 +127,6 @@ impl App {
     }
 
     /// Quantity of the glyphs: the chosen one, where the map has it.
-    #[must_use]
     pub fn charted(&self) -> Quantity {
         let all = self.grid().map(Grid::quantities).unwrap_or_default();
         let chosen = all.iter().find(|one| **one == self.chart.quantity);
@@ -141,7 +134,6 @@ impl App {
     }
 
     /// Next quantity of the glyphs.
-    #[must_use]
     pub fn next_charted(&self) -> Quantity {
         let all = self.grid().map(Grid::quantities).unwrap_or_default();
         let now = self.charted();

@@ -9,7 +9,6 @@ use std::path::{MAIN_SEPARATOR, Path, is_separator};
 const MOST_ENTRIES: usize = 10_000;
 
 /// Returns the paths that begin as typed, in order. Folders end in a separator; hidden files need a typed dot.
-#[must_use]
 pub fn complete(typed: &str) -> Vec<String> {
     let typed = typed.trim_start();
     let (folder, name) = typed.split_at(typed.rfind(is_separator).map_or(0, |at| at + 1));
@@ -28,7 +27,6 @@ pub fn complete(typed: &str) -> Vec<String> {
 }
 
 /// Returns the longest text with which all paths begin.
-#[must_use]
 pub fn common_start(paths: &[String]) -> String {
     let shared = |start: String, path: &String| {
         let same = start.chars().zip(path.chars()).take_while(|(one, other)| one == other);

@@ -81,7 +81,6 @@ impl Default for Config {
 }
 
 /// Path of this user's file, `asperity/config.ron` in the configuration folder; the file need not exist.
-#[must_use]
 pub fn default_path() -> Option<PathBuf> {
     Some(choose_base_strategy().ok()?.config_dir().join("asperity").join("config.ron"))
 }

@@ -38,7 +38,6 @@ pub struct Editor {
 
 impl Editor {
     /// A scene just opened.
-    #[must_use]
     pub fn new(document: Document) -> Self {
         let mut editor = Editor {
             parameters: parameters(&document),
@@ -57,14 +56,12 @@ impl Editor {
     }
 
     /// Indices of the listed parameters: of a folded group only the first.
-    #[must_use]
     pub fn listed(&self) -> Vec<usize> {
         let is_listed = |one: &Parameter| one.is_head() || !self.folded.contains(one.group);
         (0..self.parameters.len()).filter(|index| is_listed(&self.parameters[*index])).collect()
     }
 
     /// The selected parameter.
-    #[must_use]
     pub fn parameter(&self) -> Option<&Parameter> {
         self.parameters.get(self.selected)
     }
@@ -97,7 +94,6 @@ impl Editor {
     }
 
     /// Returns true if the group of the selected parameter is folded.
-    #[must_use]
     pub fn is_folded(&self) -> bool {
         self.parameter().is_some_and(|parameter| self.folded.contains(parameter.group))
     }
@@ -161,7 +157,6 @@ impl Editor {
     }
 
     /// Returns true if the scene differs from its saved document.
-    #[must_use]
     pub fn is_unsaved(&self) -> bool {
         self.is_changed(&self.document)
     }
@@ -177,7 +172,6 @@ impl Editor {
     }
 
     /// All scenes with unsaved changes, starting with the explored one.
-    #[must_use]
     pub fn unsaved(&self) -> Vec<&Document> {
         let all = [&self.document].into_iter().chain(self.left.values());
         all.filter(|document| self.is_changed(document)).collect()
@@ -212,7 +206,6 @@ impl Editor {
 }
 
 /// The scene of a document, with files named from the working folder.
-#[must_use]
 pub fn scene_of(document: &Document) -> Arc<Scene> {
     let mut scene = document.scene().clone();
     scene.rename_measured_files(|file| document.resolve(file).to_string_lossy().into_owned());

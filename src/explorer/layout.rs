@@ -21,13 +21,11 @@ pub struct Layout {
 
 impl Layout {
     /// The layout of a model in its own window.
-    #[must_use]
     pub fn of(app: &App) -> Self {
         Layout::within(app, app.view.size)
     }
 
     /// The layout of a model in a window of so many columns and rows.
-    #[must_use]
     pub fn within(app: &App, (width, height): (u16, u16)) -> Self {
         let row = |y: u16| Rect::new(0, y, width, 1).intersection(Rect::new(0, 0, width, height));
         // The frame of the panes gives way before the panes.
@@ -44,39 +42,33 @@ impl Layout {
     }
 
     /// The place of a pane, frame included.
-    #[must_use]
     pub fn pane(&self, wanted: Pane) -> Option<Rect> {
         self.panes.iter().find(|(pane, _)| *pane == wanted).map(|(_, area)| *area)
     }
 
     /// Cells across the profile, without its histogram; without the profile, those of the profile beside.
-    #[must_use]
     pub fn profile_cells(&self) -> usize {
         let shown = [Pane::Profile, Pane::Beside].into_iter().find_map(|pane| self.pane(pane));
         shown.map_or(0, |area| usize::from(split_profile(inside(area)).0.width))
     }
 
     /// Cells across the close-up.
-    #[must_use]
     pub fn close_up_cells(&self) -> usize {
         self.pane(Pane::CloseUp).map_or(0, |area| usize::from(inside(area).width))
     }
 }
 
 /// A pane without its frame; a pane too small for a frame has none.
-#[must_use]
 pub fn inside(area: Rect) -> Rect {
     if is_framed(area) { area.inner(ratatui::layout::Margin::new(1, 1)) } else { area }
 }
 
 /// Returns true if a pane is large enough for a frame.
-#[must_use]
 pub fn is_framed(area: Rect) -> bool {
     area.height >= 6 && area.width >= 16
 }
 
 /// Parts a profile pane into the profile and the histogram beside it.
-#[must_use]
 pub fn split_profile(area: Rect) -> (Rect, Option<Rect>) {
     if area.width < 3 * HISTOGRAM_COLUMNS {
         return (area, None);

@@ -76,7 +76,6 @@ impl Parameter {
     }
 
     /// Name with the number of its leg.
-    #[must_use]
     pub fn name(&self) -> String {
         match (self.leg, self.setting) {
             (Some(leg), _) => format!("{} {}", self.field.name, leg + 1),
@@ -86,20 +85,17 @@ impl Parameter {
     }
 
     /// Returns true if its value is typed as a number.
-    #[must_use]
     pub fn takes_number(&self) -> bool {
         let has_value = !matches!(self.setting, Setting::Switch(_) | Setting::Heading);
         has_value && !matches!(self.field.range, Range::Choice(_) | Range::List { .. } | Range::Text { .. })
     }
 
     /// Returns true for the first row of a group.
-    #[must_use]
     pub fn is_head(&self) -> bool {
         self.path == self.group
     }
 
     /// Texts of a search: symbol, in Greek and spelled, name, path and meaning.
-    #[must_use]
     pub fn texts(&self) -> Vec<String> {
         let symbol = self.field.symbol;
         let words = self.path.replace(['.', '_'], " ");
@@ -123,7 +119,6 @@ fn group_of(path: &str) -> &'static str {
 }
 
 /// The parameters of a scene, by use.
-#[must_use]
 pub fn parameters(document: &Document) -> Vec<Parameter> {
     let mut parameters = Vec::new();
     for field in document.fields() {

@@ -21,7 +21,6 @@ impl Player {
     pub const START: Player = Player { leg: 0, done: 0.0, playing: true };
 
     /// This state on existing loading stages: at the end of the last one where its own stage does not exist.
-    #[must_use]
     pub fn within(self, legs: &[LegRecord]) -> Player {
         match legs.len().checked_sub(1) {
             Some(last) if self.leg > last => Player { leg: last, done: 1.0, playing: false },
@@ -30,7 +29,6 @@ impl Player {
     }
 
     /// The indentation of the animation of these loading stages, m.
-    #[must_use]
     pub fn indentation(&self, legs: &[LegRecord]) -> f64 {
         let Some(leg) = legs.get(self.leg) else { return 0.0 };
         let start = start_of(legs, self.leg);

@@ -61,7 +61,6 @@ pub enum Purpose {
 
 impl Prompt {
     /// A prompt with this text, for a scene with these parameters. The first typed character replaces a value.
-    #[must_use]
     pub fn new(purpose: Purpose, text: &str, parameters: &[Parameter]) -> Self {
         let is_value = matches!(purpose, Purpose::Value);
         let line = if is_value { TextLine::selected(text) } else { TextLine::new(text) };
@@ -72,7 +71,6 @@ impl Prompt {
     }
 
     /// Returns the context of keys: a list, a line or a question.
-    #[must_use]
     pub fn context(&self) -> Context {
         match self.purpose {
             Purpose::Scene(_) | Purpose::Parameter { .. } | Purpose::Command(_) => Context::List,
@@ -98,13 +96,11 @@ impl Prompt {
     }
 
     /// Index of the selected row of the list.
-    #[must_use]
     pub fn choice(&self) -> Option<usize> {
         self.found.get(self.selected).copied()
     }
 
     /// The selected scene.
-    #[must_use]
     pub fn scene(&self) -> Option<&Entry> {
         if let Purpose::Scene(entries) = &self.purpose { entries.get(self.choice()?) } else { None }
     }

@@ -19,7 +19,6 @@ pub struct Request {
 
 impl Request {
     /// This request in place of an earlier one: no manual move of the same scene is lost.
-    #[must_use]
     pub fn after(mut self, mut earlier: Request) -> Request {
         if earlier.generation == self.generation {
             earlier.moves.append(&mut self.moves);
@@ -116,7 +115,6 @@ pub enum Focus {
 
 impl Focus {
     /// Returns true for a question, with a spring as the answer.
-    #[must_use]
     pub fn is_question(self) -> bool {
         !matches!(self, Focus::Summit | Focus::Spring(_))
     }

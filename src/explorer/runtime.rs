@@ -27,7 +27,6 @@ pub enum Engine {
 
 impl Engine {
     /// An engine that answers at once.
-    #[must_use]
     pub fn inline(solve: Solve, performs: fn(&Study) -> bool) -> Self {
         Engine::Inline(Box::new(Solver::new(solve, Default::default())), performs)
     }

@@ -11,7 +11,6 @@ use std::sync::Arc;
 
 impl App {
     /// The selectable panes, the most important first.
-    #[must_use]
     pub fn panes(&self) -> Vec<Pane> {
         match self.view.large {
             Some(large) => vec![Pane::Force, large, Pane::Parameters],
@@ -20,7 +19,6 @@ impl App {
     }
 
     /// Returns true if a pane is in its place, as far as the window has room.
-    #[must_use]
     pub fn is_shown(&self, pane: Pane) -> bool {
         self.panes().contains(&pane)
     }
@@ -74,7 +72,6 @@ impl App {
 
     /// Valid keys: in the map the arrows move its mark, in panes with a crosshair the crosshair; in the list of
     /// parameters digits begin a value.
-    #[must_use]
     pub fn keys(&self) -> Context {
         let of_pane = self.view.pane.row().keys;
         match (&self.prompt, of_pane) {
@@ -85,7 +82,6 @@ impl App {
     }
 
     /// The selected pane as a figure; the force curve while the parameters are selected.
-    #[must_use]
     pub fn figure(&self) -> Option<Figure> {
         let pane = if self.view.pane == Pane::Parameters { Pane::Force } else { self.view.pane };
         pane.figure(self)

@@ -66,7 +66,6 @@ pub struct Probe {
 
 impl Probe {
     /// Profile and contact at a share of the profile; `None` for a profile without springs.
-    #[must_use]
     pub fn at(contact: &Contact<'_>, position: f64) -> Option<Self> {
         let last = contact.gaps.len().checked_sub(1)?;
         let spring = ((position * contact.gaps.len() as f64) as usize).min(last);

@@ -52,7 +52,6 @@ struct Newest {
 
 impl Solver {
     /// A solver by this function for the scene of the awaited generation.
-    #[must_use]
     pub fn new(solve: Solve, awaited: Arc<AtomicU64>) -> Self {
         Solver { solve, simulation: Simulation::default(), awaited, newest: Newest::default() }
     }

@@ -48,7 +48,6 @@ impl Study {
     }
 
     /// Returns true for a study of values of this type.
-    #[must_use]
     pub fn is<T: Any>(&self) -> bool {
         self.kind == TypeId::of::<T>()
     }
@@ -104,19 +103,16 @@ impl Findings {
     }
 
     /// The value so far.
-    #[must_use]
     pub fn value<T: Any>(&self) -> Option<&T> {
         self.slot::<T>()?.value.as_ref()?.downcast_ref()
     }
 
     /// Returns true if the value is complete.
-    #[must_use]
     pub fn is_done<T: Any>(&self) -> bool {
         self.slot::<T>().is_some_and(|slot| slot.end == Some(Ok(())))
     }
 
     /// Reason why the value is missing or incomplete.
-    #[must_use]
     pub fn failure<T: Any>(&self) -> Option<&str> {
         self.slot::<T>()?.end.as_ref()?.as_ref().err().map(String::as_str)
     }
@@ -146,7 +142,6 @@ impl Findings {
     }
 
     /// The studies of these that have not ended. Their findings will be stored.
-    #[must_use]
     pub fn begin(&mut self, studies: Vec<Study>) -> Vec<Study> {
         let is_open = |study: &Study| {
             let slot = self.0.entry(study.kind).or_insert_with(|| Slot {

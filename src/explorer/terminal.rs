@@ -144,13 +144,11 @@ pub struct FrameWriter<W: Write> {
 
 impl<W: Write> FrameWriter<W> {
     /// A writer of frames to `out`.
-    #[must_use]
     pub fn new(out: W) -> Self {
         FrameWriter { frame: Vec::with_capacity(64 * 1024), out, written: Rc::default() }
     }
 
     /// A counter of the bytes written so far.
-    #[must_use]
     pub fn written(&self) -> Rc<Cell<u64>> {
         Rc::clone(&self.written)
     }

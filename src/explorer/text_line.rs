@@ -21,32 +21,27 @@ pub struct TextLine {
 
 impl TextLine {
     /// A line with this text, the cursor at its end.
-    #[must_use]
     pub fn new(text: &str) -> Self {
         let text: String = text.chars().filter(|c| !is_control(*c)).take(LONGEST).collect();
         TextLine { input: Input::new(text), ..TextLine::default() }
     }
 
     /// A line with this text, all of it selected.
-    #[must_use]
     pub fn selected(text: &str) -> Self {
         TextLine { selected: true, ..TextLine::new(text) }
     }
 
     /// Returns true if the text is selected.
-    #[must_use]
     pub fn is_selected(&self) -> bool {
         self.selected
     }
 
     /// The text.
-    #[must_use]
     pub fn text(&self) -> &str {
         self.input.value()
     }
 
     /// The text before the cursor, under it and after it.
-    #[must_use]
     pub fn parts(&self) -> (String, String, String) {
         let part = |from, count| self.text().chars().skip(from).take(count).collect();
         let cursor = self.input.cursor();
@@ -54,7 +49,6 @@ impl TextLine {
     }
 
     /// Message about the part that the last insertion left out; `None` after a whole one.
-    #[must_use]
     pub fn left_out(&self) -> Option<&'static str> {
         self.left_out
     }

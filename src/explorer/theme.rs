@@ -78,7 +78,6 @@ pub enum Meaning {
 impl Appearance {
     /// Appearance for the environment: colours by `NO_COLOR` and `COLORFGBG`; ASCII where the console of Linux
     /// (`TERM=linux`) or a locale without Unicode (`C`, `POSIX`) shows no Braille.
-    #[must_use]
     pub fn of_environment() -> Self {
         let value = |name| std::env::var_os(name).filter(|value| !value.is_empty());
         let theme = match value("COLORFGBG") {
@@ -104,7 +103,6 @@ impl Theme {
     }
 
     /// The colour of a meaning.
-    #[must_use]
     pub fn colour(self, meaning: Meaning) -> Color {
         use Meaning::{
             Approach, Contact, Cursor, Error, Ghost, Key, Line, Manual, Quiet, Retraction, Selected, Surface,
@@ -137,13 +135,11 @@ impl Theme {
     }
 
     /// The style of letters found by a search, in a text of this style.
-    #[must_use]
     pub fn found(self, style: Style) -> Style {
         style.add_modifier(Modifier::BOLD | Modifier::UNDERLINED)
     }
 
     /// The style of a meaning.
-    #[must_use]
     pub fn style(self, meaning: Meaning) -> Style {
         let style = Style::new().fg(self.colour(meaning));
         match meaning {
@@ -162,7 +158,6 @@ impl Theme {
 
 impl Marker {
     /// Marker of a canvas. ASCII is made from dots when everything is drawn.
-    #[must_use]
     pub fn symbols(self) -> Symbols {
         match self {
             Marker::Braille | Marker::Ascii => Symbols::Braille,
@@ -172,7 +167,6 @@ impl Marker {
     }
 
     /// Columns of dots in a cell.
-    #[must_use]
     pub fn columns(self) -> usize {
         match self {
             Marker::Braille | Marker::Octant | Marker::Ascii => 2,
@@ -184,7 +178,6 @@ impl Marker {
 /// Values of an option, cycled by a key.
 pub trait Choice: ValueEnum + PartialEq + 'static {
     /// The next value; the first follows the last.
-    #[must_use]
     fn next(self) -> Self {
         let all = Self::value_variants();
         let place = all.iter().position(|other| *other == self).unwrap_or(0);
@@ -192,7 +185,6 @@ pub trait Choice: ValueEnum + PartialEq + 'static {
     }
 
     /// Its name on the command line.
-    #[must_use]
     fn name(self) -> String {
         self.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
     }

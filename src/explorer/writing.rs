@@ -59,7 +59,6 @@ fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) 
 }
 
 /// The screen as an SVG document, on a background that suits its colours.
-#[must_use]
 pub fn screenshot(app: &App) -> String {
     let palette = if app.view.appearance.theme == Theme::Light { Palette::LIGHT } else { Palette::DARK };
     let name = Path::new(app.edit.document.name()).file_stem().unwrap_or_default();
@@ -67,7 +66,6 @@ pub fn screenshot(app: &App) -> String {
 }
 
 /// The screen without any question or line of text.
-#[must_use]
 pub fn picture_of(app: &App) -> Buffer {
     let mut app = app.clone();
     app.prompt = None;

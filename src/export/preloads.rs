@@ -136,7 +136,6 @@ pub(super) fn unloadings(
 }
 
 /// Layers of the adhesion force, N, over the preload, N: one profile, and the mean of several with its 95 % confidence.
-#[must_use]
 pub fn preload_layers(one: &[(f64, f64)], means: &[(f64, Option<Statistics>)]) -> Vec<Layer> {
     let mut layers = Vec::new();
     let mean: Vec<(f64, Statistics)> = means.iter().filter_map(|(at, of)| Some((*at, (*of)?))).collect();
@@ -160,7 +159,6 @@ pub fn preload_layers(one: &[(f64, f64)], means: &[(f64, Option<Statistics>)]) -
 }
 
 /// A chart of the adhesion force over the preload with these layers.
-#[must_use]
 pub fn preload_axes(layers: Vec<Layer>) -> Chart {
     let mut all = vec![(0.0, 0.0)];
     for layer in &layers {

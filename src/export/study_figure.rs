@@ -24,7 +24,6 @@ const REGIMES: [(Regime, Sign, char, Ink); 3] = [
 ];
 
 /// A figure of charts, with the values of fixed axes below its title.
-#[must_use]
 pub fn study_figure(title: &str, fixed: &[String], charts: Vec<Chart>) -> Figure {
     let statements = fixed.iter().map(|fixed| Label::statement(fixed));
     let fixed = statements.reduce(|line, statement| line.then(", ").join(&statement));
@@ -33,7 +32,6 @@ pub fn study_figure(title: &str, fixed: &[String], charts: Vec<Chart>) -> Figure
 
 /// A map of a quantity over the two axes of a grid, with the regimes and the line on which adhesion without a load
 /// vanishes; `whole` adds substitutes for cells that have not been computed yet. `None` for a grid along one axis.
-#[must_use]
 pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> {
     let (across, up) = (&grid.across, grid.up.as_ref()?);
     let values = means(&grid.estimates(quantity, whole));
@@ -79,7 +77,6 @@ pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> 
 
 /// Curves of a quantity over the axis across, one for each row of a grid; small values on a linear scale have a second
 /// chart on a logarithmic one.
-#[must_use]
 pub fn study_curves(grid: &Grid, quantity: Quantity) -> Vec<Chart> {
     let across = &grid.across;
     let scale = grid.layer(quantity).map_or(AxisScale::Linear, |layer| layer.scale);

@@ -190,7 +190,6 @@ impl Field {
 }
 
 /// Targets of the stages of a loading, apart by commas, their values in a format: `10 µN, 0 N, separation`.
-#[must_use]
 pub fn stage_targets(loading: &[Move], format: fn(f64, &str) -> String) -> String {
     let target = |stage: &Move| match *stage {
         Move::ToForce(force) => format(force, "N"),

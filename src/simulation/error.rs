@@ -34,7 +34,6 @@ pub enum RunError {
 
 impl RunError {
     /// Returns true if the computation was stopped rather than failed.
-    #[must_use]
     pub fn is_interruption(&self) -> bool {
         *self == RunError::Contact(ContactError::Interrupted)
     }

@@ -77,7 +77,6 @@ pub struct Timings {
 
 impl Timings {
     /// Time of all stages, s.
-    #[must_use]
     pub fn total(&self) -> f64 {
         self.line + self.tree + self.passes + self.curve + self.zero_load
     }

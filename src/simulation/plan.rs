@@ -64,7 +64,6 @@ impl Stage {
     ];
 
     /// Name of the stage in words.
-    #[must_use]
     pub fn name(self) -> &'static str {
         Stage::NAMES[self as usize]
     }
@@ -108,7 +107,6 @@ impl Plan {
     pub const PROGRAM: u64 = 14 << 20;
 
     /// Plans the stages of a checked scene.
-    #[must_use]
     pub fn of(scene: &Scene) -> Self {
         let (points, springs) = (scene.numerics.points, scene.springs_under_body().count() as u64);
         let stages = stages(scene, points, springs);
@@ -128,7 +126,6 @@ impl Plan {
     }
 
     /// Returns true if a stage runs.
-    #[must_use]
     pub fn runs(&self, stage: Stage) -> bool {
         self.stages.iter().any(|planned| planned.stage == stage && planned.runs)
     }

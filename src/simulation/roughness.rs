@@ -148,7 +148,6 @@ pub(super) fn spectrum(scene: &Scene) -> Option<SelfAffine> {
 
 /// Springs, a power of two, on which the shortest wave of an equivalent line over a length (m) has twice the fewest springs
 /// of a resolved wave, from where on both edge models agree.
-#[must_use]
 pub fn equivalent_springs(line: &EquivalentLine, length: f64) -> u64 {
     let waves = length * line.range()[1] / TAU;
     ((2.0 * SPRINGS_PER_WAVE as f64 * waves) as u64).next_power_of_two().clamp(1024, MOST_POINTS)

@@ -75,27 +75,23 @@ pub type AfterLeg<'a> = dyn FnMut(usize, &LegRecord, &Leg) -> Result<(), Contact
 
 impl Simulation {
     /// A simulation with measured profiles in `folder`.
-    #[must_use]
     pub fn new(folder: PathBuf) -> Self {
         Simulation { maker: RoughnessMaker::new(folder, None), ..Simulation::default() }
     }
 
     /// Frees the memory of the Fourier transform before the contact is solved, and makes the gaps of the profile in
     /// the memory of its heights: less memory for a single scene, more time for each further profile.
-    #[must_use]
     pub fn for_one_scene(self) -> Self {
         Simulation { single: true, ..self }
     }
 
     /// Uses a measured surface in memory instead of the file of any scene.
-    #[must_use]
     pub fn with_measured(mut self, measured: Arc<MeasuredRoughness>) -> Self {
         self.maker.measured = Some(measured);
         self
     }
 
     /// The profile of the last scene.
-    #[must_use]
     pub fn line(&self) -> Option<&Line> {
         self.line.as_ref().map(|(_, line)| line)
     }

@@ -66,19 +66,16 @@ impl Topography {
     }
 
     /// Name of the format of the file.
-    #[must_use]
     pub fn format(&self) -> &'static str {
         self.format
     }
 
     /// Heights, m, row by row.
-    #[must_use]
     pub fn heights(&self) -> &[f64] {
         &self.heights
     }
 
     /// Number of points with interpolated heights.
-    #[must_use]
     pub fn interpolated(&self) -> usize {
         self.interpolated.len()
     }
@@ -101,13 +98,11 @@ impl Topography {
     }
 
     /// Points of a row; all points of a profile.
-    #[must_use]
     pub fn columns(&self) -> usize {
         self.columns
     }
 
     /// Number of rows; one for a profile.
-    #[must_use]
     pub fn rows(&self) -> usize {
         self.heights.len() / self.columns
     }

@@ -39,7 +39,6 @@ impl Unit {
     pub const METRE: Unit = Unit { name: "m", per_metre: 1.0 };
 
     /// Usual name.
-    #[must_use]
     pub fn name(self) -> &'static str {
         self.name
     }

@@ -36,7 +36,6 @@ pub struct Demo {
 
 impl Demo {
     /// A demo that begins on a scene and follows a script, with so many frames in a second.
-    #[must_use]
     pub fn new(
         document: Document,
         script: &[Cue],
@@ -88,7 +87,6 @@ impl Demo {
     }
 
     /// The explorer.
-    #[must_use]
     pub fn app(&self) -> &App {
         &self.explorer.app
     }

@@ -38,13 +38,11 @@ pub struct Binding {
 
 impl Binding {
     /// Names of the keys, apart by blanks.
-    #[must_use]
     pub fn names(&self) -> String {
         self.keys.iter().map(|key| key.name.as_str()).collect::<Vec<_>>().join(" ")
     }
 
     /// Texts of a search: keys, description, section.
-    #[must_use]
     pub fn texts(&self) -> Vec<String> {
         let words = [self.row.help, self.row.section].map(str::to_owned);
         self.keys.iter().map(|key| key.name.clone()).chain(words).collect()
@@ -74,7 +72,6 @@ impl Bindings {
     }
 
     /// The command of a key in a context.
-    #[must_use]
     pub fn command(&self, event: &KeyEvent, context: Context) -> Option<Command> {
         let character = if let KeyCode::Char(character) = event.code { Some(character) } else { None };
         let found = self.valid_in(context).find(|one| one.keys.iter().any(|key| key.matches(event)))?;
@@ -82,13 +79,11 @@ impl Bindings {
     }
 
     /// The rows of the list of commands.
-    #[must_use]
     pub fn listed(&self) -> Vec<Binding> {
         self.rows().filter(|binding| binding.row.is_listed()).cloned().collect()
     }
 
     /// The command of a name in a context, with the character where the row takes one: `preset 3`.
-    #[must_use]
     pub fn named(&self, name: &str, context: Context) -> Option<Command> {
         let (name, character) =
             name.split_once(' ').map_or((name, None), |(name, rest)| (name, rest.parse().ok()));
@@ -97,7 +92,6 @@ impl Bindings {
     }
 
     /// Keys and labels of the footer, the most important first; adjacent rows with the same label are one item.
-    #[must_use]
     pub fn footer(&self, app: &App) -> Vec<(String, &'static str)> {
         let is_shown = |binding: &&Binding| !binding.row.label.is_empty() && (binding.row.is_shown)(app);
         let mut rows: Vec<&Binding> = self.valid_in(app.keys()).filter(is_shown).collect();
@@ -133,7 +127,6 @@ impl Bindings {
     }
 
     /// A key with two actions in one context, and their names.
-    #[must_use]
     pub fn conflict(&self) -> Option<(String, &'static str, &'static str)> {
         ANY.iter().find_map(|context| {
             let mut seen: Vec<(&Key, &'static str)> = Vec::new();
@@ -151,7 +144,6 @@ impl Bindings {
 }
 
 /// The table as Markdown, for docs/keys.md: keys, their functions, and the names of the actions in the configuration.
-#[must_use]
 pub fn markdown() -> String {
     let mut text = String::from("| | key | does | action |\n| --- | --- | --- | --- |\n");
     let mut section = "";

@@ -15,7 +15,6 @@ pub struct Key {
 
 impl Key {
     /// Returns true if a key event is this key. Shift is part of a character, not a modifier.
-    #[must_use]
     pub fn matches(&self, event: &KeyEvent) -> bool {
         let modifiers = match event.code {
             KeyCode::Char(_) | KeyCode::BackTab => event.modifiers - KeyModifiers::SHIFT,
@@ -25,13 +24,11 @@ impl Key {
     }
 
     /// Returns true if an event matches both keys.
-    #[must_use]
     pub fn overlaps(&self, other: &Key) -> bool {
         self.modifiers == other.modifiers && self.first <= other.last && other.first <= self.last
     }
 
     /// The key of a name: a character, or the words on a keyboard, with modifiers: `Up`, `Ctrl+p`, `Shift+Left`.
-    #[must_use]
     pub fn named(name: &str) -> Option<Key> {
         fn without<'a>(name: &'a str, modifier: &str) -> (bool, &'a str) {
             let named = name.split_at_checked(modifier.len());

@@ -137,7 +137,6 @@ impl Pane {
     ];
 
     /// Row of the pane.
-    #[must_use]
     pub fn row(self) -> &'static PaneRow {
         match self {
             Pane::Force => &force::ROW,
@@ -156,7 +155,6 @@ impl Pane {
     }
 
     /// Content of the pane for an area of this size within the frame, with the crosshair.
-    #[must_use]
     pub fn panel(self, app: &App, size: Size) -> Panel {
         let mut panel = (self.row().panel)(app, size);
         // The crosshairs of the other panes are at the shown state and at a spring.
@@ -167,14 +165,12 @@ impl Pane {
     }
 
     /// The pane as a figure for a file; `None` while it has no chart.
-    #[must_use]
     pub fn figure(self, app: &App) -> Option<Figure> {
         (self.row().figure)(app, &(self.row().panel)(app, EXPORTED))
     }
 }
 
 /// Returns the pane at a cell of the screen and what it shows there.
-#[must_use]
 pub fn under(app: &App, cell: Position) -> Option<(Pane, Under)> {
     let layout = Layout::of(app);
     let (pane, area) = layout.panes.into_iter().find(|(_, area)| area.contains(cell))?;
@@ -182,14 +178,12 @@ pub fn under(app: &App, cell: Position) -> Option<(Pane, Under)> {
 }
 
 /// Letter of a ghost.
-#[must_use]
 pub fn letter(number: usize) -> &'static str {
     const LETTERS: [&str; 8] = ["A", "B", "C", "D", "E", "F", "G", "H"];
     LETTERS[number % LETTERS.len()]
 }
 
 /// Letter of the newest ghost.
-#[must_use]
 pub fn newest_letter(app: &App) -> &'static str {
     letter(app.ghosts.len().saturating_sub(1))
 }

@@ -52,13 +52,11 @@ impl PreloadCurve {
     }
 
     /// Returns true once all profiles are computed.
-    #[must_use]
     pub fn is_whole(&self) -> bool {
         self.own.is_whole(0) && self.random.as_ref().is_none_or(|random| random.is_whole(0))
     }
 
     /// Number of computed random profiles.
-    #[must_use]
     pub fn profiles(&self) -> usize {
         self.random.as_ref().map_or(0, |random| random.records_of(0).count())
     }

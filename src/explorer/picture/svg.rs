@@ -32,7 +32,6 @@ enum Kind {
 }
 
 /// The screen as a self-contained document, the same bytes for the same screen.
-#[must_use]
 pub fn svg(buffer: &Buffer, palette: &Palette, title: &str) -> String {
     let width = u32::from(buffer.area.width) * WIDTH + 2 * MARGIN;
     let height = u32::from(buffer.area.height) * HEIGHT + 2 * MARGIN;

@@ -5,7 +5,6 @@ use ratatui::buffer::Buffer;
 use ratatui::style::Color;
 
 /// The rows of a screen without the blanks at their ends, each closed by a line feed.
-#[must_use]
 pub fn text(buffer: &Buffer) -> String {
     let mut rows = vec![String::new(); usize::from(buffer.area.height)];
     for glyph in glyphs(buffer) {

@@ -141,7 +141,6 @@ fn awaited(app: &App) -> Awaited {
 }
 
 /// Request for a snapshot in the panes.
-#[must_use]
 pub fn snapshot_request(app: &App) -> SnapshotRequest {
     let layout = Layout::of(app);
     let dots = app.view.appearance.marker.columns();

@@ -60,7 +60,6 @@ fn body(layout: &Layout) -> Rect {
 }
 
 /// Lines the help can be scrolled down.
-#[must_use]
 pub fn help_end(app: &App) -> u16 {
     help::last_scroll(body(&Layout::of(app)), app)
 }
