@@ -11,7 +11,7 @@ use super::errors::{SceneError, SceneErrors};
 use super::field::Field;
 use super::fields::fields_inside;
 use super::model::{Roughness, Scene};
-use super::range::choice_key;
+use super::range::{Range, choice_key};
 use super::text::ron_float;
 use super::tree::{Tree, in_ron};
 use crate::text::round_to;
@@ -134,7 +134,9 @@ impl Document {
         }
         let Some(here) = Tree::of(self.scene()).written(field) else { return Ok(None) };
         let mut refused = None;
-        for distance in 1.. {
+        // The circle holds the choices and `None`; the present one need not be among them.
+        let Range::Choice(choices) = field.range else { return Ok(None) };
+        for distance in 1..=choices.len() as i32 + 1 {
             let next = field.stepped(&here, if forwards { distance } else { -distance }, false);
             let Some(next) = next.filter(|next| choice_key(next) != choice_key(&here)) else { break };
             let chosen = match effect {
@@ -278,6 +280,18 @@ mod tests {
         // A removed text that is no longer valid is replaced by values that suit the scene.
         let coarse = back(&smooth.set("numerics.points", "64").unwrap());
         assert_eq!(coarse.value("roughness.modes"), Some("(1, 8)"));
+    }
+
+    /// A measured surface is typed, not stepped to; here the other kinds of roughness are refused.
+    #[test]
+    fn steps_end_where_every_other_choice_is_refused() {
+        let fields = [("roughness", "Measured(file: \"surface.txt\")"), ("numerics.points", "2")];
+        let measured = document().set_all(&fields.map(|(path, value)| pair(path, value))).unwrap();
+        for forwards in [true, false] {
+            let field = field("roughness", None).unwrap();
+            let refused = measured.with_next_choice(field, forwards, &Computed::default()).unwrap_err();
+            assert!(refused.to_string().contains("points/2 = 1"), "{refused}");
+        }
     }
 
     #[test]
