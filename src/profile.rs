@@ -29,7 +29,7 @@ impl Profile {
         Ok(Profile { line })
     }
 
-    /// Equivalent profile of a smooth sphere of a radius (m) on so many points along a length (m).
+    /// Equivalent profile of a smooth sphere of a radius (m) on a number of points along a length (m).
     ///
     /// The equivalent profile z = −x²/R has half the radius of the sphere (rule of the method of dimensionality
     /// reduction).

@@ -42,7 +42,7 @@ pub struct OpenStudy {
 pub struct Live {
     /// The map.
     pub map: LiveMap,
-    /// Its cells for display.
+    /// The estimates in the cells of the map, for the pane.
     pub grid: Grid,
 }
 

@@ -74,7 +74,7 @@ impl Editor {
         }
     }
 
-    /// Moves the selection by so many listed rows, as far as there are any.
+    /// Moves the selection by a number of listed rows, at most to the first or the last row.
     pub fn move_selection(&mut self, rows: i32) {
         let listed = self.listed();
         let place = listed.iter().position(|index| *index == self.selected).unwrap_or(0);
@@ -123,7 +123,8 @@ impl Editor {
         self.renew();
     }
 
-    /// Undoes the last edit, or redoes it. Returns what has changed, or `None` if there is no such edit.
+    /// Undoes the last edit, or redoes the last edit that was undone. Returns the change in words; `None` without such an
+    /// edit.
     pub fn undo(&mut self, back: bool) -> Option<String> {
         let (from, to) =
             if back { (&mut self.past, &mut self.future) } else { (&mut self.future, &mut self.past) };

@@ -25,7 +25,7 @@ impl Layout {
         Layout::within(app, app.view.size)
     }
 
-    /// The layout of a model in a window of so many columns and rows.
+    /// The layout in a window of a width and a height in cells.
     pub fn within(app: &App, (width, height): (u16, u16)) -> Self {
         let row = |y: u16| Rect::new(0, y, width, 1).intersection(Rect::new(0, 0, width, height));
         // The frame of the panes gives way before the panes.

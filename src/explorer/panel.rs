@@ -4,7 +4,7 @@
 use super::layout::{inside, is_framed, split_profile};
 use super::theme::{Appearance, Meaning};
 use super::view::text::{Part, filled, fitted, wrapped};
-use crate::draw::{Axis, CellPlot, CellStyle, Chart, Colours, Ink, Shape, legend};
+use crate::draw::{Axis, CellPlot, CellStyle, Chart, Colours, Ink, Shape, key, legend};
 use crate::scene::format_rounded;
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Position, Rect};
@@ -36,7 +36,7 @@ pub enum Body {
         /// Index of the selected row.
         selected: usize,
     },
-    /// A text, such as the reason why there is no chart.
+    /// A text in place of a chart, such as the reason why the chart is missing.
     Text(String),
 }
 
@@ -106,6 +106,18 @@ pub fn names(chart: &Chart, look: Appearance) -> Vec<Part> {
     let label = Span::styled(chart.y.label_with_unit().to_string(), look.theme.style(Meaning::Quiet));
     let entries = in_theme(look, |style| legend(std::slice::from_ref(chart), style));
     std::iter::once(vec![label]).chain(entries).collect()
+}
+
+/// Label of the vertical axis of a map, and its shades with their numbers, each at most `width` wide.
+pub fn shades(chart: &Chart, look: Appearance, width: usize) -> Vec<Part> {
+    let title = |text: String| Span::styled(text, look.theme.style(Meaning::Title));
+    let scale = chart.map().map(|map| {
+        let name = title(format!("{} ", map.key.label_with_unit()));
+        let scale = key(map, width.saturating_sub(name.width()), Colours::None);
+        std::iter::once(name).chain(scale.into_iter().map(|(text, _)| Span::raw(text))).collect()
+    });
+    let label = vec![title(format!("↑ {}", chart.y.label_with_unit()))];
+    std::iter::once(label).chain(scale).collect()
 }
 
 /// Calls `draw` with the look of charts in a theme.
@@ -217,7 +229,7 @@ fn first_row(selected: usize, rows: usize, height: u16) -> usize {
     (selected.saturating_sub(margin) / page * page).min(rows.saturating_sub(height))
 }
 
-/// As many parts as fit into so many columns: two columns apart where all fit, else one.
+/// A line of the first parts that fit into a number of columns: two columns apart if all parts fit, else one.
 pub fn spaced(parts: Vec<Part>, columns: usize) -> Option<Line<'static>> {
     let widths: usize = parts.iter().flatten().map(Span::width).sum();
     let between = if widths + 2 * parts.len().saturating_sub(1) <= columns { "  " } else { " " };

@@ -33,8 +33,8 @@ impl Write for Sent {
 }
 
 impl<W: Write> Recording<W> {
-    /// Begins a recording of a terminal of so many columns and rows. It has no date, so that the same demo gives the same
-    /// file.
+    /// Begins the recording of a terminal of a width and a height in cells. The recording states no date: the same demo
+    /// gives the same file.
     ///
     /// # Errors
     /// When writing fails.

@@ -8,7 +8,7 @@ pub(super) const MOST_EXPANSION: usize = 32;
 /// Decompressed bytes allowed in addition.
 const LEAST_EXPANDED: usize = 1 << 20;
 
-/// Returns the largest number of decompressed bytes from so many bytes.
+/// Returns the largest allowed number of bytes decompressed from a number of compressed bytes.
 pub(super) fn most_expanded(bytes: usize) -> usize {
     bytes.saturating_mul(MOST_EXPANSION).saturating_add(LEAST_EXPANDED)
 }

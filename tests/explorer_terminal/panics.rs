@@ -60,7 +60,7 @@ fn a_panic_while_drawing_gives_the_terminal_back_and_shows_why() {
 }
 
 #[test]
-fn a_typed_digit_is_in_the_next_frame_whatever_the_engine_does() {
+fn a_typed_key_is_in_the_next_frame_whatever_the_engine_does() {
     let mut terminal = paused(panicking());
     select(&mut terminal, "seed");
     seed(&mut terminal, "14");
@@ -69,11 +69,12 @@ fn a_typed_digit_is_in_the_next_frame_whatever_the_engine_does() {
     terminal.send("e");
     terminal.settle();
     let mut typed = String::new();
-    for digit in ["2", "7", "1", "8", "2", "8"] {
+    // No text with a letter is a seed, so that no curve of a typed seed arrives between two keys.
+    for key in ["x", "2", "7", "1", "8", "2", "8"] {
         let before = terminal.frames().len();
-        terminal.send(digit);
-        typed.push_str(digit);
-        terminal.wait("typed digits", |rows| rows.iter().any(|row| row.contains(&format!(": {typed}"))));
+        terminal.send(key);
+        typed.push_str(key);
+        terminal.wait("typed keys", |rows| rows.iter().any(|row| row.contains(&format!(": {typed}"))));
         assert_eq!(terminal.frames().len() - before, 1, "frames from the key to its echo");
     }
     // The engine stops for the newer scene.

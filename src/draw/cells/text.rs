@@ -25,7 +25,7 @@ const WIDEST_CELL: usize = 5;
 const FEWEST_ROWS: usize = 10;
 const MOST_ROWS: usize = 48;
 
-/// A figure as text of at most so many columns, one chart below the other.
+/// A figure as text within a number of columns, one chart below the other.
 pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String {
     let columns = columns.clamp(COLUMNS.0, COLUMNS.1);
     let ink = |ink: Ink| match (ink, colours) {

@@ -35,7 +35,7 @@ pub struct Demo {
 }
 
 impl Demo {
-    /// A demo that begins on a scene and follows a script, with so many frames in a second.
+    /// A demo that begins on a scene and follows a script, at a number of frames per second.
     pub fn new(
         document: Document,
         script: &[Cue],

@@ -3,11 +3,11 @@
 /// Step of the demo.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cue {
-    /// Plays for so many seconds.
+    /// Plays for a time in seconds.
     Wait(f64),
     /// Runs a command of the table of keys, by its name.
     Do(&'static str),
-    /// Runs a command so many times, so many seconds apart.
+    /// Runs a command a number of times, at intervals in seconds.
     Repeat(u32, f64, &'static str),
     /// Selects the parameter of a field.
     Select(&'static str),

@@ -12,7 +12,7 @@ use std::mem::ManuallyDrop;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
-/// Plays a demo with so many frames in a second until it is over or a key is pressed.
+/// Plays a demo at a number of frames per second until it is over or a key is pressed.
 ///
 /// # Errors
 /// When the terminal refuses.

@@ -1,11 +1,11 @@
 //! The map: shades in the colours of the regimes, the mark of the scene, and the values at the mark.
 
 use super::{Exported, PaneRow};
-use crate::draw::{Chart, Colours, Figure, Ink, Layer, SHADES, Shape, Sign, key};
+use crate::draw::{Chart, Figure, Ink, Layer, SHADES, Shape, Sign};
 use crate::explorer::app::App;
 use crate::explorer::chart::{self, Live};
 use crate::explorer::keys::Context;
-use crate::explorer::panel::{Panel, in_theme, names};
+use crate::explorer::panel::{Panel, in_theme, names, shades};
 use crate::explorer::theme::Meaning;
 use crate::explorer::view::text::{Part, filled, wrapped};
 use crate::export::{study_curves, study_figure, study_map};
@@ -133,7 +133,7 @@ fn profiles(count: u64) -> String {
     if count == 1 { "1 profile".to_owned() } else { format!("{} profiles", grouped(count)) }
 }
 
-/// Reason why there is no map.
+/// Returns the reason why the map is missing.
 fn nothing_yet(app: &App) -> String {
     if let Err(why) = live_plan(app.edit.document.scene(), app.chart.parameter) {
         return why.to_string();
@@ -144,7 +144,7 @@ fn nothing_yet(app: &App) -> String {
     match (app.is_computing(), app.is_current()) {
         (true, _) => "the scene is computed first…".to_owned(),
         (false, false) => "the scene cannot be computed, so there is no map around it".to_owned(),
-        _ if !app.view.shows_times => "a map of so many springs is not computed here".to_owned(),
+        _ if !app.view.shows_times => "a demo computes no map of a scene with this many springs".to_owned(),
         _ => "computing the map, from coarse to fine…".to_owned(),
     }
 }
@@ -161,8 +161,9 @@ fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
     let (Some(grid), Some(map)) = (app.grid(), chart.map()) else { return Vec::new() };
     let look = app.view.appearance;
     let title = |text: String| Text::styled(text, look.theme.style(Meaning::Title));
-    let mut parts = vec![vec![title(format!("↑ {}", chart.y.label_with_unit()))]];
+    let mut parts = shades(chart, look, width);
     if app.charted() == Quantity::Regime {
+        parts.truncate(1);
         // From the densest: the regimes, and cells whose profiles are in one and the next.
         for (class, shade) in map.class_names.iter().zip(SHADES.iter().rev().step_by(2)) {
             let shade = Text::styled(*shade, in_theme(look, |style| (style.ink)(class.ink)));
@@ -172,8 +173,6 @@ fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
             parts.push(vec![Text::raw(format!("{} {} profiles disagree", SHADES[3], SHADES[1]))]);
         }
     } else {
-        let scale = key(map, width, Colours::None).into_iter().map(|(text, _)| Text::raw(text));
-        parts.push(std::iter::once(title(format!("{} ", map.key.label_with_unit()))).chain(scale).collect());
         // The first name is that of the axis.
         parts.extend(names(chart, look).into_iter().skip(1));
     }

@@ -85,7 +85,7 @@ pub struct PaneRow {
     pub panel: fn(&App, Size) -> Panel,
     /// Content as a figure for a file, where this is more than the chart of the panel.
     pub figure: fn(&App, &Panel) -> Option<Figure>,
-    /// Command and result of tables and JSON for a file; `None` while there is no result.
+    /// The command and the report that a table or a JSON file states; `None` while the result is missing.
     pub report: for<'a> fn(&'a App) -> Exported<'a>,
     /// Keys of the selected pane; those of the crosshair, while this is shown.
     pub keys: Option<Context>,

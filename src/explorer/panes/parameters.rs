@@ -164,7 +164,7 @@ fn editor(app: &App, parameter: &Parameter, line: &TextLine, lead: &str, width: 
     Line::from_iter([label].into_iter().chain(typed(line, room, app.view.appearance.theme)))
 }
 
-/// Name and symbol in so many columns: the name is cut, or left out where little of it would remain.
+/// Name and symbol within a number of columns: the name is cut, or left out where little of the name would remain.
 fn name_within(parameter: &Parameter, room: usize) -> String {
     let (name, symbol) = (parameter.name(), parameter.field.symbol);
     if symbol.is_empty() {
@@ -182,7 +182,7 @@ fn columns(text: &str) -> usize {
     Span::raw(text).width()
 }
 
-/// A text in so many columns, with `…` in place of the rest.
+/// A text within a number of columns, with `…` in place of the rest.
 fn cut(text: &str, room: usize) -> String {
     fitted(Line::raw(text.to_owned()), room as u16).to_string()
 }

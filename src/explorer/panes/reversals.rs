@@ -2,17 +2,17 @@
 
 use super::{Exported, PaneRow};
 use crate::analysis::ReversalMap;
-use crate::draw::{Chart, Colours, key};
+use crate::draw::Chart;
 use crate::explorer::app::App;
-use crate::explorer::panel::Panel;
+use crate::explorer::panel::{Panel, shades};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::theme::Meaning;
-use crate::explorer::view::text::wrapped;
+use crate::explorer::view::text::{filled, wrapped};
 use crate::export::{ReversalReport, SMOOTHING, density_chart, everett_chart};
 use crate::scene::format_rounded;
 use ratatui::layout::Size;
-use ratatui::text::{Line, Span as Text};
+use ratatui::text::Line;
 use std::sync::Arc;
 
 /// Turning points of a map.
@@ -20,9 +20,7 @@ const TURNS: usize = 64;
 
 /// Row of the pane with the Everett function.
 pub static EVERETT: PaneRow = PaneRow {
-    panel: |app, size| {
-        panel(app, size, "Everett function E, half of the fall since the turning point", everett_chart)
-    },
+    panel: |app, size| panel(app, size, "Everett function E", everett_chart),
     report,
     studies,
     help: &[(
@@ -68,16 +66,10 @@ fn panel(app: &App, size: Size, title: &str, chart: impl Fn(&ReversalMap) -> Cha
     let Some(map) = app.studies.value::<ReversalMap>() else {
         return Panel::of_text(title, app.studies.failure::<ReversalMap>().unwrap_or("computing …"));
     };
-    let theme = app.view.appearance.theme;
     let chart = chart(map).with_symbols();
-    let shades = chart.map().map(|map| {
-        let names = format!("↑ {}  {} ", chart.y.label_with_unit(), map.key.label_with_unit());
-        let names = Text::styled(names, theme.style(Meaning::Title));
-        let scale = key(map, size.width.into(), Colours::None).into_iter().map(|(text, _)| Text::raw(text));
-        Line::from_iter([names].into_iter().chain(scale))
-    });
+    let head = filled(shades(&chart, app.view.appearance, size.width.into()), "  ", size.width.into());
     let step = format_rounded(map.step(), 3, "m");
     let facts = format!("{} turning points d_r with a step of {step}", map.reversals.len());
-    let foot = wrapped(&Line::styled(facts, theme.style(Meaning::Quiet)), size.width);
-    Panel { head: shades.into_iter().collect(), foot, ..Panel::of_chart(title, chart) }
+    let foot = wrapped(&Line::styled(facts, app.view.appearance.theme.style(Meaning::Quiet)), size.width);
+    Panel { head, foot, ..Panel::of_chart(title, chart) }
 }

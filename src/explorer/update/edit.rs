@@ -300,7 +300,7 @@ pub fn replace(app: &mut App, document: Document) {
     renewed(app);
 }
 
-/// Undoes the last edit, or redoes it.
+/// Undoes the last edit, or redoes the last edit that was undone, and states the change.
 pub fn undo(app: &mut App, back: bool) {
     let name = if back { "undo" } else { "redo" };
     let Some(what) = app.edit.undo(back) else { return app.set_done(format!("nothing to {name}")) };

@@ -25,7 +25,7 @@ pub fn toggle_manual(app: &mut App) {
     }
 }
 
-/// Presses (positive) or pulls the body by so many steps of manual loading.
+/// Presses (positive) or pulls the body by a number of steps of manual loading.
 pub fn push(app: &mut App, steps: i32, coarse: bool) {
     let (low, high) = app.indentations().unwrap_or_default();
     let step = (high - low) / if coarse { HAND_STEPS.1 } else { HAND_STEPS.0 };

@@ -33,7 +33,7 @@ fn end(lines: usize, area: Rect) -> u16 {
     (lines as u16).saturating_sub(inside(area).height)
 }
 
-/// All lines, none of them wider than so many columns.
+/// All lines of the help, each within a number of columns.
 fn lines(width: u16, app: &App) -> Vec<Line<'static>> {
     let theme = app.view.appearance.theme;
     let title = |text| Line::styled(text, theme.style(Meaning::Title));

@@ -1,4 +1,4 @@
-//! Text in so many columns: broken between words, in whole parts, or cut with an `…`.
+//! Text within a number of columns: broken between words, in whole parts, or cut with an `…`.
 //!
 //! ratatui breaks lines as well, but overruns its area, and panics, where a word has wide characters or
 //! begins with a combining mark, as in titles and typed values.
@@ -12,8 +12,8 @@ use ratatui::text::{Line, Span, StyledGrapheme};
 /// Spans that are shown together or not at all.
 pub type Part = Vec<Span<'static>>;
 
-/// A line in as many lines as needed, none of them wider than so many columns. A wider word is broken
-/// anywhere, a number neither at its thousands nor before its unit.
+/// A line broken into lines of at most this number of columns. A wider word is broken anywhere, a number neither at
+/// its thousands nor before its unit.
 pub fn wrapped(line: &Line<'_>, columns: u16) -> Vec<Line<'static>> {
     let graphemes: Vec<_> = line.styled_graphemes(Style::default()).collect();
     let is_blank = |grapheme: &StyledGrapheme<'_>| grapheme.symbol.trim().is_empty();
@@ -56,7 +56,7 @@ fn styled(graphemes: &[StyledGrapheme<'_>]) -> Line<'static> {
     spans.map(|span| Span::styled(text(span), span[0].style)).collect()
 }
 
-/// A line in at most so many lines, the last with `…` in place of the rest.
+/// A line broken into a limited number of lines, the last with `…` in place of the rest.
 pub fn wrapped_within(line: &Line<'_>, columns: u16, rows: u16) -> Vec<Line<'static>> {
     let mut lines = wrapped(line, columns);
     if lines.len() > usize::from(rows) {

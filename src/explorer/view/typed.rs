@@ -5,7 +5,7 @@ use crate::explorer::theme::{Meaning, Theme};
 use ratatui::style::Modifier;
 use ratatui::text::Span;
 
-/// The part of a line around its cursor, in so many columns.
+/// The part of a line around its cursor, within a number of columns.
 pub fn typed(line: &TextLine, columns: usize, theme: Theme) -> Vec<Span<'static>> {
     let reversed = theme.style(Meaning::Text).add_modifier(Modifier::REVERSED);
     if line.is_selected() && !line.text().is_empty() {
