@@ -109,6 +109,19 @@ impl Tally {
         }
     }
 
+    /// The indentations for which [`Tally::place`] returns this index, m: above the first, up to the second.
+    pub fn ends_before(&self, place: usize) -> (f64, f64) {
+        let points = self.grid.points();
+        let below = place.checked_sub(1).map_or(f64::NEG_INFINITY, |before| points[before]);
+        (below, points.get(place).copied().unwrap_or(f64::INFINITY))
+    }
+
+    /// Adds whole springs or cells that carry from this point on.
+    #[inline]
+    pub fn begin(&mut self, place: usize, totals: ContactTotals) {
+        self.changes[place] += totals;
+    }
+
     /// Adds whole springs or cells that carry at these points.
     #[inline]
     pub fn add(&mut self, carries: Range<usize>, totals: ContactTotals) {

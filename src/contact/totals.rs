@@ -113,9 +113,13 @@ impl ContactTotals {
     /// Sums the springs of one patch, or its cells where edges slide between springs.
     pub(super) fn of_patch(gaps: &[f64], slides: bool, scale: GapScale) -> Self {
         let mut totals = ContactTotals { springs: gaps.len() as i64, fragments: 1, ..Self::default() };
-        for at in 0..gaps.len() - usize::from(slides) {
-            let [quanta, squares] = sums_of_few(&gaps[at..=at + usize::from(slides)], slides, scale);
+        let mut add = |[quanta, squares]: [i128; 2]| {
             (totals.quanta, totals.squares) = (totals.quanta + quanta, totals.squares + squares);
+        };
+        if slides {
+            gaps.windows(2).for_each(|cell| add(sums_of_few(cell, true, scale)));
+        } else {
+            gaps.windows(1).for_each(|spring| add(sums_of_few(spring, false, scale)));
         }
         totals
     }
