@@ -110,13 +110,11 @@ impl LegRecord {
     }
 
     /// Indentation at the beginning, m.
-    #[must_use]
     pub fn start(&self) -> f64 {
         self.curve.first().map_or(0.0, |point| point.indentation)
     }
 
     /// Indentation at the end, m.
-    #[must_use]
     pub fn end(&self) -> f64 {
         self.curve.last().map_or(0.0, |point| point.indentation)
     }

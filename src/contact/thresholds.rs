@@ -7,7 +7,7 @@
 //! inside it, which keeps every digit for any slope and any indentation.
 
 use super::adhesive::Slider;
-use super::contact_state::{Sampled, Tally};
+use super::contact_state::{ContactState, Tally};
 use super::grid::Grid;
 use super::interval::{Intervals, Piece};
 use super::totals::{ContactTotals, GapScale};
@@ -33,7 +33,7 @@ impl<'a> Thresholds<'a> {
     }
 
     /// Contact along a grid.
-    pub fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {
+    pub fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {
         let mut tally = Tally::new(grid, self.slides)?;
         let never = tally.grid.points().len();
         let (mut first, mut place_before) = (0, never);
@@ -59,15 +59,16 @@ impl<'a> Thresholds<'a> {
     }
 
     /// Adds the events and the partly filled cells to the intervals of a search.
-    pub fn search(&self, intervals: &mut Intervals<'_>) {
+    pub fn search(&self, intervals: &mut Intervals) {
+        let (low, high) = intervals.ends();
         for (spring, &threshold) in self.thresholds.iter().enumerate() {
-            if intervals.low < threshold && threshold <= intervals.high {
+            if low < threshold && threshold <= high {
                 intervals.add_events(threshold, f64::INFINITY, self.totals(spring..spring + 1));
             }
         }
         for cell in self.thresholds.windows(2).filter(|_| self.slides) {
             let (from, to) = if cell[0] < cell[1] { (cell[0], cell[1]) } else { (cell[1], cell[0]) };
-            if from < to && intervals.overlap(from, to) {
+            if from < to && from <= high && to > low {
                 intervals.add_piece(Piece { slider: Slider::of_cell(from, to), from, to });
             }
         }
