@@ -94,7 +94,7 @@ fn assert_stated_errors_hold_and_are_not_far_above_the_true_ones(ratios: &[f64])
     let held = ratios.iter().filter(|ratio| **ratio >= 1.0).count();
     assert!(100 * held >= 95 * ratios.len(), "{held} of {} stated errors hold", ratios.len());
     let median = ratios[ratios.len() / 2];
-    assert!(median <= 10.0, "the median stated error is {median} times the true one");
+    assert!(median <= 20.0, "the median stated error is {median} times the true one");
 }
 
 #[test]
