@@ -73,11 +73,6 @@ impl Body {
         self.point_of(self.state)
     }
 
-    /// Present leg.
-    pub fn present_leg(&self) -> &Leg {
-        &self.leg
-    }
-
     /// Moves the body to a target without a curve; `None` for a body that is there.
     ///
     /// # Errors

@@ -93,11 +93,6 @@ impl Springs {
         Ok(tree.get_or_init(|| built))
     }
 
-    /// Returns true once the tree of an edge model has been built.
-    pub fn has_tree(&self, edges: Edges) -> bool {
-        self.trees[edges as usize].get().is_some()
-    }
-
     /// Returns the memory of a tree that nothing else uses.
     pub fn into_tree(self) -> ContactTree {
         let trees = self.trees.into_iter().filter_map(OnceLock::into_inner);
