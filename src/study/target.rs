@@ -172,6 +172,24 @@ fn set(tree: &mut Tree, path: &str, axis: &str, value: f64, base: &Scene) -> Res
     Err(format!("axis {axis}: the scene has no {path}{counted}"))
 }
 
+/// The numbers of a scene other than counts, zeros and what belongs to the numerics: path, quantity and value.
+pub(super) fn numbers(scene: &Scene) -> Vec<(String, Target, f64)> {
+    let tree = Tree::of(scene);
+    let is_physical =
+        |field: &&Field| field.parent() != "numerics" && !matches!(field.range, Range::Whole(..));
+    let paths =
+        FIELDS.iter().filter(is_physical).flat_map(|field| ENDS.map(|end| format!("{}{end}", field.path)));
+    let mut paths: Vec<String> = paths.filter(|path| number(path).is_some()).collect();
+    // Variants of a choice share names.
+    paths.dedup();
+    paths.extend((0..scene.loading.len()).map(|stage| format!("loading.{stage}.0")));
+    let known = |path: String| {
+        let (target, value) = (Target::of(&path).ok()?, tree.get(&path).filter(|value| *value != 0.0)?);
+        Some((path, target, value))
+    };
+    paths.into_iter().filter_map(known).collect()
+}
+
 /// Removes all that changes no recorded result: texts, what is observed, and the samples of the curve, as all recorded
 /// quantities are at the ends of loading stages or exact extremes.
 pub(super) fn strip(scene: &mut Scene) {
