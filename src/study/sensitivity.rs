@@ -1,0 +1,181 @@
+//! Sensitivity of the results of a scene: their changes by a tenth of each number of the scene, and by the random phases.
+
+use super::error::StudyError;
+use super::quantity::Quantity;
+use super::results::Results;
+use super::target::{Target, numbers, scene_with};
+use crate::scene::{Scene, check};
+use crate::simulation::Simulation;
+
+/// Share by which a number is made smaller and larger.
+pub const STEP: f64 = 0.1;
+/// Random profiles beside that of the scene.
+pub const OTHER_SEEDS: u64 = 7;
+
+/// Values of the results, in the order of [`Sensitivity::RESULTS`].
+pub type Values = [Option<f64>; 3];
+
+/// Results with a number smaller and larger than in the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Influence {
+    /// Path of the number in a scene.
+    pub path: String,
+    /// Technical name.
+    pub name: String,
+    /// Symbol; may be empty.
+    pub symbol: &'static str,
+    /// SI unit; `1` for numbers without one.
+    pub unit: &'static str,
+    /// The number in the scene.
+    pub value: f64,
+    /// The smaller and the larger number, with the results; `None` for a number that the scene does not allow.
+    pub sides: [Option<(f64, Values)>; 2],
+}
+
+/// Results of a scene and of its neighbours.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sensitivity {
+    /// Results of the scene.
+    pub present: Values,
+    /// One influence for each number of the scene that is not a count, as far as computed.
+    pub influences: Vec<Influence>,
+    /// Smallest and largest results over the profile of the scene and those of the [`OTHER_SEEDS`] next seeds; `None`
+    /// for a scene without random phases.
+    pub seeds: Option<[Values; 2]>,
+}
+
+impl Sensitivity {
+    /// The results.
+    pub const RESULTS: [Quantity; 3] =
+        [Quantity::AdhesionForce, Quantity::ZeroLoadAdhesionForce, Quantity::DissipatedEnergy];
+
+    /// Computes a checked scene and its neighbours. All other numbers of the scene stay: with κ given, the work of
+    /// adhesion follows from κ. `report` receives the influences so far after each.
+    ///
+    /// # Errors
+    /// When a profile or its contact fails, or `stop` interrupts.
+    pub fn of(
+        scene: &Scene,
+        simulation: &mut Simulation,
+        stop: &dyn Fn() -> bool,
+        report: &mut dyn FnMut(&Sensitivity),
+    ) -> Result<Sensitivity, StudyError> {
+        let mut solve = |scene: &Scene, lines| -> Result<Vec<Values>, StudyError> {
+            let mut results = Results::begin(scene, &Self::RESULTS, lines, None)?;
+            let failed = |error| StudyError::Run { place: String::new(), error };
+            results.extend(simulation, stop, &mut |_| ()).map_err(failed)?;
+            Ok((0..lines).map(|line| Self::RESULTS.map(|of| results.value(0, line, of))).collect())
+        };
+        let lines = solve(scene, if scene.seed().is_some() { 1 + OTHER_SEEDS } else { 1 })?;
+        let seeds = (lines.len() > 1).then(|| {
+            [f64::min, f64::max].map(|end: fn(f64, f64) -> f64| {
+                [0, 1, 2].map(|of| lines.iter().filter_map(|line| line[of]).reduce(end))
+            })
+        });
+        let mut all = Sensitivity { present: lines[0], influences: Vec::new(), seeds };
+        for (path, target, value) in numbers(scene) {
+            let (name, symbol, unit) = target.label(&path, scene);
+            let mut sides = [None, None];
+            for (side, sign) in sides.iter_mut().zip([-1.0, 1.0]) {
+                let changed = changed(target, value, sign);
+                let neighbour = scene_with(scene, std::iter::once((path.as_str(), target, changed)));
+                if let Some(neighbour) = neighbour.ok().filter(|scene| check(scene).is_empty()) {
+                    *side = Some((changed, solve(&neighbour, 1)?[0]));
+                }
+            }
+            all.influences.push(Influence { path, name, symbol, unit, value, sides });
+            report(&all);
+        }
+        Ok(all)
+    }
+
+    /// Relative changes of a result towards both sides of an influence; `None` where the result or its value in the scene
+    /// is missing or zero.
+    pub fn changes(&self, influence: &Influence, result: usize) -> [Option<f64>; 2] {
+        let values = |side: &Option<(f64, Values)>| side.and_then(|(_, values)| values[result]);
+        influence.sides.each_ref().map(|side| self.change(values(side), result))
+    }
+
+    /// Relative changes from the result of the scene to the smallest and the largest one of the random profiles.
+    pub fn changes_of_seeds(&self, result: usize) -> [Option<f64>; 2] {
+        self.seeds.map_or([None; 2], |ends| ends.map(|values| self.change(values[result], result)))
+    }
+
+    fn change(&self, value: Option<f64>, result: usize) -> Option<f64> {
+        let present = self.present[result].filter(|present| *present != 0.0)?;
+        Some(value? / present - 1.0)
+    }
+
+    /// The influences, that with the largest change of a result first.
+    pub fn ordered(&self, result: usize) -> Vec<&Influence> {
+        let mut ordered: Vec<&Influence> = self.influences.iter().collect();
+        let size = |influence: &&Influence| {
+            self.changes(influence, result)
+                .into_iter()
+                .flatten()
+                .fold(0.0, |most: f64, one| most.max(one.abs()))
+        };
+        ordered.sort_by(|one, other| size(other).total_cmp(&size(one)));
+        ordered
+    }
+}
+
+/// A number changed by [`STEP`] towards one side; a whole number by at least 1.
+fn changed(target: Target, value: f64, sign: f64) -> f64 {
+    let step = STEP * value.abs();
+    if target.is_whole() { value + sign * step.round().max(1.0) } else { value + sign * step }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::open;
+
+    fn sensitivity(name: &str) -> Sensitivity {
+        let mut scene = open(name).unwrap().scene().clone();
+        scene.numerics.points = 1 << 14;
+        let mut reported = 0;
+        let found = Sensitivity::of(&scene, &mut Simulation::default(), &|| false, &mut |part| {
+            reported += 1;
+            assert_eq!(part.influences.len(), reported);
+        });
+        let found = found.unwrap();
+        assert_eq!(found.influences.len(), reported);
+        found
+    }
+
+    /// F_a = (3/2)πγR of a sphere: in proportion to γ and R, and to nothing else.
+    #[test]
+    fn a_sphere_follows_its_radius_and_the_work_of_adhesion() {
+        let found = sensitivity("jkr-sphere");
+        assert_eq!(found.seeds, None);
+        for influence in &found.influences {
+            let expected = if matches!(influence.symbol, "R" | "γ") { STEP } else { 0.0 };
+            for (change, sign) in found.changes(influence, 0).into_iter().zip([-1.0, 1.0]) {
+                let Some(change) = change else {
+                    assert_eq!((influence.symbol, sign), ("ν", 1.0), "only ν cannot grow");
+                    continue;
+                };
+                assert!((change - sign * expected).abs() < 1e-3, "{influence:?}: {change}");
+            }
+        }
+        let first = found.ordered(0)[0];
+        assert!(matches!(first.symbol, "R" | "γ"), "{first:?}");
+    }
+
+    #[test]
+    fn a_rough_scene_has_its_numbers_and_its_seeds() {
+        let found = sensitivity("pressure-sensitive");
+        let paths: Vec<&str> = found.influences.iter().map(|influence| influence.path.as_str()).collect();
+        for path in ["roughness.hurst", "roughness.rms_height", "roughness.modes.1", "loading.0.0", "length"]
+        {
+            assert!(paths.contains(&path), "{path}: {paths:?}");
+        }
+        assert!(
+            paths.iter().all(|path| !path.starts_with("numerics") && !path.contains("seed")),
+            "{paths:?}"
+        );
+        let [low, high] = found.seeds.unwrap();
+        assert!(low[0] <= found.present[0] && found.present[0] <= high[0] && low[0] < high[0]);
+    }
+}
