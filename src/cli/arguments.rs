@@ -1,8 +1,8 @@
 //! Arguments of the program.
 
 use super::{
-    check, compare, completions, config, cost, demo, explore, line, plan, presets, reversals, run, surface,
-    sweep,
+    check, compare, completions, config, cost, demo, explore, line, plan, presets, reversals, run,
+    sensitivity, surface, sweep,
 };
 use clap::{Parser, Subcommand};
 
@@ -50,6 +50,8 @@ pub enum Command {
     Compare(compare::CompareArguments),
     /// Unload a scene from many turning points: reversal curves, adhesion against preload
     Reversals(reversals::ReversalsArguments),
+    /// Change each number of a scene by 10 %: adhesion force, adhesion without a preload, dissipated energy
+    Sensitivity(sensitivity::SensitivityArguments),
     /// Play the explorer without a keyboard: on screen, as text, or as a recording
     Demo(demo::DemoArguments),
     /// List the computing stages of a scene with their cost, and those it skips

@@ -21,6 +21,7 @@ mod progress;
 mod reversals;
 mod run;
 mod scene;
+mod sensitivity;
 mod surface;
 mod sweep;
 
@@ -109,6 +110,7 @@ fn dispatch(arguments: &Arguments, stdout: &mut dyn Write) -> Result<(), CliErro
         Some(Command::Run(arguments)) => run::run(arguments, stdout),
         Some(Command::Compare(arguments)) => compare::compare(arguments, stdout),
         Some(Command::Reversals(arguments)) => reversals::reversals(arguments, stdout),
+        Some(Command::Sensitivity(arguments)) => sensitivity::sensitivity(arguments, stdout),
         Some(Command::Demo(arguments)) => demo::demo(arguments, stdout),
         Some(Command::Cost(arguments)) => cost::cost(arguments, stdout),
         Some(Command::Sweep(arguments)) => sweep::sweep(arguments, stdout),

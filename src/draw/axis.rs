@@ -17,11 +17,20 @@ pub struct Axis {
     pub symbol: String,
     /// SI unit; `1` or empty for numbers.
     pub unit: String,
+    /// Names at the coordinates 0, 1, … in place of numbers; empty for an axis with numbers.
+    pub names: Vec<Label>,
 }
 
 impl Axis {
     pub fn new(scale: AxisScale, span: Span, name: &str, symbol: &str, unit: &str) -> Axis {
-        Axis { scale, span, name: name.to_owned(), symbol: symbol.to_owned(), unit: unit.to_owned() }
+        let [name, symbol, unit] = [name, symbol, unit].map(str::to_owned);
+        Axis { scale, span, name, symbol, unit, names: Vec::new() }
+    }
+
+    /// An axis with names in place of numbers, the first at 0, each in the middle of a range of 1.
+    pub fn of_names(names: Vec<Label>) -> Axis {
+        let span = Span { low: -0.5, high: names.len() as f64 - 0.5 };
+        Axis { names, ..Axis::new(AxisScale::Linear, span, "", "", "") }
     }
 
     /// Position of a number from 0 at the lower to 1 at the upper end; not finite if the scale has no coordinate
@@ -67,6 +76,10 @@ impl Axis {
 
     /// Ticks at coordinates, about `most` of them labelled.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
+        if !self.names.is_empty() {
+            let tick = |(at, name): (usize, &Label)| Tick { at: at as f64, label: Some(name.clone()) };
+            return self.names.iter().enumerate().map(tick).collect();
+        }
         ticks(self.scale, self.span, self.prefix().0, most)
     }
 }

@@ -4,6 +4,7 @@ use crate::analysis::Governing;
 use crate::scene::{FIELDS, Field, Move, Range, Roughness, RoughnessParameter, Scene, Tree, field, nearest};
 use crate::simulation::FEW_SAMPLES;
 use crate::surface::SelfAffine;
+use std::collections::HashSet;
 
 /// Quantities that are not fields of a scene.
 pub const DERIVED: &[&str] = &["kappa", "elastic_energy_ratio", "preload", "springs_per_wave"];
@@ -179,10 +180,11 @@ pub(super) fn numbers(scene: &Scene) -> Vec<(String, Target, f64)> {
         |field: &&Field| field.parent() != "numerics" && !matches!(field.range, Range::Whole(..));
     let paths =
         FIELDS.iter().filter(is_physical).flat_map(|field| ENDS.map(|end| format!("{}{end}", field.path)));
-    let mut paths: Vec<String> = paths.filter(|path| number(path).is_some()).collect();
-    // Variants of a choice share names.
-    paths.dedup();
-    paths.extend((0..scene.loading.len()).map(|stage| format!("loading.{stage}.0")));
+    let stages = (0..scene.loading.len()).map(|stage| format!("loading.{stage}.0"));
+    let mut paths: Vec<String> = paths.filter(|path| number(path).is_some()).chain(stages).collect();
+    // Variants of a choice share paths.
+    let mut seen = HashSet::new();
+    paths.retain(|path| seen.insert(path.clone()));
     let known = |path: String| {
         let (target, value) = (Target::of(&path).ok()?, tree.get(&path).filter(|value| *value != 0.0)?);
         Some((path, target, value))

@@ -14,6 +14,7 @@ mod profile;
 mod reversals;
 mod scene_spectra;
 mod section;
+mod sensitivity;
 mod spectrum;
 
 pub use costs::Costs;
@@ -57,6 +58,8 @@ pub enum Pane {
     Everett,
     /// Density of first-order reversal curves, in place of profile and close-up.
     Density,
+    /// Sensitivity to the numbers of the scene, in place of profile and close-up.
+    Sensitivity,
     /// The map over κ and H, in place of profile and close-up.
     Chart,
     /// The list of parameters.
@@ -121,7 +124,7 @@ const EXPORTED: Size = Size { width: 120, height: 40 };
 
 impl Pane {
     /// All panes, in the order of the help.
-    pub const ALL: [Pane; 12] = [
+    pub const ALL: [Pane; 13] = [
         Pane::Force,
         Pane::Profile,
         Pane::CloseUp,
@@ -132,6 +135,7 @@ impl Pane {
         Pane::Preloads,
         Pane::Everett,
         Pane::Density,
+        Pane::Sensitivity,
         Pane::Chart,
         Pane::Parameters,
     ];
@@ -149,6 +153,7 @@ impl Pane {
             Pane::Preloads => &preloads::ROW,
             Pane::Everett => &reversals::EVERETT,
             Pane::Density => &reversals::DENSITY,
+            Pane::Sensitivity => &sensitivity::ROW,
             Pane::Chart => &map::ROW,
             Pane::Parameters => &parameters::ROW,
         }

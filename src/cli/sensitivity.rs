@@ -1,0 +1,41 @@
+//! `asperity sensitivity`: changes of the results of a scene with its numbers.
+
+use super::output::{Origin, format_of};
+use super::scene::simulation_of;
+use super::{CliError, OutputArguments, SceneArguments};
+use crate::export::{Format, SensitivityReport};
+use crate::study::Sensitivity;
+use clap::Args;
+use std::io::Write;
+
+const EXAMPLES: &str = "\
+Examples:
+  asperity sensitivity pressure-sensitive
+  asperity sensitivity my-scene.ron --set numerics.points=16384 -o sensitivity.svg
+
+Each number of the scene is made 10 % smaller and larger while all others stay; the last row is the
+range over other random profiles.";
+
+/// Arguments of `sensitivity`.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub struct SensitivityArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// text, json, csv, npy, svg or png; default: by the extension of FILE
+    #[arg(long, value_parser = format_of(&Format::ALL), hide_possible_values = true)]
+    pub format: Option<Format>,
+    #[command(flatten)]
+    pub output: OutputArguments,
+}
+
+/// Computes the neighbours of a scene and writes the changes.
+pub(super) fn sensitivity(arguments: &SensitivityArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let format = arguments.output.format(arguments.format, &Format::ALL, Format::Text)?;
+    let document = arguments.scene.open()?;
+    let scene = document.scene();
+    let found = Sensitivity::of(scene, &mut simulation_of(&document), &|| false, &mut |_| ());
+    let found = found.map_err(|error| CliError::named(document.name(), error))?;
+    let report = SensitivityReport { title: document.title(), scene, sensitivity: &found };
+    arguments.output.write(stdout, &report, format, Origin::Scene(&document, scene))
+}
