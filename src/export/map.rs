@@ -27,9 +27,9 @@ impl Report for Grid {
         );
         for (place, layer) in self.layers.iter().enumerate() {
             let name = |of: &str| format!("{}_{of}", layer.quantity.name());
-            let interval = move |cell: &Cell| cell.estimates[place]?.interval;
+            let interval = move |cell: &Cell| cell.statistics[place]?.confidence_interval();
             table = table
-                .with(name("mean"), Kind::Real, move |(_, cell)| Some(cell.estimates[place]?.mean))
+                .with(name("mean"), Kind::Real, move |(_, cell)| Some(cell.statistics[place]?.mean))
                 .with(name("low"), Kind::Real, move |(_, cell)| Some(interval(cell)?.0))
                 .with(name("high"), Kind::Real, move |(_, cell)| Some(interval(cell)?.1));
         }

@@ -12,6 +12,9 @@ pub const MOST_VALUES: u64 = 1_000_000;
 /// Significant digits of values between the ends of an axis: 0.15 rather than 0.15000000000000002.
 const DIGITS: usize = 12;
 
+/// Smallest relative difference of two values of an axis; a smaller one is rounding.
+const APART: f64 = 1e-6;
+
 /// Smallest ratio of the ends of a list of values that is shown on a logarithmic scale.
 const LOGARITHMIC_RATIO: f64 = 50.0;
 
@@ -69,32 +72,31 @@ impl Axis {
     ///
     /// # Errors
     /// What is wrong with the axis, and what is allowed.
-    pub(super) fn of(text: AxisText, scene: &Scene) -> Result<Axis, String> {
-        let (path, spacing) = match &text {
-            AxisText::Linear { path, .. } => (path, Spacing::Linear),
-            AxisText::Logarithmic { path, .. } => (path, Spacing::Logarithmic),
-            AxisText::List { path, .. } => (path, Spacing::List),
-        };
-        let path = printable(path).into_owned();
-        let axis = Axis::new(&path, spacing, Vec::new(), scene).and_then(|axis| axis.with_values(text));
+    pub(super) fn of(text: &AxisText, scene: &Scene) -> Result<Axis, String> {
+        let (AxisText::Linear { path, .. }
+        | AxisText::Logarithmic { path, .. }
+        | AxisText::List { path, .. }) = text;
+        let path = printable(path);
+        let axis = Axis::new(&path, Spacing::List, Vec::new(), scene).and_then(|axis| axis.with_values(text));
         axis.map_err(|what| format!("axis {path}: {what}"))
     }
 
-    fn with_values(self, text: AxisText) -> Result<Axis, String> {
-        let axis = match text {
-            AxisText::List { values, .. } if values.is_empty() => {
+    fn with_values(self, text: &AxisText) -> Result<Axis, String> {
+        let axis = match *text {
+            AxisText::List { ref values, .. } if values.is_empty() => {
                 return Err("no values; allowed: at least one".into());
             }
-            AxisText::List { values, .. } if values.len() as u64 > MOST_VALUES => {
+            AxisText::List { ref values, .. } if values.len() as u64 > MOST_VALUES => {
                 return Err(format!("{} values; allowed: at most {MOST_VALUES}", values.len()));
             }
-            AxisText::List { values, .. } => Axis { values, ..self },
+            AxisText::List { ref values, .. } => Axis { values: values.clone(), ..self },
             AxisText::Linear { from, to, count, .. } => {
                 check_ends(from, to, count)?;
                 if !(to - from).is_finite() {
                     return Err(format!("from {from:?} to {to:?}: the range overflows a 64-bit float"));
                 }
-                self.between(from, to, count, |share| from * (1.0 - share) + to * share)
+                let at = |share: f64| from * (1.0 - share) + to * share;
+                Axis { spacing: Spacing::Linear, ..self }.between(from, to, count, at)
             }
             AxisText::Logarithmic { from, to, count, .. } => {
                 check_ends(from, to, count)?;
@@ -102,7 +104,8 @@ impl Axis {
                     return Err(format!("from {from:?}: a logarithmic axis begins above 0"));
                 }
                 let (first, last) = (from.ln(), to.ln());
-                self.between(from, to, count, |share| (first * (1.0 - share) + last * share).exp())
+                let at = |share: f64| (first * (1.0 - share) + last * share).exp();
+                Axis { spacing: Spacing::Logarithmic, ..self }.between(from, to, count, at)
             }
         };
         if let Some(value) = axis.values.iter().find(|value| !value.is_finite()) {
@@ -161,6 +164,20 @@ impl Axis {
         if self.symbol.is_empty() { self.path.clone() } else { self.symbol.to_owned() }
     }
 
+    /// The value so many steps above `value`, or below, on an ascending axis; the first or last value beyond the ends,
+    /// and `None` where `value` is already there.
+    pub fn next_beyond(&self, value: f64, steps: i32) -> Option<f64> {
+        let (values, apart) = (&self.values, APART * value.abs());
+        let further = steps.unsigned_abs().checked_sub(1)? as usize;
+        let index = if steps > 0 {
+            let first = values.iter().position(|one| *one > value + apart)?;
+            first.saturating_add(further).min(values.len() - 1)
+        } else {
+            values.iter().rposition(|one| *one < value - apart)?.saturating_sub(further)
+        };
+        Some(values[index])
+    }
+
     /// Places of the values in ascending order.
     pub(super) fn order(&self) -> Vec<usize> {
         let mut places: Vec<usize> = (0..self.values.len()).collect();
@@ -196,7 +213,7 @@ mod tests {
     use crate::scene::open;
 
     fn axis(text: &str) -> Result<Axis, String> {
-        Axis::of(ron::from_str(text).unwrap(), open("rough-sphere").unwrap().scene())
+        Axis::of(&ron::from_str(text).unwrap(), open("rough-sphere").unwrap().scene())
     }
 
     #[test]
@@ -238,5 +255,18 @@ mod tests {
             let wrong = axis(text).unwrap_err();
             assert!(wrong.contains(said), "{text}: {wrong}");
         }
+    }
+
+    #[test]
+    fn steps_go_to_the_next_value_of_the_axis_and_end_with_it() {
+        let scene = open("pressure-sensitive").unwrap().scene().clone();
+        let axes = crate::study::live_plan(&scene, crate::scene::RoughnessParameter::Kappa).unwrap().axes;
+        let to = |value, steps| axes[0].next_beyond(value, steps);
+        assert_eq!((to(6.0, 1), to(6.0, -1), to(6.0, 4)), (Some(6.73), Some(5.66), Some(11.3)));
+        // A value of the axis but for rounding.
+        assert_eq!((to(1.0 + 1e-12, 1), to(1.0 - 1e-12, -1)), (Some(1.19), Some(0.841)));
+        assert_eq!((to(31.0, 100), to(32.0, 1), to(0.125, -1)), (Some(32.0), None, None));
+        assert_eq!((to(100.0, -1), to(100.0, 1), to(1e-3, 1)), (Some(32.0), None, Some(0.125)));
+        assert_eq!((to(6.0, 0), to(6.0, i32::MIN), to(6.0, i32::MAX)), (None, Some(0.125), Some(32.0)));
     }
 }

@@ -10,33 +10,11 @@ use crate::scene::{RoughnessParameter, format_quantity};
 /// Smallest ratio of the values on a logarithmic scale.
 const LOGARITHMIC_RATIO: f64 = 50.0;
 
-/// A mean over random profiles, with its confidence and the range of the profiles.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Estimate {
-    /// The mean.
-    pub mean: f64,
-    /// 95 % confidence interval of the mean; `None` for one profile, or too few to state a confidence.
-    pub interval: Option<(f64, f64)>,
-    /// Smallest and largest value of a profile.
-    pub range: (f64, f64),
-}
-
-impl Estimate {
-    /// Estimate of a quantity from its values on profiles; `None` without values.
-    pub(super) fn of(quantity: Quantity, values: &[f64]) -> Option<Estimate> {
-        let range =
-            values.iter().map(|value| (*value, *value)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))?;
-        let all = Statistics::of(values, quantity.bounds());
-        let mean = all.map_or(range.0, |all| all.mean);
-        Some(Estimate { mean, interval: all.map(|all| all.confidence_interval), range })
-    }
-}
-
 /// A cell of a grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cell {
     /// The quantities of the layers, in their order; `None` where no profile has a value.
-    pub estimates: Vec<Option<Estimate>>,
+    pub statistics: Vec<Option<Statistics>>,
     /// Regime of the cell and of its profiles; `None` where unknown.
     pub regime: Option<CellRegime>,
     /// Number of profiles.
@@ -147,16 +125,16 @@ impl Grid {
 
     /// A quantity in all cells, row by row; `whole` adds substitutes for cells that have not been computed yet. The regime
     /// goes from 0, non-adhesive, to 1, pressure-insensitive, halfway if profiles disagree.
-    pub fn estimates(&self, quantity: Quantity, whole: bool) -> Vec<Option<Estimate>> {
+    pub fn statistics(&self, quantity: Quantity, whole: bool) -> Vec<Option<Statistics>> {
         let layer = self.layers.iter().position(|layer| layer.quantity == quantity);
         let rank = |regime: Regime| 1.0 - regime as u8 as f64 / 2.0;
         let of = |cell: &Cell| match (quantity, layer) {
             (Quantity::Regime, _) => {
                 let CellRegime { regime, split, .. } = cell.regime?;
                 let mean = split.map_or(rank(regime), |other| (rank(regime) + rank(other)) / 2.0);
-                Some(Estimate { mean, interval: None, range: (mean, mean) })
+                Statistics::of(vec![mean], (0.0, 1.0))
             }
-            (_, layer) => cell.estimates[layer?],
+            (_, layer) => cell.statistics[layer?],
         };
         self.each(whole).map(|cell| of(cell?)).collect()
     }

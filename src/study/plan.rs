@@ -96,11 +96,16 @@ impl Plan {
 
     /// Places of a cell on the axes.
     pub(super) fn places(&self, cell: u64) -> Vec<usize> {
-        let mut rest = cell;
-        let mut places = vec![0; self.axes.len()];
-        for (place, axis) in places.iter_mut().zip(&self.axes).rev() {
-            *place = (rest % axis.count()) as usize;
-            rest /= axis.count();
+        self.places_on(0..self.axes.len(), cell)
+    }
+
+    /// Places of a number among all combinations of values of these axes, the last one fastest; 0 on the other axes.
+    pub(super) fn places_on(&self, axes: impl DoubleEndedIterator<Item = usize>, number: u64) -> Vec<usize> {
+        let (mut rest, mut places) = (number, vec![0; self.axes.len()]);
+        for axis in axes.rev() {
+            let count = self.axes[axis].count();
+            places[axis] = (rest % count) as usize;
+            rest /= count;
         }
         places
     }
@@ -133,8 +138,7 @@ impl Plan {
     /// # Errors
     /// The path of an axis over a number that the scene does not have.
     pub fn scene_of(&self, cell: u64) -> Result<Scene, String> {
-        let values = self.axes.iter().zip(self.values(cell));
-        scene_with(&self.scene, values.map(|(axis, value)| (axis.path.as_str(), axis.target, value)))
+        scene_with(&self.scene, self.axes.iter().zip(self.values(cell)))
     }
 
     /// Seed of a profile.

@@ -3,12 +3,12 @@
 use super::StudyError;
 use super::axis::Axis;
 use super::cells::Run;
-use super::grid::{Cell, Estimate, Grid, Layer};
+use super::grid::{Cell, Grid, Layer};
 use super::plan::{ONE_PROFILE, Plan};
 use super::quantity::{Quantity, regime_of};
 use super::record::Done;
 use super::recorder::{Recorder, Records};
-use super::statistics::Statistics;
+use super::statistics::{RegimeCounts, Statistics};
 use super::store::{Folder, Record, ShardFile};
 use crate::analysis::{CellRegime, Regime};
 use crate::draw::AxisScale;
@@ -280,22 +280,14 @@ impl Results {
         self.records_of(cell).map(|(_, values)| values[column]).filter(|value| !value.is_nan()).collect()
     }
 
-    /// Statistics of a quantity over the profiles of a cell; `None` for fewer than two values.
-    pub fn statistics(&self, cell: u64, quantity: Quantity) -> Option<Statistics> {
-        Statistics::of(&self.values(cell, quantity), quantity.bounds())
-    }
-
     /// A recorded quantity over the profiles of a cell; `None` without values.
-    pub fn estimate(&self, cell: u64, quantity: Quantity) -> Option<Estimate> {
-        Estimate::of(quantity, &self.values(cell, quantity))
+    pub fn statistics(&self, cell: u64, quantity: Quantity) -> Option<Statistics> {
+        Statistics::of(self.values(cell, quantity), quantity.bounds())
     }
 
-    /// Shares of the profiles of a cell in each regime, in the order of [`crate::analysis::Regime::ALL`]; `None` where no
-    /// regime is known.
-    pub fn regimes(&self, cell: u64) -> Option<[f64; 3]> {
-        let places = self.values(cell, Quantity::Regime);
-        let share = |regime: usize| places.iter().filter(|place| **place as usize == regime).count() as f64;
-        (!places.is_empty()).then(|| [0, 1, 2].map(|regime| share(regime) / places.len() as f64))
+    /// Numbers of profiles of a cell in each regime.
+    pub fn regimes(&self, cell: u64) -> RegimeCounts {
+        RegimeCounts::of(self.records_of(cell).map(|(line, _)| self.regime(cell, line)))
     }
 
     /// The recorded quantities but the regime, on scales for the whole study.
@@ -306,7 +298,7 @@ impl Results {
 
     /// A recorded quantity on one scale for the whole study: that one, or by the range of all its means.
     pub(super) fn layer(&self, quantity: Quantity, scale: Option<AxisScale>) -> Layer {
-        let means = (0..self.plan.cells()).filter_map(|cell| Some(self.estimate(cell, quantity)?.mean));
+        let means = (0..self.plan.cells()).filter_map(|cell| Some(self.statistics(cell, quantity)?.mean));
         Layer::new(quantity, scale, &means.collect::<Vec<_>>())
     }
 
@@ -334,9 +326,9 @@ impl Results {
     /// A cell with these quantities; `None` without any record.
     pub(super) fn cell(&self, cell: u64, layers: &[Layer]) -> Option<Cell> {
         let lines = self.records_of(cell).count() as u64;
-        let estimates = layers.iter().map(|layer| self.estimate(cell, layer.quantity)).collect();
-        let regime = self.regimes(cell).and_then(CellRegime::from_shares);
-        (lines > 0).then_some(Cell { estimates, regime, lines })
+        let statistics = layers.iter().map(|layer| self.statistics(cell, layer.quantity)).collect();
+        let regime = self.regimes(cell).shares().and_then(CellRegime::from_shares);
+        (lines > 0).then_some(Cell { statistics, regime, lines })
     }
 }
 

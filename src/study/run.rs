@@ -105,7 +105,7 @@ pub fn run(
         };
         let (mut recorder, sender) = (Recorder::new(plan, simulation, &|| false), sender.clone());
         move |number: u64| -> Result<(), StudyError> {
-            for run in cells.runs_of(&cells.unit(units[number as usize])) {
+            for run in cells.runs(units[number as usize]) {
                 let is_missing = |cell: u64| !done.has(cell * plan.lines + run.line);
                 if !run.cells.clone().any(is_missing) {
                     continue;

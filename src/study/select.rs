@@ -219,11 +219,11 @@ impl Selection {
 /// A quantity of curves: a single one is linear, and logarithmic too for small values; of several the highest would hide
 /// the others.
 fn section_layer(grid: &Grid, quantity: Quantity, scale: Option<AxisScale>) -> Layer {
-    let estimates = grid.estimates(quantity, false);
-    let mut curves = estimates.chunks(grid.size().0.max(1));
+    let statistics = grid.statistics(quantity, false);
+    let mut curves = statistics.chunks(grid.size().0.max(1));
     let first = curves.next();
     let several = curves.any(|curve| Some(curve) != first);
-    let means: Vec<f64> = estimates.iter().flatten().map(|one| one.mean).collect();
+    let means: Vec<f64> = statistics.iter().flatten().map(|one| one.mean).collect();
     let usual = || if several { scale_of(&means) } else { AxisScale::Linear };
     Layer { quantity, scale: scale.unwrap_or_else(usual), range: None }
 }

@@ -108,12 +108,9 @@ pub(super) fn rate(records: u64, seconds: f64) -> Option<f64> {
 /// as counting the whole study.
 pub(super) fn count(folder: &Folder, cells: &Cells<'_>, done: &Done, shard: Shard) -> (u64, u64) {
     let (mut total, mut there) = (0, 0);
-    for unit in shard.units(cells.units()) {
-        let unit = cells.unit(unit);
-        total += cells.records_of(&unit);
-        for Run { cells, line } in cells.runs_of(&unit) {
-            there += cells.filter(|cell| done.has(cell * folder.plan().lines + line)).count() as u64;
-        }
+    for Run { cells, line } in shard.units(cells.units()).flat_map(|unit| cells.runs(unit)) {
+        total += cells.end - cells.start;
+        there += cells.filter(|cell| done.has(cell * folder.plan().lines + line)).count() as u64;
     }
     (total, there)
 }

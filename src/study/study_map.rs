@@ -1,14 +1,13 @@
 //! The maps of a finished study: over H and κ, or over other axes; one map for each value of the remaining axes.
 
+use super::axis::Axis;
+use super::error::StudyError;
+use super::grid::{Grid, Layer, across_and_up, fixed};
 use super::live_plan::live_plan;
-use super::place::{force_unit, moved};
+use super::plan::{PRELOAD, Plan};
+use super::results::Results;
+use super::target::{force_unit, governing, moved, scene_with, strip};
 use crate::scene::{Adhesion, Document, Move, Roughness, RoughnessParameter, Scene, SceneErrors};
-use crate::study::axis::Axis;
-use crate::study::error::StudyError;
-use crate::study::grid::{Grid, Layer, across_and_up, fixed};
-use crate::study::plan::{PRELOAD, Plan};
-use crate::study::results::Results;
-use crate::study::target::{governing, scene_with, strip};
 use std::path::{Path, PathBuf};
 
 /// Map of a finished study.
@@ -80,13 +79,7 @@ impl StudyMap {
 
     /// Places of a map on all axes, 0 on its own.
     fn places(&self, slice: u64) -> Vec<usize> {
-        let (mut rest, mut places) = (slice, vec![0; self.plan().axes.len()]);
-        for &other in self.others.iter().rev() {
-            let count = self.plan().axes[other].count();
-            places[other] = (rest % count) as usize;
-            rest /= count;
-        }
-        places
+        self.plan().places_on(self.others.iter().copied(), slice)
     }
 
     /// The axes outside the maps, each with the place of a map on it.
@@ -128,8 +121,7 @@ impl StudyMap {
         let at = self.at(slice).map(|(axis, place)| (axis, axis.values[place]));
         let values: Vec<(&Axis, f64)> = at.chain(over.iter().copied()).collect();
         // The plan has been checked with these values.
-        let numbers = values.iter().map(|(axis, value)| (axis.path.as_str(), axis.target, *value));
-        scene = scene_with(&scene, numbers).unwrap_or(scene);
+        scene = scene_with(&scene, values.iter().copied()).unwrap_or(scene);
         let preload = values.iter().find(|(axis, _)| axis.path == PRELOAD).map(|(_, value)| *value);
         let preload = preload.or_else(|| Some(plan.preloads()?.values[0]));
         if let Some((preload, unit)) = preload.zip(force_unit(&scene)) {
@@ -255,7 +247,7 @@ mod tests {
                         continue;
                     };
                     let cell = cell.as_ref().unwrap();
-                    let coefficient = cell.estimates[0].unwrap();
+                    let coefficient = cell.statistics[0].unwrap();
                     assert_eq!((column, up, coefficient.mean), (hurst, row, number as f64));
                     let (regime, split, agreeing) = [
                         (Regime::PressureInsensitive, None, 4),
