@@ -226,10 +226,9 @@ fn crossings(grid: &Grid, quantity: Quantity) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::CellRegime;
     use crate::draw::{attribute, elements, parsed};
     use crate::scene::open;
-    use crate::study::{Axis as StudyAxis, Cell, Layer as Quantities, Spacing, Spread};
+    use crate::study::{Axis as StudyAxis, Cell, Layer as Quantities, RegimeCounts, Spacing, Spread};
 
     const SHARE: Quantity = Quantity::ZeroLoadAdhesionShare;
     const COEFFICIENT: Quantity = Quantity::AdhesionCoefficient;
@@ -277,8 +276,8 @@ mod tests {
             [_, coefficient] if coefficient > 0.01 => Regime::PressureSensitive,
             _ => Regime::NonAdhesive,
         };
-        let regime = Some(CellRegime { regime, share: 1.0, split: None });
-        Cell { statistics: values.map(|value| Some(estimate(value))).to_vec(), regime, lines: 4 }
+        let regimes = RegimeCounts::of([Some(regime); 4].into_iter());
+        Cell { statistics: values.map(|value| Some(estimate(value))).to_vec(), regimes }
     }
 
     fn study(
@@ -471,7 +470,7 @@ mod tests {
                 for scale in [AxisScale::Linear, AxisScale::Logarithmic] {
                     let across = axis(&study.grid.across.path, study.grid.across.spacing, vec![0.5]);
                     let one = Statistics::of(vec![value], SHARE.bounds());
-                    let cell = Cell { statistics: vec![one; 2], regime: None, lines: 1 };
+                    let cell = Cell { statistics: vec![one; 2], regimes: RegimeCounts::default() };
                     let rows = study.grid.size().1;
                     let range = Some((value, value));
                     let layers = study.grid.layers.iter().map(|layer| Quantities { scale, range, ..*layer });

@@ -32,7 +32,6 @@
 
 mod axis;
 mod boundary;
-mod case_outcome;
 mod cells;
 mod error;
 mod grid;
@@ -44,11 +43,9 @@ mod memory;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod plan;
-mod plan_check;
 mod plan_text;
 mod preloads;
 mod quantity;
-mod record;
 mod recorder;
 mod results;
 mod run;
@@ -71,8 +68,7 @@ pub use measured_adhesion::{MeasuredAdhesion, ProfileAdhesion};
 pub use memory::Memory;
 #[cfg(feature = "parquet")]
 pub use parquet::write_parquet;
-pub use plan::{Plan, StiffnessRange};
-pub use plan_check::{MOST_CELLS, MOST_LINES, MOST_RECORDS};
+pub use plan::{MOST_CELLS, MOST_LINES, MOST_RECORDS, Plan, StiffnessRange};
 pub use plan_text::{Changes, PLAN_VERSION, PLANS, PlanErrors};
 pub use preloads::PRELOADS;
 pub use quantity::Quantity;

@@ -1,7 +1,7 @@
 //! The text of a plan: reading, including the named scene, and writing.
 
 use super::axis::{Axis, AxisText, Spacing};
-use super::plan::{PRELOAD, Plan, StiffnessRange};
+use super::plan::{MOST_AXES, PRELOAD, Plan, StiffnessRange};
 use super::quantity::Quantity;
 use crate::io::read_regular_text;
 use crate::scene::{
@@ -129,9 +129,8 @@ impl Plan {
 
     fn of(read: PlanText, scene: Scene, lines: Option<u64>) -> Result<Plan, Vec<String>> {
         let PlanText { title, notice, axes, preloads, record, stiffness, measured_sha256, .. } = read;
-        let most = super::plan_check::MOST_AXES;
-        if axes.len() > most {
-            return Err(vec![format!("{} axes; allowed: at most {most}", axes.len())]);
+        if axes.len() > MOST_AXES {
+            return Err(vec![format!("{} axes; allowed: at most {MOST_AXES}", axes.len())]);
         }
         let preloads = Some(preloads).filter(|values| !values.is_empty());
         let preloads = preloads.map(|values| AxisText::List { path: PRELOAD.into(), values });

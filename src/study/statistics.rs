@@ -8,6 +8,9 @@ use std::f64::consts::FRAC_2_PI;
 /// Share of samples whose confidence interval holds the true mean.
 pub(crate) const CONFIDENCE: f64 = 0.95;
 
+/// Smallest share of random profiles in one regime for which the profiles agree.
+const AGREEING_SHARE: f64 = 0.75;
+
 /// A quantity over random profiles.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Statistics {
@@ -103,6 +106,31 @@ impl RegimeCounts {
         [self.pressure_insensitive, self.pressure_sensitive, self.non_adhesive]
     }
 
+    /// Number of profiles.
+    pub fn profiles(self) -> usize {
+        self.known().iter().sum::<usize>() + self.none
+    }
+
+    /// Regime of most profiles, with their number; of two with equal numbers the one with more adhesion.
+    pub fn most(self) -> Option<(Regime, usize)> {
+        self.ordered()[0]
+    }
+
+    /// Regime of the second largest number of profiles, if too few are in the first.
+    pub fn split(self) -> Option<Regime> {
+        let [most, second, _] = self.ordered();
+        let agree = self.shares()?[most?.0 as usize] >= AGREEING_SHARE;
+        second.filter(|_| !agree).map(|(regime, _)| regime)
+    }
+
+    /// Regimes that occur with their numbers of profiles, the largest first.
+    fn ordered(self) -> [Option<(Regime, usize)>; 3] {
+        let mut counts = [0, 1, 2].map(|place| (Regime::ALL[place], self.known()[place]));
+        // Stable: of equal numbers the one with more adhesion remains first.
+        counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+        counts.map(|one| Some(one).filter(|(_, count)| *count > 0))
+    }
+
     /// Regimes that occur, by name, with their numbers of profiles.
     pub fn present(self) -> impl Iterator<Item = (&'static str, usize)> {
         let counts = self.known().into_iter().chain([self.none]);
@@ -188,6 +216,23 @@ mod tests {
             (vec![7.0], [7.0; 3]),
         ] {
             assert_eq!(Statistics::of(values, (0.0, 100.0)).unwrap().quartiles, quartiles);
+        }
+    }
+
+    #[test]
+    fn a_cell_has_the_regime_of_most_of_its_profiles() {
+        let [insensitive, sensitive, non_adhesive] = Regime::ALL;
+        for (counts, most, split) in [
+            ([0, 0, 0, 2], None, None),
+            ([0, 5, 0, 1], Some((sensitive, 5)), None),
+            ([0, 3, 1, 0], Some((sensitive, 3)), None),
+            ([3, 0, 7, 0], Some((non_adhesive, 7)), Some(insensitive)),
+            ([0, 1, 1, 0], Some((sensitive, 1)), Some(non_adhesive)),
+            ([2, 0, 2, 1], Some((insensitive, 2)), Some(non_adhesive)),
+        ] {
+            let all = Regime::ALL.map(Some).into_iter().chain([None]).zip(counts);
+            let counts = RegimeCounts::of(all.flat_map(|(regime, count)| std::iter::repeat_n(regime, count)));
+            assert_eq!((counts.most(), counts.split()), (most, split), "{counts:?}");
         }
     }
 

@@ -40,14 +40,7 @@ impl StudyMap {
         let axes = &study.plan().axes;
         let free: Vec<usize> = (0..axes.len()).filter(|axis| axes[*axis].values.len() > 1).collect();
         let Some((across, up)) = across_and_up(axes, &free) else {
-            let named: Vec<String> = axes.iter().map(|axis| format!("{} (1 value)", axis.path)).collect();
-            let axes = if named.is_empty() {
-                "it has no axes".into()
-            } else {
-                format!("it has {}", named.join(", "))
-            };
-            let reason = "this study has neither a map nor a curve";
-            let reason = format!("{reason}: {axes}; a curve needs an axis with two values at least");
+            let reason = "this study has one cell and no map; a curve needs an axis with two values at least";
             return Err(StudyError::folder(folder, reason));
         };
         let others = (0..axes.len()).filter(|axis| *axis != across && Some(*axis) != up).collect();
@@ -179,7 +172,7 @@ fn is_close(one: Option<(f64, f64)>, other: Option<(f64, f64)>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::{CellRegime, Regime};
+    use crate::analysis::Regime;
     use crate::draw::AxisScale;
     use crate::study::{Changes, Folder, Quantity};
 
@@ -254,9 +247,8 @@ mod tests {
                         (Regime::PressureSensitive, None, 4),
                         (Regime::NonAdhesive, Some(Regime::PressureSensitive), 3),
                     ][number % 3];
-                    let share = agreeing as f64 / 5.0;
-                    assert_eq!(cell.regime, Some(CellRegime { regime, share, split }));
-                    assert_eq!((cell.agreeing(), cell.lines), (agreeing, 5));
+                    assert_eq!(cell.regimes.most(), Some((regime, agreeing)));
+                    assert_eq!((cell.regimes.split(), cell.regimes.profiles()), (split, 5));
                 }
             }
         }

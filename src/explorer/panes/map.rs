@@ -274,11 +274,9 @@ fn cell_values(
         Ok(cell) => cell,
         Err(why) => return format!("{at}: {why}"),
     };
-    let regime = cell.regime.map(|found| match cell.lines {
-        1 => found.regime.name().to_owned(),
-        lines => {
-            format!("{} ({} of {} profiles)", found.regime.name(), grouped(cell.agreeing()), grouped(lines))
-        }
+    let regime = cell.regimes.most().map(|(regime, count)| match cell.regimes.profiles() as u64 {
+        1 => regime.name().to_owned(),
+        lines => format!("{} ({} of {} profiles)", regime.name(), grouped(count as u64), grouped(lines)),
     });
     // Quantities of the regime are shown together, so that the map keeps its place.
     let charted = app.charted();
