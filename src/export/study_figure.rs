@@ -226,7 +226,7 @@ fn crossings(grid: &Grid, quantity: Quantity) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draw::{attribute, elements, parsed};
+    use crate::draw::{attribute, elements};
     use crate::scene::open;
     use crate::study::{Axis as StudyAxis, Cell, Layer as Quantities, RegimeCounts, Spacing, Spread};
 
@@ -324,32 +324,6 @@ mod tests {
     /// Estimates of a quantity in all cells.
     fn estimates(study: &mut Study, layer: usize) -> impl Iterator<Item = &mut Option<Statistics>> {
         study.grid.cells.iter_mut().flatten().flatten().map(move |cell| &mut cell.statistics[layer])
-    }
-
-    #[test]
-    fn figures_name_what_they_show() {
-        for (study, words) in [
-            (phase_map(), vec!["pressure-sensitive", "non-adhesive", "no value", "Hurst exponent"]),
-            (sections(), vec!["95 % confidence of the mean", "mean", "roughness-adhesion parameter"]),
-        ] {
-            let svg = drawn(&study);
-            let text = parsed(&svg).1;
-            for word in words {
-                assert!(text.contains(word), "{word}");
-            }
-            assert!(!svg.contains("NaN") && !svg.contains("inf"), "no number is lost");
-        }
-    }
-
-    #[test]
-    fn foreign_text_neither_breaks_a_picture_nor_controls_a_terminal() {
-        let mut study = phase_map();
-        study.title = "\u{1b}]52;c;eA==\u{7}<&> \u{ffff} a\u{202e}b \u{9b}2J".into();
-        study.fixed = vec!["\u{1b}[2J = <&>".into()];
-        let svg = drawn(&study);
-        parsed(&svg);
-        assert!(svg.chars().all(|c| c == '\n' || !(crate::text::is_control(c) || c == '\u{ffff}')), "{svg}");
-        assert!(svg.contains("]52;c;eA==") && svg.contains("&lt;&amp;&gt;"), "{svg}");
     }
 
     #[test]

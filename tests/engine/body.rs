@@ -209,7 +209,9 @@ pub fn targets(most: usize) -> impl Strategy<Value = Vec<Drawn>> {
     prop::collection::vec(any_target(), 1..most)
 }
 
-pub fn cases(cases: u32) -> ProptestConfig {
+/// An eighth of this number of cases, times the effort.
+pub fn cases(whole: u32) -> ProptestConfig {
+    let cases = super::common::effort::cases(whole.div_ceil(8));
     ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
 }
 

@@ -4,14 +4,12 @@
 mod one_piece;
 mod waves;
 
-use super::body::{Body, bits, end};
+use super::body::{Body, end};
 use super::numerics::observed_order;
 use asperity::contact::{Edges, Foundation, LegRecord, Move};
-use asperity::reference::PowerLaw;
 use asperity::scene::Form;
 use asperity::surface::{Line, SelfAffine, Synthesizer};
 use one_piece::{Loop, OnePiece};
-use std::f64::consts::PI;
 
 /// A smooth body pressed to an indentation and pulled off.
 #[derive(Clone, Copy, Debug)]
@@ -30,8 +28,8 @@ struct Problem {
 
 const BOTH: [Edges; 2] = [Edges::Grid, Edges::SubCell];
 
-/// Figures of a loop, each with true where edges between springs reach it with the second order. The force falls so steeply
-/// before separation, and changes so little about its minimum, that two of them do not.
+/// Figures of a loop, each with true where its error falls evenly, for edges between springs with the second order. The force
+/// falls so steeply before separation, and changes so little about its minimum, that two of them do not.
 const FIGURES: [(&str, bool); 7] = [
     ("smallest force", true),
     ("indentation there", false),
@@ -94,7 +92,7 @@ impl Problem {
 
 /// Numbers of springs without a pattern that a form shares.
 fn grids(edges: Edges, odd: bool) -> Vec<usize> {
-    let (first, per_decade, count) = if edges == Edges::Grid { (300.0, 5.0, 16) } else { (100.0, 4.0, 11) };
+    let (first, per_decade, count) = if edges == Edges::Grid { (300.0, 5.0, 11) } else { (100.0, 3.0, 7) };
     let points = |k: u32| (first * 10_f64.powf(f64::from(k) / per_decade)) as usize;
     (0..count).map(|k| points(k) & !1 | usize::from(odd)).collect()
 }
@@ -111,14 +109,14 @@ fn judge<const N: usize>(
         // An error between springs depends on the position of an edge in its cell: the worst of some grids of about as
         // many springs.
         let near = |points: usize| {
-            (0..if edges == Edges::Grid { 1 } else { 8 }).map(move |k| points + 2 * (k * points / 100))
+            (0..if edges == Edges::Grid { 1 } else { 4 }).map(move |k| points + 2 * (k * points / 100))
         };
         let worse =
             |one: [f64; N], other: [f64; N]| std::array::from_fn(|index| one[index].max(other[index]));
         let worst = |&points: &usize| near(points).map(&errors).fold([0.0; N], worse);
         let errors: Vec<_> = grids.iter().map(worst).collect();
         let steps: Vec<f64> = grids.iter().map(|&points| 1.0 / points as f64).collect();
-        for (index, (what, second_order)) in figures.into_iter().enumerate() {
+        for (index, (what, even)) in figures.into_iter().enumerate() {
             let errors: Vec<f64> = errors.iter().map(|errors| errors[index]).collect();
             let (coarse, fine, order) =
                 (errors[0], errors[errors.len() - 1], observed_order(&steps, &errors));
@@ -128,8 +126,9 @@ fn judge<const N: usize>(
             );
             let (orders, most) = match edges {
                 // Throughout, growth takes the length before, detachment the length after.
-                Edges::Grid => (0.8..=2.2, 2e-3),
-                Edges::SubCell if second_order => (1.9..=f64::INFINITY, 1e-5),
+                Edges::Grid if even => (0.8..=2.2, 2e-2),
+                Edges::Grid => (f64::NEG_INFINITY..=f64::INFINITY, 2e-2),
+                Edges::SubCell if even => (1.8..=f64::INFINITY, 1e-5),
                 Edges::SubCell => continue,
             };
             assert!(
@@ -185,133 +184,6 @@ fn a_cone_is_exact_to_rounding_between_springs() {
                 !exact || error <= if what == "energy" { 5e-12 } else { 1e-13 },
                 "{points}: {what}: {error:e}"
             );
-        }
-    }
-}
-
-/// The closed forms of the library against those of the tests, and both against Johnson, Kendall and Roberts.
-#[test]
-fn closed_forms_agree() {
-    let near = |one: f64, other: f64| assert!((one / other - 1.0).abs() < 1e-12, "{one} {other}");
-    for form in [
-        Form::Paraboloid { radius: 2.0e-4 },
-        Form::Cone { angle: 0.4 },
-        Form::Power { coefficient: 3.0e4, exponent: 2.7 },
-    ] {
-        let (modulus, work) = (2.0e6, 0.05);
-        let library = PowerLaw::of(&form, modulus, work).unwrap();
-        let (pull_off, last) =
-            (library.force_controlled_pull_off(), library.displacement_controlled_pull_off());
-        let body = OnePiece::new(form, modulus, work, 20.0 * pull_off.0);
-        let exact = Loop::new(body, work, body.indentation(10.0 * pull_off.0));
-        near(library.indentation(exact.radius), exact.deepest);
-        near(library.force(exact.radius), exact.loading_force(exact.deepest));
-        let (indentation, force) = exact.pull_off();
-        assert!((library.indentation(pull_off.0) - indentation).abs() < 1e-12 * exact.deepest);
-        near(pull_off.1, force);
-        near(library.indentation(last.0), exact.separation().0);
-        near(last.1, exact.separation().1);
-        if let Form::Paraboloid { radius } = form {
-            let scale = PI * work * radius;
-            near(force, -1.5 * scale);
-            near(exact.separation().1, -5.0 / 6.0 * scale);
-            let a = exact.radius;
-            near(exact.deepest, a * a / radius - (2.0 * PI * a * work / modulus).sqrt());
-            let jkr =
-                4.0 / 3.0 * modulus * a.powi(3) / radius - (8.0 * PI * modulus * work * a.powi(3)).sqrt();
-            near(exact.loading_force(exact.deepest), jkr);
-        }
-    }
-}
-
-/// Errors of Kendall's flat punch of diameter 2a: either all of it is in contact or none.
-fn errors_of_punch(problem: &Problem, diameter: f64, edges: Edges, points: usize) -> [f64; 5] {
-    let [loading, unloading] = problem.legs(edges, points);
-    let (radius, work, modulus) = (0.5 * diameter, problem.works[1], problem.modulus);
-    let stretch = (2.0 * PI * radius * work / modulus).sqrt();
-    let force = -(8.0 * PI * radius.powi(3) * modulus * work).sqrt();
-    // The elastic energy ½ F Δl at detachment: twice the energy of the interface, πa²γ.
-    let energy = 2.0 * PI * radius * radius * work;
-    let last = unloading.curve[unloading.curve.len() - 2];
-    let of_curve = loading.curve.iter().chain(&unloading.curve).filter(|point| point.springs > 0);
-    let of_curve = of_curve.map(|point| (point.force - diameter * modulus * point.indentation).abs());
-    [
-        unloading.smallest.force / force - 1.0,
-        last.force / force - 1.0,
-        unloading.end() / -stretch - 1.0,
-        (loading.released_energy + unloading.released_energy) / energy - 1.0,
-        of_curve.fold(0.0, f64::max) / (diameter * modulus * problem.deepest.max(stretch)),
-    ]
-    .map(f64::abs)
-}
-
-#[test]
-fn flat_faces_and_punches_of_whole_cells_are_kendalls_to_rounding() {
-    // The edges of the punches lie between springs: for N = 16, 48 … on one foundation, 9, 27 … on the other.
-    for (radius, grids) in [
-        (Some(1.0 / 8.0), &[16, 48, 160, 1_600, 160_000][..]),
-        (Some(7.0 / 18.0), &[9, 27, 99, 9_009, 90_009]),
-        (None, &[1, 2, 3, 10, 1_001, 100_000]),
-    ] {
-        let form = radius.map(|radius| Form::Punch { radius });
-        let problem = Problem { form, length: 1.0, modulus: 3.0, works: [0.7; 2], deepest: 0.3 };
-        for (edges, &points) in
-            BOTH.into_iter().flat_map(|edges| grids.iter().map(move |points| (edges, points)))
-        {
-            let errors = errors_of_punch(&problem, 2.0 * radius.unwrap_or(0.5), edges, points);
-            assert!(
-                errors.iter().all(|error| *error <= 2e-15),
-                "{problem:?}, {edges:?}, {points}: {errors:?}"
-            );
-        }
-    }
-}
-
-#[test]
-fn other_punches_err_by_less_than_a_cell_at_each_edge() {
-    let radius = 0.123_456_789;
-    let form = Some(Form::Punch { radius });
-    let problem = Problem { form, length: 1.0, modulus: 3.0, works: [0.7; 2], deepest: 0.3 };
-    for (edges, odd) in BOTH.into_iter().flat_map(|edges| [(edges, true), (edges, false)]) {
-        for points in grids(edges, odd) {
-            // F ∝ n^(3/2), and no other figure grows faster than n².
-            let errors = errors_of_punch(&problem, 2.0 * radius, edges, points);
-            let most = 2.2 / (2.0 * radius * points as f64);
-            assert!(errors.iter().all(|error| *error <= most), "{edges:?}, {points}: {errors:?}");
-        }
-    }
-}
-
-/// Springs at the edge carry next to nothing: whole springs cost no order here.
-#[test]
-fn hertz_without_adhesion_is_reached_with_the_second_order_and_reversible() {
-    for (name, form) in [
-        ("sphere", Form::Paraboloid { radius: 2.0 }),
-        ("cone", Form::Cone { angle: 0.4 }),
-        ("n = 1.5", Form::Power { coefficient: 0.4, exponent: 1.5 }),
-        ("n = 3", Form::Power { coefficient: 0.3, exponent: 3.0 }),
-    ] {
-        let problem = Problem { form: Some(form), length: 8.0, modulus: 5.0, works: [0.0; 2], deepest: 1.0 };
-        let exact = problem.closed_form();
-        for edges in BOTH {
-            let grids = grids(edges, true);
-            let error = |&points: &usize| {
-                let [loading, unloading] = problem.legs(edges, points);
-                let mut back: Vec<_> = unloading.curve.iter().map(bits).collect();
-                back.reverse();
-                assert_eq!(loading.curve.iter().map(bits).collect::<Vec<_>>(), back);
-                assert_eq!((loading.released_energy, unloading.released_energy), (0.0, 0.0));
-                assert_eq!((unloading.smallest.force, unloading.smallest.indentation), (0.0, 0.0));
-                let error =
-                    |d: f64, force: f64| (force - exact.loading_force(d)).abs() / exact.loading_force(1.0);
-                loading.curve.iter().map(|point| error(point.indentation, point.force)).fold(0.0, f64::max)
-            };
-            let errors: Vec<f64> = grids.iter().map(error).collect();
-            let steps: Vec<f64> = grids.iter().map(|&points| 1.0 / points as f64).collect();
-            let order = observed_order(&steps, &errors);
-            println!("{name}, {edges:?}: {:.1e} falls, order {order:.2}", errors[0]);
-            let is_exact = errors.iter().all(|error| *error <= 1e-13);
-            assert!((1.7..=2.3).contains(&order) || is_exact, "{name}, {edges:?}: order {order}, {errors:?}");
         }
     }
 }

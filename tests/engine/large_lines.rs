@@ -2,7 +2,7 @@
 //! known.
 
 use super::body::Body;
-use asperity::contact::{CurvePoint, Edges, Foundation, LegRecord, Move, Solver};
+use asperity::contact::{Edges, Foundation, LegRecord, Move, Solver};
 use std::f64::consts::PI;
 
 const SPRINGS: usize = 1 << 20;
@@ -51,42 +51,4 @@ fn a_ramp_is_a_wedge_that_peels_from_one_side() {
         assert!((point.indentation - indentation(length)).abs() < 1e-5, "{point:?}");
         assert!((point.force - force(length)).abs() < 1e-5, "{point:?}");
     }
-}
-
-#[test]
-fn a_staircase_detaches_tread_by_tread() {
-    // 1024 treads of 1024 springs. A tread attaches or detaches at once, so every state is the first k treads, held to
-    // c_k − √(π k γ/(1024 E*)) where c_k is the deepest of them.
-    let treads = 1024;
-    let rise = 1.0 / treads as f64;
-    let work = 0.02;
-    let gaps: Vec<f64> = (0..SPRINGS).map(|i| rise * (i / (SPRINGS / treads)) as f64).collect();
-    let ([loading, unloading], fragments) = legs(&gaps, work, 0.5);
-    assert_eq!(fragments, 1);
-    let stretch = |treads_held: usize| (PI * work * treads_held as f64 / treads as f64).sqrt();
-    let gap = |tread: usize| rise * tread as f64;
-    // Tread k is attached by the k before it where d ≥ c_k − Δl(k), after all treads before it.
-    let mut joins_at = vec![0.0_f64];
-    for tread in 1..treads {
-        let taken_in = joins_at[tread - 1].max(gap(tread) - stretch(tread));
-        joins_at.push(taken_in.min(gap(tread)));
-    }
-    let held_to = |count: usize| gap(count - 1) - stretch(count);
-    let expect = |point: &CurvePoint, count: usize| {
-        assert_eq!(point.springs, (count * SPRINGS / treads) as u64, "at {}", point.indentation);
-        let sum: f64 = (0..count).map(|tread| point.indentation - gap(tread)).sum();
-        assert!((point.force - rise * sum).abs() < 1e-12, "{} against {}", point.force, rise * sum);
-    };
-    for point in loading.curve.iter().filter(|point| point.springs > 0) {
-        expect(point, joins_at.partition_point(|&at| at <= point.indentation));
-    }
-    // On unloading the count falls while the outermost remaining tread is not held.
-    let mut count = (loading.attached as usize) / (SPRINGS / treads);
-    for point in unloading.curve.iter().filter(|point| point.springs > 0) {
-        while held_to(count) > point.indentation + 1e-12 && gap(count - 1) > point.indentation {
-            count -= 1;
-        }
-        expect(point, count);
-    }
-    assert!(count > 1, "{count} treads detach at once");
 }

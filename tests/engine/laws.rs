@@ -3,8 +3,6 @@
 
 mod all_segments;
 mod energy;
-mod extreme_inputs;
-mod formed_again;
 mod memory;
 mod patches;
 mod refusals;

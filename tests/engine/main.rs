@@ -1,5 +1,9 @@
 //! The library without the program: closed forms, brute force, laws, exact sums and scenes.
 
+#[path = "../common"]
+mod common {
+    pub mod effort;
+}
 mod body;
 mod closed_forms;
 mod equilibrium;

@@ -1,10 +1,8 @@
 //! Scenes through the library: what a simulation keeps changes no bit, counted work, and finer grids of one profile.
 
-use asperity::analysis::Figures;
 use asperity::contact::{Move, Work};
-use asperity::scene::{Document, Scene, open};
+use asperity::scene::{Document, Scene};
 use asperity::simulation::{Outcome, Simulation, Timings};
-use asperity::surface::Line;
 
 /// A rough rubber face; each scene of these tests differs from it by its overrides.
 const SCENE: &str = r#"(
@@ -35,10 +33,6 @@ fn outcome(simulation: &mut Simulation, scene: &Scene) -> Outcome {
 
 fn work(overrides: Overrides) -> Work {
     outcome(&mut Simulation::default(), &scene(overrides)).history.work
-}
-
-fn line_of<'a>(simulation: &'a mut Simulation, scene: &Scene) -> &'a Line {
-    simulation.make_line(scene).unwrap().0
 }
 
 const KAPPA: (&str, &str) = ("adhesion.kappa", "20.0");
@@ -147,54 +141,4 @@ fn work_counts_match_the_snapshot() {
         ("stepwise, minor loops", &[STEPS, loops]),
     ];
     insta::assert_debug_snapshot!(scenes.map(|(name, overrides)| (name, work(overrides))));
-}
-
-#[test]
-fn refining_the_grid_refines_the_same_line() {
-    let preset = open("pressure-sensitive").unwrap();
-    let scene = |points: usize| with(&preset, &[("numerics.points", &points.to_string())]).scene().clone();
-    let mut simulation = Simulation::default();
-    let mut heights =
-        |points: usize| -> Vec<f64> { line_of(&mut simulation, &scene(points)).heights().collect() };
-    let coarse = heights(2_000);
-    let deepest = coarse.iter().fold(0.0_f64, |most, height| most.max(height.abs()));
-    for factor in [3, 5, 9] {
-        // Each spring of the coarse grid is at the place of one of the finer grid, in the middle of a cell.
-        let fine = heights(2_000 * factor);
-        for (index, height) in coarse.iter().enumerate() {
-            let same = fine[factor * index + factor / 2];
-            assert!((same - height).abs() <= 1e-13 * deepest, "{factor}: {height} and {same} at {index}");
-        }
-    }
-    // So the figures converge to one value.
-    let mut adhesion_force =
-        |points| outcome(&mut simulation, &scene(points)).figures.adhesion_force.unwrap();
-    let finest = adhesion_force(2_000 * 729);
-    let errors = [1, 9, 81].map(|factor| (adhesion_force(2_000 * factor) / finest - 1.0).abs());
-    println!("{errors:?}");
-    assert!(errors[0] > 2.0 * errors[1] && errors[1] > 2.0 * errors[2] && errors[2] < 5e-3, "{errors:?}");
-}
-
-#[test]
-fn a_measured_profile_of_waves_gives_the_loop_of_the_form() {
-    let form = open("wavy-sphere").unwrap();
-    let folder = tempfile::tempdir().unwrap();
-    let mut simulation = Simulation::new(folder.path().to_path_buf());
-    let line = line_of(&mut simulation, form.scene());
-    let row = |(index, height)| format!("{:e},{height:e}\n", line.position(index));
-    std::fs::write(folder.path().join("waves.csv"), line.heights().enumerate().map(row).collect::<String>())
-        .unwrap();
-    let measured = [("form", "None"), ("roughness", "Measured(file: \"waves.csv\", as_line: true)")];
-    let [a, b] = [&form, &with(&form, &measured)].map(|document| outcome(&mut simulation, document.scene()));
-    let figures = |outcome: &Outcome| {
-        let Figures { adhesion_force, pull_off_indentation, dissipated_energy, .. } = outcome.figures;
-        [adhesion_force, pull_off_indentation, dissipated_energy].map(Option::unwrap)
-    };
-    for (a, b) in figures(&a).into_iter().zip(figures(&b)) {
-        assert!((a / b - 1.0).abs() < 1e-9, "{a:?} {b:?}");
-    }
-    let largest = a.figures.preload.unwrap();
-    let [a, b] = [&a, &b].map(|outcome| &outcome.history.legs[1].curve);
-    assert_eq!(a.len(), b.len());
-    assert!(a.iter().zip(b).all(|(a, b)| (a.force - b.force).abs() < 1e-9 * largest));
 }

@@ -1,7 +1,6 @@
 //! The stepwise solver against the exact one.
 
 use super::body::*;
-use super::numerics::observed_order;
 use asperity::contact::stepwise::STEP_LIMIT;
 use asperity::contact::{
     Contact, ContactError, Direction, Edges, Foundation, LegRecord, Move, Solver, Stepwise,
@@ -28,49 +27,6 @@ fn both(body: &Body, step: f64, targets: &[Move]) -> [Vec<LegRecord>; 2] {
     let run =
         |solver: &mut dyn Solver| targets.iter().map(|&target| solver.advance(target).unwrap()).collect();
     [run(&mut stepwise(&contact, step)), run(&mut body.on(64))]
-}
-
-#[test]
-fn pull_off_force_energy_and_contact_sets_converge_with_the_step() {
-    // One number of one line converges by leaps; the mean error of several lines, evenly.
-    let bodies: Vec<Body> = (1..=12).map(|seed| body(rough(128, seed), 0.05)).collect();
-    let steps: Vec<f64> = (0..7).map(|halvings| 0.02 * 0.5_f64.powi(halvings)).collect();
-    let (turns, ends) = ([0.0, 0.6, -0.3], [Move::ToIndentation(0.4), Move::ToSeparation]);
-    let errors = steps.iter().map(|&step| {
-        let mut errors = [0.0; 3];
-        for body in &bodies {
-            let [found, expected] = both(body, step, &ends);
-            let energy = |legs: &[LegRecord]| legs.iter().map(|leg| leg.released_energy).sum::<f64>();
-            let force = |legs: &[LegRecord]| legs[1].smallest.force;
-            // A step may miss the smallest force; it cannot find a smaller one.
-            assert!(force(&found) >= force(&expected) && force(&expected) < 0.0);
-            errors[0] += (force(&found) / force(&expected) - 1.0).abs() / bodies.len() as f64;
-            errors[1] += (energy(&found) / energy(&expected) - 1.0).abs() / bodies.len() as f64;
-            // Springs that differ on the way, of those of 500 indentations.
-            let contact = body.contact();
-            let (mut exact, mut stepwise) = (body.on(2), stepwise(&contact, step));
-            for pair in turns.windows(2) {
-                exact.advance(Move::ToIndentation(pair[1])).unwrap();
-                stepwise.advance(Move::ToIndentation(pair[1])).unwrap();
-                for share in (1..500).map(|k| (f64::from(k) * 0.618_033_988_75).fract()) {
-                    let d = pair[0] + share * (pair[1] - pair[0]);
-                    let [one, other] = [stepwise.leg(), exact.leg()].map(|leg| indices(&leg.patches(d)));
-                    let common = one.iter().filter(|spring| other.binary_search(spring).is_ok()).count();
-                    errors[2] +=
-                        (one.len() + other.len() - 2 * common) as f64 / (128 * 998 * bodies.len()) as f64;
-                }
-            }
-        }
-        errors
-    });
-    let errors: Vec<[f64; 3]> = errors.collect();
-    for (index, what) in ["pull-off force", "dissipated energy", "contact sets"].into_iter().enumerate() {
-        let errors: Vec<f64> = errors.iter().map(|errors| errors[index]).collect();
-        let order = observed_order(&steps, &errors);
-        println!("{what}: errors {errors:?}, order {order:.2}");
-        assert!((0.8..=1.2).contains(&order), "{what}: order {order}, errors {errors:?}");
-        assert!(errors[steps.len() - 1] < 0.01, "{what}: {errors:?}");
-    }
 }
 
 proptest! {

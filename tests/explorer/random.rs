@@ -7,7 +7,7 @@ use super::common::effort::cases;
 use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
 use super::common::study::PLAN;
 use super::common::study::merged;
-use asperity::explorer::action::Action;
+use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::keys::Command;
 use asperity::explorer::parameters::parameters;
 use asperity::explorer::snapshot::Report;
@@ -46,6 +46,7 @@ enum Event {
     Resize(u16, u16),
     /// The window has shrunk, unknown to the explorer.
     Shrunk(u16, u16),
+    Mouse(Mouse),
     Elapse(f64),
     /// An answer to the oldest waiting request.
     Answer,
@@ -61,6 +62,16 @@ fn size() -> impl Strategy<Value = (u16, u16)> {
         1 => (0..=4_u16, 0..=400_u16),
         1 => (0..=400_u16, 0..=4_u16),
     ]
+}
+
+fn mouse() -> impl Strategy<Value = Mouse> {
+    let gesture = prop_oneof![
+        Just(Gesture::Press),
+        Just(Gesture::Drag),
+        prop_oneof![-3..3_i32, Just(i32::MIN + 1)].prop_map(Gesture::Wheel),
+    ];
+    let place = || prop_oneof![8 => 0..130_u16, 1 => Just(u16::MAX)];
+    (place(), place(), gesture).prop_map(|(column, row, gesture)| Mouse { column, row, gesture })
 }
 
 fn value() -> impl Strategy<Value = String> {
@@ -115,6 +126,7 @@ fn event() -> impl Strategy<Value = Event> {
         1 => prop::bool::weighted(0.8).prop_map(Event::Open),
         3 => size().prop_map(|(columns, rows)| Event::Resize(columns, rows)),
         2 => size().prop_map(|(columns, rows)| Event::Shrunk(columns, rows)),
+        2 => mouse().prop_map(Event::Mouse),
         4 => (0.0..9.0).prop_map(Event::Elapse),
         12 => Just(Event::Answer),
         1 => any::<usize>().prop_map(Event::Stale),
@@ -198,6 +210,7 @@ impl Explorer {
             }
             Event::Resize(columns, rows) => self.act(Action::Resize(*columns, *rows)),
             Event::Shrunk(columns, rows) => self.draw((*columns, *rows)),
+            Event::Mouse(mouse) => self.act(Action::Mouse(*mouse)),
             Event::Elapse(seconds) => self.act(Action::Elapse(Duration::from_secs_f64(*seconds))),
             Event::Answer => self.answer(),
             Event::Stale(which) => {

@@ -60,27 +60,6 @@ fn opened(arguments: &[&str], environment: &[(&str, &str)]) -> (Terminal, tempfi
     (paused(program), folder)
 }
 
-#[test]
-fn ascii_is_ascii_to_the_last_cell() {
-    let (mut terminal, _folder) = opened(&["--marker", "ascii"], &[]);
-    let check = |terminal: &Terminal, what: &str| {
-        assert!(terminal.text().is_ascii(), "{what}:\n{}", terminal.text());
-    };
-    check(&terminal, "panes");
-    for (key, what) in [("?", "What you see"), ("o", "Search:"), ("F", "Go to the force:"), ("E", "Export")] {
-        terminal.send(key);
-        terminal.wait_for(what);
-        terminal.settle();
-        check(&terminal, what);
-        terminal.send(ESCAPE);
-        terminal.wait_without(what);
-    }
-    terminal.send("}");
-    terminal.wait_for("manual");
-    check(&terminal, "manual loading");
-    quit(&mut terminal);
-}
-
 /// True if any bright colour is used, and true if any colour is.
 fn brightness(terminal: &Terminal) -> (bool, bool) {
     let all = renditions(terminal.written());

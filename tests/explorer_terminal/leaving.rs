@@ -104,22 +104,6 @@ fn is_waiting_to_write(pid: u32) -> bool {
     matches!(words[..], ["1" | "64", "0x1", ..])
 }
 
-#[test]
-fn stopped_and_continued_from_outside_it_draws_everything_anew() {
-    let (program, _folder) = explorer();
-    let mut terminal = paused(program);
-    let before = terminal.rows();
-    let entered = terminal.written().len();
-    signal(&terminal, "STOP");
-    signal(&terminal, "CONT");
-    while !String::from_utf8_lossy(&terminal.written()[entered..]).contains("\x1b[?1049h") {
-        terminal.settle();
-    }
-    terminal.settle();
-    assert_eq!(terminal.rows(), before);
-    quit(&mut terminal);
-}
-
 /// The text below the last switch back to the terminal's own screen.
 fn left_behind(terminal: &Terminal) -> String {
     let bytes = terminal.written();

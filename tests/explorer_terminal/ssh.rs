@@ -254,19 +254,3 @@ fn a_held_key_does_not_flood_a_slow_line() {
     terminal.send("q");
     assert!(terminal.wait_end().success());
 }
-
-#[test]
-fn a_connection_that_drops_ends_the_explorer() {
-    let Some(server) = Server::start() else { return };
-    let mut terminal = server.explorer("pressure-sensitive");
-    terminal.wait_for("F_a ");
-    let pid = fs::read_to_string(server.pid_file()).unwrap();
-    let process = PathBuf::from(format!("/proc/{}", pid.trim()));
-    let is_asperity = || fs::read_to_string(process.join("comm")).is_ok_and(|name| name.trim() == "asperity");
-    assert!(is_asperity(), "{}", process.display());
-    let client = terminal.pid();
-    assert!(
-        Command::new("/bin/sh").arg("-c").arg(format!("kill -KILL {client}")).status().unwrap().success()
-    );
-    terminal.wait_until("the explorer has ended", || !is_asperity());
-}

@@ -78,11 +78,32 @@ fn texts_of_scenes_with_and_without_mistakes() {
     proptest!(draws(500), |(text in Drawn::default().with_mistakes().scene_texts())| scene(text.as_bytes()));
 }
 
+/// A change of one field keeps all comments and all other fields of the scene.
+fn assert_one_field(path: &str, before: &Document, after: &Document) {
+    let comments = |document: &Document| -> Vec<String> {
+        let lines = document.text().lines();
+        lines.filter_map(|line| Some(line.split_once("// ")?.1.to_owned())).collect()
+    };
+    // A drawn text may look like a comment.
+    let kept = comments(after);
+    assert!(comments(before).iter().all(|comment| kept.contains(comment)), "{path}");
+    let [before, after] = [before, after].map(|document| serde_json::to_value(document.scene()).unwrap());
+    for (name, part) in before.as_object().unwrap() {
+        assert!(path.split('.').next() == Some(name) || after[name] == *part, "{path} changed {name}");
+    }
+}
+
 #[test]
 fn overrides_of_presets() {
     let names: Vec<&str> = asperity::scene::presets().iter().map(|preset| preset.name).collect();
     let drawn = [Drawn::default(), Drawn::default().with_mistakes()].map(|drawn| drawn.overrides(3));
     proptest!(draws(1250), |(name in prop::sample::select(names), set in Union::new(drawn))| {
+        let document = asperity::scene::open(name).unwrap();
+        for (path, value) in &set {
+            if let Ok(changed) = document.set(path, value) {
+                assert_one_field(path, &document, &changed);
+            }
+        }
         let lines: String = set.iter().map(|(path, value)| format!("\n{path}={value}")).collect();
         overrides(format!("{name}{lines}").as_bytes());
     });

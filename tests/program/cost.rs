@@ -1,6 +1,6 @@
 //! The cost of accuracy, and tolerances. Asserted are structure, errors and orders, never times.
 
-use super::program::{json, text};
+use super::program::json;
 use serde_json::Value;
 use std::f64::consts::PI;
 
@@ -69,17 +69,6 @@ fn rough_scenes_are_counted_from_their_finest_solution() {
     assert_eq!(finest["errors"]["adhesion_force"]["error"], reference["errors"]["adhesion_force"]);
     // The fewest springs are twice the last mode.
     assert_eq!((&rows[0]["setting"], table["answer"].as_array().unwrap().len()), (&1024.0.into(), 2));
-}
-
-#[test]
-fn the_text_begins_with_the_answer() {
-    for (change, first) in
-        [("title=\"\"", "1 % of the adhesion force: "), ("adhesion=None", "1 % of the force curve: ")]
-    {
-        let text = text(&["cost", "jkr-sphere", "--budget", "2s", "--set", change]);
-        assert!(text.starts_with(first) && text.contains("All measurements together took"), "{text}");
-        assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
-    }
 }
 
 /// Adhesion force, N, of a scene with these overrides.

@@ -1,8 +1,7 @@
 //! Studies on a cluster: a real Slurm of two nodes on the loopback, and stand-ins for the answers of others.
 //!
 //! Needs `slurmctld`, `slurmd`, `sbatch` and `munged`; if one of them is missing, or no such cluster can be started,
-//! its tests report so and end. Tests of minutes, since Slurm waits for lost nodes, are run by `cargo test --test
-//! program slurm -- --ignored`.
+//! its test reports so and ends.
 
 use super::common::deadline::within;
 use std::fs;
@@ -245,51 +244,6 @@ fn a_cluster_gives_the_bytes_of_one_machine_even_when_programs_are_killed() {
         assert!(log.contains("killed by signal 9: retry 1 of 3"), "{log}");
         cluster.serial(&plan, "whole");
         assert_eq!(cluster.tables("killed"), cluster.tables("whole"));
-    });
-}
-
-#[test]
-#[ignore = "Slurm waits two minutes and more for lost nodes"]
-fn lost_nodes_and_twins_change_no_byte() {
-    within(900, || {
-        let Some(cluster) = Cluster::start() else { return };
-        let plan = cluster.plan(1 << 20);
-        cluster.serial(&plan, "serial");
-        let started = Instant::now();
-        let array = cluster.submit(&plan, "lost", &["--shards", "2"]);
-        cluster.wait_until("both shards run", 30, || {
-            ["1/2", "2/2"].iter().all(|shard| !cluster.processes("lost", shard).is_empty())
-                && cluster.records("lost") > 1
-        });
-        // Shard 1 is slowed down so that it outlives its node; then the daemon of the node is killed but not the task.
-        let lost = cluster.processes("lost", "1/2");
-        kill("-STOP", &lost);
-        let on = |task: &str| {
-            let queue = cluster.queue(&array);
-            let line = queue.lines().find(|line| line.starts_with(task)).unwrap_or_default().to_owned();
-            line.split(' ').nth(2).unwrap_or_default().to_owned()
-        };
-        let node = on("1 ");
-        let daemon = fs::read_to_string(cluster.path(&format!("cluster/{node}.pid"))).unwrap();
-        kill("-9", &[daemon.trim().parse().unwrap()]);
-        cluster.wait_until("the task of the lost node runs again elsewhere", 400, || {
-            // Stopped anew each time: continued by another process, it would end before its twin begins.
-            kill("-STOP", &lost);
-            cluster.processes("lost", "1/2").iter().any(|process| !lost.contains(process))
-        });
-        println!("started again after {:.0} s, on {}", started.elapsed().as_secs_f64(), on("1 "));
-        // Now both of them compute.
-        kill("-CONT", &lost);
-        cluster.wait_until("both twins compute", 20, || cluster.processes("lost", "1/2").len() > 1);
-        cluster.wait_for(&array, 400);
-        cluster.wait_until("the lost task is over", 60, || cluster.processes("lost", "1/2").is_empty());
-        println!("merged after {:.0} s", started.elapsed().as_secs_f64());
-        assert_eq!(cluster.tables("lost"), cluster.tables("serial"));
-        // Later records of the lost process are merged as well.
-        let message = succeeded(cluster.command(ASPERITY).args(["sweep", "merge"]).arg(cluster.path("lost")));
-        println!("{message}");
-        assert!(message.contains("records were computed twice, with the same bits"), "{message}");
-        assert_eq!(cluster.tables("lost"), cluster.tables("serial"));
     });
 }
 

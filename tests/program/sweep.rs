@@ -5,12 +5,12 @@ use asperity::analysis::Regime;
 use asperity::scene::{Adhesion, Material, Move, Roughness, RoughnessParameter, Scene};
 use asperity::simulation::{Outcome, Simulation};
 use asperity::study::{
-    Changes, Folder, Options, Plan, Quantity, RESULTS, Results, SUMMARY, Shard, Spread, Statistics, Status,
+    Changes, Folder, Options, Plan, Quantity, RESULTS, Results, SUMMARY, Shard, Spread, Statistics,
     StudyError, merge, run,
 };
 use proptest::prelude::*;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use tempfile::TempDir;
 
 #[cfg(unix)]
@@ -256,41 +256,6 @@ fn plans_read_back_the_same() {
     for text in asperity::study::PLANS.iter().map(|plan| plan.text).chain([SMALL]) {
         let plan = plan(text);
         assert_eq!(self::plan(&plan.to_ron()), plan);
-    }
-}
-
-fn cut(folder: &Folder, from: &Path, end: usize, into: &Path) -> Folder {
-    let bytes = fs::read(from).unwrap();
-    let cut = Folder::create(into, folder.plan()).unwrap();
-    fs::write(into.join("shards").join("cut.shard"), &bytes[..end.min(bytes.len())]).unwrap();
-    cut
-}
-
-#[test]
-#[ignore = "takes ten seconds or more; .ci/run runs it"]
-fn every_prefix_of_a_file_is_a_subset_and_can_be_gone_on_from() {
-    let text = SMALL.replace("lines: 3", "lines: 1").replace("count: 4", "count: 2");
-    let plan = plan(&text);
-    let (place, folder) = study(&plan);
-    compute(&folder, 1, Shard::WHOLE);
-    merge(&folder, false).unwrap();
-    let whole = tables(&folder);
-    let file = &shard_files(&folder)[0];
-    let bytes = fs::read(file).unwrap();
-    let header = bytes.iter().position(|&byte| byte == b'\n').unwrap() + 1;
-    for end in 0..=bytes.len() {
-        let cut = cut(&folder, file, end, &place.path().join("cut"));
-        let lines = bytes[..end].iter().filter(|&&byte| byte == b'\n').count() as u64;
-        let status = Status::of(&cut).unwrap();
-        assert_eq!(status.done, lines.saturating_sub(1), "{end} bytes");
-        let torn = end > header && bytes[end - 1] != b'\n';
-        assert_eq!(status.damaged, u64::from(torn), "{end} bytes");
-        if end % 97 == 0 {
-            compute(&cut, 1, Shard::WHOLE);
-            merge(&cut, false).unwrap();
-            assert_eq!(tables(&cut), whole, "{end} bytes");
-            fs::remove_dir_all(cut.path()).unwrap();
-        }
     }
 }
 

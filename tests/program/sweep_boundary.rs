@@ -78,22 +78,6 @@ fn a_boundary_in_kappa_is_one_in_elastic_energy() {
 }
 
 #[test]
-fn a_boundary_lies_along_an_axis_of_elastic_energy_as_well() {
-    let place = tempfile::tempdir().unwrap();
-    let axis = "Linear(path: \"elastic_energy_ratio\", from: 0.02, to: 6.0, count: 12)";
-    let study = study(place.path(), axis);
-    let object = json(&["sweep", "boundary", &study, "--over", "elastic_energy_ratio", "--format", "json"]);
-    for boundary in object["boundaries"].as_array().unwrap() {
-        let ratio = boundary["elastic_energy_ratio"].as_f64();
-        assert!(ratio.is_none_or(|ratio| (0.02..6.0).contains(&ratio)), "{boundary}");
-        assert!(ratio.is_some() || boundary["level"].as_f64() != Some(0.1), "{boundary}");
-    }
-    let csv = asperity(&["sweep", "boundary", &study, "--format", "csv"]).succeeded();
-    let columns = csv.lines().next().unwrap().split(',').count();
-    assert!(csv.lines().all(|line| line.split(',').count() == columns), "{csv}");
-}
-
-#[test]
 fn a_study_without_kappa_has_none_and_says_so() {
     let place = tempfile::tempdir().unwrap();
     let study = study(place.path(), "List(path: \"roughness.rms_height\", values: [1.0e-7])");

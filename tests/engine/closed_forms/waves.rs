@@ -118,26 +118,6 @@ fn steep_waves_detach_by_the_rule_before_jkr() {
     assert_eq!(gentle.pull_off(), by_rule.pull_off());
 }
 
-/// Kesari and Lew (2011): waves short against the contact are equivalent to two works of adhesion, and the dissipated
-/// energy per area is A√(8πE*γ/λ). The error falls with λ.
-#[test]
-fn short_waves_dissipate_as_two_works_of_adhesion() {
-    let work = 1e3;
-    let error = |wavelength: f64| {
-        // A²E*/(λγ) is constant, and with it both works of adhesion.
-        let amplitude = 1.0e-2 * wavelength.sqrt();
-        let body = OnePiece::new(form(amplitude, wavelength), MODULUS, work, 0.75);
-        let [inner, outer] = [0.1, 0.4].map(|deepest| Loop::new(body, work, deepest));
-        let area = PI * (outer.radius.powi(2) - inner.radius.powi(2));
-        let per_area = (outer.dissipated_energy() - inner.dissipated_energy()) / area;
-        1.0 - per_area / (amplitude * (8.0 * PI * MODULUS * work / wavelength).sqrt())
-    };
-    let errors = [0.02, 0.01, 0.005].map(error);
-    let orders = [errors[0] / errors[1], errors[1] / errors[2]].map(f64::log2);
-    assert!((errors[2] - 0.095).abs() < 0.002, "{errors:?}");
-    assert!(0.8 < orders[0] && orders[0] < orders[1] && orders[1] < 1.0, "{orders:?}");
-}
-
 #[test]
 fn steep_waves_of_a_scene_agree_with_the_closed_form() {
     let of = |amplitude: f64, wavelength: f64, work: f64| {

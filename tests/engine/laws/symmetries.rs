@@ -71,29 +71,6 @@ proptest! {
     }
 
     #[test]
-    fn powers_of_two_in_height_and_stress_scale_bit_for_bit(
-        body in bodies(200), turns in indentations(6), force in 0.0..1.0_f64, powers in [-60_i32..60, -60..60],
-    ) {
-        // z → λz, E* → fE* and γ → λ²fγ: d → λd and F → λfF.
-        let [height, stress] = powers.map(|power| 2_f64.powi(power));
-        let Foundation { spacing, effective_modulus, .. } = body.foundation;
-        let mut other = body.with_more_adhesion(height * height * stress);
-        other.gaps.iter_mut().for_each(|gap| *gap *= height);
-        other.foundation = Foundation::endless(spacing, stress * effective_modulus);
-        let targets = targets(&body, &turns, force);
-        let scaled = targets.iter().map(|target| match *target {
-            Move::ToIndentation(to) => Move::ToIndentation(height * to),
-            Move::ToForce(force) => Move::ToForce(height * stress * force),
-            other => other,
-        });
-        let (one, other) = (body.history(&targets, 65), other.history(&scaled.collect::<Vec<_>>(), 65));
-        for (one, other) in one.legs.iter().zip(&other.legs) {
-            prop_assert_eq!(scaled_bits(one, height, height * stress), scaled_bits(other, 1.0, 1.0));
-        }
-        prop_assert_eq!(one.work, other.work);
-    }
-
-    #[test]
     fn a_mirror_changes_nothing_but_left_and_right(
         body in bodies(200),
         turns in indentations(6),

@@ -2,7 +2,7 @@
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
-use super::common::scenes::{changed, rough, smooth, without_adhesion};
+use super::common::scenes::{rough, smooth, without_adhesion};
 use super::is_up_to_date;
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::app::Pane;
@@ -13,11 +13,6 @@ use asperity::explorer::theme::Marker;
 use asperity::explorer::update::{Effect, studies};
 use asperity::scene::{Document, RoughnessParameter};
 use asperity::study::{Level, LiveMap, MAP_LINES, Quantity, live_plan};
-
-/// Values of κ or e_el/γ on the live map.
-fn values(parameter: RoughnessParameter) -> Vec<f64> {
-    live_plan(rough().scene(), parameter).unwrap().axes.swap_remove(0).values
-}
 
 /// A map of a cell on each of four profiles: adhesion falls with κ, and with it the regime.
 fn set(map: &mut LiveMap, cell: u64) {
@@ -86,7 +81,8 @@ fn e_maps_over_the_elastic_energy() {
         // The mark moves to values of the map, and the scene with it.
         driver.press("k");
         let (moved, _) = place(&driver);
-        let values = values(RoughnessParameter::ElasticEnergyRatio);
+        let plan = live_plan(rough().scene(), RoughnessParameter::ElasticEnergyRatio).unwrap();
+        let values = &plan.axes[0].values;
         assert!(moved > ratio && values.iter().any(|value| (moved / value - 1.0).abs() < 1e-9), "{moved}");
         let kappa = driver.app.governing().unwrap().kappa.unwrap();
         assert!((kappa / over_kappa.0 - (moved / ratio).sqrt()).abs() < 1e-9, "{kappa}");
@@ -94,28 +90,6 @@ fn e_maps_over_the_elastic_energy() {
         fill(&mut driver, &Level::ALL);
         assert!(driver.text().contains("over H, κ, 4 profiles"), "{}", driver.text());
         assert!((place(&driver).0 / kappa - 1.0).abs() < 1e-12);
-    });
-}
-
-#[test]
-fn the_map_is_shown_beside_what_can_be_changed() {
-    within(60, || {
-        for (keys, levels) in [("", &Level::ALL[..]), ("", &[Level::Coarse]), ("V", &Level::ALL)] {
-            let mut driver = driver_with(rough(), levels);
-            driver.press(keys);
-            for size in [(120, 40), (80, 24)] {
-                driver.resize(size);
-                assert!(driver.text().contains("over H, κ, 4 profiles") || keys == "V", "{}", driver.text());
-                assert!(driver.text().contains("◆ H 0.7, κ 8"), "{}", driver.text());
-                assert_eq!(
-                    driver.text().contains("5 × 5 cells so far"),
-                    levels.len() == 1,
-                    "{}",
-                    driver.text()
-                );
-                assert!(driver.text().contains("Parameters") && driver.text().contains("Force F(d)"));
-            }
-        }
     });
 }
 
@@ -155,51 +129,6 @@ fn the_map_says_without_colours_what_it_says_with_them() {
 }
 
 #[test]
-fn the_map_is_exported_as_it_is_seen() {
-    within(60, || {
-        let folder = tempfile::tempdir().unwrap();
-        let mut driver = charted(rough());
-        let mut export = |keys: &str, name: &str| {
-            driver.press(keys);
-            driver.press("E Ctrl+u");
-            assert!(driver.status().contains("Export to"), "{}", driver.status());
-            let path = folder.path().join(name);
-            driver.act(Action::Paste(path.to_str().unwrap().to_owned()));
-            driver.press("Enter");
-            (std::fs::read_to_string(path).unwrap_or_default(), driver.status())
-        };
-        let (cells, _) = export("", "map.csv");
-        let rows: Vec<&str> = cells.lines().filter(|line| !line.starts_with('#')).collect();
-        assert_eq!(rows.len(), 1 + 33 * 19);
-        assert_eq!(
-            rows[0],
-            "roughness.hurst,kappa,lines,regime,zero_load_adhesion_share_mean,zero_load_adhesion_share_low,\
-             zero_load_adhesion_share_high,adhesion_coefficient_mean,adhesion_coefficient_low,adhesion_coefficient_high"
-        );
-        assert_eq!(
-            rows[1],
-            format!(
-                "0.05,0.125,4,pressure-insensitive,{:?},,,{:?},,",
-                (-0.125_f64).exp(),
-                2.0 * (-0.0625_f64).exp()
-            )
-        );
-        let (figure, _) = export("", "map.svg");
-        for expected in ["Hurst exponent", "pressure-sensitive", "adhesion coefficient"] {
-            assert!(figure.starts_with("<svg") && figure.contains(expected), "{expected}");
-        }
-        let (_, message) = export("", "map.png");
-        assert!(message.starts_with("exported to"), "{message}");
-        assert!(std::fs::read(folder.path().join("map.png")).unwrap().starts_with(b"\x89PNG\r\n\x1a\n"));
-        let (nothing, message) = export("", "map.json");
-        assert!(nothing.is_empty() && message.contains("this result has no json form"), "{message}");
-        // The curve, with another pane selected.
-        driver.press("Esc Tab Tab E");
-        assert!(driver.status().contains("Export to"), "{}", driver.status());
-    });
-}
-
-#[test]
 fn moves_in_a_row_are_one_edit() {
     within(60, || {
         let mut driver = charted(rough());
@@ -225,46 +154,6 @@ fn moves_in_a_row_are_one_edit() {
         driver.press("U");
         assert_eq!(place(&driver), (3.36, 0.65));
         assert_eq!(driver.app.grid(), map.as_ref());
-    });
-}
-
-#[test]
-fn the_mark_stays_on_the_map() {
-    within(60, || {
-        let mut driver = charted(rough());
-        driver.press(&"Shift+Right Shift+Up ".repeat(9));
-        assert_eq!(place(&driver), (32.0, 0.95));
-        let generation = driver.app.edit.generation;
-        driver.press("Up");
-        assert!(driver.status().contains("edge of the map"), "{}", driver.status());
-        assert_eq!(driver.app.edit.generation, generation);
-        // A scene beyond it comes back with the first step.
-        driver.press("Tab Tab");
-        assert_eq!(driver.app.keys(), Context::Explore);
-        driver.select("adhesion.kappa");
-        driver.enter("100");
-        assert!(driver.text().contains("H 0.95, κ 100, outside the map"), "{}", driver.text());
-        driver.press("m j");
-        assert_eq!(place(&driver).0, 32.0);
-    });
-}
-
-#[test]
-fn adhesion_given_by_its_work_stays_so() {
-    within(60, || {
-        let mut driver = charted(changed(&rough(), &[("adhesion", "(work: 0.02)")]));
-        driver.press("Right Up");
-        let adhesion = driver.app.edit.document.scene().adhesion.unwrap();
-        assert!(adhesion.parameter().is_none() && adhesion.work.is_some_and(|work| work != 0.02));
-        let (at, hurst) = place(&driver);
-        assert!(
-            values(RoughnessParameter::Kappa).iter().any(|kappa| (kappa / at - 1.0).abs() < 1e-9),
-            "{at}"
-        );
-        assert_eq!(hurst, 0.75);
-        // The computed value agrees.
-        let computed = driver.app.solved.as_ref().unwrap().outcome.governing.kappa.unwrap();
-        assert!((computed / at - 1.0).abs() < 1e-9);
     });
 }
 

@@ -8,10 +8,8 @@ use asperity::explorer::Opening;
 use asperity::explorer::app::{Message, Pane};
 use asperity::explorer::layout::Layout;
 use asperity::explorer::snapshot::SolvedScene;
-use asperity::explorer::update::Effect;
 use asperity::scene::{Document, format_quantity};
 use asperity::simulation::Outcome;
-use ratatui::style::Color;
 
 /// The scenes of the ghosts, the newest last.
 fn kept(driver: &Driver) -> Vec<Document> {
@@ -28,26 +26,6 @@ fn message(driver: &Driver) -> String {
         Some(Message::Done(text) | Message::Error(text) | Message::Refused(text)) => text.clone(),
         None => String::new(),
     }
-}
-
-#[test]
-fn the_third_step_of_the_preload_raises_the_pull_off_as_the_tour_states() {
-    within(60, || {
-        let mut driver = Driver::open(asperity::scene::open("pressure-sensitive").unwrap());
-        driver.perform(vec![Effect::Ask]);
-        driver.press("2 c");
-        driver.select("loading");
-        driver.press("j");
-        let forces: Vec<String> = (0..4)
-            .map(|step| {
-                if step > 0 {
-                    driver.press("Right");
-                }
-                format_quantity(outcome(&driver).figures.adhesion_force.unwrap(), "N")
-            })
-            .collect();
-        assert_eq!(forces, ["17.17 µN", "17.17 µN", "17.17 µN", "66.24 µN"]);
-    });
 }
 
 #[test]
@@ -247,31 +225,5 @@ fn two_scenes_that_are_opened_are_shown_side_by_side() {
         assert!(driver.app.is_shown(Pane::Beside));
         driver.press("C");
         assert!(!driver.app.is_shown(Pane::Beside));
-    });
-}
-
-#[test]
-fn ghosts_have_their_force_and_its_difference_in_colours_of_their_own() {
-    within(30, || {
-        let mut driver = pressed("c");
-        driver.select("adhesion.kappa");
-        driver.enter("4");
-        driver.press("c");
-        driver.enter("2");
-        let force = |computed: &SolvedScene| computed.outcome.figures.adhesion_force.unwrap();
-        let present = force(driver.app.solved.as_ref().unwrap());
-        let kept: Vec<f64> = driver.app.ghosts.iter().map(|ghost| force(&ghost.computed)).collect();
-        assert!(kept[0] < kept[1] && kept[1] < present);
-        let three = |value: f64| format_quantity(format!("{value:.2e}").parse().unwrap(), "N");
-        for (letter, force) in ["A", "B"].into_iter().zip(kept) {
-            let expected = format!("{letter}: F_a {} ({}) ·", three(force), three(force - present));
-            assert!(driver.text().contains(&expected), "{expected}\n{}", driver.text());
-        }
-        let screen = driver.screen();
-        let colour = |letter: &str| {
-            let cell = screen.content.iter().find(|cell| cell.symbol() == letter && cell.fg != Color::Reset);
-            cell.map(|cell| cell.fg)
-        };
-        assert!(colour("A").is_some() && colour("A") != colour("B"), "{:?} {:?}", colour("A"), colour("B"));
     });
 }

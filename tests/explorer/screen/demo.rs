@@ -51,15 +51,6 @@ fn the_tour_is_the_same_every_time() {
 }
 
 #[test]
-fn the_tour_plays_in_the_smallest_window() {
-    within(240, || {
-        for size in [(80, 24), (20, 5), (1, 1)] {
-            assert!(frames(size, 1.0).len() > 75, "{size:?}");
-        }
-    });
-}
-
-#[test]
 fn the_tour_goes_on_in_another_window() {
     within(120, || {
         let mut demo = Demo::new(first(), TOUR, LARGE, APPEARANCE, 0.5);

@@ -3,8 +3,8 @@
 use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{rough, smooth};
-use super::{SIZES, is_up_to_date, mid_retraction, pressed};
-use asperity::explorer::app::{Message, Pane};
+use super::{is_up_to_date, mid_retraction, pressed};
+use asperity::explorer::app::Message;
 use asperity::explorer::layout::Layout;
 use asperity::scene::presets;
 
@@ -180,44 +180,5 @@ fn the_selection_stays_on_its_field_when_rows_come_and_go() {
         assert_eq!((path(&driver), rows(&driver)), ("numerics.samples", before));
         driver.press("1");
         assert_eq!(path(&driver), "numerics.samples");
-    });
-}
-
-#[test]
-fn a_field_that_goes_leaves_another_one_selected() {
-    within(30, || {
-        let mut driver = pressed("");
-        driver.select("roughness.seed");
-        driver.press("7");
-        assert!(driver.app.edit.document.scene().roughness.is_none(), "the seventh scene is smooth");
-        assert!(driver.app.edit.selected < driver.app.edit.parameters.len());
-        let marked = driver.rows().iter().filter(|row| row.contains('›')).count();
-        assert_eq!(marked, 1, "{}", driver.text());
-    });
-}
-
-#[test]
-fn the_selection_stays_in_the_list() {
-    within(30, || {
-        let mut driver = pressed("");
-        driver.press("g k Up");
-        assert_eq!(driver.app.edit.selected, 0);
-        driver.press("G j Down");
-        let last = driver.app.edit.parameters.len() - 1;
-        assert_eq!(driver.app.edit.selected, last);
-        for size in SIZES {
-            driver.resize(size);
-            driver.app.view.pane = Pane::Parameters;
-            for _ in 0..driver.app.edit.parameters.len() {
-                let parameter = driver.app.edit.parameter().unwrap();
-                let name: String = parameter.name().chars().take(3).collect();
-                let is_named = |row: &&String| row.contains(&name) || row.contains(parameter.field.symbol);
-                let rows = driver.rows();
-                let row = rows.iter().find(|row| row.contains('›'));
-                assert!(row.as_ref().is_some_and(is_named), "{}", driver.text());
-                driver.press("k");
-            }
-            driver.press("End");
-        }
     });
 }

@@ -101,22 +101,6 @@ fn a_row_of_an_effect_switches_the_same_effect_off_and_on() {
 }
 
 #[test]
-fn steps_of_the_roughness_lead_to_scenes_that_can_be_computed() {
-    within(60, || {
-        for keys in ["l", "h", "l l", "h h", "l l l"] {
-            let mut driver = pressed("");
-            let text = driver.app.edit.document.text().to_owned();
-            select(&mut driver, "roughness");
-            driver.press(keys);
-            assert!(is_up_to_date(&driver.app), "{keys}: {:?}", driver.app.message);
-            let is_back = keys.split(' ').count() % 2 == 0;
-            assert_eq!(driver.app.edit.document.text() == text, is_back, "{keys}");
-            assert_eq!(is_on(&driver, Effect::Roughness), is_back, "{keys}");
-        }
-    });
-}
-
-#[test]
 fn a_switch_that_cannot_be_made_says_why() {
     within(30, || {
         let mut driver = Driver::start(one_spring());

@@ -8,7 +8,6 @@ use asperity::explorer::app::Pane;
 use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::panel::Under;
 use asperity::explorer::panes::{indentation_at, under};
-use asperity::explorer::theme::Marker;
 use asperity::explorer::update::Effect;
 use ratatui::layout::{Position, Rect};
 
@@ -167,26 +166,5 @@ fn the_wheel_looks_closer_and_scrolls() {
         driver.press("Esc o");
         mouse(&mut driver, 3, 3, Gesture::Wheel(-1));
         assert!(driver.app.prompt.as_ref().is_some_and(|prompt| prompt.selected == 1));
-    });
-}
-
-#[test]
-fn no_place_and_no_window_is_too_strange_for_it() {
-    within(60, || {
-        for keys in ["", "z", "?", "o", "e", "s", "l q", "D", "v"] {
-            for size in [(120, 40), (80, 24), (40, 12), (20, 5), (1, 1), (0, 0)] {
-                let mut driver = pressed(keys);
-                driver.app.view.appearance.marker = Marker::HalfBlock;
-                driver.resize(size);
-                for (column, row) in [(0, 0), (19, 3), (70, 5), (79, 23), (u16::MAX, u16::MAX)] {
-                    for gesture in
-                        [Gesture::Press, Gesture::Drag, Gesture::Wheel(1), Gesture::Wheel(i32::MIN + 1)]
-                    {
-                        mouse(&mut driver, column, row, gesture);
-                    }
-                }
-                driver.screen();
-            }
-        }
     });
 }

@@ -3,7 +3,7 @@
 use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
-use super::{SIZES, mid_retraction, pressed, row_with};
+use super::{mid_retraction, pressed, row_with};
 use asperity::explorer::app::Pane;
 use asperity::explorer::keys::{Bindings, Context};
 use asperity::explorer::layout::Layout;
@@ -78,32 +78,6 @@ fn a_command_is_found_by_words_and_runs_as_its_key_does() {
         query(&mut driver, "switch effect");
         driver.press("Enter");
         assert!(driver.app.edit.is_unsaved(), "{}", driver.text());
-    });
-}
-
-#[test]
-fn the_list_is_moved_through_and_left_at_every_size() {
-    within(60, || {
-        for size in SIZES {
-            let mut driver = pressed("");
-            driver.resize(size);
-            let before = driver.text();
-            driver.press("Ctrl+p");
-            assert_eq!(driver.app.keys(), Context::List);
-            for _ in 0..100 {
-                driver.press("Down");
-                let rows = driver.rows();
-                assert!(
-                    size.1 < 6 || rows.iter().any(|row| row.contains('›')),
-                    "{size:?}\n{}",
-                    rows.join("\n")
-                );
-            }
-            driver.type_text("quit");
-            assert!(driver.status().contains(": quit"), "{}", driver.status());
-            driver.press("Esc");
-            assert_eq!(driver.text(), before);
-        }
     });
 }
 

@@ -3,13 +3,12 @@
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
-use super::common::scenes::{one_spring, punch, rough, smooth, without_adhesion};
+use super::common::scenes::{rough, smooth};
 use super::preloads::computed_preloads;
 use super::reversals::reversed;
-use super::{SIZES, accuracy, chart, default_scene, keep, mid_retraction, pressed};
-use asperity::contact::ContactError;
+use super::{SIZES, accuracy, chart, keep, mid_retraction};
 use asperity::explorer::picture;
-use asperity::explorer::theme::{Marker, Theme};
+use asperity::explorer::theme::Theme;
 use clap::ValueEnum;
 
 /// The screen as text: the same in all colours and without any.
@@ -63,32 +62,5 @@ fn each_pane() {
             screens += &format!("── {pane:?} ──\n{}", text(&mut driver));
         }
         keep("each_pane", &screens);
-    });
-}
-
-#[test]
-fn every_kind_of_scene_has_the_same_text_in_all_colours() {
-    within(60, || {
-        let mut failed = mid_retraction(rough());
-        failed.select("loading");
-        failed.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
-        for mut driver in [
-            Driver::open_with(default_scene(), |_, _, _, _| Err(ContactError::Interrupted.into()), |_| false),
-            mid_retraction(without_adhesion()),
-            mid_retraction(punch()),
-            mid_retraction(one_spring()),
-            pressed("d [ [ [ { { { } [ ]"),
-            pressed("c L L c z h"),
-            pressed("a N v z"),
-            failed,
-        ] {
-            for size in SIZES {
-                driver.resize(size);
-                for marker in Marker::value_variants() {
-                    driver.app.view.appearance.marker = *marker;
-                    text(&mut driver);
-                }
-            }
-        }
     });
 }

@@ -44,18 +44,6 @@ fn the_animation_plays_to_its_end_and_stops() {
 }
 
 #[test]
-fn a_scene_that_ends_in_separation_is_shown_separated() {
-    within(30, || {
-        let mut driver = pressed("");
-        while driver.app.play.done < 1.0 {
-            driver.press(".");
-        }
-        let point = driver.app.snapshot.as_ref().unwrap().point;
-        assert_eq!((point.springs, point.force), (0, 0.0), "{}", driver.text());
-    });
-}
-
-#[test]
 fn nothing_is_played_while_there_is_no_curve() {
     within(30, || {
         let mut driver = pressed("");
@@ -199,19 +187,5 @@ fn the_configuration_sets_speed_end_and_keys() {
         driver.press("?");
         driver.resize((120, 200));
         assert!(driver.text().contains("_ F5"), "{}", driver.text());
-    });
-}
-
-#[test]
-fn colours_and_markers_are_kept_when_asked() {
-    within(30, || {
-        let mut driver = Driver::start(rough());
-        driver.press("T M Ctrl+s");
-        assert!(driver.status().contains("! there is no configuration file"), "{}", driver.status());
-        driver.app.config.path = Some("my/config.ron".into());
-        let effects = driver.press("Ctrl+s");
-        let appearance = driver.app.view.appearance;
-        assert_eq!(effects, [Effect::Remember { path: "my/config.ron".into(), appearance }]);
-        assert!(driver.status().contains("are kept in my/config.ron"), "{}", driver.status());
     });
 }

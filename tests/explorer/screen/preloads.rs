@@ -4,7 +4,6 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{rough, without_adhesion};
 use asperity::explorer::action::Action;
-use asperity::explorer::app::Pane;
 use asperity::explorer::panes::{PROFILES, PreloadCurve};
 use asperity::explorer::update::studies;
 use asperity::scene::Document;
@@ -54,22 +53,6 @@ fn adhesion_against_preload_is_shown_beside_the_curve() {
                 assert!(text.contains(&format!("mean of {profiles} profiles")), "{text}");
             }
         }
-    });
-}
-
-#[test]
-fn the_pane_takes_the_place_of_map_and_accuracy_and_gives_it_back() {
-    within(60, || {
-        let mut driver = shown(rough(), 1);
-        assert_eq!(driver.app.panes(), [Pane::Force, Pane::Preloads, Pane::Parameters]);
-        for (keys, pane) in
-            [("m", Some(Pane::Chart)), ("i", Some(Pane::Preloads)), ("A", Some(Pane::Accuracy))]
-        {
-            driver.press(keys);
-            assert_eq!(driver.app.view.large, pane, "{keys}");
-        }
-        driver.press("i i");
-        assert_eq!((driver.app.view.large, driver.app.view.pane), (None, Pane::Force));
     });
 }
 

@@ -6,7 +6,6 @@ use super::common::scenes::rough;
 use super::pressed;
 use asperity::explorer::action::{Content, OutputFile};
 
-use asperity::explorer::autosave::{Autosave, offer};
 use asperity::explorer::keys::Context;
 use asperity::explorer::update::Effect;
 use asperity::scene::Document;
@@ -37,23 +36,6 @@ fn a_saved_scene_is_read_back_as_it_is() {
         assert!(!driver.app.edit.is_unsaved());
         driver.press("q");
         assert!(driver.app.finished, "nothing is left to be asked");
-    });
-}
-
-#[test]
-fn a_file_is_overwritten_only_when_asked() {
-    within(30, || {
-        let mut driver = pressed("s Enter l s Enter");
-        let name = driver.files().into_keys().next().unwrap();
-        assert_eq!(name, Path::new("rough-line.ron"), "it is named after its scene");
-        assert_eq!(driver.files()[&name], rough().text());
-        assert!(driver.text().contains("Overwrite"), "{}", driver.text());
-        driver.press("n");
-        assert_eq!(driver.files()[&name], rough().text());
-        assert!(driver.app.edit.is_unsaved());
-        driver.press("s Enter y");
-        assert_eq!(driver.files()[&name], driver.app.edit.document.text());
-        assert!(!driver.app.edit.is_unsaved());
     });
 }
 
@@ -116,16 +98,6 @@ fn a_changed_scene_asks_before_it_is_left() {
         driver.press("y");
         assert!(driver.app.finished);
         assert_ne!(driver.file("rough-line.ron"), "theirs");
-    });
-}
-
-#[test]
-fn taking_back_all_edits_leaves_nothing_to_save() {
-    within(30, || {
-        let mut driver = pressed("l l u u q");
-        assert!(driver.app.finished);
-        driver = pressed("l l u q");
-        assert!(!driver.app.finished);
     });
 }
 
@@ -205,26 +177,5 @@ fn what_changes_only_the_view_or_the_writing_of_a_number_is_no_change() {
         assert!(driver.app.edit.unsaved().is_empty(), "{}", driver.app.edit.document.text());
         driver.press("q");
         assert!(driver.app.finished);
-    });
-}
-
-#[test]
-fn unsaved_changes_of_another_session_are_offered_and_restored() {
-    within(30, || {
-        let folder = tempfile::tempdir().unwrap();
-        let mine = Document::parse(rough().text(), "folder/mine.ron").unwrap();
-        let mut session = Autosave::new(folder.path(), None);
-        session.keep(&[&mine, &rough()]).unwrap();
-        drop(session);
-        let offer = offer(folder.path()).unwrap();
-        assert!(offer.starts_with("unsaved changes of mine.ron, rough-line are kept"), "{offer}");
-        let changed = rough().set("roughness.hurst", "0.5").unwrap();
-        let other = Document::parse(rough().text(), "other").unwrap().set("length", "2.0e-4").unwrap();
-        let mut driver = Driver::start(changed.clone());
-        driver.app.edit.restore(&[changed, other]);
-        let names: Vec<&str> = driver.app.edit.unsaved().iter().map(|document| document.name()).collect();
-        assert_eq!(names, ["rough-line", "other"]);
-        driver.press("q");
-        assert!(driver.status().contains("2 scenes have unsaved changes"), "{}", driver.status());
     });
 }

@@ -5,58 +5,13 @@ use super::chart::charted;
 use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
-use super::crosshair::read;
 use super::preloads::computed_preloads;
-use super::{SIZES, default_scene, mid_retraction, pressed};
-use asperity::explorer::action::{Action, Gesture, Mouse};
+use super::{SIZES, default_scene, pressed};
 use asperity::explorer::app::Pane;
-use asperity::explorer::layout::{Layout, inside, is_framed};
-use asperity::explorer::theme::{Marker, Theme};
-use asperity::scene::{format_quantity, open};
-use std::collections::BTreeSet;
+use asperity::explorer::layout::{Layout, is_framed};
 
 /// A window with room for every message.
 const WIDE: (u16, u16) = (400, 40);
-
-/// Glyphs of the marks of a curve and of the shown state.
-const MARKS: [char; 5] = ['◇', '▲', '▼', '○', '◆'];
-
-/// A Braille character with at least one dot.
-fn has_dots(character: char) -> bool {
-    ('\u{2801}'..='\u{28ff}').contains(&character)
-}
-
-#[test]
-fn marks_are_at_their_curve() {
-    within(60, || {
-        for size in SIZES {
-            let mut found = 0;
-            for document in [default_scene(), rough()] {
-                let mut driver = mid_retraction(document);
-                driver.resize(size);
-                // The axis of zero force would lie beside any mark.
-                let rows: Vec<Vec<char>> = driver.rows().iter().map(|row| row.chars().collect()).collect();
-                let area = Layout::of(&driver.app).pane(Pane::Force).unwrap();
-                let at = |column: usize, row: usize| rows.get(row).and_then(|row| row.get(column)).copied();
-                for row in usize::from(area.y) + 3..usize::from(area.bottom()) {
-                    for column in usize::from(area.x)..usize::from(area.right()) {
-                        let Some(mark) = at(column, row).filter(|here| MARKS.contains(here)) else {
-                            continue;
-                        };
-                        let around = [(0, 1), (1, 0), (1, 2), (2, 1), (0, 0), (0, 2), (2, 0), (2, 2)];
-                        let near = around
-                            .into_iter()
-                            .filter_map(|(right, down)| at(column + right - 1, row + down - 1));
-                        let is_near = near.into_iter().any(|near| has_dots(near) || MARKS.contains(&near));
-                        assert!(is_near, "{mark} {size:?}\n{}", driver.text());
-                        found += 1;
-                    }
-                }
-            }
-            assert!(found >= 2, "{size:?}: {found}");
-        }
-    });
-}
 
 #[test]
 fn messages_are_whole_or_end_in_an_ellipsis() {
@@ -128,47 +83,6 @@ fn titles_notices_and_explanations_are_whole_or_end_in_an_ellipsis() {
 }
 
 #[test]
-fn the_help_has_the_whole_notice() {
-    within(60, || {
-        for size in &SIZES[..4] {
-            let mut driver = Driver::start(default_scene());
-            driver.resize(*size);
-            driver.press("?");
-            let mut seen = driver.text();
-            for _ in 0..12 {
-                driver.press("j");
-                seen += &driver.text();
-            }
-            let notice = driver.app.edit.document.scene().notice.clone();
-            let missing = notice.split_whitespace().find(|word| !seen.contains(word));
-            assert_eq!(missing, None, "{size:?}\n{seen}");
-        }
-    });
-}
-
-#[test]
-fn ends_of_contact_patches_are_seen_where_a_scene_observes_them() {
-    within(60, || {
-        for size in SIZES {
-            let mut driver = Driver::start(open("fragment-closeup").unwrap());
-            driver.app.view.pane = Pane::CloseUp;
-            driver.resize(size);
-            driver.elapse(30.0);
-            let close_up = &driver.app.snapshot.as_ref().unwrap().close_up;
-            assert!(close_up.boundaries.len() >= 2, "{size:?}: {:?}", close_up.boundaries);
-            let area = Layout::of(&driver.app).pane(Pane::CloseUp).unwrap();
-            let inside = |row: &String| -> String {
-                row.chars().skip(area.x.into()).take(area.width.into()).collect()
-            };
-            let rows = driver.rows();
-            let rows = rows[usize::from(area.y)..usize::from(area.bottom())].iter().map(inside);
-            let circles: usize = rows.map(|row| row.matches('○').count()).sum();
-            assert!(circles >= 2 || size.1 < 12 && circles >= 1, "{size:?}: {circles}\n{}", driver.text());
-        }
-    });
-}
-
-#[test]
 fn keys_of_the_footer_are_apart_from_what_the_connection_carries() {
     within(60, || {
         for size in &SIZES[..4] {
@@ -189,22 +103,6 @@ fn keys_of_the_footer_are_apart_from_what_the_connection_carries() {
                     of_keys.ends_with("  ") && alone.starts_with(of_keys.trim_end()),
                     "{size:?} {keys}: {both}"
                 );
-            }
-        }
-    });
-}
-
-#[test]
-fn completion_is_offered_only_where_a_path_is_typed() {
-    within(60, || {
-        for size in &SIZES[..4] {
-            for (keys, is_path) in [("e", false), ("s", true), ("E", true), ("o", true)] {
-                let mut driver = pressed(keys);
-                driver.resize(*size);
-                let area = Layout::of(&driver.app).footer.unwrap();
-                let footer = driver.rows()[usize::from(area.y)].clone();
-                let offers = footer.contains("Tab complete");
-                assert!(offers == is_path || is_path && size.0 < 60, "{size:?} {keys}: {footer}");
             }
         }
     });
@@ -261,136 +159,6 @@ fn axes_have_numbers_quantities_and_units_in_every_pane() {
 }
 
 #[test]
-fn the_force_axis_has_its_unit_wherever_it_is_drawn() {
-    within(60, || {
-        for size in SIZES {
-            for keys in ["", "z", "N", "v", "v v"] {
-                let mut driver = pressed(keys);
-                driver.app.view.pane = Pane::Force;
-                driver.resize(size);
-                let area = Layout::of(&driver.app).pane(Pane::Force).unwrap();
-                let rows: Vec<String> = driver.rows()[usize::from(area.y)..usize::from(area.bottom())]
-                    .iter()
-                    .map(|row| row.chars().skip(area.x.into()).take(area.width.into()).collect())
-                    .collect();
-                let text = rows.join("\n");
-                let label = match keys {
-                    "N" => "F/F_a,max",
-                    "v" => "l (",
-                    "v v" => "n",
-                    _ => "F (µN)",
-                };
-                assert!(text.contains(label) || !is_framed(area), "{size:?} {keys}\n{text}");
-            }
-        }
-    });
-}
-
-#[test]
-fn the_crosshair_reads_the_curve() {
-    within(60, || {
-        for size in SIZES {
-            let mut driver = pressed("*");
-            driver.app.view.pane = Pane::Force;
-            driver.resize(size);
-            let point = |driver: &Driver| driver.app.snapshot.as_ref().unwrap().point;
-            let before = point(&driver);
-            driver.press("Right Right");
-            assert_ne!(point(&driver).indentation, before.indentation, "{size:?}");
-            let read = format!("d {}", read(point(&driver).indentation, 2, "m"));
-            let has_edge = is_framed(Layout::of(&driver.app).pane(Pane::Force).unwrap());
-            assert!(!has_edge || driver.text().contains(&read), "{size:?} {read}\n{}", driver.text());
-        }
-    });
-}
-
-#[test]
-fn the_map_has_hurst_exponents_across_and_is_exported() {
-    within(120, || {
-        for size in SIZES {
-            let mut driver = charted(rough());
-            driver.resize(size);
-            let scene = |driver: &Driver| {
-                let hurst =
-                    driver.app.edit.document.value("roughness.hurst").unwrap().parse::<f64>().unwrap();
-                let kappa = driver.app.governing().unwrap().kappa.unwrap();
-                (hurst, Some(kappa))
-            };
-            let near = |one: f64, other: f64| (one / other - 1.0).abs() < 1e-9;
-            let (hurst, kappa) = driver.app.place().unwrap();
-            assert!(near(hurst, scene(&driver).0) && near(kappa.unwrap(), scene(&driver).1.unwrap()));
-            driver.press("Right");
-            assert!(scene(&driver).0 > hurst && near(scene(&driver).1.unwrap(), kappa.unwrap()), "{size:?}");
-            let marks = driver.rows().iter().filter(|row| row.contains('◆')).count();
-            assert!(marks >= 1, "{size:?}\n{}", driver.text());
-            driver.press("E");
-            let prompt = driver.status();
-            assert!(prompt.starts_with("Export"), "{size:?}: {prompt}");
-            driver.press("Ctrl+u");
-            driver.type_text("map.csv");
-            driver.press("Enter");
-            assert!(driver.file("map.csv").lines().count() > 9, "{size:?}");
-        }
-    });
-}
-
-#[test]
-fn ghosts_have_letters_and_forces_and_titles_name_quantities() {
-    within(60, || {
-        for size in SIZES {
-            let mut driver = pressed("c");
-            driver.select("adhesion.work");
-            driver.press("L");
-            driver.app.view.pane = Pane::Force;
-            driver.resize(size);
-            let area = Layout::of(&driver.app).pane(Pane::Force).unwrap();
-            let rows = &driver.rows()[usize::from(area.y)..usize::from(area.bottom())];
-            let cell =
-                |row: &str| -> String { row.chars().skip(area.x.into()).take(area.width.into()).collect() };
-            let rows: Vec<String> = rows.iter().map(|row| cell(row)).collect();
-            let is_framed = is_framed(area);
-            assert!(!is_framed || rows[0].contains("Force F"), "{size:?}: {}", rows[0]);
-            let inner = &rows[usize::from(is_framed)..];
-            assert!(inner.iter().any(|row| row.contains('A')), "{size:?}\n{}", driver.text());
-            if area.height >= 14 {
-                assert!(inner.iter().any(|row| row.contains("A: F_a ") && row.contains('(')), "{inner:?}");
-            }
-        }
-    });
-}
-
-#[test]
-fn the_wheel_zooms_at_the_pointer_and_strong_contrast_keeps_profile_and_surface_apart() {
-    within(60, || {
-        for size in SIZES {
-            let mut driver = pressed("");
-            driver.app.view.pane = Pane::Profile;
-            driver.app.view.appearance.theme = Theme::HighContrast;
-            driver.resize(size);
-            let area = inside(Layout::of(&driver.app).pane(Pane::Profile).unwrap());
-            let screen = driver.screen();
-            let inks: BTreeSet<String> = (area.y..area.bottom())
-                .flat_map(|row| (area.x..area.right()).map(move |column| (column, row)))
-                .filter(|cell| screen[*cell].symbol().chars().all(has_dots))
-                .map(|cell| format!("{:?}", screen[cell].fg))
-                .collect();
-            assert!(inks.len() >= 2, "{size:?}: {inks:?}\n{}", driver.text());
-            let shown = |driver: &Driver| {
-                let section = &driver.app.snapshot.as_ref().unwrap().profile;
-                (section.first, section.springs)
-            };
-            let (first, all) = shown(&driver);
-            let column = area.x + area.width / 4;
-            driver.act(Action::Mouse(Mouse { column, row: area.y + 1, gesture: Gesture::Wheel(2) }));
-            let (from, springs) = shown(&driver);
-            assert!(springs < all, "{size:?}: {springs} of {all}");
-            // The spring under the pointer remains there: nearer to the left end than to the right one.
-            assert!(from - first < first + all - (from + springs), "{size:?}: {from} {springs} of {all}");
-        }
-    });
-}
-
-#[test]
 fn a_digit_on_a_choice_says_how_choices_are_changed() {
     within(60, || {
         for size in [SIZES[0], SIZES[4]] {
@@ -425,37 +193,6 @@ fn a_digit_on_a_choice_says_how_choices_are_changed() {
 }
 
 #[test]
-fn every_pane_has_its_paragraph_in_the_help() {
-    for pane in Pane::ALL {
-        let help = pane.row().help;
-        assert!(
-            !help.is_empty() && help.iter().all(|(name, text)| !name.is_empty() && text.len() > 40),
-            "{pane:?}"
-        );
-    }
-}
-
-#[test]
-fn indentation_and_force_are_in_the_status_line() {
-    within(60, || {
-        for size in &SIZES[..4] {
-            for keys in ["", "d ]"] {
-                let mut driver = pressed(keys);
-                driver.resize(*size);
-                let point = driver.app.snapshot.as_ref().unwrap().point;
-                let [d, force] = [(point.indentation, "m"), (point.force, "N")]
-                    .map(|(value, unit)| format_quantity(value, unit));
-                assert!(
-                    driver.status().contains(&format!("d {d} F {force}")),
-                    "{size:?} {keys}: {}",
-                    driver.status()
-                );
-            }
-        }
-    });
-}
-
-#[test]
 fn a_key_of_a_pane_shows_the_pane() {
     within(60, || {
         for size in SIZES {
@@ -478,38 +215,5 @@ fn a_key_of_a_pane_shows_the_pane() {
                 assert!(!is_shown(&driver), "{size:?} {keys}\n{}", driver.text());
             }
         }
-    });
-}
-
-#[test]
-fn ascii_has_a_sign_for_plus_or_minus() {
-    within(60, || {
-        for size in SIZES {
-            let mut driver = measured(rough());
-            driver.press("A");
-            driver.resize(size);
-            let has_error = driver.text().contains("± ");
-            driver.app.view.appearance.marker = Marker::Ascii;
-            let text = driver.text();
-            assert!(text.is_ascii() && !text.replace("? help", "").contains('?'), "{size:?}\n{text}");
-            assert_eq!(text.contains(" +-"), has_error, "{size:?}\n{text}");
-            assert!(has_error || size.0 < 48, "{size:?}\n{text}");
-        }
-    });
-}
-
-#[test]
-fn a_force_of_rounding_is_zero() {
-    within(60, || {
-        let document = rough().set("loading", "[ToZeroForce, ToSeparation]").unwrap();
-        let mut driver = Driver::start(document);
-        let history = &driver.app.solved.as_ref().unwrap().outcome.history;
-        assert!(history.legs[0].curve.last().unwrap().force.abs() < 1e-15);
-        for size in &SIZES[..3] {
-            driver.resize(*size);
-            assert!(!driver.text().contains("yN"), "{size:?}\n{}", driver.text());
-        }
-        driver.resize(SIZES[0]);
-        assert!(driver.text().contains("▲ 0 N"), "{}", driver.text());
     });
 }

@@ -6,11 +6,9 @@ use super::common::scenes::rough;
 use super::common::study::{PLAN, begun, merged};
 use super::{is_up_to_date, pressed};
 use asperity::explorer::Opening;
-use asperity::explorer::action::{Action, Gesture, Mouse};
-use asperity::explorer::app::Pane;
+use asperity::explorer::action::Action;
 use asperity::explorer::chart::Live;
 use asperity::explorer::keys::Context;
-use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::update::{Effect, studies};
 use asperity::scene::{Move, Roughness};
 use asperity::study::Quantity;
@@ -42,20 +40,6 @@ fn preload(driver: &Driver) -> f64 {
         [Move::ToForce(force), Move::ToSeparation] => force,
         ref other => panic!("{other:?}"),
     }
-}
-
-#[test]
-fn a_study_is_shown_as_a_map() {
-    within(60, || {
-        for keys in ["", "P P", "V", "V V V", "Shift+Right Shift+Right Shift+Right Tab Tab g t"] {
-            let (_folder, mut driver) = opened();
-            driver.press(keys);
-            for size in [(120, 40), (80, 24)] {
-                driver.resize(size);
-                assert!(driver.text().contains("Study small: "), "{}", driver.text());
-            }
-        }
-    });
 }
 
 #[test]
@@ -197,17 +181,6 @@ fn the_computed_map_can_be_had_instead() {
             driver.press(key);
             assert!(driver.status().contains("! no study is open"), "{}", driver.status());
         }
-    });
-}
-
-#[test]
-fn the_mouse_puts_the_mark_on_a_cell() {
-    within(60, || {
-        let (_folder, mut driver) = opened();
-        let area = inside(Layout::of(&driver.app).pane(Pane::Chart).unwrap());
-        let press = Mouse { column: area.right() - 1, row: area.y + 3, gesture: Gesture::Press };
-        driver.act(Action::Mouse(press));
-        assert_eq!(place(&driver), (16.0, 0.9));
     });
 }
 

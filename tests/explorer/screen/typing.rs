@@ -3,7 +3,7 @@
 use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough};
-use super::{SIZES, is_up_to_date, mid_retraction, pressed, reversed};
+use super::{SIZES, is_up_to_date, pressed, reversed};
 use asperity::explorer::action::Action;
 use asperity::explorer::keys::Context;
 use asperity::explorer::layout::Layout;
@@ -155,28 +155,6 @@ fn the_cursor_of_what_is_typed_is_on_the_screen() {
             let from = usize::from(status.y) * usize::from(status.width);
             let status = &screen.content[from..from + usize::from(status.width)];
             assert_eq!(reversed(status).chars().count(), 1, "{size:?}\n{}", driver.text());
-        }
-    });
-}
-
-#[test]
-fn wide_and_combining_characters_are_drawn_in_windows_of_any_width() {
-    within(60, || {
-        // A mark without a letter below it, and words wider than any window.
-        let odd = "\u{301}e wörter 漢字 e\u{301}\u{301} a漢字b ".repeat(6) + &"漢".repeat(60);
-        let quoted = format!("\"{odd}\"");
-        let document = changed(&rough(), &[("title", &quoted), ("notice", &quoted)]);
-        let mut driver = mid_retraction(document);
-        driver.press("Tab Tab");
-        for columns in (1..20).chain([33, 60, 79, 80, 119, 120]) {
-            driver.resize((columns, 40));
-            driver.press("e Ctrl+u");
-            driver.type_text(&odd);
-            driver.screen();
-            // The error is shown with the value.
-            driver.press("Enter");
-            driver.screen();
-            driver.press("Esc");
         }
     });
 }

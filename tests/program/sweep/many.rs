@@ -3,8 +3,7 @@
 use super::{SMALL, compute, plan, shard_files, study, tables};
 use asperity::study::{Folder, RESULTS, Results, SIDECAR, SUMMARY, Shard, Status, merge};
 use std::fs;
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::process::Command;
 
 /// Divides the records of a study among this number of files, as from that many processes.
 fn scatter(folder: &Folder, files: usize) {
@@ -65,85 +64,6 @@ fn two_thousand_shards_are_merged_with_few_open_files() {
     let repeats = format!("{} records were computed twice", plan.records_in_all());
     assert!(message.contains(&repeats), "{message}{}", String::from_utf8_lossy(&output.stderr));
     assert_eq!(tables(&folder), whole);
-}
-
-#[test]
-fn the_parts_of_a_study_are_the_whole() {
-    let plan = plan(SMALL);
-    let (_place, folder) = study(&plan);
-    compute(&folder, 2, Shard::WHOLE);
-    let expected = Status::of(&folder).unwrap();
-    assert_eq!((expected.total, expected.shards.len(), expected.shards[0].total), (96, 1, 96));
-    for files in [2, 5, 300] {
-        scatter(&folder, files);
-        let status = Status::of(&folder).unwrap();
-        assert_eq!((status.done, status.total, status.missing), (96, 96, 0));
-        assert_eq!(status.shards.len(), files);
-        let parts = status.shards.iter().map(|shard| (shard.total, shard.done));
-        assert_eq!(parts.fold((0, 0), |all, part| (all.0 + part.0, all.1 + part.1)), (96, 96), "{files}");
-        let all: String = shard_files(&folder)
-            .iter()
-            .map(|file| fs::read_to_string(file).unwrap().split_once('\n').unwrap().1.to_owned())
-            .collect();
-        let header = fs::read_to_string(&shard_files(&folder)[0]).unwrap();
-        let header =
-            header.lines().next().unwrap()[9..].replace(&format!("\"count\":{files}"), "\"count\":1");
-        shard_files(&folder).iter().for_each(|file| fs::remove_file(file).unwrap());
-        let sealed = format!("{:08x},{header}\n", crc32fast::hash(header.as_bytes()));
-        fs::write(folder.path().join("shards/one.shard"), sealed + &all).unwrap();
-    }
-}
-
-#[test]
-#[ignore = "takes ten seconds or more; .ci/run runs it"]
-fn killed_merges_leave_whole_tables() {
-    // Large enough for a kill while it writes.
-    let plan = plan(&SMALL.replace("lines: 3", "lines: 200").replace("count: 4", "count: 8"));
-    let (_place, folder) = study(&plan);
-    let path = folder.path().to_str().unwrap().to_owned();
-    let all =
-        || [RESULTS, SUMMARY, SIDECAR].map(|name| fs::read_to_string(folder.path().join(name)).unwrap());
-    compute(&folder, 2, Shard { number: 1, count: 2 });
-    let arguments = ["sweep", "merge", "--partial", path.as_str()];
-    let merge_once = || {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
-        command.args(arguments).stdout(Stdio::null()).stderr(Stdio::null());
-        command
-    };
-    assert!(merge_once().status().unwrap().success());
-    let partial = all();
-    compute(&folder, 2, Shard { number: 2, count: 2 });
-    let clock = Instant::now();
-    assert!(merge_once().status().unwrap().success());
-    let long = clock.elapsed();
-    let known = [partial, all()];
-    // Old and new alternate: each merge replaces the tables of the one before.
-    let second = shard_files(&folder)
-        .into_iter()
-        .find(|path| path.file_name().unwrap().to_str().unwrap().starts_with("2-"))
-        .unwrap();
-    let aside = folder.path().join("aside");
-    let mut kills = 0;
-    for round in 0..60_u32 {
-        if round % 2 == 0 {
-            fs::rename(&second, &aside).unwrap()
-        } else {
-            fs::rename(&aside, &second).unwrap()
-        }
-        let mut child = merge_once().spawn().unwrap();
-        std::thread::sleep(
-            long.mul_f64(f64::from(round % 20 + 1) / 20.0) + Duration::from_micros(u64::from(round) * 37),
-        );
-        child.kill().unwrap();
-        kills += u32::from(!child.wait().unwrap().success());
-        for (place, table) in all().iter().enumerate() {
-            assert!(known.iter().any(|tables| tables[place] == *table), "torn: {table}");
-        }
-        Results::open(folder.path()).unwrap();
-    }
-    assert!(kills >= 20, "{kills}");
-    assert!(merge_once().status().unwrap().success());
-    assert!(known.contains(&all()));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Processes that are killed, stopped, or out of disk space: no record is lost or counted twice.
 
-use super::{plan, tables, undisturbed};
+use super::{cases, plan, tables, undisturbed};
 use asperity::study::{Folder, Status};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -55,11 +55,10 @@ fn check_whole(place: &Path) {
     assert_eq!(tables(&folder), undisturbed(&plan(&text())));
 }
 
-/// Kills that must have hit a running process.
-const KILLS: u32 = 20;
-
 #[test]
-fn killed_twenty_times_at_random_moments_it_goes_on() {
+fn killed_at_random_moments_it_goes_on() {
+    // Kills that must hit a running process.
+    let most = cases(6);
     let expected = undisturbed(&plan(&text()));
     // Time of an undisturbed process.
     let calm = place();
@@ -68,13 +67,13 @@ fn killed_twenty_times_at_random_moments_it_goes_on() {
     let whole = clock.elapsed();
     let mut random = ChaCha8Rng::seed_from_u64(rand::random());
     let (mut kills, mut after_records) = (0, 0);
-    while kills < KILLS {
+    while kills < most {
         // A study is killed and continued until it is whole; then another one begins.
         let place = place();
         let mut there = 0;
         loop {
             let mut child = command(place.path()).spawn().unwrap();
-            if kills == KILLS {
+            if kills == most {
                 let output = child.wait_with_output().unwrap();
                 assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
                 break;
@@ -97,7 +96,7 @@ fn killed_twenty_times_at_random_moments_it_goes_on() {
         assert_eq!(tables(&folder), expected);
     }
     // Some hit before the first record, most between records.
-    assert!(after_records >= KILLS / 4, "{after_records} of {kills}");
+    assert!(after_records >= most / 4, "{after_records} of {kills}");
 }
 
 #[test]
