@@ -1,8 +1,8 @@
-//! Axes of a parameter study: the varied quantity of a scene and its values.
+//! Axes of a parameter study: the varied quantity, a number of a scene by its path or one that follows from several, and
+//! its values.
 
-use super::target::Target;
 use crate::draw::AxisScale;
-use crate::scene::Scene;
+use crate::scene::{FIELDS, Field, Move, Range, RoughnessParameter, Scene, did_you_mean, field};
 use crate::text::printable;
 use serde::{Deserialize, Serialize};
 
@@ -190,6 +190,131 @@ impl Axis {
         let mut axis = self.clone();
         axis.values.sort_by(f64::total_cmp);
         axis
+    }
+}
+
+/// Quantities that are not fields of a scene.
+pub const DERIVED: &[&str] = &["kappa", "elastic_energy_ratio", "preload", "springs_per_wave"];
+
+/// Numbers that cannot be varied: the version is no parameter, and seeds are counted from the plan's.
+const FIXED: &[&str] = &["version", "roughness.seed"];
+
+/// Ends of the paths of numbers: a number itself, and the first and the last number of a pair.
+const ENDS: [&str; 3] = ["", ".0", ".1"];
+
+/// A quantity that an axis varies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Target {
+    /// A number of a scene, or an end of a pair.
+    Number(&'static Field),
+    /// The force, N, or indentation, m, of a loading stage.
+    Stage(usize),
+    /// κ or e_el/γ, by the work of adhesion; replaces the work of the scene.
+    RoughnessParameter(RoughnessParameter),
+    /// Preload F_n in units of E* h L.
+    Preload,
+    /// Springs per period of the shortest wave: the last mode is points over this number.
+    SpringsPerWave,
+}
+
+/// Part of a computation that a changed number repeats; later variants repeat least.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Shapes {
+    /// The heights of the roughness, by a transform.
+    Roughness,
+    /// The profile, from known heights.
+    Profile,
+    /// The passes over the tree alone.
+    Passes,
+}
+
+/// The field of the number at a path.
+fn number(path: &str) -> Option<&'static Field> {
+    ENDS.into_iter().find_map(|end| {
+        let field = field(path.strip_suffix(end)?, None).filter(|field| !FIXED.contains(&field.path))?;
+        let is_number = match field.range {
+            Range::Real(..) | Range::Whole(..) => end.is_empty(),
+            Range::Band(..) => !end.is_empty(),
+            _ => false,
+        };
+        is_number.then_some(field)
+    })
+}
+
+impl Target {
+    /// Quantity of a path.
+    ///
+    /// # Errors
+    /// No number has this path; names the nearest one.
+    pub fn of(path: &str) -> Result<Target, String> {
+        match path {
+            "preload" => return Ok(Target::Preload),
+            "springs_per_wave" => return Ok(Target::SpringsPerWave),
+            _ => {}
+        }
+        if let Some(parameter) = RoughnessParameter::named(path).filter(|one| one.name() == path) {
+            return Ok(Target::RoughnessParameter(parameter));
+        }
+        let stage = || path.strip_prefix("loading.")?.strip_suffix(".0")?.parse().ok().map(Target::Stage);
+        number(path).map(Target::Number).or_else(stage).ok_or_else(|| {
+            let all = FIELDS.iter().flat_map(|field| ENDS.map(|end| format!("{}{end}", field.path)));
+            let numbers: Vec<String> = all.filter(|path| number(path).is_some()).collect();
+            let near = did_you_mean(path, numbers.iter().map(String::as_str).chain(DERIVED.iter().copied()));
+            let derived = DERIVED.join(", ");
+            format!("no such number{near} (allowed: numbers of a scene by their paths, and {derived})")
+        })
+    }
+
+    /// Returns true for an integer quantity.
+    pub fn is_whole(self) -> bool {
+        matches!(self, Target::Number(field) if !matches!(field.range, Range::Real(..)))
+    }
+
+    /// κ or e_el/γ, also where an axis sets the field of the scene.
+    pub fn parameter(self) -> Option<RoughnessParameter> {
+        match self {
+            Target::RoughnessParameter(parameter) => Some(parameter),
+            Target::Number(field) => RoughnessParameter::named(field.path),
+            _ => None,
+        }
+    }
+
+    /// Part of the computation that a change of the quantity repeats.
+    pub fn shapes(self) -> Shapes {
+        let field = match self {
+            Target::SpringsPerWave => return Shapes::Roughness,
+            Target::Stage(_) | Target::RoughnessParameter(_) | Target::Preload => return Shapes::Passes,
+            Target::Number(field) => field,
+        };
+        match (field.parent(), field.path) {
+            // Heights are scaled to their amplitude.
+            ("form", _) | (_, "length" | "roughness.rms_height" | "roughness.rms_gradient") => {
+                Shapes::Profile
+            }
+            ("roughness", _) | (_, "numerics.points") => Shapes::Roughness,
+            _ => Shapes::Passes,
+        }
+    }
+
+    /// Name, symbol, which may be empty, and SI unit of the quantity at this path of a scene.
+    pub fn label(self, path: &str, scene: &Scene) -> (String, &'static str, &'static str) {
+        if self.parameter() == Some(RoughnessParameter::Kappa) {
+            return ("roughness-adhesion parameter".into(), RoughnessParameter::Kappa.symbol(), "1");
+        }
+        match self {
+            Target::RoughnessParameter(parameter) => ("elastic energy ratio".into(), parameter.symbol(), "1"),
+            Target::Preload => ("preload".into(), "F_n/(E* h L)", "1"),
+            Target::SpringsPerWave => ("springs per wave".into(), "", "1"),
+            Target::Stage(stage) => match scene.loading.get(stage) {
+                Some(Move::ToIndentation(_)) => (format!("indentation of stage {}", stage + 1), "", "m"),
+                _ => (format!("force of stage {}", stage + 1), "", "N"),
+            },
+            Target::Number(Field { range: Range::Band(..), .. }) if path.ends_with(".0") => {
+                ("first mode".into(), "k_min", "1")
+            }
+            Target::Number(Field { range: Range::Band(..), .. }) => ("last mode".into(), "k_max", "1"),
+            Target::Number(field) => (field.name.into(), field.symbol, field.unit),
+        }
     }
 }
 

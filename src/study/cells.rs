@@ -5,8 +5,8 @@
 //! Within a unit the numbers that shape the profile vary slowest.
 
 use super::axis::Axis;
+use super::axis::Shapes;
 use super::plan::Plan;
-use super::target::Shapes;
 use std::ops::Range;
 
 /// Number of units up to which profiles are divided into several, so that many processes can share a plan of few

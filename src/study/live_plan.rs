@@ -1,9 +1,9 @@
 //! The plan of the live map of a scene.
 
 use super::axis::{Axis, Spacing};
+use super::place::strip;
 use super::plan::Plan;
 use super::quantity::Quantity;
-use super::target::strip;
 use crate::scene::{
     Adhesion, Edges, Numerics, Roughness, RoughnessParameter, SPRINGS_PER_WAVE, Scene, Solver,
 };
@@ -79,7 +79,7 @@ mod tests {
     use super::*;
     use crate::scene::RoughnessParameter::Kappa;
     use crate::scene::{Document, open};
-    use crate::study::target::governing;
+    use crate::study::place::governing;
 
     fn document() -> Document {
         open("pressure-sensitive").unwrap().set("numerics.points", "2048").unwrap()

@@ -6,9 +6,9 @@
 //! forces of a profile differ by the spectrum alone.
 
 use super::error::StudyError;
+use super::place::strip;
 use super::quantity::Quantity;
 use super::statistics::{RegimeCounts, Statistics};
-use super::target::strip;
 use crate::analysis::Regime;
 use crate::parallel::on_threads;
 use crate::scene::Scene;

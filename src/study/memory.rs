@@ -1,8 +1,8 @@
 //! Memory of a study, for as many threads as it may take.
 
 use super::axis::Axis;
+use super::place::strip;
 use super::plan::Plan;
-use super::target::strip;
 use crate::simulation;
 
 /// Code, stacks, files and the reserve of the allocator, bytes.

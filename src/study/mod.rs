@@ -32,6 +32,7 @@
 
 mod axis;
 mod boundary;
+mod case_outcome;
 mod cells;
 mod error;
 mod grid;
@@ -42,6 +43,7 @@ mod measured_adhesion;
 mod memory;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod place;
 mod plan;
 mod plan_text;
 mod preloads;
@@ -56,9 +58,8 @@ mod status;
 mod store;
 mod study_map;
 mod tables;
-mod target;
 
-pub use axis::{Axis, MOST_VALUES, Spacing};
+pub use axis::{Axis, DERIVED, MOST_VALUES, Spacing};
 pub use boundary::{Boundaries, Boundary, Crossing, DEFINITIONS, USUAL_LEVELS, boundaries, protocol_name};
 pub use error::StudyError;
 pub use grid::{Cell, Grid, Layer, Place};
@@ -68,6 +69,7 @@ pub use measured_adhesion::{MeasuredAdhesion, ProfileAdhesion};
 pub use memory::Memory;
 #[cfg(feature = "parquet")]
 pub use parquet::write_parquet;
+pub use place::moved;
 pub use plan::{MOST_CELLS, MOST_LINES, MOST_RECORDS, Plan, StiffnessRange};
 pub use plan_text::{Changes, PLAN_VERSION, PLANS, PlanErrors};
 pub use preloads::PRELOADS;
@@ -81,4 +83,3 @@ pub use status::{Attempt, ShardStatus, Status};
 pub use store::{Folder, Header, STORE_VERSION, ShardFile};
 pub use study_map::StudyMap;
 pub use tables::{PARQUET, RESULTS, RESULTS_VERSION, SIDECAR, SUMMARY, merge};
-pub use target::{DERIVED, moved};

@@ -1,8 +1,8 @@
 //! The plan of a study: a scene, the axes along which numbers of the scene vary, profiles, and recorded quantities.
 
 use super::axis::Axis;
+use super::place::scene_with;
 use super::quantity::{Needs, Quantity};
-use super::target::scene_with;
 use crate::scene::{Scene, SceneError, check, ron_float};
 use serde::{Deserialize, Serialize};
 

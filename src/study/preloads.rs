@@ -1,11 +1,11 @@
 //! Adhesion against preload: a study in memory over preloads in N, in place of the unit of a plan.
 
+use super::axis::Target;
 use super::axis::{Axis, Spacing};
 use super::plan::PRELOAD;
 use super::quantity::Quantity;
 use super::results::Results;
 use super::statistics::Statistics;
-use super::target::Target;
 use std::ops::RangeInclusive;
 
 /// Numbers of preloads.

@@ -1,6 +1,6 @@
 //! Quantities that a study records for each cell and profile: one row each.
 
-use super::recorder::CaseOutcome;
+use super::case_outcome::CaseOutcome;
 use crate::analysis::Regime;
 use serde::{Deserialize, Serialize};
 

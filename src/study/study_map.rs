@@ -4,9 +4,9 @@ use super::axis::Axis;
 use super::error::StudyError;
 use super::grid::{Grid, Layer, across_and_up, fixed};
 use super::live_plan::live_plan;
+use super::place::{force_unit, governing, moved, scene_with, strip};
 use super::plan::{PRELOAD, Plan};
 use super::results::Results;
-use super::target::{force_unit, governing, moved, scene_with, strip};
 use crate::scene::{Adhesion, Document, Move, Roughness, RoughnessParameter, Scene, SceneErrors};
 use std::path::{Path, PathBuf};
 
