@@ -57,22 +57,20 @@ pub fn sensitivity_table(sensitivity: &Sensitivity) -> Vec<[String; 5]> {
     let head = ["number".to_owned(), "value".to_owned(), adhesion, zero_load, loss];
     let scene = row("this scene".to_owned(), String::new(), &present);
     let influences = sensitivity.ordered(0).into_iter().map(|influence| {
-        let value = format_quantity(influence.value, influence.unit);
+        let value = format_quantity(influence.value, influence.axis.unit);
         // Whole numbers change by whole steps.
         let step = influence.sides.iter().flatten().map(|side| (side.0 - influence.value).abs()).next();
         let is_usual = |step: &f64| (step / influence.value.abs() - STEP).abs() < 1e-9;
         let step = step.filter(|step| !is_usual(step)).map_or_else(String::new, |step| format!(" ± {step}"));
         let value = value + &step;
-        row(label(influence), value, &|result| changes_text(sensitivity.changes(influence, result)))
+        row(influence.axis.symbol_or_name().to_owned(), value, &|result| {
+            changes_text(sensitivity.changes(influence, result))
+        })
     });
     let seeds = sensitivity.seeds.map(|_| {
         row(OTHERS.to_owned(), String::new(), &|result| changes_text(sensitivity.changes_of_seeds(result)))
     });
     [head, scene].into_iter().chain(influences).chain(seeds).collect()
-}
-
-fn label(influence: &Influence) -> String {
-    if influence.symbol.is_empty() { influence.name.clone() } else { influence.symbol.to_owned() }
 }
 
 /// Bars of the changes of a result in percent, at most `most` of them, the largest at the top.
@@ -95,7 +93,7 @@ pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) 
         Layer::new(name, ink, Shape::Boxes(bars.collect()))
     };
     let mut layers = vec![side(0, "-", Ink::Surface), side(1, "+", Ink::Contact)];
-    let name = |influence: &Influence| Label::symbol_or_name(influence.symbol, &influence.name);
+    let name = |influence: &Influence| Label::symbol_or_name(influence.axis.symbol, &influence.axis.name);
     let mut names: Vec<Label> =
         shown.iter().map(|(one, sides)| name(one).then(&format!(" {}", changes_text(*sides)))).collect();
     if let Some(ends) = seeds {
@@ -147,7 +145,7 @@ impl Report for SensitivityReport<'_> {
         let influence = |influence: &Influence| {
             let [smaller, larger] = influence.sides.each_ref().map(side);
             object! {
-                "path": influence.path.clone(), "name": influence.name.clone(), "value": influence.value,
+                "path": influence.axis.path.clone(), "name": influence.axis.name.clone(), "value": influence.value,
                 "smaller": smaller, "larger": larger,
             }
         };
@@ -168,11 +166,11 @@ impl Report for SensitivityReport<'_> {
         let rows = || {
             let all = self.sensitivity.influences.iter();
             let sides = all.flat_map(|one| {
-                one.sides.iter().flatten().map(|side| (one.path.as_str(), Some(side.0), side.1))
+                one.sides.iter().flatten().map(|side| (one.axis.path.as_str(), Some(side.0), side.1))
             });
             std::iter::once(("", None, self.sensitivity.present)).chain(sides)
         };
-        let longest = self.sensitivity.influences.iter().map(|one| one.path.len()).max().unwrap_or(0);
+        let longest = self.sensitivity.influences.iter().map(|one| one.axis.path.len()).max().unwrap_or(0);
         let mut table = Table::of(rows).with("path", crate::io::Kind::Text(longest), |row| row.0);
         table = table.real("value", |row| row.1);
         for (index, quantity) in Sensitivity::RESULTS.iter().enumerate() {

@@ -1,9 +1,10 @@
 //! Sensitivity of the results of a scene: their changes by a tenth of each number of the scene, and by the random phases.
 
+use super::axis::Axis;
 use super::error::StudyError;
+use super::place::{numbers, scene_with};
 use super::quantity::Quantity;
 use super::results::Results;
-use super::target::{Target, numbers, scene_with};
 use crate::scene::{Scene, check};
 use crate::simulation::Simulation;
 
@@ -18,14 +19,8 @@ pub type Values = [Option<f64>; 3];
 /// Results with a number smaller and larger than in the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Influence {
-    /// Path of the number in a scene.
-    pub path: String,
-    /// Technical name.
-    pub name: String,
-    /// Symbol; may be empty.
-    pub symbol: &'static str,
-    /// SI unit; `1` for numbers without one.
-    pub unit: &'static str,
+    /// Path, name and unit of the number.
+    pub axis: Axis,
     /// The number in the scene.
     pub value: f64,
     /// The smaller and the larger number, with the results; `None` for a number that the scene does not allow.
@@ -73,17 +68,16 @@ impl Sensitivity {
             })
         });
         let mut all = Sensitivity { present: lines[0], influences: Vec::new(), seeds };
-        for (path, target, value) in numbers(scene) {
-            let (name, symbol, unit) = target.label(&path, scene);
+        for (axis, value) in numbers(scene) {
             let mut sides = [None, None];
             for (side, sign) in sides.iter_mut().zip([-1.0, 1.0]) {
-                let changed = changed(target, value, sign);
-                let neighbour = scene_with(scene, std::iter::once((path.as_str(), target, changed)));
+                let changed = changed(&axis, value, sign);
+                let neighbour = scene_with(scene, std::iter::once((&axis, changed)));
                 if let Some(neighbour) = neighbour.ok().filter(|scene| check(scene).is_empty()) {
                     *side = Some((changed, solve(&neighbour, 1)?[0]));
                 }
             }
-            all.influences.push(Influence { path, name, symbol, unit, value, sides });
+            all.influences.push(Influence { axis, value, sides });
             report(&all);
         }
         Ok(all)
@@ -121,9 +115,9 @@ impl Sensitivity {
 }
 
 /// A number changed by [`STEP`] towards one side; a whole number by at least 1.
-fn changed(target: Target, value: f64, sign: f64) -> f64 {
+fn changed(axis: &Axis, value: f64, sign: f64) -> f64 {
     let step = STEP * value.abs();
-    if target.is_whole() { value + sign * step.round().max(1.0) } else { value + sign * step }
+    if axis.is_whole() { value + sign * step.round().max(1.0) } else { value + sign * step }
 }
 
 #[cfg(test)]
@@ -150,23 +144,24 @@ mod tests {
         let found = sensitivity("jkr-sphere");
         assert_eq!(found.seeds, None);
         for influence in &found.influences {
-            let expected = if matches!(influence.symbol, "R" | "γ") { STEP } else { 0.0 };
+            let expected = if matches!(influence.axis.symbol, "R" | "γ") { STEP } else { 0.0 };
             for (change, sign) in found.changes(influence, 0).into_iter().zip([-1.0, 1.0]) {
                 let Some(change) = change else {
-                    assert_eq!((influence.symbol, sign), ("ν", 1.0), "only ν cannot grow");
+                    assert_eq!((influence.axis.symbol, sign), ("ν", 1.0), "only ν cannot grow");
                     continue;
                 };
                 assert!((change - sign * expected).abs() < 1e-3, "{influence:?}: {change}");
             }
         }
         let first = found.ordered(0)[0];
-        assert!(matches!(first.symbol, "R" | "γ"), "{first:?}");
+        assert!(matches!(first.axis.symbol, "R" | "γ"), "{first:?}");
     }
 
     #[test]
     fn a_rough_scene_has_its_numbers_and_its_seeds() {
         let found = sensitivity("pressure-sensitive");
-        let paths: Vec<&str> = found.influences.iter().map(|influence| influence.path.as_str()).collect();
+        let paths: Vec<&str> =
+            found.influences.iter().map(|influence| influence.axis.path.as_str()).collect();
         for path in ["roughness.hurst", "roughness.rms_height", "roughness.modes.1", "loading.0.0", "length"]
         {
             assert!(paths.contains(&path), "{path}: {paths:?}");

@@ -252,7 +252,7 @@ pub const TABLE: &[Row] = &[
     row("Q", EXPLORE, "toggle-spectrum", Do(|app| app.toggle(Pane::Spectrum)), "", "show spectra over the wave number q in place of profile and close-up", LOOK),
     row("i", EXPLORE, "toggle-preloads", Do(|app| app.toggle(Pane::Preloads)), "", "show adhesion against preload, in place of profile and close-up", LOOK),
     row("O", EXPLORE, "next-reversal-map", Do(|app| app.toggle(if app.is_shown(Pane::Everett) || app.is_shown(Pane::Density) { Pane::Density } else { Pane::Everett })), "", "show the Everett function of reversal curves, then their density, in place of profile and close-up", LOOK),
-    row("Y", EXPLORE, "toggle-sensitivity", Do(|app| app.toggle(Pane::Sensitivity)), "", "show the changes of the adhesion force by ±10 % of each number of the scene, in place of profile and close-up", LOOK),
+    row("Y", EXPLORE, "toggle-sensitivity", Do(|app| app.toggle(Pane::Sensitivity)), "", "show changes of F_a by ±10 % of each number, in place of profile and close-up", LOOK),
     row("Tab", EXPLORE, "next-pane", Do(look::next_pane), "pane", "select the next pane", LOOK).rank(2),
     row("Ctrl+l", ANY, "redraw", Do(|app| app.effects.push(Effect::Redraw)), "", "draw the whole screen again", LOOK),
     row("z", EXPLORE, "zoom-pane", Do(|app| app.view.zoomed ^= true), "zoom", "show the selected pane on the whole screen, or all panes", LOOK),
