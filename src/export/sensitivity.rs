@@ -109,7 +109,7 @@ pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) 
 }
 
 impl SensitivityReport<'_> {
-    /// What stays while a number changes, and the number of seeds.
+    /// Sentence on the quantities that stay while a number changes, and on the number of seeds.
     fn note(&self) -> String {
         let follows = match self.scene.adhesion {
             Some(Adhesion { work: None, .. }) => ", and the work of adhesion follows from them",

@@ -44,7 +44,7 @@ impl CellPlot {
             let labels = scale_beside(chart, height, Marker::Braille);
             left = labels.iter().map(|(_, text)| text.chars().count() as u16).max().unwrap_or(0) + 2;
         }
-        // Names tell more than the bars beside them.
+        // The bars beside names have the same content as the names.
         let most = if chart.y.names.is_empty() { area.width / 2 } else { 2 * (area.width / 3) };
         let left = if left > most { 0 } else { left };
         let plot = Rect { x: area.x + left, width: area.width - left, height, ..area };
