@@ -19,7 +19,7 @@ use super::theme::Appearance;
 use crate::analysis::{Governing, marks};
 use crate::contact::{CurvePoint, LegRecord};
 use crate::export::LoopQuantities;
-use crate::scene::{Document, Observer, Scene, ron_float};
+use crate::scene::{Change, Document, Observer, Scene, ron_float};
 use crate::simulation::Outcome;
 use crate::study::{Axis, Place};
 use std::sync::Arc;
@@ -54,8 +54,6 @@ pub struct ManualState {
     pub released_energy: f64,
     /// Moves not yet requested.
     pub moves: Vec<ManualMove>,
-    /// Target force as last typed.
-    pub typed_force: String,
 }
 
 /// Content of the pane of the curve.
@@ -69,13 +67,6 @@ pub struct CurveLook {
     pub loss: bool,
 }
 
-/// Lines through the state shown on the force curve, and through one position on profile and close-up.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crosshair {
-    /// Position as a share of the profile, 0 to 1.
-    pub position: f64,
-}
-
 /// Loop kept for comparison.
 #[derive(Clone, Debug)]
 pub struct Ghost {
@@ -85,10 +76,15 @@ pub struct Ghost {
     pub computed: Arc<SolvedScene>,
     /// The contact when it was kept.
     pub snapshot: Option<Arc<ContactSnapshot>>,
-    /// Differences of its scene from the present one.
-    pub differs: String,
-    /// The same differences with the values of the ghost and of the present scene: `κ 4 → 8`.
-    pub changes: String,
+}
+
+impl Ghost {
+    /// Differences from a scene, each in words.
+    pub fn changes(&self, present: &Document, words: impl Fn(&Change) -> String) -> String {
+        let changes = self.document.changes_to(present);
+        let parts: Vec<String> = changes.iter().map(words).collect();
+        if parts.is_empty() { "the same scene".to_owned() } else { parts.join(", ") }
+    }
 }
 
 /// A line for the user, below the panes.
@@ -125,8 +121,9 @@ pub struct View {
     pub profile: LineView,
     /// Content of the pane of the curve.
     pub curve: CurveLook,
-    /// The crosshair, while shown.
-    pub crosshair: Option<Crosshair>,
+    /// Position of the crosshair as a share of the profile, 0 to 1, while shown. On the force curve its lines cross at
+    /// the shown state.
+    pub crosshair: Option<f64>,
     /// True if the status line has springs and times in place of mechanical quantities.
     pub shows_work: bool,
     /// True if times are shown: they differ from run to run.

@@ -3,7 +3,7 @@
 
 pub use super::request::Drive;
 use super::request::{Focus, LineView, SnapshotRequest};
-use crate::contact::{ContactError, CurvePoint, Patch};
+use crate::contact::{CurvePoint, Patch, PatchState};
 pub use crate::export::section::{Column, Section};
 use crate::export::section::{Contact, Part};
 use crate::scene::Scene;
@@ -121,35 +121,7 @@ pub struct ManualPath {
     /// Elastic energy released since manual loading began, J.
     pub released_energy: f64,
     /// Reason why the body was not moved.
-    pub refused: Option<Refusal>,
-}
-
-/// Reason why the body was not moved manually.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Refusal {
-    /// The contact detaches at a larger force.
-    Detaches {
-        /// Smallest force within reach, N.
-        smallest: f64,
-    },
-    /// The force lies far beyond full contact.
-    BeyondFullContact {
-        /// Force at full contact, N.
-        full_contact: f64,
-        /// Largest allowed force, N.
-        largest: f64,
-    },
-    /// Any other.
-    Other(ContactError),
-}
-
-impl From<ContactError> for Refusal {
-    fn from(error: ContactError) -> Self {
-        match error {
-            ContactError::DetachesBefore { smallest } => Refusal::Detaches { smallest },
-            other => Refusal::Other(other),
-        }
-    }
+    pub refused: Option<String>,
 }
 
 /// The neighbourhood of one contact fragment.
@@ -170,14 +142,8 @@ pub struct FragmentFacts {
     pub number: usize,
     /// Its springs.
     pub patch: Patch,
-    /// Its length δx, m.
-    pub length: f64,
-    /// Largest stretch by the rule of Hess, eq. (10), m; zero without adhesion.
-    pub largest_stretch: f64,
-    /// Stretch of its most stretched spring, m; negative when all are compressed.
-    pub most_stretched: f64,
-    /// Force, N; compression positive.
-    pub force: f64,
+    /// Its length, force and stretch.
+    pub state: PatchState,
 }
 
 /// Outcome of a tried scene.

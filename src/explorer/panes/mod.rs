@@ -158,8 +158,8 @@ impl Pane {
     pub fn panel(self, app: &App, size: Size) -> Panel {
         let mut panel = (self.row().panel)(app, size);
         // The crosshairs of the other panes are at the shown state and at a spring.
-        if let (Some(crosshair), Place::Large) = (app.view.crosshair, self.row().place) {
-            panel.read_at(crosshair.position, app.view.appearance);
+        if let (Some(position), Place::Large) = (app.view.crosshair, self.row().place) {
+            panel.read_at(position, app.view.appearance);
         }
         panel
     }

@@ -1,6 +1,5 @@
 //! Edits of the scene. Each results in a document of its own and can be undone.
 
-use super::compare::name_ghosts;
 use super::{Effect, dialogue};
 use crate::explorer::app::{App, CloseUpTarget, Message, Pane, Player};
 use crate::explorer::editor::scene_of;
@@ -321,5 +320,4 @@ fn renewed(app: &mut App) {
     if app.manual.take().is_some() {
         app.set_done("the body is back on the scene's loading");
     }
-    name_ghosts(app);
 }

@@ -153,6 +153,6 @@ pub fn snapshot_request(app: &App) -> SnapshotRequest {
         strip_cells: layout.close_up_cells(),
         focus: app.view.look.focus,
         close_up_springs: app.view.look.springs,
-        crosshair: app.view.crosshair.map(|crosshair| crosshair.position),
+        crosshair: app.view.crosshair,
     }
 }

@@ -238,7 +238,7 @@ fn work(app: &App) -> Vec<String> {
     }
     // Times of the last run only: a kept profile and tree take none.
     if app.view.shows_times && !app.is_computing() {
-        parts.extend(stages::times(app).into_iter().map(|(name, time)| format!("{name} {time}")));
+        parts.extend(stages::times(app));
     }
     parts
 }

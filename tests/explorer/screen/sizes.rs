@@ -17,7 +17,7 @@ const WIDE: (u16, u16) = (400, 40);
 fn messages_are_whole_or_end_in_an_ellipsis() {
     within(60, || {
         let scenes: [(&str, &str); 5] = [
-            ("d F - 1 Enter", "! the contact detaches before -1; smallest force within reach: -"),
+            ("d F - 1 Enter", "! the contact detaches before -1 N; smallest force within reach: -"),
             ("d F 1 e 3 0 Enter", "! "),
             ("e Ctrl+u 1 2 k g Enter", "! "),
             ("e Ctrl+u - 1 Enter", "! roughness.hurst = -1.0: allowed: above 0 and below 1"),
