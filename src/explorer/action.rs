@@ -13,7 +13,6 @@ use std::time::Duration;
 /// Event: input of the user, a report from outside, or elapsed time.
 #[derive(Clone, Debug)]
 pub enum Action {
-    /// A key.
     Key(KeyEvent),
     /// A command by its name.
     Command(Command),
@@ -44,11 +43,8 @@ pub enum Action {
 /// A file to write.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutputFile {
-    /// Path.
     pub path: PathBuf,
-    /// Content.
     pub content: Content,
-    /// True to overwrite the file.
     pub overwrite: bool,
     /// True to leave afterwards.
     pub then_quit: bool,
@@ -83,11 +79,9 @@ pub struct Mouse {
     pub column: u16,
     /// Row, from 0 at the top.
     pub row: u16,
-    /// Gesture.
     pub gesture: Gesture,
 }
 
-/// Gestures of a mouse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gesture {
     /// Its left button goes down.

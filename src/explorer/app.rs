@@ -24,7 +24,6 @@ use crate::simulation::Outcome;
 use crate::study::{Axis, Place};
 use std::sync::Arc;
 
-/// Target of the close-up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CloseUpTarget {
     /// Place.
@@ -59,7 +58,6 @@ pub struct ManualState {
 /// Content of the pane of the curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CurveLook {
-    /// Quantities.
     pub quantities: LoopQuantities,
     /// True for units of F_a,max, h and the whole line, false for SI units.
     pub normalised: bool,
@@ -115,7 +113,6 @@ pub struct View {
     pub appearance: Appearance,
     /// True where octants have no known width: `M` skips them.
     pub lacks_octants: bool,
-    /// Target of the close-up.
     pub look: CloseUpTarget,
     /// Part of the line in the profile pane.
     pub profile: LineView,

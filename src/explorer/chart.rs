@@ -30,7 +30,6 @@ pub struct Chart {
 /// A finished study and its shown map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpenStudy {
-    /// Its maps.
     pub study_map: Arc<StudyMap>,
     /// Number of the shown map.
     pub slice: u64,
@@ -40,7 +39,6 @@ pub struct OpenStudy {
 /// The live map so far.
 #[derive(Debug)]
 pub struct Live {
-    /// The map.
     pub map: LiveMap,
     /// The estimates in the cells of the map, for the pane.
     pub grid: Grid,
@@ -79,7 +77,6 @@ impl Chart {
         self.study.as_ref().filter(|_| self.of_study)
     }
 
-    /// Opens one map of a study.
     pub fn open_study(&mut self, study_map: Arc<StudyMap>, slice: u64) {
         let grid = Arc::new(study_map.grid(slice));
         self.study = Some(OpenStudy { study_map, slice, grid });

@@ -11,7 +11,6 @@ pub enum Effect {
     Ask,
     /// Perform the remaining studies of the scene, see [`super::update::studies`], and no others.
     Study,
-    /// Write a file.
     Write(OutputFile),
     /// Keep colours and markers in the configuration file.
     Remember {

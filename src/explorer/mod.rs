@@ -1,6 +1,9 @@
 //! The explorer: threads of input, solver and studies send actions into one channel, `update` changes the state, the views
 //! draw the state. This thread computes nothing and sleeps without events.
 
+// Public for the tests alone: names and types state what a doc would repeat.
+#![allow(missing_docs)]
+
 pub mod action;
 pub mod app;
 pub mod autosave;

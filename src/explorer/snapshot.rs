@@ -14,11 +14,8 @@ use std::sync::Arc;
 /// A computed scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolvedScene {
-    /// Generation of the scene.
     pub generation: u64,
-    /// The scene.
     pub scene: Arc<Scene>,
-    /// Outcome.
     pub outcome: Outcome,
 }
 
@@ -54,7 +51,6 @@ pub struct ContactSnapshot {
 /// Rigid profile and elastic surface at one spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Probe {
-    /// The spring.
     pub spring: usize,
     /// Height of the rigid profile, m.
     pub height: f64,
@@ -151,7 +147,6 @@ pub struct FragmentFacts {
 pub struct Preview {
     /// The text of the scene, different for different scenes.
     pub text: String,
-    /// Outcome.
     pub outcome: Outcome,
 }
 
@@ -164,14 +159,12 @@ pub enum Report {
     Shown(Arc<ContactSnapshot>),
     /// Part of a scene is done.
     Progress {
-        /// Its generation.
         generation: u64,
         /// Legs done.
         legs: usize,
     },
     /// A scene could not be computed.
     Failed {
-        /// Its generation.
         generation: u64,
         /// Reason, in one line.
         error: String,

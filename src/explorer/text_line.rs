@@ -36,7 +36,6 @@ impl TextLine {
         self.selected
     }
 
-    /// The text.
     pub fn text(&self) -> &str {
         self.input.value()
     }

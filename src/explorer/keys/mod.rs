@@ -19,7 +19,7 @@ use std::fmt;
 use tui_input::InputRequest;
 
 /// Context of keys: the prompt chooses it or, without one, the selected pane.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::VariantArray)]
 pub enum Context {
     /// Scene and panes.
     Explore,
@@ -35,7 +35,6 @@ pub enum Context {
     List,
     /// The question whether to overwrite a file.
     Overwrite,
-    /// The help.
     Help,
     /// The question whether to leave with unsaved changes.
     Leave,
@@ -80,7 +79,6 @@ enum Run {
 /// A row of the table, with the character of the key where it has one.
 #[derive(Clone, Copy)]
 pub struct Command {
-    /// The row.
     pub row: &'static Row,
     /// Character of the key.
     pub character: Option<char>,
@@ -124,17 +122,7 @@ const TYPED: &[Context] = &[Context::Line, Context::List];
 const SEARCHED: &[Context] = &[Context::List];
 const OVERWRITE: &[Context] = &[Context::Overwrite];
 const LEAVE: &[Context] = &[Context::Leave];
-const ANY: &[Context] = &[
-    Context::Explore,
-    Context::Map,
-    Context::Crosshair,
-    Context::Parameters,
-    Context::Line,
-    Context::List,
-    Context::Overwrite,
-    Context::Help,
-    Context::Leave,
-];
+const ANY: &[Context] = <Context as strum::VariantArray>::VARIANTS;
 
 const ANIMATION: &str = "Animation";
 const MANUAL: &str = "Manual loading";

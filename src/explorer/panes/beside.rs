@@ -10,7 +10,6 @@ use crate::export::adhesion_forces;
 use crate::scene::{Change, format_quantity};
 use ratatui::text::Line;
 
-/// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     place: Place::CloseUp,
     panel,

@@ -12,7 +12,6 @@ use crate::scene::format_quantity;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 
-/// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     place: Place::CloseUp,
     panel,

@@ -16,7 +16,6 @@ use crate::scene::format_rounded;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 
-/// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     panel,
     figure: |app, _| Some(Figure::of_chart(app.edit.document.title(), chart(app)?)),

@@ -35,7 +35,7 @@ use ratatui::layout::{Position, Size};
 use std::sync::Arc;
 
 /// The panes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::VariantArray)]
 pub enum Pane {
     /// The force curve.
     Force,
@@ -66,9 +66,7 @@ pub enum Pane {
 /// Place of a pane in a window with room for all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
-    /// A place of its own.
     Own,
-    /// The place of the close-up.
     CloseUp,
     /// The place of profile and close-up.
     Large,
@@ -121,22 +119,8 @@ const EXPORTED: Size = Size { width: 120, height: 40 };
 
 impl Pane {
     /// All panes, in the order of the help.
-    pub const ALL: [Pane; 12] = [
-        Pane::Force,
-        Pane::Profile,
-        Pane::CloseUp,
-        Pane::Lengths,
-        Pane::Beside,
-        Pane::Accuracy,
-        Pane::Spectrum,
-        Pane::Preloads,
-        Pane::Everett,
-        Pane::Density,
-        Pane::Chart,
-        Pane::Parameters,
-    ];
+    pub const ALL: &[Pane] = <Pane as strum::VariantArray>::VARIANTS;
 
-    /// Row of the pane.
     pub fn row(self) -> &'static PaneRow {
         match self {
             Pane::Force => &force::ROW,

@@ -165,7 +165,6 @@ fn fitting(app: &App, long: String, short: String) -> String {
     if long.chars().count() + 2 <= usize::from(app.view.size.0) { long } else { short }
 }
 
-/// A share in per cent.
 fn per_cent(share: f64) -> String {
     format!("{} %", format_quantity(100.0 * share, "1"))
 }

@@ -72,7 +72,6 @@ fn pressed(app: &mut App, key: &KeyEvent) {
     }
 }
 
-/// Runs a command.
 pub(super) fn run(app: &mut App, command: Command) {
     if app.prompt.is_none() {
         let moving = app.chart.moving && command.row.merges;

@@ -271,7 +271,6 @@ fn patches(number: u64) -> String {
     if number == 1 { "1 contact patch".to_owned() } else { format!("{} contact patches", grouped(number)) }
 }
 
-/// A number of things.
 fn counted(number: u64, thing: &str) -> String {
     let plural = if number == 1 { "" } else { "s" };
     format!("{} {thing}{plural}", grouped(number))

@@ -27,8 +27,11 @@ const PARTS: [Part; 5] = [
     Part { name: "F_a(0)", stages: &[Stage::ZeroLoadAdhesion], seconds: |timings| timings.zero_load },
 ];
 
-/// Names and times of the parts of the present scene; no time for a skipped part.
-fn parts(app: &App) -> Option<(&Timings, [(&'static str, Option<String>); 5])> {
+/// Name of a part of the run, and its time unless the scene skips it.
+type Timed = (&'static str, Option<String>);
+
+/// Times of the present scene, and its parts.
+fn parts(app: &App) -> Option<(&Timings, [Timed; PARTS.len()])> {
     let computed = app.current()?;
     let (plan, timings) = (Plan::of(&computed.scene), &computed.outcome.timings);
     let part = |Part { name, stages, seconds }: Part| {
