@@ -1,11 +1,11 @@
 //! The state of the explorer: changed by `update` alone, drawn by the views.
 
 use super::action::Traffic;
-pub use super::chart::{Chart, OpenStudy};
 use super::config::Config;
 pub use super::editor::Editor;
 use super::editor::scene_of;
 use super::effect::Effect;
+pub use super::map::{MapState, OpenStudy};
 use super::opening::Opening;
 pub use super::panes::Pane;
 use super::parameters::{Parameter, Setting};
@@ -154,7 +154,7 @@ pub struct App {
     /// Values computed after the scene.
     pub studies: Findings,
     /// The map over κ and H.
-    pub chart: Chart,
+    pub map: MapState,
     /// Loops kept for comparison, the newest last.
     pub ghosts: Vec<Ghost>,
     /// Scene to open beside the present one once that is computed.
@@ -205,7 +205,7 @@ impl App {
             snapshot: None,
             progress: Some(0),
             studies: Findings::default(),
-            chart: Chart::default(),
+            map: MapState::default(),
             ghosts: Vec::new(),
             opens_beside: beside,
             tried: None,

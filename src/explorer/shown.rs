@@ -89,8 +89,8 @@ impl App {
 
     /// Shows the map of a study, the first of them.
     pub fn show_study(&mut self, study_map: Arc<StudyMap>) {
-        self.chart.open_study(study_map, 0);
-        self.chart.of_study = true;
-        self.show(Pane::Chart);
+        self.map.open_study(study_map, 0);
+        self.map.of_study = true;
+        self.show(Pane::Map);
     }
 }

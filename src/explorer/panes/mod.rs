@@ -58,7 +58,7 @@ pub enum Pane {
     /// Density of first-order reversal curves, in place of profile and close-up.
     Density,
     /// The map over κ and H, in place of profile and close-up.
-    Chart,
+    Map,
     /// The list of parameters.
     Parameters,
 }
@@ -133,7 +133,7 @@ impl Pane {
             Pane::Preloads => &preloads::ROW,
             Pane::Everett => &reversals::EVERETT,
             Pane::Density => &reversals::DENSITY,
-            Pane::Chart => &map::ROW,
+            Pane::Map => &map::ROW,
             Pane::Parameters => &parameters::ROW,
         }
     }

@@ -51,7 +51,7 @@ pub fn open(app: &mut App, document: Document) {
     app.view.look = CloseUpTarget { focus: Focus::Summit, springs: CloseUpTarget::springs_shown(&document) };
     app.view.profile = LineView::WHOLE;
     // The shown map is that of the scene; a study stays loaded.
-    app.chart.of_study = false;
+    app.map.of_study = false;
     adopt(app, document);
     app.edit.set_saved();
 }
@@ -313,8 +313,8 @@ pub fn undo(app: &mut App, back: bool) {
 fn renewed(app: &mut App) {
     app.message.take_if(|message| matches!(message, Message::Refused(_)));
     app.progress = Some(0);
-    app.chart.moving = false;
-    let map = app.chart.key(&scene_of(&app.edit.document)).unwrap_or_default();
+    app.map.moving = false;
+    let map = app.map.key(&scene_of(&app.edit.document)).unwrap_or_default();
     app.studies.keep(&[&map, app.edit.document.text()]);
     // Manual loading belongs to the former profile and contact.
     if app.manual.take().is_some() {

@@ -1,7 +1,7 @@
 //! The same statements in windows of five sizes: every cut has a sign, and requested parts are visible.
 
 use super::accuracy::measured;
-use super::chart::charted;
+use super::chart::mapped;
 use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
@@ -111,7 +111,7 @@ fn keys_of_the_footer_are_apart_from_what_the_connection_carries() {
 /// The pane alone in the window, with a whole profile behind it.
 fn zoomed(pane: Pane, size: (u16, u16)) -> Driver {
     let mut driver = match pane {
-        Pane::Chart => charted(rough()),
+        Pane::Map => mapped(rough()),
         Pane::Accuracy => measured(rough()),
         Pane::Preloads => computed_preloads(rough()),
         Pane::Everett | Pane::Density => super::reversals::reversed(rough()),
@@ -142,7 +142,7 @@ fn axes_have_numbers_quantities_and_units_in_every_pane() {
                 (Pane::Everett, "d (", "d_r ("),
                 (Pane::Density, "d (", "d_r ("),
                 (Pane::Accuracy, "t (", "error"),
-                (Pane::Chart, " H", "κ"),
+                (Pane::Map, " H", "κ"),
             ] {
                 let driver = zoomed(pane, size);
                 let area = Layout::of(&driver.app).pane(pane).unwrap();
@@ -202,7 +202,7 @@ fn a_key_of_a_pane_shows_the_pane() {
                 ("Q", Pane::Spectrum),
                 ("i", Pane::Preloads),
                 ("A", Pane::Accuracy),
-                ("m", Pane::Chart),
+                ("m", Pane::Map),
             ] {
                 let mut driver = pressed("");
                 driver.app.view.pane = Pane::Force;
