@@ -1,10 +1,9 @@
 //! The state of the explorer: changed by `update` alone, drawn by the views.
 
-use super::action::Traffic;
+use super::action::{Effect, Traffic};
 use super::config::Config;
 pub use super::editor::Editor;
 use super::editor::scene_of;
-use super::effect::Effect;
 pub use super::map::{MapState, OpenStudy};
 use super::opening::Opening;
 pub use super::panes::Pane;

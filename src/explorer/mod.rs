@@ -13,7 +13,6 @@ mod completion;
 pub mod config;
 pub mod demo;
 mod editor;
-mod effect;
 mod input;
 pub mod keys;
 pub mod layout;

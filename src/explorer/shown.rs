@@ -1,7 +1,7 @@
 //! Shown panes, the selected one, and its valid keys and exports.
 
+use super::action::Effect;
 use super::app::App;
-use super::effect::Effect;
 use super::keys::Context;
 use super::layout::Layout;
 use super::panes::{Pane, Place};

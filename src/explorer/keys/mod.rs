@@ -7,8 +7,8 @@ mod key;
 pub use bindings::{Binding, Bindings, markdown};
 pub use key::Key;
 
+use super::action::Effect;
 use super::app::App;
-use super::effect::Effect;
 use super::panes::Pane;
 use super::parameters::Parameter;
 use super::prompt::Purpose;

@@ -3,7 +3,6 @@
 mod accuracy;
 mod beside;
 mod close_up;
-mod costs;
 mod force;
 mod lengths;
 mod map;
@@ -16,7 +15,7 @@ mod scene_spectra;
 mod section;
 mod spectrum;
 
-pub use costs::Costs;
+pub use accuracy::Costs;
 pub use force::{indentation_at, nearest};
 pub use parameters::parameter_in;
 pub use preload_curve::{PROFILES, PreloadCurve};

@@ -10,7 +10,6 @@ use crate::explorer::search::letters_found;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
 use crate::explorer::view::text::{Part, filled, fitted, found, wrapped_within};
-use crate::explorer::view::typed::typed;
 use crate::scene::format_quantity;
 use ratatui::layout::Size;
 use ratatui::style::Style;
@@ -157,7 +156,7 @@ fn editor(app: &App, parameter: &Parameter, line: &TextLine, lead: &str, width: 
     let fits = |label: &&String| columns(label) + TYPED_COLUMNS.max(columns(line.text()) + 1) <= width;
     let label = Span::raw(labels.iter().find(fits).unwrap_or(&labels[labels.len() - 1]).clone());
     let room = width.saturating_sub(label.width());
-    Line::from_iter([label].into_iter().chain(typed(line, room, app.view.appearance.theme)))
+    Line::from_iter([label].into_iter().chain(line.spans(room, app.view.appearance.theme)))
 }
 
 /// Name and symbol within a number of columns: the name is cut, or left out where little of the name would remain.

@@ -12,7 +12,7 @@ pub(super) mod map;
 mod mouse;
 pub(super) mod movement;
 
-pub use super::effect::Effect;
+pub use super::action::Effect;
 pub use accuracy::{Answer, Choosing, studies};
 
 use super::action::Action;

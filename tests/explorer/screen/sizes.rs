@@ -1,10 +1,10 @@
 //! The same statements in windows of five sizes: every cut has a sign, and requested parts are visible.
 
 use super::accuracy::measured;
-use super::chart::mapped;
 use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
+use super::map::mapped;
 use super::preloads::computed_preloads;
 use super::{SIZES, default_scene, pressed};
 use asperity::explorer::app::Pane;
