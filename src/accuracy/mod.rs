@@ -16,4 +16,4 @@ pub use choose::{Choice, ChoiceError, choose, parse_tolerance};
 pub use estimate::{Estimate, Evidence, estimate};
 pub use ladder::{Progress, measure};
 pub use solution::Target;
-pub use table::{CostTable, ErrorFigure, Knob, QUANTITIES, Reference, Row, TARGETS, Timing};
+pub use table::{CostTable, ErrorFigure, Knob, QUANTITIES, Reference, Row, Timing};

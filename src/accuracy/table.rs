@@ -12,8 +12,8 @@ pub(super) const REFINEMENTS: usize = 2;
 /// indentations over the largest force), the dissipated energy, and the largest length in contact.
 pub const QUANTITIES: [&str; 4] = ["adhesion_force", "curve", "dissipated_energy", "contact_length"];
 
-/// Relative errors whose cost is stated.
-pub const TARGETS: [f64; 2] = [0.01, 0.001];
+/// Relative errors of the answers.
+const TARGETS: [(f64, &str); 2] = [(0.01, "1 %"), (0.001, "0.1 %")];
 
 /// Setting that affects accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, Serialize)]
@@ -166,32 +166,26 @@ impl CostTable {
         slope(&points).filter(|_| points.len() >= 3).map(f64::abs)
     }
 
-    /// Returns the springs and times with which the main error is within a bound, for both edge models. An unfinished
-    /// table leaves out an edge model for which they are not found yet; `None` without any.
-    pub fn answer(&self, bound: f64, is_finished: bool) -> Option<String> {
-        let found = |(knob, edges): (Knob, &str)| {
+    /// Returns the springs and times for one per cent and one per mille of the adhesion force, or of the force curve
+    /// without a tensile force: one sentence each.
+    pub fn answer(&self) -> Vec<String> {
+        let of_force = self.reference.adhesion_force.is_some();
+        let what = if of_force { "the adhesion force" } else { "the force curve" };
+        let found = |knob: Knob, edges: &str, bound: f64| {
             if let Some(Row { springs, seconds, .. }) = self.first_row_within(knob, bound) {
                 let time = seconds.map(|time| format!(", {}", format_rounded(time.minimum, 3, "s")));
                 let (springs, time) = (grouped(*springs), time.unwrap_or_default());
-                return Some(format!("{springs} springs{time} with edges {edges}"));
+                return format!("{springs} springs{time} with edges {edges}");
             }
             let finest = self.rows_of(knob).next_back().map(|row| grouped(row.springs));
             let missed = |finest| format!("not found up to {finest} springs with edges {edges}");
-            is_finished.then(|| finest.map_or_else(|| format!("edges {edges} were not affordable"), missed))
+            finest.map_or_else(|| format!("edges {edges} were not affordable"), missed)
         };
-        let edges = [(Knob::SubCellSprings, "SubCell"), (Knob::GridSprings, "Grid")];
-        let found: Vec<String> = edges.into_iter().filter_map(found).collect();
-        (!found.is_empty()).then(|| found.join("; "))
-    }
-
-    /// Returns the answers of a finished table for the [`TARGETS`] of the adhesion force, or of the force curve without a
-    /// tensile force: one sentence each.
-    pub fn answers(&self) -> Vec<String> {
-        let of_force = self.reference.adhesion_force.is_some();
-        let what = if of_force { "the adhesion force" } else { "the force curve" };
-        let sentence =
-            |bound: f64| Some(format!("{} % of {what}: {}.", 100.0 * bound, self.answer(bound, true)?));
-        TARGETS.into_iter().filter_map(sentence).collect()
+        let sentence = |(bound, percent): (f64, &str)| {
+            let sub_cell = found(Knob::SubCellSprings, "SubCell", bound);
+            format!("{percent} of {what}: {sub_cell}; {}.", found(Knob::GridSprings, "Grid", bound))
+        };
+        TARGETS.map(sentence).into()
     }
 }
 
@@ -271,7 +265,7 @@ mod tests {
         let grid = [(16.0, 0.3), (2048.0, 0.009), (4096.0, 0.0045), (8192.0, 0.0009)];
         let mut table = table(&[rows(Knob::SubCellSprings, &sub_cell), rows(Knob::GridSprings, &grid)]);
         assert_eq!(
-            table.answers(),
+            table.answer(),
             [
                 "1 % of the adhesion force: 128 springs, 128 µs with edges SubCell; 2 048 springs, 2.05 ms with \
                  edges Grid.",
@@ -283,7 +277,7 @@ mod tests {
         table.rows.retain(|row| row.knob == Knob::SubCellSprings);
         table.rows.iter_mut().for_each(|row| row.errors.swap(0, 1));
         assert_eq!(
-            table.answers()[0],
+            table.answer()[0],
             "1 % of the force curve: 128 springs, 128 µs with edges SubCell; edges Grid were not affordable."
         );
     }

@@ -26,7 +26,7 @@ pub struct CostReport<'a> {
 
 impl<'a> CostReport<'a> {
     pub fn new(title: &'a str, scene: &'a Scene, table: &'a CostTable) -> CostReport<'a> {
-        CostReport { title, scene, answer: table.answers(), table }
+        CostReport { title, scene, answer: table.answer(), table }
     }
 }
 
@@ -68,7 +68,7 @@ impl Report for CostReport<'_> {
 /// The answer first, omitted settings last.
 fn text(table: &CostTable) -> String {
     let mut sheet = Sheet::default();
-    table.answers().iter().for_each(|sentence| sheet.paragraph(sentence));
+    table.answer().iter().for_each(|sentence| sheet.paragraph(sentence));
     sheet.heading("Relative errors, with the observed order of convergence since the row before");
     sheet.paragraph(&counted_from(table));
     for knob in Knob::ALL {

@@ -1,7 +1,7 @@
 //! Cost of accuracy: errors over times, both logarithmic, requirements of a good accuracy, and the stages of the run.
 
 use super::{Costs, Exported, PaneRow, costs};
-use crate::accuracy::{CostTable, Estimate, Evidence, Knob, TARGETS};
+use crate::accuracy::{CostTable, Estimate, Evidence, Knob};
 use crate::draw::{Chart, Ink, Layer, Shape, Sign, Span};
 use crate::explorer::app::App;
 use crate::explorer::keys::Context;
@@ -11,7 +11,7 @@ use crate::explorer::update::{Answer, Choosing};
 use crate::explorer::view::stages;
 use crate::explorer::view::text::{filled, wrapped};
 use crate::export::{CostReport, work_precision};
-use crate::scene::{Edges, Numerics, Solver, format_quantity};
+use crate::scene::{Edges, Numerics, Solver, format_quantity, format_rounded};
 use crate::text::grouped;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
@@ -34,6 +34,9 @@ fn report(app: &App) -> Exported<'_> {
     let (document, table) = (&app.edit.document, app.studies.value::<Costs>()?.table.as_ref()?);
     Some(("asperity cost", Box::new(CostReport::new(document.title(), document.scene(), table))))
 }
+
+/// Relative errors whose requirements are stated, with lines in the plot.
+const TARGETS: [f64; 2] = [0.01, 0.001];
 
 /// Lower limit of the plot; errors below are in the lowest row.
 const LOWEST: f64 = 1e-8;
@@ -144,9 +147,9 @@ fn texts(app: &App, table: Option<&CostTable>, area: Size) -> Vec<Line<'static>>
     }
     if let Some(table) = table {
         for bound in TARGETS {
-            if let Some(answer) = table.answer(bound, app.studies.is_done::<Costs>()) {
-                let percent = format!("{} %: ", 100.0 * bound);
-                let percent = Text::styled(percent, theme.style(Meaning::Title));
+            let percent = format!("{} %", 100.0 * bound);
+            if let Some(answer) = answer(table, bound, app.studies.is_done::<Costs>()) {
+                let percent = Text::styled(format!("{percent}: "), theme.style(Meaning::Title));
                 say(Line::from(vec![percent, Text::raw(answer)]));
             }
         }
@@ -214,4 +217,26 @@ fn now(app: &App, table: Option<&CostTable>) -> Line<'static> {
         Text::styled("◆ ", theme.style(Meaning::Cursor)),
         Text::raw(format!("{setting}{error}{absent}")),
     ])
+}
+
+/// Requirements of a bound; `None` while they are unknown.
+fn answer(table: &CostTable, bound: f64, finished: bool) -> Option<String> {
+    let knobs = [(Knob::SubCellSprings, "edges between springs"), (Knob::GridSprings, "whole springs")];
+    let rows = knobs.into_iter().filter_map(|(knob, edges)| {
+        let finest = table.rows_of(knob).next_back();
+        match table.first_row_within(knob, bound) {
+            Some(row) => {
+                let time = row
+                    .seconds
+                    .map_or_else(String::new, |time| format!(", {}", format_rounded(time.minimum, 2, "s")));
+                Some(format!("{edges}: {}{time}", grouped(row.springs)))
+            }
+            None if finished => {
+                finest.map(|finest| format!("{edges}: not up to {}", grouped(finest.springs)))
+            }
+            None => None,
+        }
+    });
+    let rows: Vec<_> = rows.collect();
+    (!rows.is_empty()).then(|| rows.join("; "))
 }

@@ -90,8 +90,8 @@ fn what_accuracy_costs_is_shown_beside_what_can_be_changed() {
             for stated in [
                 "order 2.0",
                 "order 1.0",
-                "1 %: 1 024 springs, 100 µs with edges SubCell",
-                "2 048 springs, 200 µs with",
+                "1 %: edges between springs: 1 024",
+                "whole springs: 2 048",
                 "ran 0 s:",
                 "◆ 1 024 whole springs",
             ] {
