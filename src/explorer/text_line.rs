@@ -1,6 +1,9 @@
 //! A line of text being typed.
 
+use super::theme::{Meaning, Theme};
 use crate::text::is_control;
+use ratatui::style::Modifier;
+use ratatui::text::Span;
 use tui_input::{Input, InputRequest};
 
 /// Longest line, characters.
@@ -36,13 +39,12 @@ impl TextLine {
         self.selected
     }
 
-    /// The text.
     pub fn text(&self) -> &str {
         self.input.value()
     }
 
     /// The text before the cursor, under it and after it.
-    pub fn parts(&self) -> (String, String, String) {
+    fn parts(&self) -> (String, String, String) {
         let part = |from, count| self.text().chars().skip(from).take(count).collect();
         let cursor = self.input.cursor();
         (part(0, cursor), part(cursor, 1), part(cursor + 1, LONGEST))
@@ -74,6 +76,25 @@ impl TextLine {
         let deletes = matches!(request, DeletePrevChar | DeleteNextChar | DeletePrevWord);
         self.input.handle(if self.selected && deletes { DeleteLine } else { request });
         (self.selected, self.left_out) = (false, None);
+    }
+
+    /// The part around the cursor, within a number of columns.
+    pub fn spans(&self, columns: usize, theme: Theme) -> Vec<Span<'static>> {
+        let reversed = theme.style(Meaning::Text).add_modifier(Modifier::REVERSED);
+        if self.selected && !self.text().is_empty() {
+            return vec![Span::styled(self.text().to_owned(), reversed)];
+        }
+        let (before, under, after) = self.parts();
+        let under = if under.is_empty() { " ".to_owned() } else { under };
+        let mut room = columns.saturating_sub(Span::raw(under.as_str()).width());
+        let fits = |character: char| {
+            room = room.checked_sub(Span::raw(character.to_string()).width())?;
+            Some(character)
+        };
+        let mut seen: Vec<char> = before.chars().rev().map_while(fits).collect();
+        seen.reverse();
+        let cursor = Span::styled(under, reversed);
+        vec![Span::raw(String::from_iter(seen)), cursor, Span::raw(after)]
     }
 }
 

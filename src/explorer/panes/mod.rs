@@ -3,7 +3,6 @@
 mod accuracy;
 mod beside;
 mod close_up;
-mod costs;
 mod force;
 mod lengths;
 mod map;
@@ -17,7 +16,7 @@ mod section;
 mod sensitivity;
 mod spectrum;
 
-pub use costs::Costs;
+pub use accuracy::Costs;
 pub use force::{indentation_at, nearest};
 pub use parameters::parameter_in;
 pub use preload_curve::{PROFILES, PreloadCurve};
@@ -36,7 +35,7 @@ use ratatui::layout::{Position, Size};
 use std::sync::Arc;
 
 /// The panes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::VariantArray)]
 pub enum Pane {
     /// The force curve.
     Force,
@@ -61,7 +60,7 @@ pub enum Pane {
     /// Sensitivity to the numbers of the scene, in place of profile and close-up.
     Sensitivity,
     /// The map over κ and H, in place of profile and close-up.
-    Chart,
+    Map,
     /// The list of parameters.
     Parameters,
 }
@@ -69,9 +68,7 @@ pub enum Pane {
 /// Place of a pane in a window with room for all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
-    /// A place of its own.
     Own,
-    /// The place of the close-up.
     CloseUp,
     /// The place of profile and close-up.
     Large,
@@ -124,23 +121,8 @@ const EXPORTED: Size = Size { width: 120, height: 40 };
 
 impl Pane {
     /// All panes, in the order of the help.
-    pub const ALL: [Pane; 13] = [
-        Pane::Force,
-        Pane::Profile,
-        Pane::CloseUp,
-        Pane::Lengths,
-        Pane::Beside,
-        Pane::Accuracy,
-        Pane::Spectrum,
-        Pane::Preloads,
-        Pane::Everett,
-        Pane::Density,
-        Pane::Sensitivity,
-        Pane::Chart,
-        Pane::Parameters,
-    ];
+    pub const ALL: &[Pane] = <Pane as strum::VariantArray>::VARIANTS;
 
-    /// Row of the pane.
     pub fn row(self) -> &'static PaneRow {
         match self {
             Pane::Force => &force::ROW,
@@ -154,7 +136,7 @@ impl Pane {
             Pane::Everett => &reversals::EVERETT,
             Pane::Density => &reversals::DENSITY,
             Pane::Sensitivity => &sensitivity::ROW,
-            Pane::Chart => &map::ROW,
+            Pane::Map => &map::ROW,
             Pane::Parameters => &parameters::ROW,
         }
     }
@@ -163,8 +145,8 @@ impl Pane {
     pub fn panel(self, app: &App, size: Size) -> Panel {
         let mut panel = (self.row().panel)(app, size);
         // The crosshairs of the other panes are at the shown state and at a spring.
-        if let (Some(crosshair), Place::Large) = (app.view.crosshair, self.row().place) {
-            panel.read_at(crosshair.position, app.view.appearance);
+        if let (Some(position), Place::Large) = (app.view.crosshair, self.row().place) {
+            panel.read_at(position, app.view.appearance);
         }
         panel
     }

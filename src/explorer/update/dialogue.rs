@@ -128,7 +128,7 @@ fn run_listed(app: &mut App, command: Command) {
         here if is_valid(here) => {}
         _ if is_valid(Context::Parameters) => app.show(Pane::Parameters),
         _ if is_valid(Context::Explore) => app.show(Pane::Force),
-        _ => app.show(Pane::Chart),
+        _ => app.show(Pane::Map),
     }
     run(app, command);
 }
