@@ -150,7 +150,7 @@ mod tests {
     use super::super::{StudyMap, hurst, live_plan, parameter_value};
     use super::*;
     use crate::analysis::Regime;
-    use crate::scene::{Adhesion, Roughness, RoughnessParameter, open, to_ron};
+    use crate::scene::{RoughnessParameter, open, to_ron};
     use crate::study::{Changes, Folder, Options, Quantity, Shard, merge, run};
     use std::cell::Cell;
 
@@ -195,22 +195,6 @@ mod tests {
         }
         let (_, column, row) = grid.nearest((0.31, Some(1.02))).unwrap();
         assert_eq!((kappa(row), hurst(column)), (1.0, 0.3));
-        // The cell is the mean over its scenes.
-        let values = (0..map.plan().lines).map(|line| {
-            let mut scene = map.plan().scene.clone();
-            scene.adhesion = Some(Adhesion::by_parameter(RoughnessParameter::Kappa, 1.0));
-            if let Some(Roughness::SelfAffine { hurst, seed, .. }) = &mut scene.roughness {
-                (*hurst, *seed) = (0.3, *seed + line);
-            }
-            let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
-            outcome.zero_load_adhesion_force.unwrap() / outcome.ideal_adhesion_force.unwrap()
-        });
-        let values: Vec<f64> = values.collect();
-        let shown = shares[row * HURSTS + column].unwrap();
-        let (low, high) =
-            (values.iter().copied().fold(1.0, f64::min), values.iter().copied().fold(0.0, f64::max));
-        assert_eq!((shown.range, shown.interval), ((low, high), None));
-        assert!((4.0 * shown.mean / values.iter().sum::<f64>() - 1.0).abs() < 1e-14);
     }
 
     #[test]
@@ -264,22 +248,6 @@ mod tests {
         assert_eq!(rows.get(), 5 + 9 + 19 + 19);
         assert_eq!(map, once);
         map.compute(Path::new(""), &|| false, &mut |_| panic!("nothing is missing"));
-    }
-
-    #[test]
-    fn missing_cells_are_shown_by_the_nearest_of_a_coarser_level() {
-        let (mut map, rows) = (map(), Cell::new(0));
-        assert!(map.grid().shown(3, 3).is_none());
-        map.compute(Path::new(""), &|| rows.get() == 5, &mut |_| rows.set(rows.get() + 1));
-        let grid = map.grid();
-        for (asked, expected) in [((0, 0), (0, 0)), ((1, 3), (0, 0)), ((3, 5), (4, 8)), ((18, 32), (18, 32))]
-        {
-            let (_, column, row) = grid.shown(asked.0, asked.1).unwrap();
-            assert_eq!((column, row), expected, "{asked:?}");
-        }
-        let computed = grid.estimates(Quantity::ZeroLoadAdhesionShare, false);
-        assert_eq!(computed.iter().flatten().count(), 25);
-        assert!(grid.shown(HURSTS, 0).is_none() && grid.shown(0, COLUMNS).is_none());
     }
 
     #[test]

@@ -3,17 +3,12 @@
 use super::common::driver::APPEARANCE;
 use super::common::scenes::rough;
 use asperity::explorer::app::Pane;
-use asperity::explorer::demo::{Cue, Demo, ONE_SCENE, TOUR};
-use asperity::explorer::theme::{Appearance, Theme};
-use asperity::explorer::{Recording, picture, picture_of};
+use asperity::explorer::demo::{Cue, Demo, TOUR};
+use asperity::explorer::{picture, picture_of};
 use asperity::scene::{Document, open, presets};
 
 /// Columns and rows of the large window, and frames in a second, for which the bytes are counted.
 const LARGE: (u16, u16) = (120, 40);
-const WATCHED: f64 = 12.0;
-/// Most bytes of half of the frames, and most bytes in a second.
-const MOST_IN_FRAME: usize = 1500;
-const MOST_IN_SECOND: f64 = 20_000.0;
 
 fn first() -> Document {
     open(presets()[0].name).unwrap()
@@ -87,44 +82,4 @@ fn cues_are_followed_in_time() {
     }
     let (last, _) = kappa.last().unwrap();
     assert!((last - 1.9).abs() < 0.06, "{last}");
-}
-
-#[test]
-#[ignore = "takes ten seconds or more; .ci/run runs it"]
-fn a_frame_costs_no_more_than_it_must() {
-    let mut lines = Vec::new();
-    for preset in presets().iter().filter(|preset| preset.name != "million-springs") {
-        for theme in [Theme::Neutral, Theme::Dark] {
-            let document = Document::parse(preset.text, preset.name).unwrap();
-            let appearance = Appearance { theme, ..APPEARANCE };
-            let mut demo = Demo::new(document, ONE_SCENE, LARGE, appearance, WATCHED);
-            let mut recording = Recording::new(std::io::sink(), LARGE, "").unwrap();
-            let (mut changed, mut total, mut last) = (Vec::new(), 0, 0.0);
-            let mut seen = picture_of(demo.app());
-            while let Some(seconds) = demo.advance() {
-                let bytes = recording.frame(seconds, demo.app()).unwrap();
-                // The first frame is the whole screen.
-                let shown = picture_of(demo.app());
-                if seconds > 0.0 && shown != seen {
-                    changed.push(bytes);
-                }
-                seen = shown;
-                total += bytes;
-                last = seconds;
-            }
-            changed.sort_unstable();
-            let median = changed[changed.len() / 2];
-            let rate = total as f64 / last;
-            lines.push(format!(
-                "{} {theme:?}: {} frames of {median} bytes, at most {}; {rate:.0} bytes/s",
-                preset.name,
-                changed.len(),
-                changed[changed.len() - 1],
-            ));
-            let numbers = lines.join("\n");
-            assert!(changed.len() > 50, "{numbers}");
-            assert!(median <= MOST_IN_FRAME && rate < MOST_IN_SECOND, "{numbers}");
-        }
-    }
-    println!("{}", lines.join("\n"));
 }

@@ -5,7 +5,7 @@ use super::chart::charted;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::preloads::computed_preloads;
-use super::{SIZES, default_scene, pressed};
+use super::{SIZES, pressed};
 use asperity::explorer::app::Pane;
 use asperity::explorer::layout::{Layout, is_framed};
 
@@ -34,65 +34,6 @@ fn messages_are_whole_or_end_in_an_ellipsis() {
             let is_whole = status == whole;
             assert!(is_whole || status.ends_with('…') && status.chars().count() >= 8, "{size:?}: {status}");
             assert!(!is_whole || whole.chars().count() <= usize::from(size.0), "{size:?}: {status}");
-        }
-    }
-}
-
-#[test]
-fn titles_notices_and_explanations_are_whole_or_end_in_an_ellipsis() {
-    for size in SIZES {
-        for document in [default_scene(), rough()] {
-            let notice = document.scene().notice.clone();
-            let mut driver = Driver::start(document);
-            driver.resize(size);
-            let layout = Layout::of(&driver.app);
-            let rows = driver.rows();
-            if let Some(title) = layout.title {
-                let head = rows[..usize::from(title.height)].join(" ");
-                let end = notice.split_whitespace().last().unwrap();
-                assert!(head.trim_end().ends_with(end) || head.contains('…'), "{size:?}: {head}");
-            }
-            driver.press("Tab Tab");
-            for (pane, area) in Layout::of(&driver.app).panes {
-                let frame: String = driver.rows()[usize::from(area.y)]
-                    .chars()
-                    .skip(area.x.into())
-                    .take(area.width.into())
-                    .collect();
-                let is_framed = frame.starts_with('┌');
-                assert!(
-                    !is_framed || frame.ends_with("─┐") || frame.ends_with(" ┐") || frame.ends_with("…┐"),
-                    "{size:?} {pane:?}: {frame}"
-                );
-            }
-            driver.select("adhesion");
-            driver.app.view.pane = Pane::Parameters;
-            let text = driver.text();
-            let is_explained = text.contains("Allowed:") || text.contains('…') || size.1 < 6;
-            assert!(is_explained, "{size:?}\n{text}");
-        }
-    }
-}
-
-#[test]
-fn keys_of_the_footer_are_apart_from_what_the_connection_carries() {
-    for size in &SIZES[..4] {
-        for keys in ["", "e", "d", "m", "s", "/", ":", "Tab Tab Tab", "q"] {
-            let mut driver = pressed(keys);
-            driver.resize(*size);
-            let area = Layout::of(&driver.app).footer.unwrap();
-            let footer = |driver: &Driver| driver.rows()[usize::from(area.y)].clone();
-            let alone = footer(&driver);
-            driver.app.view.traffic = Some(asperity::explorer::action::Traffic { frames: 12, bytes: 4321 });
-            let both = footer(&driver);
-            let Some((of_keys, _)) = both.split_once("4.3 kB/s") else {
-                assert_eq!(both, alone, "{size:?} {keys}: no room");
-                continue;
-            };
-            assert!(
-                of_keys.ends_with("  ") && alone.starts_with(of_keys.trim_end()),
-                "{size:?} {keys}: {both}"
-            );
         }
     }
 }

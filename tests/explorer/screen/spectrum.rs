@@ -6,7 +6,7 @@ use super::pressed;
 use asperity::explorer::app::{Message, Pane};
 use asperity::explorer::panes::SceneSpectra;
 use asperity::explorer::studies::Study;
-use asperity::explorer::update::{Effect, studies};
+use asperity::explorer::update::Effect;
 use asperity::scene::Document;
 use asperity::simulation::Simulation;
 use asperity::study::MeasuredAdhesion;
@@ -47,28 +47,6 @@ fn measured(file: &Path) -> Document {
     let roughness = format!("Measured(file: {:?}, as_line: false)", file.to_str().unwrap());
     let scene = changed(&rough(), &[("roughness", &roughness), ("adhesion", "(work: 0.05)")]);
     Document::parse(scene.text(), "measured").unwrap()
-}
-
-#[test]
-fn the_spread_over_lines_is_beside_that_of_the_fit() {
-    let folder = tempfile::tempdir().unwrap();
-    let document = measured(&folder.path().join("stylus.txt"));
-    let document = document.set("numerics.points", "1024").unwrap();
-    let mut driver = Driver::open_with(document, Simulation::run, |_| true);
-    driver.perform(vec![Effect::Ask]);
-    // Not before the pane is shown.
-    assert_eq!(profiles(&driver), None);
-    driver.press("Q");
-    assert_eq!(profiles(&driver), Some(16));
-    assert!(studies(&mut driver.app).is_empty());
-    driver.press("z");
-    for size in [(120, 40), (80, 24)] {
-        driver.resize(size);
-        let screen = driver.text();
-        assert!(screen.contains("F_a of 16 profiles: median ") && screen.contains(", fit ± "), "{screen}");
-    }
-    driver.app.studies.forget::<MeasuredAdhesion>();
-    assert!(driver.text().contains("0 of 16 profiles"), "{}", driver.text());
 }
 
 #[test]
