@@ -20,14 +20,12 @@ pub struct PowerLaw {
 
 impl PowerLaw {
     /// The closed form of a body, if it is a power law: neither the punch nor a sphere with waves.
-    #[must_use]
     pub fn of(form: &Form, effective_modulus: f64, work_of_adhesion: f64) -> Option<Self> {
         let (line_coefficient, exponent) = form.power_law()?;
         Some(PowerLaw { line_coefficient, exponent, effective_modulus, work_of_adhesion })
     }
 
     /// Indentation d(a) = c aⁿ − √(2π a γ/E*), m, at contact radius a.
-    #[must_use]
     pub fn indentation(&self, radius: f64) -> f64 {
         // Rule of Hess, eq. (3).
         let stretch = (2.0 * PI * radius * self.work_of_adhesion / self.effective_modulus).sqrt();
@@ -35,7 +33,6 @@ impl PowerLaw {
     }
 
     /// Force F(a) = 2E* n c a^(n+1)/(n+1) − √(8π a³ E* γ), N, at contact radius a.
-    #[must_use]
     pub fn force(&self, radius: f64) -> f64 {
         let n = self.exponent;
         let pressed =
@@ -44,7 +41,6 @@ impl PowerLaw {
     }
 
     /// Contact radius, m, and force, N, of pull-off under force control, where dF/da = 0; the smallest force.
-    #[must_use]
     pub fn force_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
         let radius = self.critical_radius(9.0);
@@ -52,7 +48,6 @@ impl PowerLaw {
     }
 
     /// Contact radius, m, and force, N, of pull-off under displacement control, where dd/da = 0.
-    #[must_use]
     pub fn displacement_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
         let radius = self.critical_radius(1.0);
@@ -72,14 +67,12 @@ impl PowerLaw {
 }
 
 /// Adhesion force √(8π a³ E* γ), N, of a flat punch of radius a m (Kendall).
-#[must_use]
 pub fn flat_punch(radius: f64, effective_modulus: f64, work_of_adhesion: f64) -> f64 {
     (8.0 * PI * radius.powi(3) * effective_modulus * work_of_adhesion).sqrt()
 }
 
 /// Adhesion force, N, of a smooth body of a form (`None`: flat) and apparent diameter `length` m: the
 /// closed form of its shape, at most that of a flat face of its length.
-#[must_use]
 pub fn smooth_adhesion_force(form: Option<&Form>, length: f64, effective_modulus: f64, work: f64) -> f64 {
     let flat = ideal_adhesion_force(work, effective_modulus, length);
     // With waves the adhesion force depends on the preload: uses the form without them.

@@ -9,7 +9,5 @@ mod reversal_map;
 pub use derived::{DEFAULT_RANGE, LEAST_TABOR_NUMBER, SteepWaves, ideal_adhesion_force, scene_tabor_number};
 pub use figures::{Figures, Mark, marks, preload_point, pull_off_point};
 pub use governing::Governing;
-pub use regime::{
-    AGREEING_SHARE, CellRegime, INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, Regime, VANISHING_SHARE,
-};
+pub use regime::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, Regime, VANISHING_SHARE};
 pub use reversal_map::{CONGRUENT_SHARE, MinorLoops, ReversalMap};

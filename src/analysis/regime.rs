@@ -1,4 +1,4 @@
-//! The three regimes of adhesion of Fig. 4: the rule for one loading and the rule for many random profiles.
+//! The three regimes of adhesion of Fig. 4, and the rule for one loading.
 
 use super::Figures;
 use serde::Serialize;
@@ -16,9 +16,6 @@ pub const VANISHING_SHARE: f64 = 0.05;
 /// Adhesion coefficient F_a/F_n below which adhesion is negligible: the bodies adhere with less than a
 /// hundredth of the force that pressed them together.
 pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
-
-/// Smallest share of random profiles in one regime for which the profiles agree.
-pub const AGREEING_SHARE: f64 = 0.75;
 
 /// Dependence of adhesion on the load, Fig. 4.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, Serialize)]
@@ -87,30 +84,6 @@ impl Regime {
     }
 }
 
-/// Regime of many random profiles of one scene: a cell of a map.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CellRegime {
-    /// Regime of most profiles; of two with equal numbers the one with more adhesion.
-    pub regime: Regime,
-    /// Share of the profiles in this regime, at most 1.
-    pub share: f64,
-    /// Regime of the second largest share, if the first is below [`AGREEING_SHARE`].
-    pub split: Option<Regime>,
-}
-
-impl CellRegime {
-    /// From the shares of profiles in the regimes, in the order of [`Regime::ALL`]; `None` if all are zero.
-    pub fn from_shares(shares: [f64; 3]) -> Option<Self> {
-        let mut order = [0, 1, 2];
-        // Stable: of equal shares the one with more adhesion remains first.
-        order.sort_by(|&a, &b| shares[b].total_cmp(&shares[a]));
-        let [first, second, _] = order;
-        let share = shares[first];
-        let split = Some(Regime::ALL[second]).filter(|_| share < AGREEING_SHARE && shares[second] > 0.0);
-        (share > 0.0).then_some(CellRegime { regime: Regime::ALL[first], share, split })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -141,18 +114,5 @@ mod tests {
             let found = Regime::of_forces(zero_load, adhesion, preload, smooth);
             assert_eq!(found, expected, "{zero_load} {adhesion} {preload} {smooth}");
         }
-    }
-
-    #[test]
-    fn a_cell_has_the_regime_of_most_of_its_lines() {
-        let [insensitive, sensitive, non_adhesive] = Regime::ALL;
-        let found = |shares| CellRegime::from_shares(shares).map(|cell| (cell.regime, cell.split));
-        assert_eq!(found([0.0; 3]), None);
-        assert_eq!(found([0.0, 1.0, 0.0]), Some((sensitive, None)));
-        assert_eq!(found([0.0, AGREEING_SHARE, 0.25]), Some((sensitive, None)));
-        assert_eq!(found([0.3, 0.0, 0.7]), Some((non_adhesive, Some(insensitive))));
-        assert_eq!(found([0.0, 0.5, 0.5]), Some((sensitive, Some(non_adhesive))));
-        assert_eq!(found([0.5, 0.0, 0.5]), Some((insensitive, Some(non_adhesive))));
-        assert_eq!(Regime::ALL.map(|regime| regime as usize), [0, 1, 2]);
     }
 }

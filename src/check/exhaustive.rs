@@ -1,7 +1,7 @@
 //! Complete small worlds: every order of few gaps, ties included, against the definitions of the thresholds, and every
 //! history of a few springs against the bare rules.
 
-use crate::contact::{Body, Contact, ContactError, Edges, Foundation, HessRule, Move, Patch};
+use crate::contact::{Body, Contact, ContactError, Edges, Foundation, HessRule, Move, Patch, Solver};
 use std::f64::consts::PI;
 
 const SPACING: f64 = 0.01;
@@ -58,7 +58,7 @@ fn compare(gaps: &[f64], range: f64, edges: Edges) -> Result<(), String> {
     definition.close(whole, &mut expected);
     let check = |body: &mut Body, to: f64, expected: &[f64]| {
         body.move_to(Move::ToIndentation(to)).map_err(|error: ContactError| error.to_string())?;
-        let found = body.present_leg().thresholds();
+        let found = body.leg().thresholds();
         let agree = found.iter().zip(expected).all(|(one, other)| (one - other).abs() < AGREE);
         let differ = || format!("{gaps:?}, γ/E* = {range} m, {edges:?}: {found:?}, not {expected:?}");
         if agree { Ok(()) } else { Err(differ()) }
@@ -147,7 +147,7 @@ pub fn every_history(step: usize) -> Result<u64, String> {
                     body.move_to(Move::ToIndentation(at)).map_err(|error| error.to_string())?;
                     relax(&gaps, &mut bare, at, works);
                     let mut found = vec![false; gaps.len()];
-                    for patch in body.present_leg().patches(at) {
+                    for patch in body.leg().patches(at) {
                         found[patch.springs()].fill(true);
                     }
                     if found != bare {

@@ -50,7 +50,6 @@ pub struct Motion {
 impl Body {
     /// Creates a separated body at d = 0 just before first touch; `samples` (at least 2) curve points are taken in each
     /// motion.
-    #[must_use]
     pub fn new(contact: &Contact, samples: usize) -> Self {
         Self::on(Leg::apart(contact, Direction::Unloading), ContactState::free(0.0), samples)
     }
@@ -70,15 +69,8 @@ impl Body {
     }
 
     /// Present point of the curve.
-    #[must_use]
     pub fn point(&self) -> CurvePoint {
         self.point_of(self.state)
-    }
-
-    /// Present leg.
-    #[must_use]
-    pub fn present_leg(&self) -> &Leg {
-        &self.leg
     }
 
     /// Moves the body to a target without a curve; `None` for a body that is there.
@@ -93,7 +85,7 @@ impl Body {
             (Direction::Loading, _) => motion.leg.state(motion.high)?,
         };
         self.leg = motion.leg.clone();
-        if state.springs == 0 {
+        if state.totals.springs == 0 {
             self.leg = Leg::apart(motion.leg.contact(), Direction::Unloading);
         }
         self.state = state;
@@ -101,7 +93,7 @@ impl Body {
     }
 
     fn is_separated(&self) -> bool {
-        self.state.springs == 0
+        self.state.totals.springs == 0
     }
 
     pub(super) fn point_of(&self, state: ContactState) -> CurvePoint {
@@ -168,26 +160,26 @@ impl Body {
         let (sampled, squared_stretch) =
             in_parallel(is_long, || leg.sample(grid), || leg.squared_stretch(from, high));
         let sampled = sampled?;
+        let last = sampled.len() - 1;
         self.state = match (loads, separates) {
-            (true, _) => sampled.last(),
+            (true, _) => sampled[last],
             (false, true) => ContactState::free(low),
-            (false, false) => sampled.first(),
+            (false, false) => sampled[0],
         };
-        let last = sampled.states.len() - 1;
-        let chosen = sampled.states.iter().enumerate();
+        let chosen = sampled.iter().enumerate();
         let chosen = chosen.filter(|(index, _)| index % stride == 0 || *index == last);
         let curve: Vec<CurvePoint> = chosen.map(|(_, &state)| self.point_of(state)).collect();
         let work = &mut self.work;
         let extremes = if loads {
             let largest =
-                if ends_at_largest { sampled.last() } else { leg.extreme(Extreme::Largest, &sampled, work) };
+                if ends_at_largest { sampled[last] } else { leg.extreme(Extreme::Largest, &sampled, work) };
             let free = CurvePoint { indentation: low, ..CurvePoint::default() };
             let points = curve.iter().copied().chain(touches.then_some(free));
             let largest = self.point_of(largest);
             [points.min_by(|a, b| a.force.total_cmp(&b.force)).unwrap_or(largest), largest]
         } else {
             let smallest = leg.extreme(Extreme::Smallest, &sampled, work);
-            [self.point_of(smallest), self.point_of(sampled.last())]
+            [self.point_of(smallest), self.point_of(sampled[last])]
         };
         let record =
             LegRecord::moved((target, &leg), curve, extremes, [before, self.point()], squared_stretch);

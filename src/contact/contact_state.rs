@@ -11,10 +11,8 @@ use std::ops::Range;
 pub struct ContactState {
     /// d, m.
     pub indentation: f64,
-    /// Springs in contact.
-    pub springs: i64,
-    /// Number of fragments in contact.
-    pub fragments: i64,
+    /// Totals of the whole springs or cells.
+    pub totals: ContactTotals,
     /// Contact length in units of the distance between springs.
     pub length: f64,
     /// Compression ∫ (d − c) dx in units of that distance, m: the force in units of the stiffness of one spring.
@@ -37,8 +35,7 @@ impl ContactState {
         let whole = totals.whole(slides);
         ContactState {
             indentation,
-            springs: totals.springs,
-            fragments: totals.fragments,
+            totals,
             length: whole as f64 + edges.length,
             compression: totals.compression_of(whole, indentation, scale) + edges.compression,
             // No sum of squares is below zero, but for rounding.
@@ -57,8 +54,8 @@ impl ContactState {
             indentation: self.indentation,
             force: foundation.spring_stiffness() * self.compression,
             contact_length: foundation.contact_length(self.length),
-            springs: counted(self.springs),
-            fragments: counted(self.fragments),
+            springs: counted(self.totals.springs),
+            fragments: counted(self.totals.fragments),
             stored_energy: 0.5 * foundation.spring_stiffness() * self.squares,
         }
     }
@@ -71,14 +68,6 @@ impl ContactState {
 pub fn counted(number: i64) -> u64 {
     assert!(number >= 0, "internal error, please report it: {number} springs or patches in contact");
     number.unsigned_abs()
-}
-
-/// Contact at each point of a grid, at least one.
-pub struct Sampled {
-    pub grid: Grid,
-    /// Totals of the full springs or cells at each point.
-    pub totals: Vec<ContactTotals>,
-    pub states: Vec<ContactState>,
 }
 
 /// Sums along a grid over the parts of a contact, each of which carries at some of the points.
@@ -109,6 +98,19 @@ impl Tally {
         }
     }
 
+    /// The indentations for which [`Tally::place`] returns this index, m: above the first, up to the second.
+    pub fn ends_before(&self, place: usize) -> (f64, f64) {
+        let points = self.grid.points();
+        let below = place.checked_sub(1).map_or(f64::NEG_INFINITY, |before| points[before]);
+        (below, points.get(place).copied().unwrap_or(f64::INFINITY))
+    }
+
+    /// Adds whole springs or cells that carry from this point on.
+    #[inline]
+    pub fn begin(&mut self, place: usize, totals: ContactTotals) {
+        self.changes[place] += totals;
+    }
+
     /// Adds whole springs or cells that carry at these points.
     #[inline]
     pub fn add(&mut self, carries: Range<usize>, totals: ContactTotals) {
@@ -125,47 +127,26 @@ impl Tally {
     }
 
     /// Returns the contact at each point.
-    pub fn finish(self, scale: &GapScale) -> Result<Sampled, ContactError> {
-        let Tally { grid, changes: mut totals, edges } = self;
-        totals.truncate(grid.points().len());
-        let mut states = resized(Vec::new(), totals.len(), ContactState::default())?;
-        let mut total = ContactTotals::default();
+    pub fn finish(self, scale: &GapScale) -> Result<Vec<ContactState>, ContactError> {
+        let Tally { grid, changes, edges } = self;
+        let mut states = resized(Vec::new(), grid.points().len(), ContactState::default())?;
+        let mut totals = ContactTotals::default();
         for (index, (state, &point)) in states.iter_mut().zip(grid.points()).enumerate() {
-            total += totals[index];
-            totals[index] = total;
+            totals += changes[index];
             let cells = edges.get(index).copied().unwrap_or_default().total();
-            *state = ContactState::new(!edges.is_empty(), point, total, cells, scale);
+            *state = ContactState::new(!edges.is_empty(), point, totals, cells, scale);
         }
-        Ok(Sampled { grid, totals, states })
+        Ok(states)
     }
 }
 
-impl Sampled {
-    /// The points of both grids, which have none in common.
-    pub fn merged(self, other: Sampled) -> Sampled {
-        let both = [self, other].into_iter();
-        let mut points: Vec<_> = both.flat_map(|leg| leg.states.into_iter().zip(leg.totals)).collect();
-        points.sort_by(|(one, _), (other, _)| one.indentation.total_cmp(&other.indentation));
-        let grid = Grid::at(points.iter().map(|(state, _)| state.indentation).collect());
-        let (states, totals) = points.into_iter().unzip();
-        Sampled { grid, totals, states }
-    }
-
-    /// State at the lowest indentation.
-    pub fn first(&self) -> ContactState {
-        self.states[0]
-    }
-
-    /// State at the highest indentation.
-    pub fn last(&self) -> ContactState {
-        self.states[self.states.len() - 1]
-    }
-
-    /// The intervals of the grid whose contact at both ends passes `may_lie`.
-    pub fn choose(&self, may_lie: impl Fn(&ContactState, &ContactState) -> bool) -> Vec<usize> {
-        let ends = self.states.windows(2).enumerate();
-        ends.filter(|(_, ends)| may_lie(&ends[0], &ends[1])).map(|(index, _)| index).collect()
-    }
+/// Chooses the intervals of a sampled leg whose contact at both ends passes `may_lie`.
+pub fn intervals(
+    leg: &[ContactState],
+    may_lie: impl Fn(&ContactState, &ContactState) -> bool,
+) -> Vec<[ContactState; 2]> {
+    let pairs = leg.windows(2).map(|ends| [ends[0], ends[1]]);
+    pairs.filter(|[low, high]| may_lie(low, high)).collect()
 }
 
 /// The smallest or the largest force.
@@ -189,11 +170,9 @@ impl Extreme {
         }
     }
 
-    /// Returns the extreme force at the points of a grid.
-    pub fn of(self, leg: &Sampled) -> ContactState {
-        let beyond =
-            |best: ContactState, next: &ContactState| if self.is_beyond(next, &best) { *next } else { best };
-        leg.states.iter().fold(leg.first(), beyond)
+    /// Returns the extreme force at the points of a sampled leg, at least one.
+    pub fn of(self, leg: &[ContactState]) -> ContactState {
+        leg.iter().fold(leg[0], |best, next| if self.is_beyond(next, &best) { *next } else { best })
     }
 
     /// Returns true where the bounds of the force between two indentations allow one beyond the best.

@@ -64,7 +64,6 @@ pub enum ContactError {
 
 impl ContactError {
     /// Returns true for a stage with a force that the contact does not reach.
-    #[must_use]
     pub(crate) fn is_out_of_reach(&self) -> bool {
         match self {
             ContactError::Stage { reason, .. } => reason.is_out_of_reach(),
@@ -76,7 +75,6 @@ impl ContactError {
     }
 
     /// Names the stage that is refused; memory, stops and defects concern the whole loading.
-    #[must_use]
     pub(crate) fn in_stage(self, index: usize, target: Move) -> Self {
         match self {
             ContactError::Stage { .. }

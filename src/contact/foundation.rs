@@ -15,13 +15,11 @@ pub struct Foundation {
 
 impl Foundation {
     /// Returns a foundation of this length (m) and number of springs for a half-space of this modulus (Pa).
-    #[must_use]
     pub fn new(length: f64, springs: usize, effective_modulus: f64) -> Self {
         Foundation { spacing: length / springs as f64, effective_modulus, length }
     }
 
     /// Returns an endless foundation of springs at this distance (m) for a half-space of this modulus (Pa).
-    #[must_use]
     pub const fn endless(spacing: f64, effective_modulus: f64) -> Self {
         Foundation { spacing, effective_modulus, length: f64::INFINITY }
     }
@@ -29,7 +27,6 @@ impl Foundation {
     /// Length in contact of this number of cells, m: never more than the length of the foundation, and exactly that
     /// length where the cells cover the foundation, which N times Δx may miss by a rounding.
     #[inline]
-    #[must_use]
     pub fn contact_length(&self, cells: f64) -> f64 {
         let length = cells * self.spacing;
         if length > self.length * (1.0 - 2.0 * f64::EPSILON) { self.length } else { length }
@@ -37,7 +34,6 @@ impl Foundation {
 
     /// Half the distance between the outermost edges of a contact in these patches, m; zero in separation. Gaps between
     /// patches are whole cells; the outermost edges may lie inside theirs.
-    #[must_use]
     pub fn contact_radius(&self, patches: &[Patch], point: CurvePoint) -> f64 {
         let outermost = patches.first().zip(patches.last()).map(|(one, other)| other.last - one.first + 1);
         let between = outermost.map_or(0, |springs| springs as u64 - point.springs);
@@ -45,7 +41,6 @@ impl Foundation {
     }
 
     /// Stiffness Δk = E* Δx of one spring, N/m, eq. (1).
-    #[must_use]
     pub fn spring_stiffness(&self) -> f64 {
         self.effective_modulus * self.spacing
     }
@@ -68,7 +63,6 @@ impl HessRule {
     pub const NO_ADHESION: HessRule = HessRule { opening: 0.0, closing: 0.0 };
 
     /// The rule for a work of adhesion γ in J/m².
-    #[must_use]
     pub fn new(foundation: Foundation, work_of_adhesion: f64) -> Self {
         Self::from_works(foundation, work_of_adhesion, work_of_adhesion)
     }
@@ -76,7 +70,6 @@ impl HessRule {
     /// The rule for a work of adhesion γ₁ on closing and γ₂ ≥ γ₁ on opening, both in J/m².
     ///
     /// A smaller γ₂ counts as γ₁: a spring would detach where it had just attached.
-    #[must_use]
     pub fn from_works(foundation: Foundation, closing_work: f64, opening_work: f64) -> Self {
         let stretch = |work: f64| {
             // The quotient γ/E* first: scaling both by one power of two then changes no bit.
@@ -88,7 +81,6 @@ impl HessRule {
     }
 
     /// Largest stretch of a fragment of unit length, m, before it detaches, or as it attaches on a loading.
-    #[must_use]
     pub fn stretch(&self, direction: Direction) -> f64 {
         match direction {
             Direction::Loading => self.closing,
@@ -97,7 +89,6 @@ impl HessRule {
     }
 
     /// Returns true if springs attach and detach by one rule.
-    #[must_use]
     pub fn is_one(&self) -> bool {
         self.opening == self.closing
     }
@@ -106,7 +97,6 @@ impl HessRule {
     ///
     /// Rounding keeps the order: the value never falls with the number of springs.
     #[inline]
-    #[must_use]
     pub fn largest_stretch(&self, springs: u32) -> f64 {
         self.opening * f64::from(springs).sqrt()
     }

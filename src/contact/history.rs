@@ -110,13 +110,11 @@ impl LegRecord {
     }
 
     /// Indentation at the beginning, m.
-    #[must_use]
     pub fn start(&self) -> f64 {
         self.curve.first().map_or(0.0, |point| point.indentation)
     }
 
     /// Indentation at the end, m.
-    #[must_use]
     pub fn end(&self) -> f64 {
         self.curve.last().map_or(0.0, |point| point.indentation)
     }
@@ -174,7 +172,9 @@ impl Work {
     /// Counts the passes and evaluations of a leg with adhesion.
     pub(super) fn count_leg(&mut self, leg: &Leg) {
         let contact = leg.contact();
-        if let (true, Ok(tree)) = (contact.has_adhesion(), contact.springs.tree(contact.edges)) {
+        if contact.has_adhesion()
+            && let Ok(tree) = contact.springs.tree(contact.edges)
+        {
             self.tree_nodes = tree.node_count() as u64;
             match leg.direction() {
                 Direction::Loading => self.loading_passes += 1,

@@ -3,7 +3,7 @@
 //! An interval is divided at its middle event until bounds exclude a part or nothing happens inside.
 
 use super::adhesive::{EdgeSum, Slider};
-use super::contact_state::{ContactState, Extreme, Sampled, lower_bound, upper_bound};
+use super::contact_state::{ContactState, Extreme, lower_bound, upper_bound};
 use super::crossing::{bisect, crossing, last_before};
 use super::totals::{ContactTotals, GapScale};
 use std::ops::Range;
@@ -36,59 +36,43 @@ pub struct Interval {
     high: ContactState,
 }
 
-/// Intervals of a sampled leg in which a force is sought.
-pub struct Intervals<'s> {
-    leg: &'s Sampled,
-    /// For each interval of the grid its index among the chosen ones.
-    places: Vec<Option<usize>>,
-    chosen: Vec<Interval>,
-    /// First of the chosen intervals, and the end of the last one.
-    range: [usize; 2],
-    /// Lowest and highest indentation, m.
-    pub low: f64,
-    /// See `low`.
-    pub high: f64,
-}
+/// Intervals of a sampled leg in which a force is sought, ascending, at least one.
+pub struct Intervals(Vec<Interval>);
 
-impl<'s> Intervals<'s> {
-    /// Chooses these ascending intervals of a leg, at least one.
-    pub fn new(leg: &'s Sampled, chosen: &[usize], slides: bool, scale: GapScale) -> Self {
-        let (points, range) = (leg.grid.points(), [chosen[0], chosen[chosen.len() - 1] + 1]);
-        let mut places = vec![None; points.len() - 1];
-        let of = |(place, &index): (usize, &usize)| {
-            places[index] = Some(place);
-            let steps = Rc::new(vec![Step { threshold: points[index], totals: leg.totals[index] }]);
-            let [low, high] = [leg.states[index], leg.states[index + 1]];
+impl Intervals {
+    /// Takes intervals between the contact at their ends.
+    pub fn new(ends: &[[ContactState; 2]], slides: bool, scale: GapScale) -> Self {
+        let of = |&[low, high]: &[ContactState; 2]| {
+            let steps = Rc::new(vec![Step { threshold: low.indentation, totals: low.totals }]);
             Interval { slides, scale, steps, pieces: Vec::new(), low, high }
         };
-        let chosen = chosen.iter().enumerate().map(of).collect();
-        Intervals { leg, places, chosen, range, low: points[range[0]], high: points[range[1]] }
+        Intervals(ends.iter().map(of).collect())
     }
 
-    /// Index of the first point of the grid of at least this indentation, m, or of the last one sought.
-    fn above(&self, indentation: f64) -> usize {
-        self.leg.grid.first_at_least(indentation.min(self.high))
+    /// Lowest and highest indentation, m.
+    pub fn ends(&self) -> (f64, f64) {
+        (self.0[0].low.indentation, self.0[self.0.len() - 1].high.indentation)
     }
 
-    /// Range of the intervals between two indentations, m.
+    /// Range of the intervals with indentations from one on, without those at their lower ends, and below another one or
+    /// at it, m.
     fn between(&self, from: f64, to: f64) -> Range<usize> {
-        let [first, end] = self.range;
-        self.above(from).saturating_sub(1).max(first)..self.above(to).min(end)
+        let first = self.0.partition_point(|interval| interval.high.indentation < from);
+        first..self.0.partition_point(|interval| interval.low.indentation < to)
     }
 
     /// Returns true if an interval overlaps with the indentations from one up to another, m.
     pub fn overlap(&self, from: f64, to: f64) -> bool {
-        from <= self.high && to > self.low && self.places[self.between(from, to)].iter().any(Option::is_some)
+        !self.between(from, to).is_empty()
     }
 
     /// Adds springs or cells that carry from one indentation up to another, m.
     pub fn add_events(&mut self, from: f64, to: f64, totals: ContactTotals) {
         for (threshold, totals) in [(from, totals), (to, -totals)] {
-            if threshold > self.low
-                && threshold <= self.high
-                && let Some(place) = self.places[self.above(threshold) - 1]
-            {
-                Rc::make_mut(&mut self.chosen[place].steps).push(Step { threshold, totals });
+            // At most one, which does not begin there.
+            let range = self.between(threshold, threshold);
+            for interval in &mut self.0[range] {
+                Rc::make_mut(&mut interval.steps).push(Step { threshold, totals });
             }
         }
     }
@@ -96,16 +80,16 @@ impl<'s> Intervals<'s> {
     /// Adds edge cells.
     pub fn add_piece(&mut self, piece: Piece) {
         let range = self.between(piece.from, piece.to);
-        self.places[range].iter().flatten().for_each(|&place| self.chosen[place].pieces.push(piece));
+        self.0[range].iter_mut().for_each(|interval| interval.pieces.push(piece));
     }
 
     /// Returns the intervals, and adds the number of their events to `sorted`.
     pub fn finish(mut self, sorted: &mut u64) -> Vec<Interval> {
-        for interval in &mut self.chosen {
+        for interval in &mut self.0 {
             *sorted += interval.steps.len() as u64 - 1;
             interval.sort();
         }
-        self.chosen
+        self.0
     }
 }
 

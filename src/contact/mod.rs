@@ -35,6 +35,7 @@ pub use adhesive::ContactTree;
 pub use body::{Body, Motion, Solver, run};
 pub use error::ContactError;
 pub use foundation::{Foundation, HessRule};
+pub(crate) use grid::CompensatedSum;
 pub use history::{CurvePoint, Direction, History, LegRecord, Work};
 pub use leg::{Leg, PatchState};
 pub use moves::Move;

@@ -15,13 +15,11 @@ pub struct Patch {
 
 impl Patch {
     /// Returns the indices of the springs.
-    #[must_use]
     pub fn springs(self) -> Range<usize> {
         self.first..self.last + 1
     }
 
     /// Returns the spring in the middle.
-    #[must_use]
     pub fn middle(self) -> usize {
         self.first + (self.last - self.first) / 2
     }

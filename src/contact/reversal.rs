@@ -24,7 +24,6 @@ pub struct Reversal {
 
 impl Reversal {
     /// Adhesion force F_a, N: minus the smallest force; `None` where the body does not pull.
-    #[must_use]
     pub fn adhesion_force(&self) -> Option<f64> {
         // Not −F: that would make a force of zero negative.
         Some(0.0 - self.smallest.force).filter(|_| self.smallest.force <= 0.0)

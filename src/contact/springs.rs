@@ -18,7 +18,6 @@ pub enum Edges {
 
 impl Edges {
     /// Name in scene files.
-    #[must_use]
     pub fn name(self) -> &'static str {
         self.into()
     }
@@ -47,7 +46,6 @@ pub struct Contact {
 
 impl Springs {
     /// Creates springs of these gaps (m, finite, the smallest 0, at least one, at most 2^28).
-    #[must_use]
     pub fn new(gaps: impl Into<Arc<Vec<f64>>>) -> Self {
         let gaps = gaps.into();
         let deepest = super::adhesive::largest(&gaps);
@@ -55,7 +53,6 @@ impl Springs {
     }
 
     /// Gaps along the line, m.
-    #[must_use]
     pub fn gaps(&self) -> &[f64] {
         &self.gaps
     }
@@ -66,13 +63,11 @@ impl Springs {
     }
 
     /// Largest gap, m.
-    #[must_use]
     pub fn deepest(&self) -> f64 {
         self.deepest
     }
 
     /// Scale of exact sums over the gaps.
-    #[must_use]
     pub fn scale(&self) -> GapScale {
         GapScale::for_gaps_up_to(self.deepest)
     }
@@ -98,14 +93,7 @@ impl Springs {
         Ok(tree.get_or_init(|| built))
     }
 
-    /// Returns true once the tree of an edge model has been built.
-    #[must_use]
-    pub fn has_tree(&self, edges: Edges) -> bool {
-        self.trees[edges as usize].get().is_some()
-    }
-
     /// Returns the memory of a tree that nothing else uses.
-    #[must_use]
     pub fn into_tree(self) -> ContactTree {
         let trees = self.trees.into_iter().filter_map(OnceLock::into_inner);
         trees.filter_map(Arc::into_inner).next().unwrap_or_default()
@@ -114,7 +102,6 @@ impl Springs {
 
 impl Contact {
     /// Creates a contact of springs with these gaps (m, the smallest 0); without a rule of Hess it has no adhesion.
-    #[must_use]
     pub fn new(
         gaps: impl Into<Arc<Vec<f64>>>,
         edges: Edges,
@@ -125,38 +112,32 @@ impl Contact {
     }
 
     /// Force at which the last spring touches the rigid body, N.
-    #[must_use]
     pub fn full_contact_force(&self) -> f64 {
         let deepest = self.springs.deepest();
         self.foundation.spring_stiffness() * self.gaps().iter().map(|gap| deepest - gap).sum::<f64>()
     }
 
     /// Creates a contact of springs that other contacts may share.
-    #[must_use]
     pub fn of(springs: Arc<Springs>, edges: Edges, foundation: Foundation, hess: Option<HessRule>) -> Self {
         Contact { springs, foundation, edges, hess, closing: Arc::default() }
     }
 
     /// Springs along the line.
-    #[must_use]
     pub fn springs(&self) -> &Arc<Springs> {
         &self.springs
     }
 
     /// Gaps along the line, m.
-    #[must_use]
     pub fn gaps(&self) -> &[f64] {
         self.springs.gaps()
     }
 
     /// Elastic foundation.
-    #[must_use]
     pub fn foundation(&self) -> Foundation {
         self.foundation
     }
 
     /// Returns true with a rule of Hess.
-    #[must_use]
     pub fn has_adhesion(&self) -> bool {
         self.hess.is_some()
     }

@@ -7,11 +7,12 @@
 //! inside it, which keeps every digit for any slope and any indentation.
 
 use super::adhesive::Slider;
-use super::contact_state::{Sampled, Tally};
+use super::contact_state::{ContactState, Tally};
 use super::grid::Grid;
 use super::interval::{Intervals, Piece};
-use super::totals::{ContactTotals, GapScale, sums_of_few};
+use super::totals::{ContactTotals, GapScale};
 use super::{Contact, ContactError, Edges};
+use std::ops::Range;
 
 /// Springs in contact each from an indentation of its own on.
 #[derive(Clone, Copy, Debug)]
@@ -32,19 +33,25 @@ impl<'a> Thresholds<'a> {
     }
 
     /// Contact along a grid.
-    pub fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {
+    pub fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {
         let mut tally = Tally::new(grid, self.slides)?;
         let never = tally.grid.points().len();
-        let mut place_before = never;
-        self.each_spring(|totals, threshold, before| {
+        let (mut first, mut place_before) = (0, never);
+        // Neighbouring springs that touch between the same two points are summed together.
+        while let Some(&threshold) = self.thresholds.get(first) {
             let place = tally.place(threshold);
-            tally.add(place..never, totals);
-            if self.slides && place != place_before && before < f64::INFINITY {
-                let cell = Slider::of_cell(before, threshold);
+            let (below, at_most) = tally.ends_before(place);
+            let together = |other: &&f64| below < **other && **other <= at_most;
+            let end = first + 1 + self.thresholds[first + 1..].iter().take_while(together).count();
+            if place < never {
+                tally.begin(place, self.totals(first..end));
+            }
+            if self.slides && first > 0 {
+                let cell = Slider::of_cell(self.thresholds[first - 1], threshold);
                 tally.slide(place.min(place_before)..place.max(place_before), &cell);
             }
-            place_before = place;
-        });
+            (first, place_before) = (end, place);
+        }
         for (end, half_cell) in self.ends() {
             tally.slide(tally.place(end)..never, &half_cell);
         }
@@ -52,14 +59,19 @@ impl<'a> Thresholds<'a> {
     }
 
     /// Adds the events and the partly filled cells to the intervals of a search.
-    pub fn search(&self, intervals: &mut Intervals<'_>) {
-        self.each_spring(|totals, threshold, before| {
-            intervals.add_events(threshold, f64::INFINITY, totals);
-            let (from, to) = if before < threshold { (before, threshold) } else { (threshold, before) };
-            if self.slides && to < f64::INFINITY && from < to && intervals.overlap(from, to) {
+    pub fn search(&self, intervals: &mut Intervals) {
+        let (low, high) = intervals.ends();
+        for (spring, &threshold) in self.thresholds.iter().enumerate() {
+            if low < threshold && threshold <= high {
+                intervals.add_events(threshold, f64::INFINITY, self.totals(spring..spring + 1));
+            }
+        }
+        for cell in self.thresholds.windows(2).filter(|_| self.slides) {
+            let (from, to) = if cell[0] < cell[1] { (cell[0], cell[1]) } else { (cell[1], cell[0]) };
+            if from < to && from <= high && to > low {
                 intervals.add_piece(Piece { slider: Slider::of_cell(from, to), from, to });
             }
-        });
+        }
         for (from, slider) in self.ends() {
             intervals.add_piece(Piece { slider, from, to: f64::INFINITY });
         }
@@ -71,22 +83,22 @@ impl<'a> Thresholds<'a> {
         ends.filter(|_| self.slides).map(|&gap| (gap, Slider::half_cell(gap)))
     }
 
-    /// Calls `see` with each spring: its contribution to the contact, its threshold and that of the spring before it.
+    /// Contribution of neighbouring springs once all of them are in contact.
     ///
-    /// A spring adds a fragment, less one for each neighbour that touches earlier; among equals the left one counts as
-    /// the later. With edges between springs it adds the cells to these neighbours.
+    /// They add a fragment, less one for each neighbour that touches earlier; among equals the left one counts as the
+    /// later. With edges between springs they also add the cells to these neighbours.
     #[inline]
-    fn each_spring(&self, mut see: impl FnMut(ContactTotals, f64, f64)) {
-        let mut before = f64::INFINITY;
-        for (index, &threshold) in self.thresholds.iter().enumerate() {
-            let after = self.thresholds.get(index + 1).copied().unwrap_or(f64::INFINITY);
-            let (left, right) = (before < threshold, after <= threshold);
-            let ends = if self.slides { [left, right].map(usize::from) } else { [0, 0] };
-            let springs = &self.gaps[index - ends[0]..=index + ends[1]];
-            let [quanta, squares] = sums_of_few(springs, self.slides, self.scale);
-            let fragments = 1 - i64::from(left) - i64::from(right);
-            see(ContactTotals { springs: 1, fragments, quanta, squares }, threshold, before);
-            before = threshold;
-        }
+    fn totals(&self, springs: Range<usize>) -> ContactTotals {
+        let Range { start, end } = springs;
+        let left = start > 0 && self.thresholds[start - 1] < self.thresholds[start];
+        let right = self.thresholds.get(end).is_some_and(|&after| after <= self.thresholds[end - 1]);
+        let gaps = if self.slides {
+            &self.gaps[start - usize::from(left)..end + usize::from(right)]
+        } else {
+            &self.gaps[start..end]
+        };
+        let fragments = 1 - i64::from(left) - i64::from(right);
+        let springs = (end - start) as i64;
+        ContactTotals { springs, fragments, ..ContactTotals::of_patch(gaps, self.slides, self.scale) }
     }
 }

@@ -28,7 +28,6 @@ const LARGEST_SCALE_EXPONENT: i32 = 1000;
 
 impl GapScale {
     /// Scale for gaps up to `largest` (m, finite, at least zero).
-    #[must_use]
     pub fn for_gaps_up_to(largest: f64) -> Self {
         let exponent =
             if largest > 0.0 { GAP_BITS - exponent_above(largest) } else { LARGEST_SCALE_EXPONENT };
@@ -38,13 +37,11 @@ impl GapScale {
 
     /// A gap in quanta, rounded down.
     #[inline]
-    #[must_use]
     pub fn quanta(&self, gap: f64) -> i64 {
         (gap * self.quanta_per_metre) as i64
     }
 
     /// Size of a quantum, m: the error of one gap in a sum is below it.
-    #[must_use]
     pub fn quantum(&self) -> f64 {
         self.quantum
     }
@@ -113,9 +110,13 @@ impl ContactTotals {
     /// Sums the springs of one patch, or its cells where edges slide between springs.
     pub(super) fn of_patch(gaps: &[f64], slides: bool, scale: GapScale) -> Self {
         let mut totals = ContactTotals { springs: gaps.len() as i64, fragments: 1, ..Self::default() };
-        for at in 0..gaps.len() - usize::from(slides) {
-            let [quanta, squares] = sums_of_few(&gaps[at..=at + usize::from(slides)], slides, scale);
+        let mut add = |[quanta, squares]: [i128; 2]| {
             (totals.quanta, totals.squares) = (totals.quanta + quanta, totals.squares + squares);
+        };
+        if slides {
+            gaps.windows(2).for_each(|cell| add(sums_of_few(cell, true, scale)));
+        } else {
+            gaps.windows(1).for_each(|spring| add(sums_of_few(spring, false, scale)));
         }
         totals
     }
@@ -126,7 +127,6 @@ impl ContactTotals {
     /// 2u |result| + n 2^(e−62): the gaps are summed exactly, n d is taken as an exact product of two
     /// numbers, and only their difference is rounded. Below a largest gap of about 2^−938 m a quantum is
     /// 2^−1000 m and no less.
-    #[must_use]
     pub fn compression(&self, indentation: f64, scale: &GapScale) -> f64 {
         self.compression_of(self.springs, indentation, scale)
     }

@@ -4,9 +4,7 @@ use super::app::App;
 use super::snapshot::SolvedScene;
 use super::studies::Study;
 use crate::scene::{RoughnessParameter, Scene};
-use crate::study::map::{LiveMap, StudyMap, live_plan};
-use crate::study::{Axis, Grid, Plan, Quantity};
-use std::path::Path;
+use crate::study::{Axis, Grid, LiveMap, Plan, Quantity, StudyMap, live_plan};
 use std::sync::Arc;
 
 /// Most springs for the map of a demo, of hundreds of scenes.
@@ -103,7 +101,7 @@ pub fn study(app: &App, computed: &SolvedScene) -> Option<Study> {
     let begun = app.studies.value::<Live>().map(|live| live.map.clone());
     Some(Study::new(key, is_long, move |_, stop, report| {
         let mut map = begun.map_or_else(|| LiveMap::new(plan), Ok).map_err(|error| error.to_string())?;
-        map.compute(Path::new(""), stop, &mut |map| report(Live::of(map)));
+        map.compute(stop, &mut |map| report(Live::of(map)));
         Ok(Live::of(&map))
     }))
 }
@@ -122,7 +120,7 @@ impl App {
         if let Some(grid) = self.grid() {
             return Some((grid.across.clone(), grid.up.clone()));
         }
-        let mut axes = self.chart.plan(self.edit.document.scene())?.axes.into_iter();
+        let mut axes = self.chart.plan(self.edit.document.scene())?.axes.into_iter().rev();
         Some((axes.next()?, axes.next()))
     }
 

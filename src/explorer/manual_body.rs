@@ -2,7 +2,7 @@
 
 use super::request::ManualMove;
 use super::snapshot::{ManualPath, Refusal};
-use crate::contact::{Body, CurvePoint, Leg, Motion};
+use crate::contact::{Body, CurvePoint, Leg, Motion, Solver};
 use crate::scene::Move;
 
 /// Points of the curve along the way of one order.
@@ -40,8 +40,8 @@ impl ManualBody {
     }
 
     /// Contact of the present leg.
-    pub fn leg(&self) -> &Leg {
-        self.body.present_leg()
+    pub fn leg(&self) -> Leg {
+        self.body.leg()
     }
 
     /// Path since the last call.

@@ -1,8 +1,7 @@
 //! Arguments of the explorer: a scene, or a finished study around one.
 
 use crate::scene::{Document, SceneErrors, open, open_argument};
-use crate::study::map::StudyMap;
-use crate::study::{Folder, StudyError};
+use crate::study::{Folder, StudyError, StudyMap};
 use std::path::Path;
 use std::sync::Arc;
 use thiserror::Error;

@@ -6,7 +6,7 @@ use super::keys::Context;
 use super::layout::Layout;
 use super::panes::{Pane, Place};
 use crate::draw::Figure;
-use crate::study::map::StudyMap;
+use crate::study::StudyMap;
 use std::sync::Arc;
 
 impl App {

@@ -161,7 +161,7 @@ impl Solver {
             }
             Drive::Manual => {
                 let body = self.newest.body.as_ref()?;
-                (Drive::Manual, body.leg().clone(), body.point())
+                (Drive::Manual, body.leg(), body.point())
             }
         };
         let Newest { generation, solved, body, profile, close_up: columns, .. } = &mut self.newest;

@@ -6,6 +6,7 @@ use crate::io::{Kind, Table};
 use crate::scene::RoughnessParameter;
 use crate::study::{Boundaries, Boundary, Crossing, DEFINITIONS, protocol_name};
 use serde_json::{Map, Value, json};
+use std::cmp::Ordering;
 
 /// Columns of a boundary in a parameter, each with its factor.
 fn columns(over: RoughnessParameter) -> Vec<(&'static str, f64)> {
@@ -23,18 +24,18 @@ impl Report for Boundaries {
         heading.extend(is_kappa.then(|| "q in 1/m".into()));
         let mut rows = vec![heading];
         for Boundary { others, protocol, level, crossing } in &self.found {
-            let (value, interval, cycles) = match *crossing {
-                Crossing::At(value, interval) => (
-                    format!("{value:.2}"),
-                    interval.map_or_else(String::new, |(low, high)| format!("{low:.2} to {high:.2}")),
-                    format!("{:.2}", DEFINITIONS[1].1 * value),
-                ),
-                Crossing::Below(smallest) => (format!("< {smallest:.2}"), String::new(), String::new()),
-                Crossing::Above(largest) => (format!("> {largest:.2}"), String::new(), String::new()),
-            };
+            let Crossing { value, side, interval } = *crossing;
+            let beyond = ["< ", "", "> "][(side as i8 + 1) as usize];
+            let interval = interval.map_or_else(String::new, |(low, high)| format!("{low:.2} to {high:.2}"));
+            let cycles = crossing.known().map(|(value, _)| format!("{:.2}", DEFINITIONS[1].1 * value));
             let mut row: Vec<String> = others.iter().map(ToString::to_string).collect();
-            row.extend([protocol_name(*protocol).to_owned(), level.to_string(), value, interval]);
-            row.extend(is_kappa.then_some(cycles));
+            row.extend([
+                protocol_name(*protocol).to_owned(),
+                level.to_string(),
+                format!("{beyond}{value:.2}"),
+                interval,
+            ]);
+            row.extend(is_kappa.then(|| cycles.unwrap_or_default()));
             rows.push(row);
         }
         let mut sheet = Sheet::default();
@@ -54,13 +55,14 @@ impl Report for Boundaries {
             }
             set("protocol", json!(protocol_name(boundary.protocol)));
             set("level", json!(boundary.level));
-            match boundary.crossing {
-                Crossing::At(value, interval) => {
+            let Crossing { value, side, interval } = boundary.crossing;
+            match side {
+                Ordering::Equal => {
                     columns(self.over).iter().for_each(|(name, factor)| set(name, json!(factor * value)));
-                    set("confidence_interval", json!(interval.map(|(low, high)| [low, high])));
+                    set("confidence_interval", json!(interval));
                 }
-                Crossing::Below(smallest) => set("below", json!(smallest)),
-                Crossing::Above(largest) => set("above", json!(largest)),
+                Ordering::Less => set("below", json!(value)),
+                Ordering::Greater => set("above", json!(value)),
             }
             Value::Object(object)
         };
@@ -69,10 +71,6 @@ impl Report for Boundaries {
     }
 
     fn table(&self) -> Option<Table<'_>> {
-        let at = |boundary: &Boundary| match boundary.crossing {
-            Crossing::At(value, interval) => Some((value, interval)),
-            _ => None,
-        };
         let mut table = Table::of(|| self.found.iter());
         for (place, axis) in self.others.iter().enumerate() {
             table = match axis.is_whole() {
@@ -84,19 +82,14 @@ impl Report for Boundaries {
             .with("protocol", Kind::Text("zero force".len()), |one| protocol_name(one.protocol))
             .real("level", |one| one.level);
         for (name, factor) in columns(self.over) {
-            table = table.real(name, move |one| at(one).map(|(value, _)| factor * value));
+            table = table.real(name, move |one| one.crossing.known().map(|(value, _)| factor * value));
         }
+        let beyond = |one: &Boundary, side| (one.crossing.side == side).then_some(one.crossing.value);
         table = table
-            .real("low", move |one| Some(at(one)?.1?.0))
-            .real("high", move |one| Some(at(one)?.1?.1))
-            .real("below", |one| match one.crossing {
-                Crossing::Below(smallest) => Some(smallest),
-                _ => None,
-            })
-            .real("above", |one| match one.crossing {
-                Crossing::Above(largest) => Some(largest),
-                _ => None,
-            });
+            .real("low", |one| Some(one.crossing.interval?.0))
+            .real("high", |one| Some(one.crossing.interval?.1))
+            .real("below", move |one| beyond(one, Ordering::Less))
+            .real("above", move |one| beyond(one, Ordering::Greater));
         Some(table.done())
     }
 }

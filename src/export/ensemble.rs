@@ -7,7 +7,7 @@ use crate::accuracy::Choice;
 use crate::analysis::Regime;
 use crate::io::{Kind, Table, object};
 use crate::scene::{format_quantity, format_rounded};
-use crate::study::{Quantity, RegimeCounts, Results, Statistics, quartiles};
+use crate::study::{Quantity, RegimeCounts, Results, Statistics};
 use crate::text::grouped;
 
 /// Results of a scene on random profiles: a study of one cell.
@@ -37,8 +37,9 @@ impl LinesReport<'_> {
         0..self.results.plan().lines
     }
 
+    /// A quantity over the profiles; `None` where fewer than two have a value.
     fn statistics(&self, quantity: Quantity) -> Option<Statistics> {
-        self.results.statistics(0, quantity)
+        self.results.statistics(0, quantity).filter(|all| all.spread.is_some())
     }
 
     fn regime(&self, line: u64) -> Option<Regime> {
@@ -46,7 +47,7 @@ impl LinesReport<'_> {
     }
 
     fn regimes(&self) -> RegimeCounts {
-        RegimeCounts::of(self.lines().map(|line| self.regime(line)))
+        self.results.regimes(0)
     }
 
     /// Root mean square of a quantity over the profiles.
@@ -76,19 +77,20 @@ impl Report for LinesReport<'_> {
             ("contact fraction", Quantity::ContactFraction),
         ] {
             let Some(all) = self.statistics(quantity) else { continue };
+            let Some(spread) = all.spread else { continue };
             let number = |value| format_quantity(value, quantity.unit());
-            let (low, high) = all.confidence_interval;
+            let (low, high) = spread.confidence_interval;
             rows.push([
                 name.into(),
                 number(all.mean),
-                number(all.standard_deviation),
-                number(all.standard_error),
+                number(spread.standard_deviation),
+                number(spread.standard_error),
                 format!("{} to {}", number(low), number(high)),
                 grouped(all.count as u64),
             ]);
         }
         sheet.table(&rows);
-        sheet.row_of("F_a", profiles_text(self.results.values(0, Quantity::AdhesionForce)));
+        sheet.row_of("F_a", profiles_text(self.results.statistics(0, Quantity::AdhesionForce)));
         // Profiles of one spectrum have one Tabor number, which limits the dissipated energy.
         let value = |line, quantity| self.results.value(0, line, quantity);
         let dissipating = self.lines().filter(|line| value(*line, Quantity::DissipatedEnergy).is_some());
@@ -153,8 +155,8 @@ impl Report for LinesReport<'_> {
 }
 
 /// Median and quartiles of the adhesion forces of several profiles, N; `None` for fewer than two.
-pub(super) fn profiles_text(forces: Vec<f64>) -> Option<String> {
-    let count = Some(forces.len()).filter(|&count| count >= 2)?;
-    let [lower, median, upper] = quartiles(forces)?.map(|force| format_rounded(force, 2, "N"));
+pub(super) fn profiles_text(forces: Option<Statistics>) -> Option<String> {
+    let Statistics { count, quartiles, .. } = forces.filter(|forces| forces.count >= 2)?;
+    let [lower, median, upper] = quartiles.map(|force| format_rounded(force, 2, "N"));
     Some(format!("{count} profiles: median {median} (quartiles {lower} to {upper})"))
 }

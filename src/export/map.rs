@@ -20,16 +20,16 @@ impl Report for Grid {
         if let Some(up) = &self.up {
             table = table.with(up.path.clone(), Kind::Real, move |(index, _)| up.values[index / columns]);
         }
-        table = table.whole("lines", |(_, cell)| cell.lines).with(
+        table = table.whole("lines", |(_, cell)| cell.regimes.profiles() as u64).with(
             "regime",
             Kind::Text(Regime::LONGEST_NAME),
-            |(_, cell)| cell.regime.map(|cell| cell.regime.name()),
+            |(_, cell)| cell.regimes.most().map(|(regime, _)| regime.name()),
         );
         for (place, layer) in self.layers.iter().enumerate() {
             let name = |of: &str| format!("{}_{of}", layer.quantity.name());
-            let interval = move |cell: &Cell| cell.estimates[place]?.interval;
+            let interval = move |cell: &Cell| cell.statistics[place]?.confidence_interval();
             table = table
-                .with(name("mean"), Kind::Real, move |(_, cell)| Some(cell.estimates[place]?.mean))
+                .with(name("mean"), Kind::Real, move |(_, cell)| Some(cell.statistics[place]?.mean))
                 .with(name("low"), Kind::Real, move |(_, cell)| Some(interval(cell)?.0))
                 .with(name("high"), Kind::Real, move |(_, cell)| Some(interval(cell)?.1));
         }

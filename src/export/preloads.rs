@@ -6,7 +6,7 @@ use crate::accuracy::Choice;
 use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use crate::io::{Table, object};
 use crate::scene::format_quantity;
-use crate::study::{Results, Statistics};
+use crate::study::{Results, Spread, Statistics};
 use crate::text::grouped;
 use std::ops::Range;
 
@@ -53,11 +53,10 @@ impl Report for PreloadReport<'_> {
             let header = ["preload F_n", "mean F_a", "standard error", "95 % confidence of the mean"];
             let force = |value: f64| format_quantity(value, "N");
             let means = self.results.mean_adhesion_forces();
-            let rows = thinned(means.iter(), MOST_ROWS).filter_map(|(preload, statistics)| {
-                let Statistics { mean, standard_error, confidence_interval: (low, high), .. } =
-                    (*statistics)?;
+            let rows = thinned(means.iter(), MOST_ROWS).filter_map(|(preload, all)| {
+                let Spread { standard_error, confidence_interval: (low, high), .. } = all.spread?;
                 let band = format!("{} to {}", force(low), force(high));
-                Some([force(*preload), force(mean), force(standard_error), band])
+                Some([force(*preload), force(all.mean), force(standard_error), band])
             });
             sheet.table(&std::iter::once(header.map(String::from)).chain(rows).collect::<Vec<_>>());
         } else {
@@ -136,17 +135,19 @@ pub(super) fn unloadings(
 }
 
 /// Layers of the adhesion force, N, over the preload, N: one profile, and the mean of several with its 95 % confidence.
-pub fn preload_layers(one: &[(f64, f64)], means: &[(f64, Option<Statistics>)]) -> Vec<Layer> {
+pub fn preload_layers(one: &[(f64, f64)], means: &[(f64, Statistics)]) -> Vec<Layer> {
     let mut layers = Vec::new();
-    let mean: Vec<(f64, Statistics)> = means.iter().filter_map(|(at, of)| Some((*at, (*of)?))).collect();
-    if !mean.is_empty() {
-        let band = |&(preload, of): &(f64, Statistics)| {
-            (preload, of.confidence_interval.0, of.confidence_interval.1)
+    if let Some((_, Statistics { count, .. })) = means.first() {
+        let band = |(preload, of): &(f64, Statistics)| {
+            of.confidence_interval().map(|(low, high)| (*preload, low, high))
         };
-        let count = mean[0].1.count;
         let name = Label::plain(&format!("mean of {count} profiles, 95 % confidence"));
-        layers.push(Layer::new(name.clone(), Ink::Kept, Shape::Band(mean.iter().map(band).collect())));
-        let points = mean.iter().map(|&(preload, of)| (preload, of.mean)).collect();
+        layers.push(Layer::new(
+            name.clone(),
+            Ink::Kept,
+            Shape::Band(means.iter().filter_map(band).collect()),
+        ));
+        let points = means.iter().map(|&(preload, of)| (preload, of.mean)).collect();
         layers.push(Layer::new(name, Ink::Kept, Shape::line(points, Stroke::Dashed)));
     }
     // The force of one profile is a staircase, whose steps lie anywhere between two preloads.

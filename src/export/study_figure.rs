@@ -5,7 +5,7 @@ use crate::draw::{
     Axis, AxisScale, Chart, Class, Contour, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Sign, Span,
     Stroke, value_label,
 };
-use crate::study::{self, Estimate, Grid, Quantity};
+use crate::study::{self, Grid, Quantity, Statistics};
 
 /// Fewest decades of a quantity with a second, logarithmic chart.
 const DECADES_FOR_SECOND: f64 = 1.5;
@@ -34,7 +34,7 @@ pub fn study_figure(title: &str, fixed: &[String], charts: Vec<Chart>) -> Figure
 /// vanishes; `whole` adds substitutes for cells that have not been computed yet. `None` for a grid along one axis.
 pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> {
     let (across, up) = (&grid.across, grid.up.as_ref()?);
-    let values = means(&grid.estimates(quantity, whole));
+    let values = means(&grid.statistics(quantity, whole));
     let layer = grid.layer(quantity);
     let scale = layer.map_or(AxisScale::Linear, |layer| layer.scale);
     let ends = layer.map_or(Some((0.0, 1.0)), |layer| layer.range);
@@ -80,7 +80,7 @@ pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> 
 pub fn study_curves(grid: &Grid, quantity: Quantity) -> Vec<Chart> {
     let across = &grid.across;
     let scale = grid.layer(quantity).map_or(AxisScale::Linear, |layer| layer.scale);
-    let estimates = grid.estimates(quantity, false);
+    let estimates = grid.statistics(quantity, false);
     let places = across.values.iter().map(|value| across.scale().coordinate(*value));
     let places: Vec<f64> = places.collect();
     let layers = layers(grid, quantity, &estimates);
@@ -93,7 +93,7 @@ pub fn study_curves(grid: &Grid, quantity: Quantity) -> Vec<Chart> {
     std::iter::once(chart(scale)).chain(is_small.then(|| chart(AxisScale::Logarithmic))).collect()
 }
 
-fn means(estimates: &[Option<Estimate>]) -> Vec<Option<f64>> {
+fn means(estimates: &[Option<Statistics>]) -> Vec<Option<f64>> {
     estimates.iter().map(|estimate| Some((*estimate)?.mean)).collect()
 }
 
@@ -125,7 +125,7 @@ fn vanishing(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Vec<Option<
     let shares = Quantity::ADHESION_SHARES;
     let own = shares.contains(&quantity).then_some(quantity);
     let share = own.or_else(|| shares.into_iter().find(|share| grid.layer(*share).is_some()))?;
-    Some(means(&grid.estimates(share, whole)))
+    Some(means(&grid.statistics(share, whole)))
 }
 
 fn vanishing_label() -> Label {
@@ -133,11 +133,11 @@ fn vanishing_label() -> Label {
 }
 
 /// Range of the vertical axis of curves.
-fn range(quantity: Quantity, estimates: &[Option<Estimate>], scale: AxisScale) -> Span {
+fn range(quantity: Quantity, estimates: &[Option<Statistics>], scale: AxisScale) -> Span {
     let known = || estimates.iter().flatten();
     let from = Span::of_values(scale, known().map(|estimate| estimate.mean), MOST_DECADES);
     let ends = known().flat_map(|one| {
-        let (low, high) = one.interval.unwrap_or((one.mean, one.mean));
+        let (low, high) = one.confidence_interval().unwrap_or((one.mean, one.mean));
         [one.mean, low, high]
     });
     let all = Span::around(ends.map(|end| scale.coordinate(end)), 0.0);
@@ -151,7 +151,7 @@ fn range(quantity: Quantity, estimates: &[Option<Estimate>], scale: AxisScale) -
 }
 
 /// Returns true if a quantity falls too far for a linear scale.
-fn spans_decades(estimates: &[Option<Estimate>]) -> bool {
+fn spans_decades(estimates: &[Option<Statistics>]) -> bool {
     let means = || estimates.iter().flatten().map(|estimate| estimate.mean);
     let above = means().filter(|mean| *mean > 0.0);
     let lowest = above.clone().fold(f64::INFINITY, f64::min);
@@ -160,15 +160,19 @@ fn spans_decades(estimates: &[Option<Estimate>]) -> bool {
 }
 
 /// Curves with their confidence, and upright lines where F_a(0) vanishes.
-fn layers(grid: &Grid, quantity: Quantity, estimates: &[Option<Estimate>]) -> Vec<Layer> {
+fn layers(grid: &Grid, quantity: Quantity, estimates: &[Option<Statistics>]) -> Vec<Layer> {
     let places = &grid.across.values;
     let curves: Vec<_> = estimates.chunks(places.len().max(1)).collect();
     let mut layers = Vec::new();
-    let mut add = |name: Label, ink: Ink, sign: Sign, estimates: &[Option<Estimate>]| {
+    let mut add = |name: Label, ink: Ink, sign: Sign, estimates: &[Option<Statistics>]| {
         let known = || places.iter().copied().zip(estimates.iter().copied());
         let nothing = (f64::NAN, f64::NAN);
-        if estimates.iter().flatten().any(|one| one.interval.is_some_and(|(low, high)| high > low)) {
-            let interval = |one: Estimate| one.interval.unwrap_or((one.mean, one.mean));
+        if estimates
+            .iter()
+            .flatten()
+            .any(|one| one.confidence_interval().is_some_and(|(low, high)| high > low))
+        {
+            let interval = |one: Statistics| one.confidence_interval().unwrap_or((one.mean, one.mean));
             let ends = known().map(|(x, one)| (x, one.map_or(nothing, interval)));
             let band = ends.map(|(x, (low, high))| (x, low, high)).collect();
             layers.push(Layer::new("95 % confidence of the mean".into(), ink, Shape::Band(band)));
@@ -222,10 +226,9 @@ fn crossings(grid: &Grid, quantity: Quantity) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::CellRegime;
     use crate::draw::{attribute, elements};
     use crate::scene::open;
-    use crate::study::{Axis as StudyAxis, Cell, Layer as Quantities, Spacing};
+    use crate::study::{Axis as StudyAxis, Cell, Layer as Quantities, RegimeCounts, Spacing, Spread};
 
     const SHARE: Quantity = Quantity::ZeroLoadAdhesionShare;
     const COEFFICIENT: Quantity = Quantity::AdhesionCoefficient;
@@ -253,9 +256,16 @@ mod tests {
         0.9 * (1.0 - share(kappa, hurst)) * (-(kappa - 2.0) / 1.1).exp()
     }
 
-    fn estimate(mean: f64) -> Estimate {
-        let (low, high) = (mean * 0.85 - 0.004, mean * 1.15 + 0.004);
-        Estimate { mean, interval: Some((low.max(0.0), high)), range: (mean, mean) }
+    fn estimate(mean: f64) -> Statistics {
+        with_interval(mean, ((mean * 0.85 - 0.004).max(0.0), mean * 1.15 + 0.004))
+    }
+
+    fn with_interval(mean: f64, confidence_interval: (f64, f64)) -> Statistics {
+        let spread = Spread { standard_deviation: 0.0, standard_error: 0.0, confidence_interval };
+        Statistics {
+            spread: Some(spread),
+            ..Statistics::of(vec![mean], Quantity::AdhesionForce.bounds()).unwrap()
+        }
     }
 
     /// A cell of two quantities with a regime.
@@ -266,8 +276,8 @@ mod tests {
             [_, coefficient] if coefficient > 0.01 => Regime::PressureSensitive,
             _ => Regime::NonAdhesive,
         };
-        let regime = Some(CellRegime { regime, share: 1.0, split: None });
-        Cell { estimates: values.map(|value| Some(estimate(value))).to_vec(), regime, lines: 4 }
+        let regimes = RegimeCounts::of([Some(regime); 4].into_iter());
+        Cell { statistics: values.map(|value| Some(estimate(value))).to_vec(), regimes }
     }
 
     fn study(
@@ -312,8 +322,8 @@ mod tests {
     }
 
     /// Estimates of a quantity in all cells.
-    fn estimates(study: &mut Study, layer: usize) -> impl Iterator<Item = &mut Option<Estimate>> {
-        study.grid.cells.iter_mut().flatten().flatten().map(move |cell| &mut cell.estimates[layer])
+    fn estimates(study: &mut Study, layer: usize) -> impl Iterator<Item = &mut Option<Statistics>> {
+        study.grid.cells.iter_mut().flatten().flatten().map(move |cell| &mut cell.statistics[layer])
     }
 
     #[test]
@@ -337,8 +347,7 @@ mod tests {
         for study in &mut long {
             study.grid.layers[0].range = Some((1e5, 1e5 + 1.0));
             for one in estimates(study, 0).flatten() {
-                let mean = 1e5 + one.mean;
-                *one = Estimate { mean, interval: Some((1e5, 1e5 + 1.0)), range: (mean, mean) };
+                *one = with_interval(1e5 + one.mean, (1e5, 1e5 + 1.0));
             }
         }
         let [long_map, long_sections] = long;
@@ -394,7 +403,7 @@ mod tests {
         study.grid.layers[1].quantity = Quantity::ZeroForceAdhesionShare;
         let shares: Vec<_> = estimates(&mut study, 0).map(|one| *one).collect();
         for (estimate, share) in estimates(&mut study, 1).zip(shares) {
-            *estimate = share.map(|one| Estimate { mean: 2.0 * one.mean, ..one });
+            *estimate = share.map(|one| Statistics { mean: 2.0 * one.mean, ..one });
         }
         let later = upright(&study, Quantity::ZeroForceAdhesionShare);
         assert!(later[0] > own[0], "{later:?} {own:?}");
@@ -407,7 +416,7 @@ mod tests {
         cells.extend(one.grid.cells.iter().cloned().map(|cell| {
             cell.map(|cell| {
                 cell.map(|mut cell| {
-                    cell.estimates[1] = cell.estimates[1].map(|one| estimate(0.5 * one.mean));
+                    cell.statistics[1] = cell.statistics[1].map(|one| estimate(0.5 * one.mean));
                     cell
                 })
             })
@@ -434,8 +443,8 @@ mod tests {
             for value in [0.0, -2.0, 1e-300] {
                 for scale in [AxisScale::Linear, AxisScale::Logarithmic] {
                     let across = axis(&study.grid.across.path, study.grid.across.spacing, vec![0.5]);
-                    let one = Estimate { mean: value, interval: None, range: (value, value) };
-                    let cell = Cell { estimates: vec![Some(one); 2], regime: None, lines: 1 };
+                    let one = Statistics::of(vec![value], SHARE.bounds());
+                    let cell = Cell { statistics: vec![one; 2], regimes: RegimeCounts::default() };
                     let rows = study.grid.size().1;
                     let range = Some((value, value));
                     let layers = study.grid.layers.iter().map(|layer| Quantities { scale, range, ..*layer });

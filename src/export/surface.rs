@@ -62,7 +62,7 @@ pub struct MeasuredFace {
 
 /// Median and quartiles of the adhesion forces of the profiles, and the error by the fit; `None` for fewer than two.
 pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
-    let forces = profiles_text(computed.forces())?;
+    let forces = profiles_text(computed.adhesion_force())?;
     let fit = computed.fit_deviation().map(|fit| format!(", fit ± {}", format_rounded(fit, 2, "N")));
     Some(forces + &fit.unwrap_or_default())
 }
@@ -136,7 +136,7 @@ impl Report for SurfaceReport {
                 "length": scene.length,
                 "springs": scene.numerics.points,
                 "preload": preload(scene),
-                "adhesion_force": computed.adhesion_force(),
+                "adhesion_force": computed.adhesion_force().filter(|forces| forces.spread.is_some()),
                 "fit_deviation": computed.fit_deviation(),
                 "regimes": computed.regimes(),
                 "lines": &computed.profiles,

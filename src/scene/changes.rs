@@ -5,6 +5,7 @@ use super::field::{Field, stage_targets};
 use super::fields::fields_inside;
 use super::model::{Move, Roughness, Scene};
 use super::quantity::format_quantity;
+use super::range::Range;
 use super::tree::Tree;
 use std::fmt;
 
@@ -31,8 +32,8 @@ fn symbol_or_name(field: &Field) -> &'static str {
 
 fn with_unit(field: &Field, value: &str) -> String {
     match value.parse() {
-        Ok(number) => format_quantity(number, field.unit),
-        Err(_) => value.split_whitespace().collect::<Vec<_>>().join(" "),
+        Ok(number) if !matches!(field.range, Range::Whole(..)) => format_quantity(number, field.unit),
+        _ => value.split_whitespace().collect::<Vec<_>>().join(" "),
     }
 }
 
@@ -133,6 +134,8 @@ mod tests {
         let other = scene.set("roughness.hurst", "0.5").unwrap().set("title", "\"other\"").unwrap();
         assert_eq!(changes(&scene, &other), ["H 0.7 → 0.5"]);
         assert_eq!(changes(&other, &scene), ["H 0.5 → 0.7"]);
+        let other = scene.set("roughness.seed", "12345678901").unwrap();
+        assert_eq!(changes(&scene, &other), ["seed 5 → 12345678901"]);
         let other = scene.set("loading.0.0", "2e-5").unwrap();
         assert_eq!(changes(&scene, &other), ["stage 1 F 10 µN → 20 µN"]);
         let other = scene.set("loading", "5 µN").unwrap();

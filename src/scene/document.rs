@@ -12,7 +12,7 @@ use super::fields::{FIELDS, field};
 use super::model::Scene;
 use super::range::Range;
 use super::read::read;
-use super::text::{Text, is_within, line_column};
+use super::text::{NOT_ONE_VALUE, Text, is_within, line_column};
 use super::tree::{Tree, to_ron};
 
 /// Longest text; longer ones are refused unread. Scenes are a few hundred bytes.
@@ -211,13 +211,16 @@ fn spliced(text: &Text, path: &str, value: &str) -> Result<(Text, Scene), SceneE
     let refused = |message| SceneErrors::from(SceneError::whole(origin(), message));
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
     let band = || field(parent, None).filter(|field| matches!(field.range, Range::Band(..)));
-    let typed = match field_at(text, path).or_else(band) {
-        Some(known) => known
-            .read_typed(value)
-            .map_err(|error| SceneError::of(path, value, known.allowed(), &error.to_string()).at(origin()))?,
+    let known = field_at(text, path).or_else(band);
+    let wrong = |known: &Field, why: &str| SceneError::of(path, value, known.allowed(), why).at(origin());
+    let typed = match known {
+        Some(known) => known.read_typed(value).map_err(|error| wrong(known, &error.to_string()))?,
         None => value.to_string(),
     };
-    let text = set(text, path, &typed).map_err(refused)?;
+    let text = set(text, path, &typed).map_err(|message| match known {
+        Some(known) if message == NOT_ONE_VALUE => wrong(known, "").into(),
+        _ => refused(message),
+    })?;
     check_length(text.as_str()).map_err(refused)?;
     let scene = read(text.as_str(), |_| origin())?;
     Ok((text, scene))

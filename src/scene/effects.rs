@@ -42,8 +42,10 @@ impl Effect {
             Effect::Roughness => ("roughness", "roughness", None),
             Effect::Adhesion => ("adhesion", "adhesion", None),
             Effect::Unloading => ("unloading", "loading", None),
-            Effect::Fragments => ("contact fragments", "observe", Some(Observer::Fragments)),
-            Effect::HeightHistogram => ("height histogram", "observe", Some(Observer::HeightHistogram)),
+            Effect::Fragments => ("contact patches in results", "observe", Some(Observer::Fragments)),
+            Effect::HeightHistogram => {
+                ("height histogram in results", "observe", Some(Observer::HeightHistogram))
+            }
         }
     }
 

@@ -152,8 +152,8 @@ const MOST_EXACT: f64 = 9.0e15;
 
 impl Field {
     /// The value in RON: a number may have an SI prefix and the unit of the field, `50 mJ/m²` or `16k`. A text
-    /// needs no quotes, the name of a file as a roughness becomes a measured surface with its equivalent line, and a loading
-    /// may be a list of targets, as [`stage_targets`] writes it. Any other text is unchanged but for surrounding blanks.
+    /// needs no quotes, the name of a file as a roughness becomes a measured surface with its equivalent line, a work with
+    /// its unit is an adhesion, and a loading may be a list of targets, as [`stage_targets`] writes it. Any other text is unchanged but for surrounding blanks.
     ///
     /// # Errors
     /// Text that begins as a number and continues as another unit, or a number that is too large.
@@ -174,7 +174,12 @@ impl Field {
         if !typed.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.')) {
             return Ok(typed.to_string());
         }
+        let is_number = ron::from_str::<f64>(typed).is_ok();
         match self.range {
+            // A work or a modulus with its unit, where the choice is made by a name.
+            Range::Choice(..) if self.path == "adhesion" && !is_number => {
+                parse_quantity(typed, "J/m²").map(|work| format!("(work: {})", ron_float(work)))
+            }
             Range::Real(..) if ron::from_str::<f64>(typed).is_err() => {
                 parse_quantity(typed, self.unit).map(ron_float)
             }
@@ -230,6 +235,8 @@ mod tests {
             "adhesion.work|50mJ/m2|0.05",
             "loading|10 µN,0 N, -5 nm, separation|[ToForce(1.0e-5), ToZeroForce, ToIndentation(-5.0e-9), ToSeparation]",
             "adhesion.work| 50 mN/m |0.05",
+            "adhesion|30 mJ/m²|(work: 0.03)",
+            "adhesion|(kappa: 2.0)|(kappa: 2.0)",
             "adhesion.work|5.0e-2|5.0e-2",
             "numerics.points|64Ki|65536",
             "numerics.points|1_024|1_024",

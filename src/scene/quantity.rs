@@ -137,6 +137,8 @@ fn has_prefixes(unit: &str) -> bool {
 ///
 /// Numbers without unit have no prefix; those much smaller or larger than one have an exponent.
 pub fn format_quantity(value: f64, unit: &str) -> String {
+    // The number next to zero is a state just after a jump at zero.
+    let value = if value.is_subnormal() { 0.0 } else { value };
     // Rounded first, so that 999.99 becomes 1000 before the choice of its prefix.
     with_unit(value, &format!("{value:.*e}", DIGITS - 1), unit)
 }

@@ -59,7 +59,7 @@ pub enum Stage {
 impl Stage {
     const NAMES: [&str; 11] = [
         "form", "random profile", "measured profile", "contact tree", "rule of Hess", "loading passes",
-        "unloading passes", "stepwise relaxation", "zero-load adhesion and regime", "contact fragments",
+        "unloading passes", "stepwise relaxation", "zero-load adhesion and regime", "contact patches",
         "height histogram",
     ];
 

@@ -6,7 +6,6 @@ use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
 use crate::analysis::{Figures, Governing, Regime, SteepWaves, ideal_adhesion_force, scene_tabor_number};
 use crate::contact::{Contact, ContactError, ContactTree, Foundation, Leg, LegRecord, Patch, Springs, Work};
 use crate::memory::check_room;
-use crate::parallel::in_parallel;
 use crate::reference::smooth_adhesion_force;
 use crate::scene::{Edges, Form, Scene};
 use crate::surface::{Histogram, Line, MeasuredRoughness, SurfaceError, Synthesizer};
@@ -17,8 +16,6 @@ use std::time::Instant;
 
 /// Bins of the height histogram.
 const HISTOGRAM_BINS: usize = 64;
-/// Number of springs below which another thread takes longer to start than it saves.
-const MANY_SPRINGS: usize = 1 << 15;
 /// Error of a stage before its profile.
 const NO_PROFILE: ContactError = ContactError::Internal("the profile of the scene has not been made");
 /// Factor of the memory of the next run above which that of former ones is released.
@@ -181,18 +178,15 @@ impl Simulation {
     /// of heights sorted into bins.
     fn look_at_line(&mut self, plan: &Plan, edges: Edges) -> Result<u64, ContactError> {
         let Some((_, line)) = &self.line else { return Err(NO_PROFILE) };
-        let count = plan.runs(Stage::HeightHistogram) && self.histogram.is_none();
-        let build = plan.runs(Stage::Tree) && !self.springs.has_tree(edges);
-        let (springs, memory) = (&self.springs, take(&mut self.former_tree));
-        let histogram = || Histogram::new(line.heights(), line.lowest(), line.summit, HISTOGRAM_BINS);
-        let (histogram, built) = in_parallel(
-            count && build && line.gaps.len() >= MANY_SPRINGS,
-            || count.then(histogram),
-            || build.then(|| springs.tree_in(memory, edges)),
-        );
-        built.transpose()?;
-        self.histogram = histogram.or(self.histogram.take());
-        Ok(if count { line.gaps.len() as u64 } else { 0 })
+        let memory = take(&mut self.former_tree);
+        if plan.runs(Stage::Tree) {
+            self.springs.tree_in(memory, edges)?;
+        }
+        if !plan.runs(Stage::HeightHistogram) || self.histogram.is_some() {
+            return Ok(0);
+        }
+        self.histogram = Some(Histogram::new(line.heights(), line.lowest(), line.summit, HISTOGRAM_BINS));
+        Ok(line.gaps.len() as u64)
     }
 
     /// Checks the memory of a run before any allocation: kept memory counts, and is released if it is far too large

@@ -1,8 +1,8 @@
-//! Axes of a parameter study: the varied quantity of a scene and its values.
+//! Axes of a parameter study: the varied quantity, a number of a scene by its path or one that follows from several, and
+//! its values.
 
-use super::target::Target;
 use crate::draw::AxisScale;
-use crate::scene::Scene;
+use crate::scene::{FIELDS, Field, Move, Range, RoughnessParameter, Scene, did_you_mean, field};
 use crate::text::printable;
 use serde::{Deserialize, Serialize};
 
@@ -11,6 +11,9 @@ pub const MOST_VALUES: u64 = 1_000_000;
 
 /// Significant digits of values between the ends of an axis: 0.15 rather than 0.15000000000000002.
 const DIGITS: usize = 12;
+
+/// Smallest relative difference of two values of an axis; a smaller one is rounding.
+const APART: f64 = 1e-6;
 
 /// Smallest ratio of the ends of a list of values that is shown on a logarithmic scale.
 const LOGARITHMIC_RATIO: f64 = 50.0;
@@ -69,32 +72,31 @@ impl Axis {
     ///
     /// # Errors
     /// What is wrong with the axis, and what is allowed.
-    pub(super) fn of(text: AxisText, scene: &Scene) -> Result<Axis, String> {
-        let (path, spacing) = match &text {
-            AxisText::Linear { path, .. } => (path, Spacing::Linear),
-            AxisText::Logarithmic { path, .. } => (path, Spacing::Logarithmic),
-            AxisText::List { path, .. } => (path, Spacing::List),
-        };
-        let path = printable(path).into_owned();
-        let axis = Axis::new(&path, spacing, Vec::new(), scene).and_then(|axis| axis.with_values(text));
+    pub(super) fn of(text: &AxisText, scene: &Scene) -> Result<Axis, String> {
+        let (AxisText::Linear { path, .. }
+        | AxisText::Logarithmic { path, .. }
+        | AxisText::List { path, .. }) = text;
+        let path = printable(path);
+        let axis = Axis::new(&path, Spacing::List, Vec::new(), scene).and_then(|axis| axis.with_values(text));
         axis.map_err(|what| format!("axis {path}: {what}"))
     }
 
-    fn with_values(self, text: AxisText) -> Result<Axis, String> {
-        let axis = match text {
-            AxisText::List { values, .. } if values.is_empty() => {
+    fn with_values(self, text: &AxisText) -> Result<Axis, String> {
+        let axis = match *text {
+            AxisText::List { ref values, .. } if values.is_empty() => {
                 return Err("no values; allowed: at least one".into());
             }
-            AxisText::List { values, .. } if values.len() as u64 > MOST_VALUES => {
+            AxisText::List { ref values, .. } if values.len() as u64 > MOST_VALUES => {
                 return Err(format!("{} values; allowed: at most {MOST_VALUES}", values.len()));
             }
-            AxisText::List { values, .. } => Axis { values, ..self },
+            AxisText::List { ref values, .. } => Axis { values: values.clone(), ..self },
             AxisText::Linear { from, to, count, .. } => {
                 check_ends(from, to, count)?;
                 if !(to - from).is_finite() {
                     return Err(format!("from {from:?} to {to:?}: the range overflows a 64-bit float"));
                 }
-                self.between(from, to, count, |share| from * (1.0 - share) + to * share)
+                let at = |share: f64| from * (1.0 - share) + to * share;
+                Axis { spacing: Spacing::Linear, ..self }.between(from, to, count, at)
             }
             AxisText::Logarithmic { from, to, count, .. } => {
                 check_ends(from, to, count)?;
@@ -102,7 +104,8 @@ impl Axis {
                     return Err(format!("from {from:?}: a logarithmic axis begins above 0"));
                 }
                 let (first, last) = (from.ln(), to.ln());
-                self.between(from, to, count, |share| (first * (1.0 - share) + last * share).exp())
+                let at = |share: f64| (first * (1.0 - share) + last * share).exp();
+                Axis { spacing: Spacing::Logarithmic, ..self }.between(from, to, count, at)
             }
         };
         if let Some(value) = axis.values.iter().find(|value| !value.is_finite()) {
@@ -161,6 +164,20 @@ impl Axis {
         if self.symbol.is_empty() { self.path.clone() } else { self.symbol.to_owned() }
     }
 
+    /// The value so many steps above `value`, or below, on an ascending axis; the first or last value beyond the ends,
+    /// and `None` where `value` is already there.
+    pub fn next_beyond(&self, value: f64, steps: i32) -> Option<f64> {
+        let (values, apart) = (&self.values, APART * value.abs());
+        let further = steps.unsigned_abs().checked_sub(1)? as usize;
+        let index = if steps > 0 {
+            let first = values.iter().position(|one| *one > value + apart)?;
+            first.saturating_add(further).min(values.len() - 1)
+        } else {
+            values.iter().rposition(|one| *one < value - apart)?.saturating_sub(further)
+        };
+        Some(values[index])
+    }
+
     /// Places of the values in ascending order.
     pub(super) fn order(&self) -> Vec<usize> {
         let mut places: Vec<usize> = (0..self.values.len()).collect();
@@ -173,6 +190,131 @@ impl Axis {
         let mut axis = self.clone();
         axis.values.sort_by(f64::total_cmp);
         axis
+    }
+}
+
+/// Quantities that are not fields of a scene.
+pub const DERIVED: &[&str] = &["kappa", "elastic_energy_ratio", "preload", "springs_per_wave"];
+
+/// Numbers that cannot be varied: the version is no parameter, and seeds are counted from the plan's.
+const FIXED: &[&str] = &["version", "roughness.seed"];
+
+/// Ends of the paths of numbers: a number itself, and the first and the last number of a pair.
+const ENDS: [&str; 3] = ["", ".0", ".1"];
+
+/// A quantity that an axis varies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Target {
+    /// A number of a scene, or an end of a pair.
+    Number(&'static Field),
+    /// The force, N, or indentation, m, of a loading stage.
+    Stage(usize),
+    /// κ or e_el/γ, by the work of adhesion; replaces the work of the scene.
+    RoughnessParameter(RoughnessParameter),
+    /// Preload F_n in units of E* h L.
+    Preload,
+    /// Springs per period of the shortest wave: the last mode is points over this number.
+    SpringsPerWave,
+}
+
+/// Part of a computation that a changed number repeats; later variants repeat least.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Shapes {
+    /// The heights of the roughness, by a transform.
+    Roughness,
+    /// The profile, from known heights.
+    Profile,
+    /// The passes over the tree alone.
+    Passes,
+}
+
+/// The field of the number at a path.
+fn number(path: &str) -> Option<&'static Field> {
+    ENDS.into_iter().find_map(|end| {
+        let field = field(path.strip_suffix(end)?, None).filter(|field| !FIXED.contains(&field.path))?;
+        let is_number = match field.range {
+            Range::Real(..) | Range::Whole(..) => end.is_empty(),
+            Range::Band(..) => !end.is_empty(),
+            _ => false,
+        };
+        is_number.then_some(field)
+    })
+}
+
+impl Target {
+    /// Quantity of a path.
+    ///
+    /// # Errors
+    /// No number has this path; names the nearest one.
+    pub fn of(path: &str) -> Result<Target, String> {
+        match path {
+            "preload" => return Ok(Target::Preload),
+            "springs_per_wave" => return Ok(Target::SpringsPerWave),
+            _ => {}
+        }
+        if let Some(parameter) = RoughnessParameter::named(path).filter(|one| one.name() == path) {
+            return Ok(Target::RoughnessParameter(parameter));
+        }
+        let stage = || path.strip_prefix("loading.")?.strip_suffix(".0")?.parse().ok().map(Target::Stage);
+        number(path).map(Target::Number).or_else(stage).ok_or_else(|| {
+            let all = FIELDS.iter().flat_map(|field| ENDS.map(|end| format!("{}{end}", field.path)));
+            let numbers: Vec<String> = all.filter(|path| number(path).is_some()).collect();
+            let near = did_you_mean(path, numbers.iter().map(String::as_str).chain(DERIVED.iter().copied()));
+            let derived = DERIVED.join(", ");
+            format!("no such number{near} (allowed: numbers of a scene by their paths, and {derived})")
+        })
+    }
+
+    /// Returns true for an integer quantity.
+    pub fn is_whole(self) -> bool {
+        matches!(self, Target::Number(field) if !matches!(field.range, Range::Real(..)))
+    }
+
+    /// κ or e_el/γ, also where an axis sets the field of the scene.
+    pub fn parameter(self) -> Option<RoughnessParameter> {
+        match self {
+            Target::RoughnessParameter(parameter) => Some(parameter),
+            Target::Number(field) => RoughnessParameter::named(field.path),
+            _ => None,
+        }
+    }
+
+    /// Part of the computation that a change of the quantity repeats.
+    pub fn shapes(self) -> Shapes {
+        let field = match self {
+            Target::SpringsPerWave => return Shapes::Roughness,
+            Target::Stage(_) | Target::RoughnessParameter(_) | Target::Preload => return Shapes::Passes,
+            Target::Number(field) => field,
+        };
+        match (field.parent(), field.path) {
+            // Heights are scaled to their amplitude.
+            ("form", _) | (_, "length" | "roughness.rms_height" | "roughness.rms_gradient") => {
+                Shapes::Profile
+            }
+            ("roughness", _) | (_, "numerics.points") => Shapes::Roughness,
+            _ => Shapes::Passes,
+        }
+    }
+
+    /// Name, symbol, which may be empty, and SI unit of the quantity at this path of a scene.
+    pub fn label(self, path: &str, scene: &Scene) -> (String, &'static str, &'static str) {
+        if self.parameter() == Some(RoughnessParameter::Kappa) {
+            return ("roughness-adhesion parameter".into(), RoughnessParameter::Kappa.symbol(), "1");
+        }
+        match self {
+            Target::RoughnessParameter(parameter) => ("elastic energy ratio".into(), parameter.symbol(), "1"),
+            Target::Preload => ("preload".into(), "F_n/(E* h L)", "1"),
+            Target::SpringsPerWave => ("springs per wave".into(), "", "1"),
+            Target::Stage(stage) => match scene.loading.get(stage) {
+                Some(Move::ToIndentation(_)) => (format!("indentation of stage {}", stage + 1), "", "m"),
+                _ => (format!("force of stage {}", stage + 1), "", "N"),
+            },
+            Target::Number(Field { range: Range::Band(..), .. }) if path.ends_with(".0") => {
+                ("first mode".into(), "k_min", "1")
+            }
+            Target::Number(Field { range: Range::Band(..), .. }) => ("last mode".into(), "k_max", "1"),
+            Target::Number(field) => (field.name.into(), field.symbol, field.unit),
+        }
     }
 }
 
@@ -196,7 +338,7 @@ mod tests {
     use crate::scene::open;
 
     fn axis(text: &str) -> Result<Axis, String> {
-        Axis::of(ron::from_str(text).unwrap(), open("rough-sphere").unwrap().scene())
+        Axis::of(&ron::from_str(text).unwrap(), open("rough-sphere").unwrap().scene())
     }
 
     #[test]
@@ -238,5 +380,18 @@ mod tests {
             let wrong = axis(text).unwrap_err();
             assert!(wrong.contains(said), "{text}: {wrong}");
         }
+    }
+
+    #[test]
+    fn steps_go_to_the_next_value_of_the_axis_and_end_with_it() {
+        let scene = open("pressure-sensitive").unwrap().scene().clone();
+        let axes = crate::study::live_plan(&scene, crate::scene::RoughnessParameter::Kappa).unwrap().axes;
+        let to = |value, steps| axes[0].next_beyond(value, steps);
+        assert_eq!((to(6.0, 1), to(6.0, -1), to(6.0, 4)), (Some(6.73), Some(5.66), Some(11.3)));
+        // A value of the axis but for rounding.
+        assert_eq!((to(1.0 + 1e-12, 1), to(1.0 - 1e-12, -1)), (Some(1.19), Some(0.841)));
+        assert_eq!((to(31.0, 100), to(32.0, 1), to(0.125, -1)), (Some(32.0), None, None));
+        assert_eq!((to(100.0, -1), to(100.0, 1), to(1e-3, 1)), (Some(32.0), None, Some(0.125)));
+        assert_eq!((to(6.0, 0), to(6.0, i32::MIN), to(6.0, i32::MAX)), (None, Some(0.125), Some(32.0)));
     }
 }

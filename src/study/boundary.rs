@@ -8,15 +8,16 @@
 
 use super::StudyError;
 use super::axis::Axis;
+use super::axis::Target;
+use super::place::governing;
 use super::plan::Plan;
 use super::quantity::Quantity;
 use super::results::Results;
-use super::target::{Target, governing};
-use crate::analysis::Governing;
 use crate::scene::RoughnessParameter;
 use rand::RngExt;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
+use std::cmp::Ordering;
 use std::path::Path;
 
 /// Usual shares of F_a,max.
@@ -41,25 +42,19 @@ pub struct Boundary {
 
 /// κ or e_el/γ at which a mean falls below a share.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Crossing {
-    /// At this value, with the confidence interval where profiles could be resampled and all samples cross.
-    At(f64, Option<(f64, f64)>),
-    /// Below the smallest value of the study.
-    Below(f64),
-    /// Above the largest value of the study.
-    Above(f64),
+pub struct Crossing {
+    /// Value of the boundary, or the end of the study beyond which it lies.
+    pub value: f64,
+    /// `Less` for a boundary below the smallest value of the study, `Greater` for one above the largest.
+    pub side: Ordering,
+    /// 95 % confidence interval, where profiles could be resampled and all samples cross.
+    pub interval: Option<(f64, f64)>,
 }
 
 impl Crossing {
-    /// The same boundary in terms of a parameter that grows with this one.
-    fn map(self, to: impl Fn(f64) -> f64) -> Self {
-        match self {
-            Crossing::At(value, interval) => {
-                Crossing::At(to(value), interval.map(|(low, high)| (to(low), to(high))))
-            }
-            Crossing::Below(value) => Crossing::Below(to(value)),
-            Crossing::Above(value) => Crossing::Above(to(value)),
-        }
+    /// The value of a boundary within the study, with its interval.
+    pub fn known(self) -> Option<(f64, Option<(f64, f64)>)> {
+        self.side.is_eq().then_some((self.value, self.interval))
     }
 }
 
@@ -112,11 +107,10 @@ pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Resu
             "this study records neither zero_load_adhesion_share nor zero_force_adhesion_share",
         ));
     }
-    let without = |list: Vec<f64>| -> Vec<f64> {
-        list.into_iter().enumerate().filter(|(axis, _)| *axis != along).map(|(_, value)| value).collect()
-    };
+    let others: Vec<usize> = (0..plan.axes.len()).filter(|axis| *axis != along).collect();
     let mut found = Vec::new();
-    for cell in (0..plan.cells()).filter(|cell| plan.places(*cell)[along] == 0) {
+    for number in 0..plan.cells() / plan.axes[along].count() {
+        let cell = plan.cell_at(&plan.places_on(others.iter().copied(), number));
         for &protocol in &protocols {
             let curve = curve(&study, cell, along, protocol);
             if curve.is_empty() {
@@ -129,13 +123,15 @@ pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Resu
                 ))
             })?;
             for &level in levels {
-                let crossing = crossing_with_interval(&curve, level).map(&to);
-                found.push(Boundary { others: without(plan.values(cell)), protocol, level, crossing });
+                let Crossing { value, side, interval } = crossing(&curve, level);
+                let interval = interval.map(|(low, high)| (to(low), to(high)));
+                let others = others.iter().map(|&axis| plan.value(cell, axis)).collect();
+                let crossing = Crossing { value: to(value), side, interval };
+                found.push(Boundary { others, protocol, level, crossing });
             }
         }
     }
-    let others = plan.axes.iter().enumerate().filter(|(axis, _)| *axis != along);
-    let others = others.map(|(_, axis)| axis.clone()).collect();
+    let others = others.into_iter().map(|axis| plan.axes[axis].clone()).collect();
     Ok(Boundaries { over, others, lines: plan.lines, found })
 }
 
@@ -162,12 +158,14 @@ fn conversion(
     cell: u64,
     from: RoughnessParameter,
     to: RoughnessParameter,
-) -> Option<impl Fn(f64) -> f64 + use<>> {
-    let ratio = |known: Governing| Some(known.energy(to)? / known.energy(from)?);
+) -> Option<Box<dyn Fn(f64) -> f64>> {
+    if from == to {
+        return Some(Box::new(|value| value));
+    }
     // The plan has been checked with these values.
-    let energies = if from == to { Some(1.0) } else { ratio(governing(&plan.scene_of(cell).ok()?)?) }?;
-    let convert = move |value| to.of_energy_over_work(energies * from.energy_over_work(value));
-    Some(move |value| if from == to { value } else { convert(value) })
+    let known = governing(&plan.scene_of(cell).ok()?)?;
+    let energies = known.energy(to)? / known.energy(from)?;
+    Some(Box::new(move |value| to.of_energy_over_work(energies * from.energy_over_work(value))))
 }
 
 /// Name of the protocol of a recorded share of F_a(0).
@@ -186,43 +184,40 @@ impl Boundaries {
 }
 
 /// The boundary of a curve with its confidence interval by resampling of the profiles.
-fn crossing_with_interval(curve: &Curve, level: f64) -> Crossing {
+fn crossing(curve: &Curve, level: f64) -> Crossing {
     let count = curve.first().map_or(0, |(_, shares)| shares.len());
     let every: Vec<usize> = (0..count).collect();
-    let found = crossing_of(curve, &every, level);
-    let Crossing::At(kappa, _) = found else { return found };
-    if count < 2 {
-        return found;
-    }
+    let (value, side) = crossing_of(curve, &every, level);
     let mut random = ChaCha8Rng::seed_from_u64(RESAMPLING_SEED);
-    let mut resampled = Vec::with_capacity(RESAMPLES);
-    for _ in 0..RESAMPLES {
+    let mut resample = || {
         let chosen: Vec<usize> = every.iter().map(|_| random.random_range(0..count)).collect();
-        match crossing_of(curve, &chosen, level) {
-            Crossing::At(kappa, _) => resampled.push(kappa),
-            // An interval that reaches beyond the study is unknown.
-            _ => return Crossing::At(kappa, None),
-        }
-    }
-    resampled.sort_by(f64::total_cmp);
-    let at = |share: f64| resampled[(share * (RESAMPLES - 1) as f64).round() as usize];
-    Crossing::At(kappa, Some((at(0.025), at(0.975))))
+        Some(crossing_of(curve, &chosen, level)).filter(|(_, side)| side.is_eq()).map(|(value, _)| value)
+    };
+    // An interval that reaches beyond the study is unknown.
+    let resampled: Option<Vec<f64>> =
+        if side.is_eq() && count >= 2 { (0..RESAMPLES).map(|_| resample()).collect() } else { None };
+    let interval = resampled.map(|mut values| {
+        values.sort_by(f64::total_cmp);
+        let at = |share: f64| values[(share * (RESAMPLES - 1) as f64).round() as usize];
+        (at(0.025), at(0.975))
+    });
+    Crossing { value, side, interval }
 }
 
 /// κ beyond which the mean over the chosen profiles stays below a share, linearly interpolated in the logarithm of
-/// the share.
-fn crossing_of(curve: &Curve, chosen: &[usize], level: f64) -> Crossing {
+/// the share, or the end of the curve beyond which this κ lies.
+fn crossing_of(curve: &Curve, chosen: &[usize], level: f64) -> (f64, Ordering) {
     let mean = |shares: &[f64]| chosen.iter().map(|&line| shares[line]).sum::<f64>() / chosen.len() as f64;
     let means: Vec<(f64, f64)> = curve.iter().map(|(kappa, shares)| (*kappa, mean(shares))).collect();
     let Some(last) = means.iter().rposition(|&(_, mean)| mean >= level) else {
-        return Crossing::Below(means.first().map_or(f64::NAN, |&(kappa, _)| kappa));
+        return (means.first().map_or(f64::NAN, |&(kappa, _)| kappa), Ordering::Less);
     };
-    let Some(&(next, below)) = means.get(last + 1) else { return Crossing::Above(means[last].0) };
     let (kappa, above) = means[last];
+    let Some(&(next, below)) = means.get(last + 1) else { return (kappa, Ordering::Greater) };
     // A mean of zero has no logarithm.
     let share =
         if below > 0.0 { (above / level).ln() / (above / below).ln() } else { (above - level) / above };
-    Crossing::At(kappa + share * (next - kappa), None)
+    (kappa + share * (next - kappa), Ordering::Equal)
 }
 
 #[cfg(test)]
@@ -238,13 +233,13 @@ mod tests {
     #[test]
     fn an_exponential_is_crossed_where_it_falls_so_far() {
         for level in [0.5, 0.1, 0.01] {
-            let Crossing::At(kappa, None) = crossing_of(&falling(&[1.0]), &[0], level) else { panic!() };
-            assert!((kappa + level.ln()).abs() < 1e-12, "{level}: {kappa}");
+            let (kappa, side) = crossing_of(&falling(&[1.0]), &[0], level);
+            assert!((kappa + level.ln()).abs() < 1e-12 && side.is_eq(), "{level}: {kappa}");
         }
-        assert_eq!(crossing_of(&falling(&[0.01]), &[0], 0.5), Crossing::Above(9.75));
-        assert_eq!(crossing_of(&falling(&[1.0]), &[0], 2.0), Crossing::Below(0.0));
+        assert_eq!(crossing_of(&falling(&[0.01]), &[0], 0.5), (9.75, Ordering::Greater));
+        assert_eq!(crossing_of(&falling(&[1.0]), &[0], 2.0), (0.0, Ordering::Less));
         let to_zero = vec![(1.0, vec![0.4]), (2.0, vec![0.0])];
-        assert_eq!(crossing_of(&to_zero, &[0], 0.1), Crossing::At(1.75, None));
+        assert_eq!(crossing_of(&to_zero, &[0], 0.1), (1.75, Ordering::Equal));
     }
 
     #[test]
@@ -252,9 +247,8 @@ mod tests {
         let width = |lines: usize| {
             let rates: Vec<f64> = (0..lines).map(|line| 0.8 + 0.4 * (line % 4) as f64 / 3.0).collect();
             let curve = falling(&rates);
-            let Crossing::At(kappa, Some((low, high))) = crossing_with_interval(&curve, 0.1) else {
-                panic!()
-            };
+            let (kappa, interval) = crossing(&curve, 0.1).known().unwrap();
+            let (low, high) = interval.unwrap();
             assert!(low < kappa && kappa < high, "{low} {kappa} {high}");
             high - low
         };

@@ -1,6 +1,5 @@
 //! Outcome of one case, the source of all recorded quantities.
 
-use super::height_shape::HeightShape;
 use crate::analysis::{Figures, Governing, Regime, ideal_adhesion_force, preload_point, scene_tabor_number};
 use crate::contact::{CurvePoint, History, LegRecord, Reversal};
 use crate::reference::smooth_adhesion_force;
@@ -57,12 +56,36 @@ impl LoadingOutcome {
 pub(super) struct ProfileRecord {
     /// Rms height about the mean, m, without the form.
     pub rms_height: Option<f64>,
-    /// Skewness and kurtosis of the heights; `None` for a flat profile.
-    pub shape: Option<HeightShape>,
+    /// Skewness ⟨z³⟩ and excess kurtosis ⟨z⁴⟩ − 3 of the heights z about their mean, in rms heights, both zero for the
+    /// ensemble's normal distribution; `None` for a flat profile.
+    pub shape: Option<(f64, f64)>,
     /// Height of the summit above the mean over the rms height.
     pub summit: Option<f64>,
     /// Exponents α of k ∝ F^α and n of F ∝ dⁿ of the contact without adhesion.
     pub exponents: Option<(f64, f64)>,
+}
+
+impl ProfileRecord {
+    /// Statistics of the heights of a profile with these gaps, m, of which this is the deepest.
+    pub fn of_gaps(gaps: &[f64], deepest: f64) -> Self {
+        let average =
+            |of: &dyn Fn(f64) -> f64| gaps.iter().map(|gap| of(*gap)).sum::<f64>() / gaps.len() as f64;
+        let mean = average(&|gap| gap);
+        // In units of the deepest gap, or of the rms height: powers of heights could leave the range of numbers.
+        let square = average(&|gap| ((gap - mean) / deepest).powi(2));
+        let rms = if deepest > 0.0 { square.sqrt() * deepest } else { 0.0 };
+        let unit = average(&|gap| (gap - mean).powi(2)).sqrt();
+        let z = |gap| (mean - gap) / unit;
+        let third = average(&|gap| z(gap) * z(gap) * z(gap));
+        let fourth = average(&|gap| z(gap) * z(gap) * z(gap) * z(gap));
+        let is_known = unit > 0.0 && third.is_finite() && fourth.is_finite();
+        ProfileRecord {
+            rms_height: Some(rms),
+            shape: is_known.then_some((third, fourth - 3.0)),
+            summit: Some(mean / rms),
+            exponents: None,
+        }
+    }
 }
 
 impl CaseOutcome<'_> {
@@ -102,6 +125,22 @@ mod tests {
     use super::*;
     use crate::scene::{Edges, open};
     use crate::simulation::Simulation;
+
+    #[test]
+    fn shapes_of_known_heights() {
+        // A sine: ⟨sin⁴⟩ = 3/8, ⟨sin²⟩ = 1/2.
+        let sine = (0..1000).map(|k| 3e-9 * (std::f64::consts::TAU * f64::from(k) / 1000.0).sin() + 4e-9);
+        let of = |gaps: &[f64]| ProfileRecord::of_gaps(gaps, gaps.iter().copied().fold(0.0, f64::max));
+        let (skewness, kurtosis) = of(&sine.collect::<Vec<_>>()).shape.unwrap();
+        assert!(skewness.abs() < 1e-12 && (kurtosis + 1.5).abs() < 1e-12, "{skewness} {kurtosis}");
+        // One height of four is far off: deviations −1, −1, −1, 3 from the mean.
+        let one_high = of(&[4.0, 4.0, 4.0, 0.0]);
+        let (skewness, kurtosis) = one_high.shape.unwrap();
+        assert!((skewness - 6.0 / 3.0_f64.powf(1.5)).abs() < 1e-12);
+        assert!((kurtosis - (21.0 / 9.0 - 3.0)).abs() < 1e-12);
+        assert!((one_high.rms_height.unwrap() - 3.0_f64.sqrt()).abs() < 1e-12);
+        assert_eq!((of(&[2.0; 5]).shape, of(&[]).shape), (None, None));
+    }
 
     /// Rough, smooth and without adhesion, with one work of adhesion and with two, by both edge models.
     #[test]

@@ -4,8 +4,9 @@
 //! to end: runs on one random profile with the same roughness, so that the profile and its tree are made once.
 //! Within a unit the numbers that shape the profile vary slowest.
 
+use super::axis::Axis;
+use super::axis::Shapes;
 use super::plan::Plan;
-use super::target::Shapes;
 use std::ops::Range;
 
 /// Number of units up to which profiles are divided into several, so that many processes can share a plan of few
@@ -17,23 +18,15 @@ const LEAST_RUNS: u64 = 16;
 /// Numbering of the runs and units of a plan.
 pub(super) struct Cells<'p> {
     plan: &'p Plan,
-    /// Axes that shape the roughness, in the order of the plan.
-    outer: Vec<usize>,
-    /// The other axes without that of preloads, those that shape the profile first.
-    inner: Vec<usize>,
+    /// Axes without that of preloads: those that shape the roughness, then those that shape the profile, then all others.
+    order: Vec<usize>,
+    /// Runs on one profile of the same roughness.
+    steps: u64,
     /// Cells of one run.
     preloads: u64,
     /// Runs of one unit, and units of one profile.
     chunk: u64,
     chunks: u64,
-}
-
-/// Runs on one profile.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Unit {
-    line: u64,
-    group: u64,
-    steps: Range<u64>,
 }
 
 /// One loading on one profile.
@@ -47,54 +40,30 @@ pub(super) struct Run {
 impl<'p> Cells<'p> {
     pub fn of(plan: &'p Plan) -> Cells<'p> {
         let axes = plan.scene_axes();
-        let with = |shapes| (0..axes.len()).filter(move |&axis| axes[axis].target.shapes() == shapes);
-        let outer: Vec<usize> = with(Shapes::Roughness).collect();
-        let inner: Vec<usize> = with(Shapes::Profile).chain(with(Shapes::Passes)).collect();
-        let count = |places: &[usize]| places.iter().map(|&axis| axes[axis].count()).product::<u64>();
-        let (groups, steps) = (count(&outer), count(&inner));
-        let wanted = ENOUGH_UNITS.div_ceil(groups * plan.lines).min(steps / LEAST_RUNS).max(1);
+        let mut order: Vec<usize> = (0..axes.len()).collect();
+        order.sort_by_key(|&axis| axes[axis].target.shapes());
+        let inner = axes.iter().filter(|axis| axis.target.shapes() > Shapes::Roughness);
+        let steps: u64 = inner.map(Axis::count).product();
+        let preloads = plan.preloads().map_or(1, Axis::count);
+        let profiles = plan.records_in_all() / preloads / steps;
+        let wanted = ENOUGH_UNITS.div_ceil(profiles).min(steps / LEAST_RUNS).max(1);
         let chunk = steps.div_ceil(wanted);
-        let preloads = plan.preloads().map_or(1, |axis| axis.count());
-        Cells { plan, outer, inner, preloads, chunk, chunks: steps.div_ceil(chunk) }
-    }
-
-    fn count(&self, axes: &[usize]) -> u64 {
-        axes.iter().map(|&axis| self.plan.axes[axis].count()).product()
+        Cells { plan, order, steps, preloads, chunk, chunks: steps.div_ceil(chunk) }
     }
 
     /// Number of units.
     pub fn units(&self) -> u64 {
-        self.count(&self.outer) * self.plan.lines * self.chunks
+        self.plan.records_in_all() / self.preloads / self.steps * self.chunks
     }
 
-    /// The unit of an index; units of one spectrum are consecutive.
-    pub fn unit(&self, index: u64) -> Unit {
-        let (rest, chunk) = (index / self.chunks, index % self.chunks);
-        let start = chunk * self.chunk;
-        let steps = start..(start + self.chunk).min(self.count(&self.inner));
-        Unit { group: rest / self.plan.lines, line: rest % self.plan.lines, steps }
-    }
-
-    /// The runs of a unit in the most efficient order.
-    pub fn runs_of(&self, unit: &Unit) -> impl Iterator<Item = Run> + use<'_> {
-        let Unit { group, line, .. } = *unit;
-        unit.steps.clone().map(move |step| {
-            let mut places = vec![0; self.plan.axes.len()];
-            for (axes, number) in [(&self.outer, group), (&self.inner, step)] {
-                let mut rest = number;
-                for &axis in axes.iter().rev() {
-                    let count = self.plan.axes[axis].count();
-                    places[axis] = (rest % count) as usize;
-                    rest /= count;
-                }
-            }
+    /// The runs of a unit in the most efficient order; units of one spectrum are consecutive.
+    pub fn runs(&self, unit: u64) -> impl Iterator<Item = Run> + use<'_> {
+        let (rest, start) = (unit / self.chunks, unit % self.chunks * self.chunk);
+        let (group, line) = (rest / self.plan.lines, rest % self.plan.lines);
+        (start..(start + self.chunk).min(self.steps)).map(move |step| {
+            let places = self.plan.places_on(self.order.iter().copied(), group * self.steps + step);
             let first = self.plan.cell_at(&places);
             Run { cells: first..first + self.preloads, line }
         })
-    }
-
-    /// Number of records of a unit.
-    pub fn records_of(&self, unit: &Unit) -> u64 {
-        (unit.steps.end - unit.steps.start) * self.preloads
     }
 }

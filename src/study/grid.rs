@@ -2,52 +2,21 @@
 
 use super::axis::Axis;
 use super::quantity::Quantity;
-use super::statistics::Statistics;
-use crate::analysis::{CellRegime, Regime};
+use super::statistics::{RegimeCounts, Statistics};
+use crate::analysis::Regime;
 use crate::draw::AxisScale;
 use crate::scene::{RoughnessParameter, format_quantity};
 
 /// Smallest ratio of the values on a logarithmic scale.
 const LOGARITHMIC_RATIO: f64 = 50.0;
 
-/// A mean over random profiles, with its confidence and the range of the profiles.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Estimate {
-    /// The mean.
-    pub mean: f64,
-    /// 95 % confidence interval of the mean; `None` for one profile, or too few to state a confidence.
-    pub interval: Option<(f64, f64)>,
-    /// Smallest and largest value of a profile.
-    pub range: (f64, f64),
-}
-
-impl Estimate {
-    /// Estimate of a quantity from its values on profiles; `None` without values.
-    pub(super) fn of(quantity: Quantity, values: &[f64]) -> Option<Estimate> {
-        let range =
-            values.iter().map(|value| (*value, *value)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))?;
-        let all = Statistics::of(values, quantity.bounds());
-        let mean = all.map_or(range.0, |all| all.mean);
-        Some(Estimate { mean, interval: all.map(|all| all.confidence_interval), range })
-    }
-}
-
 /// A cell of a grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cell {
     /// The quantities of the layers, in their order; `None` where no profile has a value.
-    pub estimates: Vec<Option<Estimate>>,
-    /// Regime of the cell and of its profiles; `None` where unknown.
-    pub regime: Option<CellRegime>,
-    /// Number of profiles.
-    pub lines: u64,
-}
-
-impl Cell {
-    /// Number of profiles whose own regime is that of the cell.
-    pub fn agreeing(&self) -> u64 {
-        self.regime.map_or(0, |regime| (regime.share * self.lines as f64).round() as u64)
-    }
+    pub statistics: Vec<Option<Statistics>>,
+    /// Numbers of profiles in each regime.
+    pub regimes: RegimeCounts,
 }
 
 /// A quantity of a grid with its scale.
@@ -120,15 +89,13 @@ impl Grid {
 
     /// The quantities of the grid, the regime first if known.
     pub fn quantities(&self) -> Vec<Quantity> {
-        let known = self.cells.iter().flatten().flatten();
-        let regime = known.into_iter().any(|cell| cell.regime.is_some()).then_some(Quantity::Regime);
+        let regime = (!self.regimes(false).is_empty()).then_some(Quantity::Regime);
         regime.into_iter().chain(self.layers.iter().map(|layer| layer.quantity)).collect()
     }
 
     /// Returns true if too many profiles of a cell are in a second regime.
     pub fn is_split(&self) -> bool {
-        let known = self.cells.iter().flatten().flatten();
-        known.into_iter().any(|cell| cell.regime.is_some_and(|regime| regime.split.is_some()))
+        self.each(false).flatten().any(|cell| cell.regimes.split().is_some())
     }
 
     /// The cell shown at a column and a row, with the column and the row of the cell: the cell itself or, until it is
@@ -147,23 +114,24 @@ impl Grid {
 
     /// A quantity in all cells, row by row; `whole` adds substitutes for cells that have not been computed yet. The regime
     /// goes from 0, non-adhesive, to 1, pressure-insensitive, halfway if profiles disagree.
-    pub fn estimates(&self, quantity: Quantity, whole: bool) -> Vec<Option<Estimate>> {
+    pub fn statistics(&self, quantity: Quantity, whole: bool) -> Vec<Option<Statistics>> {
         let layer = self.layers.iter().position(|layer| layer.quantity == quantity);
         let rank = |regime: Regime| 1.0 - regime as u8 as f64 / 2.0;
         let of = |cell: &Cell| match (quantity, layer) {
             (Quantity::Regime, _) => {
-                let CellRegime { regime, split, .. } = cell.regime?;
-                let mean = split.map_or(rank(regime), |other| (rank(regime) + rank(other)) / 2.0);
-                Some(Estimate { mean, interval: None, range: (mean, mean) })
+                let regime = cell.regimes.most()?.0;
+                let other = cell.regimes.split().unwrap_or(regime);
+                let mean = (rank(regime) + rank(other)) / 2.0;
+                Statistics::of(vec![mean], (0.0, 1.0))
             }
-            (_, layer) => cell.estimates[layer?],
+            (_, layer) => cell.statistics[layer?],
         };
         self.each(whole).map(|cell| of(cell?)).collect()
     }
 
     /// The regime of most profiles of each cell, row by row; empty where no regime is known.
     pub fn regimes(&self, whole: bool) -> Vec<Option<Regime>> {
-        let regimes: Vec<_> = self.each(whole).map(|cell| Some(cell?.regime?.regime)).collect();
+        let regimes: Vec<_> = self.each(whole).map(|cell| Some(cell?.regimes.most()?.0)).collect();
         if regimes.iter().all(Option::is_none) { Vec::new() } else { regimes }
     }
 

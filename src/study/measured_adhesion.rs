@@ -6,10 +6,9 @@
 //! forces of a profile differ by the spectrum alone.
 
 use super::error::StudyError;
+use super::place::strip;
 use super::quantity::Quantity;
-use super::regime_counts::RegimeCounts;
-use super::statistics::Statistics;
-use super::target::strip;
+use super::statistics::{RegimeCounts, Statistics};
 use crate::analysis::Regime;
 use crate::parallel::on_threads;
 use crate::scene::Scene;
@@ -93,14 +92,10 @@ impl MeasuredAdhesion {
         Ok(MeasuredAdhesion { profiles })
     }
 
-    /// Adhesion forces of the profiles of the fitted spectrum, N.
-    pub fn forces(&self) -> Vec<f64> {
-        self.profiles.iter().filter_map(|profile| profile.adhesion_force).collect()
-    }
-
-    /// Statistics of the adhesion force over the profiles of the fitted spectrum, N.
+    /// The adhesion force over the profiles of the fitted spectrum, N.
     pub fn adhesion_force(&self) -> Option<Statistics> {
-        Statistics::of(&self.forces(), Quantity::AdhesionForce.bounds())
+        let forces = self.profiles.iter().filter_map(|profile| profile.adhesion_force).collect();
+        Statistics::of(forces, Quantity::AdhesionForce.bounds())
     }
 
     /// Standard deviation of the adhesion force due to the uncertainty of the spectrum, N: root mean square of the
@@ -160,7 +155,7 @@ mod tests {
             fitted.push(one);
             square += change.powi(2) / 6.0;
         }
-        assert_eq!(found.adhesion_force(), Statistics::of(&fitted, (0.0, f64::INFINITY)));
+        assert_eq!(found.adhesion_force(), Statistics::of(fitted, (0.0, f64::INFINITY)));
         let deviation = found.fit_deviation().unwrap();
         assert!((deviation / square.sqrt() - 1.0).abs() < 1e-12 && deviation > 0.0, "{deviation}");
         assert_eq!(found.regimes().present().map(|(_, count)| count).sum::<usize>(), 6);
@@ -187,7 +182,7 @@ mod tests {
             regime: None,
         };
         let found = MeasuredAdhesion { profiles: vec![profile(Some(1.0), Some(2.0)), profile(None, None)] };
-        assert_eq!((found.adhesion_force(), found.fit_deviation()), (None, None));
+        assert_eq!((found.adhesion_force().unwrap().spread, found.fit_deviation()), (None, None));
         let found = MeasuredAdhesion { profiles: vec![profile(Some(1.0), Some(-2.0)); 2] };
         assert_eq!(found.fit_deviation(), Some(2.0));
     }

@@ -1,8 +1,8 @@
 //! Memory of a study, for as many threads as it may take.
 
 use super::axis::Axis;
+use super::place::strip;
 use super::plan::Plan;
-use super::target::strip;
 use crate::simulation;
 
 /// Code, stacks, files and the reserve of the allocator, bytes.
@@ -39,9 +39,9 @@ impl Memory {
         };
         let cells = plan.loadings().filter_map(of_cell);
         let (job, spare) = cells.fold((0, 0), |(job, spare), one| (job.max(one.0), spare.max(one.1)));
-        // The axes, and one bit for each record.
+        // The axes, and one byte for each record.
         let values: u64 = plan.axes.iter().map(Axis::count).sum();
-        Memory { job: job + spare, shared: PROGRAM + 8 * values + plan.records_in_all() / 8 }
+        Memory { job: job + spare, shared: PROGRAM + 8 * values + plan.records_in_all() }
     }
 
     /// Memory with so many threads.

@@ -26,32 +26,29 @@
 //! run(&folder, Options { jobs: 2, shard: Shard::WHOLE }, &|| false, &mut |_| ())?;
 //! merge(&folder, false)?;
 //! let results = Results::open(place.path())?;
-//! assert!(results.estimate(5, Quantity::AdhesionForce).is_some_and(|force| force.mean > 0.0));
+//! assert!(results.statistics(5, Quantity::AdhesionForce).is_some_and(|force| force.mean > 0.0));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod axis;
 mod boundary;
-mod builtin;
 mod case_outcome;
 mod cells;
 mod error;
 mod grid;
-mod height_shape;
-pub mod map;
+mod live_map;
+mod live_plan;
 mod measured;
 mod measured_adhesion;
 mod memory;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod place;
 mod plan;
-mod plan_check;
 mod plan_text;
 mod preloads;
 mod quantity;
-mod record;
 mod recorder;
-mod regime_counts;
 mod results;
 mod run;
 mod select;
@@ -59,30 +56,30 @@ mod shard;
 mod statistics;
 mod status;
 mod store;
+mod study_map;
 mod tables;
-mod target;
 
-pub use axis::{Axis, MOST_VALUES, Spacing};
+pub use axis::{Axis, DERIVED, MOST_VALUES, Spacing};
 pub use boundary::{Boundaries, Boundary, Crossing, DEFINITIONS, USUAL_LEVELS, boundaries, protocol_name};
-pub use builtin::{find, plans};
 pub use error::StudyError;
-pub use grid::{Cell, Estimate, Grid, Layer, Place};
+pub use grid::{Cell, Grid, Layer, Place};
+pub use live_map::{Level, LiveMap};
+pub use live_plan::{MAP_LINES, MAP_RECORD, live_plan};
 pub use measured_adhesion::{MeasuredAdhesion, ProfileAdhesion};
 pub use memory::Memory;
 #[cfg(feature = "parquet")]
 pub use parquet::write_parquet;
-pub use plan::{Plan, StiffnessRange};
-pub use plan_check::{MOST_CELLS, MOST_LINES, MOST_RECORDS};
-pub use plan_text::{Changes, PLAN_VERSION, PlanErrors};
+pub use place::moved;
+pub use plan::{MOST_CELLS, MOST_LINES, MOST_RECORDS, Plan, StiffnessRange};
+pub use plan_text::{Changes, PLAN_VERSION, PLANS, PlanErrors};
 pub use preloads::PRELOADS;
 pub use quantity::Quantity;
-pub use regime_counts::RegimeCounts;
 pub use results::{Merged, Results};
 pub use run::{Options, Progress, run};
 pub use select::{Selected, Selection};
 pub use shard::Shard;
-pub use statistics::{Statistics, quartiles};
+pub use statistics::{RegimeCounts, Spread, Statistics};
 pub use status::{Attempt, ShardStatus, Status};
 pub use store::{Folder, Header, STORE_VERSION, ShardFile};
+pub use study_map::StudyMap;
 pub use tables::{PARQUET, RESULTS, RESULTS_VERSION, SIDECAR, SUMMARY, merge};
-pub use target::DERIVED;

@@ -1,15 +1,34 @@
 //! The plan of a study: a scene, the axes along which numbers of the scene vary, profiles, and recorded quantities.
 
 use super::axis::Axis;
+use super::place::scene_with;
 use super::quantity::{Needs, Quantity};
-use super::target::scene_with;
-use crate::scene::{Scene, ron_float};
+use crate::scene::{Scene, SceneError, check, ron_float};
 use serde::{Deserialize, Serialize};
 
 /// File name of the plan in the folder of a study.
 pub(super) const PLAN_FILE: &str = "plan.ron";
 /// Path of the axis of preloads.
 pub(super) const PRELOAD: &str = "preload";
+
+/// Most cells of a plan.
+pub const MOST_CELLS: u64 = 10_000_000;
+/// Most profiles of a plan.
+pub const MOST_LINES: u64 = 1_000_000;
+/// Most records of a plan: cells times profiles.
+pub const MOST_RECORDS: u64 = 100_000_000;
+/// Most axes of a plan.
+pub(super) const MOST_AXES: usize = 16;
+/// Most cells with invalid scenes that are named; the rest is counted.
+const MOST_NAMED: usize = 8;
+/// Most forces of a [`StiffnessRange`].
+const MOST_FORCES: u64 = 1000;
+
+/// Axes that set the same quantity, of which a plan may have one.
+const SAME: [&[&str]; 2] = [
+    &["springs_per_wave", "roughness.modes.1"],
+    &["kappa", "elastic_energy_ratio", "adhesion.kappa", "adhesion.work", "adhesion.elastic_energy_ratio"],
+];
 
 /// Reason why a scene has a single profile.
 pub(super) const ONE_PROFILE: &str = "more than one profile needs random roughness (SelfAffine, or an equivalent \
@@ -96,11 +115,16 @@ impl Plan {
 
     /// Places of a cell on the axes.
     pub(super) fn places(&self, cell: u64) -> Vec<usize> {
-        let mut rest = cell;
-        let mut places = vec![0; self.axes.len()];
-        for (place, axis) in places.iter_mut().zip(&self.axes).rev() {
-            *place = (rest % axis.count()) as usize;
-            rest /= axis.count();
+        self.places_on(0..self.axes.len(), cell)
+    }
+
+    /// Places of a number among all combinations of values of these axes, the last one fastest; 0 on the other axes.
+    pub(super) fn places_on(&self, axes: impl DoubleEndedIterator<Item = usize>, number: u64) -> Vec<usize> {
+        let (mut rest, mut places) = (number, vec![0; self.axes.len()]);
+        for axis in axes.rev() {
+            let count = self.axes[axis].count();
+            places[axis] = (rest % count) as usize;
+            rest /= count;
         }
         places
     }
@@ -133,8 +157,7 @@ impl Plan {
     /// # Errors
     /// The path of an axis over a number that the scene does not have.
     pub fn scene_of(&self, cell: u64) -> Result<Scene, String> {
-        let values = self.axes.iter().zip(self.values(cell));
-        scene_with(&self.scene, values.map(|(axis, value)| (axis.path.as_str(), axis.target, value)))
+        scene_with(&self.scene, self.axes.iter().zip(self.values(cell)))
     }
 
     /// Seed of a profile.
@@ -149,5 +172,110 @@ impl Plan {
 
     pub(super) fn records(&self, needs: Needs) -> bool {
         self.record.iter().any(|quantity| quantity.needs() == needs)
+    }
+}
+
+/// Checks: those of the plan itself are quick; the scene of every cell is checked when a plan is opened for a study, not
+/// when the folder of a study is opened again.
+impl Plan {
+    /// Errors of the plan itself.
+    pub(super) fn errors(&self) -> Vec<String> {
+        let mut wrong = self.errors_of_texts();
+        let paths: Vec<&str> = self.axes.iter().map(|axis| axis.path.as_str()).collect();
+        for (index, path) in paths.iter().enumerate() {
+            let before = &paths[..index];
+            if before.contains(path) {
+                wrong.push(format!("axis {path}: given twice"));
+            }
+            let same = SAME.iter().find(|same| same.contains(path));
+            let other =
+                before.iter().find(|other| same.is_some_and(|same| same.contains(other)) && *other != path);
+            wrong.extend(
+                other.map(|other| format!("axis {path}: {other} sets it as well; allowed: one of them")),
+            );
+        }
+        if !(1..=MOST_LINES).contains(&self.lines) {
+            wrong.push(format!("lines = {}: allowed: from 1 to {MOST_LINES}", self.lines));
+        }
+        if self.lines > 1 && self.scene.seed().is_none() {
+            wrong.push(format!("lines = {}: {}", self.lines, ONE_PROFILE));
+        }
+        if self.record.is_empty() {
+            wrong.push("record = []: allowed: at least one quantity".into());
+        }
+        for (index, quantity) in self.record.iter().enumerate() {
+            if self.record[..index].contains(quantity) {
+                wrong.push(format!("record: {} is given twice", quantity.name()));
+            }
+        }
+        let preloads = self.axes.iter().find(|axis| axis.path == PRELOAD);
+        if let Some(value) = preloads.and_then(|axis| axis.values.iter().find(|value| **value <= 0.0)) {
+            wrong.push(format!("preload {value:?}: allowed: above 0, in units of E* h L"));
+        }
+        let StiffnessRange { from, to, count } = self.stiffness;
+        if !(from > 0.0 && from < to && to.is_finite() && (2..=MOST_FORCES).contains(&count)) {
+            wrong.push(format!(
+                "stiffness = (from: {from:?}, to: {to:?}, count: {count}): allowed: 0 < from < to, count from 2 \
+                 to {MOST_FORCES}"
+            ));
+        }
+        if self.scene.roughness.is_none() && (preloads.is_some() || self.records(Needs::Stiffness)) {
+            wrong.push(
+                "preloads and exponents count forces in units of E* h L, and this scene is smooth; \
+                 allowed: an axis loading.0.0, in N"
+                    .into(),
+            );
+        }
+        let cells = self.axes.iter().map(Axis::count).try_fold(1_u64, u64::checked_mul);
+        let counts = || self.axes.iter().map(|axis| axis.count().to_string()).collect::<Vec<_>>().join(" × ");
+        match cells.filter(|cells| *cells <= MOST_CELLS) {
+            None => wrong.push(format!("{} cells; allowed: at most {MOST_CELLS}", counts())),
+            Some(cells) if cells.saturating_mul(self.lines) > MOST_RECORDS => wrong.push(format!(
+                "{} cells on {} profiles; allowed: at most {MOST_RECORDS} together",
+                counts(),
+                self.lines
+            )),
+            Some(_) => {}
+        }
+        wrong
+    }
+
+    /// Errors of title and notice, by the rules of a scene, and of the hash without a measured file.
+    fn errors_of_texts(&self) -> Vec<String> {
+        let (title, notice) = (self.title.clone(), self.notice.clone());
+        let texts = Scene { title, notice, ..self.scene.clone() };
+        let is_text = |error: &&SceneError| ["title", "notice"].contains(&error.field.as_str());
+        let mut wrong: Vec<String> =
+            check(&texts).iter().filter(is_text).map(SceneError::to_string).collect();
+        if self.measured_sha256.is_some() && self.scene.measured().is_none() {
+            wrong.push(
+                "measured_sha256: allowed with roughness: Measured; this scene has no such file".into(),
+            );
+        }
+        wrong
+    }
+
+    /// Checks the scene of every cell.
+    pub(super) fn check_cells(&self) -> Result<(), Vec<String>> {
+        let (mut wrong, mut more) = (Vec::new(), 0_u64);
+        for cell in self.loadings() {
+            let checked = self.scene_of(cell).map(|scene| check(&scene).first().map(SceneError::to_string));
+            let Some(reason) = checked.unwrap_or_else(Some) else { continue };
+            if wrong.len() < MOST_NAMED {
+                wrong.push(format!("cell {cell} ({}): {reason}", self.coordinates(cell)));
+            } else {
+                more += 1;
+            }
+        }
+        if more > 0 {
+            wrong.push(format!("and {more} more cells are not allowed"));
+        }
+        if wrong.is_empty() { Ok(()) } else { Err(wrong) }
+    }
+
+    /// The first of all cells that differ in the preload alone, for each combination of the other axes.
+    pub(super) fn loadings(&self) -> impl Iterator<Item = u64> + use<> {
+        let preloads = self.preloads().map_or(1, Axis::count);
+        (0..self.cells()).step_by(preloads as usize)
     }
 }

@@ -1,13 +1,12 @@
 //! The text of a plan: reading, including the named scene, and writing.
 
 use super::axis::{Axis, AxisText, Spacing};
-use super::builtin;
-use super::plan::{PRELOAD, Plan, StiffnessRange};
+use super::plan::{MOST_AXES, PRELOAD, Plan, StiffnessRange};
 use super::quantity::Quantity;
 use crate::io::read_regular_text;
 use crate::scene::{
-    Document, LONGEST_TEXT, Scene, SceneErrors, describe_error, is_file_name, line_column, nearest, open,
-    read_ron, ron_float, ron_string, to_ron,
+    Document, LONGEST_TEXT, Preset, Scene, SceneErrors, built_in, describe_error, did_you_mean, is_file_name,
+    line_column, open, read_ron, ron_float, ron_string, to_ron,
 };
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -16,6 +15,17 @@ use thiserror::Error;
 
 /// The only supported version of the plan file.
 pub const PLAN_VERSION: u32 = 1;
+
+/// The built-in plans.
+pub const PLANS: &[Preset] = built_in!("plans/":
+    "figure-5a",
+    "figure-5b",
+    "figure-6",
+    "equation-15",
+    "elastic-energy",
+    "stiffness-exponent",
+    "self-averaging"
+);
 
 /// All errors of a plan, one line each.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -73,12 +83,11 @@ impl Plan {
             let text = text.map_err(|error| PlanErrors(vec![format!("{name_or_path}: {error}")]))?;
             return Plan::parse(&text, name_or_path, changes);
         }
-        if let Some(plan) = builtin::find(name_or_path) {
+        if let Some(plan) = PLANS.iter().find(|plan| plan.name == name_or_path) {
             return Plan::parse(plan.text, plan.name, changes);
         }
-        let names: Vec<_> = builtin::plans().iter().map(|plan| plan.name).collect();
-        let near = nearest(name_or_path, names.iter().copied());
-        let near = near.map_or_else(String::new, |near| format!("; did you mean {near}?"));
+        let names: Vec<_> = PLANS.iter().map(|plan| plan.name).collect();
+        let near = did_you_mean(name_or_path, names.iter().copied());
         let names = names.join(", ");
         Err(PlanErrors(vec![format!(
             "{name_or_path}: there is no such file and no such built-in plan{near} (built-in: {names})"
@@ -120,15 +129,14 @@ impl Plan {
 
     fn of(read: PlanText, scene: Scene, lines: Option<u64>) -> Result<Plan, Vec<String>> {
         let PlanText { title, notice, axes, preloads, record, stiffness, measured_sha256, .. } = read;
-        let most = super::plan_check::MOST_AXES;
-        if axes.len() > most {
-            return Err(vec![format!("{} axes; allowed: at most {most}", axes.len())]);
+        if axes.len() > MOST_AXES {
+            return Err(vec![format!("{} axes; allowed: at most {MOST_AXES}", axes.len())]);
         }
         let preloads = Some(preloads).filter(|values| !values.is_empty());
         let preloads = preloads.map(|values| AxisText::List { path: PRELOAD.into(), values });
         let (mut wrong, mut read_axes) = (Vec::new(), Vec::new());
         for axis in axes.into_iter().chain(preloads) {
-            match Axis::of(axis, &scene) {
+            match Axis::of(&axis, &scene) {
                 Ok(axis) => read_axes.push(axis),
                 Err(error) => wrong.push(error),
             }

@@ -1,11 +1,11 @@
 //! Adhesion against preload: a study in memory over preloads in N, in place of the unit of a plan.
 
+use super::axis::Target;
 use super::axis::{Axis, Spacing};
 use super::plan::PRELOAD;
 use super::quantity::Quantity;
 use super::results::Results;
 use super::statistics::Statistics;
-use super::target::Target;
 use std::ops::RangeInclusive;
 
 /// Numbers of preloads.
@@ -41,20 +41,23 @@ impl Results {
 
     /// Adhesion force of a profile at each preload, N; one without a tensile force counts as 0 N.
     pub fn adhesion_forces(&self, line: u64) -> Vec<(f64, f64)> {
-        let force = |cell| self.value(cell, line, Quantity::AdhesionForce).unwrap_or(0.0);
-        (0..self.plan.cells()).map(|cell| (self.plan.value(cell, 0), force(cell))).collect()
+        let at = |cell| (self.plan.value(cell, 0), self.adhesion_force(cell, line));
+        (0..self.plan.cells()).map(at).collect()
     }
 
-    /// Statistics of the adhesion force at each preload over the computed profiles, N. A profile without a tensile force
-    /// counts as 0 N, so that the mean is the mean adhesion force; `None` for fewer than two profiles.
-    pub fn mean_adhesion_forces(&self) -> Vec<(f64, Option<Statistics>)> {
+    fn adhesion_force(&self, cell: u64, line: u64) -> f64 {
+        self.value(cell, line, Quantity::AdhesionForce).unwrap_or(0.0)
+    }
+
+    /// The adhesion force over the computed profiles at each preload, N, where there are two at least. A profile without a
+    /// tensile force counts as 0 N, so that the mean is the mean adhesion force.
+    pub fn mean_adhesion_forces(&self) -> Vec<(f64, Statistics)> {
         let mean = |cell| {
-            let column = self.plan.column(Quantity::AdhesionForce)?;
-            let force = |values: &[f64]| if values[column].is_nan() { 0.0 } else { values[column] };
-            let forces: Vec<f64> = self.records_of(cell).map(|(_, values)| force(values)).collect();
-            Statistics::of(&forces, Quantity::AdhesionForce.bounds())
+            let forces = self.records_of(cell).map(|(line, _)| self.adhesion_force(cell, line)).collect();
+            let all = Statistics::of(forces, Quantity::AdhesionForce.bounds())?;
+            all.spread.map(|_| (self.plan.value(cell, 0), all))
         };
-        (0..self.plan.cells()).map(|cell| (self.plan.value(cell, 0), mean(cell))).collect()
+        (0..self.plan.cells()).filter_map(mean).collect()
     }
 }
 
@@ -89,8 +92,7 @@ mod tests {
             let curve = results.adhesion_forces(line);
             assert!(curve.windows(2).all(|pair| pair[0].1 <= pair[1].1), "{curve:?}");
         }
-        let means: Vec<f64> =
-            results.mean_adhesion_forces().iter().map(|(_, one)| one.unwrap().mean).collect();
+        let means: Vec<f64> = results.mean_adhesion_forces().iter().map(|(_, one)| one.mean).collect();
         assert!(means.windows(2).all(|pair| pair[0] < pair[1]), "{means:?}");
         // Twice the preload about doubles the mean.
         assert!(means[8] > 1.5 * means[4] && means[4] > 1.5 * means[2], "{means:?}");
@@ -103,7 +105,7 @@ mod tests {
         let (smooth, preloads) = (open("jkr-sphere").unwrap(), Axis::of_preloads(0.0, 1e-6, 2).unwrap());
         assert_eq!(solved(&smooth, &preloads, 2, 1), Err(ONE_PROFILE.into()));
         let one = solved(&smooth, &preloads, 1, 1).unwrap();
-        assert_eq!((one.adhesion_forces(0).len(), one.mean_adhesion_forces()[1].1), (2, None));
+        assert_eq!((one.adhesion_forces(0).len(), one.mean_adhesion_forces()), (2, Vec::new()));
         let stepwise = smooth.set("numerics.solver", "Stepwise(step: 1e-9)").unwrap();
         let error = solved(&stepwise, &preloads, 1, 1).unwrap_err();
         assert!(error.starts_with("numerics.solver = Stepwise: reversals need the exact solver"), "{error}");

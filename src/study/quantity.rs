@@ -173,11 +173,11 @@ quantities! {
     }
     Skewness {
         name: "skewness", meaning: "skewness of the heights of the line",
-        bounds: ANY, needs: Needs::Heights, of: |case| Some(case.profile.shape?.skewness),
+        bounds: ANY, needs: Needs::Heights, of: |case| Some(case.profile.shape?.0),
     }
     ExcessKurtosis {
         name: "excess_kurtosis", meaning: "excess kurtosis of the heights of the line",
-        bounds: ANY, needs: Needs::Heights, of: |case| Some(case.profile.shape?.excess_kurtosis),
+        bounds: ANY, needs: Needs::Heights, of: |case| Some(case.profile.shape?.1),
     }
     SummitHeight {
         name: "summit_height", meaning: "height of the summit over the rms height",

@@ -2,10 +2,9 @@
 
 use super::case_outcome::{CaseOutcome, LoadingOutcome, ProfileRecord};
 use super::cells::Run;
-use super::height_shape::HeightShape;
+use super::place::strip;
 use super::plan::{Plan, StiffnessRange};
 use super::quantity::Needs;
-use super::target::strip;
 use crate::analysis::Governing;
 use crate::scene::{Move, Roughness, Scene, Solver};
 use crate::simulation::{Outcome, RunError, Simulation};
@@ -133,26 +132,17 @@ impl<'p> Recorder<'p> {
         {
             return Ok(*record);
         }
-        let mut record = if heights { self.heights(&nonadhesive)? } else { ProfileRecord::default() };
+        let mut record = ProfileRecord::default();
+        if heights {
+            // Without the form, which is the same on all profiles.
+            let (line, ..) = self.simulation.make_line(&Scene { form: None, ..nonadhesive.clone() })?;
+            record = ProfileRecord::of_gaps(&line.gaps, line.deepest());
+        }
         if stiffness {
             record.exponents = self.exponents(&nonadhesive)?;
         }
         self.profile = Some((nonadhesive, record));
         Ok(record)
-    }
-
-    /// Statistics of the heights without the form, which is the same on all profiles.
-    fn heights(&mut self, scene: &Scene) -> Result<ProfileRecord, RunError> {
-        let flat = Scene { form: None, ..scene.clone() };
-        let (line, ..) = self.simulation.make_line(&flat)?;
-        let count = line.gaps.len() as f64;
-        let mean = line.gaps.iter().sum::<f64>() / count;
-        // In units of the deepest gap: squares of heights could leave the range of numbers.
-        let deepest = line.deepest();
-        let square = line.gaps.iter().map(|gap| ((gap - mean) / deepest).powi(2)).sum::<f64>() / count;
-        let rms = if deepest > 0.0 { square.sqrt() * deepest } else { 0.0 };
-        let shape = HeightShape::of(line.gaps.iter().map(|gap| -gap));
-        Ok(ProfileRecord { rms_height: Some(rms), shape, summit: Some(mean / rms), exponents: None })
     }
 
     /// Exponents of the contact without adhesion, fitted in logarithms over the plan's range of forces. Without stretched

@@ -3,14 +3,13 @@
 use super::StudyError;
 use super::axis::Axis;
 use super::cells::Run;
-use super::grid::{Cell, Estimate, Grid, Layer};
+use super::grid::{Cell, Grid, Layer};
 use super::plan::{ONE_PROFILE, Plan};
 use super::quantity::{Quantity, regime_of};
-use super::record::Done;
 use super::recorder::{Recorder, Records};
-use super::statistics::Statistics;
+use super::statistics::{RegimeCounts, Statistics};
 use super::store::{Folder, Record, ShardFile};
-use crate::analysis::{CellRegime, Regime};
+use crate::analysis::Regime;
 use crate::draw::AxisScale;
 use crate::parallel::on_threads;
 use crate::scene::{Scene, Solver};
@@ -28,7 +27,8 @@ pub struct Results {
     pub(super) plan: Plan,
     /// Values of each record, by cell, then by profile; NaN where there are none.
     values: Vec<f64>,
-    done: Done,
+    /// True for each existing record.
+    done: Vec<bool>,
 }
 
 /// Contents of the shard files of a study.
@@ -61,7 +61,7 @@ impl PartialEq for Results {
 
 impl std::fmt::Debug for Results {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} of {} records", self.done.count(), self.plan.records_in_all())
+        write!(f, "{} of {} records", self.count(), self.plan.records_in_all())
     }
 }
 
@@ -83,7 +83,7 @@ impl Results {
             .try_reserve_exact(count)
             .map_err(|_| StudyError::Records(format!("there is not enough memory for {records} records")))?;
         values.resize(count, f64::NAN);
-        Ok(Results { plan, values, done: Done::none(records) })
+        Ok(Results { plan, values, done: vec![false; records as usize] })
     }
 
     /// A study in memory of a checked scene on random profiles, at each of these preloads, N, if there are any; without
@@ -198,7 +198,7 @@ impl Results {
         let plan = &results.plan;
         let missing: Vec<u64> = (0..plan.cells()).filter(|cell| !results.is_whole(*cell)).collect();
         let merged = Merged {
-            records: results.done.count(),
+            records: results.count(),
             total: plan.records_in_all(),
             duplicates,
             damaged,
@@ -224,11 +224,16 @@ impl Results {
         ))
     }
 
+    /// Number of existing records.
+    fn count(&self) -> u64 {
+        self.done.iter().filter(|done| **done).count() as u64
+    }
+
     /// Sets the record at a place, by cell, then by profile.
     pub(super) fn set(&mut self, place: u64, values: &[f64]) {
         let columns = self.plan.record.len();
         self.values[place as usize * columns..][..columns].copy_from_slice(values);
-        self.done.add(place);
+        self.done[place as usize] = true;
     }
 
     /// The plan of the study.
@@ -245,7 +250,7 @@ impl Results {
     fn at(&self, place: u64) -> Option<&[f64]> {
         let columns = self.plan.record.len();
         let values = self.values.get(place as usize * columns..)?.get(..columns)?;
-        self.done.has(place).then_some(values)
+        self.done[place as usize].then_some(values)
     }
 
     /// A recorded quantity of a cell on a profile, if it has a value.
@@ -266,7 +271,7 @@ impl Results {
 
     /// Returns true for the existing record of a cell on a profile.
     pub(super) fn has(&self, cell: u64, line: u64) -> bool {
-        self.done.has(cell * self.plan.lines + line)
+        self.done[(cell * self.plan.lines + line) as usize]
     }
 
     /// Returns true for a cell with all records.
@@ -280,22 +285,14 @@ impl Results {
         self.records_of(cell).map(|(_, values)| values[column]).filter(|value| !value.is_nan()).collect()
     }
 
-    /// Statistics of a quantity over the profiles of a cell; `None` for fewer than two values.
-    pub fn statistics(&self, cell: u64, quantity: Quantity) -> Option<Statistics> {
-        Statistics::of(&self.values(cell, quantity), quantity.bounds())
-    }
-
     /// A recorded quantity over the profiles of a cell; `None` without values.
-    pub fn estimate(&self, cell: u64, quantity: Quantity) -> Option<Estimate> {
-        Estimate::of(quantity, &self.values(cell, quantity))
+    pub fn statistics(&self, cell: u64, quantity: Quantity) -> Option<Statistics> {
+        Statistics::of(self.values(cell, quantity), quantity.bounds())
     }
 
-    /// Shares of the profiles of a cell in each regime, in the order of [`crate::analysis::Regime::ALL`]; `None` where no
-    /// regime is known.
-    pub fn regimes(&self, cell: u64) -> Option<[f64; 3]> {
-        let places = self.values(cell, Quantity::Regime);
-        let share = |regime: usize| places.iter().filter(|place| **place as usize == regime).count() as f64;
-        (!places.is_empty()).then(|| [0, 1, 2].map(|regime| share(regime) / places.len() as f64))
+    /// Numbers of profiles of a cell in each regime.
+    pub fn regimes(&self, cell: u64) -> RegimeCounts {
+        RegimeCounts::of(self.records_of(cell).map(|(line, _)| self.regime(cell, line)))
     }
 
     /// The recorded quantities but the regime, on scales for the whole study.
@@ -306,7 +303,7 @@ impl Results {
 
     /// A recorded quantity on one scale for the whole study: that one, or by the range of all its means.
     pub(super) fn layer(&self, quantity: Quantity, scale: Option<AxisScale>) -> Layer {
-        let means = (0..self.plan.cells()).filter_map(|cell| Some(self.estimate(cell, quantity)?.mean));
+        let means = (0..self.plan.cells()).filter_map(|cell| Some(self.statistics(cell, quantity)?.mean));
         Layer::new(quantity, scale, &means.collect::<Vec<_>>())
     }
 
@@ -333,10 +330,9 @@ impl Results {
 
     /// A cell with these quantities; `None` without any record.
     pub(super) fn cell(&self, cell: u64, layers: &[Layer]) -> Option<Cell> {
-        let lines = self.records_of(cell).count() as u64;
-        let estimates = layers.iter().map(|layer| self.estimate(cell, layer.quantity)).collect();
-        let regime = self.regimes(cell).and_then(CellRegime::from_shares);
-        (lines > 0).then_some(Cell { estimates, regime, lines })
+        let statistics = layers.iter().map(|layer| self.statistics(cell, layer.quantity)).collect();
+        let regimes = self.regimes(cell);
+        (regimes.profiles() > 0).then_some(Cell { statistics, regimes })
     }
 }
 

@@ -3,11 +3,10 @@
 use super::StudyError;
 use super::cells::Cells;
 use super::measured::profile;
-use super::record::encode;
 use super::recorder::Recorder;
 use super::shard::Shard;
 use super::status::{count, rate};
-use super::store::Folder;
+use super::store::{Folder, encode};
 use crate::parallel::on_threads;
 use crate::simulation::Simulation;
 use std::fs::File;
@@ -105,8 +104,8 @@ pub fn run(
         };
         let (mut recorder, sender) = (Recorder::new(plan, simulation, &|| false), sender.clone());
         move |number: u64| -> Result<(), StudyError> {
-            for run in cells.runs_of(&cells.unit(units[number as usize])) {
-                let is_missing = |cell: u64| !done.has(cell * plan.lines + run.line);
+            for run in cells.runs(units[number as usize]) {
+                let is_missing = |cell: u64| !done[(cell * plan.lines + run.line) as usize];
                 if !run.cells.clone().any(is_missing) {
                     continue;
                 }

@@ -56,10 +56,6 @@ fn scale_names() -> impl clap::builder::TypedValueParser<Value = AxisScale> {
     })
 }
 
-fn no_quantity(name: &str, allowed: &str) -> String {
-    format!("--quantity {name}: this study has no such quantity; allowed: {allowed}")
-}
-
 /// A selected part of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selected {
@@ -102,46 +98,35 @@ impl Selection {
             true => study.layer(quantity, scale),
             false => section_layer(&grid, quantity, scale),
         };
-        let is_shown = |quantity| quantities.contains(&quantity);
-        let all = grid.layers.iter().map(|one| one.quantity);
-        let mut layers: Vec<Layer> = all.map(|quantity| layer(quantity, self.scale)).collect();
         // The same quantity by two protocols has one scale.
-        let shares = self.scale.is_none()
-            && quantities.iter().all(|quantity| Quantity::ADHESION_SHARES.contains(quantity));
-        let logarithmic = |one: &Layer| is_shown(one.quantity) && one.scale == AxisScale::Logarithmic;
-        if shares && layers.iter().any(logarithmic) {
-            for one in layers.iter_mut().filter(|one| is_shown(one.quantity)) {
-                *one = layer(one.quantity, Some(AxisScale::Logarithmic));
-            }
-        }
-        grid.layers = layers;
+        let is_share = |quantity: &Quantity| Quantity::ADHESION_SHARES.contains(quantity);
+        let is_logarithmic = |quantity: &Quantity| layer(*quantity, None).scale == AxisScale::Logarithmic;
+        let both = quantities.iter().all(is_share) && quantities.iter().any(is_logarithmic);
+        let scale = self.scale.or(both.then_some(AxisScale::Logarithmic));
+        grid.layers = grid.layers.iter().map(|one| layer(one.quantity, scale)).collect();
         let fixed = plan.axes.iter().zip(&at).filter_map(|(axis, place)| Some(fixed(axis, (*place)?)));
         Ok(Selected { fixed: fixed.collect(), grid, quantities, curves })
     }
 
     fn quantities(&self, plan: &Plan) -> Result<Vec<Quantity>, String> {
-        let drawn = |quantity: &Quantity| *quantity != Quantity::Regime;
-        let allowed = || {
-            let names = plan.record.iter().filter(|one| drawn(one)).map(|one| one.name());
-            names.collect::<Vec<_>>().join(", ")
+        let drawn = plan.record.iter().copied().filter(|one| *one != Quantity::Regime);
+        let drawn: Vec<Quantity> = drawn.collect();
+        let named = |name: &str| {
+            drawn.iter().copied().find(|one| one.name() == name).ok_or_else(|| {
+                let allowed = drawn.iter().map(|one| one.name()).collect::<Vec<_>>().join(", ");
+                let allowed = if drawn.is_empty() { "none, only regimes were recorded" } else { &allowed };
+                format!("--quantity {name}: this study has no such quantity; allowed: {allowed}")
+            })
         };
-        if self.quantities.is_empty() {
-            let paper = [Quantity::ZeroLoadAdhesionShare, Quantity::AdhesionCoefficient];
-            let recorded = |one: &Quantity| plan.record.contains(one);
-            // Without a preload there is no coefficient, and both protocols are side by side.
-            let usual = if recorded(&paper[1]) { paper } else { Quantity::ADHESION_SHARES };
-            let mut all: Vec<_> = usual.into_iter().filter(recorded).collect();
-            if all.is_empty() {
-                all.extend(plan.record.iter().copied().find(drawn));
-            }
-            let none = || no_quantity("regime", "none, only regimes were recorded");
-            return if all.is_empty() { Err(none()) } else { Ok(all) };
+        if !self.quantities.is_empty() {
+            return self.quantities.iter().map(|name| named(name)).collect();
         }
-        let named = |name: &String| {
-            let found = plan.record.iter().copied().filter(drawn).find(|one| one.name() == name);
-            found.ok_or_else(|| no_quantity(name, &allowed()))
-        };
-        self.quantities.iter().map(named).collect()
+        let paper = [Quantity::ZeroLoadAdhesionShare, Quantity::AdhesionCoefficient];
+        // Without a preload there is no coefficient, and both protocols are side by side.
+        let usual = if drawn.contains(&paper[1]) { paper } else { Quantity::ADHESION_SHARES };
+        let usual: Vec<_> = usual.into_iter().filter(|one| drawn.contains(one)).collect();
+        let first = || named(drawn.first().map_or("regime", |one| one.name()));
+        if usual.is_empty() { Ok(vec![first()?]) } else { Ok(usual) }
     }
 
     /// The named axes, which exist and are named once; an axis with one value is fixed.
@@ -219,11 +204,11 @@ impl Selection {
 /// A quantity of curves: a single one is linear, and logarithmic too for small values; of several the highest would hide
 /// the others.
 fn section_layer(grid: &Grid, quantity: Quantity, scale: Option<AxisScale>) -> Layer {
-    let estimates = grid.estimates(quantity, false);
-    let mut curves = estimates.chunks(grid.size().0.max(1));
+    let statistics = grid.statistics(quantity, false);
+    let mut curves = statistics.chunks(grid.size().0.max(1));
     let first = curves.next();
     let several = curves.any(|curve| Some(curve) != first);
-    let means: Vec<f64> = estimates.iter().flatten().map(|one| one.mean).collect();
+    let means: Vec<f64> = statistics.iter().flatten().map(|one| one.mean).collect();
     let usual = || if several { scale_of(&means) } else { AxisScale::Linear };
     Layer { quantity, scale: scale.unwrap_or_else(usual), range: None }
 }

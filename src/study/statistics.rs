@@ -1,5 +1,6 @@
-//! Mean, spread and confidence of a sample.
+//! Numbers of random profiles: their mean, spread and quartiles, and how many are in each regime.
 
+use crate::analysis::Regime;
 use serde::Serialize;
 use std::cell::Cell;
 use std::f64::consts::FRAC_2_PI;
@@ -7,13 +8,30 @@ use std::f64::consts::FRAC_2_PI;
 /// Share of samples whose confidence interval holds the true mean.
 pub(crate) const CONFIDENCE: f64 = 0.95;
 
-/// Mean, spread and confidence of a sample.
+/// Smallest share of random profiles in one regime for which the profiles agree.
+const AGREEING_SHARE: f64 = 0.75;
+
+/// A quantity over random profiles.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Statistics {
     /// Number of values; profiles without a value are left out.
     pub count: usize,
     /// Mean.
     pub mean: f64,
+    /// Lower quartile, median and upper quartile, interpolated between neighbours.
+    #[serde(skip)]
+    pub quartiles: [f64; 3],
+    /// Smallest and largest value.
+    #[serde(skip)]
+    pub range: (f64, f64),
+    /// Spread of the values and confidence of the mean; `None` for one value, or too few to state a confidence.
+    #[serde(flatten)]
+    pub spread: Option<Spread>,
+}
+
+/// Spread of several values and confidence of their mean.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Spread {
     /// Standard deviation, with n − 1.
     pub standard_deviation: f64,
     /// Standard error of the mean.
@@ -24,14 +42,14 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Statistics of values of a quantity between these bounds; `None` for fewer than two.
+    /// Statistics of values of a quantity between these bounds; `None` without values.
     ///
     /// The confidence interval is cut at the bounds: the true mean cannot lie beyond them, so the interval contains the
     /// mean as often as before.
-    pub fn of(values: &[f64], (least, most): (f64, f64)) -> Option<Self> {
-        if values.len() < 2 {
-            return None;
-        }
+    pub fn of(values: Vec<f64>, (least, most): (f64, f64)) -> Option<Self> {
+        let mut sorted = values.clone();
+        sorted.sort_by(f64::total_cmp);
+        let range = (*sorted.first()?, *sorted.last()?);
         let count = values.len() as f64;
         // Divided by the largest value, so that no square overflows or underflows.
         let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
@@ -39,30 +57,92 @@ impl Statistics {
         let mean = values.iter().map(|value| value / unit).sum::<f64>() / count;
         let squares = values.iter().map(|value| (value / unit - mean).powi(2)).sum::<f64>();
         let (mean, standard_deviation) = (mean * unit, (squares / (count - 1.0)).sqrt() * unit);
-        let standard_error = standard_deviation / count.sqrt();
-        let half = quantile(values.len() as u32 - 1) * standard_error;
-        // Rounding may have carried the mean itself across a bound.
-        let confidence_interval = ((mean - half).max(least.min(mean)), (mean + half).min(most.max(mean)));
-        Some(Statistics {
-            count: values.len(),
-            mean,
-            standard_deviation,
-            standard_error,
-            confidence_interval,
-        })
+        let spread = (values.len() > 1).then(|| {
+            let standard_error = standard_deviation / count.sqrt();
+            let half = quantile(values.len() as u32 - 1) * standard_error;
+            // Rounding may have carried the mean itself across a bound.
+            let confidence_interval = ((mean - half).max(least.min(mean)), (mean + half).min(most.max(mean)));
+            Spread { standard_deviation, standard_error, confidence_interval }
+        });
+        let quartiles = [0.25, 0.5, 0.75].map(|share| {
+            let place = share * (sorted.len() - 1) as f64;
+            let low = place as usize;
+            let (below, above) = (sorted[low], sorted[(low + 1).min(sorted.len() - 1)]);
+            below + (place - low as f64) * (above - below)
+        });
+        Some(Statistics { count: values.len(), mean, quartiles, range, spread })
+    }
+
+    /// The confidence interval of the mean, if it is known.
+    pub fn confidence_interval(&self) -> Option<(f64, f64)> {
+        self.spread.map(|spread| spread.confidence_interval)
     }
 }
 
-/// Lower quartile, median and upper quartile of these values, interpolated between neighbours; `None` without values.
-pub fn quartiles(mut values: Vec<f64>) -> Option<[f64; 3]> {
-    values.sort_by(f64::total_cmp);
-    let last = values.len().checked_sub(1)?;
-    Some([0.25, 0.5, 0.75].map(|share| {
-        let place = share * last as f64;
-        let low = place as usize;
-        let (below, above) = (values[low], values[(low + 1).min(last)]);
-        below + (place - low as f64) * (above - below)
-    }))
+/// Number of profiles in each regime.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct RegimeCounts {
+    /// Pressure-insensitive adhesion.
+    pub pressure_insensitive: usize,
+    /// Pressure-sensitive adhesion.
+    pub pressure_sensitive: usize,
+    /// No adhesion.
+    pub non_adhesive: usize,
+    /// Regime unknown: no tensile force.
+    pub none: usize,
+}
+
+impl RegimeCounts {
+    /// Counts the regimes of profiles.
+    pub fn of(regimes: impl Iterator<Item = Option<Regime>>) -> Self {
+        let mut counts = [0; 4];
+        regimes.for_each(|regime| counts[regime.map_or(3, |regime| regime as usize)] += 1);
+        let [pressure_insensitive, pressure_sensitive, non_adhesive, none] = counts;
+        RegimeCounts { pressure_insensitive, pressure_sensitive, non_adhesive, none }
+    }
+
+    /// Numbers of profiles in the order of [`Regime::ALL`].
+    fn known(self) -> [usize; 3] {
+        [self.pressure_insensitive, self.pressure_sensitive, self.non_adhesive]
+    }
+
+    /// Number of profiles.
+    pub fn profiles(self) -> usize {
+        self.known().iter().sum::<usize>() + self.none
+    }
+
+    /// Regime of most profiles, with their number; of two with equal numbers the one with more adhesion.
+    pub fn most(self) -> Option<(Regime, usize)> {
+        self.ordered()[0]
+    }
+
+    /// Regime of the second largest number of profiles, if too few are in the first.
+    pub fn split(self) -> Option<Regime> {
+        let [most, second, _] = self.ordered();
+        let agree = self.shares()?[most?.0 as usize] >= AGREEING_SHARE;
+        second.filter(|_| !agree).map(|(regime, _)| regime)
+    }
+
+    /// Regimes that occur with their numbers of profiles, the largest first.
+    fn ordered(self) -> [Option<(Regime, usize)>; 3] {
+        let mut counts = [0, 1, 2].map(|place| (Regime::ALL[place], self.known()[place]));
+        // Stable: of equal numbers the one with more adhesion remains first.
+        counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+        counts.map(|one| Some(one).filter(|(_, count)| *count > 0))
+    }
+
+    /// Regimes that occur, by name, with their numbers of profiles.
+    pub fn present(self) -> impl Iterator<Item = (&'static str, usize)> {
+        let counts = self.known().into_iter().chain([self.none]);
+        let names = Regime::ALL.map(Regime::name).into_iter().chain(["not known"]);
+        names.zip(counts).filter(|(_, count)| *count > 0)
+    }
+
+    /// Shares of the profiles of known regime, in the order of [`Regime::ALL`]; `None` where no regime is known.
+    pub fn shares(self) -> Option<[f64; 3]> {
+        let all: usize = self.known().iter().sum();
+        (all > 0).then(|| self.known().map(|count| count as f64 / all as f64))
+    }
 }
 
 thread_local! {
@@ -130,22 +210,48 @@ mod tests {
 
     #[test]
     fn quartiles_lie_between_neighbours() {
-        assert_eq!(quartiles(vec![4.0, 1.0, 2.0, 3.0, 100.0]), Some([2.0, 3.0, 4.0]));
-        assert_eq!(quartiles(vec![2.0, 1.0]), Some([1.25, 1.5, 1.75]));
-        assert_eq!((quartiles(vec![7.0]), quartiles(Vec::new())), (Some([7.0; 3]), None));
+        for (values, quartiles) in [
+            (vec![4.0, 1.0, 2.0, 3.0, 100.0], [2.0, 3.0, 4.0]),
+            (vec![2.0, 1.0], [1.25, 1.5, 1.75]),
+            (vec![7.0], [7.0; 3]),
+        ] {
+            assert_eq!(Statistics::of(values, (0.0, 100.0)).unwrap().quartiles, quartiles);
+        }
+    }
+
+    #[test]
+    fn a_cell_has_the_regime_of_most_of_its_profiles() {
+        let [insensitive, sensitive, non_adhesive] = Regime::ALL;
+        for (counts, most, split) in [
+            ([0, 0, 0, 2], None, None),
+            ([0, 5, 0, 1], Some((sensitive, 5)), None),
+            ([0, 3, 1, 0], Some((sensitive, 3)), None),
+            ([3, 0, 7, 0], Some((non_adhesive, 7)), Some(insensitive)),
+            ([0, 1, 1, 0], Some((sensitive, 1)), Some(non_adhesive)),
+            ([2, 0, 2, 1], Some((insensitive, 2)), Some(non_adhesive)),
+        ] {
+            let all = Regime::ALL.map(Some).into_iter().chain([None]).zip(counts);
+            let counts = RegimeCounts::of(all.flat_map(|(regime, count)| std::iter::repeat_n(regime, count)));
+            assert_eq!((counts.most(), counts.split()), (most, split), "{counts:?}");
+        }
     }
 
     #[test]
     fn a_small_sample() {
-        let of = Statistics::of(&[1e-200, 3e-200, 5e-200], (f64::NEG_INFINITY, f64::INFINITY)).unwrap();
+        let of = |values: &[f64], bounds| Statistics::of(values.to_vec(), bounds);
+        let all = of(&[5e-200, 1e-200, 3e-200], (f64::NEG_INFINITY, f64::INFINITY)).unwrap();
         let near = |value: f64, expected: f64| (value / expected - 1.0).abs() < 1e-9;
-        assert!(near(of.mean, 3e-200) && near(of.standard_deviation, 2e-200), "{of:?}");
-        assert!(near(of.standard_error, 2e-200 / 3.0_f64.sqrt()));
-        assert!(near(of.confidence_interval.1, 3e-200 + 4.302_652_730 * 2e-200 / 3.0_f64.sqrt()));
-        assert_eq!(Statistics::of(&[1.0], (0.0, 1.0)), None);
-        let zeros = Statistics::of(&[0.0; 4], (0.0, 1.0)).unwrap();
-        assert_eq!((zeros.mean, zeros.confidence_interval), (0.0, (0.0, 0.0)));
-        let shares = Statistics::of(&[0.0, 1.0], (0.0, 1.0)).unwrap();
-        assert_eq!(shares.confidence_interval, (0.0, 1.0), "a share is never below 0 or above 1");
+        let Spread { standard_deviation, standard_error, confidence_interval } = all.spread.unwrap();
+        assert!(near(all.mean, 3e-200) && near(standard_deviation, 2e-200), "{all:?}");
+        assert_eq!((all.count, all.range), (3, (1e-200, 5e-200)));
+        assert!(near(standard_error, 2e-200 / 3.0_f64.sqrt()));
+        assert!(near(confidence_interval.1, 3e-200 + 4.302_652_730 * 2e-200 / 3.0_f64.sqrt()));
+        let one = of(&[0.3], (0.0, 1.0)).unwrap();
+        assert_eq!((one.count, one.mean, one.range, one.spread), (1, 0.3, (0.3, 0.3), None));
+        assert_eq!(of(&[], (0.0, 1.0)), None);
+        let zeros = of(&[0.0; 4], (0.0, 1.0)).unwrap();
+        assert_eq!((zeros.mean, zeros.confidence_interval()), (0.0, Some((0.0, 0.0))));
+        let shares = of(&[0.0, 1.0], (0.0, 1.0)).unwrap().confidence_interval();
+        assert_eq!(shares, Some((0.0, 1.0)), "a share is never below 0 or above 1");
     }
 }

@@ -2,7 +2,6 @@
 
 use super::StudyError;
 use super::cells::{Cells, Run};
-use super::record::Done;
 use super::shard::Shard;
 use super::store::{Folder, ShardFile};
 use crate::text::{path_name, printable};
@@ -64,7 +63,7 @@ impl Status {
     /// A folder that cannot be read.
     pub fn of(folder: &Folder) -> Result<Status, StudyError> {
         let total = folder.plan().records_in_all();
-        let (mut done, mut damaged) = (Done::none(total), 0);
+        let (mut done, mut damaged) = (vec![false; total as usize], 0);
         let mut attempts: BTreeMap<Shard, Vec<Attempt>> = BTreeMap::new();
         for file in folder.files()? {
             let mut records = 0;
@@ -72,7 +71,7 @@ impl Status {
                 match record? {
                     Some((place, _)) => {
                         records += 1;
-                        done.add(place);
+                        done[place as usize] = true;
                     }
                     None => damaged += 1,
                 }
@@ -94,7 +93,7 @@ impl Status {
             ShardStatus { shard: shard.to_string(), total, done: there, attempts }
         };
         let shards = attempts.into_iter().map(of_shard).collect();
-        let found = done.count();
+        let found = done.iter().filter(|done| **done).count() as u64;
         Ok(Status { done: found, total, missing: total - found, damaged, shards })
     }
 }
@@ -106,14 +105,11 @@ pub(super) fn rate(records: u64, seconds: f64) -> Option<f64> {
 
 /// Number of all records of a part of a study, and of the existing ones. Counting all parts of a division takes as long
 /// as counting the whole study.
-pub(super) fn count(folder: &Folder, cells: &Cells<'_>, done: &Done, shard: Shard) -> (u64, u64) {
+pub(super) fn count(folder: &Folder, cells: &Cells<'_>, done: &[bool], shard: Shard) -> (u64, u64) {
     let (mut total, mut there) = (0, 0);
-    for unit in shard.units(cells.units()) {
-        let unit = cells.unit(unit);
-        total += cells.records_of(&unit);
-        for Run { cells, line } in cells.runs_of(&unit) {
-            there += cells.filter(|cell| done.has(cell * folder.plan().lines + line)).count() as u64;
-        }
+    for Run { cells, line } in shard.units(cells.units()).flat_map(|unit| cells.runs(unit)) {
+        total += cells.end - cells.start;
+        there += cells.filter(|cell| done[(cell * folder.plan().lines + line) as usize]).count() as u64;
     }
     (total, there)
 }

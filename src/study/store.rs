@@ -8,12 +8,12 @@ use super::StudyError;
 use super::measured::{changed, file_of, with_hash};
 use super::plan::{PLAN_FILE, Plan};
 use super::plan_text::Changes;
-use super::record::{Done, decode, seal, unseal};
 use super::shard::Shard;
 use crate::io::{WriteError, open_regular, read_regular_text, sync_folder, write_new};
 use crate::scene::LONGEST_TEXT;
 use crate::text::{path_name, printable};
 use serde::{Deserialize, Serialize};
+use std::fmt::Write as _;
 use std::fs::{self, File, OpenOptions};
 use std::hash::{BuildHasher, RandomState};
 use std::io::{self, BufRead, BufReader, Read, Write};
@@ -28,6 +28,9 @@ const LONGEST_LINE: u64 = 1 << 16;
 const SHARDS: &str = "shards";
 /// Ending of a shard file.
 const ENDING: &str = "shard";
+
+/// Characters of the checksum and the comma behind it.
+const CHECKSUM: usize = 9;
 
 /// The folder of a study.
 #[derive(Clone, Debug)]
@@ -207,13 +210,13 @@ impl Folder {
         }))
     }
 
-    /// The records that exist and survive a power cut: records that a killed process left unsynced would be counted
-    /// and lost.
-    pub(super) fn done(&self) -> Result<Done, StudyError> {
-        let mut done = Done::none(self.plan.records_in_all());
+    /// The existing records, true at their places, which survive a power cut: records that a killed process left unsynced
+    /// would be counted and lost.
+    pub(super) fn done(&self) -> Result<Vec<bool>, StudyError> {
+        let mut done = vec![false; self.plan.records_in_all() as usize];
         for file in self.files()? {
             for record in self.records(&file)? {
-                record?.into_iter().for_each(|(place, _)| done.add(place));
+                record?.into_iter().for_each(|(place, _)| done[place as usize] = true);
             }
             // Windows requires write access.
             let open = OpenOptions::new().read(true).write(cfg!(windows)).open(&file.path);
@@ -253,6 +256,43 @@ fn header_of(payload: &str, checksum: &str) -> Result<Header, String> {
         return Err("this file belongs to another plan".into());
     }
     Ok(Header { shard: Shard::new(header.shard.number, header.shard.count)?, ..header })
+}
+
+/// Appends a line with its checksum in front; the payload holds no line break.
+pub(super) fn seal(payload: &str, into: &mut String) {
+    // Writing to a string cannot fail.
+    let _ = writeln!(into, "{:08x},{payload}", crc32fast::hash(payload.as_bytes()));
+}
+
+/// The payload of a line without its break; `None` if the line was changed.
+pub(super) fn unseal(line: &str) -> Option<&str> {
+    let (checksum, payload) = (line.get(..CHECKSUM)?, line.get(CHECKSUM..)?);
+    let checksum = checksum.strip_suffix(',')?;
+    // One way of writing, so that equal records are equal text.
+    let is_ours = checksum == format!("{:08x}", crc32fast::hash(payload.as_bytes()));
+    is_ours.then_some(payload)
+}
+
+/// Appends the record of a cell and a seed. NaN, a missing value, becomes an empty column.
+pub(super) fn encode(cell: u64, seed: u64, values: &[f64], into: &mut String) {
+    let mut payload = format!("{cell},{seed}");
+    for value in values {
+        payload.push(',');
+        if !value.is_nan() {
+            // The shortest text that is read back bit for bit.
+            let _ = write!(payload, "{value:?}");
+        }
+    }
+    seal(&payload, into);
+}
+
+/// Cell, seed and values of a payload, NaN for empty columns; `None` unless it has so many values.
+pub(super) fn decode(payload: &str, count: usize) -> Option<(u64, u64, Vec<f64>)> {
+    let mut columns = payload.split(',');
+    let (cell, seed) = (columns.next()?.parse().ok()?, columns.next()?.parse().ok()?);
+    let value = |text: &str| if text.is_empty() { Some(f64::NAN) } else { text.parse().ok() };
+    let values: Vec<f64> = columns.map(value).collect::<Option<_>>()?;
+    (values.len() == count).then_some((cell, seed, values))
 }
 
 /// Lines of a text without their breaks; `None` for a line that is too long, torn or not text.
@@ -317,6 +357,38 @@ fn in_letters_for_files(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn records_read_back_bit_for_bit(
+            cell: u64,
+            seed: u64,
+            values in prop::collection::vec(prop::option::of(any::<f64>()), 1..6),
+        ) {
+            let values: Vec<f64> = values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect();
+            let mut text = String::new();
+            encode(cell, seed, &values, &mut text);
+            let line = text.trim_end_matches('\n');
+            let payload = unseal(line).unwrap();
+            let (of_cell, of_seed, read) = decode(payload, values.len()).unwrap();
+            prop_assert_eq!((of_cell, of_seed), (cell, seed));
+            prop_assert!(decode(payload, values.len() + 1).is_none());
+            prop_assert!(decode(payload, values.len() - 1).is_none());
+            for (read, value) in read.iter().zip(&values) {
+                prop_assert!(read.to_bits() == value.to_bits() || (read.is_nan() && value.is_nan()));
+            }
+            // Every cut or change is noticed.
+            for end in 0..line.len() {
+                prop_assert_eq!(unseal(&line[..end]), None);
+            }
+            for place in 0..line.len() {
+                let mut changed = line.as_bytes().to_vec();
+                changed[place] ^= 1;
+                prop_assert_eq!(unseal(std::str::from_utf8(&changed).unwrap()), None);
+            }
+        }
+    }
 
     #[test]
     fn names_of_machines_keep_letters_for_files() {

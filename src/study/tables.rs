@@ -5,7 +5,7 @@ use super::axis::Axis;
 use super::plan::Plan;
 use super::quantity::{Quantity, regime_of};
 use super::results::{Merged, Results};
-use super::statistics::CONFIDENCE;
+use super::statistics::{CONFIDENCE, Spread};
 use super::store::{Folder, lines};
 use crate::analysis::Regime;
 use crate::io::{Kind, ReadError, Table, TableOf, object, open_regular, write_json_value, write_new_file};
@@ -138,14 +138,18 @@ impl Results {
     fn summary(&self) -> Table<'_> {
         let numbers = |cell: u64, quantity: &Quantity| -> Vec<Option<f64>> {
             if *quantity == Quantity::Regime {
-                let shares = self.regimes(cell);
+                let shares = self.regimes(cell).shares();
                 return (0..REGIME_COLUMNS.len()).map(|regime| Some(shares?[regime])).collect();
             }
-            let (values, all) = (self.values(cell, *quantity), self.statistics(cell, *quantity));
-            let interval = all.map(|all| all.confidence_interval);
-            let deviation = all.map(|all| all.standard_deviation);
-            let mean = all.map(|all| all.mean).or(values.first().copied());
-            vec![mean, deviation, interval.map(|ends| ends.0), interval.map(|ends| ends.1)]
+            let all = self.statistics(cell, *quantity);
+            let spread = all.and_then(|all| all.spread);
+            let end = |of: fn(&Spread) -> f64| spread.as_ref().map(of);
+            vec![
+                all.map(|all| all.mean),
+                end(|spread| spread.standard_deviation),
+                end(|spread| spread.confidence_interval.0),
+                end(|spread| spread.confidence_interval.1),
+            ]
         };
         let row = move |cell| (cell, self.records_of(cell).count() as u64);
         let of_cell = move |(cell, lines)| {

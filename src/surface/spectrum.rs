@@ -1,6 +1,7 @@
 //! The self-affine spectrum of the equivalent profile, eqs. (4)–(9), and its mean squares.
 
 use super::Amplitude;
+use crate::contact::CompensatedSum;
 
 /// Terms of a sum of powers that are added directly; the Euler-Maclaurin formula yields the others.
 const DIRECT_TERMS: u64 = 64;
@@ -85,7 +86,7 @@ impl SelfAffine {
 /// the number of terms.
 fn sum_of_powers(exponent: f64, first: u64, last: u64) -> f64 {
     let end = last.min(first.saturating_add(DIRECT_TERMS - 1));
-    let mut sum = Compensated::default();
+    let mut sum = CompensatedSum::default();
     (first..=end).for_each(|k| sum.add((k as f64).powf(exponent)));
     if end == last {
         return sum.total();
@@ -110,26 +111,6 @@ fn sum_of_powers(exponent: f64, first: u64, last: u64) -> f64 {
         sum.add(coefficient * differentiate());
     }
     sum.total()
-}
-
-/// A sum with compensation of the rounding of each step.
-#[derive(Default)]
-struct Compensated {
-    sum: f64,
-    lost: f64,
-}
-
-impl Compensated {
-    fn add(&mut self, term: f64) {
-        let next = self.sum + term;
-        let added = next - self.sum;
-        self.lost += (self.sum - (next - added)) + (term - added);
-        self.sum = next;
-    }
-
-    fn total(&self) -> f64 {
-        self.sum + self.lost
-    }
 }
 
 /// ∫ q^power dq from `low` to `high`, accurate also where power → −1, eqs. (12) and (13).
@@ -189,7 +170,7 @@ mod tests {
     #[test]
     fn sums_are_those_of_their_terms() {
         let direct = |exponent: f64, first: u64, last: u64| {
-            let mut sum = Compensated::default();
+            let mut sum = CompensatedSum::default();
             (first..=last).rev().for_each(|k| sum.add((k as f64).powf(exponent)));
             sum.total()
         };

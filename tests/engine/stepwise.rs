@@ -101,6 +101,7 @@ fn targets_out_of_reach_leave_the_body_in_place() {
         }
         solver.advance(Move::ToIndentation(0.3)).unwrap();
         assert!(steps.replace(0) > 300);
+        assert_eq!(solver.leg().turn(0.3).err(), Some(ContactError::Stepwise));
         let beyond = solver.advance(Move::ToForce(-1e9));
         let Err(ContactError::DetachesBefore { smallest }) = beyond else { panic!("{beyond:?}") };
         // The body pulled off before it was put back.

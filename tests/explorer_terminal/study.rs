@@ -60,10 +60,7 @@ fn a_folder_without_a_map_says_why() {
             "notes",
             "notes: this folder is not that of a study: there is no plan.ron in it; allowed: a scene, or",
         ),
-        (
-            "one cell",
-            "one cell: this study has neither a map nor a curve: it has no axes; a curve needs an axis",
-        ),
+        ("one cell", "one cell: this study has one cell and no map; a curve needs an axis"),
         ("whole", "the explorer needs a terminal; asperity sweep plot whole draws the study without one"),
         // A folder with the name of a built-in scene does not hide the scene.
         ("jkr-sphere", "asperity run jkr-sphere computes the scene without one"),

@@ -51,7 +51,7 @@ fn escaped(text: &str) -> String {
 #[test]
 fn tables_are_those_of_the_program() {
     check("docs/keys.md", "keys", &keys::markdown());
-    let plans = asperity::study::plans().iter().map(|plan| {
+    let plans = asperity::study::PLANS.iter().map(|plan| {
         let read = Plan::open(plan.name, &Changes::default()).unwrap();
         let cells = read.cells();
         [format!("`{}`", plan.name), cells.to_string(), read.lines.to_string(), read.title.clone()]

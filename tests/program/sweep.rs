@@ -5,8 +5,8 @@ use asperity::analysis::Regime;
 use asperity::scene::{Adhesion, Material, Move, Roughness, RoughnessParameter, Scene};
 use asperity::simulation::{Outcome, Simulation};
 use asperity::study::{
-    Changes, Folder, Options, Plan, Quantity, RESULTS, Results, SUMMARY, Shard, Statistics, StudyError,
-    merge, run,
+    Changes, Folder, Options, Plan, Quantity, RESULTS, Results, SUMMARY, Shard, Spread, Statistics,
+    StudyError, merge, run,
 };
 use proptest::prelude::*;
 use std::fs;
@@ -219,14 +219,15 @@ fn summaries_are_the_statistics_of_the_rows() {
             if *quantity == Quantity::Regime {
                 let shares =
                     Regime::ALL.map(|regime| number(&format!("regime_{}", regime.name().replace('-', "_"))));
-                assert_eq!(results.regimes(cell), Some(shares));
+                assert_eq!(results.regimes(cell).shares(), Some(shares));
                 continue;
             }
-            let expected = Statistics::of(&values, quantity.bounds()).unwrap();
+            let expected = Statistics::of(values, quantity.bounds()).unwrap();
             let found = ["mean", "sd", "low", "high"].map(|of| number(&format!("{name}_{of}")));
-            let (low, high) = expected.confidence_interval;
-            assert_eq!(found, [expected.mean, expected.standard_deviation, low, high], "{name}");
-            assert_eq!(results.estimate(cell, *quantity).unwrap().interval, Some((low, high)));
+            let Spread { standard_deviation, confidence_interval: (low, high), .. } =
+                expected.spread.unwrap();
+            assert_eq!(found, [expected.mean, standard_deviation, low, high], "{name}");
+            assert_eq!(results.statistics(cell, *quantity), Some(expected));
             assert!(low >= quantity.bounds().0 && high <= quantity.bounds().1, "{name}: {low} to {high}");
         }
     }
@@ -252,7 +253,7 @@ fn another_plan_is_refused() {
 
 #[test]
 fn plans_read_back_the_same() {
-    for text in asperity::study::plans().iter().map(|plan| plan.text).chain([SMALL]) {
+    for text in asperity::study::PLANS.iter().map(|plan| plan.text).chain([SMALL]) {
         let plan = plan(text);
         assert_eq!(self::plan(&plan.to_ron()), plan);
     }
@@ -297,7 +298,7 @@ fn a_scene_may_be_varied_alone() {
     merge(&folder, false).unwrap();
     let results = Results::open(folder.path()).unwrap();
     let forces: Vec<_> =
-        (0..3).map(|cell| results.estimate(cell, Quantity::AdhesionForce).unwrap().mean).collect();
+        (0..3).map(|cell| results.statistics(cell, Quantity::AdhesionForce).unwrap().mean).collect();
     assert!(forces.windows(2).all(|pair| pair[0] < pair[1]), "{forces:?}");
     let [results, _] = tables(&folder);
     assert!(results.starts_with("cell,adhesion.work,loading.0.0,preload,seed,adhesion_force,"), "{results}");

@@ -3,7 +3,7 @@
 use crate::cli::{AnswerFormat, CliError};
 use crate::export::sheet::Sheet;
 use crate::io::object;
-use crate::study::{Changes, Plan, PlanErrors, StudyError, find, plans as built_in};
+use crate::study::{Changes, PLANS, Plan, PlanErrors, StudyError};
 use clap::Args;
 use std::io::Write;
 
@@ -26,8 +26,8 @@ pub struct PlansArguments {
 /// Lists the built-in plans, or prints one.
 pub(super) fn plans(arguments: &PlansArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     if let Some(name) = &arguments.name {
-        let Some(plan) = find(name) else {
-            let names = built_in().iter().map(|plan| plan.name).collect::<Vec<_>>().join(", ");
+        let Some(plan) = PLANS.iter().find(|plan| plan.name == name) else {
+            let names = PLANS.iter().map(|plan| plan.name).collect::<Vec<_>>().join(", ");
             let error = format!("{name}: there is no such built-in plan; allowed: {names}");
             return Err(StudyError::Plan(PlanErrors(vec![error])).into());
         };
@@ -36,7 +36,7 @@ pub(super) fn plans(arguments: &PlansArguments, stdout: &mut dyn Write) -> Resul
     let open = |name| -> Result<_, CliError> {
         Ok((name, Plan::open(name, &Changes::default()).map_err(StudyError::from)?))
     };
-    let plans = built_in().iter().map(|plan| open(plan.name)).collect::<Result<Vec<_>, _>>()?;
+    let plans = PLANS.iter().map(|plan| open(plan.name)).collect::<Result<Vec<_>, _>>()?;
     let row = |(name, plan): &(&str, Plan)| {
         let size = format!("{} cells × {} profiles", plan.cells(), plan.lines);
         [(*name).to_owned(), size, plan.title.clone()]

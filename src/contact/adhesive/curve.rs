@@ -3,7 +3,7 @@
 use super::edge_model::EdgeModel;
 use super::run::{Ground, Held, Run};
 use crate::contact::ContactError;
-use crate::contact::contact_state::{Sampled, Tally};
+use crate::contact::contact_state::{ContactState, Tally};
 use crate::contact::grid::Grid;
 use crate::contact::interval::{Intervals, Piece};
 
@@ -48,7 +48,7 @@ impl<E: EdgeModel> Runs<'_, E> {
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    pub fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {
+    pub fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {
         let (ground, low, high) = (&self.ground, grid.points()[0], grid.high());
         let mut tally = Tally::new(grid, E::SLIDES)?;
         for run in self.runs.iter().filter(|run| run.from <= high && run.to > low) {
@@ -71,20 +71,20 @@ impl<E: EdgeModel> Runs<'_, E> {
     }
 
     /// Adds the events and the sliding edges of a leg to the intervals of a search.
-    pub fn search(&self, intervals: &mut Intervals<'_>) {
-        let ground = &self.ground;
+    pub fn search(&self, intervals: &mut Intervals) {
+        let (ground, (low, high)) = (&self.ground, intervals.ends());
         for run in self.runs {
             if !intervals.overlap(run.from, run.to) {
                 continue;
             }
-            ground.each_span(run, intervals.low, |span, from, to| {
-                if intervals.low < to && from <= intervals.high {
+            ground.each_span(run, low, |span, from, to| {
+                if low < to && from <= high {
                     intervals.add_events(from, to, ground.totals(span));
                     if E::SLIDES {
                         intervals.add_piece(Piece { slider: ground.slider(run, span), from, to });
                     }
                 }
-                from > intervals.high
+                from > high
             });
         }
     }

@@ -210,8 +210,7 @@ impl<E: EdgeModel> Loading<'_, E> {
         let (ground, Listed { runs, end: complete, evaluations }) = (self.ground, &mut self.listed);
         let gaps = ground.gaps;
         let square = ground.square();
-        let known = (start.known[0] as usize, start.known[1] as usize);
-        let mut span = Span::around(gaps, known, start.gap);
+        let mut span = ground.lowest(start);
         let mut closes = start.closes;
         let listed = runs.len();
         // The levels of the span below, while its run may go on.
@@ -274,8 +273,7 @@ impl<E: EdgeModel> Ground<'_, E> {
             let need = gap - closes;
             need > 0.0 && need * need > square * E::least_length(span.first, span.last)
         };
-        let known = (start.known[0] as usize, start.known[1] as usize);
-        let mut span = Span::around(gaps, known, start.gap);
+        let mut span = self.lowest(start);
         let ends = span.ends();
         let mut closes = start.closes;
         // At the top first: φ is mostly largest there.
@@ -298,22 +296,27 @@ impl<E: EdgeModel> Ground<'_, E> {
         (closes, ends)
     }
 
+    /// The lowest span of a branch, around springs that attach with it.
+    #[inline]
+    fn lowest(&self, Start { gap, known, .. }: Start) -> Span {
+        let [mut first, mut last] = known.map(|spring| spring as usize);
+        while first > 0 && self.gaps[first - 1] < gap {
+            first -= 1;
+        }
+        while last + 1 < self.gaps.len() && self.gaps[last + 1] <= gap {
+            last += 1;
+        }
+        Span { gap, first, last }
+    }
+
     /// The largest span of a branch, with the spring `parent` next to it.
     fn below(&self, span: &Span, parent: usize) -> Span {
-        let (gaps, wall) = (self.gaps, self.gaps[parent]);
-        let Span { gap, mut first, mut last } = *span;
-        if parent > last {
-            last = parent - 1;
-            while first > 0 && gaps[first - 1] < wall {
-                first -= 1;
-            }
+        let (at, end) = (parent as u32, self.gaps.len() as u32 - 1);
+        if parent > span.last {
+            Span { last: parent - 1, ..*span }.up_to(self.gaps, self.gaps[parent], [0, at - 1])
         } else {
-            first = parent + 1;
-            while last + 1 < gaps.len() && gaps[last + 1] <= wall {
-                last += 1;
-            }
+            Span { first: parent + 1, ..*span }.up_to(self.gaps, self.gaps[parent], [at + 1, end])
         }
-        Span { gap: larger(gap, larger(gaps[first], gaps[last])), first, last }
     }
 }
 

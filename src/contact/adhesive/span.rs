@@ -15,18 +15,6 @@ pub struct Span {
 }
 
 impl Span {
-    /// The span of all springs around these with gaps below `gap`, m, the largest gap of the span.
-    #[inline]
-    pub fn around(gaps: &[f64], (mut first, mut last): (usize, usize), gap: f64) -> Self {
-        while first > 0 && gaps[first - 1] < gap {
-            first -= 1;
-        }
-        while last + 1 < gaps.len() && gaps[last + 1] <= gap {
-            last += 1;
-        }
-        Span { gap, first, last }
-    }
-
     /// The largest span of its branch within these first and last springs whose walls lie above a level, m; itself if its
     /// walls do already.
     #[inline]

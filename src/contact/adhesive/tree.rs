@@ -111,7 +111,6 @@ impl ContactTree {
     }
 
     /// Nodes: local maxima of the gap inside the line.
-    #[must_use]
     pub fn node_count(&self) -> usize {
         self.nodes.len()
     }

@@ -1,5 +1,4 @@
 //! Forces and energies of a leg: along a grid of indentations, at their extremes, and where a force is reached.
-
 //!
 //! Between two events the force is convex; at an event, read upwards in d, it falls or stays. From the contact at two
 //! indentations follow bounds of the force between them: springs that attach there are stretched, or just touch and are
@@ -8,7 +7,7 @@
 
 use super::{Leg, Patches};
 use crate::contact::adhesive::{GridEdges, Run, Runs, SubCellEdges};
-use crate::contact::contact_state::{ContactState, Extreme, Sampled, lower_bound, upper_bound};
+use crate::contact::contact_state::{ContactState, Extreme, intervals, lower_bound, upper_bound};
 use crate::contact::grid::Grid;
 use crate::contact::interval::{Interval, Intervals};
 use crate::contact::thresholds::Thresholds;
@@ -37,34 +36,11 @@ impl Leg {
             return Ok(Vec::new());
         }
         let sampled = self.sample(Grid::at(indentations.to_vec()))?;
-        Ok(sampled.states.iter().map(|state| state.point(self.contact.foundation)).collect())
-    }
-
-    /// Returns the first indentation of a loading from `from` on, or the last one of an unloading up to `from`, m, at which
-    /// the force is `force`, N.
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfReach`], [`ContactError::DetachesBefore`], [`ContactError::Stepwise`],
-    /// [`ContactError::OutOfMemory`].
-    pub fn find_force(&self, force: f64, from: f64) -> Result<f64, ContactError> {
-        self.refuse_stepwise()?;
-        self.reach_force(force, from, &mut Work::default())
-    }
-
-    /// Returns the points of the smallest and of the largest force between two indentations, m, exact to rounding.
-    ///
-    /// # Errors
-    /// [`ContactError::Stepwise`], [`ContactError::OutOfMemory`].
-    pub fn extremes(&self, low: f64, high: f64) -> Result<[CurvePoint; 2], ContactError> {
-        self.refuse_stepwise()?;
-        let sampled = self.sample(Grid::new(low, high, SEARCH_INTERVALS))?;
-        let of = |extreme| self.extreme(extreme, &sampled, &mut Work::default());
-        Ok([Extreme::Smallest, Extreme::Largest].map(|extreme| of(extreme).point(self.contact.foundation)))
+        Ok(sampled.iter().map(|state| state.point(self.contact.foundation)).collect())
     }
 
     /// Returns the energy that springs release on the indentations from `low` to `high`, m, in J; see
     /// [`LegRecord::released_energy`](crate::contact::LegRecord::released_energy).
-    #[must_use]
     pub fn released_energy(&self, low: f64, high: f64) -> f64 {
         self.energy(self.squared_stretch(low, high))
     }
@@ -78,10 +54,14 @@ impl Leg {
 
     /// Contact state at an indentation, m.
     pub(in crate::contact) fn state(&self, indentation: f64) -> Result<ContactState, ContactError> {
-        Ok(self.sample(Grid::at(vec![indentation]))?.first())
+        Ok(self.sample(Grid::at(vec![indentation]))?[0])
     }
 
-    /// Finds the indentation of [`Leg::find_force`], m.
+    /// Finds the first indentation of a loading from `from` on, or the last one of an unloading up to `from`, m, at which
+    /// the force is `force`, N.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfReach`], [`ContactError::DetachesBefore`], [`ContactError::OutOfMemory`].
     pub(in crate::contact) fn reach_force(
         &self,
         force: f64,
@@ -108,7 +88,7 @@ impl Leg {
         for _ in 0..2 {
             let full = self.state(found)?;
             let next = found + (wanted - full.compression) / full.length;
-            if full.springs < self.contact.gaps().len() as i64 || !next.is_finite() {
+            if full.totals.springs < self.contact.gaps().len() as i64 || !next.is_finite() {
                 return Err(ContactError::OutOfReach);
             }
             found = next.max(complete);
@@ -117,7 +97,7 @@ impl Leg {
     }
 
     /// Contact states along a grid.
-    pub(in crate::contact) fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {
+    pub(in crate::contact) fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {
         match &self.patches {
             Patches::Springs(thresholds) => Thresholds::new(&self.contact, thresholds).sample(grid),
             Patches::Runs(tree, runs) => along_runs!(self, tree, runs, along => along.sample(grid)),
@@ -136,13 +116,13 @@ impl Leg {
         }
     }
 
-    /// The events in these intervals of a sampled leg.
-    fn intervals(&self, leg: &Sampled, chosen: &[usize], work: &mut Work) -> Vec<Interval> {
-        if chosen.is_empty() {
+    /// The events between the ends of these ascending intervals.
+    fn events(&self, ends: &[[ContactState; 2]], work: &mut Work) -> Vec<Interval> {
+        if ends.is_empty() {
             return Vec::new();
         }
         let slides = self.contact.edges == Edges::SubCell;
-        let mut intervals = Intervals::new(leg, chosen, slides, self.contact.springs.scale());
+        let mut intervals = Intervals::new(ends, slides, self.contact.springs.scale());
         match &self.patches {
             Patches::Springs(thresholds) => Thresholds::new(&self.contact, thresholds).search(&mut intervals),
             Patches::Runs(tree, runs) => along_runs!(self, tree, runs, along => along.search(&mut intervals)),
@@ -154,15 +134,14 @@ impl Leg {
     pub(in crate::contact) fn extreme(
         &self,
         extreme: Extreme,
-        leg: &Sampled,
+        leg: &[ContactState],
         work: &mut Work,
     ) -> ContactState {
         let mut best = extreme.of(leg);
         // Without adhesion the force never falls.
         if self.contact.hess.is_some() {
-            let chosen = leg.choose(|low, high| extreme.may_lie(low, high, &best));
-            let intervals = self.intervals(leg, &chosen, work);
-            intervals.iter().for_each(|interval| interval.extreme(extreme, &mut best));
+            let chosen = intervals(leg, |low, high| extreme.may_lie(low, high, &best));
+            self.events(&chosen, work).iter().for_each(|interval| interval.extreme(extreme, &mut best));
         }
         best
     }
@@ -183,9 +162,8 @@ impl Leg {
     /// Smallest indentation of a grid, m, at which the compression is at least `wanted`.
     fn first_at_least(&self, grid: &Grid, wanted: f64, work: &mut Work) -> Result<Option<f64>, ContactError> {
         let coarse = self.sample(grid.coarser(STRIDE))?;
-        let reached = |leg: &Sampled| {
-            let reached = leg.states.iter().find(|state| state.compression >= wanted);
-            reached.map(|state| state.indentation)
+        let reached = |leg: &[ContactState]| {
+            leg.iter().find(|state| state.compression >= wanted).map(|state| state.indentation)
         };
         // Behind the first point that has it nothing is sought.
         let may_lie = |end: Option<f64>| {
@@ -197,31 +175,36 @@ impl Leg {
         let coarse_end = reached(&coarse);
         let leg = self.refined(grid, coarse, may_lie(coarse_end))?;
         let end = reached(&leg);
-        let intervals = self.intervals(&leg, &leg.choose(may_lie(end)), work);
-        Ok(intervals.iter().find_map(|interval| interval.first_at_least(wanted)).or(end))
+        let chosen = intervals(&leg, may_lie(end));
+        Ok(self.events(&chosen, work).iter().find_map(|interval| interval.first_at_least(wanted)).or(end))
     }
 
     /// Adds those points of a grid to a coarser one that lie in intervals whose contact at both ends passes `may_lie`.
     fn refined(
         &self,
         grid: &Grid,
-        coarse: Sampled,
+        mut coarse: Vec<ContactState>,
         may_lie: impl Fn(&ContactState, &ContactState) -> bool,
-    ) -> Result<Sampled, ContactError> {
-        let (points, last) = (grid.points(), grid.points().len() - 1);
-        let between = |interval: usize| STRIDE * interval + 1..(STRIDE * (interval + 1)).min(last);
-        let chosen = coarse.choose(may_lie).into_iter();
-        let fine: Vec<f64> = chosen.flat_map(between).map(|index| points[index]).collect();
-        if fine.is_empty() { Ok(coarse) } else { Ok(coarse.merged(self.sample(Grid::at(fine))?)) }
+    ) -> Result<Vec<ContactState>, ContactError> {
+        let between = |[low, high]: [ContactState; 2]| {
+            let place = |state: ContactState| grid.first_at_least(state.indentation);
+            place(low) + 1..place(high)
+        };
+        let chosen = intervals(&coarse, may_lie).into_iter().flat_map(between);
+        let fine: Vec<f64> = chosen.map(|index| grid.points()[index]).collect();
+        if !fine.is_empty() {
+            coarse.extend(self.sample(Grid::at(fine))?);
+            coarse.sort_by(|one, other| one.indentation.total_cmp(&other.indentation));
+        }
+        Ok(coarse)
     }
 
     /// Largest indentation of a sampled leg, m, at which the compression is at most `wanted`.
-    fn last_at_most(&self, leg: &Sampled, wanted: f64, work: &mut Work) -> Option<f64> {
-        let reached = leg.states.iter().rfind(|state| state.compression <= wanted);
+    fn last_at_most(&self, leg: &[ContactState], wanted: f64, work: &mut Work) -> Option<f64> {
+        let reached = leg.iter().rfind(|state| state.compression <= wanted);
         let start = reached.map(|state| state.indentation);
         let first = start.unwrap_or(f64::NEG_INFINITY);
-        let chosen = leg.choose(|low, high| low.indentation >= first && lower_bound(low, high) <= wanted);
-        let intervals = self.intervals(leg, &chosen, work);
-        intervals.iter().rev().find_map(|interval| interval.last_at_most(wanted)).or(start)
+        let chosen = intervals(leg, |low, high| low.indentation >= first && lower_bound(low, high) <= wanted);
+        self.events(&chosen, work).iter().rev().find_map(|interval| interval.last_at_most(wanted)).or(start)
     }
 }

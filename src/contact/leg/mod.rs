@@ -68,7 +68,6 @@ pub(super) use forces::SEARCH_INTERVALS;
 
 impl Leg {
     /// Creates the leg of a body that touches nothing.
-    #[must_use]
     pub fn apart(contact: &Contact, direction: Direction) -> Self {
         Leg {
             contact: contact.clone(),
@@ -162,26 +161,22 @@ impl Leg {
     }
 
     /// Contact of which this is a leg.
-    #[must_use]
     pub fn contact(&self) -> &Contact {
         &self.contact
     }
 
     /// Direction of the motion.
-    #[must_use]
     pub fn direction(&self) -> Direction {
         self.direction
     }
 
     /// Smallest indentation of full contact of a loading, or the smallest one with contact of an unloading, m; of the
     /// stepwise solver, the indentation that it has reached.
-    #[must_use]
     pub fn end(&self) -> f64 {
         self.end
     }
 
     /// Bytes of its own.
-    #[must_use]
     pub fn bytes(&self) -> usize {
         match &self.patches {
             Patches::Springs(thresholds) if self.is_stepwise() => size_of::<f64>() * thresholds.capacity(),
@@ -191,7 +186,6 @@ impl Leg {
     }
 
     /// Returns the patches in contact at an indentation, m, from left to right.
-    #[must_use]
     pub fn patches(&self, indentation: f64) -> Vec<Patch> {
         match &self.patches {
             Patches::Springs(thresholds) => {
@@ -205,7 +199,6 @@ impl Leg {
     }
 
     /// Returns the smallest indentation at which each spring along the line is in contact, m: −∞ always, +∞ never.
-    #[must_use]
     pub fn thresholds(&self) -> Vec<f64> {
         match &self.patches {
             Patches::Springs(thresholds) if thresholds.is_empty() => {
@@ -217,7 +210,6 @@ impl Leg {
     }
 
     /// Evaluates the patch of this number, from the left, at an indentation, m; `None` without such a patch.
-    #[must_use]
     pub fn patch_state(&self, indentation: f64, number: usize) -> Option<PatchState> {
         let Contact { springs, foundation, edges, .. } = &self.contact;
         let patch = *self.patches(indentation).get(number)?;

@@ -10,8 +10,7 @@ use crate::explorer::theme::Meaning;
 use crate::explorer::view::text::{Part, filled, wrapped};
 use crate::export::{study_curves, study_figure, study_map};
 use crate::scene::format_rounded;
-use crate::study::map::{Level, live_plan};
-use crate::study::{Axis, Cell, Estimate, Grid, Place, Quantity};
+use crate::study::{Axis, Cell, Grid, Place, Quantity, Statistics, live_plan};
 use crate::text::grouped;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
@@ -136,7 +135,7 @@ fn profiles(count: u64) -> String {
 /// Returns the reason why the map is missing.
 fn nothing_yet(app: &App) -> String {
     if let Err(why) = live_plan(app.edit.document.scene(), app.chart.parameter) {
-        return why.to_string();
+        return why.to_owned();
     }
     if let Some(why) = app.studies.failure::<Live>() {
         return format!("no map: {why}");
@@ -219,7 +218,7 @@ fn below(app: &App, width: u16) -> Vec<Line<'static>> {
             say("the study was merged without this cell".to_owned(), Meaning::Text);
         }
     } else if study.is_some() {
-        let why = plan.as_ref().err().map(|why| why.to_string().replacen("no map", "no mark", 1));
+        let why = plan.as_ref().err().map(|why| why.replacen("no map", "no mark", 1));
         let no_mark = || "no mark: the scene lacks a quantity of the axes".to_owned();
         say(why.unwrap_or_else(no_mark), Meaning::Quiet);
     }
@@ -229,7 +228,10 @@ fn below(app: &App, width: u16) -> Vec<Line<'static>> {
         say(why.to_owned(), Meaning::Key);
     }
     if let (None, Some(Live { map, .. })) = (study, app.studies.value()) {
-        let size = |level: Level| format!("{} × {} cells", level.columns().count(), map.rows_of(level).len());
+        let size = |level| {
+            let rows = map.cells(level);
+            format!("{} × {} cells", rows.first().map_or(0, Vec::len), rows.len())
+        };
         match (map.level(), app.studies.failure::<Live>()) {
             (_, Some(why)) => say(format!("map incomplete: {why}"), Meaning::Error),
             (Some(_), None) if map.is_whole() => {}
@@ -272,30 +274,28 @@ fn cell_values(
         Ok(cell) => cell,
         Err(why) => return format!("{at}: {why}"),
     };
-    let regime = cell.regime.map(|found| match cell.lines {
-        1 => found.regime.name().to_owned(),
-        lines => {
-            format!("{} ({} of {} profiles)", found.regime.name(), grouped(cell.agreeing()), grouped(lines))
-        }
+    let regime = cell.regimes.most().map(|(regime, count)| match cell.regimes.profiles() as u64 {
+        1 => regime.name().to_owned(),
+        lines => format!("{} ({} of {} profiles)", regime.name(), grouped(count as u64), grouped(lines)),
     });
     // Quantities of the regime are shown together, so that the map keeps its place.
     let charted = app.charted();
     let charted = if WITH_REGIME.contains(&charted) { Quantity::Regime } else { charted };
     let shown = shown_quantities(charted, grid);
-    let known = grid.layers.iter().zip(&cell.estimates).filter(|(layer, _)| shown.contains(&layer.quantity));
-    let values = known.filter_map(|(layer, estimate)| {
+    let known = grid.layers.iter().zip(&cell.statistics).filter(|(layer, _)| shown.contains(&layer.quantity));
+    let values = known.filter_map(|(layer, all)| {
         let quantity = layer.quantity;
-        Some(format!("{} {}", name_of(grid, quantity), value((*estimate)?, quantity.unit())))
+        Some(format!("{} {}", name_of(grid, quantity), value((*all)?, quantity.unit())))
     });
     format!("{at}: {}", regime.into_iter().chain(values).collect::<Vec<_>>().join(", "))
 }
 
 /// A mean, with its confidence where known and the range of the profiles.
-fn value(Estimate { mean, interval, range: (least, most) }: Estimate, unit: &str) -> String {
-    let shown = |value| format_rounded(value, 2, unit);
-    let confidence = interval.filter(|(low, high)| low < high);
+fn value(all: Statistics, unit: &str) -> String {
+    let (shown, (least, most)) = (|value| format_rounded(value, 2, unit), all.range);
+    let confidence = all.confidence_interval().filter(|(low, high)| low < high);
     let confidence =
         confidence.map_or_else(String::new, |(low, high)| format!(" ± {}", shown((high - low) / 2.0)));
     let range = if least < most { format!(" ({} to {})", shown(least), shown(most)) } else { String::new() };
-    format!("{}{confidence}{range}", shown(mean))
+    format!("{}{confidence}{range}", shown(all.mean))
 }

@@ -99,7 +99,7 @@ fn of_character(character: char) -> char {
 
 #[cfg(test)]
 mod tests {
-    use super::super::text::text;
+
     use super::*;
     use proptest::prelude::*;
     use ratatui::layout::Rect;

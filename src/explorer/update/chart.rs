@@ -5,8 +5,7 @@ use crate::explorer::app::App;
 use crate::explorer::chart::Live;
 use crate::explorer::opening::Opening;
 use crate::scene::{Document, RoughnessParameter, SceneErrors};
-use crate::study::map::{live_plan, moved};
-use crate::study::{Axis, Place};
+use crate::study::{Axis, Place, live_plan, moved};
 use std::sync::Arc;
 
 /// Explores a scene or a study opened by its path.
@@ -81,7 +80,7 @@ pub fn step_slice(app: &mut App, steps: i32) {
 pub fn step(app: &mut App, columns: i32, rows: i32) {
     let Some((at_across, at_up)) = app.place() else {
         let why = match live_plan(app.edit.document.scene(), app.chart.parameter) {
-            Err(why) => why.to_string(),
+            Err(why) => why.to_owned(),
             Ok(_) if app.chart.shown_study().is_some() => NO_PLACE.to_owned(),
             Ok(_) => "not before the scene is computed: its κ and e_el/γ follow from its profile".to_owned(),
         };

@@ -9,24 +9,24 @@ use asperity::explorer::chart::Live;
 use asperity::explorer::keys::Context;
 use asperity::explorer::update::{Effect, studies};
 use asperity::scene::{Document, RoughnessParameter};
-use asperity::study::map::{COLUMNS, LINES, Level, LiveMap, hurst, live_plan, parameter_value};
-
-fn kappa(column: usize) -> f64 {
-    parameter_value(RoughnessParameter::Kappa, column)
-}
+use asperity::study::{Level, LiveMap, MAP_LINES, live_plan};
 
 /// A map of a cell on each of four profiles: adhesion falls with κ, and with it the regime.
-fn set(map: &mut LiveMap, column: usize, row: usize) {
-    let kappa = kappa(column);
-    let regime = match kappa * (0.5 + hurst(row)) {
+fn set(map: &mut LiveMap, cell: u64) {
+    let (parameter, hurst) = match map.plan().values(cell)[..] {
+        [parameter, hurst] => (parameter, hurst),
+        _ => panic!("the map has no H"),
+    };
+    let kappa = if map.plan().axes[0].path == "kappa" { parameter } else { parameter.sqrt() };
+    let regime = match kappa * (0.5 + hurst) {
         ..2.0 => 0,
         2.0..12.0 => 1,
         _ => 2,
     };
-    for line in 0..LINES {
+    for line in 0..MAP_LINES {
         // Of four profiles one is in another regime.
         let regime = if line == 3 { (regime + 1) % 3 } else { regime };
-        map.set(column, row, line, &[(-kappa).exp(), 2.0 * (-kappa / 2.0).exp(), f64::from(regime)]);
+        map.set(cell, line, &[(-kappa).exp(), 2.0 * (-kappa / 2.0).exp(), f64::from(regime)]);
     }
 }
 
@@ -36,10 +36,8 @@ fn fill(driver: &mut Driver, levels: &[Level]) {
     let Ok(plan) = live_plan(scene, chart.parameter) else { return };
     let key = chart.key(scene).unwrap();
     let mut map = LiveMap::new(plan).unwrap();
-    for level in levels {
-        for &row in map.rows_of(*level) {
-            level.columns().for_each(|column| set(&mut map, column, row));
-        }
+    for cell in levels.iter().flat_map(|level| map.cells(*level).concat()).collect::<Vec<_>>() {
+        set(&mut map, cell);
     }
     driver.app.studies.set(key, Live::of(&map), map.is_whole());
 }
@@ -79,9 +77,9 @@ fn e_maps_over_the_elastic_energy() {
     // The mark moves to values of the map, and the scene with it.
     driver.press("k");
     let (moved, _) = place(&driver);
-    let mut values =
-        (0..COLUMNS).map(|column| parameter_value(RoughnessParameter::ElasticEnergyRatio, column));
-    assert!(moved > ratio && values.any(|value| (moved / value - 1.0).abs() < 1e-9), "{moved}");
+    let plan = live_plan(rough().scene(), RoughnessParameter::ElasticEnergyRatio).unwrap();
+    let values = &plan.axes[0].values;
+    assert!(moved > ratio && values.iter().any(|value| (moved / value - 1.0).abs() < 1e-9), "{moved}");
     let kappa = driver.app.governing().unwrap().kappa.unwrap();
     assert!((kappa / over_kappa.0 - (moved / ratio).sqrt()).abs() < 1e-9, "{kappa}");
     driver.press("e");

@@ -41,8 +41,8 @@ const ROWS: [(&str, Effect); 6] = [
     ("roughness", Effect::Roughness),
     ("adhesion", Effect::Adhesion),
     ("loading", Effect::Unloading),
-    ("observe.contact fragments", Effect::Fragments),
-    ("observe.height histogram", Effect::HeightHistogram),
+    ("observe.contact patches in results", Effect::Fragments),
+    ("observe.height histogram in results", Effect::HeightHistogram),
 ];
 
 #[test]

@@ -229,7 +229,7 @@ fn the_copied_command_opens_the_scene_as_it_is() {
         driver.press(&(index + 1).to_string());
         let effects = driver.press("y");
         assert_eq!(effects, [Effect::Copy(format!("asperity {}", preset.name))]);
-        for path in ["form", "adhesion", "observe.contact fragments"] {
+        for path in ["form", "adhesion", "observe.contact patches in results"] {
             driver.press("g");
             while driver.app.edit.parameter().is_some_and(|parameter| parameter.path != path) {
                 driver.press("j");

@@ -1,14 +1,13 @@
 //! The maps of a finished study: over H and κ, or over other axes; one map for each value of the remaining axes.
 
+use super::axis::Axis;
+use super::error::StudyError;
+use super::grid::{Grid, Layer, across_and_up, fixed};
 use super::live_plan::live_plan;
-use super::place::{force_unit, moved};
+use super::place::{force_unit, governing, moved, scene_with, strip};
+use super::plan::{PRELOAD, Plan};
+use super::results::Results;
 use crate::scene::{Adhesion, Document, Move, Roughness, RoughnessParameter, Scene, SceneErrors};
-use crate::study::axis::Axis;
-use crate::study::error::StudyError;
-use crate::study::grid::{Grid, Layer, across_and_up, fixed};
-use crate::study::plan::{PRELOAD, Plan};
-use crate::study::results::Results;
-use crate::study::target::{governing, scene_with, strip};
 use std::path::{Path, PathBuf};
 
 /// Map of a finished study.
@@ -41,14 +40,7 @@ impl StudyMap {
         let axes = &study.plan().axes;
         let free: Vec<usize> = (0..axes.len()).filter(|axis| axes[*axis].values.len() > 1).collect();
         let Some((across, up)) = across_and_up(axes, &free) else {
-            let named: Vec<String> = axes.iter().map(|axis| format!("{} (1 value)", axis.path)).collect();
-            let axes = if named.is_empty() {
-                "it has no axes".into()
-            } else {
-                format!("it has {}", named.join(", "))
-            };
-            let reason = "this study has neither a map nor a curve";
-            let reason = format!("{reason}: {axes}; a curve needs an axis with two values at least");
+            let reason = "this study has one cell and no map; a curve needs an axis with two values at least";
             return Err(StudyError::folder(folder, reason));
         };
         let others = (0..axes.len()).filter(|axis| *axis != across && Some(*axis) != up).collect();
@@ -80,13 +72,7 @@ impl StudyMap {
 
     /// Places of a map on all axes, 0 on its own.
     fn places(&self, slice: u64) -> Vec<usize> {
-        let (mut rest, mut places) = (slice, vec![0; self.plan().axes.len()]);
-        for &other in self.others.iter().rev() {
-            let count = self.plan().axes[other].count();
-            places[other] = (rest % count) as usize;
-            rest /= count;
-        }
-        places
+        self.plan().places_on(self.others.iter().copied(), slice)
     }
 
     /// The axes outside the maps, each with the place of a map on it.
@@ -128,8 +114,7 @@ impl StudyMap {
         let at = self.at(slice).map(|(axis, place)| (axis, axis.values[place]));
         let values: Vec<(&Axis, f64)> = at.chain(over.iter().copied()).collect();
         // The plan has been checked with these values.
-        let numbers = values.iter().map(|(axis, value)| (axis.path.as_str(), axis.target, *value));
-        scene = scene_with(&scene, numbers).unwrap_or(scene);
+        scene = scene_with(&scene, values.iter().copied()).unwrap_or(scene);
         let preload = values.iter().find(|(axis, _)| axis.path == PRELOAD).map(|(_, value)| *value);
         let preload = preload.or_else(|| Some(plan.preloads()?.values[0]));
         if let Some((preload, unit)) = preload.zip(force_unit(&scene)) {
@@ -187,7 +172,7 @@ fn is_close(one: Option<(f64, f64)>, other: Option<(f64, f64)>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::{CellRegime, Regime};
+    use crate::analysis::Regime;
     use crate::draw::AxisScale;
     use crate::study::{Changes, Folder, Quantity};
 
@@ -255,16 +240,15 @@ mod tests {
                         continue;
                     };
                     let cell = cell.as_ref().unwrap();
-                    let coefficient = cell.estimates[0].unwrap();
+                    let coefficient = cell.statistics[0].unwrap();
                     assert_eq!((column, up, coefficient.mean), (hurst, row, number as f64));
                     let (regime, split, agreeing) = [
                         (Regime::PressureInsensitive, None, 4),
                         (Regime::PressureSensitive, None, 4),
                         (Regime::NonAdhesive, Some(Regime::PressureSensitive), 3),
                     ][number % 3];
-                    let share = agreeing as f64 / 5.0;
-                    assert_eq!(cell.regime, Some(CellRegime { regime, share, split }));
-                    assert_eq!((cell.agreeing(), cell.lines), (agreeing, 5));
+                    assert_eq!(cell.regimes.most(), Some((regime, agreeing)));
+                    assert_eq!((cell.regimes.split(), cell.regimes.profiles()), (split, 5));
                 }
             }
         }

@@ -1,0 +1,204 @@
+//! Values of axes in scenes: the place of a scene on an axis, and scenes moved to other places.
+
+use super::axis::{Axis, Target};
+use crate::analysis::Governing;
+use crate::scene::{Document, Move, Roughness, Scene, SceneErrors, Tree, ron_float};
+use crate::simulation::FEW_SAMPLES;
+use crate::surface::SelfAffine;
+
+impl Axis {
+    /// Value of the quantity in a scene; `None` where the scene has none. `computed` are the governing parameters
+    /// of a scene whose file has to be read to obtain them.
+    pub fn value_in(&self, scene: &Scene, computed: Option<&Governing>) -> Option<f64> {
+        if let Some(parameter) = self.target.parameter() {
+            let known = governing(scene).or(computed.copied());
+            let stated = scene.adhesion?.parameter().filter(|(stated, _)| *stated == parameter);
+            return known.and_then(|known| known.parameter(parameter)).or(stated.map(|(_, value)| value));
+        }
+        let number = |path: &str| Tree::of(scene).get(path);
+        match (self.target, scene.loading.first()) {
+            (Target::Preload, Some(Move::ToForce(force))) => Some(force / force_unit(scene)?),
+            (Target::Preload, _) => None,
+            (Target::SpringsPerWave, _) => Some(scene.numerics.points as f64 / number("roughness.modes.1")?),
+            _ => number(&self.path),
+        }
+    }
+}
+
+/// The scene with other values of the quantities of axes: first the numbers of the scene, then κ or e_el/γ, then
+/// what follows from others. The preload, which is no part of a scene, is left to the run.
+///
+/// # Errors
+/// The path of a number that the scene does not have, and the reason.
+pub(super) fn scene_with<'a>(
+    base: &Scene,
+    values: impl Iterator<Item = (&'a Axis, f64)>,
+) -> Result<Scene, String> {
+    let mut tree = Tree::of(base);
+    let (mut parameter, mut springs) = (None, None);
+    for (axis, value) in values {
+        match axis.target {
+            Target::Preload => {}
+            Target::RoughnessParameter(of) => parameter = Some((of, value)),
+            Target::SpringsPerWave => springs = Some((axis, value)),
+            Target::Number(_) | Target::Stage(_) => set(&mut tree, &axis.path, axis, value, base)?,
+        }
+    }
+    if let Some((axis, springs)) = springs {
+        let points = tree.get("numerics.points").unwrap_or_default();
+        set(&mut tree, "roughness.modes.1", axis, (points / springs).round(), base)?;
+    }
+    let mut scene = tree.scene()?;
+    if let Some((parameter, value)) = parameter {
+        scene.adhesion = Some(scene.adhesion.unwrap_or_default().with_parameter(parameter, value));
+    }
+    Ok(scene)
+}
+
+/// Sets the number at a path, for an axis.
+fn set(
+    tree: &mut Tree,
+    path: &str,
+    Axis { path: axis, .. }: &Axis,
+    value: f64,
+    base: &Scene,
+) -> Result<(), String> {
+    if tree.set(path, value) {
+        return Ok(());
+    }
+    let stages = base.loading.len();
+    let counted = format!("; its {stages} loading stages are counted from 0");
+    let counted = if axis.starts_with("loading.") { counted } else { String::new() };
+    Err(format!("axis {axis}: the scene has no {path}{counted}"))
+}
+
+/// Removes all that changes no recorded result: texts, what is observed, and the samples of the curve, as all recorded
+/// quantities are at the ends of loading stages or exact extremes.
+pub(super) fn strip(scene: &mut Scene) {
+    scene.title.clear();
+    scene.notice.clear();
+    scene.observe.clear();
+    scene.numerics.samples = FEW_SAMPLES;
+}
+
+/// Governing parameters of a scene with a self-affine profile.
+pub(super) fn governing(scene: &Scene) -> Option<Governing> {
+    let Some(Roughness::SelfAffine { hurst, modes: (first, last), .. }) = scene.roughness else {
+        return None;
+    };
+    let unit = SelfAffine { hurst, first, last }.unit_amplitude(scene.length);
+    Some(Governing::of(scene, Some(unit), None))
+}
+
+/// Unit of preloads, E* h L, of a scene with a self-affine profile, N.
+pub(super) fn force_unit(scene: &Scene) -> Option<f64> {
+    governing(scene)?.force_unit(scene.length)
+}
+
+/// Document with other values of the quantities of axes. κ or e_el/γ changes the work of adhesion of a scene that
+/// specifies it, and a preload replaces the loading; both are set last, since they depend on the others.
+///
+/// # Errors
+/// A value that is not allowed.
+pub fn moved(document: &Document, values: &[(&Axis, f64)]) -> Result<Document, SceneErrors> {
+    let (mut fields, mut parameter, mut preload, mut springs) = (Vec::new(), None, None, None);
+    for &(axis, value) in values {
+        match axis.target {
+            target if target.parameter().is_some() => parameter = target.parameter().zip(Some(value)),
+            Target::Preload => preload = Some(value),
+            Target::SpringsPerWave => springs = Some(value),
+            _ => {
+                let text = if axis.is_whole() { format!("{value:.0}") } else { ron_float(value) };
+                fields.push((axis.path.clone(), text));
+            }
+        }
+    }
+    let mut moved = document.set_all(&fields)?;
+    if let Some(springs) = springs {
+        let last = (moved.scene().numerics.points as f64 / springs).round();
+        moved = moved.set("roughness.modes.1", &format!("{last:.0}"))?;
+    }
+    if let Some((parameter, value)) = parameter {
+        let adhesion = moved.scene().adhesion.unwrap_or_default();
+        let by_work = adhesion.work.is_some() && !adhesion.sets_amplitude();
+        let work = governing(moved.scene()).and_then(|governing| governing.work_for(parameter, value));
+        moved = moved.with_adhesion(match work.filter(|_| by_work) {
+            Some(work) => adhesion.with_work(work),
+            None => adhesion.with_parameter(parameter, value),
+        })?;
+    }
+    match preload.zip(force_unit(moved.scene())) {
+        Some((preload, unit)) => {
+            moved.set("loading", &format!("[ToForce({}), ToSeparation]", ron_float(preload * unit)))
+        }
+        None => Ok(moved),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::RoughnessParameter;
+    use crate::scene::open;
+    use crate::simulation::Simulation;
+    use crate::study::axis::Spacing;
+    use crate::study::live_plan;
+
+    fn with(base: &Scene, path: &str, value: f64) -> Result<Scene, String> {
+        scene_with(base, [(&Axis::new(path, Spacing::List, vec![value], base)?, value)].into_iter())
+    }
+
+    #[test]
+    fn numbers_are_set_as_by_overrides() {
+        for (base, path, value, overrides) in [
+            ("rough-sphere", "roughness.hurst", 0.55, ("roughness.hurst", "0.55")),
+            ("rough-sphere", "roughness.modes.1", 64.0, ("roughness.modes.1", "64")),
+            ("rough-sphere", "numerics.points", 8192.0, ("numerics.points", "8192")),
+            ("rough-sphere", "loading.0.0", 2.5e-5, ("loading.0.0", "2.5e-5")),
+            ("rough-sphere", "kappa", 1.5, ("adhesion", "(kappa: 1.5)")),
+            ("rough-sphere", "elastic_energy_ratio", 0.5, ("adhesion", "(elastic_energy_ratio: 0.5)")),
+            ("rough-sphere", "adhesion.work", 0.015, ("adhesion.work", "0.015")),
+            ("rough-sphere", "springs_per_wave", 8.0, ("roughness.modes.1", "2048")),
+            ("kendall-punch", "form.radius", 2.5e-5, ("form.radius", "2.5e-5")),
+        ] {
+            let document = open(base).unwrap();
+            let scene = with(document.scene(), path, value).unwrap();
+            assert_eq!(&scene, document.set(overrides.0, overrides.1).unwrap().scene(), "{path}");
+        }
+    }
+
+    #[test]
+    fn numbers_that_a_scene_does_not_have_are_stated() {
+        let scene = open("jkr-sphere").unwrap().scene().clone();
+        for path in
+            ["roughness.hurst", "form.angle", "loading.7.0", "numerics.solver.step", "springs_per_wave"]
+        {
+            assert!(with(&scene, path, 1.0).unwrap_err().contains("the scene has no "), "{path}");
+        }
+        for path in ["version", "roughness.seed", "roughness.modes", "numerics", "title"] {
+            assert!(Target::of(path).is_err(), "{path}");
+        }
+    }
+
+    #[test]
+    fn a_document_is_moved_in_its_own_terms() {
+        let by_kappa = open("pressure-sensitive").unwrap().set("numerics.points", "2048").unwrap();
+        let both = by_kappa.set_all(&[
+            ("roughness".to_owned(), "SelfAffine(hurst: 0.7, modes: (1, 512), seed: 1)".to_owned()),
+            ("adhesion".to_owned(), "(work: 0.05, kappa: 2.0)".to_owned()),
+        ]);
+        let by_work = by_kappa.set("adhesion", "(work: 0.05)").unwrap();
+        let axes = live_plan(by_kappa.scene(), RoughnessParameter::Kappa).unwrap().axes;
+        for document in [by_kappa.clone(), both.unwrap(), by_work] {
+            let moved = moved(&document, &[(&axes[1], 0.4), (&axes[0], 3.0)]).unwrap();
+            let (before, after) = (document.scene().adhesion.unwrap(), moved.scene().adhesion.unwrap());
+            assert_eq!(before.work.is_some(), after.work.is_some());
+            assert_eq!(before.parameter().is_some(), after.parameter().is_some());
+            let [kappa, hurst] = [0, 1].map(|axis| axes[axis].value_in(moved.scene(), None).unwrap());
+            assert!((kappa / 3.0 - 1.0).abs() < 1e-12 && hurst == 0.4, "{kappa} {hurst}");
+            let governing = Simulation::default().make_line(moved.scene()).map(|(_, _, governing)| governing);
+            assert!((governing.unwrap().kappa.unwrap() / 3.0 - 1.0).abs() < 1e-9);
+        }
+        assert!(moved(&by_kappa, &[(&axes[0], f64::NAN)]).is_err());
+    }
+}
