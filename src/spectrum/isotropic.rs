@@ -127,7 +127,7 @@ pub(super) struct Nodes {
 }
 
 impl Nodes {
-    /// Nodes between two wave numbers, so many per decade, of a spectrum with this end.
+    /// Nodes between two wave numbers, `per_decade` of them in a decade, of a spectrum with this end.
     pub fn new(low: f64, high: f64, per_decade: f64, end: End) -> Self {
         let decades = (high / low).log10();
         let pieces = (per_decade * decades).ceil().max(2.0);
