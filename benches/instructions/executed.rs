@@ -35,9 +35,7 @@ pub const EFFECTS: &[Effect] = &[
         name: "Hess",
         lines: Lines::Of(&[
             ("src/contact/foundation.rs", "fn largest_stretch("),
-            ("src/contact/adhesive/run.rs", "pub fn attachment("),
-            ("src/contact/adhesive/edge_model.rs", "impl EdgeModel for GridEdges {"),
-            ("src/contact/adhesive/edge_model.rs", "impl EdgeModel for SubCellEdges {"),
+            ("src/contact/adhesive/edge_model.rs", "impl<const SLIDES: bool> Ground<'_, SLIDES> {"),
         ]),
         called_for: Case::is_adhesive,
         counted: |work| work.hess_evaluations,

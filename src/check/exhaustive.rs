@@ -1,7 +1,9 @@
 //! Complete small worlds: every order of few gaps, ties included, against the definitions of the thresholds, and every
 //! history of a few springs against the bare rules.
 
-use crate::contact::{Body, Contact, ContactError, Edges, Foundation, HessRule, Move, Patch, Solver};
+use crate::contact::{
+    Body, Contact, ContactError, Direction, Edges, Foundation, HessRule, Move, Patch, Solver,
+};
 use std::f64::consts::PI;
 
 const SPACING: f64 = 0.01;
@@ -51,7 +53,7 @@ fn sequences(base: usize, count: usize) -> impl Iterator<Item = Vec<usize>> {
 fn compare(gaps: &[f64], range: f64, edges: Edges) -> Result<(), String> {
     let hess = HessRule::new(FOUNDATION, range);
     let mut body = Body::new(&Contact::new(gaps.to_vec(), edges, FOUNDATION, Some(hess)), 2);
-    let definition = Definition { gaps, stretch: hess.largest_stretch(1), edges };
+    let definition = Definition { gaps, stretch: hess.stretch(Direction::Unloading), edges };
     let whole = Patch { first: 0, last: gaps.len() - 1 };
     let deepest = gaps.iter().copied().fold(0.0, f64::max) + 0.1;
     let mut expected = vec![f64::INFINITY; gaps.len()];

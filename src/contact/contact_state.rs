@@ -37,7 +37,7 @@ impl ContactState {
             indentation,
             totals,
             length: whole as f64 + edges.length,
-            compression: totals.compression_of(whole, indentation, scale) + edges.compression,
+            compression: totals.compression(whole, indentation, scale) + edges.compression,
             // No sum of squares is below zero, but for rounding.
             squares: (totals.squares_of(whole, indentation, scale) + edges.squares).max(0.0),
         }
@@ -199,15 +199,4 @@ pub fn upper_bound(low: &ContactState, high: &ContactState) -> f64 {
 /// Bound of the rounding of a bound.
 fn slack(low: &ContactState, high: &ContactState, rise: f64) -> f64 {
     8.0 * f64::EPSILON * (low.compression.abs() + high.compression.abs() + rise)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    #[should_panic(expected = "-3 springs or patches in contact")]
-    fn a_negative_number_of_springs_is_no_result() {
-        counted(-3);
-    }
 }

@@ -93,12 +93,11 @@ impl HessRule {
         self.opening == self.closing
     }
 
-    /// Largest stretch Δl_max = sqrt(π n Δx γ/E*) before a fragment of `springs` springs detaches, m, eq. (10).
+    /// Largest stretch Δl_max = sqrt(π n Δx γ/E*) of a fragment of `springs` springs, m, eq. (10).
     ///
     /// Rounding keeps the order: the value never falls with the number of springs.
-    #[inline]
-    pub fn largest_stretch(&self, springs: u32) -> f64 {
-        self.opening * f64::from(springs).sqrt()
+    pub fn largest_stretch(&self, direction: Direction, springs: usize) -> f64 {
+        self.stretch(direction) * (springs as f64).sqrt()
     }
 }
 

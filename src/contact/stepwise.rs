@@ -106,7 +106,7 @@ impl<'a> Stepwise<'a> {
             loop {
                 end += self.holds[end..].iter().take_while(|&&holds| holds).count();
                 start -= self.holds[..start].iter().rev().take_while(|&&holds| holds).count();
-                let stretch = self.largest_stretch(end - start, Direction::Loading);
+                let stretch = self.contact.rule().largest_stretch(Direction::Loading, end - start);
                 self.work.spring_updates += 2;
                 let takes = |index: &usize| gaps.get(*index).is_some_and(|gap| gap - stretch <= at);
                 let next = Some(end).filter(takes).or_else(|| start.checked_sub(1).filter(takes));
@@ -127,7 +127,7 @@ impl<'a> Stepwise<'a> {
             while first < gaps.len() {
                 let end = first + self.holds[first..].iter().take_while(|&&holds| holds).count();
                 self.work.spring_updates += 2 * (end - first) as u64 + 1;
-                let stretch = self.largest_stretch(end - first, Direction::Unloading);
+                let stretch = self.contact.rule().largest_stretch(Direction::Unloading, end - first);
                 for (place, &gap) in gaps[first..end].iter().enumerate() {
                     // A spring stretched too far here is stretched too far in each part of the fragment as well.
                     if at <= gap - stretch && at < gap {
@@ -140,10 +140,6 @@ impl<'a> Stepwise<'a> {
                 return;
             }
         }
-    }
-
-    fn largest_stretch(&self, springs: usize, direction: Direction) -> f64 {
-        self.contact.rule().stretch(direction) * (springs as f64).sqrt()
     }
 
     fn point(&self) -> CurvePoint {
@@ -166,7 +162,7 @@ impl<'a> Stepwise<'a> {
                 force / (self.contact.foundation.spring_stiffness() * self.holds.len() as f64)
             }
             Goal::Force(_) => start,
-            Goal::Separation => -self.largest_stretch(1, Direction::Unloading),
+            Goal::Separation => -self.contact.rule().stretch(Direction::Unloading),
         };
         if !end.is_finite() {
             return Err(ContactError::OutOfReach);

@@ -121,16 +121,6 @@ impl ContactTotals {
         totals
     }
 
-    /// Sum of the compressions Σ (d − c_i), m: the force in units of the spring stiffness.
-    ///
-    /// With n springs, unit roundoff u = 2⁻⁵³ and a largest gap below 2^e the error is at most
-    /// 2u |result| + n 2^(e−62): the gaps are summed exactly, n d is taken as an exact product of two
-    /// numbers, and only their difference is rounded. Below a largest gap of about 2^−938 m a quantum is
-    /// 2^−1000 m and no less.
-    pub fn compression(&self, indentation: f64, scale: &GapScale) -> f64 {
-        self.compression_of(self.springs, indentation, scale)
-    }
-
     /// Number of whole springs that carry, or of whole cells where edges slide between springs: one less than its springs
     /// in each fragment.
     #[inline]
@@ -138,10 +128,15 @@ impl ContactTotals {
         self.springs - if slides { self.fragments } else { 0 }
     }
 
-    /// Compression of this number of springs, or of cells where the quanta are sums of their mean gaps: ∫ (d − c) dx
-    /// over them, in cells times metres.
+    /// Sum of the compressions Σ (d − c_i), m, of this number of springs, or of cells where the quanta are sums of their mean
+    /// gaps: ∫ (d − c) dx over them, in cells times metres. The force in units of the spring stiffness.
+    ///
+    /// With n springs, unit roundoff u = 2⁻⁵³ and a largest gap below 2^e the error is at most
+    /// 2u |result| + n 2^(e−62): the gaps are summed exactly, n d is taken as an exact product of two
+    /// numbers, and only their difference is rounded. Below a largest gap of about 2^−938 m a quantum is
+    /// 2^−1000 m and no less.
     #[inline]
-    pub(super) fn compression_of(&self, count: i64, indentation: f64, scale: &GapScale) -> f64 {
+    pub fn compression(&self, count: i64, indentation: f64, scale: &GapScale) -> f64 {
         let springs = count as f64;
         let product = springs * indentation;
         let product_error = springs.mul_add(indentation, -product);

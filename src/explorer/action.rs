@@ -1,9 +1,10 @@
-//! Everything that can happen to the explorer.
+//! Everything that can happen to the explorer, and the work outside of its state that follows.
 
 use super::keys::Command;
 use super::opening::Opening;
 use super::snapshot::Report;
 use super::studies::Finding;
+use super::theme::Appearance;
 use crate::export::Format;
 use crate::scene::Entry;
 use crossterm::event::KeyEvent;
@@ -13,7 +14,6 @@ use std::time::Duration;
 /// Event: input of the user, a report from outside, or elapsed time.
 #[derive(Clone, Debug)]
 pub enum Action {
-    /// A key.
     Key(KeyEvent),
     /// A command by its name.
     Command(Command),
@@ -41,14 +41,40 @@ pub enum Action {
     Mouse(Mouse),
 }
 
+/// Work outside the model.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Effect {
+    /// Ask the worker for the state that the screen waits for.
+    Ask,
+    /// Perform the remaining studies of the scene, see [`super::update::studies`], and no others.
+    Study,
+    Write(OutputFile),
+    /// Keep colours and markers in the configuration file.
+    Remember {
+        /// The file.
+        path: PathBuf,
+        /// Colours and markers.
+        appearance: Appearance,
+    },
+    /// List the scenes of the library.
+    List,
+    /// List the paths that complete a typed one.
+    Complete(String),
+    /// Open a scene or a study by its path.
+    Open(String),
+    /// Copy a text.
+    Copy(String),
+    /// Draw the whole screen anew with the next frame.
+    Redraw,
+    /// Return the terminal to the shell for a while.
+    Suspend,
+}
+
 /// A file to write.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutputFile {
-    /// Path.
     pub path: PathBuf,
-    /// Content.
     pub content: Content,
-    /// True to overwrite the file.
     pub overwrite: bool,
     /// True to leave afterwards.
     pub then_quit: bool,
@@ -83,11 +109,9 @@ pub struct Mouse {
     pub column: u16,
     /// Row, from 0 at the top.
     pub row: u16,
-    /// Gesture.
     pub gesture: Gesture,
 }
 
-/// Gestures of a mouse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gesture {
     /// Its left button goes down.

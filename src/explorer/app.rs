@@ -1,11 +1,10 @@
 //! The state of the explorer: changed by `update` alone, drawn by the views.
 
-use super::action::Traffic;
-pub use super::chart::{Chart, OpenStudy};
+use super::action::{Effect, Traffic};
 use super::config::Config;
 pub use super::editor::Editor;
 use super::editor::scene_of;
-use super::effect::Effect;
+pub use super::map::{MapState, OpenStudy};
 use super::opening::Opening;
 pub use super::panes::Pane;
 use super::parameters::{Parameter, Setting};
@@ -19,12 +18,11 @@ use super::theme::Appearance;
 use crate::analysis::{Governing, marks};
 use crate::contact::{CurvePoint, LegRecord};
 use crate::export::LoopQuantities;
-use crate::scene::{Document, Observer, Scene, ron_float};
+use crate::scene::{Change, Document, Observer, Scene, ron_float};
 use crate::simulation::Outcome;
 use crate::study::{Axis, Place};
 use std::sync::Arc;
 
-/// Target of the close-up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CloseUpTarget {
     /// Place.
@@ -54,26 +52,16 @@ pub struct ManualState {
     pub released_energy: f64,
     /// Moves not yet requested.
     pub moves: Vec<ManualMove>,
-    /// Target force as last typed.
-    pub typed_force: String,
 }
 
 /// Content of the pane of the curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CurveLook {
-    /// Quantities.
     pub quantities: LoopQuantities,
     /// True for units of F_a,max, h and the whole line, false for SI units.
     pub normalised: bool,
     /// True if the dissipated energy is shaded.
     pub loss: bool,
-}
-
-/// Lines through the state shown on the force curve, and through one position on profile and close-up.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crosshair {
-    /// Position as a share of the profile, 0 to 1.
-    pub position: f64,
 }
 
 /// Loop kept for comparison.
@@ -85,10 +73,15 @@ pub struct Ghost {
     pub computed: Arc<SolvedScene>,
     /// The contact when it was kept.
     pub snapshot: Option<Arc<ContactSnapshot>>,
-    /// Differences of its scene from the present one.
-    pub differs: String,
-    /// The same differences with the values of the ghost and of the present scene: `κ 4 → 8`.
-    pub changes: String,
+}
+
+impl Ghost {
+    /// Differences from a scene, each in words.
+    pub fn changes(&self, present: &Document, words: impl Fn(&Change) -> String) -> String {
+        let changes = self.document.changes_to(present);
+        let parts: Vec<String> = changes.iter().map(words).collect();
+        if parts.is_empty() { "the same scene".to_owned() } else { parts.join(", ") }
+    }
 }
 
 /// A line for the user, below the panes.
@@ -119,14 +112,14 @@ pub struct View {
     pub appearance: Appearance,
     /// True where octants have no known width: `M` skips them.
     pub lacks_octants: bool,
-    /// Target of the close-up.
     pub look: CloseUpTarget,
     /// Part of the line in the profile pane.
     pub profile: LineView,
     /// Content of the pane of the curve.
     pub curve: CurveLook,
-    /// The crosshair, while shown.
-    pub crosshair: Option<Crosshair>,
+    /// Position of the crosshair as a share of the profile, 0 to 1, while shown. On the force curve its lines cross at
+    /// the shown state.
+    pub crosshair: Option<f64>,
     /// True if the status line has springs and times in place of mechanical quantities.
     pub shows_work: bool,
     /// True if times are shown: they differ from run to run.
@@ -160,7 +153,7 @@ pub struct App {
     /// Values computed after the scene.
     pub studies: Findings,
     /// The map over κ and H.
-    pub chart: Chart,
+    pub map: MapState,
     /// Loops kept for comparison, the newest last.
     pub ghosts: Vec<Ghost>,
     /// Scene to open beside the present one once that is computed.
@@ -211,7 +204,7 @@ impl App {
             snapshot: None,
             progress: Some(0),
             studies: Findings::default(),
-            chart: Chart::default(),
+            map: MapState::default(),
             ghosts: Vec::new(),
             opens_beside: beside,
             tried: None,

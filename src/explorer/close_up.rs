@@ -2,7 +2,7 @@
 
 use super::request::{Focus, SnapshotRequest};
 use super::snapshot::{CloseUp, FragmentFacts};
-use crate::contact::{Leg, Patch, PatchState};
+use crate::contact::{Leg, Patch};
 use crate::export::section::{Contact, LineColumns, Part};
 
 /// The requested part of the line, and the patch nearest to its middle.
@@ -30,9 +30,7 @@ pub fn close_up(
         .collect();
     let fragment = nearest(contact.patches, centre).and_then(|number| {
         let patch = contact.patches[number];
-        let state = leg.patch_state(contact.indentation, number)?;
-        let PatchState { length, force, largest_stretch, most_stretched } = state;
-        Some(FragmentFacts { number, patch, length, largest_stretch, most_stretched, force })
+        Some(FragmentFacts { number, patch, state: leg.patch_state(contact.indentation, number)? })
     });
     CloseUp { section, boundaries, fragment }
 }

@@ -36,7 +36,6 @@ pub struct Config {
     version: u32,
     /// Colours.
     pub theme: Option<Theme>,
-    /// Markers.
     pub markers: Option<Marker>,
     /// Frames per second of the animation.
     pub frame_rate: u32,

@@ -1,9 +1,10 @@
 //! The body under manual loading, with its path for the curve.
 
 use super::request::ManualMove;
-use super::snapshot::{ManualPath, Refusal};
-use crate::contact::{Body, CurvePoint, Leg, Motion, Solver};
-use crate::scene::Move;
+use super::snapshot::ManualPath;
+use crate::contact::{Body, ContactError, CurvePoint, Leg, Motion, Solver};
+use crate::scene::{Move, format_quantity};
+use crate::text::round_to;
 
 /// Points of the curve along the way of one order.
 const POINTS: u32 = 16;
@@ -63,16 +64,24 @@ impl ManualBody {
         self.travel.refused = self.go(from, target).err();
     }
 
-    fn go(&mut self, from: CurvePoint, target: Move) -> Result<(), Refusal> {
+    /// Moves the body, or states why not, with forces rounded into the allowed range.
+    fn go(&mut self, from: CurvePoint, target: Move) -> Result<(), String> {
+        let newtons = |force| format_quantity(force, "N");
         if let Move::ToForce(force) = target
             && force > self.largest.max(from.force)
         {
-            return Err(Refusal::BeyondFullContact {
-                full_contact: self.full_contact,
-                largest: self.largest,
-            });
+            let (full, most) = (newtons(self.full_contact), newtons(-rounded_up(-self.largest)));
+            let force = newtons(force);
+            return Err(format!("{force} is far beyond full contact at {full}; allowed: at most {most}"));
         }
-        let Some(Motion { leg, low, high, .. }) = self.body.move_to(target)? else { return Ok(()) };
+        let moved = self.body.move_to(target).map_err(|error| match (error, target) {
+            (ContactError::DetachesBefore { smallest }, Move::ToForce(force)) => {
+                let (force, least) = (newtons(force), newtons(rounded_up(smallest)));
+                format!("the contact detaches before {force}; smallest force within reach: {least}")
+            }
+            (error, _) => error.to_string(),
+        })?;
+        let Some(Motion { leg, low, high, .. }) = moved else { return Ok(()) };
         let to = self.body.point();
         let way = to.indentation - from.indentation;
         let points = match target {
@@ -85,7 +94,7 @@ impl ManualBody {
         };
         let mut at: Vec<f64> = (1..=points).map(|k| from.indentation + step * f64::from(k)).collect();
         at.sort_by(f64::total_cmp);
-        let mut path = leg.curve(&at)?;
+        let mut path = leg.curve(&at).map_err(|error| error.to_string())?;
         if way < 0.0 {
             path.reverse();
         }
@@ -98,4 +107,11 @@ impl ManualBody {
         self.travel.released_energy += leg.released_energy(below, high);
         Ok(())
     }
+}
+
+/// The nearest number of four digits not below a value.
+fn rounded_up(value: f64) -> f64 {
+    let nearest = round_to(value, 4);
+    let last_digit = 10.0_f64.powi((value.abs().log10().floor() as i32).saturating_sub(3));
+    if nearest >= value { nearest } else { round_to(value + last_digit, 4) }
 }

@@ -1,21 +1,23 @@
 //! The explorer: threads of input, solver and studies send actions into one channel, `update` changes the state, the views
 //! draw the state. This thread computes nothing and sleeps without events.
 
+// Public for the tests alone: names and types state what a doc would repeat.
+#![allow(missing_docs)]
+
 pub mod action;
 pub mod app;
 pub mod autosave;
 mod caption;
-pub mod chart;
 mod close_up;
 mod completion;
 pub mod config;
 pub mod demo;
 mod editor;
-mod effect;
 mod input;
 pub mod keys;
 pub mod layout;
 mod manual_body;
+pub mod map;
 mod opening;
 pub mod panel;
 pub mod panes;

@@ -23,7 +23,6 @@ pub enum OpeningError {
     /// No scene, or an invalid scene.
     #[error(transparent)]
     Scene(Box<SceneErrors>),
-    /// A folder of no study.
     #[error(
         "{0}: this folder is not that of a study: there is no plan.ron in it; allowed: a scene, or the folder of a \
          merged study"

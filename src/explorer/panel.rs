@@ -17,7 +17,6 @@ pub struct Panel {
     pub title: String,
     /// Lines above the body.
     pub head: Vec<Line<'static>>,
-    /// The body.
     pub body: Body,
     /// Lines below the body.
     pub foot: Vec<Line<'static>>,
@@ -25,13 +24,10 @@ pub struct Panel {
     pub edge: Vec<Part>,
 }
 
-/// Body of a panel.
 pub enum Body {
-    /// A chart.
     Chart(Box<Plot>),
     /// A list, scrolled so that the selected row is visible.
     Rows {
-        /// All rows.
         rows: Vec<Line<'static>>,
         /// Index of the selected row.
         selected: usize,
@@ -42,7 +38,6 @@ pub enum Body {
 
 /// A chart with the texts that a figure has in its legend.
 pub struct Plot {
-    /// The chart.
     pub chart: Chart,
     /// Texts beside points of the chart.
     pub names: Vec<((f64, f64), String, Ink)>,
@@ -72,7 +67,6 @@ impl Panel {
         Panel { title, head: Vec::new(), body, foot: Vec::new(), edge: Vec::new() }
     }
 
-    /// The chart of the panel.
     pub fn chart(&self) -> Option<&Chart> {
         if let Body::Chart(plot) = &self.body { Some(&plot.chart) } else { None }
     }

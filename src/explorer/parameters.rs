@@ -39,7 +39,6 @@ pub struct Parameter {
     pub written: String,
     /// Its value for people; empty where the value follows from others and has to be computed.
     pub shown: String,
-    /// The effect of the parameter.
     pub effect: Option<Effect>,
     /// Way of setting.
     pub setting: Setting,
@@ -50,7 +49,6 @@ pub struct Parameter {
 pub enum Setting {
     /// As a field of the scene.
     Field,
-    /// The switch of an effect.
     Switch(Effect),
     /// Not at all: a group without a value of its own.
     Heading,

@@ -12,7 +12,6 @@ use std::path::is_separator;
 /// A prompt: keys act on it until it is closed.
 #[derive(Clone, Debug)]
 pub struct Prompt {
-    /// Purpose.
     pub purpose: Purpose,
     /// The line being typed.
     pub line: TextLine,
@@ -26,7 +25,6 @@ pub struct Prompt {
     pub refused: Option<String>,
 }
 
-/// Purpose of a prompt.
 #[derive(Clone, Debug)]
 pub enum Purpose {
     /// Value of the selected parameter.
@@ -55,7 +53,6 @@ pub enum Purpose {
     Overwrite(OutputFile),
     /// Question whether to leave with unsaved changes.
     Leave,
-    /// The help.
     Help,
 }
 

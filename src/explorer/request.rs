@@ -9,7 +9,6 @@ use std::sync::Arc;
 pub struct Request {
     /// Generation of the scene.
     pub generation: u64,
-    /// The scene.
     pub scene: Arc<Scene>,
     /// Manual moves since the last request.
     pub moves: Vec<ManualMove>,
@@ -74,7 +73,6 @@ pub struct SnapshotRequest {
     pub strip_cells: usize,
     /// Place of the close-up.
     pub focus: Focus,
-    /// Springs of the close-up.
     pub close_up_springs: usize,
     /// Position of the crosshair as a share of the profile, 0 to 1.
     pub crosshair: Option<f64>,
@@ -92,7 +90,6 @@ pub struct LineView {
 }
 
 impl LineView {
-    /// The whole line.
     pub const WHOLE: LineView = LineView { centre: 0.5, share: 1.0, follow: false };
 }
 
@@ -101,7 +98,6 @@ impl LineView {
 pub enum Focus {
     /// Place of first touch.
     Summit,
-    /// A spring.
     Spring(usize),
     /// The fragment after the one nearest to a spring.
     After(Option<usize>),

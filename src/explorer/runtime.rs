@@ -17,50 +17,45 @@ use crate::simulation::Simulation;
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
-/// Solver and studies.
-pub enum Engine {
-    /// On threads that report.
-    Threads(SolverThread, StudyThread),
-    /// At once, with those studies for which the function returns true.
-    Inline(Box<Solver>, fn(&Study) -> bool),
+/// Solver and studies: they answer at once, or later by reports.
+pub struct Engine {
+    solve: Box<dyn FnMut(Request) -> Vec<Action>>,
+    /// Performs studies in place of all others.
+    perform: Box<dyn FnMut(Vec<Study>) -> Vec<Action>>,
 }
 
 impl Engine {
-    /// An engine that answers at once.
+    /// An engine of threads that report.
+    pub fn threads(solver: SolverThread, studies: StudyThread) -> Self {
+        Engine {
+            solve: Box::new(move |request| {
+                solver.ask(request);
+                Vec::new()
+            }),
+            perform: Box::new(move |wanted| {
+                studies.ask(wanted);
+                Vec::new()
+            }),
+        }
+    }
+
+    /// An engine that answers at once, with those studies for which `performs` returns true.
     pub fn inline(solve: Solve, performs: fn(&Study) -> bool) -> Self {
-        Engine::Inline(Box::new(Solver::new(solve, Default::default())), performs)
-    }
-
-    /// Ends the running studies, whose scene is changed.
-    fn stop_studies(&self) {
-        if let Engine::Threads(_, studies) = self {
-            studies.stop();
-        }
-    }
-
-    fn solve(&mut self, request: Request) -> Vec<Action> {
-        let mut reports = Vec::new();
-        match self {
-            Engine::Threads(solver, _) => solver.ask(request),
-            Engine::Inline(solver, _) => {
-                solver.answer(request, &mut |report| reports.push(Action::Report(report)));
+        let mut solver = Solver::new(solve, Default::default());
+        let solve = move |request| {
+            let mut reports = Vec::new();
+            solver.answer(request, &mut |report| reports.push(Action::Report(report)));
+            reports
+        };
+        let perform = move |wanted: Vec<Study>| {
+            let mut found = Vec::new();
+            for study in wanted.into_iter().filter(performs) {
+                let mut report = |finding| found.push(Action::Found(finding));
+                study.perform(&mut Simulation::default(), &|| false, &mut report);
             }
-        }
-        reports
-    }
-
-    fn perform(&mut self, studies: Vec<Study>) -> Vec<Action> {
-        let mut found = Vec::new();
-        match self {
-            Engine::Threads(_, thread) => thread.ask(studies),
-            Engine::Inline(_, performs) => {
-                for study in studies.into_iter().filter(performs) {
-                    let mut report = |finding| found.push(Action::Found(finding));
-                    study.perform(&mut Simulation::default(), &|| false, &mut report);
-                }
-            }
-        }
-        found
+            found
+        };
+        Engine { solve: Box::new(solve), perform: Box::new(perform) }
     }
 }
 
@@ -115,12 +110,12 @@ impl Runtime {
                 let request = request(app);
                 if request.generation != *asked {
                     // Estimates of the former scene are of no use, and take time from this one.
-                    engine.stop_studies();
+                    (engine.perform)(Vec::new());
                     *asked = request.generation;
                 }
-                return engine.solve(request);
+                return (engine.solve)(request);
             }
-            Effect::Study => return engine.perform(studies(app)),
+            Effect::Study => return (engine.perform)(studies(app)),
             Effect::Write(file) => writing::write(app, folder, file),
             Effect::Remember { path, appearance } => {
                 let remembered = remember(&folder.join(&path), appearance);

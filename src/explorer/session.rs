@@ -75,7 +75,6 @@ pub type Draw = fn(&mut Frame<'_>, &App);
 enum Message {
     /// Input of the user; `None` at its end.
     Input(Option<Event>),
-    /// A signal of the system.
     Signal(SystemSignal),
     /// Report of solver or studies.
     Act(Box<Action>),
@@ -133,7 +132,7 @@ pub fn open(
     }
     let restored = options.restored.map(|(path, _)| path);
     let mut session = Session {
-        runtime: Runtime { app, engine: Engine::Threads(solver, studies), asked: 0, folder: PathBuf::new() },
+        runtime: Runtime { app, engine: Engine::threads(solver, studies), asked: 0, folder: PathBuf::new() },
         terminal: &mut terminal,
         guard,
         redraw: false,
@@ -159,7 +158,6 @@ pub fn open(
 /// The terminal of a session.
 type Screen = Terminal<CrosstermBackend<FrameWriter<Stdout>>>;
 
-/// Size of the window.
 fn window(terminal: &Screen) -> io::Result<Size> {
     let size = terminal.size()?;
     if size.area() > MOST_CELLS {

@@ -1,7 +1,7 @@
 //! Shown panes, the selected one, and its valid keys and exports.
 
+use super::action::Effect;
 use super::app::App;
-use super::effect::Effect;
 use super::keys::Context;
 use super::layout::Layout;
 use super::panes::{Pane, Place};
@@ -89,8 +89,8 @@ impl App {
 
     /// Shows the map of a study, the first of them.
     pub fn show_study(&mut self, study_map: Arc<StudyMap>) {
-        self.chart.open_study(study_map, 0);
-        self.chart.of_study = true;
-        self.show(Pane::Chart);
+        self.map.open_study(study_map, 0);
+        self.map.of_study = true;
+        self.show(Pane::Map);
     }
 }

@@ -3,7 +3,7 @@
 
 pub use super::request::Drive;
 use super::request::{Focus, LineView, SnapshotRequest};
-use crate::contact::{ContactError, CurvePoint, Patch};
+use crate::contact::{CurvePoint, Patch, PatchState};
 pub use crate::export::section::{Column, Section};
 use crate::export::section::{Contact, Part};
 use crate::scene::Scene;
@@ -14,11 +14,8 @@ use std::sync::Arc;
 /// A computed scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolvedScene {
-    /// Generation of the scene.
     pub generation: u64,
-    /// The scene.
     pub scene: Arc<Scene>,
-    /// Outcome.
     pub outcome: Outcome,
 }
 
@@ -54,7 +51,6 @@ pub struct ContactSnapshot {
 /// Rigid profile and elastic surface at one spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Probe {
-    /// The spring.
     pub spring: usize,
     /// Height of the rigid profile, m.
     pub height: f64,
@@ -121,35 +117,7 @@ pub struct ManualPath {
     /// Elastic energy released since manual loading began, J.
     pub released_energy: f64,
     /// Reason why the body was not moved.
-    pub refused: Option<Refusal>,
-}
-
-/// Reason why the body was not moved manually.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Refusal {
-    /// The contact detaches at a larger force.
-    Detaches {
-        /// Smallest force within reach, N.
-        smallest: f64,
-    },
-    /// The force lies far beyond full contact.
-    BeyondFullContact {
-        /// Force at full contact, N.
-        full_contact: f64,
-        /// Largest allowed force, N.
-        largest: f64,
-    },
-    /// Any other.
-    Other(ContactError),
-}
-
-impl From<ContactError> for Refusal {
-    fn from(error: ContactError) -> Self {
-        match error {
-            ContactError::DetachesBefore { smallest } => Refusal::Detaches { smallest },
-            other => Refusal::Other(other),
-        }
-    }
+    pub refused: Option<String>,
 }
 
 /// The neighbourhood of one contact fragment.
@@ -170,14 +138,8 @@ pub struct FragmentFacts {
     pub number: usize,
     /// Its springs.
     pub patch: Patch,
-    /// Its length δx, m.
-    pub length: f64,
-    /// Largest stretch by the rule of Hess, eq. (10), m; zero without adhesion.
-    pub largest_stretch: f64,
-    /// Stretch of its most stretched spring, m; negative when all are compressed.
-    pub most_stretched: f64,
-    /// Force, N; compression positive.
-    pub force: f64,
+    /// Its length, force and stretch.
+    pub state: PatchState,
 }
 
 /// Outcome of a tried scene.
@@ -185,7 +147,6 @@ pub struct FragmentFacts {
 pub struct Preview {
     /// The text of the scene, different for different scenes.
     pub text: String,
-    /// Outcome.
     pub outcome: Outcome,
 }
 
@@ -198,14 +159,12 @@ pub enum Report {
     Shown(Arc<ContactSnapshot>),
     /// Part of a scene is done.
     Progress {
-        /// Its generation.
         generation: u64,
         /// Legs done.
         legs: usize,
     },
     /// A scene could not be computed.
     Failed {
-        /// Its generation.
         generation: u64,
         /// Reason, in one line.
         error: String,

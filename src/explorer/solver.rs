@@ -132,7 +132,6 @@ impl Solver {
         }
     }
 
-    /// The body at an indentation of a leg.
     fn take(&mut self, leg: usize, indentation: f64) -> Option<ManualBody> {
         self.newest.body = None;
         let solved = self.newest.solved.clone()?;
@@ -235,7 +234,6 @@ fn panic_text(panic: &(dyn Any + Send)) -> &str {
     text.or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("unknown cause")
 }
 
-/// The thread of the solver.
 pub struct SolverThread {
     requests: Sender<Request>,
     awaited: Arc<AtomicU64>,

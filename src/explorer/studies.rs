@@ -14,7 +14,6 @@ use std::time::{Duration, Instant};
 /// Time after a change of the scene before a study begins: a key held down needs the machine.
 const QUIET: Duration = Duration::from_millis(300);
 
-/// Value of any type.
 type Value = Arc<dyn Any + Send + Sync>;
 
 /// Computation of a value: on a simulation that other studies may have used, until `stop` returns true. Each part is
@@ -158,7 +157,6 @@ impl Findings {
     }
 }
 
-/// The thread of the studies.
 pub struct StudyThread {
     orders: Sender<(u64, Vec<Study>)>,
     newest: Arc<AtomicU64>,

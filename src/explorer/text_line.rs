@@ -1,13 +1,13 @@
 //! A line of text being typed.
 
+use super::theme::{Meaning, Theme};
 use crate::text::is_control;
+use ratatui::style::Modifier;
+use ratatui::text::Span;
 use tui_input::{Input, InputRequest};
 
 /// Longest line, characters.
 const LONGEST: usize = 4096;
-
-/// Message about a longer one.
-const TOO_LONG: &str = "a line has at most 4096 characters; the rest is left out";
 
 /// A line of text with a cursor.
 #[derive(Clone, Debug, Default)]
@@ -15,8 +15,6 @@ pub struct TextLine {
     input: Input,
     /// True if the text is selected: the next character replaces it.
     selected: bool,
-    /// Message about the part that the last insertion left out.
-    left_out: Option<&'static str>,
 }
 
 impl TextLine {
@@ -36,21 +34,15 @@ impl TextLine {
         self.selected
     }
 
-    /// The text.
     pub fn text(&self) -> &str {
         self.input.value()
     }
 
     /// The text before the cursor, under it and after it.
-    pub fn parts(&self) -> (String, String, String) {
+    fn parts(&self) -> (String, String, String) {
         let part = |from, count| self.text().chars().skip(from).take(count).collect();
         let cursor = self.input.cursor();
         (part(0, cursor), part(cursor, 1), part(cursor + 1, LONGEST))
-    }
-
-    /// Message about the part that the last insertion left out; `None` after a whole one.
-    pub fn left_out(&self) -> Option<&'static str> {
-        self.left_out
     }
 
     /// Inserts a text before the cursor, or in place of the selected text, as far as it fits, without its control
@@ -61,11 +53,9 @@ impl TextLine {
             *self = TextLine::default();
         }
         let room = LONGEST - self.text().chars().count();
-        for character in inserted.by_ref().take(room) {
+        for character in inserted.take(room) {
             self.input.handle(InputRequest::InsertChar(character));
         }
-        let has_controls = text.contains(is_control).then_some("control characters are left out");
-        self.left_out = inserted.next().map(|_| TOO_LONG).or(has_controls);
     }
 
     /// Moves the cursor, or deletes a part of the text, the whole of a selected one; nothing is selected any more.
@@ -73,7 +63,26 @@ impl TextLine {
         use InputRequest::{DeleteLine, DeleteNextChar, DeletePrevChar, DeletePrevWord};
         let deletes = matches!(request, DeletePrevChar | DeleteNextChar | DeletePrevWord);
         self.input.handle(if self.selected && deletes { DeleteLine } else { request });
-        (self.selected, self.left_out) = (false, None);
+        self.selected = false;
+    }
+
+    /// The part around the cursor, within a number of columns.
+    pub fn spans(&self, columns: usize, theme: Theme) -> Vec<Span<'static>> {
+        let reversed = theme.style(Meaning::Text).add_modifier(Modifier::REVERSED);
+        if self.selected && !self.text().is_empty() {
+            return vec![Span::styled(self.text().to_owned(), reversed)];
+        }
+        let (before, under, after) = self.parts();
+        let under = if under.is_empty() { " ".to_owned() } else { under };
+        let mut room = columns.saturating_sub(Span::raw(under.as_str()).width());
+        let fits = |character: char| {
+            room = room.checked_sub(Span::raw(character.to_string()).width())?;
+            Some(character)
+        };
+        let mut seen: Vec<char> = before.chars().rev().map_while(fits).collect();
+        seen.reverse();
+        let cursor = Span::styled(under, reversed);
+        vec![Span::raw(String::from_iter(seen)), cursor, Span::raw(after)]
     }
 }
 
@@ -99,18 +108,13 @@ mod tests {
     }
 
     #[test]
-    fn an_insertion_states_what_it_leaves_out() {
+    fn a_line_takes_what_fits() {
         let mut line = TextLine::new("ab");
         line.edit(GoToPrevChar);
         line.insert("1\n2\u{1b}");
-        assert_eq!((line.text(), line.left_out()), ("a12b", Some("control characters are left out")));
-        line.insert("3");
-        assert_eq!((line.text(), line.left_out()), ("a123b", None));
+        assert_eq!(line.text(), "a12b");
         line.insert(&"µ".repeat(20_000));
-        assert_eq!((line.text().chars().count(), line.left_out()), (LONGEST, Some(TOO_LONG)));
-        assert!(line.text().ends_with("µb") && TOO_LONG.contains(&LONGEST.to_string()));
-        line.edit(DeletePrevChar);
-        assert_eq!((line.text().chars().count(), line.left_out()), (LONGEST - 1, None));
+        assert!(line.text().chars().count() == LONGEST && line.text().ends_with("µb"));
     }
 
     #[test]

@@ -49,7 +49,6 @@ pub enum Meaning {
     Line,
     /// The elastic surface.
     Surface,
-    /// Contact.
     Contact,
     /// Forces while loading.
     Approach,
@@ -63,15 +62,10 @@ pub enum Meaning {
     Cursor,
     /// Frames, axes, parts of less weight.
     Quiet,
-    /// Titles.
     Title,
-    /// Selection.
     Selected,
-    /// Error.
     Error,
-    /// Keys.
     Key,
-    /// Text.
     Text,
 }
 
@@ -102,7 +96,6 @@ impl Theme {
         }
     }
 
-    /// The colour of a meaning.
     pub fn colour(self, meaning: Meaning) -> Color {
         use Meaning::{
             Approach, Contact, Cursor, Error, Ghost, Key, Line, Manual, Quiet, Retraction, Selected, Surface,
@@ -139,7 +132,6 @@ impl Theme {
         style.add_modifier(Modifier::BOLD | Modifier::UNDERLINED)
     }
 
-    /// The style of a meaning.
     pub fn style(self, meaning: Meaning) -> Style {
         let style = Style::new().fg(self.colour(meaning));
         match meaning {

@@ -63,7 +63,7 @@ fn check(gaps: &[f64], indentations: &[f64]) -> Result<(), String> {
     let (totals, sum) = (totals(gaps, &scale), sum(gaps));
     let balances = [-3, -1, 0, 1, 2].map(|places| balance(gaps.len(), &sum, places));
     for &d in indentations.iter().chain(&balances) {
-        let found = totals.compression(d, &scale);
+        let found = totals.compression(totals.springs, d, &scale);
         let exact = compression(gaps.len(), &sum, d);
         let error = magnitude(unrounded(found) - exact.clone());
         if error > bound(&exact, gaps.len(), &scale) {

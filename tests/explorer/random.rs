@@ -286,13 +286,13 @@ impl Explorer {
         );
         assert!((0.0..=1.0).contains(&app.play.done), "{:?}", app.play);
         assert!(app.indentation().is_finite());
-        if let Some(study) = app.chart.shown_study() {
+        if let Some(study) = app.map.shown_study() {
             assert!(study.slice < study.study_map.slices());
         }
         if let Some(grid) = app.grid() {
-            let charted = app.charted();
+            let mapped = app.mapped();
             let any = grid.quantities();
-            assert!(any.contains(&charted) || any.is_empty() && charted == Quantity::Regime, "{charted:?}");
+            assert!(any.contains(&mapped) || any.is_empty() && mapped == Quantity::Regime, "{mapped:?}");
         }
         if app.solved.as_ref().is_some_and(|computed| computed.generation == app.edit.generation) {
             assert!(app.play.leg < app.legs().len(), "{:?}", app.play);

@@ -1,7 +1,6 @@
 //! The screen of the explorer after each key, in large windows and small ones, with colours and without.
 
 mod accuracy;
-mod chart;
 mod chrome;
 mod compare;
 mod crosshair;
@@ -15,6 +14,7 @@ mod library;
 mod look;
 mod looks;
 mod manual;
+mod map;
 mod mouse;
 mod palette;
 mod panes;
@@ -109,7 +109,7 @@ fn everywhere() -> Vec<Driver> {
     all.push(Driver::open(rough()));
     all.push(accuracy::measured(rough()));
     all.extend(["", "V", "V V", "X", "z"].map(|keys| {
-        let mut driver = chart::charted(rough());
+        let mut driver = map::mapped(rough());
         driver.press(keys);
         driver
     }));

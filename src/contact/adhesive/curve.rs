@@ -1,6 +1,5 @@
 //! The contact of a leg: along a grid of indentations, and spring by spring.
 
-use super::edge_model::EdgeModel;
 use super::run::{Ground, Held, Run};
 use crate::contact::ContactError;
 use crate::contact::contact_state::{ContactState, Tally};
@@ -8,12 +7,12 @@ use crate::contact::grid::Grid;
 use crate::contact::interval::{Intervals, Piece};
 
 /// The runs of a leg.
-pub struct Runs<'a, E> {
-    pub ground: Ground<'a, E>,
+pub struct Runs<'a, const SLIDES: bool> {
+    pub ground: Ground<'a, SLIDES>,
     pub runs: &'a [Run],
 }
 
-impl<E: EdgeModel> Runs<'_, E> {
+impl<const SLIDES: bool> Runs<'_, SLIDES> {
     /// Patches in contact at an indentation (m), from left to right, with their pinned edges where the next leg `pins`
     /// them.
     pub fn held_at(&self, indentation: f64, pins: bool) -> impl Iterator<Item = Held> {
@@ -50,7 +49,7 @@ impl<E: EdgeModel> Runs<'_, E> {
     /// [`ContactError::OutOfMemory`].
     pub fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {
         let (ground, low, high) = (&self.ground, grid.points()[0], grid.high());
-        let mut tally = Tally::new(grid, E::SLIDES)?;
+        let mut tally = Tally::new(grid, SLIDES)?;
         for run in self.runs.iter().filter(|run| run.from <= high && run.to > low) {
             let (mut first, end) = (tally.place(run.from), tally.place(run.to));
             if first >= end {
@@ -61,7 +60,7 @@ impl<E: EdgeModel> Runs<'_, E> {
                 span = ground.filled(run, span, tally.grid.points()[first]);
                 let next = tally.place(ground.filled_up_to(run, &span)).min(end);
                 tally.add(first..next, ground.totals(&span));
-                if E::SLIDES {
+                if SLIDES {
                     tally.slide(first..next, &ground.slider(run, &span));
                 }
                 first = next;
@@ -80,7 +79,7 @@ impl<E: EdgeModel> Runs<'_, E> {
             ground.each_span(run, low, |span, from, to| {
                 if low < to && from <= high {
                     intervals.add_events(from, to, ground.totals(span));
-                    if E::SLIDES {
+                    if SLIDES {
                         intervals.add_piece(Piece { slider: ground.slider(run, span), from, to });
                     }
                 }

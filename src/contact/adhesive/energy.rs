@@ -5,7 +5,6 @@
 //! stretches at the beginning of each run, less those at its end, and the squares along its sliding edges.
 
 use super::curve::Runs;
-use super::edge_model::EdgeModel;
 use super::levels::EdgeCell;
 use super::run::{Ground, Run};
 use super::span::Span;
@@ -21,19 +20,25 @@ struct SquaredStretch {
 
 impl SquaredStretch {
     /// Creates an empty sum for indentations θ up to this size, m.
-    fn new<E: EdgeModel>(ground: &Ground<'_, E>, largest: f64) -> Self {
+    fn new<const SLIDES: bool>(ground: &Ground<'_, SLIDES>, largest: f64) -> Self {
         let scale = SquareScale::new(ground.tree.scale(), largest);
         SquaredStretch { scale, whole: 0, edges: CompensatedSum::default() }
     }
 
     /// Adds (`sign` 1) or subtracts (−1) the squares over a span with edges at a level, m, at the indentation θ, m.
-    fn add<E: EdgeModel>(&mut self, ground: &Ground<'_, E>, sign: i8, (span, level): (&Span, f64), at: f64) {
+    fn add<const SLIDES: bool>(
+        &mut self,
+        ground: &Ground<'_, SLIDES>,
+        sign: i8,
+        (span, level): (&Span, f64),
+        at: f64,
+    ) {
         let totals = ground.totals(span);
-        let (squares, remainder) = self.scale.at(&totals, totals.whole(E::SLIDES), at);
+        let (squares, remainder) = self.scale.at(&totals, totals.whole(SLIDES), at);
         self.edges.add(f64::from(sign) * remainder);
         // Sums of all runs cancel down to the energy: those in between may pass the range of integers.
         self.whole = self.whole.wrapping_add(if sign < 0 { squares.wrapping_neg() } else { squares });
-        if E::SLIDES {
+        if SLIDES {
             let cells = EdgeCell::of(ground.gaps, span, level);
             cells.iter().for_each(|cell| self.edges.add(f64::from(sign) * cell.squares_below(level - at)));
         }
@@ -47,7 +52,7 @@ impl SquaredStretch {
     }
 }
 
-impl<E: EdgeModel> Ground<'_, E> {
+impl<const SLIDES: bool> Ground<'_, SLIDES> {
     /// Level of the edges of a span at the upper end of its run or below, m.
     fn level_up_to(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         if let Some(rise) = pin {
@@ -62,7 +67,7 @@ impl<E: EdgeModel> Ground<'_, E> {
     }
 }
 
-impl<E: EdgeModel> Runs<'_, E> {
+impl<const SLIDES: bool> Runs<'_, SLIDES> {
     /// ∫ (c − θ)² dx over the parts of the line that attach or detach at an indentation θ above `low` and up to `high`, m,
     /// in cells times m².
     pub fn squared_stretch(&self, low: f64, high: f64) -> f64 {
@@ -83,7 +88,7 @@ impl<E: EdgeModel> Runs<'_, E> {
             }
             let ends = [(bottom, lower), (top, upper)];
             let half_square = 0.5 * ground.stretch * ground.stretch;
-            sum.edges.add(half_square * E::passed_squares(ground.gaps, ends, ground.unloading));
+            sum.edges.add(half_square * ground.passed_squares(ends));
         }
         sum.total()
     }

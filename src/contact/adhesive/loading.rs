@@ -1,6 +1,5 @@
 //! Loading: the indentation at which each part of the line closes, and the fragments between.
 
-use super::edge_model::EdgeModel;
 use super::levels::Levels;
 use super::run::{Ground, Held, Listed, Run};
 use super::span::{Span, larger, smaller};
@@ -23,8 +22,8 @@ pub struct Closing {
 }
 
 /// A loading from fragments in contact.
-struct Loading<'a, E> {
-    ground: &'a Ground<'a, E>,
+struct Loading<'a, const SLIDES: bool> {
+    ground: &'a Ground<'a, SLIDES>,
     held: &'a [Held],
     /// Indentation at which each node closes, m.
     closes: Cow<'a, [f64]>,
@@ -53,7 +52,7 @@ struct Climb {
 
 impl Closing {
     /// Closes all nodes on a loading from separation.
-    pub fn new<E: EdgeModel>(ground: &Ground<'_, E>) -> Result<Self, ContactError> {
+    pub fn new<const SLIDES: bool>(ground: &Ground<'_, SLIDES>) -> Result<Self, ContactError> {
         let count = ground.tree.node_count();
         let mut closing = Closing {
             closes: resized(Vec::new(), count, 0.0)?,
@@ -77,19 +76,20 @@ impl Closing {
                 let closed = if is_leaf { lowest } else { of_node };
                 let mut reach = if is_leaf { [place; 2] } else { known_of_node };
                 let need = node.gap - closed;
-                let taken = if need * need <= square * E::least_length(reach[0] as usize, reach[1] as usize) {
-                    closed
-                } else {
-                    let gap = if is_leaf { closed } else { ground.tree.nodes()[child].gap };
-                    let start = Start { closes: closed, known: reach, gap };
-                    let place = ground.tree.maximum(&node);
-                    let (taken, walked) = ground.climb(start, place, &mut closing.evaluations);
-                    reach = walked;
-                    if !is_leaf {
-                        closing.known[child] = walked;
-                    }
-                    taken
-                };
+                let taken =
+                    if need * need <= square * ground.least_length(reach[0] as usize, reach[1] as usize) {
+                        closed
+                    } else {
+                        let gap = if is_leaf { closed } else { ground.tree.nodes()[child].gap };
+                        let start = Start { closes: closed, known: reach, gap };
+                        let place = ground.tree.maximum(&node);
+                        let (taken, walked) = ground.climb(start, place, &mut closing.evaluations);
+                        reach = walked;
+                        if !is_leaf {
+                            closing.known[child] = walked;
+                        }
+                        taken
+                    };
                 known[side] = reach[side];
                 closes = smaller(closes, taken);
             }
@@ -100,7 +100,11 @@ impl Closing {
     }
 
     /// Lists the runs of a loading from these fragments in contact, from left to right.
-    pub fn list<E: EdgeModel>(&self, ground: &Ground<'_, E>, held: &[Held]) -> Result<Listed, ContactError> {
+    pub fn list<const SLIDES: bool>(
+        &self,
+        ground: &Ground<'_, SLIDES>,
+        held: &[Held],
+    ) -> Result<Listed, ContactError> {
         let mut closes = Cow::Borrowed(self.closes.as_slice());
         if !held.is_empty() {
             let mut own = reserve(self.closes.len())?;
@@ -115,7 +119,7 @@ impl Closing {
     }
 }
 
-impl<E: EdgeModel> Loading<'_, E> {
+impl<const SLIDES: bool> Loading<'_, SLIDES> {
     /// Parts of these fragments on the left and on the right of a spring.
     fn split(&self, [begin, end]: [usize; 2], spring: usize) -> [[usize; 2]; 2] {
         let inside = &self.held[begin..end];
@@ -225,7 +229,7 @@ impl<E: EdgeModel> Loading<'_, E> {
             };
             let need = gaps[wall] - closes;
             let mut attaches = closes;
-            if need * need > square * E::least_length(span.first, span.last) {
+            if need * need > square * ground.least_length(span.first, span.last) {
                 *evaluations += 1;
                 let levels = ground.levels(&span);
                 attaches = larger(closes, ground.attachment(&levels, gaps[wall]));
@@ -260,7 +264,7 @@ impl<E: EdgeModel> Loading<'_, E> {
     }
 }
 
-impl<E: EdgeModel> Ground<'_, E> {
+impl<const SLIDES: bool> Ground<'_, SLIDES> {
     /// Largest φ from the beginning of a branch up to the spring `parent`, not below its own threshold; and the springs
     /// that the branch surely holds at its lowest span.
     ///
@@ -271,7 +275,7 @@ impl<E: EdgeModel> Ground<'_, E> {
         let square = self.square();
         let may_rise = |closes: f64, gap: f64, span: &Span| {
             let need = gap - closes;
-            need > 0.0 && need * need > square * E::least_length(span.first, span.last)
+            need > 0.0 && need * need > square * self.least_length(span.first, span.last)
         };
         let mut span = self.lowest(start);
         let ends = span.ends();

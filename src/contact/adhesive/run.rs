@@ -1,11 +1,9 @@
 //! Runs: the fragments of a leg, each over the range of indentations in which its edges move without a jump.
 
-use super::edge_model::EdgeModel;
-use super::levels::{Levels, Slider};
+use super::levels::Slider;
 use super::span::{Span, larger};
 use super::tree::{Branch, ContactTree};
 use crate::contact::ContactTotals;
-use std::marker::PhantomData;
 
 /// Margin of bounds for rounding.
 const ROUNDING: f64 = 1e-12;
@@ -50,12 +48,14 @@ pub struct Listed {
     pub evaluations: u64,
 }
 
-/// Gaps, contact tree and edge model under the rule of one direction: the input of all passes of a leg.
+/// Gaps and contact tree under the rule of one direction: the input of all passes of a leg.
+///
+/// Edges that `SLIDES` between springs curve the force between two events. Whole springs have one length at all levels of a
+/// span, and no edge cells.
 #[derive(Clone, Copy, Debug)]
-pub struct Ground<'a, E> {
+pub struct Ground<'a, const SLIDES: bool> {
     pub gaps: &'a [f64],
     pub tree: &'a ContactTree,
-    pub edges: PhantomData<E>,
     /// Largest stretch of a fragment of unit length, m.
     pub stretch: f64,
     pub unloading: bool,
@@ -95,7 +95,7 @@ impl Run {
     }
 }
 
-impl<E: EdgeModel> Ground<'_, E> {
+impl<const SLIDES: bool> Ground<'_, SLIDES> {
     /// The span of a branch between these springs.
     #[inline]
     pub fn span(&self, branch: Branch, [first, last]: [u32; 2]) -> Span {
@@ -124,35 +124,10 @@ impl<E: EdgeModel> Ground<'_, E> {
         Slider::new(self.gaps, span, self.stretch, run.pin())
     }
 
-    /// Levels of a span.
-    #[inline]
-    pub fn levels(&self, span: &Span) -> Levels {
-        E::levels(self.gaps, span)
-    }
-
     /// Smallest indentation at which a span attaches its wall of this gap, m.
     #[inline]
     pub fn attaches_at(&self, span: &Span, wall: f64) -> f64 {
         self.attachment(&self.levels(span), wall)
-    }
-
-    /// Smallest indentation at which a span of these levels attaches its wall of this gap, m.
-    #[inline]
-    pub fn attachment(&self, levels: &Levels, wall: f64) -> f64 {
-        let length = if E::SLIDES { levels.length_at(wall - levels.gap) } else { levels.length };
-        wall - self.stretch * length.sqrt()
-    }
-
-    /// Returns true if the edges pass from a span to the next larger one without a jump.
-    #[inline]
-    pub fn slides_on(&self, lower: &Levels, upper: &Levels) -> bool {
-        !E::SLIDES || lower.slide_on(self.stretch, upper)
-    }
-
-    /// Smallest indentation at which a span holds its most stretched spring, m.
-    #[inline]
-    pub fn holds_to(&self, span: &Span) -> f64 {
-        E::holds_to(&self.levels(span), self.stretch)
     }
 
     /// Level of the edges of a span at an indentation, m, pinned at a rise, m, if there is one.
@@ -164,14 +139,13 @@ impl<E: EdgeModel> Ground<'_, E> {
     /// Height of the level of the edges above the largest gap, m, pinned or not.
     #[inline]
     pub fn rise(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
-        let free = || if E::SLIDES { self.levels(span).rise(self.stretch, indentation) } else { 0.0 };
-        pin.unwrap_or_else(free)
+        pin.unwrap_or_else(|| self.levels(span).rise(self.stretch, indentation))
     }
 
     /// Whole springs or cells of a span, and the fragment they form.
     #[inline]
     pub fn totals(&self, span: &Span) -> ContactTotals {
-        let end = span.last + usize::from(!E::SLIDES);
+        let end = span.last + usize::from(!SLIDES);
         let [high, high_squares] = self.tree.sums_before(self.gaps, end);
         let [low, low_squares] = self.tree.sums_before(self.gaps, span.first);
         let (quanta, squares) = (high - low, high_squares - low_squares);
@@ -182,7 +156,7 @@ impl<E: EdgeModel> Ground<'_, E> {
     #[inline]
     fn upper_end(&self, span: &Span, above: &Span) -> f64 {
         // Unloading, the span above parts where this one would go on.
-        if self.unloading { self.holds_to(above) } else { self.attaches_at(span, above.gap) }
+        if self.unloading { self.holds_to(&self.levels(above)) } else { self.attaches_at(span, above.gap) }
     }
 
     /// Upper end of the indentations over which a run fills one of its spans, m.
@@ -198,7 +172,7 @@ impl<E: EdgeModel> Ground<'_, E> {
     /// either leg: a spring with a smaller gap needs no evaluation of the rule.
     #[inline]
     pub fn sure_level(&self, span: &Span, indentation: f64) -> f64 {
-        let root = (self.square() * E::least_length(span.first, span.last)).sqrt();
+        let root = (self.square() * self.least_length(span.first, span.last)).sqrt();
         (indentation + root) - ROUNDING * (indentation.abs() + root)
     }
 

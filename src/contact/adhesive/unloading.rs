@@ -1,6 +1,5 @@
 //! Unloading: the indentation at which each part of a contact detaches, and the fragments between.
 
-use super::edge_model::EdgeModel;
 use super::levels::Levels;
 use super::run::{Ground, Held, Listed, Run};
 use super::span::{Span, smaller};
@@ -22,7 +21,7 @@ struct Part {
     is_whole: bool,
 }
 
-impl<E: EdgeModel> Ground<'_, E> {
+impl<const SLIDES: bool> Ground<'_, SLIDES> {
     /// Lists the runs of an unloading leg from indentation `from` (m) on; `held` are the fragments in contact there, from
     /// left to right.
     ///
@@ -102,7 +101,7 @@ impl<E: EdgeModel> Ground<'_, E> {
             if is_whole || self.may_hold(gap, opens, last + 1 - first) {
                 *evaluations += 1;
                 let levels = self.levels(&span);
-                let holds = E::holds_to(&levels, self.stretch);
+                let holds = self.holds_to(&levels);
                 if is_whole || holds < opens {
                     let mut leaves = smaller(opens, holds);
                     let mut to = if is_whole { f64::INFINITY } else { opens };

@@ -6,12 +6,11 @@
 //! searched.
 
 use super::{Leg, Patches};
-use crate::contact::adhesive::{GridEdges, Run, Runs, SubCellEdges};
 use crate::contact::contact_state::{ContactState, Extreme, intervals, lower_bound, upper_bound};
 use crate::contact::grid::Grid;
 use crate::contact::interval::{Interval, Intervals};
 use crate::contact::thresholds::Thresholds;
-use crate::contact::{ContactError, ContactTree, CurvePoint, Direction, Edges, Work};
+use crate::contact::{ContactError, CurvePoint, Direction, Edges, Work};
 
 /// Intervals in which extremes are searched: each patch is evaluated at each of their ends.
 pub(in crate::contact) const SEARCH_INTERVALS: usize = 256;

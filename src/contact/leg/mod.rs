@@ -1,13 +1,10 @@
 //! One leg: the contact at all indentations of a motion in one direction.
 
-use super::adhesive::{
-    Closing, EdgeCells, EdgeModel, GridEdges, Ground, Held, Run, Runs, Slider, Span, SubCellEdges,
-};
+use super::adhesive::{Closing, EdgeCells, Ground, Held, Levels, Run, Runs, Slider, Span};
 use super::contact_state::ContactState;
 use super::totals::ContactTotals;
 use super::{Contact, ContactError, ContactTree, Direction, Patch};
 use crate::contact::Edges;
-use std::marker::PhantomData;
 use std::sync::Arc;
 
 /// Contact at all indentations of a motion in one direction.
@@ -47,19 +44,18 @@ pub struct PatchState {
 
 /// Evaluates an expression with the runs of a leg, under the edge model of its contact.
 macro_rules! along_runs {
-    ($leg:expr, $tree:expr, $runs:expr, $along:ident => $value:expr) => {{
-        let (leg, tree, runs): (&Leg, &ContactTree, &[Run]) = ($leg, $tree, $runs);
-        match leg.contact.edges {
+    ($leg:expr, $tree:expr, $runs:expr, $along:ident => $value:expr) => {
+        match $leg.contact.edges {
             Edges::Grid => {
-                let $along = Runs { ground: leg.ground::<GridEdges>(tree), runs };
+                let $along = $leg.along::<false>($tree, $runs);
                 $value
             }
             Edges::SubCell => {
-                let $along = Runs { ground: leg.ground::<SubCellEdges>(tree), runs };
+                let $along = $leg.along::<true>($tree, $runs);
                 $value
             }
         }
-    }};
+    };
 }
 
 mod forces;
@@ -135,7 +131,7 @@ impl Leg {
     /// Lists the runs of this leg from the patches in contact at an indentation, m.
     fn list(self, tree: &Arc<ContactTree>, held: &[Held], from: f64) -> Result<Self, ContactError> {
         let mut evaluations = 0;
-        let listed = along_runs!(&self, tree, &[], along => match self.direction {
+        let listed = along_runs!(self, tree, &[], along => match self.direction {
             Direction::Loading => {
                 let closing = self.contact.closing(|| {
                     let closing = Closing::new(&along.ground)?;
@@ -191,10 +187,10 @@ impl Leg {
             Patches::Springs(thresholds) => {
                 Patch::of_springs(thresholds.iter().map(|&threshold| threshold <= indentation))
             }
-            Patches::Runs(tree, runs) => along_runs!(self, tree, runs, along => {
+            Patches::Runs(tree, runs) => {
                 let patch = |held: Held| Patch { first: held.first as usize, last: held.last as usize };
-                along.held_at(indentation, false).map(patch).collect()
-            }),
+                along_runs!(self, tree, runs, along => along.held_at(indentation, false).map(patch).collect())
+            }
         }
     }
 
@@ -219,21 +215,22 @@ impl Leg {
         let Patch { first, last } = patch;
         let span = Span { gap: gaps[patch.springs()].iter().copied().fold(0.0, f64::max), first, last };
         let pin = match &self.patches {
-            Patches::Runs(tree, runs) => along_runs!(self, tree, runs, along => {
-                along.held_at(indentation, self.pins()).nth(number)?.pin
-            }),
+            Patches::Runs(tree, runs) => {
+                along_runs!(self, tree, runs, along => along.held_at(indentation, self.pins()).nth(number)?.pin)
+            }
             _ => None,
         };
         let totals = ContactTotals::of_patch(&gaps[patch.springs()], slides, scale);
         let cells = || Slider::new(gaps, &span, stretch, pin).edge_cells(indentation);
         let cells = if slides { cells() } else { EdgeCells::default() };
         let state = ContactState::new(slides, indentation, totals, cells, &scale);
-        let free = || if slides { SubCellEdges::levels(gaps, &span).rise(stretch, indentation) } else { 0.0 };
+        let free =
+            || if slides { Levels::between_springs(gaps, &span).0.rise(stretch, indentation) } else { 0.0 };
         let point = state.point(*foundation);
         Some(PatchState {
             length: point.contact_length,
             force: point.force,
-            largest_stretch: rule.largest_stretch(1) * state.length.sqrt(),
+            largest_stretch: rule.stretch(Direction::Unloading) * state.length.sqrt(),
             most_stretched: span.gap + pin.unwrap_or_else(free) - indentation,
         })
     }
@@ -244,14 +241,13 @@ impl Leg {
         self.contact.edges == Edges::SubCell && !self.contact.rule().is_one()
     }
 
-    fn ground<'a, E: EdgeModel>(&'a self, tree: &'a ContactTree) -> Ground<'a, E> {
-        let unloading = self.direction == Direction::Unloading;
-        Ground {
+    fn along<'a, const SLIDES: bool>(&'a self, tree: &'a ContactTree, runs: &'a [Run]) -> Runs<'a, SLIDES> {
+        let ground = Ground {
             gaps: self.contact.gaps(),
             tree,
-            edges: PhantomData,
             stretch: self.contact.rule().stretch(self.direction),
-            unloading,
-        }
+            unloading: self.direction == Direction::Unloading,
+        };
+        Runs { ground, runs }
     }
 }

@@ -30,9 +30,7 @@ impl Row {
 /// A row of the table with its keys in use.
 #[derive(Clone, Debug)]
 pub struct Binding {
-    /// The row.
     pub row: &'static Row,
-    /// The keys.
     pub keys: Vec<Key>,
 }
 
@@ -61,7 +59,6 @@ impl Default for Bindings {
 }
 
 impl Bindings {
-    /// All rows.
     pub fn rows(&self) -> impl Iterator<Item = &Binding> {
         self.0.iter()
     }
@@ -71,7 +68,6 @@ impl Bindings {
         self.rows().filter(move |binding| binding.row.contexts.contains(&context))
     }
 
-    /// The command of a key in a context.
     pub fn command(&self, event: &KeyEvent, context: Context) -> Option<Command> {
         let character = if let KeyCode::Char(character) = event.code { Some(character) } else { None };
         let found = self.valid_in(context).find(|one| one.keys.iter().any(|key| key.matches(event)))?;

@@ -7,19 +7,19 @@ mod key;
 pub use bindings::{Binding, Bindings, markdown};
 pub use key::Key;
 
+use super::action::Effect;
 use super::app::App;
-use super::effect::Effect;
 use super::panes::Pane;
 use super::parameters::Parameter;
 use super::prompt::Purpose;
 use super::request::Focus;
-use super::update::{accuracy, chart, compare, crosshair, dialogue, edit, files, look, movement};
+use super::update::{accuracy, compare, crosshair, dialogue, edit, files, look, map, movement};
 use Run::{Character, Do, Edit};
 use std::fmt;
 use tui_input::InputRequest;
 
 /// Context of keys: the prompt chooses it or, without one, the selected pane.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::VariantArray)]
 pub enum Context {
     /// Scene and panes.
     Explore,
@@ -35,7 +35,6 @@ pub enum Context {
     List,
     /// The question whether to overwrite a file.
     Overwrite,
-    /// The help.
     Help,
     /// The question whether to leave with unsaved changes.
     Leave,
@@ -80,7 +79,6 @@ enum Run {
 /// A row of the table, with the character of the key where it has one.
 #[derive(Clone, Copy)]
 pub struct Command {
-    /// The row.
     pub row: &'static Row,
     /// Character of the key.
     pub character: Option<char>,
@@ -124,17 +122,7 @@ const TYPED: &[Context] = &[Context::Line, Context::List];
 const SEARCHED: &[Context] = &[Context::List];
 const OVERWRITE: &[Context] = &[Context::Overwrite];
 const LEAVE: &[Context] = &[Context::Leave];
-const ANY: &[Context] = &[
-    Context::Explore,
-    Context::Map,
-    Context::Crosshair,
-    Context::Parameters,
-    Context::Line,
-    Context::List,
-    Context::Overwrite,
-    Context::Help,
-    Context::Leave,
-];
+const ANY: &[Context] = <Context as strum::VariantArray>::VARIANTS;
 
 const ANIMATION: &str = "Animation";
 const MANUAL: &str = "Manual loading";
@@ -271,20 +259,20 @@ pub const TABLE: &[Row] = &[
     row("↓ j", CROSSHAIR, "crosshair-next-stage", Do(|app| crosshair::go_to_stage(app, 1)), "stage", "move to the next loading stage at the same indentation", CROSS),
     row("Esc", CROSSHAIR, "hide-crosshair", Do(crosshair::toggle), "hide", "hide the crosshair", CROSS),
 
-    row("m", EXPLORE, "toggle-map", Do(|app| app.toggle(Pane::Chart)), "map", "show the regimes over H and κ or e_el/γ, in place of profile and close-up", MAP).rank(2),
-    row("← h", MAP_PANE, "move-left", Do(|app| chart::step(app, -1, 0)), "", "move the scene to the value on the left: decrease H; successive moves are one edit", MAP).merges(),
-    row("→ l", MAP_PANE, "move-right", Do(|app| chart::step(app, 1, 0)), "move", "move the scene to the value on the right: increase H", MAP).merges(),
-    row("↓ j", MAP_PANE, "move-down", Do(|app| chart::step(app, 0, -1)), "", "move the scene to the value below: decrease κ or e_el/γ", MAP).merges(),
-    row("↑ k", MAP_PANE, "move-up", Do(|app| chart::step(app, 0, 1)), "", "move the scene to the value above: increase κ or e_el/γ", MAP).merges(),
-    row("Shift+← H", MAP_PANE, "move-left-coarse", Do(|app| chart::step(app, -4, 0)), "", "move by four values to the left", MAP).merges(),
-    row("Shift+→ L", MAP_PANE, "move-right-coarse", Do(|app| chart::step(app, 4, 0)), "", "move by four values to the right", MAP).merges(),
-    row("Shift+↓ J", MAP_PANE, "move-down-coarse", Do(|app| chart::step(app, 0, -4)), "", "move by four values down: half the κ, a quarter of e_el/γ", MAP).merges(),
-    row("Shift+↑ K", MAP_PANE, "move-up-coarse", Do(|app| chart::step(app, 0, 4)), "", "move by four values up: twice the κ, four times e_el/γ", MAP).merges(),
-    row("e", MAP_PANE, "next-map-parameter", Do(chart::next_parameter), "e_el/γ", "map over e_el/γ in place of κ, or over κ again", MAP),
-    row("V", MAP_PANE, "next-map-quantity", Do(|app| app.chart.quantity = app.next_charted()), "quantity", "map another quantity: regime, F_a(0)/F_a,max, F_a/F_n; all recorded ones of a study", MAP),
-    row("W", MAP_PANE, "toggle-study", Do(chart::toggle_study), "", "show the map of the opened study, or the live map", MAP),
-    row("P PageDown", MAP_PANE, "next-slice", Do(|app| chart::step_slice(app, 1)), "", "show the next preload of the study, or value of a further axis; the scene follows", MAP),
-    row("PageUp", MAP_PANE, "previous-slice", Do(|app| chart::step_slice(app, -1)), "", "show the previous one", MAP),
+    row("m", EXPLORE, "toggle-map", Do(|app| app.toggle(Pane::Map)), "map", "show the regimes over H and κ or e_el/γ, in place of profile and close-up", MAP).rank(2),
+    row("← h", MAP_PANE, "move-left", Do(|app| map::step(app, -1, 0)), "", "move the scene to the value on the left: decrease H; successive moves are one edit", MAP).merges(),
+    row("→ l", MAP_PANE, "move-right", Do(|app| map::step(app, 1, 0)), "move", "move the scene to the value on the right: increase H", MAP).merges(),
+    row("↓ j", MAP_PANE, "move-down", Do(|app| map::step(app, 0, -1)), "", "move the scene to the value below: decrease κ or e_el/γ", MAP).merges(),
+    row("↑ k", MAP_PANE, "move-up", Do(|app| map::step(app, 0, 1)), "", "move the scene to the value above: increase κ or e_el/γ", MAP).merges(),
+    row("Shift+← H", MAP_PANE, "move-left-coarse", Do(|app| map::step(app, -4, 0)), "", "move by four values to the left", MAP).merges(),
+    row("Shift+→ L", MAP_PANE, "move-right-coarse", Do(|app| map::step(app, 4, 0)), "", "move by four values to the right", MAP).merges(),
+    row("Shift+↓ J", MAP_PANE, "move-down-coarse", Do(|app| map::step(app, 0, -4)), "", "move by four values down: half the κ, a quarter of e_el/γ", MAP).merges(),
+    row("Shift+↑ K", MAP_PANE, "move-up-coarse", Do(|app| map::step(app, 0, 4)), "", "move by four values up: twice the κ, four times e_el/γ", MAP).merges(),
+    row("e", MAP_PANE, "next-map-parameter", Do(map::next_parameter), "e_el/γ", "map over e_el/γ in place of κ, or over κ again", MAP),
+    row("V", MAP_PANE, "next-map-quantity", Do(|app| app.map.quantity = app.next_mapped()), "quantity", "map another quantity: regime, F_a(0)/F_a,max, F_a/F_n; all recorded ones of a study", MAP),
+    row("W", MAP_PANE, "toggle-study", Do(map::toggle_study), "", "show the map of the opened study, or the live map", MAP),
+    row("P PageDown", MAP_PANE, "next-slice", Do(|app| map::step_slice(app, 1)), "", "show the next preload of the study, or value of a further axis; the scene follows", MAP),
+    row("PageUp", MAP_PANE, "previous-slice", Do(|app| map::step_slice(app, -1)), "", "show the previous one", MAP),
 
     row("o", EXPLORE, "open-library", Do(dialogue::open_library), "open", "open a scene: built-in, your own, or by path; or the folder of a study", SCENE).rank(2),
     row("1–9", OTHER_PANES, "preset", Character(edit::open_built_in), "", "open a built-in scene by its number, unless the pane of parameters is selected", SCENE).unlisted(),

@@ -1,11 +1,13 @@
 //! Cost of accuracy: errors over times, both logarithmic, requirements of a good accuracy, and the stages of the run.
 
-use super::{Costs, Exported, PaneRow, costs};
-use crate::accuracy::{CostTable, Estimate, Evidence, Knob};
+use super::{Exported, PaneRow};
+use crate::accuracy::{CostTable, Estimate, Evidence, Knob, Progress, measure};
 use crate::draw::{Chart, Ink, Layer, Shape, Sign, Span};
 use crate::explorer::app::App;
 use crate::explorer::keys::Context;
 use crate::explorer::panel::{Panel, names};
+use crate::explorer::snapshot::SolvedScene;
+use crate::explorer::studies::Study;
 use crate::explorer::theme::{Appearance, Meaning};
 use crate::explorer::update::{Answer, Choosing};
 use crate::explorer::view::stages;
@@ -15,13 +17,15 @@ use crate::scene::{Edges, Numerics, Solver, format_quantity, format_rounded};
 use crate::text::grouped;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Duration;
 
-/// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     panel,
     report,
     keys: Some(Context::Crosshair),
-    studies: |_, computed| vec![costs::study(computed)],
+    studies: |_, computed| vec![study(computed)],
     help: &[(
         "Accuracy",
         "A: relative error against the time of a run, with springs and edges between them or at them, and with steps of \
@@ -29,6 +33,34 @@ pub static ROW: PaneRow = PaneRow {
     )],
     ..PaneRow::EMPTY
 };
+
+/// Time for a whole measurement: that of `asperity cost`.
+const BUDGET: Duration = Duration::from_secs(10);
+
+/// The table of costs so far.
+#[derive(Clone, Debug, Default)]
+pub struct Costs {
+    /// The rows so far.
+    pub table: Option<CostTable>,
+    /// Setting tried at present.
+    pub trying: Option<String>,
+}
+
+/// Measures the costs of a scene. Their times are measured together: an interrupted measurement begins anew.
+fn study(computed: &SolvedScene) -> Study {
+    let scene = Arc::clone(&computed.scene);
+    Study::new(computed.generation, true, move |_, stop, report| {
+        let mut costs = Costs::default();
+        let measured = measure(&scene, Path::new(""), BUDGET, stop, &mut |progress| {
+            match progress {
+                Progress::Trying(knob, setting) => costs.trying = Some(format!("{}: {setting}", knob.name())),
+                Progress::Rows(table) => costs.table = Some(table.clone()),
+            }
+            report(costs.clone());
+        });
+        Ok(Costs { table: Some(measured?), trying: None })
+    })
+}
 
 fn report(app: &App) -> Exported<'_> {
     let (document, table) = (&app.edit.document, app.studies.value::<Costs>()?.table.as_ref()?);

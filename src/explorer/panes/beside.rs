@@ -7,10 +7,9 @@ use crate::explorer::keys::Context;
 use crate::explorer::panel::Panel;
 use crate::explorer::snapshot::SolvedScene;
 use crate::export::adhesion_forces;
-use crate::scene::format_quantity;
+use crate::scene::{Change, format_quantity};
 use ratatui::text::Line;
 
-/// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     place: Place::CloseUp,
     panel,
@@ -47,6 +46,7 @@ fn panel(app: &App, _: ratatui::layout::Size) -> Panel {
         Some(now) => format!("F_a {}", adhesion_forces([force(&ghost.computed), force(now)])),
         None => "computing…".to_owned(),
     };
-    let changes = format!("{letter} → this scene: {}", ghost.changes);
+    let changes = ghost.changes(&app.edit.document, Change::to_string);
+    let changes = format!("{letter} → this scene: {changes}");
     Panel { foot: [forces, changes].map(Line::raw).to_vec(), ..panel }
 }

@@ -12,7 +12,6 @@ use crate::scene::format_quantity;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 
-/// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     place: Place::CloseUp,
     panel,
@@ -84,14 +83,15 @@ const ROUNDING: f64 = 1e-13;
 
 /// The contact patch in words: its place and force, and the stretch of its most stretched spring.
 fn describe(patch: Option<FragmentFacts>, patches: u64) -> [String; 2] {
-    let Some(facts) = patch else { return ["○ nothing is in contact".to_owned(), String::new()] };
-    let springs = facts.patch.springs().len();
+    let Some(FragmentFacts { number, patch, state }) = patch else {
+        return ["○ nothing is in contact".to_owned(), String::new()];
+    };
+    let springs = patch.springs().len();
     let plural = if springs == 1 { "" } else { "s" };
-    let [length, force] =
-        [(facts.length, "m"), (facts.force, "N")].map(|(value, unit)| format_quantity(value, unit));
-    let number = facts.number + 1;
+    let (length, force) = (format_quantity(state.length, "m"), format_quantity(state.force, "N"));
+    let number = number + 1;
     let first = format!("○ patch {number} of {patches}: {springs} spring{plural}, δx {length}, F {force}");
-    let (largest, stretch) = (facts.largest_stretch, facts.most_stretched.max(0.0));
+    let (largest, stretch) = (state.largest_stretch, state.most_stretched.max(0.0));
     let is_at_limit = stretch > 0.0 && largest - stretch <= ROUNDING * largest;
     let limit = if is_at_limit { " (at its limit)" } else { "" };
     let [stretch, largest] = [stretch, largest].map(|value| format_quantity(value, "m"));

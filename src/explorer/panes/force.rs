@@ -16,7 +16,6 @@ use crate::scene::format_rounded;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 
-/// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     panel,
     figure: |app, _| Some(Figure::of_chart(app.edit.document.title(), chart(app)?)),
@@ -56,7 +55,7 @@ fn panel(app: &App, size: Size) -> Panel {
     for (number, ghost) in app.ghosts.iter().enumerate().rev() {
         let force = adhesion(app, ghost).map_or_else(String::new, |force| format!(" {force} ·"));
         let ink = Ink::Compared(number);
-        let line = format!("{}:{force} {}", letter(number), ghost.differs);
+        let line = format!("{}:{force} {}", letter(number), differences(app, ghost));
         // The curve keeps the larger part of the pane.
         if size.height >= WITH_GHOSTS && head.len() < 2 + usize::from(size.height / 5) {
             head.push(Line::styled(line, theme.style(meaning(ink))));
@@ -173,7 +172,7 @@ fn chart(app: &App) -> Option<Chart> {
     let units = units(app);
     let unmarked = |legs| ForceLoop { marks: Vec::new(), ..ForceLoop::new(legs) };
     let ghosts = app.ghosts.iter().enumerate().map(|(number, ghost)| ForceLoop {
-        name: Some(Label::plain(&format!("{}: {}", letter(number), ghost.differs))),
+        name: Some(Label::plain(&format!("{}: {}", letter(number), differences(app, ghost)))),
         ink: Some(Ink::Compared(number)),
         stroke: Some(Stroke::Sparse),
         ..unmarked(&ghost.computed.outcome.history.legs)
@@ -237,6 +236,11 @@ fn values(app: &App, width: usize) -> Option<Line<'static>> {
     };
     let words = Some(lines(true)).filter(|lines| lines.len() == 1);
     words.unwrap_or_else(|| lines(false)).into_iter().next()
+}
+
+/// Values of a ghost that differ from those of the present scene.
+fn differences(app: &App, ghost: &Ghost) -> String {
+    ghost.changes(&app.edit.document, |change| format!("{} {}", change.name, change.from))
 }
 
 /// Point of the letter of a ghost: its pull-off, or its end.

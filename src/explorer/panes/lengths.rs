@@ -8,7 +8,6 @@ use crate::explorer::panel::Panel;
 use ratatui::layout::Size;
 use ratatui::text::Line;
 
-/// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     place: Place::CloseUp,
     panel,

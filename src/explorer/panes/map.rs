@@ -3,8 +3,8 @@
 use super::{Exported, PaneRow};
 use crate::draw::{Chart, Figure, Ink, Layer, SHADES, Shape, Sign};
 use crate::explorer::app::App;
-use crate::explorer::chart::{self, Live};
 use crate::explorer::keys::Context;
+use crate::explorer::map::{self, Live};
 use crate::explorer::panel::{Panel, in_theme, names, shades};
 use crate::explorer::theme::Meaning;
 use crate::explorer::view::text::{Part, filled, wrapped};
@@ -15,15 +15,14 @@ use crate::text::grouped;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 
-/// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     panel,
     figure: |app, _| app.grid().map(|grid| figure(app, grid)),
     report: cells,
     keys: Some(Context::Map),
-    studies: |app, computed| match app.chart.shown_study() {
+    studies: |app, computed| match app.map.shown_study() {
         Some(_) => Vec::new(),
-        None => chart::study(app, computed).into_iter().collect(),
+        None => map::study(app, computed).into_iter().collect(),
     },
     help: &[
         (
@@ -49,7 +48,7 @@ fn panel(app: &App, size: Size) -> Panel {
     let title = title(app);
     let Some(grid) = app.grid() else { return Panel::of_text(title, &nothing_yet(app)) };
     let foot = below(app, size.width);
-    let Some(mut chart) = map(grid, app.charted()) else {
+    let Some(mut chart) = map(grid, app.mapped()) else {
         let Some(chart) = curves(app, grid).into_iter().next() else {
             return Panel::of_text(title, "the study has no quantity to draw over its axis");
         };
@@ -66,9 +65,9 @@ fn panel(app: &App, size: Size) -> Panel {
 }
 
 /// Map of the regimes or of a quantity over two axes; `None` for a grid with one axis.
-fn map(grid: &Grid, charted: Quantity) -> Option<Chart> {
-    let mut chart = study_map(grid, charted, true)?;
-    if let (Quantity::Regime, Some(map)) = (charted, chart.map_mut()) {
+fn map(grid: &Grid, mapped: Quantity) -> Option<Chart> {
+    let mut chart = study_map(grid, mapped, true)?;
+    if let (Quantity::Regime, Some(map)) = (mapped, chart.map_mut()) {
         // The shades show the regimes.
         map.contour = None;
         map.class_names.iter_mut().for_each(|class| class.letter = None);
@@ -78,7 +77,7 @@ fn map(grid: &Grid, charted: Quantity) -> Option<Chart> {
 
 /// Curves over the only axis of a map, with the mark of the scene.
 fn curves(app: &App, grid: &Grid) -> Vec<Chart> {
-    let quantities = shown_quantities(app.charted(), grid);
+    let quantities = shown_quantities(app.mapped(), grid);
     let curves = quantities.into_iter().filter(|quantity| *quantity != Quantity::Regime);
     let mark = app.place().map(|(across, _)| across);
     let chart = |quantity| {
@@ -99,25 +98,25 @@ fn figure(app: &App, grid: &Grid) -> Figure {
     let charts = match grid.up {
         None => curves(app, grid),
         Some(_) => {
-            let shown = shown_quantities(app.charted(), grid).into_iter();
+            let shown = shown_quantities(app.mapped(), grid).into_iter();
             shown.filter_map(|quantity| study_map(grid, quantity, false)).collect()
         }
     };
-    let study = app.chart.shown_study();
+    let study = app.map.shown_study();
     let title = study.map_or(&app.edit.document.scene().title, |study| &study.study_map.plan().title);
     study_figure(title, grid, charts)
 }
 
 /// Title of the pane: the mapped quantity, the axes, and the number of profiles of the mean.
 fn title(app: &App) -> String {
-    let plan = live_plan(app.edit.document.scene(), app.chart.parameter);
+    let plan = live_plan(app.edit.document.scene(), app.map.parameter);
     let Some((across, up)) = app.map_axes() else { return "Map".to_owned() };
     let axes: Vec<&str> =
         [Some(&across), up.as_ref()].into_iter().flatten().map(Axis::symbol_or_name).collect();
     let over = axes.join(", ");
-    let charted = app.grid().map(|grid| name_of(grid, app.charted()));
-    let quantity = charted.unwrap_or_else(|| "regime".to_owned());
-    let study = app.chart.shown_study().map(|study| (&study.study_map, study.study_map.plan().lines));
+    let mapped = app.grid().map(|grid| name_of(grid, app.mapped()));
+    let quantity = mapped.unwrap_or_else(|| "regime".to_owned());
+    let study = app.map.shown_study().map(|study| (&study.study_map, study.study_map.plan().lines));
     match (study, plan) {
         (Some((study_map, count)), _) => {
             format!("Study {}: {quantity} over {over}, {}", study_map.name(), profiles(count))
@@ -133,7 +132,7 @@ fn profiles(count: u64) -> String {
 
 /// Returns the reason why the map is missing.
 fn nothing_yet(app: &App) -> String {
-    if let Err(why) = live_plan(app.edit.document.scene(), app.chart.parameter) {
+    if let Err(why) = live_plan(app.edit.document.scene(), app.map.parameter) {
         return why.to_owned();
     }
     if let Some(why) = app.studies.failure::<Live>() {
@@ -160,7 +159,7 @@ fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
     let look = app.view.appearance;
     let title = |text: String| Text::styled(text, look.theme.style(Meaning::Title));
     let mut parts = shades(chart, look, width);
-    if app.charted() == Quantity::Regime {
+    if app.mapped() == Quantity::Regime {
         parts.truncate(1);
         // From the densest: the regimes, and cells whose profiles are in one and the next.
         for (class, shade) in map.class_names.iter().zip(SHADES.iter().rev().step_by(2)) {
@@ -174,7 +173,7 @@ fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
         // The first name is that of the axis.
         parts.extend(names(chart, look).into_iter().skip(1));
     }
-    let Some(study) = app.chart.shown_study() else { return filled(parts, "  ", width) };
+    let Some(study) = app.map.shown_study() else { return filled(parts, "  ", width) };
     let slices = study.study_map.slices();
     let mut slice: Vec<Part> = grid.fixed.iter().map(|at| vec![title(at.clone())]).collect();
     if slices > 1 {
@@ -198,13 +197,13 @@ fn on_axes(grid: &Grid, (across, up): Place) -> String {
 /// Lines below the map, the most important first.
 fn below(app: &App, width: u16) -> Vec<Line<'static>> {
     let Some(grid) = app.grid() else { return Vec::new() };
-    let (study, scene) = (app.chart.shown_study(), app.edit.document.scene());
+    let (study, scene) = (app.map.shown_study(), app.edit.document.scene());
     let mut lines = Vec::new();
     let mut say = |text: String, meaning: Meaning| {
         let line = Line::styled(text, app.view.appearance.theme.style(meaning));
         lines.extend(wrapped(&line, width));
     };
-    let plan = live_plan(scene, app.chart.parameter);
+    let plan = live_plan(scene, app.map.parameter);
     if let Some(place) = app.place() {
         let outside = if grid.contains(place) { "" } else { ", outside the map" };
         let regime = app.current().and_then(|computed| computed.outcome.regime);
@@ -248,13 +247,13 @@ fn below(app: &App, width: u16) -> Vec<Line<'static>> {
 const WITH_REGIME: [Quantity; 2] = [Quantity::ZeroLoadAdhesionShare, Quantity::AdhesionCoefficient];
 
 /// Quantities shown together: with the regime those that decide the regime, if any.
-fn shown_quantities(charted: Quantity, grid: &Grid) -> Vec<Quantity> {
-    if charted != Quantity::Regime {
-        return vec![charted];
+fn shown_quantities(mapped: Quantity, grid: &Grid) -> Vec<Quantity> {
+    if mapped != Quantity::Regime {
+        return vec![mapped];
     }
     let both: Vec<_> = WITH_REGIME.into_iter().filter(|one| grid.layer(*one).is_some()).collect();
     let first = || grid.quantities().into_iter().find(|one| *one != Quantity::Regime);
-    if both.is_empty() { vec![first().unwrap_or(charted)] } else { both }
+    if both.is_empty() { vec![first().unwrap_or(mapped)] } else { both }
 }
 
 /// Values of the cell nearest to the mark, with its place unless this is the mark.
@@ -264,7 +263,7 @@ fn cell_values(
     mark: Place,
     (cell, column, row): (&Result<Cell, String>, usize, usize),
 ) -> String {
-    let whose = if app.chart.shown_study().is_some() { "study" } else { "map" };
+    let whose = if app.map.shown_study().is_some() { "study" } else { "map" };
     let place = (grid.across.values[column], grid.up.as_ref().map(|up| up.values[row]));
     let (at, marked) = (on_axes(grid, place), on_axes(grid, mark));
     let at = if at == marked { whose.to_owned() } else { format!("{whose} at {at}") };
@@ -277,9 +276,9 @@ fn cell_values(
         lines => format!("{} ({} of {} profiles)", regime.name(), grouped(count as u64), grouped(lines)),
     });
     // Quantities of the regime are shown together, so that the map keeps its place.
-    let charted = app.charted();
-    let charted = if WITH_REGIME.contains(&charted) { Quantity::Regime } else { charted };
-    let shown = shown_quantities(charted, grid);
+    let mapped = app.mapped();
+    let mapped = if WITH_REGIME.contains(&mapped) { Quantity::Regime } else { mapped };
+    let shown = shown_quantities(mapped, grid);
     let known = grid.layers.iter().zip(&cell.statistics).filter(|(layer, _)| shown.contains(&layer.quantity));
     let values = known.filter_map(|(layer, all)| {
         let quantity = layer.quantity;

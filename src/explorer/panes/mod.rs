@@ -3,7 +3,6 @@
 mod accuracy;
 mod beside;
 mod close_up;
-mod costs;
 mod force;
 mod lengths;
 mod map;
@@ -16,7 +15,7 @@ mod scene_spectra;
 mod section;
 mod spectrum;
 
-pub use costs::Costs;
+pub use accuracy::Costs;
 pub use force::{indentation_at, nearest};
 pub use parameters::parameter_in;
 pub use preload_curve::{PROFILES, PreloadCurve};
@@ -35,7 +34,7 @@ use ratatui::layout::{Position, Size};
 use std::sync::Arc;
 
 /// The panes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::VariantArray)]
 pub enum Pane {
     /// The force curve.
     Force,
@@ -58,7 +57,7 @@ pub enum Pane {
     /// Density of first-order reversal curves, in place of profile and close-up.
     Density,
     /// The map over κ and H, in place of profile and close-up.
-    Chart,
+    Map,
     /// The list of parameters.
     Parameters,
 }
@@ -66,9 +65,7 @@ pub enum Pane {
 /// Place of a pane in a window with room for all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
-    /// A place of its own.
     Own,
-    /// The place of the close-up.
     CloseUp,
     /// The place of profile and close-up.
     Large,
@@ -121,22 +118,8 @@ const EXPORTED: Size = Size { width: 120, height: 40 };
 
 impl Pane {
     /// All panes, in the order of the help.
-    pub const ALL: [Pane; 12] = [
-        Pane::Force,
-        Pane::Profile,
-        Pane::CloseUp,
-        Pane::Lengths,
-        Pane::Beside,
-        Pane::Accuracy,
-        Pane::Spectrum,
-        Pane::Preloads,
-        Pane::Everett,
-        Pane::Density,
-        Pane::Chart,
-        Pane::Parameters,
-    ];
+    pub const ALL: &[Pane] = <Pane as strum::VariantArray>::VARIANTS;
 
-    /// Row of the pane.
     pub fn row(self) -> &'static PaneRow {
         match self {
             Pane::Force => &force::ROW,
@@ -149,7 +132,7 @@ impl Pane {
             Pane::Preloads => &preloads::ROW,
             Pane::Everett => &reversals::EVERETT,
             Pane::Density => &reversals::DENSITY,
-            Pane::Chart => &map::ROW,
+            Pane::Map => &map::ROW,
             Pane::Parameters => &parameters::ROW,
         }
     }
@@ -158,8 +141,8 @@ impl Pane {
     pub fn panel(self, app: &App, size: Size) -> Panel {
         let mut panel = (self.row().panel)(app, size);
         // The crosshairs of the other panes are at the shown state and at a spring.
-        if let (Some(crosshair), Place::Large) = (app.view.crosshair, self.row().place) {
-            panel.read_at(crosshair.position, app.view.appearance);
+        if let (Some(position), Place::Large) = (app.view.crosshair, self.row().place) {
+            panel.read_at(position, app.view.appearance);
         }
         panel
     }

@@ -9,13 +9,12 @@ use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::search::letters_found;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
-use crate::explorer::view::text::{filled, fitted, marked, wrapped_within};
-use crate::explorer::view::typed::typed;
+use crate::explorer::view::text::{Part, filled, fitted, found, wrapped_within};
 use crate::scene::format_quantity;
 use ratatui::layout::Size;
+use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
-/// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     place: Place::Own,
     panel,
@@ -88,39 +87,35 @@ fn parameter_line(app: &App, index: usize, selected: bool, width: usize) -> Line
     let least = columns(&lead) + if symbol.is_empty() { FEWEST_LETTERS } else { columns(symbol) } + 1;
     let value = cut(&value, width.saturating_sub(least).max(width / 3));
     let room = width.saturating_sub(columns(&lead) + usize::from(!value.is_empty()) + columns(&value));
-    let name = format!("{lead}{}", name_within(parameter, room));
-    let gap = width.saturating_sub(columns(&name) + columns(&value));
+    let name = name_within(parameter, room);
+    let gap = width.saturating_sub(columns(&lead) + columns(&name) + columns(&value));
     let rest = format!("{}{value}", " ".repeat(gap));
     let style = match (refused, selected) {
         (true, _) => theme.style(Meaning::Error),
         (false, true) => theme.style(Meaning::Selected),
         (false, false) => theme.style(Meaning::Text),
     };
-    let letters = found_in(app, parameter, &name, lead.chars().count());
-    let name = marked(&name, &letters, style, theme);
-    Line::from_iter(name.into_iter().chain([Span::styled(rest, style)])).style(style)
+    let mut line = Line::styled(lead, style);
+    line.extend(marked_name(app, parameter, &name, style));
+    line.push_span(Span::styled(rest, style));
+    line
 }
 
-/// Indices of the characters of the shown name and symbol found by the search; `lead` characters come before.
-fn found_in(app: &App, parameter: &Parameter, shown: &str, lead: usize) -> Vec<usize> {
-    let Some(Prompt { purpose: Purpose::Parameter { .. }, line, .. }) = &app.prompt else {
-        return Vec::new();
+/// Name and symbol as far as shown, with the letters found by a search marked.
+fn marked_name(app: &App, parameter: &Parameter, shown: &str, style: Style) -> Part {
+    let query = match &app.prompt {
+        Some(Prompt { purpose: Purpose::Parameter { .. }, line, .. }) => line.text(),
+        _ => "",
     };
-    let (query, name) = (line.text(), parameter.name());
-    // The name may be cut.
-    let kept = shown.chars().skip(lead).zip(name.chars()).take_while(|(one, other)| one == other).count();
-    let in_name = letters_found(&name, query).into_iter().filter(|index| *index < kept);
-    let mut letters: Vec<usize> = in_name.map(|index| index + lead).collect();
-    let symbol = parameter.field.symbol;
-    if shown.ends_with(symbol) {
-        let (all, end) = (symbol.chars().count(), shown.chars().count());
-        // A Greek letter is found by its name as a whole.
-        let is_spelled = !letters_found(&spelled(symbol), query).is_empty();
-        let in_symbol = letters_found(symbol, query);
-        let in_symbol = if in_symbol.is_empty() && is_spelled { (0..all).collect() } else { in_symbol };
-        letters.extend(in_symbol.into_iter().map(|index| index + end - all));
-    }
-    letters
+    let (theme, symbol) = (app.view.appearance.theme, parameter.field.symbol);
+    let (name, symbol) = shown.strip_suffix(symbol).map_or((shown, ""), |name| (name, symbol));
+    let has = |text: &str| !letters_found(text, query).is_empty();
+    // A Greek letter is found by its name as a whole.
+    let symbol = match has(&spelled(symbol)) && !has(symbol) {
+        true => vec![Span::styled(symbol.to_owned(), theme.found(style))],
+        false => found(symbol, query, style, theme),
+    };
+    found(name, query, style, theme).into_iter().chain(symbol).collect()
 }
 
 /// Marks before a name: first row of a group folded or not, effect on or off; other rows are indented.
@@ -161,7 +156,7 @@ fn editor(app: &App, parameter: &Parameter, line: &TextLine, lead: &str, width: 
     let fits = |label: &&String| columns(label) + TYPED_COLUMNS.max(columns(line.text()) + 1) <= width;
     let label = Span::raw(labels.iter().find(fits).unwrap_or(&labels[labels.len() - 1]).clone());
     let room = width.saturating_sub(label.width());
-    Line::from_iter([label].into_iter().chain(typed(line, room, app.view.appearance.theme)))
+    Line::from_iter([label].into_iter().chain(line.spans(room, app.view.appearance.theme)))
 }
 
 /// Name and symbol within a number of columns: the name is cut, or left out where little of the name would remain.

@@ -15,7 +15,6 @@ use ratatui::layout::Size;
 use ratatui::text::Span as Text;
 use std::sync::Arc;
 
-/// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     panel,
     report,

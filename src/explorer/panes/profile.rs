@@ -11,7 +11,6 @@ use crate::scene::format_quantity;
 use crate::surface::Histogram;
 use std::f64::consts::TAU;
 
-/// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     panel: |app, _| {
         let Some(snapshot) = app.snapshot.as_deref() else { return Panel::of_text(title(app), "…") };

@@ -31,7 +31,6 @@ pub static EVERETT: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Row of the pane with the density.
 pub static DENSITY: PaneRow = PaneRow {
     panel: |app, size| panel(app, size, "FORC density ρ", |map| density_chart(map, SMOOTHING)),
     report,

@@ -18,7 +18,6 @@ const BYTES: u64 = 40;
 /// Spectra of a scene, and the moments of its measured surface with their errors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneSpectra {
-    /// The spectra.
     pub spectra: Spectra,
     /// Moments of the equivalent line; `None` for a roughness that is not measured, or is the line itself.
     pub moments: Option<LineMoments>,

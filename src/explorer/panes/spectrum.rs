@@ -20,7 +20,6 @@ use ratatui::text::Line;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     panel,
     keys: Some(Context::Crosshair),

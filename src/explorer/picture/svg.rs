@@ -67,32 +67,22 @@ pub fn svg(buffer: &Buffer, palette: &Palette, title: &str) -> String {
 fn paths(buffer: &Buffer, palette: &Palette) -> BTreeMap<(Kind, Rgb), String> {
     let mut paths = BTreeMap::<_, String>::new();
     for glyph in glyphs(buffer) {
-        let (x, y) = (u32::from(glyph.column) * WIDTH, u32::from(glyph.row) * HEIGHT);
         let (colour, ground) = colours(&glyph, palette);
-        let mut draw = |kind, colour, path: &dyn std::fmt::Display| {
-            *paths.entry((kind, colour)).or_default() += &path.to_string()
-        };
-        let boxed =
-            |[left, top, wide, high]: [u32; 4]| format!("M{} {}h{wide}v{high}h-{wide}z", x + left, y + top);
         if ground != palette.background {
-            draw(Kind::Ground, ground, &boxed([0, 0, u32::from(glyph.width) * WIDTH, HEIGHT]));
+            let path = boxed(&glyph, [0, 0, u32::from(glyph.width) * WIDTH, HEIGHT]);
+            paths.entry((Kind::Ground, ground)).or_default().push_str(&path);
         }
-        match shape(&glyph) {
-            Some(Shape::Boxes(boxes, quarters)) => {
-                let colour = mixed(colour, ground, 25 * quarters);
-                boxes.into_iter().for_each(|part| draw(Kind::Block, colour, &boxed(part)));
-            }
-            Some(Shape::Lines(lines)) => lines.iter().for_each(|line| {
-                draw(Kind::Line, colour, &format_args!("M{} {}{line}", x + WIDTH / 2, y + HEIGHT / 2));
-            }),
-            Some(Shape::Dots(dots)) => (0..8).filter(|dot| dots >> dot & 1 == 1).for_each(|dot: u32| {
-                let path = format_args!("M{} {}h.1", x + 2 + dot % 2 * 4, y + 2 + dot / 2 * 4);
-                draw(Kind::Dots, colour, &path);
-            }),
-            None => {}
+        if let Some((kind, percent, path)) = shape(&glyph) {
+            paths.entry((kind, mixed(colour, ground, percent))).or_default().push_str(&path);
         }
     }
     paths
+}
+
+/// Path around a part of the cell of a symbol: left, top, width and height.
+fn boxed(glyph: &Glyph<'_>, [left, top, width, height]: [u32; 4]) -> String {
+    let (x, y) = (u32::from(glyph.column) * WIDTH + left, u32::from(glyph.row) * HEIGHT + top);
+    format!("M{x} {y}h{width}v{height}h-{width}z")
 }
 
 /// Elements of text by colour, weight and underline: letters of one look on one row, at most one blank apart, are one
@@ -143,29 +133,10 @@ fn colours(glyph: &Glyph<'_>, palette: &Palette) -> (Rgb, Rgb) {
 
 /// Colour of the palette; `reset` where the terminal chooses. The explorer has the sixteen colours of ANSI.
 fn rgb(palette: &Palette, colour: Color, reset: Rgb) -> Rgb {
-    use Color::{
-        Black, Blue, Cyan, DarkGray, Gray, Green, LightBlue, LightCyan, LightGreen, LightMagenta, LightRed,
-        LightYellow, Magenta, Red, White, Yellow,
-    };
-    const ANSI: [Color; 16] = [
-        Black,
-        Red,
-        Green,
-        Yellow,
-        Blue,
-        Magenta,
-        Cyan,
-        Gray,
-        DarkGray,
-        LightRed,
-        LightGreen,
-        LightYellow,
-        LightBlue,
-        LightMagenta,
-        LightCyan,
-        White,
-    ];
-    ANSI.iter().position(|one| *one == colour).map_or(reset, |index| palette.ansi[index])
+    const ANSI: &str = "Black Red Green Yellow Blue Magenta Cyan Gray DarkGray LightRed LightGreen LightYellow \
+                        LightBlue LightMagenta LightCyan White";
+    let name = colour.to_string();
+    ANSI.split(' ').position(|one| one == name).map_or(reset, |index| palette.ansi[index])
 }
 
 /// A colour between two others: a share in percent of the first.
@@ -176,47 +147,46 @@ fn mixed(one: Rgb, other: Rgb, percent: u8) -> Rgb {
     })
 }
 
-/// Shape of a character other than a letter.
-enum Shape {
-    /// Left, top, width and height of boxes, and the quarters of their area that are filled.
-    Boxes(Vec<[u32; 4]>, u8),
-    /// Paths from the middle of the cell.
-    Lines(&'static [&'static str]),
-    /// Dots, two across and four down, bits row by row from the upper left.
-    Dots(u8),
-}
-
-fn shape(glyph: &Glyph<'_>) -> Option<Shape> {
-    const LEFT: &str = "h-4";
-    const RIGHT: &str = "h4";
-    const UP: &str = "v-8";
-    const DOWN: &str = "v8";
+/// Kind, share of its area that is filled in percent, and path of a character other than a letter.
+fn shape(glyph: &Glyph<'_>) -> Option<(Kind, u8, String)> {
+    /// Lines from the middle of the cell to the left, right, upper and lower edge, and the characters with each.
+    const ENDS: [(&str, &str); 4] =
+        [("─┐┘┤┬┴", "h-4"), ("─┌└├┬┴", "h4"), ("│└┘├┤┴", "v-8"), ("│┌┐├┤┬", "v8")];
     let character = glyph.character().filter(|_| glyph.width == 1)?;
-    let filled = |boxes: [u32; 4]| Some(Shape::Boxes(vec![boxes], 4));
-    let lines = |lines| Some(Shape::Lines(lines));
+    let (x, y) = (u32::from(glyph.column) * WIDTH, u32::from(glyph.row) * HEIGHT);
+    let block = |part: [u32; 4]| Some((Kind::Block, 100, boxed(glyph, part)));
+    // Bits row by row from the upper left, two across and four down.
+    let each = |bits: u32, path: &dyn Fn(u32, u32) -> String| {
+        (0..8).filter(|bit| bits >> bit & 1 == 1).map(|bit| path(bit % 2 * 4, bit / 2 * 4)).collect()
+    };
     match character {
-        '─' => lines(&[LEFT, RIGHT]),
-        '│' => lines(&[UP, DOWN]),
-        '┌' => lines(&[RIGHT, DOWN]),
-        '┐' => lines(&[LEFT, DOWN]),
-        '└' => lines(&[RIGHT, UP]),
-        '┘' => lines(&[LEFT, UP]),
-        '├' => lines(&[RIGHT, UP, DOWN]),
-        '┤' => lines(&[LEFT, UP, DOWN]),
-        '┬' => lines(&[LEFT, RIGHT, DOWN]),
-        '┴' => lines(&[LEFT, RIGHT, UP]),
-        '▀' => filled([0, 0, 8, 8]),
-        '▄' => filled([0, 8, 8, 8]),
-        '▁' => filled([0, 14, 8, 2]),
-        '▕' => filled([7, 0, 1, 16]),
-        '█'..='▏' => filled([0, 0, 8 - (character as u32 - '█' as u32), 16]),
-        '░'..='▓' => Some(Shape::Boxes(vec![[0, 0, 8, 16]], (character as u32 - '░' as u32) as u8 + 1)),
+        '─'..='┴' => {
+            let ends = ENDS.iter().filter(|(characters, _)| characters.contains(character));
+            let path: String =
+                ends.map(|(_, end)| format!("M{} {}{end}", x + WIDTH / 2, y + HEIGHT / 2)).collect();
+            Some((Kind::Line, 100, path)).filter(|(.., path)| !path.is_empty())
+        }
+        '▀' => block([0, 0, 8, 8]),
+        '▄' => block([0, 8, 8, 8]),
+        '▁' => block([0, 14, 8, 2]),
+        '▕' => block([7, 0, 1, 16]),
+        '█'..='▏' => block([0, 0, 8 - (character as u32 - '█' as u32), 16]),
+        '░'..='▓' => Some((
+            Kind::Block,
+            25 * (character as u32 - '░' as u32 + 1) as u8,
+            boxed(glyph, [0, 0, WIDTH, HEIGHT]),
+        )),
         ' ' => None,
-        _ => dots(character).map(Shape::Dots).or_else(|| {
-            let bits = OCTANTS.iter().position(|octant| *octant == character)? as u32;
-            let boxes = (0..8).filter(|bit| bits >> bit & 1 == 1).map(|bit| [bit % 2 * 4, bit / 2 * 4, 4, 4]);
-            Some(Shape::Boxes(boxes.collect(), 4))
-        }),
+        _ => match (dots(character), OCTANTS.iter().position(|octant| *octant == character)) {
+            (Some(dots), _) => {
+                let dot = |left, top| format!("M{} {}h.1", x + 2 + left, y + 2 + top);
+                Some((Kind::Dots, 100, each(dots.into(), &dot)))
+            }
+            (None, Some(bits)) => {
+                Some((Kind::Block, 100, each(bits as u32, &|left, top| boxed(glyph, [left, top, 4, 4]))))
+            }
+            (None, None) => None,
+        },
     }
 }
 
@@ -300,22 +270,17 @@ mod tests {
         // A quarter of the way from the background to the foreground.
         assert!(drawn("░", Style::new())[0].contains("#44494f"));
         assert!(drawn("┐", Style::new())[0].contains("d=\"M12 8h-4M12 8v8\""));
+        let path = |character: char| drawn(&character.to_string(), Style::new()).concat();
         for (bits, character) in OCTANTS.into_iter().enumerate().skip(1) {
-            let area: u32 = match shape_of(character) {
-                Some(Shape::Boxes(boxes, 4)) => boxes.iter().map(|part| part[2] * part[3]).sum(),
-                _ => panic!("{character}"),
-            };
-            assert_eq!(area, 16 * bits.count_ones(), "{character}");
+            let (path, ones) = (path(character), bits.count_ones());
+            let boxes = path.split_once(" d=\"").unwrap().1.split('M').skip(1);
+            let sizes = boxes
+                .map(|part| part.split(['h', 'v']).skip(1).take(2).map(|size| size.parse::<u32>().unwrap()));
+            assert_eq!(sizes.map(Iterator::product::<u32>).sum::<u32>(), 16 * ones, "{character}");
         }
-        for (bits, character) in BRAILLE.into_iter().enumerate() {
-            assert!(matches!(shape_of(character), Some(Shape::Dots(dots)) if usize::from(dots) == bits));
+        for (bits, character) in BRAILLE.into_iter().enumerate().skip(1) {
+            assert_eq!(path(character).matches("h.1").count(), bits.count_ones() as usize, "{character}");
         }
-    }
-
-    fn shape_of(character: char) -> Option<Shape> {
-        let mut buffer = Buffer::empty(Rect::new(0, 0, 1, 1));
-        buffer[(0, 0)].set_char(character);
-        glyphs(&buffer).next().and_then(|glyph| shape(&glyph))
     }
 
     /// Contrast ratio of WCAG 2.

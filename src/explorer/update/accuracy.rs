@@ -134,8 +134,7 @@ fn take_over(app: &mut App, choice: &Choice) {
     // From finer solutions than those of an estimate.
     app.studies.set(app.edit.generation, choice.estimate(), true);
     let already = if is_so { "as it is: " } else { "" };
-    let text = fitting(app, format!("{already}{sentence}"), format!("{already}{short}"));
-    app.set_done(text);
+    app.set_done(format!("{already}{short}"));
     app.studies.set(app.edit.generation, Answer(sentence), true);
 }
 
@@ -155,17 +154,10 @@ fn refuse(app: &mut App, tolerance: f64, error: &ChoiceError) {
         ChoiceError::Stepwise => "a tolerance needs numerics.solver: Exact".to_owned(),
         ChoiceError::Run(_) | ChoiceError::Stopped => sentence.clone(),
     };
-    let why = fitting(app, sentence.clone(), short);
-    app.set_error(why);
+    app.set_error(short);
     app.studies.set(app.edit.generation, Answer(sentence), true);
 }
 
-/// The long text where the status line has room, else the short one.
-fn fitting(app: &App, long: String, short: String) -> String {
-    if long.chars().count() + 2 <= usize::from(app.view.size.0) { long } else { short }
-}
-
-/// A share in per cent.
 fn per_cent(share: f64) -> String {
     format!("{} %", format_quantity(100.0 * share, "1"))
 }

@@ -3,7 +3,7 @@
 use super::edit;
 use crate::explorer::app::{App, Ghost, Pane};
 use crate::explorer::panes::newest_letter;
-use crate::scene::{Change, Document, Roughness};
+use crate::scene::{Document, Roughness};
 use std::sync::Arc;
 
 /// Most kept curves; more could not be distinguished.
@@ -44,8 +44,6 @@ fn ghost(app: &App) -> Option<Ghost> {
         document: app.edit.document.clone(),
         computed: Arc::clone(app.current()?),
         snapshot: app.snapshot.clone(),
-        differs: String::new(),
-        changes: String::new(),
     })
 }
 
@@ -59,7 +57,6 @@ pub fn pin(app: &mut App) {
         app.ghosts.remove(0);
     }
     app.ghosts.push(ghost);
-    name_ghosts(app);
     let name = newest_letter(app);
     app.set_done(format!("kept as ghost {name}; x swaps it with the scene"));
 }
@@ -85,17 +82,4 @@ pub fn swap(app: &mut App) {
     };
     app.ghosts.push(present);
     edit::adopt(app, last.document);
-}
-
-/// Names the differences between each ghost and the present scene anew.
-pub fn name_ghosts(app: &mut App) {
-    for ghost in &mut app.ghosts {
-        let changes = ghost.document.changes_to(&app.edit.document);
-        let join = |part: &dyn Fn(&Change) -> String| {
-            let parts: Vec<String> = changes.iter().map(part).collect();
-            if parts.is_empty() { "the same scene".to_owned() } else { parts.join(", ") }
-        };
-        ghost.differs = join(&|change| format!("{} {}", change.name, change.from));
-        ghost.changes = join(&Change::to_string);
-    }
 }

@@ -2,7 +2,7 @@
 //! close-up at one spring, on other charts at a share of the horizontal axis, to be read.
 
 use super::movement;
-use crate::explorer::app::{App, Crosshair, Pane};
+use crate::explorer::app::{App, Pane};
 use crate::explorer::keys::Context;
 use crate::explorer::panes::{nearest, spring_at};
 use crate::explorer::snapshot::Section;
@@ -19,9 +19,9 @@ pub fn move_by(app: &mut App, steps: i32, coarse: bool) {
     if app.view.pane != Pane::Force {
         if section(app).is_some() {
             step(app, steps, coarse);
-        } else if let Some(crosshair) = &mut app.view.crosshair {
+        } else if let Some(position) = &mut app.view.crosshair {
             let share = f64::from(steps) / if coarse { AXIS_STEPS.1 } else { AXIS_STEPS.0 };
-            crosshair.position = (crosshair.position + share).clamp(0.0, 1.0);
+            *position = (*position + share).clamp(0.0, 1.0);
         }
     } else if app.manual.is_some() {
         movement::push(app, steps, coarse);
@@ -39,8 +39,8 @@ pub fn go_to_end(app: &mut App, right: bool) {
     } else if let Some((section, _)) = section(app) {
         let end = section.first + if right { section.springs.saturating_sub(1) } else { 0 };
         look_at(app, end);
-    } else if let Some(crosshair) = &mut app.view.crosshair {
-        crosshair.position = f64::from(u8::from(right));
+    } else {
+        app.view.crosshair = Some(f64::from(u8::from(right)));
     }
 }
 
@@ -56,10 +56,9 @@ pub fn point_at(app: &mut App, (x, y): (f64, f64)) {
     } else if let Some((section, _)) = section(app) {
         let spring = app.snapshot.as_ref().map(|snapshot| spring_at(snapshot.line, section, x));
         spring.into_iter().for_each(|spring| look_at(app, spring));
-    } else if let Some(figure) = app.view.pane.figure(app)
-        && let Some((crosshair, chart)) = app.view.crosshair.as_mut().zip(figure.charts.first())
+    } else if let Some(chart) = app.view.pane.figure(app).and_then(|figure| figure.charts.into_iter().next())
     {
-        crosshair.position = chart.x.share(x).clamp(0.0, 1.0);
+        app.view.crosshair = Some(chart.x.share(x).clamp(0.0, 1.0));
     }
 }
 
@@ -68,7 +67,7 @@ pub fn toggle(app: &mut App) {
     if app.view.crosshair.take().is_some() {
         return;
     }
-    app.view.crosshair = Some(Crosshair { position: 0.5 });
+    app.view.crosshair = Some(0.5);
     if let Some(close_up) = app.snapshot.as_ref().map(|snapshot| snapshot.close_up.clone()) {
         let middle = close_up.section.first + close_up.section.springs / 2;
         look_at(app, close_up.fragment.map_or(middle, |facts| facts.patch.middle()));
@@ -119,8 +118,7 @@ fn step(app: &mut App, steps: i32, coarse: bool) {
     let springs = (section.springs / columns).max(1) * if coarse { COARSE } else { 1 };
     let (first, last) = (section.first, section.first + section.springs.saturating_sub(1));
     // Not the shown spring: keys may come faster than snapshots.
-    let now =
-        app.view.crosshair.map_or(first, |crosshair| (crosshair.position * springs_of(app) as f64) as usize);
+    let now = app.view.crosshair.map_or(first, |position| (position * springs_of(app) as f64) as usize);
     let to = now.saturating_add_signed(springs as isize * steps as isize);
     look_at(app, to.clamp(first, last));
 }
@@ -131,8 +129,5 @@ fn springs_of(app: &App) -> u64 {
 
 /// Puts the crosshair on the middle of a spring.
 fn look_at(app: &mut App, spring: usize) {
-    let springs = springs_of(app);
-    if let Some(crosshair) = &mut app.view.crosshair {
-        crosshair.position = (spring as f64 + 0.5) / springs as f64;
-    }
+    app.view.crosshair = Some((spring as f64 + 0.5) / springs_of(app) as f64);
 }

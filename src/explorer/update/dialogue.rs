@@ -50,7 +50,7 @@ pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
     let Some(prompt) = &mut app.prompt else { return };
     let before = prompt.line.text().to_owned();
     change(&mut prompt.line);
-    if prompt.line.text() == before && prompt.line.left_out().is_none() {
+    if prompt.line.text() == before {
         return;
     }
     (prompt.refused, prompt.paths) = (None, Vec::new());
@@ -128,7 +128,7 @@ fn run_listed(app: &mut App, command: Command) {
         here if is_valid(here) => {}
         _ if is_valid(Context::Parameters) => app.show(Pane::Parameters),
         _ if is_valid(Context::Explore) => app.show(Pane::Force),
-        _ => app.show(Pane::Chart),
+        _ => app.show(Pane::Map),
     }
     run(app, command);
 }

@@ -1,6 +1,5 @@
 //! Edits of the scene. Each results in a document of its own and can be undone.
 
-use super::compare::name_ghosts;
 use super::{Effect, dialogue};
 use crate::explorer::app::{App, CloseUpTarget, Message, Pane, Player};
 use crate::explorer::editor::scene_of;
@@ -52,7 +51,7 @@ pub fn open(app: &mut App, document: Document) {
     app.view.look = CloseUpTarget { focus: Focus::Summit, springs: CloseUpTarget::springs_shown(&document) };
     app.view.profile = LineView::WHOLE;
     // The shown map is that of the scene; a study stays loaded.
-    app.chart.of_study = false;
+    app.map.of_study = false;
     adopt(app, document);
     app.edit.set_saved();
 }
@@ -314,12 +313,11 @@ pub fn undo(app: &mut App, back: bool) {
 fn renewed(app: &mut App) {
     app.message.take_if(|message| matches!(message, Message::Refused(_)));
     app.progress = Some(0);
-    app.chart.moving = false;
-    let map = app.chart.key(&scene_of(&app.edit.document)).unwrap_or_default();
+    app.map.moving = false;
+    let map = app.map.key(&scene_of(&app.edit.document)).unwrap_or_default();
     app.studies.keep(&[&map, app.edit.document.text()]);
     // Manual loading belongs to the former profile and contact.
     if app.manual.take().is_some() {
         app.set_done("the body is back on the scene's loading");
     }
-    name_ghosts(app);
 }

@@ -2,17 +2,17 @@
 //! the state is returned.
 
 pub(super) mod accuracy;
-pub(super) mod chart;
 pub(super) mod compare;
 pub(super) mod crosshair;
 pub(super) mod dialogue;
 pub(super) mod edit;
 pub(super) mod files;
 pub(super) mod look;
+pub(super) mod map;
 mod mouse;
 pub(super) mod movement;
 
-pub use super::effect::Effect;
+pub use super::action::Effect;
 pub use accuracy::{Answer, Choosing, studies};
 
 use super::action::Action;
@@ -47,7 +47,7 @@ fn apply(app: &mut App, action: Action) {
         Action::Written(file, result) => files::written(app, file, result),
         Action::Listed(entries) => dialogue::listed(app, entries),
         Action::Completed(paths) => dialogue::completed(app, paths),
-        Action::Opened(_, Ok(opening)) => chart::open(app, *opening),
+        Action::Opened(_, Ok(opening)) => map::open(app, *opening),
         Action::Opened(path, Err(why)) => {
             dialogue::ask_again(app, Purpose::Scene(Vec::new()), &path, &why);
             app.effects.push(Effect::List);
@@ -72,19 +72,18 @@ fn pressed(app: &mut App, key: &KeyEvent) {
     }
 }
 
-/// Runs a command.
 pub(super) fn run(app: &mut App, command: Command) {
     if app.prompt.is_none() {
-        let moving = app.chart.moving && command.row.merges;
+        let moving = app.map.moving && command.row.merges;
         begin(app);
-        app.chart.moving = moving;
+        app.map.moving = moving;
     }
     command.run(app);
 }
 
 /// Begins a command on scene or panes: ends the notice, and the edit of successive moves in the map.
 pub(super) fn begin(app: &mut App) {
-    app.chart.moving = false;
+    app.map.moving = false;
     // The reason for a missing curve remains; any other notice ends with the next key.
     if app.is_current() || app.is_computing() {
         app.message = None;
@@ -153,6 +152,6 @@ pub fn snapshot_request(app: &App) -> SnapshotRequest {
         strip_cells: layout.close_up_cells(),
         focus: app.view.look.focus,
         close_up_springs: app.view.look.springs,
-        crosshair: app.view.crosshair.map(|crosshair| crosshair.position),
+        crosshair: app.view.crosshair,
     }
 }

@@ -1,6 +1,6 @@
 //! The mouse: selects panes and rows, drags the body and scrolls. Keys can do all this too.
 
-use super::{begin, chart, crosshair, dialogue, edit, look, movement};
+use super::{begin, crosshair, dialogue, edit, look, map, movement};
 use crate::explorer::action::{Gesture, Mouse};
 use crate::explorer::app::{App, Pane};
 use crate::explorer::panel::Under;
@@ -46,9 +46,9 @@ fn wheel(app: &mut App, pane: Pane, under: Under, turns: i32) {
 /// Acts on what is under the mouse in the selected pane: at a press, or during a drag.
 fn point(app: &mut App, here: Position, under: Under, is_press: bool) {
     match (app.view.pane, under) {
-        (Pane::Chart, Under::Data(across, up)) if is_press || app.chart.moving => {
-            app.chart.moving &= !is_press;
-            chart::move_to(app, (across, Some(up)))
+        (Pane::Map, Under::Data(across, up)) if is_press || app.map.moving => {
+            app.map.moving &= !is_press;
+            map::move_to(app, (across, Some(up)))
         }
         (Pane::Parameters, Under::Row(row)) if is_press => {
             begin(app);

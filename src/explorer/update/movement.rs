@@ -3,9 +3,8 @@
 use crate::analysis::pull_off_point;
 use crate::explorer::app::{App, ManualState, Player};
 use crate::explorer::request::{Focus, ManualMove};
-use crate::explorer::snapshot::{ContactSnapshot, Refusal};
-use crate::scene::{format_quantity, parse_quantity};
-use crate::text::round_to;
+use crate::explorer::snapshot::ContactSnapshot;
+use crate::scene::parse_quantity;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -136,36 +135,11 @@ pub fn shown(app: &mut App, snapshot: Arc<ContactSnapshot>) {
             manual.changed = travel.changed;
         }
         manual.released_energy = travel.released_energy;
-        if let Some(error) = &travel.refused {
-            let why = refusal(error, &manual.typed_force);
-            app.set_error(why);
+        if let Some(why) = &travel.refused {
+            app.set_error(why.clone());
         }
     }
     app.snapshot = Some(snapshot);
-}
-
-/// Reason why the body was not moved, with forces rounded into the allowed range.
-fn refusal(refusal: &Refusal, typed: &str) -> String {
-    let force = |value| format_quantity(value, "N");
-    match *refusal {
-        Refusal::Detaches { smallest } => {
-            let least = force(rounded_up(smallest));
-            format!("the contact detaches before {}; smallest force within reach: {least}", typed.trim())
-        }
-        Refusal::BeyondFullContact { full_contact, largest } => {
-            let (full, most) = (force(full_contact), force(-rounded_up(-largest)));
-            format!("{} is far beyond full contact at {full}; allowed: at most {most}", typed.trim())
-        }
-        Refusal::Other(ref error) => error.to_string(),
-    }
-}
-
-/// The nearest number of four digits not below a value.
-fn rounded_up(value: f64) -> f64 {
-    let rounded = |value: f64| round_to(value, 4);
-    let nearest: f64 = rounded(value);
-    let last_digit = 10.0_f64.powi((value.abs().log10().floor() as i32).saturating_sub(3));
-    if nearest >= value { nearest } else { rounded(value + last_digit) }
 }
 
 /// Begins manual loading where it has not begun, and moves the body.
@@ -191,8 +165,5 @@ pub fn accept_force(app: &mut App, typed: &str) -> Result<(), String> {
     let force = parse_quantity(typed.trim(), "N");
     let force = force.map_err(|error| format!("{error}; for example 10 µN, or -2e-6 to pull"))?;
     take(app, Some(ManualMove::ToForce(force)));
-    if let Some(manual) = &mut app.manual {
-        manual.typed_force = typed.trim().to_owned();
-    }
     Ok(())
 }

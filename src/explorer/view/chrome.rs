@@ -2,7 +2,6 @@
 
 use super::stages;
 use super::text::{filled, fitted, wrapped_within};
-use super::typed::typed;
 use crate::accuracy::Estimate;
 use crate::analysis::SteepWaves;
 use crate::contact::CurvePoint;
@@ -40,8 +39,8 @@ pub fn status(app: &App, width: u16) -> Line<'static> {
     let theme = app.view.appearance.theme;
     let error = |text: String| Line::styled(text, theme.style(Meaning::Error));
     match (app.prompt.as_ref().map(|prompt| (prompt, &prompt.purpose)), &app.message) {
-        (Some((prompt, purpose)), _) if prompt.refused.is_some() || prompt.line.left_out().is_some() => {
-            let why = prompt.refused.as_deref().or(prompt.line.left_out()).unwrap_or_default();
+        (Some((prompt, purpose)), _) if prompt.refused.is_some() => {
+            let why = prompt.refused.as_deref().unwrap_or_default();
             let why = why.replace('\n', " · ");
             if matches!(purpose, Purpose::Value) {
                 // The line is in its row.
@@ -87,7 +86,7 @@ const LEAST_TYPED: u16 = 16;
 /// A line being typed, behind a label.
 fn prompted(label: Line<'static>, line: &TextLine, width: u16, theme: Theme) -> Line<'static> {
     let room = usize::from(width).saturating_sub(label.width());
-    Line::from_iter(label.spans.into_iter().chain(typed(line, room, theme)))
+    Line::from_iter(label.spans.into_iter().chain(line.spans(room, theme)))
 }
 
 /// Label of a prompt; a short one where the typed text would be out of sight.
@@ -238,7 +237,7 @@ fn work(app: &App) -> Vec<String> {
     }
     // Times of the last run only: a kept profile and tree take none.
     if app.view.shows_times && !app.is_computing() {
-        parts.extend(stages::times(app).into_iter().map(|(name, time)| format!("{name} {time}")));
+        parts.extend(stages::times(app));
     }
     parts
 }
@@ -271,7 +270,6 @@ fn patches(number: u64) -> String {
     if number == 1 { "1 contact patch".to_owned() } else { format!("{} contact patches", grouped(number)) }
 }
 
-/// A number of things.
 fn counted(number: u64, thing: &str) -> String {
     let plural = if number == 1 { "" } else { "s" };
     format!("{} {thing}{plural}", grouped(number))

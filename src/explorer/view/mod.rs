@@ -6,7 +6,6 @@ mod library;
 mod palette;
 pub mod stages;
 pub mod text;
-pub mod typed;
 
 use super::app::App;
 use super::layout::{Layout, inside};

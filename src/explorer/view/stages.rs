@@ -27,48 +27,42 @@ const PARTS: [Part; 5] = [
     Part { name: "F_a(0)", stages: &[Stage::ZeroLoadAdhesion], seconds: |timings| timings.zero_load },
 ];
 
-/// Names and times of the parts that ran.
-pub fn times(app: &App) -> Vec<(&'static str, String)> {
-    let Some(computed) = app.current() else { return Vec::new() };
-    let plan = Plan::of(&computed.scene);
-    let ran = PARTS.iter().filter(|part| part.runs(&plan));
-    ran.map(|part| (part.name(&plan), part.time(&computed.outcome.timings))).collect()
+/// Name of a part of the run, and its time unless the scene skips it.
+type Timed = (&'static str, Option<String>);
+
+/// Times of the present scene, and its parts.
+fn parts(app: &App) -> Option<(&Timings, [Timed; PARTS.len()])> {
+    let computed = app.current()?;
+    let (plan, timings) = (Plan::of(&computed.scene), &computed.outcome.timings);
+    let part = |Part { name, stages, seconds }: Part| {
+        let ran = stages.is_empty() || stages.iter().any(|stage| plan.runs(*stage));
+        let is_stepwise = name == "passes" && plan.runs(Stage::Relaxation);
+        let time = ran.then(|| format_rounded(seconds(timings), 2, "s"));
+        (if is_stepwise { "steps" } else { name }, time)
+    };
+    Some((timings, PARTS.map(part)))
 }
 
-impl Part {
-    fn runs(&self, plan: &Plan) -> bool {
-        self.stages.is_empty() || self.stages.iter().any(|stage| plan.runs(*stage))
-    }
-
-    fn name(&self, plan: &Plan) -> &'static str {
-        if plan.runs(Stage::Relaxation) && self.name == "passes" { "steps" } else { self.name }
-    }
-
-    fn time(&self, timings: &Timings) -> String {
-        format_rounded((self.seconds)(timings), 2, "s")
-    }
+/// Names and times of the parts that ran.
+pub fn times(app: &App) -> Vec<String> {
+    let parts = parts(app).into_iter().flat_map(|(_, parts)| parts);
+    parts.filter_map(|(name, time)| Some(format!("{name} {}", time?))).collect()
 }
 
 /// The stages in as many lines as needed, as far as there is room.
 pub fn strip(app: &App, width: u16, rows: usize) -> Vec<Line<'static>> {
-    let Some(computed) = app.current() else { return Vec::new() };
-    let theme = app.view.appearance.theme;
-    let plan = Plan::of(&computed.scene);
-    let timings = &computed.outcome.timings;
-    let total = format_rounded(timings.total(), 2, "s");
-    let ran = if app.view.shows_times { format!("ran {total}:") } else { "ran:".to_owned() };
-    let mut parts: Vec<Vec<Span<'static>>> = vec![vec![Span::styled(ran, theme.style(Meaning::Quiet))]];
-    for part in PARTS {
-        let name = part.name(&plan);
-        parts.push(match part.runs(&plan) {
-            true if app.view.shows_times => {
-                let time = part.time(timings);
-                vec![Span::raw(format!("{name} ")), Span::styled(time, theme.style(Meaning::Title))]
-            }
-            true => vec![Span::raw(name)],
-            false => vec![Span::styled(format!("{name} skipped"), theme.style(Meaning::Quiet))],
-        });
-    }
+    let Some((timings, stages)) = parts(app) else { return Vec::new() };
+    let (theme, with_times) = (app.view.appearance.theme, app.view.shows_times);
+    let total =
+        if with_times { format!(" {}", format_rounded(timings.total(), 2, "s")) } else { String::new() };
+    let mut parts = vec![vec![Span::styled(format!("ran{total}:"), theme.style(Meaning::Quiet))]];
+    parts.extend(stages.into_iter().map(|(name, time)| match time {
+        Some(time) if with_times => {
+            vec![Span::raw(format!("{name} ")), Span::styled(time, theme.style(Meaning::Title))]
+        }
+        Some(_) => vec![Span::raw(name)],
+        None => vec![Span::styled(format!("{name} skipped"), theme.style(Meaning::Quiet))],
+    }));
     let mut lines = filled(parts, "  ", usize::from(width));
     lines.truncate(rows);
     lines

@@ -110,11 +110,7 @@ pub fn filled(parts: Vec<Part>, between: &'static str, columns: usize) -> Vec<Li
 
 /// A text with the letters found by a query marked.
 pub fn found(text: &str, query: &str, style: Style, theme: Theme) -> Part {
-    marked(text, &letters_found(text, query), style, theme)
-}
-
-/// A text with these of its characters marked; the indices ascend.
-pub fn marked(text: &str, letters: &[usize], style: Style, theme: Theme) -> Part {
+    let letters = letters_found(text, query);
     let is_found = |(index, character)| (letters.binary_search(&index).is_ok(), character);
     let characters: Vec<(bool, char)> = text.chars().enumerate().map(is_found).collect();
     let spans = characters.chunk_by(|(one, _), (next, _)| one == next).map(|run| {

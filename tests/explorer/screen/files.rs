@@ -183,7 +183,7 @@ fn every_pane_is_exported_as_a_figure() {
             (super::preloads::computed_preloads(rough()), Pane::Preloads, "asperity run", "preload,"),
             (super::accuracy::measured(rough()), Pane::Accuracy, "asperity cost", "error,"),
             (super::reversals::reversed(rough()), Pane::Density, "asperity reversals", "everett,density"),
-            (super::chart::charted(rough()), Pane::Chart, "asperity", "roughness.hurst,kappa,lines,regime,"),
+            (super::map::mapped(rough()), Pane::Map, "asperity", "roughness.hurst,kappa,lines,regime,"),
         ];
         for (mut driver, pane, command, column) in tables {
             driver.app.view.pane = pane;

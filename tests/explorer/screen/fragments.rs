@@ -112,14 +112,14 @@ fn the_close_up_goes_to_the_longest_and_the_most_loaded() {
             let mut forces = Vec::new();
             for _ in 0..all.len() {
                 driver.press("n");
-                forces.push(facts(&driver).force);
+                forces.push(facts(&driver).state.force);
             }
             let total: f64 = forces.iter().sum();
             let force = driver.app.snapshot.as_ref().unwrap().point.force;
             assert!((total / force - 1.0).abs() < 1e-9, "together they carry all: {total} {force}");
             let most = forces.iter().map(|force| force.abs()).fold(0.0, f64::max);
             driver.press("B");
-            assert_eq!(facts(&driver).force.abs(), most);
+            assert_eq!(facts(&driver).state.force.abs(), most);
             driver.press("f");
             let summit = driver.app.snapshot.as_ref().unwrap().close_up.section.clone();
             let highest = summit.columns.iter().map(|column| column.line.1).fold(f64::MIN, f64::max);

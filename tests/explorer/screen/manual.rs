@@ -132,9 +132,9 @@ fn a_force_out_of_reach_is_stated_and_nothing_is_lost() {
     within(30, || {
         let mut driver = pressed("d");
         let before = point(&driver);
-        for typed in ["-1", "-1e6 µN", "-3 mN"] {
+        for (typed, force) in [("-1", "-1 N"), ("-1e6 µN", "-1 N"), ("-3 mN", "-3 mN")] {
             go(&mut driver, typed);
-            let expected = format!("the contact detaches before {typed}; smallest force within reach: -");
+            let expected = format!("the contact detaches before {force}; smallest force within reach: -");
             let status = driver.status();
             assert!(status.contains(&expected), "{typed}: {status}");
             assert_eq!(point(&driver), before, "a refused force moves nothing");
@@ -183,7 +183,7 @@ fn a_force_far_beyond_full_contact_is_refused() {
             let before = point(&driver);
             go(&mut driver, "1e30");
             let status = driver.status();
-            assert!(status.contains("1e30 is far beyond full contact at "), "{status}");
+            assert!(status.contains("N is far beyond full contact at "), "{status}");
             assert_eq!(point(&driver), before);
             // The bound itself is allowed, and there all springs are in contact.
             let largest = status.rsplit("at most ").next().unwrap().to_owned();

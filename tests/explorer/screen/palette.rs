@@ -72,8 +72,8 @@ fn a_command_is_found_by_words_and_runs_as_its_key_does() {
         let mut driver = pressed("");
         query(&mut driver, "another quantity");
         driver.press("Enter");
-        assert!(driver.app.is_shown(Pane::Chart));
-        assert_eq!(driver.app.view.pane, Pane::Chart);
+        assert!(driver.app.is_shown(Pane::Map));
+        assert_eq!(driver.app.view.pane, Pane::Map);
         let mut driver = mid_retraction(rough());
         query(&mut driver, "switch effect");
         driver.press("Enter");

@@ -6,7 +6,7 @@ use super::common::driver::Driver;
 use super::common::scenes::{rough, smooth};
 use super::preloads::computed_preloads;
 use super::reversals::reversed;
-use super::{SIZES, accuracy, chart, keep, mid_retraction};
+use super::{SIZES, accuracy, keep, map, mid_retraction};
 use asperity::explorer::picture;
 use asperity::explorer::theme::Theme;
 use clap::ValueEnum;
@@ -56,7 +56,7 @@ fn each_pane() {
             with(computed_preloads(rough()), "z *"),
             with(reversed(rough()), "z"),
             with(accuracy::measured(rough()), "z"),
-            with(chart::charted(rough()), "z"),
+            with(map::mapped(rough()), "z"),
         ] {
             let pane = driver.app.view.pane;
             screens += &format!("── {pane:?} ──\n{}", text(&mut driver));

@@ -1,10 +1,10 @@
 //! The same statements in windows of five sizes: every cut has a sign, and requested parts are visible.
 
 use super::accuracy::measured;
-use super::chart::charted;
 use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
+use super::map::mapped;
 use super::preloads::computed_preloads;
 use super::{SIZES, default_scene, pressed};
 use asperity::explorer::app::Pane;
@@ -17,7 +17,7 @@ const WIDE: (u16, u16) = (400, 40);
 fn messages_are_whole_or_end_in_an_ellipsis() {
     within(60, || {
         let scenes: [(&str, &str); 5] = [
-            ("d F - 1 Enter", "! the contact detaches before -1; smallest force within reach: -"),
+            ("d F - 1 Enter", "! the contact detaches before -1 N; smallest force within reach: -"),
             ("d F 1 e 3 0 Enter", "! "),
             ("e Ctrl+u 1 2 k g Enter", "! "),
             ("e Ctrl+u - 1 Enter", "! roughness.hurst = -1.0: allowed: above 0 and below 1"),
@@ -111,7 +111,7 @@ fn keys_of_the_footer_are_apart_from_what_the_connection_carries() {
 /// The pane alone in the window, with a whole profile behind it.
 fn zoomed(pane: Pane, size: (u16, u16)) -> Driver {
     let mut driver = match pane {
-        Pane::Chart => charted(rough()),
+        Pane::Map => mapped(rough()),
         Pane::Accuracy => measured(rough()),
         Pane::Preloads => computed_preloads(rough()),
         Pane::Everett | Pane::Density => super::reversals::reversed(rough()),
@@ -142,7 +142,7 @@ fn axes_have_numbers_quantities_and_units_in_every_pane() {
                 (Pane::Everett, "d (", "d_r ("),
                 (Pane::Density, "d (", "d_r ("),
                 (Pane::Accuracy, "t (", "error"),
-                (Pane::Chart, " H", "κ"),
+                (Pane::Map, " H", "κ"),
             ] {
                 let driver = zoomed(pane, size);
                 let area = Layout::of(&driver.app).pane(pane).unwrap();
@@ -202,7 +202,7 @@ fn a_key_of_a_pane_shows_the_pane() {
                 ("Q", Pane::Spectrum),
                 ("i", Pane::Preloads),
                 ("A", Pane::Accuracy),
-                ("m", Pane::Chart),
+                ("m", Pane::Map),
             ] {
                 let mut driver = pressed("");
                 driver.app.view.pane = Pane::Force;

@@ -22,7 +22,7 @@ fn q_shows_the_spectrum_in_place_of_the_line() {
         assert_eq!((driver.app.view.pane, driver.app.view.large), (Pane::Force, None));
         // One pane at a time in that place.
         for (keys, pane) in
-            [("Q A", Pane::Accuracy), ("Q", Pane::Spectrum), ("m", Pane::Chart), ("Q", Pane::Spectrum)]
+            [("Q A", Pane::Accuracy), ("Q", Pane::Spectrum), ("m", Pane::Map), ("Q", Pane::Spectrum)]
         {
             driver.press(keys);
             assert_eq!(driver.app.view.large, Some(pane), "{keys}");

@@ -7,8 +7,8 @@ use super::common::study::{PLAN, begun, merged};
 use super::{is_up_to_date, pressed};
 use asperity::explorer::Opening;
 use asperity::explorer::action::Action;
-use asperity::explorer::chart::Live;
 use asperity::explorer::keys::Context;
+use asperity::explorer::map::Live;
 use asperity::explorer::update::{Effect, studies};
 use asperity::scene::{Move, Roughness};
 use asperity::study::Quantity;
@@ -47,14 +47,14 @@ fn glyphs_show_all_that_was_recorded() {
     within(60, || {
         let (_folder, mut driver) = opened();
         assert_eq!(driver.app.keys(), Context::Map);
-        assert_eq!(driver.app.charted(), Quantity::Regime);
+        assert_eq!(driver.app.mapped(), Quantity::Regime);
         for (quantity, text) in [
             (Quantity::ZeroLoadAdhesionShare, "F_a(0)/F_a,max over H, κ"),
             (Quantity::AdhesionCoefficient, "F_a/F_n over H, κ"),
             (Quantity::AdhesionForce, "F_a (mN) "),
         ] {
             driver.press("V");
-            assert_eq!(driver.app.charted(), quantity);
+            assert_eq!(driver.app.mapped(), quantity);
             assert!(driver.text().contains(text), "{text}\n{}", driver.text());
         }
         // The map computed here does not have this quantity, and shows its own.
@@ -63,7 +63,7 @@ fn glyphs_show_all_that_was_recorded() {
         driver.press("W");
         assert!(driver.text().contains("F_a (mN) "), "{}", driver.text());
         driver.press("V");
-        assert_eq!(driver.app.charted(), Quantity::Regime);
+        assert_eq!(driver.app.mapped(), Quantity::Regime);
         for text in ["█ pressure-insensitive", "· non-adhesive", "▓ ░ profiles disagree", "of 12 profiles"]
         {
             assert!(driver.text().contains(text), "{text}\n{}", driver.text());
@@ -272,7 +272,7 @@ fn a_study_is_opened_by_its_path() {
             let refusal = driver.refusal().unwrap_or_default();
             assert!(refusal.contains(expected), "{refusal}");
             driver.press("Esc");
-            assert!(driver.app.chart.study.is_none());
+            assert!(driver.app.map.study.is_none());
         }
         driver.press("o");
         driver.act(Action::Paste(path("small")));
@@ -291,6 +291,6 @@ fn a_study_is_opened_by_its_path() {
         driver.act(Action::Paste(path("mine.ron")));
         driver.press("Enter");
         assert_eq!(driver.app.edit.document.name(), path("mine.ron"));
-        assert!(driver.app.chart.shown_study().is_none());
+        assert!(driver.app.map.shown_study().is_none());
     });
 }

@@ -2,7 +2,7 @@
 
 use super::{Effect, edit};
 use crate::explorer::app::App;
-use crate::explorer::chart::Live;
+use crate::explorer::map::Live;
 use crate::explorer::opening::Opening;
 use crate::scene::{Document, RoughnessParameter, SceneErrors};
 use crate::study::{Axis, Place, live_plan, moved};
@@ -23,33 +23,33 @@ const NO_STUDY: &str = "no study is open; o and the path of its folder open one"
 
 /// Shows the map of the study, or the live map.
 pub fn toggle_study(app: &mut App) {
-    if app.chart.study.is_none() {
+    if app.map.study.is_none() {
         app.set_error(NO_STUDY);
         return;
     }
-    app.chart.of_study = !app.chart.of_study;
+    app.map.of_study = !app.map.of_study;
     app.effects.push(Effect::Study);
 }
 
 /// Maps over the other parameter of roughness.
 pub fn next_parameter(app: &mut App) {
-    if app.chart.shown_study().is_some() {
+    if app.map.shown_study().is_some() {
         app.set_error("a study has its own axes; W shows the map that is computed here");
         return;
     }
-    app.chart.parameter = match app.chart.parameter {
+    app.map.parameter = match app.map.parameter {
         RoughnessParameter::Kappa => RoughnessParameter::ElasticEnergyRatio,
         RoughnessParameter::ElasticEnergyRatio => RoughnessParameter::Kappa,
     };
-    app.chart.moving = false;
+    app.map.moving = false;
     app.studies.forget::<Live>();
     app.effects.push(Effect::Study);
 }
 
 /// Shows another map of the study. A scene that belongs to the former map follows.
 pub fn step_slice(app: &mut App, steps: i32) {
-    let Some(study) = app.chart.shown_study() else {
-        let why = if app.chart.study.is_some() {
+    let Some(study) = app.map.shown_study() else {
+        let why = if app.map.study.is_some() {
             "this is the map that is computed here; W shows the study's"
         } else {
             NO_STUDY
@@ -65,7 +65,7 @@ pub fn step_slice(app: &mut App, steps: i32) {
     let goes_with = study.study_map.is_of(study.slice, app.edit.document.scene());
     let followed = goes_with.then(|| study.study_map.follow(next, &app.edit.document));
     let study_map = Arc::clone(&study.study_map);
-    app.chart.open_study(study_map, next);
+    app.map.open_study(study_map, next);
     if let Some(followed) = followed {
         let was_unsaved = app.edit.is_unsaved();
         edit::take_over(app, followed);
@@ -79,9 +79,9 @@ pub fn step_slice(app: &mut App, steps: i32) {
 /// Moves the mark by columns and rows of the map.
 pub fn step(app: &mut App, columns: i32, rows: i32) {
     let Some((at_across, at_up)) = app.place() else {
-        let why = match live_plan(app.edit.document.scene(), app.chart.parameter) {
+        let why = match live_plan(app.edit.document.scene(), app.map.parameter) {
             Err(why) => why.to_owned(),
-            Ok(_) if app.chart.shown_study().is_some() => NO_PLACE.to_owned(),
+            Ok(_) if app.map.shown_study().is_some() => NO_PLACE.to_owned(),
             Ok(_) => "not before the scene is computed: its κ and e_el/γ follow from its profile".to_owned(),
         };
         app.set_error(why);
@@ -110,12 +110,12 @@ const NO_PLACE: &str = "the scene has no place on this map: it lacks a quantity 
 
 /// Sets the scene to the values of a place on the map. Successive moves are one edit.
 pub fn move_to(app: &mut App, place: Place) {
-    let goes_on = app.chart.moving;
+    let goes_on = app.map.moving;
     match moved_to(app, place) {
         Ok(document) if goes_on => edit::replace(app, document),
         moved => edit::take_over(app, moved),
     }
-    app.chart.moving = !app.is_refused();
+    app.map.moving = !app.is_refused();
 }
 
 /// The scene at a place on the map. A preload in units of E* h L may change with the place.
@@ -124,7 +124,7 @@ fn moved_to(app: &App, (to_across, to_up): Place) -> Result<Document, SceneError
     let (across, up) = axes.as_ref().map_or((None, None), |(across, up)| (Some(across), up.as_ref()));
     let values: Vec<(&Axis, f64)> = across.zip(Some(to_across)).into_iter().chain(up.zip(to_up)).collect();
     let moved = moved(&app.edit.document, &values)?;
-    match app.chart.shown_study() {
+    match app.map.shown_study() {
         Some(study)
             if study.study_map.is_of(study.slice, app.edit.document.scene())
                 && !study.study_map.is_of(study.slice, moved.scene()) =>

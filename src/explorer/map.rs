@@ -12,7 +12,7 @@ const MOST_SPRINGS: u64 = 1 << 12;
 
 /// State of the pane of the map.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Chart {
+pub struct MapState {
     /// Quantity of the glyphs, where the map has it.
     pub quantity: Quantity,
     /// Parameter of the live map, beside H.
@@ -28,7 +28,6 @@ pub struct Chart {
 /// A finished study and its shown map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpenStudy {
-    /// Its maps.
     pub study_map: Arc<StudyMap>,
     /// Number of the shown map.
     pub slice: u64,
@@ -38,15 +37,14 @@ pub struct OpenStudy {
 /// The live map so far.
 #[derive(Debug)]
 pub struct Live {
-    /// The map.
     pub map: LiveMap,
     /// The estimates in the cells of the map, for the pane.
     pub grid: Grid,
 }
 
-impl Default for Chart {
+impl Default for MapState {
     fn default() -> Self {
-        Chart {
+        MapState {
             quantity: Quantity::Regime,
             parameter: RoughnessParameter::default(),
             study: None,
@@ -71,13 +69,12 @@ impl Live {
     }
 }
 
-impl Chart {
+impl MapState {
     /// The study whose map is shown.
     pub fn shown_study(&self) -> Option<&OpenStudy> {
         self.study.as_ref().filter(|_| self.of_study)
     }
 
-    /// Opens one map of a study.
     pub fn open_study(&mut self, study_map: Arc<StudyMap>, slice: u64) {
         let grid = Arc::new(study_map.grid(slice));
         self.study = Some(OpenStudy { study_map, slice, grid });
@@ -96,7 +93,7 @@ impl Chart {
 
 /// Computes the missing cells of the live map; `None` for a scene without a map.
 pub fn study(app: &App, computed: &SolvedScene) -> Option<Study> {
-    let plan = app.chart.plan(&computed.scene)?;
+    let plan = app.map.plan(&computed.scene)?;
     let (key, is_long) = (format!("{plan:?}"), plan.scene.numerics.points > MOST_SPRINGS);
     let begun = app.studies.value::<Live>().map(|live| live.map.clone());
     Some(Study::new(key, is_long, move |_, stop, report| {
@@ -109,7 +106,7 @@ pub fn study(app: &App, computed: &SolvedScene) -> Option<Study> {
 impl App {
     /// The shown map, if any.
     pub fn grid(&self) -> Option<&Grid> {
-        match self.chart.shown_study() {
+        match self.map.shown_study() {
             Some(study) => Some(&study.grid),
             None => Some(&self.studies.value::<Live>()?.grid),
         }
@@ -120,21 +117,21 @@ impl App {
         if let Some(grid) = self.grid() {
             return Some((grid.across.clone(), grid.up.clone()));
         }
-        let mut axes = self.chart.plan(self.edit.document.scene())?.axes.into_iter().rev();
+        let mut axes = self.map.plan(self.edit.document.scene())?.axes.into_iter().rev();
         Some((axes.next()?, axes.next()))
     }
 
     /// Quantity of the glyphs: the chosen one, where the map has it.
-    pub fn charted(&self) -> Quantity {
+    pub fn mapped(&self) -> Quantity {
         let all = self.grid().map(Grid::quantities).unwrap_or_default();
-        let chosen = all.iter().find(|one| **one == self.chart.quantity);
-        *chosen.or(all.first()).unwrap_or(&self.chart.quantity)
+        let chosen = all.iter().find(|one| **one == self.map.quantity);
+        *chosen.or(all.first()).unwrap_or(&self.map.quantity)
     }
 
     /// Next quantity of the glyphs.
-    pub fn next_charted(&self) -> Quantity {
+    pub fn next_mapped(&self) -> Quantity {
         let all = self.grid().map(Grid::quantities).unwrap_or_default();
-        let now = self.charted();
+        let now = self.mapped();
         let place = all.iter().position(|one| *one == now).map_or(0, |place| place + 1);
         all.get(place).or(all.first()).copied().unwrap_or(now)
     }

@@ -6,9 +6,9 @@ use super::common::scenes::{rough, smooth, without_adhesion};
 use super::is_up_to_date;
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::app::Pane;
-use asperity::explorer::chart::Live;
 use asperity::explorer::keys::Context;
 use asperity::explorer::layout::{Layout, inside};
+use asperity::explorer::map::Live;
 use asperity::explorer::theme::Marker;
 use asperity::explorer::update::{Effect, studies};
 use asperity::scene::{Document, RoughnessParameter};
@@ -35,7 +35,7 @@ fn set(map: &mut LiveMap, cell: u64) {
 
 /// Fills levels of the map of the scene, if it has one.
 fn fill(driver: &mut Driver, levels: &[Level]) {
-    let (scene, chart) = (driver.app.edit.document.scene(), &driver.app.chart);
+    let (scene, chart) = (driver.app.edit.document.scene(), &driver.app.map);
     let Ok(plan) = live_plan(scene, chart.parameter) else { return };
     let key = chart.key(scene).unwrap();
     let mut map = LiveMap::new(plan).unwrap();
@@ -54,7 +54,7 @@ fn driver_with(document: Document, levels: &[Level]) -> Driver {
 }
 
 /// The explorer with a complete map on display.
-pub fn charted(document: Document) -> Driver {
+pub fn mapped(document: Document) -> Driver {
     driver_with(document, &Level::ALL)
 }
 
@@ -67,7 +67,7 @@ fn place(driver: &Driver) -> (f64, f64) {
 #[test]
 fn e_maps_over_the_elastic_energy() {
     within(60, || {
-        let mut driver = charted(rough());
+        let mut driver = mapped(rough());
         let over_kappa = place(&driver);
         driver.press("e");
         fill(&mut driver, &Level::ALL);
@@ -96,7 +96,7 @@ fn e_maps_over_the_elastic_energy() {
 #[test]
 fn the_map_says_without_colours_what_it_says_with_them() {
     within(60, || {
-        let mut driver = charted(rough());
+        let mut driver = mapped(rough());
         for legend in ["█ pressure-insensitive", "▒ pressure-sensitive", "· non-adhesive"] {
             assert!(driver.text().contains(legend), "{legend}\n{}", driver.text());
         }
@@ -116,14 +116,14 @@ fn the_map_says_without_colours_what_it_says_with_them() {
             (Quantity::AdhesionCoefficient, "F_a/F_n "),
         ] {
             driver.press("V");
-            assert_eq!(driver.app.chart.quantity, quantity);
+            assert_eq!(driver.app.map.quantity, quantity);
             for expected in [expected, "···", "███", "i pressure-insensitive", "▁▕ F_a(0) = 0.05 F_a,max"]
             {
                 assert!(driver.text().contains(expected), "{expected}\n{}", driver.text());
             }
         }
         driver.press("V");
-        assert_eq!(driver.app.chart.quantity, Quantity::Regime);
+        assert_eq!(driver.app.map.quantity, Quantity::Regime);
         assert!(driver.text().contains("█ pressure-insensitive"), "{}", driver.text());
     });
 }
@@ -131,7 +131,7 @@ fn the_map_says_without_colours_what_it_says_with_them() {
 #[test]
 fn moves_in_a_row_are_one_edit() {
     within(60, || {
-        let mut driver = charted(rough());
+        let mut driver = mapped(rough());
         assert_eq!(driver.app.keys(), Context::Map);
         let before = driver.app.edit.document.clone();
         let (edits, map) = (driver.app.edit.past.len(), driver.app.grid().cloned());
@@ -160,9 +160,9 @@ fn moves_in_a_row_are_one_edit() {
 #[test]
 fn the_mouse_moves_the_mark() {
     within(60, || {
-        let mut driver = charted(rough());
+        let mut driver = mapped(rough());
         let edits = driver.app.edit.past.len();
-        let area = inside(Layout::of(&driver.app).pane(Pane::Chart).unwrap());
+        let area = inside(Layout::of(&driver.app).pane(Pane::Map).unwrap());
         let mut mouse = |column, row, gesture| driver.act(Action::Mouse(Mouse { column, row, gesture }));
         mouse(area.x + 20, area.y + 10, Gesture::Press);
         for column in 20..30 {
@@ -180,7 +180,7 @@ fn the_mouse_moves_the_mark() {
 #[test]
 fn other_edits_begin_the_map_anew() {
     within(60, || {
-        let mut driver = charted(rough());
+        let mut driver = mapped(rough());
         let begins = |driver: &mut Driver| studies(&mut driver.app).iter().any(|study| study.is::<Live>());
         assert!(!begins(&mut driver), "it is whole");
         driver.press("Tab Tab R");
@@ -188,7 +188,7 @@ fn other_edits_begin_the_map_anew() {
         assert!(driver.text().contains("computing the map"), "{}", driver.text());
         // The map is hidden.
         driver.press("m m");
-        assert!(!driver.app.is_shown(Pane::Chart));
+        assert!(!driver.app.is_shown(Pane::Map));
         assert!(!begins(&mut driver));
         assert_eq!(driver.press("m"), [Effect::Study, Effect::Ask]);
         assert!(begins(&mut driver));
@@ -196,7 +196,7 @@ fn other_edits_begin_the_map_anew() {
         driver.press("A");
         assert_eq!(driver.app.view.large, Some(Pane::Accuracy));
         driver.press("m");
-        assert_eq!(driver.app.view.large, Some(Pane::Chart));
+        assert_eq!(driver.app.view.large, Some(Pane::Map));
     });
 }
 
@@ -204,7 +204,7 @@ fn other_edits_begin_the_map_anew() {
 fn a_scene_without_a_map_says_why() {
     within(60, || {
         for (document, why) in [(smooth(), "a smooth body has"), (without_adhesion(), "has no adhesion")] {
-            let mut driver = charted(document);
+            let mut driver = mapped(document);
             assert!(driver.text().contains(why), "{}", driver.text());
             let generation = driver.app.edit.generation;
             driver.press("Left Up");
