@@ -1,6 +1,7 @@
 //! The table of the cost of accuracy.
 
 use crate::scene::format_rounded;
+use crate::spectrum::slope;
 use crate::text::grouped;
 use serde::{Serialize, Serializer};
 use strum::IntoStaticStr;
@@ -160,8 +161,9 @@ impl CostTable {
             let figure = self.main_error(row).filter(|figure| figure.resolved)?;
             Some((row.setting.ln(), figure.error.ln()))
         };
+        let points: Vec<_> = self.rows_of(knob).filter_map(point).collect();
         // A smaller step or more springs reduce the error.
-        Some(slope(&self.rows_of(knob).filter_map(point).collect::<Vec<_>>())?.abs())
+        slope(&points).filter(|_| points.len() >= 3).map(f64::abs)
     }
 
     /// Returns the springs and times for one per cent and one per mille of the adhesion force, or of the force curve
@@ -185,15 +187,6 @@ impl CostTable {
         };
         TARGETS.map(sentence).into()
     }
-}
-
-/// Slope of the straight line of least squares through some points; `None` with fewer than three.
-pub(super) fn slope(points: &[(f64, f64)]) -> Option<f64> {
-    let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
-    let (x, y) = (mean(|point| point.0), mean(|point| point.1));
-    let product: f64 = points.iter().map(|point| (point.0 - x) * (point.1 - y)).sum();
-    let square: f64 = points.iter().map(|point| (point.0 - x).powi(2)).sum();
-    Some(product / square).filter(|slope| points.len() >= 3 && slope.is_finite())
 }
 
 /// Index of the first of these errors, from coarse to fine, from which on none is above a bound. Two finer ones confirm

@@ -9,12 +9,17 @@ use tui_input::{Input, InputRequest};
 /// Longest line, characters.
 const LONGEST: usize = 4096;
 
+/// Message about a longer one.
+const TOO_LONG: &str = "a line has at most 4096 characters; the rest is left out";
+
 /// A line of text with a cursor.
 #[derive(Clone, Debug, Default)]
 pub struct TextLine {
     input: Input,
     /// True if the text is selected: the next character replaces it.
     selected: bool,
+    /// Message about the part that the last insertion left out.
+    left_out: Option<&'static str>,
 }
 
 impl TextLine {
@@ -45,6 +50,11 @@ impl TextLine {
         (part(0, cursor), part(cursor, 1), part(cursor + 1, LONGEST))
     }
 
+    /// Message about the part that the last insertion left out; `None` after a whole one.
+    pub fn left_out(&self) -> Option<&'static str> {
+        self.left_out
+    }
+
     /// Inserts a text before the cursor, or in place of the selected text, as far as it fits, without its control
     /// characters.
     pub fn insert(&mut self, text: &str) {
@@ -53,9 +63,11 @@ impl TextLine {
             *self = TextLine::default();
         }
         let room = LONGEST - self.text().chars().count();
-        for character in inserted.take(room) {
+        for character in inserted.by_ref().take(room) {
             self.input.handle(InputRequest::InsertChar(character));
         }
+        let has_controls = text.contains(is_control).then_some("control characters are left out");
+        self.left_out = inserted.next().map(|_| TOO_LONG).or(has_controls);
     }
 
     /// Moves the cursor, or deletes a part of the text, the whole of a selected one; nothing is selected any more.
@@ -63,7 +75,7 @@ impl TextLine {
         use InputRequest::{DeleteLine, DeleteNextChar, DeletePrevChar, DeletePrevWord};
         let deletes = matches!(request, DeletePrevChar | DeleteNextChar | DeletePrevWord);
         self.input.handle(if self.selected && deletes { DeleteLine } else { request });
-        self.selected = false;
+        (self.selected, self.left_out) = (false, None);
     }
 
     /// The part around the cursor, within a number of columns.
@@ -108,13 +120,18 @@ mod tests {
     }
 
     #[test]
-    fn a_line_takes_what_fits() {
+    fn an_insertion_states_what_it_leaves_out() {
         let mut line = TextLine::new("ab");
         line.edit(GoToPrevChar);
         line.insert("1\n2\u{1b}");
-        assert_eq!(line.text(), "a12b");
+        assert_eq!((line.text(), line.left_out()), ("a12b", Some("control characters are left out")));
+        line.insert("3");
+        assert_eq!((line.text(), line.left_out()), ("a123b", None));
         line.insert(&"µ".repeat(20_000));
-        assert!(line.text().chars().count() == LONGEST && line.text().ends_with("µb"));
+        assert_eq!((line.text().chars().count(), line.left_out()), (LONGEST, Some(TOO_LONG)));
+        assert!(line.text().ends_with("µb") && TOO_LONG.contains(&LONGEST.to_string()));
+        line.edit(DeletePrevChar);
+        assert_eq!((line.text().chars().count(), line.left_out()), (LONGEST - 1, None));
     }
 
     #[test]

@@ -34,7 +34,7 @@ impl Detrend {
         degrees.flat_map(of_degree).filter(|[_, y]| is_map || *y == 0).collect()
     }
 
-    /// Removes the polynomial of least squares from the heights of rows of so many columns.
+    /// Removes the polynomial of least squares from the heights in rows of `columns` points.
     pub(crate) fn remove(self, heights: &mut [f64], columns: usize) {
         let rows = heights.len() / columns.max(1);
         let monomials = self.monomials(rows > 1);

@@ -35,7 +35,7 @@ pub enum SpectrumError {
         "the likelihood has no maximum: heights without noise or with few digits; allowed: measured heights"
     )]
     NoMaximum,
-    /// Insufficient memory for so many points.
+    /// Insufficient memory for this number of points.
     #[error("not enough memory for the transform of {0} points")]
     OutOfMemory(usize),
     /// The Fourier transform refused its input.

@@ -148,7 +148,7 @@ impl AxisPower {
 }
 
 impl MapPower {
-    /// Power of the heights (m) of rows of so many columns.
+    /// Power of the heights (m) in rows of `columns` points.
     pub fn new(
         heights: &[f64],
         columns: usize,
@@ -219,7 +219,7 @@ impl MapPower {
     }
 }
 
-/// Calls `each` with the Fourier coefficients of each row of so many heights.
+/// Calls `each` with the Fourier coefficients of each row of `points` heights.
 fn transform(
     rows: impl Iterator<Item = impl Iterator<Item = f64>>,
     points: usize,

@@ -30,7 +30,7 @@ pub(super) struct Sums {
 }
 
 impl Sums {
-    /// Adds the heights (m) of rows of so many columns at distances (m) along and between rows, relative to the
+    /// Adds the heights (m) in rows of `columns` points at distances (m) along and between rows, relative to the
     /// mean of each surface.
     pub fn add(&mut self, heights: &[f64], columns: usize, [along, between]: [f64; 2]) {
         let level = heights[0];

@@ -8,6 +8,7 @@ use super::quantity::Needs;
 use crate::analysis::Governing;
 use crate::scene::{Move, Roughness, Scene, Solver};
 use crate::simulation::{Outcome, RunError, Simulation};
+use crate::spectrum::slope;
 
 /// Values of the recorded quantities, in the order of the plan, for each preload; NaN for a quantity that the case
 /// does not have.
@@ -157,19 +158,8 @@ impl<'p> Recorder<'p> {
         let outcome = self.run(&Scene { loading, ..scene.clone() })?;
         let points = outcome.history.legs.iter().filter_map(|leg| leg.curve.last());
         let points: Vec<_> = points.filter(|point| point.force > 0.0 && point.indentation > 0.0).collect();
-        let forces: Vec<f64> = points.iter().map(|point| point.force.ln()).collect();
-        let lengths: Vec<f64> = points.iter().map(|point| point.contact_length.ln()).collect();
-        let indentations: Vec<f64> = points.iter().map(|point| point.indentation.ln()).collect();
-        Ok(slope(&forces, &lengths).zip(slope(&indentations, &forces)))
+        let lengths: Vec<_> = points.iter().map(|at| (at.force.ln(), at.contact_length.ln())).collect();
+        let forces: Vec<_> = points.iter().map(|at| (at.indentation.ln(), at.force.ln())).collect();
+        Ok(slope(&lengths).zip(slope(&forces)))
     }
-}
-
-/// Slope of the least-squares line; `None` for fewer than two different points.
-fn slope(x: &[f64], y: &[f64]) -> Option<f64> {
-    let count = x.len() as f64;
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / count;
-    let (middle, height) = (mean(x), mean(y));
-    let square: f64 = x.iter().map(|x| (x - middle).powi(2)).sum();
-    let product: f64 = x.iter().zip(y).map(|(x, y)| (x - middle) * (y - height)).sum();
-    Some(product / square).filter(|slope| x.len() >= 2 && slope.is_finite())
 }

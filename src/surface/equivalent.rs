@@ -116,7 +116,7 @@ impl EquivalentLine {
         ranges.fold([0.0, 0.0], |[first, last], [low, high]| [first.max(low), last.max(high)])
     }
 
-    /// First and last mode k, q = 2πk/L, of a line of a length (m) on so many springs: the waves of the spectrum
+    /// First and last mode k, q = 2πk/L, of a line of a length (m) on `points` springs: the waves of the spectrum
     /// that fit the line and are resolved by the springs. Waves longer than the scan are unknown and omitted.
     pub(crate) fn modes(&self, length: f64, points: usize) -> Result<(u64, u64), String> {
         let [low, high] = self.range();

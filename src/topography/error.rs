@@ -37,7 +37,7 @@ pub enum TopographyError {
     /// The content cannot be read, or is invalid: place within the file, fault, and allowed content.
     #[error("{0}")]
     Refused(String),
-    /// Insufficient memory for so many points.
+    /// Insufficient memory for this number of points.
     #[error("not enough memory for {0} points")]
     OutOfMemory(usize),
 }
@@ -53,7 +53,7 @@ pub(crate) fn refused(place: Place, fault: impl fmt::Display, allowed: impl fmt:
     TopographyError::Refused(format!("{place}{fault}; allowed: {allowed}"))
 }
 
-/// All values of an iterator of so many points, if the memory suffices.
+/// Collects an iterator of `points` values, if the memory suffices.
 pub(super) fn gathered(
     points: usize,
     values: impl Iterator<Item = f64>,

@@ -47,7 +47,7 @@ pub(super) struct Reading {
 }
 
 impl Reading {
-    /// Evenly spaced rows of so many columns: one row, or one column, is a profile.
+    /// Evenly spaced heights in rows of `columns` points: one row, or one column, is a profile.
     pub fn even(
         format: &'static str,
         heights: Vec<f64>,
@@ -77,6 +77,14 @@ impl Reading {
         }
         let columns = heights.len();
         Reading { positions: Some(positions), ..Reading::even(format, heights, columns, None, units) }
+    }
+
+    /// Multiplies the heights by a scale; those of the value `missing` mark missing points.
+    pub fn scaled(mut self, missing: Option<f64>, scale: f64) -> Reading {
+        for height in &mut self.heights {
+            *height = if Some(*height) == missing { f64::NAN } else { *height * scale };
+        }
+        self
     }
 
     /// Converts heights and positions to m.

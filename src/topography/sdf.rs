@@ -18,17 +18,15 @@ const TYPES: [(Number, Option<f64>); 8] = [
     (Number::F64, None),
 ];
 
-/// Heights in so many columns, with distances along and between rows and the unit of the heights, m.
-fn scaled(
-    mut heights: Vec<f64>,
+/// Heights in rows of `columns` points, with distances along and between rows and the unit of the heights, m.
+fn reading(
+    heights: Vec<f64>,
     columns: usize,
     [along, between, unit]: [f64; 3],
     missing: Option<f64>,
 ) -> Reading {
-    for height in &mut heights {
-        *height = if Some(*height) == missing { f64::NAN } else { *height * unit };
-    }
-    Reading::even("SDF", heights, columns, Some([along, between]), [Some(Unit::METRE); 2])
+    let units = [Some(Unit::METRE); 2];
+    Reading::even("SDF", heights, columns, Some([along, between]), units).scaled(missing, unit)
 }
 
 fn data_type(number: usize, place: Place) -> Result<(Number, Option<f64>), TopographyError> {
@@ -76,7 +74,7 @@ pub(super) fn read_text(bytes: &[u8]) -> Result<Reading, TopographyError> {
         let fault = format!("{} of {points} heights up to the end", heights.len());
         return Err(refused(Place::Line(last), fault, "NumPoints times NumProfiles"));
     }
-    Ok(Reading { first_missing, ..scaled(heights, columns, scales, missing) })
+    Ok(Reading { first_missing, ..reading(heights, columns, scales, missing) })
 }
 
 /// Reads the header of the text form.
@@ -104,5 +102,5 @@ pub(super) fn read_binary(bytes: &[u8]) -> Result<Reading, TopographyError> {
         return Err(refused(place, "compressed heights", "Compression = 0"));
     }
     let (number, missing) = data_type(usize::from(flags[1]), place)?;
-    Ok(scaled(data.numbers(columns * rows, number)?, columns, [along, between, unit], missing))
+    Ok(reading(data.numbers(columns * rows, number)?, columns, [along, between, unit], missing))
 }

@@ -53,21 +53,19 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     data.take(334 - 292)?;
     let (comment, private) = (data.size(Number::U16)?, data.size(Number::U16)?);
     data.take(512 - 338 + comment + private)?;
-    let mut heights = if is_compressed {
+    let heights = if is_compressed {
         Bytes::new(&expand(&mut data, points, number)?, Order::Little).numbers(points, number)?
     } else {
         data.numbers(points, number)?
     };
     let scale = if is_inverted { -scale } else { scale };
-    for height in &mut heights {
-        let is_missing = has_missing && *height == lowest - MISSING_BELOW;
-        *height = if is_missing { f64::NAN } else { *height * scale };
-    }
+    let missing = has_missing.then_some(lowest - MISSING_BELOW);
     // Distances in the unit of the rows; another unit between rows is rare, and converted.
     let units = unit_along.zip(unit_between);
     let between_factor = units.map_or(1.0, |(along, between)| between.to_metres(1.0) / along.to_metres(1.0));
     let spacing = [along, between * between_factor];
-    Ok(Reading::even("SUR", heights, columns, Some(spacing), [unit_along, height_unit]))
+    let reading = Reading::even("SUR", heights, columns, Some(spacing), [unit_along, height_unit]);
+    Ok(reading.scaled(missing, scale))
 }
 
 fn count(data: &mut Bytes<'_>) -> Result<usize, TopographyError> {

@@ -80,8 +80,8 @@ impl Topography {
         self.interpolated.len()
     }
 
-    /// Copies the heights, m. From one quarter on, as many points are interpolated once more: those so many quarters of
-    /// length and width from the interpolated ones. What changes is an estimate of what interpolation has changed before.
+    /// Copies the heights, m. With `quarters` above zero the points at this number of quarters of length and width from the
+    /// interpolated ones are interpolated too. Their change is an estimate of the error of the first interpolation.
     pub(crate) fn copied_heights(&self, quarters: usize) -> Result<Vec<f64>, TopographyError> {
         let (columns, rows) = (self.columns, self.rows());
         let mut heights = gathered(self.heights.len(), self.heights.iter().copied())?;

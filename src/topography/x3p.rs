@@ -81,7 +81,7 @@ fn wrong(fault: impl std::fmt::Display, allowed: &str) -> TopographyError {
     refused(Place::Part(INDEX.to_owned()), fault, allowed)
 }
 
-/// Returns the content of a file of an archive, at most so many bytes.
+/// Returns the content of a file of an archive, at most `most` bytes.
 fn unpacked(archive: &mut Archive<'_>, name: &str, most: usize) -> Result<Vec<u8>, TopographyError> {
     let damaged = |error: &dyn std::fmt::Display| {
         let fault = format!("cannot be unpacked ({error})");
@@ -97,7 +97,7 @@ fn unpacked(archive: &mut Archive<'_>, name: &str, most: usize) -> Result<Vec<u8
     read_limited(entry, most).map_err(|error| damaged(&error))
 }
 
-/// Reads the heights of a binary file of an archive, which expands to at most so many bytes; those marked invalid in its
+/// Reads the heights of a binary file of an archive, which expands to at most `most` bytes; those marked invalid in its
 /// bit field are missing.
 fn linked(
     archive: &mut Archive<'_>,

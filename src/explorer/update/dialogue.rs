@@ -50,7 +50,7 @@ pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
     let Some(prompt) = &mut app.prompt else { return };
     let before = prompt.line.text().to_owned();
     change(&mut prompt.line);
-    if prompt.line.text() == before {
+    if prompt.line.text() == before && prompt.line.left_out().is_none() {
         return;
     }
     (prompt.refused, prompt.paths) = (None, Vec::new());

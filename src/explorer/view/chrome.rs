@@ -39,8 +39,8 @@ pub fn status(app: &App, width: u16) -> Line<'static> {
     let theme = app.view.appearance.theme;
     let error = |text: String| Line::styled(text, theme.style(Meaning::Error));
     match (app.prompt.as_ref().map(|prompt| (prompt, &prompt.purpose)), &app.message) {
-        (Some((prompt, purpose)), _) if prompt.refused.is_some() => {
-            let why = prompt.refused.as_deref().unwrap_or_default();
+        (Some((prompt, purpose)), _) if prompt.refused.is_some() || prompt.line.left_out().is_some() => {
+            let why = prompt.refused.as_deref().or(prompt.line.left_out()).unwrap_or_default();
             let why = why.replace('\n', " · ");
             if matches!(purpose, Purpose::Value) {
                 // The line is in its row.

@@ -50,7 +50,7 @@ impl Header {
         }
     }
 
-    /// Units of positions and of heights of a text with so many columns.
+    /// Units of positions and of heights of a text with this number of columns.
     pub fn units(&self, columns: usize) -> [Option<Unit>; 2] {
         let [lateral, height] = match self.columns[..] {
             [first, ..] if columns == 1 => [None, Some(first)],
