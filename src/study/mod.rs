@@ -78,7 +78,7 @@ pub use results::{Merged, Results};
 pub use run::{Options, Progress, run};
 pub use select::{Selected, Selection};
 pub use shard::Shard;
-pub use statistics::{RegimeCounts, Spread, Statistics};
+pub use statistics::{Column, RegimeCounts, Spread, Statistics};
 pub use status::{Attempt, ShardStatus, Status};
 pub use store::{Folder, Header, STORE_VERSION, ShardFile};
 pub use study_map::StudyMap;

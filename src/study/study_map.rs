@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::error::StudyError;
-use super::grid::{Grid, Layer, across_and_up, fixed};
+use super::grid::{Grid, Layer, across_and_up};
 use super::live_plan::live_plan;
 use super::place::{force_unit, governing, moved, scene_with, strip};
 use super::plan::{PRELOAD, Plan};
@@ -79,11 +79,6 @@ impl StudyMap {
     fn at(&self, slice: u64) -> impl Iterator<Item = (&Axis, usize)> {
         let places = self.places(slice);
         self.others.iter().map(move |&other| (&self.plan().axes[other], places[other]))
-    }
-
-    /// Place of a map on the axes outside it, in words: `F_n/(E* h L) = 0.1`.
-    pub fn fixed_values(&self, slice: u64) -> Vec<String> {
-        self.at(slice).map(|(axis, place)| fixed(axis, place)).collect()
     }
 
     /// Map of this number.
@@ -220,9 +215,9 @@ mod tests {
     fn maps_have_the_cells_of_the_study() {
         let study_map = study_map(PLAN);
         assert_eq!(study_map.slices(), 4);
-        assert_eq!(study_map.fixed_values(0), ["k_max = 16", "F_n/(E* h L) = 0.5"]);
-        assert_eq!(study_map.fixed_values(1), ["k_max = 16", "F_n/(E* h L) = 2"]);
-        assert_eq!(study_map.fixed_values(2), ["k_max = 32", "F_n/(E* h L) = 0.5"]);
+        assert_eq!(study_map.grid(0).fixed, ["k_max = 16", "F_n/(E* h L) = 0.5"]);
+        assert_eq!(study_map.grid(1).fixed, ["k_max = 16", "F_n/(E* h L) = 2"]);
+        assert_eq!(study_map.grid(2).fixed, ["k_max = 32", "F_n/(E* h L) = 0.5"]);
         for (slice, modes, preload) in [(0, 0, 0), (1, 0, 1), (2, 1, 0), (3, 1, 1)] {
             let grid = study_map.grid(slice);
             assert_eq!(grid.across.values, [0.25, 0.75], "H across");
