@@ -22,6 +22,7 @@ fn kernels_compute_what_the_program_does() {
 }
 
 #[test]
+#[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn only_what_a_scene_calls_for_is_executed() {
     if !callgrind::is_there() {
         eprintln!("SKIPPED: valgrind is not installed, instructions are not counted");

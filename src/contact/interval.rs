@@ -54,11 +54,12 @@ impl Intervals {
         (self.0[0].low.indentation, self.0[self.0.len() - 1].high.indentation)
     }
 
-    /// Range of the intervals with indentations from one on, without those at their lower ends, and below another one or
-    /// at it, m.
+    /// Range of the intervals that reach up to `from` and begin below `to`, m.
     fn between(&self, from: f64, to: f64) -> Range<usize> {
         let first = self.0.partition_point(|interval| interval.high.indentation < from);
-        first..self.0.partition_point(|interval| interval.low.indentation < to)
+        let end = self.0.partition_point(|interval| interval.low.indentation < to);
+        // A part without extent may end a rounding before it begins.
+        first..end.max(first)
     }
 
     /// Returns true if an interval overlaps with the indentations from one up to another, m.

@@ -198,18 +198,6 @@ mod tests {
     }
 
     #[test]
-    fn all_themes_and_markers_come_round() {
-        let mut theme = Theme::Neutral;
-        let seen = std::iter::from_fn(|| {
-            theme = theme.next();
-            Some(theme)
-        });
-        assert_eq!(seen.take(5).last(), Some(Theme::Neutral));
-        assert_eq!(Marker::Ascii.next(), Marker::Braille);
-        assert_eq!(Theme::HighContrast.name(), "high-contrast");
-    }
-
-    #[test]
     fn every_theme_with_colours_separates_profile_surface_and_contact() {
         for theme in Theme::value_variants().iter().filter(|theme| **theme != Theme::Plain) {
             let [line, surface, contact] =

@@ -3,7 +3,7 @@
 use super::report::Report;
 use crate::analysis::Regime;
 use crate::io::{Kind, Table};
-use crate::study::{Cell, Grid};
+use crate::study::{Cell, Grid, Statistics};
 
 impl Report for Grid {
     /// The computed cells: values of the axes by their paths, profiles, regime, and the mean of each quantity with the
@@ -26,12 +26,12 @@ impl Report for Grid {
             |(_, cell)| cell.regimes.most().map(|(regime, _)| regime.name()),
         );
         for (place, layer) in self.layers.iter().enumerate() {
-            let name = |of: &str| format!("{}_{of}", layer.quantity.name());
-            let interval = move |cell: &Cell| cell.statistics[place]?.confidence_interval();
-            table = table
-                .with(name("mean"), Kind::Real, move |(_, cell)| Some(cell.statistics[place]?.mean))
-                .with(name("low"), Kind::Real, move |(_, cell)| Some(interval(cell)?.0))
-                .with(name("high"), Kind::Real, move |(_, cell)| Some(interval(cell)?.1));
+            let [mean, _, low, high] = Statistics::COLUMNS;
+            for (ending, of) in [mean, low, high] {
+                let name = format!("{}_{ending}", layer.quantity.name());
+                table = table
+                    .with(name, Kind::Real, move |(_, cell)| cell.statistics[place].as_ref().and_then(of));
+            }
         }
         Some(table.done())
     }

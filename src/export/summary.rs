@@ -300,7 +300,6 @@ mod tests {
 
     #[test]
     fn summaries_read_as_these() {
-        insta::assert_snapshot!("rough", summary_of(ROUGH, &[]));
         insta::assert_snapshot!("smooth_punch", summary_of(PUNCH, &[]));
         let held = [("loading", "[ToForce(1e-5)]"), ("adhesion", "None")];
         insta::assert_snapshot!("pressed_and_held_without_adhesion", summary_of(ROUGH, &held));

@@ -370,22 +370,6 @@ mod tests {
     }
 
     #[test]
-    fn cuts_of_a_power_law_are_known() {
-        // (1/π) ∫ (k cosh u)⁻³ k cosh u du = tanh(u)/(πk²).
-        for wave_number in [1.0_f64, 30.0, 90.0, 100.0] {
-            let last = (100.0 / wave_number).acosh();
-            let expected = last.tanh() / (PI * wave_number.powi(2));
-            let found = cut(|q| q.powi(-3), wave_number, 100.0);
-            assert!((found - expected).abs() <= 1e-9 * expected, "{wave_number}: {found} {expected}");
-        }
-        let spectrum = known(Nodes::new(1.0, 100.0, 6.0, End::Ends), |q| q.powi(-3));
-        let (found, expected) = (spectrum.cut(2.0), (50.0_f64).acosh().tanh() / (4.0 * PI));
-        assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
-        assert_eq!(spectrum.cut(200.0), 0.0);
-        assert!((spectrum.last_node() / 100.0 - 1.0).abs() < 1e-12);
-    }
-
-    #[test]
     fn moments_of_a_power_law_are_those_of_its_integrals() {
         // C2D = q⁻³ from 1 on, constant below.
         let spectrum = known(Nodes::new(1.0, 100.0, 6.0, End::Ends), |q| q.powi(-3));

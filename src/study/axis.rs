@@ -2,7 +2,9 @@
 //! its values.
 
 use crate::draw::AxisScale;
-use crate::scene::{FIELDS, Field, Move, Range, RoughnessParameter, Scene, did_you_mean, field};
+use crate::scene::{
+    FIELDS, Field, Move, Range, RoughnessParameter, Scene, did_you_mean, field, format_quantity,
+};
 use crate::text::printable;
 use serde::{Deserialize, Serialize};
 
@@ -82,21 +84,15 @@ impl Axis {
     }
 
     fn with_values(self, text: &AxisText) -> Result<Axis, String> {
-        let axis = match *text {
-            AxisText::List { ref values, .. } if values.is_empty() => {
-                return Err("no values; allowed: at least one".into());
-            }
-            AxisText::List { ref values, .. } if values.len() as u64 > MOST_VALUES => {
-                return Err(format!("{} values; allowed: at most {MOST_VALUES}", values.len()));
-            }
-            AxisText::List { ref values, .. } => Axis { values: values.clone(), ..self },
+        let (spacing, values) = match *text {
+            AxisText::List { ref values, .. } => (Spacing::List, values.clone()),
             AxisText::Linear { from, to, count, .. } => {
                 check_ends(from, to, count)?;
                 if !(to - from).is_finite() {
                     return Err(format!("from {from:?} to {to:?}: the range overflows a 64-bit float"));
                 }
                 let at = |share: f64| from * (1.0 - share) + to * share;
-                Axis { spacing: Spacing::Linear, ..self }.between(from, to, count, at)
+                (Spacing::Linear, self.between(from, to, count, at))
             }
             AxisText::Logarithmic { from, to, count, .. } => {
                 check_ends(from, to, count)?;
@@ -105,32 +101,38 @@ impl Axis {
                 }
                 let (first, last) = (from.ln(), to.ln());
                 let at = |share: f64| (first * (1.0 - share) + last * share).exp();
-                Axis { spacing: Spacing::Logarithmic, ..self }.between(from, to, count, at)
+                (Spacing::Logarithmic, self.between(from, to, count, at))
             }
         };
-        if let Some(value) = axis.values.iter().find(|value| !value.is_finite()) {
+        if values.is_empty() {
+            return Err("no values; allowed: at least one".into());
+        }
+        if values.len() as u64 > MOST_VALUES {
+            return Err(format!("{} values; allowed: at most {MOST_VALUES}", values.len()));
+        }
+        if let Some(value) = values.iter().find(|value| !value.is_finite()) {
             return Err(format!("{value:?}: values must be finite"));
         }
         let is_whole = |value: &f64| *value >= 0.0 && value.fract() == 0.0;
-        if let Some(value) = axis.values.iter().find(|value| axis.is_whole() && !is_whole(value)) {
+        if let Some(value) = values.iter().find(|value| self.is_whole() && !is_whole(value)) {
             return Err(format!("{value:?}: allowed: whole numbers"));
         }
+        let axis = Axis { spacing, values, ..self };
         let ascending = axis.ascending();
         let twice = ascending.values.windows(2).find(|pair| pair[0] == pair[1]);
         twice.map_or(Ok(axis), |pair| Err(format!("the value {:?} appears twice", pair[0])))
     }
 
-    /// The axis with `count` values from one end to the other. Those between the ends are rounded to 12 significant
-    /// digits, and where the field holds whole numbers, to the nearest of these.
-    fn between(self, from: f64, to: f64, count: u64, at: impl Fn(f64) -> f64) -> Axis {
-        let is_whole = self.is_whole();
-        let rounded = |value: f64| match is_whole {
+    /// `count` values from one end to the other. Those between the ends are rounded to 12 significant digits, and where the
+    /// field holds whole numbers, to the nearest of these.
+    fn between(&self, from: f64, to: f64, count: u64, at: impl Fn(f64) -> f64) -> Vec<f64> {
+        let rounded = |value: f64| match self.is_whole() {
             true => value.round(),
             false => format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value),
         };
         let last = count - 1;
         let inner = (1..last).map(|index| rounded(at(index as f64 / last as f64)));
-        Axis { values: std::iter::once(from).chain(inner).chain([to]).collect(), ..self }
+        std::iter::once(from).chain(inner).chain([to]).collect()
     }
 
     /// Returns true for an axis over whole numbers.
@@ -162,6 +164,12 @@ impl Axis {
     /// Symbol, or the path of a quantity without one.
     pub fn symbol_or_path(&self) -> String {
         if self.symbol.is_empty() { self.path.clone() } else { self.symbol.to_owned() }
+    }
+
+    /// The axis at one of its values, in words: `H = 0.3`.
+    pub(super) fn at(&self, place: usize) -> String {
+        let equals = if self.symbol.is_empty() { "" } else { "= " };
+        format!("{} {equals}{}", self.symbol_or_name(), format_quantity(self.values[place], self.unit))
     }
 
     /// The value so many steps above `value`, or below, on an ascending axis; the first or last value beyond the ends,

@@ -5,7 +5,7 @@ use super::quantity::Quantity;
 use super::statistics::{RegimeCounts, Statistics};
 use crate::analysis::Regime;
 use crate::draw::AxisScale;
-use crate::scene::{RoughnessParameter, format_quantity};
+use crate::scene::RoughnessParameter;
 
 /// Smallest ratio of the values on a logarithmic scale.
 const LOGARITHMIC_RATIO: f64 = 50.0;
@@ -58,6 +58,8 @@ pub struct Grid {
     pub across: Axis,
     /// Axis of the rows, ascending; `None` for a grid along one axis.
     pub up: Option<Axis>,
+    /// The other axes of the study at their values, in words: `H = 0.3`.
+    pub fixed: Vec<String>,
     /// Quantities beside the regime.
     pub layers: Vec<Layer>,
     /// Cells row by row, the row of the lowest value first; an error is the reason why a cell was not computed.
@@ -70,11 +72,12 @@ impl Grid {
     pub(crate) fn new(
         across: Axis,
         up: Option<Axis>,
+        fixed: Vec<String>,
         layers: Vec<Layer>,
         cells: Vec<Option<Result<Cell, String>>>,
     ) -> Grid {
         let stand_ins = (0..cells.len()).collect();
-        Grid { across, up, layers, cells, stand_ins }
+        Grid { across, up, fixed, layers, cells, stand_ins }
     }
 
     /// Numbers of columns and rows.
@@ -158,16 +161,6 @@ impl Grid {
         let nearest = |at: f64, count: usize| at.round().clamp(0.0, count.saturating_sub(1) as f64) as usize;
         let (columns, rows) = self.size();
         self.shown(nearest(column, columns), nearest(row, rows))
-    }
-}
-
-/// An axis at one of its values, for readers: `H = 0.3`.
-pub(super) fn fixed(axis: &Axis, place: usize) -> String {
-    let value = format_quantity(axis.values[place], axis.unit);
-    if axis.symbol.is_empty() {
-        format!("{} {value}", axis.name)
-    } else {
-        format!("{} = {value}", axis.symbol)
     }
 }
 

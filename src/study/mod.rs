@@ -80,7 +80,7 @@ pub use run::{Options, Progress, run};
 pub use select::{Selected, Selection};
 pub use sensitivity::{Influence, OTHER_SEEDS, STEP, Sensitivity};
 pub use shard::Shard;
-pub use statistics::{RegimeCounts, Spread, Statistics};
+pub use statistics::{Column, RegimeCounts, Spread, Statistics};
 pub use status::{Attempt, ShardStatus, Status};
 pub use store::{Folder, Header, STORE_VERSION, ShardFile};
 pub use study_map::StudyMap;

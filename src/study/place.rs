@@ -34,42 +34,34 @@ pub(super) fn scene_with<'a>(
     base: &Scene,
     values: impl Iterator<Item = (&'a Axis, f64)>,
 ) -> Result<Scene, String> {
-    let mut tree = Tree::of(base);
-    let (mut parameter, mut springs) = (None, None);
+    let (mut tree, mut parameter) = (Tree::of(base), None);
+    let mut values: Vec<_> = values.collect();
+    // The last mode follows from the number of springs.
+    values.sort_by_key(|(axis, _)| axis.target == Target::SpringsPerWave);
     for (axis, value) in values {
-        match axis.target {
-            Target::Preload => {}
-            Target::RoughnessParameter(of) => parameter = Some((of, value)),
-            Target::SpringsPerWave => springs = Some((axis, value)),
-            Target::Number(_) | Target::Stage(_) => set(&mut tree, &axis.path, axis, value, base)?,
+        let (path, value) = match axis.target {
+            Target::Preload => continue,
+            Target::RoughnessParameter(of) => {
+                parameter = Some((of, value));
+                continue;
+            }
+            Target::SpringsPerWave => {
+                ("roughness.modes.1", (tree.get("numerics.points").unwrap_or_default() / value).round())
+            }
+            Target::Number(_) | Target::Stage(_) => (axis.path.as_str(), value),
+        };
+        if !tree.set(path, value) {
+            let stages = base.loading.len();
+            let counted = format!("; its {stages} loading stages are counted from 0");
+            let counted = if axis.path.starts_with("loading.") { counted } else { String::new() };
+            return Err(format!("axis {}: the scene has no {path}{counted}", axis.path));
         }
-    }
-    if let Some((axis, springs)) = springs {
-        let points = tree.get("numerics.points").unwrap_or_default();
-        set(&mut tree, "roughness.modes.1", axis, (points / springs).round(), base)?;
     }
     let mut scene = tree.scene()?;
     if let Some((parameter, value)) = parameter {
         scene.adhesion = Some(scene.adhesion.unwrap_or_default().with_parameter(parameter, value));
     }
     Ok(scene)
-}
-
-/// Sets the number at a path, for an axis.
-fn set(
-    tree: &mut Tree,
-    path: &str,
-    Axis { path: axis, .. }: &Axis,
-    value: f64,
-    base: &Scene,
-) -> Result<(), String> {
-    if tree.set(path, value) {
-        return Ok(());
-    }
-    let stages = base.loading.len();
-    let counted = format!("; its {stages} loading stages are counted from 0");
-    let counted = if axis.starts_with("loading.") { counted } else { String::new() };
-    Err(format!("axis {axis}: the scene has no {path}{counted}"))
 }
 
 /// The numbers of a scene other than counts, zeros and what belongs to the numerics, as axes without values.

@@ -315,6 +315,7 @@ impl Results {
         layers: Vec<Layer>,
     ) -> Grid {
         let axes = &self.plan.axes;
+        let quantities: Vec<Quantity> = layers.iter().map(|layer| layer.quantity).collect();
         let mut cells = Vec::new();
         for row in up.map_or(vec![0], |up| axes[up].order()) {
             if let Some(up) = up {
@@ -322,15 +323,17 @@ impl Results {
             }
             for column in axes[across].order() {
                 places[across] = column;
-                cells.push(self.cell(self.plan.cell_at(&places), &layers).map(Ok));
+                cells.push(self.cell(self.plan.cell_at(&places), &quantities).map(Ok));
             }
         }
-        Grid::new(axes[across].ascending(), up.map(|up| axes[up].ascending()), layers, cells)
+        let others = (0..axes.len()).filter(|axis| *axis != across && Some(*axis) != up);
+        let fixed = others.map(|axis| axes[axis].at(places[axis])).collect();
+        Grid::new(axes[across].ascending(), up.map(|up| axes[up].ascending()), fixed, layers, cells)
     }
 
     /// A cell with these quantities; `None` without any record.
-    pub(super) fn cell(&self, cell: u64, layers: &[Layer]) -> Option<Cell> {
-        let statistics = layers.iter().map(|layer| self.statistics(cell, layer.quantity)).collect();
+    pub(super) fn cell(&self, cell: u64, quantities: &[Quantity]) -> Option<Cell> {
+        let statistics = quantities.iter().map(|quantity| self.statistics(cell, *quantity)).collect();
         let regimes = self.regimes(cell);
         (regimes.profiles() > 0).then_some(Cell { statistics, regimes })
     }

@@ -1,7 +1,7 @@
 //! Selection of a figure from a merged study: quantities, axes across and up, values of the other axes.
 
 use super::axis::Axis;
-use super::grid::{Grid, Layer, across_and_up, fixed, scale_of};
+use super::grid::{Grid, Layer, across_and_up, scale_of};
 use super::plan::Plan;
 use super::quantity::Quantity;
 use super::results::Results;
@@ -63,8 +63,6 @@ pub struct Selected {
     pub grid: Grid,
     /// The shown quantities.
     pub quantities: Vec<Quantity>,
-    /// Fixed axes, as `H = 0.3`.
-    pub fixed: Vec<String>,
     /// True if the rows of the grid are curves of a section.
     pub curves: bool,
 }
@@ -104,8 +102,7 @@ impl Selection {
         let both = quantities.iter().all(is_share) && quantities.iter().any(is_logarithmic);
         let scale = self.scale.or(both.then_some(AxisScale::Logarithmic));
         grid.layers = grid.layers.iter().map(|one| layer(one.quantity, scale)).collect();
-        let fixed = plan.axes.iter().zip(&at).filter_map(|(axis, place)| Some(fixed(axis, (*place)?)));
-        Ok(Selected { fixed: fixed.collect(), grid, quantities, curves })
+        Ok(Selected { grid, quantities, curves })
     }
 
     fn quantities(&self, plan: &Plan) -> Result<Vec<Quantity>, String> {

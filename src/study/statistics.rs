@@ -41,6 +41,9 @@ pub struct Spread {
     pub confidence_interval: (f64, f64),
 }
 
+/// Value of a column of a table of statistics, if it is known.
+pub type Column = fn(&Statistics) -> Option<f64>;
+
 impl Statistics {
     /// Statistics of values of a quantity between these bounds; `None` without values.
     ///
@@ -71,6 +74,19 @@ impl Statistics {
             below + (place - low as f64) * (above - below)
         });
         Some(Statistics { count: values.len(), mean, quartiles, range, spread })
+    }
+
+    /// Columns of tables of statistics: endings of their names, and values.
+    pub const COLUMNS: [(&str, Column); 4] = [
+        ("mean", |all| Some(all.mean)),
+        ("sd", |all| Some(all.spread?.standard_deviation)),
+        ("low", |all| Some(all.spread?.confidence_interval.0)),
+        ("high", |all| Some(all.spread?.confidence_interval.1)),
+    ];
+
+    /// Both ends of the confidence interval of the mean, or the mean twice.
+    pub fn ends(&self) -> (f64, f64) {
+        self.confidence_interval().unwrap_or((self.mean, self.mean))
     }
 
     /// The confidence interval of the mean, if it is known.

@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::error::StudyError;
-use super::grid::{Grid, Layer, across_and_up, fixed};
+use super::grid::{Grid, Layer, across_and_up};
 use super::live_plan::live_plan;
 use super::place::{force_unit, governing, moved, scene_with, strip};
 use super::plan::{PRELOAD, Plan};
@@ -79,11 +79,6 @@ impl StudyMap {
     fn at(&self, slice: u64) -> impl Iterator<Item = (&Axis, usize)> {
         let places = self.places(slice);
         self.others.iter().map(move |&other| (&self.plan().axes[other], places[other]))
-    }
-
-    /// Place of a map on the axes outside it, in words: `F_n/(E* h L) = 0.1`.
-    pub fn fixed_values(&self, slice: u64) -> Vec<String> {
-        self.at(slice).map(|(axis, place)| fixed(axis, place)).collect()
     }
 
     /// Map of this number.
@@ -220,9 +215,9 @@ mod tests {
     fn maps_have_the_cells_of_the_study() {
         let study_map = study_map(PLAN);
         assert_eq!(study_map.slices(), 4);
-        assert_eq!(study_map.fixed_values(0), ["k_max = 16", "F_n/(E* h L) = 0.5"]);
-        assert_eq!(study_map.fixed_values(1), ["k_max = 16", "F_n/(E* h L) = 2"]);
-        assert_eq!(study_map.fixed_values(2), ["k_max = 32", "F_n/(E* h L) = 0.5"]);
+        assert_eq!(study_map.grid(0).fixed, ["k_max = 16", "F_n/(E* h L) = 0.5"]);
+        assert_eq!(study_map.grid(1).fixed, ["k_max = 16", "F_n/(E* h L) = 2"]);
+        assert_eq!(study_map.grid(2).fixed, ["k_max = 32", "F_n/(E* h L) = 0.5"]);
         for (slice, modes, preload) in [(0, 0, 0), (1, 0, 1), (2, 1, 0), (3, 1, 1)] {
             let grid = study_map.grid(slice);
             assert_eq!(grid.across.values, [0.25, 0.75], "H across");
@@ -285,52 +280,5 @@ mod tests {
         let other = document.set("material.effective_modulus", "3.0e6").unwrap();
         assert!(!study_map.is_of(0, other.scene()));
         assert!(!study_map.is_of(0, crate::scene::open("jkr-sphere").unwrap().scene()));
-    }
-
-    #[test]
-    fn studies_of_other_axes_have_maps_and_curves() {
-        let kappa = "List(path: \"kappa\", values: [4.0, 1.0, 2.0])";
-        let hurst = "Linear(path: \"roughness.hurst\", from: 0.25, to: 0.75, count: 2)";
-        let length = "List(path: \"length\", values: [1.0e-4, 2.0e-4])";
-        let one_kappa = "List(path: \"kappa\", values: [4.0])";
-        let one_mode = "List(path: \"roughness.modes.1\", values: [16.0])";
-        let modes = "List(path: \"roughness.modes.1\", values: [16, 32])";
-        let unpressed = PLAN.replace("preloads: [0.5, 2.0],", "");
-        for (plan, expected) in [
-            (PLAN.replace(kappa, one_kappa), ["roughness.hurst", "roughness.modes.1"].as_slice()),
-            (PLAN.replace(kappa, length), &["roughness.hurst", "length"]),
-            (PLAN.replace(hurst, length), &["roughness.modes.1", "kappa"]),
-            (
-                unpressed.replace(hurst, length).replace(kappa, one_kappa).replace(modes, one_mode),
-                &["length"],
-            ),
-            (
-                PLAN.replace(&format!("{hurst},"), "").replace(kappa, one_kappa).replace(modes, one_mode),
-                &["preload"],
-            ),
-        ] {
-            let plan =
-                plan.replace("numerics: (points: 128)", "numerics: (points: 128), adhesion: (kappa: 1.0)");
-            let study_map = study_map(&plan);
-            // The first scene is that of the study, and remains so on the map.
-            let document = study_map.document().unwrap();
-            let axes: Vec<&Axis> = study_map.over().collect();
-            assert_eq!(axes.iter().map(|axis| axis.path.as_str()).collect::<Vec<_>>(), expected);
-            let last: Vec<_> = axes.iter().map(|axis| (*axis, *axis.values.last().unwrap())).collect();
-            // The unit of the preload changes with the length.
-            let moved = study_map.follow(0, &moved(&document, &last).unwrap()).unwrap();
-            for document in [&document, &moved] {
-                assert!(study_map.is_of(0, document.scene()), "{}", document.text());
-            }
-            for (axis, last) in last {
-                let value = axis.value_in(moved.scene(), None).unwrap();
-                assert!((value / last - 1.0).abs() < 1e-9, "{}: {value} {last}", axis.path);
-            }
-        }
-        let one =
-            unpressed.replace(kappa, one_kappa).replace(modes, one_mode).replace(&format!("{hurst},"), "");
-        let study = Results::empty(Plan::parse(&one, "plan", &Changes::default()).unwrap()).unwrap();
-        let error = StudyMap::of(study, Path::new("folder")).unwrap_err().to_string();
-        assert!(error.contains("needs an axis with two values at least"), "{error}");
     }
 }

@@ -5,7 +5,7 @@ use super::axis::Axis;
 use super::plan::Plan;
 use super::quantity::{Quantity, regime_of};
 use super::results::{Merged, Results};
-use super::statistics::{CONFIDENCE, Spread};
+use super::statistics::{CONFIDENCE, Statistics};
 use super::store::{Folder, lines};
 use crate::analysis::Regime;
 use crate::io::{Kind, ReadError, Table, TableOf, object, open_regular, write_json_value, write_new_file};
@@ -136,34 +136,22 @@ impl Results {
     /// The cells with records: number of profiles and, for each quantity, mean, standard deviation and confidence
     /// interval.
     fn summary(&self) -> Table<'_> {
-        let numbers = |cell: u64, quantity: &Quantity| -> Vec<Option<f64>> {
+        let record = &self.plan.record;
+        let rows = move || (0..self.plan.cells()).filter_map(|cell| Some((cell, self.cell(cell, record)?)));
+        let mut table = with_cell(&self.plan, Table::of(rows), |row| row.0);
+        table = table.whole("lines", |row| row.1.regimes.profiles() as u64);
+        for (place, quantity) in record.iter().enumerate() {
             if *quantity == Quantity::Regime {
-                let shares = self.regimes(cell).shares();
-                return (0..REGIME_COLUMNS.len()).map(|regime| Some(shares?[regime])).collect();
+                for (regime, name) in REGIME_COLUMNS.into_iter().enumerate() {
+                    table = table.real(name, move |row| Some(row.1.regimes.shares()?[regime]));
+                }
+                continue;
             }
-            let all = self.statistics(cell, *quantity);
-            let spread = all.and_then(|all| all.spread);
-            let end = |of: fn(&Spread) -> f64| spread.as_ref().map(of);
-            vec![
-                all.map(|all| all.mean),
-                end(|spread| spread.standard_deviation),
-                end(|spread| spread.confidence_interval.0),
-                end(|spread| spread.confidence_interval.1),
-            ]
-        };
-        let row = move |cell| (cell, self.records_of(cell).count() as u64);
-        let of_cell = move |(cell, lines)| {
-            let numbers = self.plan.record.iter().flat_map(|quantity| numbers(cell, quantity));
-            (cell, lines, numbers.collect::<Vec<_>>())
-        };
-        let rows = move || (0..self.plan.cells()).map(row).filter(|row| row.1 > 0).map(of_cell);
-        let mut table = with_cell(&self.plan, Table::of(rows), |row| row.0).whole("lines", |row| row.1);
-        let names = self.plan.record.iter().flat_map(|quantity| match quantity {
-            Quantity::Regime => REGIME_COLUMNS.map(String::from).to_vec(),
-            _ => ["mean", "sd", "low", "high"].map(|of| format!("{}_{of}", quantity.name())).to_vec(),
-        });
-        for (column, name) in names.enumerate() {
-            table = table.with(name, Kind::Real, move |row| row.2[column]);
+            for (ending, of) in Statistics::COLUMNS {
+                let name = format!("{}_{ending}", quantity.name());
+                table =
+                    table.with(name, Kind::Real, move |row| row.1.statistics[place].as_ref().and_then(of));
+            }
         }
         table.done()
     }

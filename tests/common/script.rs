@@ -2,15 +2,19 @@
 //! a script always shows the same screens.
 
 use super::driver::Driver;
-use asperity::explorer::action::Action;
-use asperity::explorer::app::App;
-use asperity::explorer::layout::Layout;
+use asperity::contact::CurvePoint;
+use asperity::explorer::action::{Action, Gesture, Mouse};
+use asperity::explorer::app::{App, Pane};
+use asperity::explorer::layout::{Layout, inside};
+use asperity::explorer::snapshot::ContactSnapshot;
 use asperity::explorer::update::{Effect, update};
 use asperity::explorer::{Opening, view};
+use asperity::simulation::Outcome;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::{Buffer, Cell};
+use ratatui::layout::Rect;
 use std::time::Duration;
 
 impl Driver {
@@ -96,6 +100,44 @@ impl Driver {
     /// The screen as one text.
     pub fn text(&self) -> String {
         self.rows().join("\n")
+    }
+
+    /// The rows of a pane with its frame.
+    pub fn pane(&self, pane: Pane) -> Vec<String> {
+        let area = Layout::of(&self.app).pane(pane).expect("the pane is shown");
+        let row = |row: &String| row.chars().skip(area.x.into()).take(area.width.into()).collect();
+        self.rows()[usize::from(area.y)..usize::from(area.bottom())].iter().map(row).collect()
+    }
+
+    /// The area inside the frame of a pane.
+    pub fn area(&self, pane: Pane) -> Rect {
+        inside(Layout::of(&self.app).pane(pane).expect("the pane is shown"))
+    }
+
+    /// The row of the keys.
+    pub fn footer(&self) -> String {
+        let row = Layout::of(&self.app).footer.expect("there is a footer").y;
+        self.rows()[usize::from(row)].clone()
+    }
+
+    /// Moves the mouse.
+    pub fn mouse(&mut self, column: u16, row: u16, gesture: Gesture) -> Vec<Effect> {
+        self.act(Action::Mouse(Mouse { column, row, gesture }))
+    }
+
+    /// The state shown.
+    pub fn snapshot(&self) -> &ContactSnapshot {
+        self.app.snapshot.as_deref().expect("a state is shown")
+    }
+
+    /// Its point of the curve.
+    pub fn point(&self) -> CurvePoint {
+        self.snapshot().point
+    }
+
+    /// The outcome of the scene.
+    pub fn outcome(&self) -> &Outcome {
+        &self.app.solved.as_ref().expect("the scene is computed").outcome
     }
 
     /// The row below the panes.

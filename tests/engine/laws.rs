@@ -11,7 +11,5 @@ mod symmetries;
 mod work;
 
 use super::body::*;
-use asperity::contact::{
-    CurvePoint, Direction, Edges, Foundation, Leg, LegRecord, Move, Patch, Solver, Stepwise,
-};
+use asperity::contact::{CurvePoint, Direction, Edges, Foundation, Leg, LegRecord, Move, Patch, Solver};
 use proptest::prelude::*;

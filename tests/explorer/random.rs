@@ -1,7 +1,6 @@
 //! Any events in any order, in windows of any size: the explorer does not panic, it draws, and its scene remains
 //! computable.
 
-use super::common::deadline::within;
 use super::common::driver::{Driver, REFUSED};
 use super::common::effort::cases;
 use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
@@ -322,32 +321,30 @@ impl Explorer {
 
 #[test]
 fn whatever_happens_it_draws_and_its_scene_is_sound() {
-    within(400, || {
-        let folder = tempfile::tempdir().unwrap();
-        // Few values: the edges of the map are near.
-        let plan = PLAN
-            .replace("count: 9", "count: 2")
-            .replace("count: 13", "count: 3")
-            .replace("lines: 12", "lines: 2");
-        merged(folder.path(), &plan);
-        let scenes = scenes(folder.path());
-        let drawn = (0..scenes.len(), size(), prop::collection::vec(event(), 1..=LONGEST));
-        let mut runner = TestRunner::new(Config {
-            failure_persistence: None,
-            max_shrink_time: 20_000,
-            ..Config::with_cases(cases(CASES))
-        });
-        let outcome = runner.run(&drawn, |(scene, (columns, rows), events)| {
-            let mut explorer = Explorer::new(scenes[scene].clone(), folder.path());
-            explorer.act(Action::Resize(columns, rows));
-            for event in &events {
-                explorer.happen(event);
-            }
-            explorer.settle();
-            Ok(())
-        });
-        if let Err(failure) = outcome {
-            panic!("{failure}");
-        }
+    let folder = tempfile::tempdir().unwrap();
+    // Few values: the edges of the map are near.
+    let plan = PLAN
+        .replace("count: 9", "count: 2")
+        .replace("count: 13", "count: 3")
+        .replace("lines: 12", "lines: 2");
+    merged(folder.path(), &plan);
+    let scenes = scenes(folder.path());
+    let drawn = (0..scenes.len(), size(), prop::collection::vec(event(), 1..=LONGEST));
+    let mut runner = TestRunner::new(Config {
+        failure_persistence: None,
+        max_shrink_time: 20_000,
+        ..Config::with_cases(cases(CASES))
     });
+    let outcome = runner.run(&drawn, |(scene, (columns, rows), events)| {
+        let mut explorer = Explorer::new(scenes[scene].clone(), folder.path());
+        explorer.act(Action::Resize(columns, rows));
+        for event in &events {
+            explorer.happen(event);
+        }
+        explorer.settle();
+        Ok(())
+    });
+    if let Err(failure) = outcome {
+        panic!("{failure}");
+    }
 }

@@ -213,23 +213,6 @@ fn a_panic_is_stated_and_the_next_scene_is_computed() {
     });
 }
 
-#[test]
-fn a_leg_that_cannot_be_gone_is_stated_in_one_line() {
-    within(30, || {
-        let served = Served::start();
-        let beyond = rough().set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]").unwrap();
-        served.compute(1, &beyond);
-        let Report::Failed { generation: 1, error } = served.answer() else { panic!("not failed") };
-        assert!(error.starts_with("loading.1 = ToForce(-1.0): the contact detaches above"), "{error}");
-        assert_eq!(error.lines().count(), 1, "{error}");
-        let alone = Simulation::default().run(beyond.scene(), &|| false, &mut |_, _, _| Ok(()));
-        assert_eq!(error, alone.unwrap_err().to_string());
-        // Nothing of the failed scene can be shown, and the next one is computed.
-        served.thread.ask(compute(1, &beyond));
-        served.computed(2, &rough());
-    });
-}
-
 /// A rough sphere under adhesion.
 fn rough_sphere() -> Document {
     changed(

@@ -1,6 +1,6 @@
 //! The window changes its size.
 
-use crate::driving::{ESCAPE, explorer, paused, quit};
+use crate::driving::{explorer, paused, quit};
 
 #[test]
 fn another_size_of_the_window_is_filled() {
@@ -38,22 +38,6 @@ fn a_window_of_millions_of_cells_is_refused() {
     assert_eq!(terminal.wait_end().exit_code(), 1);
     let message = "a window of 4001 × 1000 cells; allowed: at most 4000000 cells";
     assert!(terminal.text().contains(message), "{}", terminal.text().trim());
-}
-
-#[test]
-fn a_window_of_one_cell_is_survived() {
-    let (program, _folder) = explorer();
-    let mut terminal = program.size(1, 1).start();
-    terminal.wait("first frame", |rows| !rows[0].is_empty());
-    terminal.send(".?");
-    terminal.send(ESCAPE);
-    for (columns, rows) in [(2, 1), (1, 50), (300, 1), (1, 1)] {
-        terminal.resize(columns, rows);
-        terminal.settle();
-    }
-    terminal.resize(120, 40);
-    terminal.wait_for("F_a ");
-    quit(&mut terminal);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! The source as a whole: directions of imports, circles of files, words, first words of comments.
+//! The source as a whole: directions of imports, circles of files, words.
 
 use super::generated::root;
 use std::collections::{BTreeMap, BTreeSet};
@@ -264,26 +264,4 @@ fn replaced_words_are_not_used() {
         }
     }
     assert!(words > 100_000, "{words} words");
-}
-
-/// First words that make a sentence of a comment an indirect question.
-const QUESTIONS: [&str; 6] = ["What ", "Whether ", "How ", "Why ", "Who ", "See the module"];
-
-#[test]
-fn comments_begin_with_a_noun_or_a_verb() {
-    let comment = |line: &str| {
-        let line = line.trim_start();
-        ["/// ", "//! "].iter().find_map(|mark| line.strip_prefix(mark)).map(str::to_owned)
-    };
-    let mut seen = 0;
-    for (path, text) in texts_below("src") {
-        let lines: Vec<Option<String>> = std::iter::once("").chain(text.lines()).map(comment).collect();
-        for pair in lines.windows(2).filter(|pair| pair[0].is_none()) {
-            let Some(first) = &pair[1] else { continue };
-            seen += 1;
-            let is_question = QUESTIONS.iter().any(|question| first.starts_with(question));
-            assert!(!is_question, "{}: {first}", path.display());
-        }
-    }
-    assert!(seen > 1000, "{seen} comments");
 }

@@ -109,24 +109,6 @@ fn the_equivalent_line_of_generated_surfaces_is_theirs() {
     check("docs/surfaces.md", "biases", &markdown(header, rows.into_iter()));
 }
 
-/// Spectra that end before the last resolved wave.
-#[test]
-#[ignore = "takes ten seconds or more; .ci/run runs it"]
-fn the_equivalent_line_ends_where_the_spectrum_ends() {
-    let mut rows = Vec::new();
-    for last in [200.0, 128.0, 64.0, 32.0] {
-        let spectrum = Spectrum { hurst: 0.7, roll_off: 8.0, last };
-        for (kind, found) in samples(&spectrum) {
-            let ratios = ratios(&spectrum, &found);
-            assert!(ratios.iter().all(Ratio::is_stated_well), "{kind}, {last}: {ratios:?}");
-            let [h, gradient, energy] = ratios.map(|ratio| ratio.text());
-            rows.push([last.to_string(), kind.to_owned(), h, gradient, energy]);
-        }
-    }
-    let header = ["last wave", "measured", "h, %", "⟨∇z⟩, %", "e_el, %"];
-    check("docs/surfaces.md", "cutoffs", &markdown(header, rows.into_iter()));
-}
-
 /// A profile holds few waves, and no estimate can exceed their information: the spread follows from their number.
 #[test]
 #[ignore = "takes ten seconds or more; .ci/run runs it"]

@@ -46,7 +46,7 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
     let format = arguments.output.format(arguments.text.then_some(Format::Text), FORMATS, usual)?;
     let study = Results::open(&arguments.folder)?;
     let selected = arguments.selection.of(&study).map_err(CliError::message)?;
-    let Selected { grid, quantities, fixed, curves } = selected;
+    let Selected { grid, quantities, curves } = selected;
     // By request there is one scale alone.
     let scales = if arguments.selection.scale.is_some() { 1 } else { 2 };
     let charts = |quantity| match study_map(&grid, quantity, false).filter(|_| !curves) {
@@ -54,6 +54,6 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
         None => study_curves(&grid, quantity).into_iter().take(scales).collect(),
     };
     let charts: Vec<_> = quantities.into_iter().flat_map(charts).collect();
-    let figure = study_figure(&study.plan().title, &fixed, charts);
+    let figure = study_figure(&study.plan().title, &grid, charts);
     arguments.output.write_figure(stdout, &figure, format)
 }

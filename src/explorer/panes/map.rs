@@ -104,8 +104,7 @@ fn figure(app: &App, grid: &Grid) -> Figure {
     };
     let study = app.map.shown_study();
     let title = study.map_or(&app.edit.document.scene().title, |study| &study.study_map.plan().title);
-    let fixed = study.map_or_else(Vec::new, |study| study.study_map.fixed_values(study.slice));
-    study_figure(title, &fixed, charts)
+    study_figure(title, grid, charts)
 }
 
 /// Title of the pane: the mapped quantity, the axes, and the number of profiles of the mean.
@@ -176,8 +175,7 @@ fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
     }
     let Some(study) = app.map.shown_study() else { return filled(parts, "  ", width) };
     let slices = study.study_map.slices();
-    let mut slice: Vec<Part> =
-        study.study_map.fixed_values(study.slice).into_iter().map(|at| vec![title(at)]).collect();
+    let mut slice: Vec<Part> = grid.fixed.iter().map(|at| vec![title(at.clone())]).collect();
     if slices > 1 {
         let which = format!("{} of {}, P: the next", grouped(study.slice + 1), grouped(slices));
         slice.push(vec![Text::styled(which, look.theme.style(Meaning::Key))]);

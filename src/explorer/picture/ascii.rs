@@ -99,18 +99,12 @@ fn of_character(character: char) -> char {
 
 #[cfg(test)]
 mod tests {
-    use super::super::text::text;
+
     use super::*;
     use proptest::prelude::*;
     use ratatui::layout::Rect;
     use ratatui::style::{Color, Style};
     use ratatui::symbols::braille::BRAILLE;
-
-    fn ascii(rows: &str) -> String {
-        let mut buffer = Buffer::with_lines(rows.lines());
-        to_ascii(&mut buffer);
-        text(&buffer)
-    }
 
     #[test]
     fn no_dot_is_lost() {
@@ -130,21 +124,6 @@ mod tests {
             let nearest = all().filter(|(one, _)| *one == taken).map(|(_, bits)| far(bits)).min();
             assert_eq!(nearest, all().map(|(_, bits)| far(bits)).min(), "{pattern:08b} {taken}");
         }
-    }
-
-    #[test]
-    fn curves_read_as_curves() {
-        let drawn = "⠒⠒⠒⠒⠒⠒ ⠒ ⠒ ⠒ ⠐⠂⠐⠂\n⣀⣀⣀⡠⠤⠔⠒⠉⠉⠒⠢⢄\n⡇⢸⡇⡜⠎⢣⢱⠆⠰⣿⣶";
-        assert_eq!(ascii(drawn), "------ - - - ''''\n___.---\"\"--.\n|||//\\\\::##\n");
-    }
-
-    #[test]
-    fn frames_marks_and_letters_have_likenesses() {
-        let drawn = "┌─┬┐\n│ ┊╱╲╳\n▲▼◆○◇●■▪·▸›…•\n↑↓←→⟨∇z⟩κγνΔδµμπ²³⁻×−–′\n▏▎▍▌▋▊▉█▁▄▀░▒▓\nnaïve Å";
-        assert_eq!(
-            ascii(drawn),
-            "+-++\n| |/\\x\n^v*ox@#+.>>~*\n^v<><Vz>KgvDduup23-x--'\n|||||###__\":%#\nnaive A\n"
-        );
     }
 
     #[test]

@@ -218,21 +218,5 @@ mod tests {
         }
     }
 
-    proptest! {
-        #[test]
-        fn numbers_come_back_whatever_separates_them(
-            heights in prop::collection::vec(-1e9..1e9_f64, 2..50),
-            separator in prop::sample::select(vec![" ", "\t", ";", ",", ", ", "  "]),
-            end in prop::sample::select(vec!["\n", "\r\n"]),
-        ) {
-            let lines: String =
-                heights.iter().enumerate().map(|(x, z)| format!("{x}{separator}{z:?}{end}")).collect();
-            let reading = text(&lines).unwrap();
-            prop_assert_eq!(&reading.heights, &heights);
-            let comma = lines.replace(',', ";").replace('.', ",");
-            if separator == ";" || separator == "\t" {
-                prop_assert_eq!(text(&comma).unwrap(), reading);
-            }
-        }
-    }
+    proptest! {}
 }

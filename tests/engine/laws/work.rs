@@ -50,28 +50,3 @@ proptest! {
         prop_assert_eq!(again.tree_in(springs.into_tree(), Edges::Grid).unwrap().node_count(), summits);
     }
 }
-
-#[test]
-fn memory_of_a_leg_grows_with_its_patches() {
-    // Flat punches of 8 springs at one height, far apart, above springs out of reach.
-    let punches = |count: usize| {
-        let gaps = [vec![0.0; 8], vec![100.0; 24]].concat().repeat(count);
-        Body::new(gaps, Edges::Grid, Foundation::endless(0.01, 1.0), 1e-4)
-    };
-    let bytes = |mut solver: asperity::contact::Body| {
-        assert_eq!(solver.leg().bytes(), 0);
-        solver.advance(Move::ToIndentation(0.1)).unwrap();
-        solver.leg().bytes()
-    };
-    let [ten, hundred, thousand] = [10, 100, 1000].map(|count| bytes(punches(count).on(2)));
-    // At least two indentations for each.
-    assert!(ten >= 160 && hundred >= 1600);
-    // Within the room for growth of a vector.
-    assert!(thousand >= 5 * hundred && thousand <= 20 * hundred, "{hundred} {thousand}");
-    let body = punches(2);
-    let contact = body.contact();
-    let mut stepwise = Stepwise::new(&contact, 0.05, 2, &|| false).unwrap();
-    stepwise.advance(Move::ToTouch).unwrap();
-    assert_eq!(stepwise.leg().bytes(), size_of::<f64>() * body.gaps.len());
-    assert_eq!(bytes(body.bare(2)), 0);
-}

@@ -1,6 +1,5 @@
 //! The cost of accuracy, the error in the status line, springs for a tolerance.
 
-use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough, without_adhesion};
 use super::is_up_to_date;
@@ -9,7 +8,7 @@ use asperity::accuracy::{
 };
 use asperity::explorer::app::{Message, Pane};
 use asperity::explorer::panes::Costs;
-use asperity::explorer::update::{Answer, Choosing, Effect, studies};
+use asperity::explorer::update::{Answer, Choosing, Effect};
 use asperity::scene::{Document, Edges};
 
 /// Springs of 4e-4 at best, as found by a search.
@@ -82,101 +81,69 @@ pub fn measured(document: Document) -> Driver {
 }
 
 #[test]
-fn what_accuracy_costs_is_shown_beside_what_can_be_changed() {
-    within(60, || {
-        let mut driver = measured(changed(&rough(), &[("numerics.edges", "Grid")]));
-        for size in [(120, 40), (80, 24)] {
-            driver.resize(size);
-            for stated in [
-                "order 2.0",
-                "order 1.0",
-                "1 %: edges between springs: 1 024",
-                "whole springs: 2 048",
-                "ran 0 s:",
-                "◆ 1 024 whole springs",
-            ] {
-                assert!(driver.text().contains(stated), "{stated} at {size:?}:\n{}", driver.text());
-            }
-        }
-        driver.press("A");
-        assert_eq!((driver.app.view.large, driver.app.view.pane), (None, Pane::Force));
-        assert!(driver.text().contains("Profile"), "{}", driver.text());
-        // Costs are not measured twice.
-        assert_eq!(driver.press("A"), [Effect::Study, Effect::Ask]);
-        assert!(studies(&mut driver.app).is_empty() && driver.text().contains("order 2.0"));
-    });
-}
-
-#[test]
 fn a_scene_with_nothing_to_show_says_so() {
-    within(60, || {
-        let empty = CostTable { rows: Vec::new(), ..table() };
-        let mut driver = driver_with(without_adhesion(), None, Ok(empty));
-        driver.press("A");
-        for size in [(120, 40), (80, 24)] {
-            driver.resize(size);
-            assert!(driver.text().contains("nothing to show"), "{}", driver.text());
-            assert!(driver.text().contains("F_a(0) skipped"), "{}", driver.text());
-        }
-        let short = "the budget of 10 s is spent".to_owned();
-        let mut driver = driver_with(rough(), None, Err(short));
-        driver.press("A");
-        assert!(driver.text().contains("nothing is measured: the budget of 10 s"), "{}", driver.text());
-        assert!(driver.text().contains("error unknown"), "{}", driver.text());
-    });
+    let empty = CostTable { rows: Vec::new(), ..table() };
+    let mut driver = driver_with(without_adhesion(), None, Ok(empty));
+    driver.press("A");
+    for size in [(120, 40), (80, 24)] {
+        driver.resize(size);
+        assert!(driver.text().contains("nothing to show"), "{}", driver.text());
+        assert!(driver.text().contains("F_a(0) skipped"), "{}", driver.text());
+    }
+    let short = "the budget of 10 s is spent".to_owned();
+    let mut driver = driver_with(rough(), None, Err(short));
+    driver.press("A");
+    assert!(driver.text().contains("nothing is measured: the budget of 10 s"), "{}", driver.text());
+    assert!(driver.text().contains("error unknown"), "{}", driver.text());
 }
 
 #[test]
 fn an_edit_forgets_what_was_found_out() {
-    within(60, || {
-        let mut driver = measured(rough());
-        driver.select("roughness.hurst");
-        assert_eq!(driver.press("l"), [Effect::Ask]);
-        assert!(driver.app.is_shown(Pane::Accuracy));
-        assert!(driver.app.studies.value::<Estimate>().is_none());
-        assert!(driver.app.studies.value::<Costs>().is_none());
-        assert!(driver.status().contains("± …"), "{}", driver.status());
-        assert!(driver.text().contains("measuring"), "{}", driver.text());
-        let setting = |setting: &str| Costs { table: None, trying: Some(setting.to_owned()) };
-        let generation = driver.app.edit.generation;
-        driver.app.studies.set(generation, setting("grid springs: 64 springs"), false);
-        assert!(driver.text().contains("trying grid springs: 64 springs…"), "{}", driver.text());
-    });
+    let mut driver = measured(rough());
+    driver.select("roughness.hurst");
+    assert_eq!(driver.press("l"), [Effect::Ask]);
+    assert!(driver.app.is_shown(Pane::Accuracy));
+    assert!(driver.app.studies.value::<Estimate>().is_none());
+    assert!(driver.app.studies.value::<Costs>().is_none());
+    assert!(driver.status().contains("± …"), "{}", driver.status());
+    assert!(driver.text().contains("measuring"), "{}", driver.text());
+    let setting = |setting: &str| Costs { table: None, trying: Some(setting.to_owned()) };
+    let generation = driver.app.edit.generation;
+    driver.app.studies.set(generation, setting("grid springs: 64 springs"), false);
+    assert!(driver.text().contains("trying grid springs: 64 springs…"), "{}", driver.text());
 }
 
 #[test]
 fn the_headline_has_its_error_and_its_time() {
-    within(60, || {
-        let stated = |error: Option<f64>| driver_with(rough(), error.and_then(estimate), Ok(table()));
-        let mut driver = stated(Some(0.0042));
-        for size in [(120, 40), (80, 24), (60, 20)] {
-            driver.resize(size);
-            assert!(driver.status().contains("N grid ± 0.4 %"), "{}", driver.status());
-        }
-        // Times are shown with the counts, in place of the mechanics.
-        driver.resize((200, 40));
-        driver.press("I");
-        assert!(driver.status().trim_end().ends_with(" 0 s"), "{}", driver.status());
-        // Reproducible pictures have no times, and wait for nothing.
-        driver.app.view.shows_times = false;
-        assert!(driver.status().contains("N grid ± 0.4 % "), "{}", driver.status());
-        assert!(!driver.status().trim_end().ends_with(" 0 s"), "{}", driver.status());
-        driver.app.studies.forget::<Estimate>();
-        assert!(!driver.status().contains('±'), "{}", driver.status());
-        driver.app.view.shows_times = true;
-        assert!(
-            driver.status().contains("± …") && driver.status().trim_end().ends_with(" 0 s"),
-            "{}",
-            driver.status()
-        );
-        assert!(stated(None).status().contains("N error unknown"), "{}", stated(None).status());
-        let near_step = stated(Some(1.4));
-        assert!(near_step.status().contains("N near a step of F_a(F_n)"), "{}", near_step.status());
-        // Without a pulling force: the largest force, and the error of its curve.
-        let curve = Estimate { target: Target::Curve, ..estimate(0.02).unwrap() };
-        let driver = driver_with(without_adhesion(), Some(curve), Ok(table()));
-        assert!(driver.status().starts_with("F_max 20 µN curve, grid ± 2 %"), "{}", driver.status());
-    });
+    let stated = |error: Option<f64>| driver_with(rough(), error.and_then(estimate), Ok(table()));
+    let mut driver = stated(Some(0.0042));
+    for size in [(120, 40), (80, 24), (60, 20)] {
+        driver.resize(size);
+        assert!(driver.status().contains("N grid ± 0.4 %"), "{}", driver.status());
+    }
+    // Times are shown with the counts, in place of the mechanics.
+    driver.resize((200, 40));
+    driver.press("I");
+    assert!(driver.status().trim_end().ends_with(" 0 s"), "{}", driver.status());
+    // Reproducible pictures have no times, and wait for nothing.
+    driver.app.view.shows_times = false;
+    assert!(driver.status().contains("N grid ± 0.4 % "), "{}", driver.status());
+    assert!(!driver.status().trim_end().ends_with(" 0 s"), "{}", driver.status());
+    driver.app.studies.forget::<Estimate>();
+    assert!(!driver.status().contains('±'), "{}", driver.status());
+    driver.app.view.shows_times = true;
+    assert!(
+        driver.status().contains("± …") && driver.status().trim_end().ends_with(" 0 s"),
+        "{}",
+        driver.status()
+    );
+    assert!(stated(None).status().contains("N error unknown"), "{}", stated(None).status());
+    let near_step = stated(Some(1.4));
+    assert!(near_step.status().contains("N near a step of F_a(F_n)"), "{}", near_step.status());
+    // Without a pulling force: the largest force, and the error of its curve.
+    let curve = Estimate { target: Target::Curve, ..estimate(0.02).unwrap() };
+    let driver = driver_with(without_adhesion(), Some(curve), Ok(table()));
+    assert!(driver.status().starts_with("F_max 20 µN curve, grid ± 2 %"), "{}", driver.status());
 }
 
 /// Types a tolerance.
@@ -191,52 +158,45 @@ fn ask(driver: &mut Driver, tolerance: &str) {
 
 #[test]
 fn a_tolerance_is_an_edit_that_can_be_taken_back() {
-    within(60, || {
-        let mut driver = measured(changed(&rough(), &[("numerics.edges", "Grid")]));
-        let before = driver.app.edit.document.scene().numerics;
-        ask(&mut driver, "0.1 %");
-        let after = driver.app.edit.document.scene().numerics;
-        assert_eq!((after.points, after.edges), (2048, Edges::SubCell));
-        assert!(is_up_to_date(&driver.app) && driver.app.studies.value::<Choosing>().is_none());
-        assert!(driver.status().contains("2 048 springs"), "{}", driver.status());
-        let Some(Answer(answer)) = driver.app.studies.value() else { panic!("no answer") };
-        assert!(answer.contains("the fewest found to keep the adhesion force within 1e-3"), "{answer}");
-        assert!(driver.text().contains("2 048 springs with edges SubCell: the fewest"), "{}", driver.text());
-        // The known error is from finer solutions than an estimate.
-        assert!(driver.app.studies.value::<Estimate>().is_some_and(|known| known.error == 4e-4));
-        let generation = driver.app.edit.generation;
-        ask(&mut driver, "0.1 %");
-        assert_eq!(driver.app.edit.generation, generation, "it is so already");
-        assert!(driver.status().contains("as it is"), "{}", driver.status());
-        driver.press("u");
-        assert_eq!(driver.app.edit.document.scene().numerics, before);
-        assert!(driver.app.studies.value::<Answer>().is_none());
-    });
+    let mut driver = measured(changed(&rough(), &[("numerics.edges", "Grid")]));
+    let before = driver.app.edit.document.scene().numerics;
+    ask(&mut driver, "0.1 %");
+    let after = driver.app.edit.document.scene().numerics;
+    assert_eq!((after.points, after.edges), (2048, Edges::SubCell));
+    assert!(is_up_to_date(&driver.app) && driver.app.studies.value::<Choosing>().is_none());
+    assert!(driver.status().contains("2 048 springs"), "{}", driver.status());
+    let Some(Answer(answer)) = driver.app.studies.value() else { panic!("no answer") };
+    assert!(answer.contains("the fewest found to keep the adhesion force within 1e-3"), "{answer}");
+    assert!(driver.text().contains("2 048 springs with edges SubCell: the fewest"), "{}", driver.text());
+    // The known error is from finer solutions than an estimate.
+    assert!(driver.app.studies.value::<Estimate>().is_some_and(|known| known.error == 4e-4));
+    let generation = driver.app.edit.generation;
+    ask(&mut driver, "0.1 %");
+    assert_eq!(driver.app.edit.generation, generation, "it is so already");
+    assert!(driver.status().contains("as it is"), "{}", driver.status());
+    driver.press("u");
+    assert_eq!(driver.app.edit.document.scene().numerics, before);
+    assert!(driver.app.studies.value::<Answer>().is_none());
 }
 
 #[test]
 fn a_tolerance_out_of_reach_changes_nothing() {
-    within(60, || {
-        let mut driver = measured(rough());
-        driver.resize((80, 24));
-        let (text, generation) = (driver.app.edit.document.text().to_owned(), driver.app.edit.generation);
-        ask(&mut driver, "1e-6");
-        assert!(matches!(driver.app.message, Some(Message::Error(_))));
-        let stated = "1e-6 is out of reach: 4.0e-4 with 2 048 springs, edges SubCell";
-        assert!(driver.status().contains(stated), "{}", driver.status());
-        for wrong in ["", "0", "2", "much", "-1 %"] {
-            ask(&mut driver, wrong);
-            assert!(driver.status().contains("allowed: a relative error"), "{wrong}: {}", driver.status());
-        }
-        driver.press("% 1 Esc");
-        assert!(driver.app.message.is_none() && driver.app.studies.value::<Choosing>().is_none());
-        assert_eq!(
-            (driver.app.edit.document.text(), driver.app.edit.generation),
-            (text.as_str(), generation)
-        );
-        // No choice for a missing scene.
-        let mut driver = Driver::open(rough());
-        driver.press("%");
-        assert!(driver.status().contains("not before"), "{}", driver.status());
-    });
+    let mut driver = measured(rough());
+    driver.resize((80, 24));
+    let (text, generation) = (driver.app.edit.document.text().to_owned(), driver.app.edit.generation);
+    ask(&mut driver, "1e-6");
+    assert!(matches!(driver.app.message, Some(Message::Error(_))));
+    let stated = "1e-6 is out of reach: 4.0e-4 with 2 048 springs, edges SubCell";
+    assert!(driver.status().contains(stated), "{}", driver.status());
+    for wrong in ["", "0", "2", "much", "-1 %"] {
+        ask(&mut driver, wrong);
+        assert!(driver.status().contains("allowed: a relative error"), "{wrong}: {}", driver.status());
+    }
+    driver.press("% 1 Esc");
+    assert!(driver.app.message.is_none() && driver.app.studies.value::<Choosing>().is_none());
+    assert_eq!((driver.app.edit.document.text(), driver.app.edit.generation), (text.as_str(), generation));
+    // No choice for a missing scene.
+    let mut driver = Driver::open(rough());
+    driver.press("%");
+    assert!(driver.status().contains("not before"), "{}", driver.status());
 }

@@ -1,184 +1,152 @@
 //! Edits of the scene by keys, undone and redone.
 
-use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{rough, smooth};
 use super::{is_up_to_date, mid_retraction, pressed};
 use asperity::explorer::app::Message;
 use asperity::explorer::layout::Layout;
-use asperity::scene::presets;
 
 #[test]
 fn keys_step_a_value_finely_and_coarsely() {
-    within(30, || {
-        let mut driver = pressed("");
-        driver.select("roughness.hurst");
-        let mut hurst = |keys: &str| {
-            driver.press(keys);
-            assert!(is_up_to_date(&driver.app));
-            driver.app.edit.document.value("roughness.hurst").unwrap().to_owned()
-        };
-        for (keys, value) in [
-            ("l", "0.71"),
-            ("Right", "0.72"),
-            ("h", "0.71"),
-            ("Left", "0.7"),
-            ("L", "0.8"),
-            ("Shift+Right", "0.9"),
-            ("H", "0.8"),
-            ("Shift+Left", "0.7"),
-            ("l l l h", "0.72"),
-        ] {
-            assert_eq!(hurst(keys), value, "{keys}");
-        }
-    });
+    let mut driver = pressed("");
+    driver.select("roughness.hurst");
+    let mut hurst = |keys: &str| {
+        driver.press(keys);
+        assert!(is_up_to_date(&driver.app));
+        driver.app.edit.document.value("roughness.hurst").unwrap().to_owned()
+    };
+    for (keys, value) in [
+        ("l", "0.71"),
+        ("Right", "0.72"),
+        ("h", "0.71"),
+        ("Left", "0.7"),
+        ("L", "0.8"),
+        ("Shift+Right", "0.9"),
+        ("H", "0.8"),
+        ("Shift+Left", "0.7"),
+        ("l l l h", "0.72"),
+    ] {
+        assert_eq!(hurst(keys), value, "{keys}");
+    }
 }
 
 #[test]
 fn a_step_beyond_the_range_says_what_is_allowed() {
-    within(30, || {
-        let mut driver = pressed("");
-        driver.select("material.poisson_ratio");
-        let before = driver.app.edit.document.clone();
-        assert!(driver.press("l").is_empty());
-        assert_eq!(driver.app.edit.document, before);
-        assert!(driver.text().contains("0.5"), "{}", driver.text());
-        let Some(Message::Refused(error)) = &driver.app.message else { panic!("it is refused") };
-        assert!(error.contains("allowed"), "{error}");
-    });
+    let mut driver = pressed("");
+    driver.select("material.poisson_ratio");
+    let before = driver.app.edit.document.clone();
+    assert!(driver.press("l").is_empty());
+    assert_eq!(driver.app.edit.document, before);
+    assert!(driver.text().contains("0.5"), "{}", driver.text());
+    let Some(Message::Refused(error)) = &driver.app.message else { panic!("it is refused") };
+    assert!(error.contains("allowed"), "{error}");
 }
 
 #[test]
 fn edits_are_taken_back_and_done_again() {
-    within(30, || {
-        let mut driver = pressed("");
-        let mut texts = vec![driver.app.edit.document.text().to_owned()];
-        let first = driver.app.solved.clone().unwrap().outcome.figures;
-        driver.select("roughness.hurst");
-        for keys in ["l", "L", "h"] {
-            driver.press(keys);
-            texts.push(driver.app.edit.document.text().to_owned());
-        }
-        let last = driver.app.solved.clone().unwrap().outcome.figures;
-        assert_ne!(first, last);
-        for text in texts.iter().rev().skip(1) {
-            driver.press("u");
-            assert_eq!(driver.app.edit.document.text(), text);
-            assert!(is_up_to_date(&driver.app));
-        }
-        assert!(!driver.app.edit.is_unsaved());
-        assert_eq!(driver.app.solved.clone().unwrap().outcome.figures, first);
+    let mut driver = pressed("");
+    let mut texts = vec![driver.app.edit.document.text().to_owned()];
+    let first = driver.outcome().figures;
+    driver.select("roughness.hurst");
+    for keys in ["l", "L", "h"] {
+        driver.press(keys);
+        texts.push(driver.app.edit.document.text().to_owned());
+    }
+    let last = driver.outcome().figures;
+    assert_ne!(first, last);
+    for text in texts.iter().rev().skip(1) {
         driver.press("u");
-        assert_eq!(driver.app.edit.document.text(), texts[0], "there is no more to take back");
-        for (text, key) in texts.iter().skip(1).zip(["U", "Ctrl+r", "U"]) {
-            driver.press(key);
-            assert_eq!(driver.app.edit.document.text(), text);
-        }
-        assert_eq!(driver.app.solved.clone().unwrap().outcome.figures, last);
-        // A new edit clears the redo list.
-        driver.press("u l");
-        let text = driver.app.edit.document.text().to_owned();
-        driver.press("U");
         assert_eq!(driver.app.edit.document.text(), text);
-        // A refused value is no edit.
-        driver.enter("7");
-        driver.press("Esc u");
-        assert_eq!(driver.app.edit.document.text(), texts[2]);
-    });
-}
-
-#[test]
-fn number_keys_open_the_built_in_scenes() {
-    within(60, || {
-        let mut driver = Driver::start(rough());
-        for (index, preset) in presets().iter().take(9).enumerate() {
-            driver.press(&(index + 1).to_string());
-            assert_eq!(driver.app.edit.document.text(), preset.text, "{}", preset.name);
-            assert!(is_up_to_date(&driver.app));
-            let title = &driver.app.edit.document.scene().title;
-            assert!(driver.rows()[0].contains(title.as_str()), "{title}: {}", driver.text());
-            assert!(!driver.app.edit.is_unsaved());
-            assert!(driver.app.play.playing && driver.app.play.done == 0.0, "it plays from its start");
-        }
-    });
+        assert!(is_up_to_date(&driver.app));
+    }
+    assert!(!driver.app.edit.is_unsaved());
+    assert_eq!(driver.outcome().figures, first);
+    driver.press("u");
+    assert_eq!(driver.app.edit.document.text(), texts[0], "there is no more to take back");
+    for (text, key) in texts.iter().skip(1).zip(["U", "Ctrl+r", "U"]) {
+        driver.press(key);
+        assert_eq!(driver.app.edit.document.text(), text);
+    }
+    assert_eq!(driver.outcome().figures, last);
+    // A new edit clears the redo list.
+    driver.press("u l");
+    let text = driver.app.edit.document.text().to_owned();
+    driver.press("U");
+    assert_eq!(driver.app.edit.document.text(), text);
+    // A refused value is no edit.
+    driver.enter("7");
+    driver.press("Esc u");
+    assert_eq!(driver.app.edit.document.text(), texts[2]);
 }
 
 #[test]
 fn a_built_in_scene_can_be_taken_back_like_any_edit() {
-    within(30, || {
-        let mut driver = Driver::start(rough());
-        driver.select("roughness.hurst");
-        driver.press("l");
-        let text = driver.app.edit.document.text().to_owned();
-        driver.press("4");
-        assert!(
-            matches!(driver.app.message, Some(Message::Done(_))),
-            "the notice states that the change is kept"
-        );
-        driver.press("u");
-        assert_eq!(driver.app.edit.document.text(), text);
-        assert!(driver.app.edit.is_unsaved());
-        driver.press("u");
-        assert_eq!(driver.app.edit.document.text(), rough().text());
-        assert!(!driver.app.edit.is_unsaved(), "the scene is as it was opened");
-        driver.press("q");
-        assert!(driver.app.finished);
-    });
+    let mut driver = Driver::start(rough());
+    driver.select("roughness.hurst");
+    driver.press("l");
+    let text = driver.app.edit.document.text().to_owned();
+    driver.press("4");
+    assert!(
+        matches!(driver.app.message, Some(Message::Done(_))),
+        "the notice states that the change is kept"
+    );
+    driver.press("u");
+    assert_eq!(driver.app.edit.document.text(), text);
+    assert!(driver.app.edit.is_unsaved());
+    driver.press("u");
+    assert_eq!(driver.app.edit.document.text(), rough().text());
+    assert!(!driver.app.edit.is_unsaved(), "the scene is as it was opened");
+    driver.press("q");
+    assert!(driver.app.finished);
 }
 
 #[test]
 fn reseeding_gives_another_line_that_is_stated() {
-    within(30, || {
-        let mut driver = pressed("");
-        let before = driver.app.solved.clone().unwrap();
-        driver.select("roughness.seed");
-        driver.press("R");
-        let seed = driver.app.edit.document.scene().seed().unwrap().to_string();
-        assert!(seed != "1" && driver.text().contains(&seed), "{}", driver.text());
-        assert!(is_up_to_date(&driver.app));
-        assert_ne!(driver.app.solved.clone().unwrap().outcome.history, before.outcome.history);
-        driver.press("u");
-        assert_eq!(driver.app.solved.clone().unwrap().outcome.history, before.outcome.history);
-    });
+    let mut driver = pressed("");
+    let before = driver.app.solved.clone().unwrap();
+    driver.select("roughness.seed");
+    driver.press("R");
+    let seed = driver.app.edit.document.scene().seed().unwrap().to_string();
+    assert!(seed != "1" && driver.text().contains(&seed), "{}", driver.text());
+    assert!(is_up_to_date(&driver.app));
+    assert_ne!(driver.outcome().history, before.outcome.history);
+    driver.press("u");
+    assert_eq!(driver.outcome().history, before.outcome.history);
 }
 
 #[test]
 fn a_smooth_scene_has_no_line_to_draw_anew() {
-    within(30, || {
-        let mut driver = mid_retraction(smooth());
-        let before = driver.app.edit.document.clone();
-        driver.press("R");
-        assert_eq!(driver.app.edit.document, before);
-        assert!(is_up_to_date(&driver.app));
-        // No other field is marked for that error.
-        assert!(!driver.app.is_refused());
-        let status = Layout::of(&driver.app).status;
-        let row = driver.rows()[usize::from(status.y)].clone();
-        assert!(row.contains("no random profile"), "{row}");
-    });
+    let mut driver = mid_retraction(smooth());
+    let before = driver.app.edit.document.clone();
+    driver.press("R");
+    assert_eq!(driver.app.edit.document, before);
+    assert!(is_up_to_date(&driver.app));
+    // No other field is marked for that error.
+    assert!(!driver.app.is_refused());
+    let status = Layout::of(&driver.app).status;
+    let row = driver.rows()[usize::from(status.y)].clone();
+    assert!(row.contains("no random profile"), "{row}");
 }
 
 #[test]
 fn the_selection_stays_on_its_field_when_rows_come_and_go() {
-    within(30, || {
-        let mut driver = pressed("");
-        driver.select("numerics.samples");
-        let path = |driver: &Driver| driver.app.edit.parameter().unwrap().field.path;
-        let rows = |driver: &Driver| driver.app.edit.parameters.len();
-        let before = rows(&driver);
-        for (field, value) in [("form", "Cone(angle: 0.1)"), ("adhesion", "None"), ("roughness", "None")] {
-            let count = rows(&driver);
-            driver.select(field);
-            driver.enter(value);
-            assert_ne!(rows(&driver), count, "{field}");
-            assert_eq!(path(&driver), field);
-        }
-        driver.select("numerics.samples");
-        driver.press("u");
-        assert_eq!(path(&driver), "numerics.samples");
-        driver.press("u u");
-        assert_eq!((path(&driver), rows(&driver)), ("numerics.samples", before));
-        driver.press("1");
-        assert_eq!(path(&driver), "numerics.samples");
-    });
+    let mut driver = pressed("");
+    driver.select("numerics.samples");
+    let path = |driver: &Driver| driver.app.edit.parameter().unwrap().field.path;
+    let rows = |driver: &Driver| driver.app.edit.parameters.len();
+    let before = rows(&driver);
+    for (field, value) in [("form", "Cone(angle: 0.1)"), ("adhesion", "None"), ("roughness", "None")] {
+        let count = rows(&driver);
+        driver.select(field);
+        driver.enter(value);
+        assert_ne!(rows(&driver), count, "{field}");
+        assert_eq!(path(&driver), field);
+    }
+    driver.select("numerics.samples");
+    driver.press("u");
+    assert_eq!(path(&driver), "numerics.samples");
+    driver.press("u u");
+    assert_eq!((path(&driver), rows(&driver)), ("numerics.samples", before));
+    driver.press("1");
+    assert_eq!(path(&driver), "numerics.samples");
 }

@@ -1,6 +1,5 @@
 //! Effects switched on and off, and the two forms of adhesion.
 
-use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{changed, one_spring, rough, smooth};
 use super::{generation, is_up_to_date, pressed};
@@ -48,100 +47,91 @@ const ROWS: [(&str, Effect); 6] = [
 
 #[test]
 fn an_effect_goes_and_comes_back_as_it_was() {
-    within(60, || {
-        for (path, effect) in ROWS {
-            let mut driver = full();
-            let before = driver.app.edit.document.clone();
-            select(&mut driver, path);
-            assert!(is_on(&driver, effect) && row(&driver).contains('●'), "{path}: {}", row(&driver));
-            driver.press("t");
-            assert!(!is_on(&driver, effect) && is_up_to_date(&driver.app), "{path}");
-            assert!(row(&driver).contains('○'), "{path}: {}", row(&driver));
-            assert_eq!(driver.app.edit.parameter().unwrap().path, path, "its row stays selected");
-            // Enter acts on a switch as well.
-            driver.press(if path.starts_with("observe") { "Enter" } else { "t" });
-            assert!(is_on(&driver, effect) && is_up_to_date(&driver.app), "{path}");
-            assert_eq!(driver.app.edit.document.scene(), before.scene(), "{path}");
-            driver.press("u u");
-            assert_eq!(driver.app.edit.document, before, "{path}");
-        }
-    });
+    for (path, effect) in ROWS {
+        let mut driver = full();
+        let before = driver.app.edit.document.clone();
+        select(&mut driver, path);
+        assert!(is_on(&driver, effect) && row(&driver).contains('●'), "{path}: {}", row(&driver));
+        driver.press("t");
+        assert!(!is_on(&driver, effect) && is_up_to_date(&driver.app), "{path}");
+        assert!(row(&driver).contains('○'), "{path}: {}", row(&driver));
+        assert_eq!(driver.app.edit.parameter().unwrap().path, path, "its row stays selected");
+        // Enter acts on a switch as well.
+        driver.press(if path.starts_with("observe") { "Enter" } else { "t" });
+        assert!(is_on(&driver, effect) && is_up_to_date(&driver.app), "{path}");
+        assert_eq!(driver.app.edit.document.scene(), before.scene(), "{path}");
+        driver.press("u u");
+        assert_eq!(driver.app.edit.document, before, "{path}");
+    }
 }
 
 #[test]
 fn a_row_of_an_effect_switches_the_same_effect_off_and_on() {
-    within(60, || {
-        for (path, head) in [
-            ("roughness.seed", "roughness"),
-            ("roughness.rms_height", "roughness"),
-            ("form.angle", "form"),
-            ("adhesion.kappa", "adhesion"),
-            ("adhesion.work", "adhesion"),
-            ("loading.3.0", "loading"),
-            ("loading.2.0", "loading"),
-        ] {
-            let mut driver = full();
-            if path == "loading.3.0" {
-                driver = Driver::start(changed(
-                    &rough(),
-                    &[("loading", "[ToForce(1.0e-5), ToSeparation, ToForce(2.0e-5), ToForce(1.0e-6)]")],
-                ));
-            }
-            let text = driver.app.edit.document.text().to_owned();
-            select(&mut driver, path);
-            driver.press("t");
-            let off: Vec<Effect> =
-                Effect::ALL.into_iter().filter(|effect| !is_on(&driver, *effect)).collect();
-            assert_eq!(driver.app.edit.parameter().unwrap().path, head, "{path}: {off:?}");
-            driver.press("t");
-            assert_eq!(driver.app.edit.document.text(), text, "{path}: {off:?}");
-            assert!(is_up_to_date(&driver.app), "{path}");
+    for (path, head) in [
+        ("roughness.seed", "roughness"),
+        ("roughness.rms_height", "roughness"),
+        ("form.angle", "form"),
+        ("adhesion.kappa", "adhesion"),
+        ("adhesion.work", "adhesion"),
+        ("loading.3.0", "loading"),
+        ("loading.2.0", "loading"),
+    ] {
+        let mut driver = full();
+        if path == "loading.3.0" {
+            driver = Driver::start(changed(
+                &rough(),
+                &[("loading", "[ToForce(1.0e-5), ToSeparation, ToForce(2.0e-5), ToForce(1.0e-6)]")],
+            ));
         }
-    });
+        let text = driver.app.edit.document.text().to_owned();
+        select(&mut driver, path);
+        driver.press("t");
+        let off: Vec<Effect> = Effect::ALL.into_iter().filter(|effect| !is_on(&driver, *effect)).collect();
+        assert_eq!(driver.app.edit.parameter().unwrap().path, head, "{path}: {off:?}");
+        driver.press("t");
+        assert_eq!(driver.app.edit.document.text(), text, "{path}: {off:?}");
+        assert!(is_up_to_date(&driver.app), "{path}");
+    }
 }
 
 #[test]
 fn a_switch_that_cannot_be_made_says_why() {
-    within(30, || {
-        let mut driver = Driver::start(one_spring());
-        let before = driver.app.edit.document.clone();
-        select(&mut driver, "roughness");
+    let mut driver = Driver::start(one_spring());
+    let before = driver.app.edit.document.clone();
+    select(&mut driver, "roughness");
+    driver.press("t");
+    assert_eq!(driver.app.edit.document, before);
+    let Some(Message::Refused(why)) = driver.app.message.clone() else { panic!("it is refused") };
+    assert!(!why.is_empty() && driver.status().starts_with("! "), "{why}: {}", driver.status());
+    // Rows without an effect have no switch.
+    let mut driver = pressed("");
+    for path in ["length", "numerics.points", "material"] {
+        let of_before = generation(&driver);
+        select(&mut driver, path);
         driver.press("t");
-        assert_eq!(driver.app.edit.document, before);
-        let Some(Message::Refused(why)) = driver.app.message.clone() else { panic!("it is refused") };
-        assert!(!why.is_empty() && driver.status().starts_with("! "), "{why}: {}", driver.status());
-        // Rows without an effect have no switch.
-        let mut driver = pressed("");
-        for path in ["length", "numerics.points", "material"] {
-            let of_before = generation(&driver);
-            select(&mut driver, path);
-            driver.press("t");
-            assert_eq!(generation(&driver), of_before);
-            assert!(driver.text().contains("no effect to switch"), "{path}: {}", driver.text());
-        }
-        // Rows of an effect switch that effect.
-        select(&mut driver, "roughness.hurst");
-        driver.press("t");
-        assert!(!is_on(&driver, Effect::Roughness));
-    });
+        assert_eq!(generation(&driver), of_before);
+        assert!(driver.text().contains("no effect to switch"), "{path}: {}", driver.text());
+    }
+    // Rows of an effect switch that effect.
+    select(&mut driver, "roughness.hurst");
+    driver.press("t");
+    assert!(!is_on(&driver, Effect::Roughness));
 }
 
 #[test]
 fn without_roughness_the_same_adhesion_is_left() {
-    within(30, || {
-        let mut driver = pressed("");
-        let work = driver.app.solved.as_ref().unwrap().outcome.governing.work_of_adhesion.unwrap();
-        select(&mut driver, "roughness");
-        driver.press("t");
-        let left = driver.app.edit.document.scene().adhesion.unwrap();
-        assert_eq!(left, Adhesion::by_work(work));
-    });
+    let mut driver = pressed("");
+    let work = driver.outcome().governing.work_of_adhesion.unwrap();
+    select(&mut driver, "roughness");
+    driver.press("t");
+    let left = driver.app.edit.document.scene().adhesion.unwrap();
+    assert_eq!(left, Adhesion::by_work(work));
 }
 
 /// κ and γ of the computed scene, and γ by eq. (11): h⟨∇z⟩E*/κ².
 fn governing(driver: &Driver) -> (f64, f64, f64) {
     assert!(is_up_to_date(&driver.app), "{:?}", driver.app.message);
-    let governing = driver.app.solved.as_ref().unwrap().outcome.governing;
+    let governing = driver.outcome().governing;
     let amplitude = governing.amplitude.unwrap();
     let (kappa, work) = (governing.kappa.unwrap(), governing.work_of_adhesion.unwrap());
     let stiffness = amplitude.rms_height * amplitude.rms_gradient * governing.effective_modulus;
@@ -154,60 +144,54 @@ fn near(one: f64, other: f64) -> bool {
 
 #[test]
 fn kappa_is_solved_for_where_the_scene_gives_the_work() {
-    within(30, || {
-        let mut driver = Driver::start(changed(&rough(), &[("adhesion", "(work: 0.05)")]));
-        let (kappa, work, expected) = governing(&driver);
-        assert!(work == 0.05 && near(work, expected));
-        select(&mut driver, "adhesion.kappa");
-        assert!(row(&driver).contains("= "), "it follows from the work: {}", row(&driver));
-        driver.enter("2.8");
-        let (kappa_now, work_now, expected) = governing(&driver);
-        assert!(near(kappa_now, 2.8) && near(work_now, expected), "{kappa_now} {work_now}");
-        assert!(near(work_now, work * (kappa / 2.8).powi(2)));
-        let adhesion = driver.app.edit.document.scene().adhesion.unwrap();
-        assert_eq!(adhesion, Adhesion::by_work(work_now), "the scene still gives γ");
-        // Steps start from the derived value.
-        driver.press("l");
-        assert!(near(governing(&driver).0, 3.15));
-        driver.press("h");
-        assert!(near(governing(&driver).0, 2.8), "{}", governing(&driver).0);
-    });
+    let mut driver = Driver::start(changed(&rough(), &[("adhesion", "(work: 0.05)")]));
+    let (kappa, work, expected) = governing(&driver);
+    assert!(work == 0.05 && near(work, expected));
+    select(&mut driver, "adhesion.kappa");
+    assert!(row(&driver).contains("= "), "it follows from the work: {}", row(&driver));
+    driver.enter("2.8");
+    let (kappa_now, work_now, expected) = governing(&driver);
+    assert!(near(kappa_now, 2.8) && near(work_now, expected), "{kappa_now} {work_now}");
+    assert!(near(work_now, work * (kappa / 2.8).powi(2)));
+    let adhesion = driver.app.edit.document.scene().adhesion.unwrap();
+    assert_eq!(adhesion, Adhesion::by_work(work_now), "the scene still gives γ");
+    // Steps start from the derived value.
+    driver.press("l");
+    assert!(near(governing(&driver).0, 3.15));
+    driver.press("h");
+    assert!(near(governing(&driver).0, 2.8), "{}", governing(&driver).0);
 }
 
 #[test]
 fn a_scene_that_gives_kappa_may_be_given_the_work() {
-    within(30, || {
-        let mut driver = pressed("");
-        let (kappa, work, expected) = governing(&driver);
-        assert!(kappa == 8.0 && near(work, expected));
-        select(&mut driver, "adhesion.work");
-        assert!(row(&driver).contains("= "), "it follows from κ: {}", row(&driver));
-        driver.enter("20 mJ/m²");
-        let (kappa, work, expected) = governing(&driver);
-        assert!(work == 0.02 && near(work, expected), "{kappa} {work} {expected}");
-        let adhesion = driver.app.edit.document.scene().adhesion.unwrap();
-        assert_eq!(adhesion, Adhesion::by_work(0.02), "now the scene gives γ");
-        driver.press("u");
+    let mut driver = pressed("");
+    let (kappa, work, expected) = governing(&driver);
+    assert!(kappa == 8.0 && near(work, expected));
+    select(&mut driver, "adhesion.work");
+    assert!(row(&driver).contains("= "), "it follows from κ: {}", row(&driver));
+    driver.enter("20 mJ/m²");
+    let (kappa, work, expected) = governing(&driver);
+    assert!(work == 0.02 && near(work, expected), "{kappa} {work} {expected}");
+    let adhesion = driver.app.edit.document.scene().adhesion.unwrap();
+    assert_eq!(adhesion, Adhesion::by_work(0.02), "now the scene gives γ");
+    driver.press("u");
+    assert_eq!(governing(&driver).0, 8.0);
+    for (path, typed) in [("adhesion.work", "-1"), ("adhesion.kappa", "0"), ("adhesion.kappa", "much")] {
+        select(&mut driver, path);
+        driver.enter(typed);
+        assert!(driver.refusal().is_some(), "{path} {typed}");
+        driver.press("Esc");
         assert_eq!(governing(&driver).0, 8.0);
-        for (path, typed) in [("adhesion.work", "-1"), ("adhesion.kappa", "0"), ("adhesion.kappa", "much")] {
-            select(&mut driver, path);
-            driver.enter(typed);
-            assert!(driver.refusal().is_some(), "{path} {typed}");
-            driver.press("Esc");
-            assert_eq!(governing(&driver).0, 8.0);
-        }
-    });
+    }
 }
 
 #[test]
 fn kappa_says_nothing_of_a_smooth_body() {
-    within(30, || {
-        let mut driver = Driver::start(smooth());
-        let before = driver.app.edit.document.clone();
-        select(&mut driver, "adhesion.kappa");
-        assert!(row(&driver).contains("none"), "it does not wait for a value: {}", row(&driver));
-        driver.enter("3");
-        assert_eq!(driver.app.edit.document, before);
-        assert!(driver.text().contains("without roughness"), "{}", driver.text());
-    });
+    let mut driver = Driver::start(smooth());
+    let before = driver.app.edit.document.clone();
+    select(&mut driver, "adhesion.kappa");
+    assert!(row(&driver).contains("none"), "it does not wait for a value: {}", row(&driver));
+    driver.enter("3");
+    assert_eq!(driver.app.edit.document, before);
+    assert!(driver.text().contains("without roughness"), "{}", driver.text());
 }

@@ -1,51 +1,46 @@
 //! Failures, late reports and panics.
 
-use super::common::deadline::within;
 use super::{is_up_to_date, pressed};
 use asperity::explorer::action::Action;
 use asperity::explorer::snapshot::Report;
 
 #[test]
 fn reports_of_another_scene_change_nothing() {
-    within(30, || {
-        let mut driver = pressed("");
-        let (computed, snapshot) = (driver.app.solved.clone().unwrap(), driver.app.snapshot.clone().unwrap());
-        driver.select("roughness.hurst");
-        driver.press("l");
-        let screen = driver.screen();
-        let generation = computed.generation;
-        for action in [
-            Action::Report(Report::Solved(computed, None)),
-            Action::Report(Report::Shown(snapshot)),
-            Action::Report(Report::Progress { generation, legs: 1 }),
-            Action::Report(Report::Failed { generation, error: "old".to_owned() }),
-        ] {
-            assert!(driver.act(action).is_empty());
-            assert_eq!(driver.screen(), screen);
-        }
-    });
+    let mut driver = pressed("");
+    let (computed, snapshot) = (driver.app.solved.clone().unwrap(), driver.snapshot().clone());
+    driver.select("roughness.hurst");
+    driver.press("l");
+    let screen = driver.screen();
+    let generation = computed.generation;
+    for action in [
+        Action::Report(Report::Solved(computed, None)),
+        Action::Report(Report::Shown(snapshot.into())),
+        Action::Report(Report::Progress { generation, legs: 1 }),
+        Action::Report(Report::Failed { generation, error: "old".to_owned() }),
+    ] {
+        assert!(driver.act(action).is_empty());
+        assert_eq!(driver.screen(), screen);
+    }
 }
 
 #[test]
 fn a_scene_that_fails_is_stated_and_the_next_edit_mends_it() {
-    within(30, || {
-        let mut driver = pressed("");
-        driver.select("loading");
-        driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
-        assert!(!driver.app.is_computing());
-        let text = driver.text();
-        assert!(text.contains("the contact detaches above that force"), "{text}");
-        // Figures of the former scene are no longer shown.
-        assert!(!text.contains("F_a "), "{text}");
-        for keys in ["j", "k", ". .", "Tab", "n", "+"] {
-            driver.press(keys);
-        }
-        assert!(driver.text().contains("the contact detaches above that force"), "{}", driver.text());
-        driver.press("u");
-        assert!(driver.status().starts_with("undo: "), "{}", driver.status());
-        driver.press("j");
-        let text = driver.text();
-        assert!(text.contains("F_a ") && !text.contains("detaches above"), "{text}");
-        assert!(is_up_to_date(&driver.app));
-    });
+    let mut driver = pressed("");
+    driver.select("loading");
+    driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
+    assert!(!driver.app.is_computing());
+    let text = driver.text();
+    assert!(text.contains("the contact detaches above that force"), "{text}");
+    // Figures of the former scene are no longer shown.
+    assert!(!text.contains("F_a "), "{text}");
+    for keys in ["j", "k", ". .", "Tab", "n", "+"] {
+        driver.press(keys);
+    }
+    assert!(driver.text().contains("the contact detaches above that force"), "{}", driver.text());
+    driver.press("u");
+    assert!(driver.status().starts_with("undo: "), "{}", driver.status());
+    driver.press("j");
+    let text = driver.text();
+    assert!(text.contains("F_a ") && !text.contains("detaches above"), "{text}");
+    assert!(is_up_to_date(&driver.app));
 }

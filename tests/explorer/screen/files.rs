@@ -1,6 +1,5 @@
 //! Exports and the command that opens the scene.
 
-use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::pressed;
@@ -33,173 +32,159 @@ fn exported(driver: &mut Driver, name: &str) -> String {
 
 #[test]
 fn the_ending_of_a_name_shows_what_is_exported() {
-    within(30, || {
-        for (name, content) in [
-            ("a.csv", Content::Pane(Format::Csv)),
-            ("a.npy", Content::Pane(Format::Npy)),
-            ("folder/b.JSON", Content::Pane(Format::Json)),
-            ("c.d.svg", Content::Pane(Format::Svg)),
-            ("c.png", Content::Pane(Format::Png)),
-            ("e.txt", Content::Pane(Format::Text)),
-        ] {
-            let mut driver = pressed("");
-            let effects = export(&mut driver, Path::new(name));
-            assert_eq!(
-                effects,
-                [Effect::Write(OutputFile {
-                    path: PathBuf::from(name),
-                    content,
-                    overwrite: false,
-                    then_quit: false
-                })]
-            );
-            assert!(driver.app.prompt.is_none());
-            assert!(driver.status().contains(&format!("exported to {name}")), "{}", driver.status());
-            assert!(!driver.app.edit.is_unsaved() && !driver.app.finished);
-        }
-        let unknown = |extension| {
-            format!("unsupported file extension .{extension}; use .csv, .npy, .json, .svg, .png or .txt")
-        };
-        let none = "the extension chooses the format; use one of .csv, .npy, .json, .svg, .png, .txt";
-        for (name, why) in [
-            ("a", none.to_owned()),
-            ("a.ron", unknown("ron")),
-            ("csv", none.to_owned()),
-            ("a.csv.gz", unknown("gz")),
-            ("a.gif", unknown("gif")),
-        ] {
-            let mut driver = pressed("");
-            assert!(export(&mut driver, Path::new(name)).is_empty(), "{name}");
-            assert!(driver.files().is_empty());
-            assert!(driver.status().contains(&why), "{}", driver.status());
-        }
-        // The proposed name is that of the scene.
+    for (name, content) in [
+        ("a.csv", Content::Pane(Format::Csv)),
+        ("a.npy", Content::Pane(Format::Npy)),
+        ("folder/b.JSON", Content::Pane(Format::Json)),
+        ("c.d.svg", Content::Pane(Format::Svg)),
+        ("c.png", Content::Pane(Format::Png)),
+        ("e.txt", Content::Pane(Format::Text)),
+    ] {
         let mut driver = pressed("");
-        driver.press("E Enter");
-        assert_eq!(driver.files().into_keys().collect::<Vec<_>>(), [Path::new("rough-line.csv")]);
-        assert!(pressed("E Ctrl+u Enter").files().is_empty(), "no name is no file");
-    });
+        let effects = export(&mut driver, Path::new(name));
+        assert_eq!(
+            effects,
+            [Effect::Write(OutputFile {
+                path: PathBuf::from(name),
+                content,
+                overwrite: false,
+                then_quit: false
+            })]
+        );
+        assert!(driver.app.prompt.is_none());
+        assert!(driver.status().contains(&format!("exported to {name}")), "{}", driver.status());
+        assert!(!driver.app.edit.is_unsaved() && !driver.app.finished);
+    }
+    let unknown = |extension| {
+        format!("unsupported file extension .{extension}; use .csv, .npy, .json, .svg, .png or .txt")
+    };
+    let none = "the extension chooses the format; use one of .csv, .npy, .json, .svg, .png, .txt";
+    for (name, why) in [
+        ("a", none.to_owned()),
+        ("a.ron", unknown("ron")),
+        ("csv", none.to_owned()),
+        ("a.csv.gz", unknown("gz")),
+        ("a.gif", unknown("gif")),
+    ] {
+        let mut driver = pressed("");
+        assert!(export(&mut driver, Path::new(name)).is_empty(), "{name}");
+        assert!(driver.files().is_empty());
+        assert!(driver.status().contains(&why), "{}", driver.status());
+    }
+    // The proposed name is that of the scene.
+    let mut driver = pressed("");
+    driver.press("E Enter");
+    assert_eq!(driver.files().into_keys().collect::<Vec<_>>(), [Path::new("rough-line.csv")]);
+    assert!(pressed("E Ctrl+u Enter").files().is_empty(), "no name is no file");
 }
 
 #[test]
 fn a_file_that_is_there_is_asked_about() {
-    within(30, || {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("curve.csv");
-        fs::write(&path, "theirs").unwrap();
-        let mut driver = pressed("");
-        export(&mut driver, &path);
-        assert!(driver.status().contains("Overwrite it?"), "{}", driver.status());
-        driver.press("n");
-        assert_eq!(fs::read_to_string(&path).unwrap(), "theirs");
-        export(&mut driver, &path);
-        driver.press("y");
-        assert!(fs::read_to_string(&path).unwrap().contains("\nleg,indentation"));
-        assert!(driver.app.prompt.is_none());
-        // An error of the system is shown.
-        export(&mut driver, &folder.path().join("no/such/folder/a.csv"));
-        assert!(
-            driver.refusal().is_some_and(|why| why.contains("there is no folder")),
-            "{}",
-            driver.status()
-        );
-    });
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("curve.csv");
+    fs::write(&path, "theirs").unwrap();
+    let mut driver = pressed("");
+    export(&mut driver, &path);
+    assert!(driver.status().contains("Overwrite it?"), "{}", driver.status());
+    driver.press("n");
+    assert_eq!(fs::read_to_string(&path).unwrap(), "theirs");
+    export(&mut driver, &path);
+    driver.press("y");
+    assert!(fs::read_to_string(&path).unwrap().contains("\nleg,indentation"));
+    assert!(driver.app.prompt.is_none());
+    // An error of the system is shown.
+    export(&mut driver, &folder.path().join("no/such/folder/a.csv"));
+    assert!(driver.refusal().is_some_and(|why| why.contains("there is no folder")), "{}", driver.status());
 }
 
 #[test]
 fn the_curve_and_the_figures_are_those_of_the_command_line() {
-    within(30, || {
-        let mut driver = pressed("");
-        let outcome = driver.app.solved.as_ref().unwrap().outcome.clone();
-        let scene = driver.app.edit.document.scene().clone();
-        let command = command_line("asperity run", driver.app.edit.document.name(), &[]);
-        let provenance = scene_provenance(&command, &scene, Path::new(""), Path::new("")).unwrap();
-        let estimate = driver.app.studies.value();
-        let report = RunReport { title: "", scene: &scene, outcome: &outcome, choice: None, estimate };
-        let (mut curve, mut figures) = (Vec::new(), Vec::new());
-        write(&mut curve, &report, Format::Csv, &provenance).unwrap();
-        write(&mut figures, &report, Format::Json, "").unwrap();
-        assert_eq!(exported(&mut driver, "a.csv").into_bytes(), curve);
-        assert_eq!(exported(&mut driver, "a.json").into_bytes(), figures);
-        assert!(serde_json::from_slice::<serde_json::Value>(&figures).is_ok());
-        // A failed scene has neither, but its screen can be exported.
-        driver.select("loading");
-        driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
-        let folder = tempfile::tempdir().unwrap();
-        for name in ["b.csv", "b.json"] {
-            export(&mut driver, &folder.path().join(name));
-            assert!(driver.status().contains("nothing yet to export"), "{}", driver.status());
-        }
-        export(&mut driver, &folder.path().join("b.txt"));
-        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
-    });
+    let mut driver = pressed("");
+    let outcome = driver.outcome().clone();
+    let scene = driver.app.edit.document.scene().clone();
+    let command = command_line("asperity run", driver.app.edit.document.name(), &[]);
+    let provenance = scene_provenance(&command, &scene, Path::new(""), Path::new("")).unwrap();
+    let estimate = driver.app.studies.value();
+    let report = RunReport { title: "", scene: &scene, outcome: &outcome, choice: None, estimate };
+    let (mut curve, mut figures) = (Vec::new(), Vec::new());
+    write(&mut curve, &report, Format::Csv, &provenance).unwrap();
+    write(&mut figures, &report, Format::Json, "").unwrap();
+    assert_eq!(exported(&mut driver, "a.csv").into_bytes(), curve);
+    assert_eq!(exported(&mut driver, "a.json").into_bytes(), figures);
+    assert!(serde_json::from_slice::<serde_json::Value>(&figures).is_ok());
+    // A failed scene has neither, but its screen can be exported.
+    driver.select("loading");
+    driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["b.csv", "b.json"] {
+        export(&mut driver, &folder.path().join(name));
+        assert!(driver.status().contains("nothing yet to export"), "{}", driver.status());
+    }
+    export(&mut driver, &folder.path().join("b.txt"));
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
 #[test]
 fn the_text_is_the_screen_without_the_prompt() {
-    within(30, || {
-        for marker in [Marker::Braille, Marker::HalfBlock, Marker::Ascii] {
-            let mut driver = pressed("c L d { j");
-            driver.app.view.appearance.marker = marker;
-            driver.perform(vec![Effect::Ask]);
-            let seen = picture::text(&driver.screen());
-            let written = exported(&mut driver, "a.txt");
-            assert_eq!(written, seen);
-            assert!(written.contains("Force F(d)") && !written.contains("Export to"));
-            assert_eq!(written.lines().count(), 40);
-            assert_eq!(marker == Marker::Ascii, written.is_ascii());
-        }
-    });
+    for marker in [Marker::Braille, Marker::HalfBlock, Marker::Ascii] {
+        let mut driver = pressed("c L d { j");
+        driver.app.view.appearance.marker = marker;
+        driver.perform(vec![Effect::Ask]);
+        let seen = picture::text(&driver.screen());
+        let written = exported(&mut driver, "a.txt");
+        assert_eq!(written, seen);
+        assert!(written.contains("Force F(d)") && !written.contains("Export to"));
+        assert_eq!(written.lines().count(), 40);
+        assert_eq!(marker == Marker::Ascii, written.is_ascii());
+    }
 }
 
 #[test]
 fn every_pane_is_exported_as_a_figure() {
-    within(60, || {
-        for (keys, pane, expected) in [
-            ("", Pane::Parameters, ["loading", "unloading", "preload", "pull-off"].as_slice()),
-            ("", Pane::Profile, &["surface", "profile", "contact", " (nm)"]),
-            ("", Pane::CloseUp, &["surface", "patch end"]),
-            ("D", Pane::Lengths, &["δx"]),
-            ("Q", Pane::Spectrum, &["wave number"]),
-            ("c L &", Pane::Beside, &["surface", "profile", "contact"]),
-            ("c L", Pane::Force, &["A: ", "loading"]),
-        ] {
-            let mut driver = pressed(keys);
-            driver.app.view.pane = pane;
-            let figure = exported(&mut driver, "a.svg");
-            let document = roxmltree::Document::parse(&figure).unwrap();
-            assert!(document.root_element().has_tag_name(("http://www.w3.org/2000/svg", "svg")));
-            let text: String = document.descendants().filter_map(|node| node.text()).collect();
-            for expected in expected.iter().chain(&["Rough line"]) {
-                assert!(text.contains(*expected), "{pane:?}: {expected}: {text}");
-            }
-            assert_eq!(exported(&mut driver, "a.svg"), figure, "{pane:?}");
+    for (keys, pane, expected) in [
+        ("", Pane::Parameters, ["loading", "unloading", "preload", "pull-off"].as_slice()),
+        ("", Pane::Profile, &["surface", "profile", "contact", " (nm)"]),
+        ("", Pane::CloseUp, &["surface", "patch end"]),
+        ("D", Pane::Lengths, &["δx"]),
+        ("Q", Pane::Spectrum, &["wave number"]),
+        ("c L &", Pane::Beside, &["surface", "profile", "contact"]),
+        ("c L", Pane::Force, &["A: ", "loading"]),
+    ] {
+        let mut driver = pressed(keys);
+        driver.app.view.pane = pane;
+        let figure = exported(&mut driver, "a.svg");
+        let document = roxmltree::Document::parse(&figure).unwrap();
+        assert!(document.root_element().has_tag_name(("http://www.w3.org/2000/svg", "svg")));
+        let text: String = document.descendants().filter_map(|node| node.text()).collect();
+        for expected in expected.iter().chain(&["Rough line"]) {
+            assert!(text.contains(*expected), "{pane:?}: {expected}: {text}");
         }
-        let mut driver = super::preloads::computed_preloads(rough());
-        driver.app.view.pane = Pane::Preloads;
-        assert!(exported(&mut driver, "a.svg").contains("present preload"));
-        // A table is that of the pane.
-        let tables = [
-            (super::preloads::computed_preloads(rough()), Pane::Preloads, "asperity run", "preload,"),
-            (super::accuracy::measured(rough()), Pane::Accuracy, "asperity cost", "error,"),
-            (super::reversals::reversed(rough()), Pane::Density, "asperity reversals", "everett,density"),
-            (super::map::mapped(rough()), Pane::Map, "asperity", "roughness.hurst,kappa,lines,regime,"),
-        ];
-        for (mut driver, pane, command, column) in tables {
-            driver.app.view.pane = pane;
-            let table = exported(&mut driver, "a.csv");
-            assert!(table.contains(command) && table.contains(column), "{pane:?}: {table}");
-        }
-        let mut driver = pressed("");
-        driver.app.view.pane = Pane::Spectrum;
-        export(&mut driver, Path::new("a.svg"));
-        assert!(driver.status().contains("nothing yet to export"), "{}", driver.status());
-        assert!(driver.files().is_empty());
-        let folder = tempfile::tempdir().unwrap();
-        driver.app.view.pane = Pane::Force;
-        export(&mut driver, &folder.path().join("a.png"));
-        assert!(fs::read(folder.path().join("a.png")).unwrap().starts_with(b"\x89PNG"));
-    });
+        assert_eq!(exported(&mut driver, "a.svg"), figure, "{pane:?}");
+    }
+    let mut driver = super::preloads::computed_preloads(rough());
+    driver.app.view.pane = Pane::Preloads;
+    assert!(exported(&mut driver, "a.svg").contains("present preload"));
+    // A table is that of the pane.
+    let tables = [
+        (super::preloads::computed_preloads(rough()), Pane::Preloads, "asperity run", "preload,"),
+        (super::accuracy::measured(rough()), Pane::Accuracy, "asperity cost", "error,"),
+        (super::reversals::reversed(rough()), Pane::Density, "asperity reversals", "everett,density"),
+        (super::map::mapped(rough()), Pane::Map, "asperity", "roughness.hurst,kappa,lines,regime,"),
+    ];
+    for (mut driver, pane, command, column) in tables {
+        driver.app.view.pane = pane;
+        let table = exported(&mut driver, "a.csv");
+        assert!(table.contains(command) && table.contains(column), "{pane:?}: {table}");
+    }
+    let mut driver = pressed("");
+    driver.app.view.pane = Pane::Spectrum;
+    export(&mut driver, Path::new("a.svg"));
+    assert!(driver.status().contains("nothing yet to export"), "{}", driver.status());
+    assert!(driver.files().is_empty());
+    let folder = tempfile::tempdir().unwrap();
+    driver.app.view.pane = Pane::Force;
+    export(&mut driver, &folder.path().join("a.png"));
+    assert!(fs::read(folder.path().join("a.png")).unwrap().starts_with(b"\x89PNG"));
 }
 
 /// The words that a shell makes of a command, by the rules of POSIX for quotes and backslashes.
@@ -239,30 +224,28 @@ fn opened(command: &str) -> Document {
 
 #[test]
 fn the_copied_command_opens_the_scene_as_it_is() {
-    within(60, || {
-        for (index, preset) in presets().iter().take(9).enumerate() {
-            let mut driver = Driver::start(rough());
-            driver.press(&(index + 1).to_string());
-            let effects = driver.press("y");
-            assert_eq!(effects, [Effect::Copy(format!("asperity {}", preset.name))]);
-            for path in ["form", "adhesion", "observe.contact patches in results"] {
-                driver.press("g");
-                while driver.app.edit.parameter().is_some_and(|parameter| parameter.path != path) {
-                    driver.press("j");
-                }
-                driver.press("t y");
-                let command = driver.copied.last().unwrap();
-                assert_eq!(opened(command).scene(), driver.app.edit.document.scene(), "{command}");
-                assert!(driver.status().starts_with("copied: asperity "), "{}", driver.status());
+    for (index, preset) in presets().iter().take(9).enumerate() {
+        let mut driver = Driver::start(rough());
+        driver.press(&(index + 1).to_string());
+        let effects = driver.press("y");
+        assert_eq!(effects, [Effect::Copy(format!("asperity {}", preset.name))]);
+        for path in ["form", "adhesion", "observe.contact patches in results"] {
+            driver.press("g");
+            while driver.app.edit.parameter().is_some_and(|parameter| parameter.path != path) {
+                driver.press("j");
             }
-            driver.select("loading");
-            driver.enter("[ToForce(1.0e-6), ToIndentation(-1.0e-9), ToSeparation]");
-            driver.select("length");
-            driver.press("L y");
+            driver.press("t y");
             let command = driver.copied.last().unwrap();
             assert_eq!(opened(command).scene(), driver.app.edit.document.scene(), "{command}");
+            assert!(driver.status().starts_with("copied: asperity "), "{}", driver.status());
         }
-    });
+        driver.select("loading");
+        driver.enter("[ToForce(1.0e-6), ToIndentation(-1.0e-9), ToSeparation]");
+        driver.select("length");
+        driver.press("L y");
+        let command = driver.copied.last().unwrap();
+        assert_eq!(opened(command).scene(), driver.app.edit.document.scene(), "{command}");
+    }
 }
 
 #[test]
@@ -276,29 +259,27 @@ fn a_name_with_control_characters_is_not_copied() {
 
 #[test]
 fn a_saved_scene_goes_on_under_its_new_name() {
-    within(30, || {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("it's mine.ron");
-        let mut driver = pressed("l s Ctrl+u");
-        driver.type_text(&path.display().to_string());
-        driver.press("Enter");
-        assert_eq!(driver.app.edit.document.name(), path.display().to_string());
-        assert!(!driver.app.edit.is_unsaved());
-        // The command opens the file, without options for the saved changes.
-        driver.press("y");
-        let command = driver.copied.last().unwrap().clone();
-        assert_eq!(words(&command), ["asperity".to_owned(), path.display().to_string()]);
-        assert_eq!(opened(&command).scene(), driver.app.edit.document.scene());
-        driver.press("l y");
-        let command = driver.copied.last().unwrap().clone();
-        assert_eq!(opened(&command).scene(), driver.app.edit.document.scene(), "{command}");
-        // At the next save the name is proposed, with a question.
-        driver.press("s Enter");
-        assert!(driver.status().contains("Overwrite it?"), "{}", driver.status());
-        driver.press("y");
-        assert_eq!(fs::read_to_string(&path).unwrap(), driver.app.edit.document.text());
-        assert_eq!(opened(&command).scene(), driver.app.edit.document.scene());
-        driver.press("q");
-        assert!(driver.app.finished);
-    });
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("it's mine.ron");
+    let mut driver = pressed("l s Ctrl+u");
+    driver.type_text(&path.display().to_string());
+    driver.press("Enter");
+    assert_eq!(driver.app.edit.document.name(), path.display().to_string());
+    assert!(!driver.app.edit.is_unsaved());
+    // The command opens the file, without options for the saved changes.
+    driver.press("y");
+    let command = driver.copied.last().unwrap().clone();
+    assert_eq!(words(&command), ["asperity".to_owned(), path.display().to_string()]);
+    assert_eq!(opened(&command).scene(), driver.app.edit.document.scene());
+    driver.press("l y");
+    let command = driver.copied.last().unwrap().clone();
+    assert_eq!(opened(&command).scene(), driver.app.edit.document.scene(), "{command}");
+    // At the next save the name is proposed, with a question.
+    driver.press("s Enter");
+    assert!(driver.status().contains("Overwrite it?"), "{}", driver.status());
+    driver.press("y");
+    assert_eq!(fs::read_to_string(&path).unwrap(), driver.app.edit.document.text());
+    assert_eq!(opened(&command).scene(), driver.app.edit.document.scene());
+    driver.press("q");
+    assert!(driver.app.finished);
 }

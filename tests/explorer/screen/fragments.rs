@@ -1,6 +1,5 @@
 //! The close-up of fragments, and their lengths.
 
-use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::pressed;
@@ -13,67 +12,59 @@ use asperity::explorer::update::Effect;
 
 #[test]
 fn the_close_up_goes_round_all_fragments() {
-    within(60, || {
-        let mut driver = Driver::start(rough());
-        driver.press("> f");
-        let count = driver.app.snapshot.as_ref().unwrap().point.fragments as usize;
-        assert!(count > 3, "{count} fragments");
-        for closer in ["", "+ +", "- - - -"] {
-            driver.press(closer);
-            for key in ["n", "p"] {
-                driver.press("f");
-                let number =
-                    |driver: &Driver| driver.app.snapshot.as_ref().unwrap().close_up.fragment.unwrap().number;
-                let start = number(&driver);
-                let mut seen = Vec::new();
-                for _ in 0..count {
-                    driver.press(key);
-                    seen.push(number(&driver));
-                    let expected = format!("patch {} of {count}", number(&driver) + 1);
-                    assert!(driver.text().contains(&expected), "{expected}: {}", driver.text());
-                }
-                assert_eq!(number(&driver), start, "{key}: {seen:?}");
-                seen.sort_unstable();
-                assert_eq!(seen, (0..count).collect::<Vec<_>>(), "{key}");
+    let mut driver = Driver::start(rough());
+    driver.press("> f");
+    let count = driver.point().fragments as usize;
+    assert!(count > 3, "{count} fragments");
+    for closer in ["", "+ +", "- - - -"] {
+        driver.press(closer);
+        for key in ["n", "p"] {
+            driver.press("f");
+            let number = |driver: &Driver| driver.snapshot().close_up.fragment.unwrap().number;
+            let start = number(&driver);
+            let mut seen = Vec::new();
+            for _ in 0..count {
+                driver.press(key);
+                seen.push(number(&driver));
+                let expected = format!("patch {} of {count}", number(&driver) + 1);
+                assert!(driver.text().contains(&expected), "{expected}: {}", driver.text());
             }
+            assert_eq!(number(&driver), start, "{key}: {seen:?}");
+            seen.sort_unstable();
+            assert_eq!(seen, (0..count).collect::<Vec<_>>(), "{key}");
         }
-    });
+    }
 }
 
 #[test]
 fn a_moment_on_its_way_does_not_take_the_chosen_fragment_away() {
-    within(30, || {
-        let mut driver = pressed("f");
-        let number =
-            |driver: &Driver| driver.app.snapshot.as_ref().unwrap().close_up.fragment.unwrap().number;
-        let before = driver.app.snapshot.clone().unwrap();
-        let first = number(&driver);
-        // The fragment is requested just after a snapshot requested by the animation.
-        let effects = driver.update("next-patch");
-        assert_eq!(effects, [Effect::Ask]);
-        driver.act(Action::Report(Report::Shown(before)));
-        driver.perform(effects);
-        assert_eq!(number(&driver), first + 1);
-        driver.press(". ,");
-        assert_eq!(number(&driver), first + 1);
-    });
+    let mut driver = pressed("f");
+    let number = |driver: &Driver| driver.snapshot().close_up.fragment.unwrap().number;
+    let before = driver.snapshot().clone();
+    let first = number(&driver);
+    // The fragment is requested just after a snapshot requested by the animation.
+    let effects = driver.update("next-patch");
+    assert_eq!(effects, [Effect::Ask]);
+    driver.act(Action::Report(Report::Shown(before.into())));
+    driver.perform(effects);
+    assert_eq!(number(&driver), first + 1);
+    driver.press(". ,");
+    assert_eq!(number(&driver), first + 1);
 }
 
 #[test]
 fn the_close_up_is_looked_at_from_near_and_from_far() {
-    within(30, || {
-        let mut driver = pressed("");
-        let springs = |driver: &Driver| driver.app.snapshot.as_ref().unwrap().close_up.section.springs;
-        let before = springs(&driver);
-        driver.press("+");
-        assert_eq!(springs(&driver), before / 2);
-        driver.press("- -");
-        assert_eq!(springs(&driver), before * 2);
-        (0..20).for_each(|_| drop(driver.press("-")));
-        assert_eq!(springs(&driver), 1024);
-        (0..20).for_each(|_| drop(driver.press("=")));
-        assert!((1..=16).contains(&springs(&driver)));
-    });
+    let mut driver = pressed("");
+    let springs = |driver: &Driver| driver.snapshot().close_up.section.springs;
+    let before = springs(&driver);
+    driver.press("+");
+    assert_eq!(springs(&driver), before / 2);
+    driver.press("- -");
+    assert_eq!(springs(&driver), before * 2);
+    (0..20).for_each(|_| drop(driver.press("-")));
+    assert_eq!(springs(&driver), 1024);
+    (0..20).for_each(|_| drop(driver.press("=")));
+    assert!((1..=16).contains(&springs(&driver)));
 }
 
 /// Contact patches, from a picture with a column for each spring.
@@ -83,7 +74,7 @@ fn fragments(driver: &mut Driver) -> Vec<Patch> {
     driver.press("z");
     // So wide that each spring has columns of its own.
     driver.resize((1100, 40));
-    let section = driver.app.snapshot.as_ref().unwrap().profile.clone();
+    let section = driver.snapshot().profile.clone();
     driver.press("z");
     driver.app.view.pane = pane;
     driver.resize(size);
@@ -94,66 +85,62 @@ fn fragments(driver: &mut Driver) -> Vec<Patch> {
 }
 
 fn facts(driver: &Driver) -> FragmentFacts {
-    driver.app.snapshot.as_ref().unwrap().close_up.fragment.unwrap()
+    driver.snapshot().close_up.fragment.unwrap()
 }
 
 #[test]
 fn the_close_up_goes_to_the_longest_and_the_most_loaded() {
-    within(30, || {
-        for keys in ["", ". . . . . . . .", "> . . ."] {
-            let mut driver = pressed(keys);
-            let all = fragments(&mut driver);
-            assert!(all.len() > 3, "{all:?}");
-            let longest = all.iter().map(|patch| patch.springs().len()).max();
-            driver.press("b");
-            assert!(all.contains(&facts(&driver).patch), "{:?} of {all:?}", facts(&driver));
-            assert_eq!(Some(facts(&driver).patch.springs().len()), longest);
-            // The selected fragment is shown with its force.
-            let mut forces = Vec::new();
-            for _ in 0..all.len() {
-                driver.press("n");
-                forces.push(facts(&driver).state.force);
-            }
-            let total: f64 = forces.iter().sum();
-            let force = driver.app.snapshot.as_ref().unwrap().point.force;
-            assert!((total / force - 1.0).abs() < 1e-9, "together they carry all: {total} {force}");
-            let most = forces.iter().map(|force| force.abs()).fold(0.0, f64::max);
-            driver.press("B");
-            assert_eq!(facts(&driver).state.force.abs(), most);
-            driver.press("f");
-            let summit = driver.app.snapshot.as_ref().unwrap().close_up.section.clone();
-            let highest = summit.columns.iter().map(|column| column.line.1).fold(f64::MIN, f64::max);
-            assert_eq!(highest, driver.app.snapshot.as_ref().unwrap().profile.heights.1);
+    for keys in ["", ". . . . . . . .", "> . . ."] {
+        let mut driver = pressed(keys);
+        let all = fragments(&mut driver);
+        assert!(all.len() > 3, "{all:?}");
+        let longest = all.iter().map(|patch| patch.springs().len()).max();
+        driver.press("b");
+        assert!(all.contains(&facts(&driver).patch), "{:?} of {all:?}", facts(&driver));
+        assert_eq!(Some(facts(&driver).patch.springs().len()), longest);
+        // The selected fragment is shown with its force.
+        let mut forces = Vec::new();
+        for _ in 0..all.len() {
+            driver.press("n");
+            forces.push(facts(&driver).state.force);
         }
-    });
+        let total: f64 = forces.iter().sum();
+        let force = driver.point().force;
+        assert!((total / force - 1.0).abs() < 1e-9, "together they carry all: {total} {force}");
+        let most = forces.iter().map(|force| force.abs()).fold(0.0, f64::max);
+        driver.press("B");
+        assert_eq!(facts(&driver).state.force.abs(), most);
+        driver.press("f");
+        let summit = driver.snapshot().close_up.section.clone();
+        let highest = summit.columns.iter().map(|column| column.line.1).fold(f64::MIN, f64::max);
+        assert_eq!(highest, driver.snapshot().profile.heights.1);
+    }
 }
 
 #[test]
 fn the_distribution_of_lengths_counts_every_fragment() {
-    within(30, || {
-        let mut driver = pressed("");
-        driver.press("D");
-        for keys in ["", ". . . .", "d { {", "Space"] {
-            driver.press(keys);
-            let all = fragments(&mut driver);
-            let snapshot = driver.app.snapshot.clone().unwrap();
-            let bins = snapshot.lengths.clone();
-            let counted: u64 = bins.values().sum();
-            assert_eq!((counted, all.len() as u64), (snapshot.point.fragments, snapshot.point.fragments));
-            for (&square, &count) in &bins {
-                let range = 2_f64.powi(square as i32)..2_f64.powi(square as i32 + 1);
-                let inside = |patch: &&Patch| range.contains(&(patch.springs().len() as f64).powi(2));
-                assert_eq!(all.iter().filter(inside).count() as u64, count, "{square}, {all:?}");
-            }
-            let text = driver.text();
-            assert!(text.contains(&format!("{counted} in all")), "{counted}: {text}");
-            assert!(text.matches('○').count() > bins.len().min(2), "{text}");
+    let mut driver = pressed("");
+    driver.press("D");
+    for keys in ["", ". . . .", "d { {", "Space"] {
+        driver.press(keys);
+        let all = fragments(&mut driver);
+        let snapshot = driver.snapshot().clone();
+        let bins = snapshot.lengths.clone();
+        let counted: u64 = bins.values().sum();
+        assert_eq!((counted, all.len() as u64), (snapshot.point.fragments, snapshot.point.fragments));
+        for (&square, &count) in &bins {
+            let range = 2_f64.powi(square as i32)..2_f64.powi(square as i32 + 1);
+            let inside = |patch: &&Patch| range.contains(&(patch.springs().len() as f64).powi(2));
+            assert_eq!(all.iter().filter(inside).count() as u64, count, "{square}, {all:?}");
         }
-        driver.press("D");
-        assert!(driver.text().contains("edge stretch"), "{}", driver.text());
-        let mut driver = pressed("D S");
-        assert!(driver.text().contains("nothing is in contact"), "{}", driver.text());
-        driver.press("d D");
-        assert!(!driver.text().contains("nothing is in contact"), "{}", driver.text());
-    });
+        let text = driver.text();
+        assert!(text.contains(&format!("{counted} in all")), "{counted}: {text}");
+        assert!(text.matches('○').count() > bins.len().min(2), "{text}");
+    }
+    driver.press("D");
+    assert!(driver.text().contains("edge stretch"), "{}", driver.text());
+    let mut driver = pressed("D S");
+    assert!(driver.text().contains("nothing is in contact"), "{}", driver.text());
+    driver.press("d D");
+    assert!(!driver.text().contains("nothing is in contact"), "{}", driver.text());
 }

@@ -1,6 +1,5 @@
 //! Choosing a scene from the library.
 
-use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{rough, smooth};
 use super::{is_up_to_date, pressed};
@@ -36,113 +35,103 @@ fn found(driver: &Driver) -> Vec<String> {
 
 #[test]
 fn all_scenes_are_listed_and_found_as_one_types() {
-    within(30, || {
-        let (_folder, mut driver) = opened();
-        let names: Vec<String> = presets().iter().map(|preset| preset.name.to_owned()).collect();
-        let own = ["broken.ron".to_owned(), "mine.ron".to_owned()];
-        assert_eq!(found(&driver), [names, own.to_vec()].concat());
-        for name in found(&driver) {
-            assert!(driver.text().contains(&name), "{name}\n{}", driver.text());
-        }
-        driver.type_text("sph");
-        let is_match = |name: &String| {
-            let text = presets().iter().find(|preset| preset.name == *name).map(|preset| preset.text);
-            name == "mine.ron" || text.is_some_and(|text| text.to_lowercase().contains("sph"))
-        };
-        assert!(found(&driver).iter().all(is_match), "{:?}", found(&driver));
-        assert!(found(&driver).contains(&"mine.ron".to_owned()), "its title has it");
-        driver.type_text("ere-no-such");
-        assert!(found(&driver).is_empty());
-        assert!(driver.text().contains("no scene fits"), "{}", driver.text());
-        // On Enter the text is tried as a path.
-        driver.press("Enter");
-        assert!(driver.status().contains("! there is no such file"), "{}", driver.status());
-        driver.press("Ctrl+u");
-        assert_eq!(found(&driver).len(), presets().len() + 2);
-        driver.type_text("mine");
-        assert_eq!(found(&driver), ["mine.ron"]);
-        driver.press("Backspace Backspace Backspace Backspace");
-        assert_eq!(found(&driver).len(), presets().len() + 2);
-        // Letters are typed here, even those that are keys elsewhere.
-        driver.press("q j ?");
-        assert_eq!(library(&driver).line.text(), "qj?");
-    });
+    let (_folder, mut driver) = opened();
+    let names: Vec<String> = presets().iter().map(|preset| preset.name.to_owned()).collect();
+    let own = ["broken.ron".to_owned(), "mine.ron".to_owned()];
+    assert_eq!(found(&driver), [names, own.to_vec()].concat());
+    for name in found(&driver) {
+        assert!(driver.text().contains(&name), "{name}\n{}", driver.text());
+    }
+    driver.type_text("sph");
+    let is_match = |name: &String| {
+        let text = presets().iter().find(|preset| preset.name == *name).map(|preset| preset.text);
+        name == "mine.ron" || text.is_some_and(|text| text.to_lowercase().contains("sph"))
+    };
+    assert!(found(&driver).iter().all(is_match), "{:?}", found(&driver));
+    assert!(found(&driver).contains(&"mine.ron".to_owned()), "its title has it");
+    driver.type_text("ere-no-such");
+    assert!(found(&driver).is_empty());
+    assert!(driver.text().contains("no scene fits"), "{}", driver.text());
+    // On Enter the text is tried as a path.
+    driver.press("Enter");
+    assert!(driver.status().contains("! there is no such file"), "{}", driver.status());
+    driver.press("Ctrl+u");
+    assert_eq!(found(&driver).len(), presets().len() + 2);
+    driver.type_text("mine");
+    assert_eq!(found(&driver), ["mine.ron"]);
+    driver.press("Backspace Backspace Backspace Backspace");
+    assert_eq!(found(&driver).len(), presets().len() + 2);
+    // Letters are typed here, even those that are keys elsewhere.
+    driver.press("q j ?");
+    assert_eq!(library(&driver).line.text(), "qj?");
 }
 
 #[test]
 fn the_selected_scene_is_seen_before_it_is_opened() {
-    within(30, || {
-        let (_folder, mut driver) = opened();
-        driver.type_text("mine");
-        assert!(driver.text().contains("smooth-sphere"), "{}", driver.text());
-        assert_eq!(driver.app.edit.document.scene(), rough().scene(), "looking is not opening");
-        driver.press("Enter");
-        assert_eq!(driver.app.edit.document.scene(), smooth().scene());
-    });
+    let (_folder, mut driver) = opened();
+    driver.type_text("mine");
+    assert!(driver.text().contains("smooth-sphere"), "{}", driver.text());
+    assert_eq!(driver.app.edit.document.scene(), rough().scene(), "looking is not opening");
+    driver.press("Enter");
+    assert_eq!(driver.app.edit.document.scene(), smooth().scene());
 }
 
 #[test]
 fn enter_opens_and_escape_leaves() {
-    within(30, || {
-        let (folder, mut driver) = opened();
-        let before = driver.app.edit.document.clone();
-        driver.press("Down Down Esc");
-        assert!(driver.app.prompt.is_none() && driver.app.edit.document == before);
-        driver.press("o Down");
-        assert_eq!(library(&driver).scene().unwrap().name, presets()[1].name);
-        driver.press("Up Up");
-        assert_eq!(library(&driver).selected, 0, "the list has an end");
-        driver.type_text("mine");
-        driver.press("Enter");
-        assert!(driver.app.prompt.is_none());
-        assert!(is_up_to_date(&driver.app));
-        assert_eq!(driver.app.edit.document.text(), smooth().text());
-        assert_eq!(driver.app.edit.document.name(), folder.path().join("mine.ron").display().to_string());
-        assert!(!driver.app.edit.is_unsaved() && driver.app.play.playing);
-        driver.press("u");
-        assert_eq!(driver.app.edit.document, before);
-        // The smallest window shows the whole list by scrolling.
-        driver.resize((20, 5));
-        driver.press("o");
-        for _ in 0..presets().len() + 1 {
-            driver.press("Down");
-            let name: String = library(&driver).scene().unwrap().name.chars().take(12).collect();
-            assert!(driver.text().contains(&name), "{name}\n{}", driver.text());
-        }
-    });
+    let (folder, mut driver) = opened();
+    let before = driver.app.edit.document.clone();
+    driver.press("Down Down Esc");
+    assert!(driver.app.prompt.is_none() && driver.app.edit.document == before);
+    driver.press("o Down");
+    assert_eq!(library(&driver).scene().unwrap().name, presets()[1].name);
+    driver.press("Up Up");
+    assert_eq!(library(&driver).selected, 0, "the list has an end");
+    driver.type_text("mine");
+    driver.press("Enter");
+    assert!(driver.app.prompt.is_none());
+    assert!(is_up_to_date(&driver.app));
+    assert_eq!(driver.app.edit.document.text(), smooth().text());
+    assert_eq!(driver.app.edit.document.name(), folder.path().join("mine.ron").display().to_string());
+    assert!(!driver.app.edit.is_unsaved() && driver.app.play.playing);
+    driver.press("u");
+    assert_eq!(driver.app.edit.document, before);
+    // The smallest window shows the whole list by scrolling.
+    driver.resize((20, 5));
+    driver.press("o");
+    for _ in 0..presets().len() + 1 {
+        driver.press("Down");
+        let name: String = library(&driver).scene().unwrap().name.chars().take(12).collect();
+        assert!(driver.text().contains(&name), "{name}\n{}", driver.text());
+    }
 }
 
 #[test]
 fn a_broken_file_is_listed_with_its_error_and_not_opened() {
-    within(30, || {
-        let (_folder, mut driver) = opened();
-        let before = driver.app.edit.document.clone();
-        driver.type_text("broken");
-        let entry = library(&driver).scene().unwrap().clone();
-        let error = entry.error().expect("it is no scene");
-        let text = driver.text();
-        assert!(text.contains("! broken.ron"), "{text}");
-        let start: String = error.chars().take(30).collect();
-        assert!(text.contains(&start), "{start}\n{text}");
-        driver.press("Enter");
-        assert_eq!(driver.app.edit.document, before);
-        assert!(
-            driver.status().starts_with("! ") && driver.status().contains("broken.ron"),
-            "{}",
-            driver.status()
-        );
-    });
+    let (_folder, mut driver) = opened();
+    let before = driver.app.edit.document.clone();
+    driver.type_text("broken");
+    let entry = library(&driver).scene().unwrap().clone();
+    let error = entry.error().expect("it is no scene");
+    let text = driver.text();
+    assert!(text.contains("! broken.ron"), "{text}");
+    let start: String = error.chars().take(30).collect();
+    assert!(text.contains(&start), "{start}\n{text}");
+    driver.press("Enter");
+    assert_eq!(driver.app.edit.document, before);
+    assert!(
+        driver.status().starts_with("! ") && driver.status().contains("broken.ron"),
+        "{}",
+        driver.status()
+    );
 }
 
 #[test]
 fn a_file_that_has_changed_since_is_listed_anew() {
-    within(30, || {
-        let (folder, mut driver) = opened();
-        driver.press("Esc");
-        fs::write(folder.path().join("broken.ron"), rough().text()).unwrap();
-        driver.press("o");
-        driver.type_text("broken");
-        driver.press("Enter");
-        assert_eq!(driver.app.edit.document.text(), rough().text());
-    });
+    let (folder, mut driver) = opened();
+    driver.press("Esc");
+    fs::write(folder.path().join("broken.ron"), rough().text()).unwrap();
+    driver.press("o");
+    driver.type_text("broken");
+    driver.press("Enter");
+    assert_eq!(driver.app.edit.document.text(), rough().text());
 }

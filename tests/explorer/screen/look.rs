@@ -1,6 +1,5 @@
 //! The part of the line in the profile pane, and the quantities of the curve.
 
-use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{rough, smooth, without_adhesion};
 use super::{mid_retraction, pressed};
@@ -11,7 +10,7 @@ use asperity::scene::format_quantity;
 use ratatui::layout::Position;
 
 fn profile(driver: &Driver) -> Section {
-    driver.app.snapshot.as_ref().unwrap().profile.clone()
+    driver.snapshot().profile.clone()
 }
 
 fn seen(driver: &Driver) -> (usize, usize) {
@@ -21,81 +20,75 @@ fn seen(driver: &Driver) -> (usize, usize) {
 
 #[test]
 fn the_profile_is_looked_at_from_near_and_moved_along() {
-    within(30, || {
-        let mut driver = pressed("Tab");
-        assert_eq!((driver.app.view.pane, seen(&driver)), (Pane::Profile, (0, 1024)));
-        assert!(driver.text().contains("x to 100 µm"), "{}", driver.text());
-        // There is nothing beside the whole line.
-        driver.press(") (");
-        assert_eq!(seen(&driver), (0, 1024));
-        driver.press("+");
-        assert_eq!(seen(&driver), (256, 512));
-        assert!(driver.text().contains("x from 25 µm to 75 µm of 100 µm"), "{}", driver.text());
-        driver.press(")");
-        assert_eq!(seen(&driver), (384, 512));
-        driver.press("( (");
-        assert_eq!(seen(&driver), (128, 512));
-        driver.press("( ( ( (");
-        assert_eq!(seen(&driver), (0, 512));
-        driver.press(") ) ) ) ) ) ) )");
-        assert_eq!(seen(&driver), (512, 512));
-        driver.press("+ +");
-        assert_eq!(seen(&driver).1, 128);
-        (0..20).for_each(|_| drop(driver.press("+")));
-        assert_eq!(seen(&driver).1, 8);
-        driver.press("0");
-        assert_eq!(seen(&driver), (0, 1024));
-        driver.press("+ -");
-        assert_eq!(seen(&driver), (0, 1024));
-    });
+    let mut driver = pressed("Tab");
+    assert_eq!((driver.app.view.pane, seen(&driver)), (Pane::Profile, (0, 1024)));
+    assert!(driver.text().contains("x to 100 µm"), "{}", driver.text());
+    // There is nothing beside the whole line.
+    driver.press(") (");
+    assert_eq!(seen(&driver), (0, 1024));
+    driver.press("+");
+    assert_eq!(seen(&driver), (256, 512));
+    assert!(driver.text().contains("x from 25 µm to 75 µm of 100 µm"), "{}", driver.text());
+    driver.press(")");
+    assert_eq!(seen(&driver), (384, 512));
+    driver.press("( (");
+    assert_eq!(seen(&driver), (128, 512));
+    driver.press("( ( ( (");
+    assert_eq!(seen(&driver), (0, 512));
+    driver.press(") ) ) ) ) ) ) )");
+    assert_eq!(seen(&driver), (512, 512));
+    driver.press("+ +");
+    assert_eq!(seen(&driver).1, 128);
+    (0..20).for_each(|_| drop(driver.press("+")));
+    assert_eq!(seen(&driver).1, 8);
+    driver.press("0");
+    assert_eq!(seen(&driver), (0, 1024));
+    driver.press("+ -");
+    assert_eq!(seen(&driver), (0, 1024));
 }
 
 #[test]
 fn the_profile_follows_the_close_up() {
-    within(30, || {
-        let mut driver = pressed("w");
-        assert!(driver.text().contains("· follows"), "{}", driver.text());
-        let mut firsts = Vec::new();
-        for _ in 0..6 {
-            driver.press("n");
-            let close_up = driver.app.snapshot.as_ref().unwrap().close_up.section.clone();
-            let (first, springs) = seen(&driver);
-            let middle = close_up.first + close_up.springs / 2;
-            assert!((first..first + springs).contains(&middle), "{middle} not in {first} + {springs}");
-            assert_eq!(springs, 256);
-            firsts.push(first);
-        }
-        firsts.dedup();
-        assert!(firsts.len() > 1, "it never moves: {firsts:?}");
-        // Manual loading keeps the body in its place.
-        driver.press("Tab (");
-        let put = seen(&driver);
-        driver.press("n n n");
-        assert_eq!(seen(&driver), put);
-        assert!(!driver.text().contains("· follows"));
-        driver.press("w 0");
-        assert_eq!(seen(&driver), (0, 1024));
-        assert!(!driver.text().contains("· follows"));
-    });
+    let mut driver = pressed("w");
+    assert!(driver.text().contains("· follows"), "{}", driver.text());
+    let mut firsts = Vec::new();
+    for _ in 0..6 {
+        driver.press("n");
+        let close_up = driver.snapshot().close_up.section.clone();
+        let (first, springs) = seen(&driver);
+        let middle = close_up.first + close_up.springs / 2;
+        assert!((first..first + springs).contains(&middle), "{middle} not in {first} + {springs}");
+        assert_eq!(springs, 256);
+        firsts.push(first);
+    }
+    firsts.dedup();
+    assert!(firsts.len() > 1, "it never moves: {firsts:?}");
+    // Manual loading keeps the body in its place.
+    driver.press("Tab (");
+    let put = seen(&driver);
+    driver.press("n n n");
+    assert_eq!(seen(&driver), put);
+    assert!(!driver.text().contains("· follows"));
+    driver.press("w 0");
+    assert_eq!(seen(&driver), (0, 1024));
+    assert!(!driver.text().contains("· follows"));
 }
 
 #[test]
 fn the_close_up_is_moved_along_where_the_profile_is_not_chosen() {
-    within(30, || {
-        let mut driver = pressed("f");
-        let first = |driver: &Driver| driver.app.snapshot.as_ref().unwrap().close_up.section.first;
-        let before = first(&driver);
-        let springs = driver.app.view.look.springs;
-        driver.press(")");
-        assert_eq!(first(&driver), before + springs / 4);
-        driver.press("(");
-        assert_eq!(first(&driver), before);
-        (0..200).for_each(|_| drop(driver.press("(")));
-        assert_eq!(first(&driver), 0);
-        (0..200).for_each(|_| drop(driver.press(")")));
-        assert_eq!(first(&driver), 1024 - springs);
-        assert_eq!(seen(&driver), (0, 1024), "the profile stays");
-    });
+    let mut driver = pressed("f");
+    let first = |driver: &Driver| driver.snapshot().close_up.section.first;
+    let before = first(&driver);
+    let springs = driver.app.view.look.springs;
+    driver.press(")");
+    assert_eq!(first(&driver), before + springs / 4);
+    driver.press("(");
+    assert_eq!(first(&driver), before);
+    (0..200).for_each(|_| drop(driver.press("(")));
+    assert_eq!(first(&driver), 0);
+    (0..200).for_each(|_| drop(driver.press(")")));
+    assert_eq!(first(&driver), 1024 - springs);
+    assert_eq!(seen(&driver), (0, 1024), "the profile stays");
 }
 
 /// The text of the pane of the curve on the whole screen.
@@ -108,30 +101,28 @@ fn curve(driver: &mut Driver) -> String {
 
 #[test]
 fn the_curve_has_three_views_in_two_units() {
-    within(30, || {
-        let mut driver = pressed("");
-        for [title, x, y] in [
-            ["Force F(d)", "d (nm)", "F (µN)"],
-            ["Force F/F_a,max over d/h", "d/h", "F/F_a,max"],
-            ["Contact length l(F)", "F (µN)", "l (µm)"],
-            ["Contact length l/L over F/F_a,max", "F/F_a,max", "l/L"],
-            ["Contact patches n(d)", "d (nm)", "n"],
-            ["Contact patches n over d/h", "d/h", "n"],
-        ] {
-            let text = curve(&mut driver);
-            assert!([title, x, y].iter().all(|words| text.contains(words)), "{title}, {x}, {y}\n{text}");
-            driver.press("N");
-            if !driver.app.view.curve.normalised {
-                driver.press("v");
-            }
-        }
-        assert!(curve(&mut driver).contains("Force F(d)"), "they come round");
-        // Without adhesion there is no F_a,max as a unit.
-        let mut driver = mid_retraction(without_adhesion());
-        driver.press("N");
+    let mut driver = pressed("");
+    for [title, x, y] in [
+        ["Force F(d)", "d (nm)", "F (µN)"],
+        ["Force F/F_a,max over d/h", "d/h", "F/F_a,max"],
+        ["Contact length l(F)", "F (µN)", "l (µm)"],
+        ["Contact length l/L over F/F_a,max", "F/F_a,max", "l/L"],
+        ["Contact patches n(d)", "d (nm)", "n"],
+        ["Contact patches n over d/h", "d/h", "n"],
+    ] {
         let text = curve(&mut driver);
-        assert!(text.contains("d/h") && !text.contains("F_a,max"), "{text}");
-    });
+        assert!([title, x, y].iter().all(|words| text.contains(words)), "{title}, {x}, {y}\n{text}");
+        driver.press("N");
+        if !driver.app.view.curve.normalised {
+            driver.press("v");
+        }
+    }
+    assert!(curve(&mut driver).contains("Force F(d)"), "they come round");
+    // Without adhesion there is no F_a,max as a unit.
+    let mut driver = mid_retraction(without_adhesion());
+    driver.press("N");
+    let text = curve(&mut driver);
+    assert!(text.contains("d/h") && !text.contains("F_a,max"), "{text}");
 }
 
 fn is_braille(character: char) -> bool {
@@ -140,56 +131,52 @@ fn is_braille(character: char) -> bool {
 
 #[test]
 fn the_loss_is_shaded_inside_the_loop_and_nowhere_else() {
-    within(60, || {
-        let mut driver = mid_retraction(smooth());
-        driver.press("z");
-        let before = driver.screen();
-        driver.press("a");
-        let energy = driver.app.solved.as_ref().unwrap().outcome.figures.dissipated_energy.unwrap();
-        let energy: f64 = format!("{energy:.2e}").parse().unwrap();
-        let title = format!("ΔW {}", format_quantity(energy, "J"));
-        assert!(driver.text().contains(&title), "{title}\n{}", driver.text());
-        // Each changed cell lies between two cells of the branches, but for the cell beside a steep one.
-        let shaded = driver.screen();
-        let area = inside(Layout::of(&driver.app).panes[0].1);
-        let drawn: Vec<Position> =
-            area.positions().filter(|cell| before[*cell].symbol().starts_with(is_braille)).collect();
-        let mut changed = 0;
-        for cell in area.positions().filter(|cell| shaded[*cell] != before[*cell]) {
-            let beside = || drawn.iter().filter(|at| at.x.abs_diff(cell.x) <= 1);
-            let is_inside = beside().any(|at| at.y <= cell.y + 1) && beside().any(|at| at.y + 1 >= cell.y);
-            assert!(is_inside, "{cell}\n{}", driver.text());
-            changed += 1;
-        }
-        assert!(changed > 50, "{changed} cells\n{}", driver.text());
-        driver.press("a");
-        assert_eq!(driver.screen(), before);
-        // A loop that is not closed has no dissipated energy yet.
-        let mut driver = Driver::start(rough().set("loading", "[ToForce(1.0e-5)]").unwrap());
-        driver.press("a");
-        assert!(driver.text().contains("ΔW open"), "{}", driver.text());
-    });
+    let mut driver = mid_retraction(smooth());
+    driver.press("z");
+    let before = driver.screen();
+    driver.press("a");
+    let energy = driver.outcome().figures.dissipated_energy.unwrap();
+    let energy: f64 = format!("{energy:.2e}").parse().unwrap();
+    let title = format!("ΔW {}", format_quantity(energy, "J"));
+    assert!(driver.text().contains(&title), "{title}\n{}", driver.text());
+    // Each changed cell lies between two cells of the branches, but for the cell beside a steep one.
+    let shaded = driver.screen();
+    let area = inside(Layout::of(&driver.app).panes[0].1);
+    let drawn: Vec<Position> =
+        area.positions().filter(|cell| before[*cell].symbol().starts_with(is_braille)).collect();
+    let mut changed = 0;
+    for cell in area.positions().filter(|cell| shaded[*cell] != before[*cell]) {
+        let beside = || drawn.iter().filter(|at| at.x.abs_diff(cell.x) <= 1);
+        let is_inside = beside().any(|at| at.y <= cell.y + 1) && beside().any(|at| at.y + 1 >= cell.y);
+        assert!(is_inside, "{cell}\n{}", driver.text());
+        changed += 1;
+    }
+    assert!(changed > 50, "{changed} cells\n{}", driver.text());
+    driver.press("a");
+    assert_eq!(driver.screen(), before);
+    // A loop that is not closed has no dissipated energy yet.
+    let mut driver = Driver::start(rough().set("loading", "[ToForce(1.0e-5)]").unwrap());
+    driver.press("a");
+    assert!(driver.text().contains("ΔW open"), "{}", driver.text());
 }
 
 #[test]
 fn marked_forces_are_stated_with_their_values() {
-    within(30, || {
-        let labelled = |force: f64| format_quantity(format!("{force:.2e}").parse().unwrap(), "N");
-        let mut driver = mid_retraction(smooth());
-        let text = curve(&mut driver);
-        let legs = driver.app.legs();
-        for expected in [
-            format!("▲ preload {}", labelled(legs[0].largest.force)),
-            format!("▼ pull-off {}", labelled(legs[1].smallest.force)),
-        ] {
-            assert!(text.contains(&expected), "{expected}\n{text}");
-        }
-        // The glyphs are on the curve as well.
-        for glyph in ['▲', '▼'] {
-            assert_eq!(text.matches(glyph).count(), 2, "{glyph}\n{text}");
-        }
-        let mut driver = mid_retraction(without_adhesion());
-        let text = curve(&mut driver);
-        assert!(text.contains("▲ preload") && !text.contains('▼') && !text.contains('◇'), "{text}");
-    });
+    let labelled = |force: f64| format_quantity(format!("{force:.2e}").parse().unwrap(), "N");
+    let mut driver = mid_retraction(smooth());
+    let text = curve(&mut driver);
+    let legs = driver.app.legs();
+    for expected in [
+        format!("▲ preload {}", labelled(legs[0].largest.force)),
+        format!("▼ pull-off {}", labelled(legs[1].smallest.force)),
+    ] {
+        assert!(text.contains(&expected), "{expected}\n{text}");
+    }
+    // The glyphs are on the curve as well.
+    for glyph in ['▲', '▼'] {
+        assert_eq!(text.matches(glyph).count(), 2, "{glyph}\n{text}");
+    }
+    let mut driver = mid_retraction(without_adhesion());
+    let text = curve(&mut driver);
+    assert!(text.contains("▲ preload") && !text.contains('▼') && !text.contains('◇'), "{text}");
 }

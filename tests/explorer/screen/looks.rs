@@ -1,6 +1,5 @@
 //! Colours and markers: everything they show is also shown by glyphs.
 
-use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::script::rows;
 use super::{SIZES, everywhere, pressed, reversed, row_with};
@@ -35,170 +34,129 @@ fn unreadable(theme: Theme) -> Vec<Color> {
 
 #[test]
 fn the_plain_theme_has_no_colours_and_the_others_only_the_sixteen() {
-    within(120, || {
-        let mut used = [const { Vec::new() }; 5];
-        for mut driver in everywhere() {
-            for size in [SIZES[0], SIZES[3]] {
-                driver.resize(size);
-                for (theme, used) in Theme::value_variants().iter().zip(&mut used) {
-                    for marker in [Marker::Braille, Marker::HalfBlock] {
-                        driver.app.view.appearance = Appearance { theme: *theme, marker };
-                        let found = colours(&driver.screen());
-                        let sixteen = |colour: &Color| !matches!(colour, Color::Rgb(..) | Color::Indexed(_));
-                        assert!(found.iter().all(sixteen), "{theme:?} {marker:?}: {found:?}");
-                        used.extend(found);
-                    }
+    let mut used = [const { Vec::new() }; 5];
+    for mut driver in everywhere() {
+        for size in [SIZES[0], SIZES[3]] {
+            driver.resize(size);
+            for (theme, used) in Theme::value_variants().iter().zip(&mut used) {
+                for marker in [Marker::Braille, Marker::HalfBlock] {
+                    driver.app.view.appearance = Appearance { theme: *theme, marker };
+                    let found = colours(&driver.screen());
+                    let sixteen = |colour: &Color| !matches!(colour, Color::Rgb(..) | Color::Indexed(_));
+                    assert!(found.iter().all(sixteen), "{theme:?} {marker:?}: {found:?}");
+                    used.extend(found);
                 }
             }
         }
-        for (theme, used) in Theme::value_variants().iter().zip(&used) {
-            let many = used.iter().collect::<HashSet<_>>().len();
-            match theme {
-                Theme::Plain => assert_eq!(many, 1, "{used:?}"),
-                Theme::HighContrast => assert_eq!(many, 3, "{used:?}"),
-                _ => assert!(many > 5, "{theme:?}: {used:?}"),
-            }
-            assert!(!unreadable(*theme).iter().any(|colour| used.contains(colour)), "{theme:?}");
+    }
+    for (theme, used) in Theme::value_variants().iter().zip(&used) {
+        let many = used.iter().collect::<HashSet<_>>().len();
+        match theme {
+            Theme::Plain => assert_eq!(many, 1, "{used:?}"),
+            Theme::HighContrast => assert_eq!(many, 3, "{used:?}"),
+            _ => assert!(many > 5, "{theme:?}: {used:?}"),
         }
-    });
+        assert!(!unreadable(*theme).iter().any(|colour| used.contains(colour)), "{theme:?}");
+    }
 }
 
 #[test]
 fn strong_contrast_is_bold_and_nothing_in_it_is_dim() {
-    within(60, || {
-        let mut driver = pressed("c L");
-        driver.app.view.appearance.theme = Theme::HighContrast;
-        let screen = driver.screen();
-        assert!(screen.content.iter().all(|cell| !cell.modifier.contains(Modifier::DIM)));
-        assert!(screen.content.iter().all(|cell| cell.modifier.contains(Modifier::BOLD)));
-        // Elsewhere only elements in the background are dim, and without colours only.
-        let driver = pressed("T T T T");
-        assert_eq!(driver.app.view.appearance.theme, Theme::Plain);
-        let screen = driver.screen();
-        let dim = screen.content.iter().filter(|cell| cell.modifier.contains(Modifier::DIM));
-        assert!(dim.clone().any(|cell| cell.symbol() == "│") && dim.clone().all(|cell| cell.symbol() != "▼"));
-    });
+    let mut driver = pressed("c L");
+    driver.app.view.appearance.theme = Theme::HighContrast;
+    let screen = driver.screen();
+    assert!(screen.content.iter().all(|cell| !cell.modifier.contains(Modifier::DIM)));
+    assert!(screen.content.iter().all(|cell| cell.modifier.contains(Modifier::BOLD)));
+    // Elsewhere only elements in the background are dim, and without colours only.
+    let driver = pressed("T T T T");
+    assert_eq!(driver.app.view.appearance.theme, Theme::Plain);
+    let screen = driver.screen();
+    let dim = screen.content.iter().filter(|cell| cell.modifier.contains(Modifier::DIM));
+    assert!(dim.clone().any(|cell| cell.symbol() == "│") && dim.clone().all(|cell| cell.symbol() != "▼"));
 }
 
 #[test]
 fn screens_are_made_of_the_characters_of_their_marker() {
-    within(120, || {
-        let is_braille = |character: char| ('\u{2800}'..='\u{28ff}').contains(&character);
-        for mut driver in everywhere() {
-            for size in SIZES {
-                driver.resize(size);
-                driver.app.view.appearance.marker = Marker::Ascii;
-                for cell in &driver.screen().content {
-                    let symbol = cell.symbol();
-                    let printable = symbol.bytes().all(|byte| (b' '..=b'~').contains(&byte));
-                    assert!(symbol.len() == 1 && printable, "{symbol} {size:?}\n{}", driver.text());
-                }
-                driver.app.view.appearance.marker = Marker::Octant;
-                assert!(!driver.text().contains(is_braille), "{size:?}\n{}", driver.text());
+    let is_braille = |character: char| ('\u{2800}'..='\u{28ff}').contains(&character);
+    for mut driver in everywhere() {
+        for size in SIZES {
+            driver.resize(size);
+            driver.app.view.appearance.marker = Marker::Ascii;
+            for cell in &driver.screen().content {
+                let symbol = cell.symbol();
+                let printable = symbol.bytes().all(|byte| (b' '..=b'~').contains(&byte));
+                assert!(symbol.len() == 1 && printable, "{symbol} {size:?}\n{}", driver.text());
             }
+            driver.app.view.appearance.marker = Marker::Octant;
+            assert!(!driver.text().contains(is_braille), "{size:?}\n{}", driver.text());
         }
-        for (marker, range) in [
-            (Marker::Braille, '\u{2801}'..='\u{28ff}'),
-            (Marker::Octant, '\u{1cd00}'..='\u{1cde5}'),
-            (Marker::HalfBlock, '▀'..='▄'),
-        ] {
-            let mut driver = pressed("");
-            driver.app.view.appearance.marker = marker;
-            let dots = driver.text().chars().filter(|character| range.contains(character)).count();
-            assert!(dots > 100, "{marker:?}: {dots}\n{}", driver.text());
-        }
-    });
+    }
+    for (marker, range) in [
+        (Marker::Braille, '\u{2801}'..='\u{28ff}'),
+        (Marker::Octant, '\u{1cd00}'..='\u{1cde5}'),
+        (Marker::HalfBlock, '▀'..='▄'),
+    ] {
+        let mut driver = pressed("");
+        driver.app.view.appearance.marker = marker;
+        let dots = driver.text().chars().filter(|character| range.contains(character)).count();
+        assert!(dots > 100, "{marker:?}: {dots}\n{}", driver.text());
+    }
 }
 
 #[test]
 fn half_blocks_lose_no_half_where_two_colours_meet() {
-    within(60, || {
-        let mut driver = pressed("c L d {");
-        driver.app.view.appearance.marker = Marker::HalfBlock;
-        let halves = |driver: &Driver| -> Vec<[bool; 2]> {
-            let screen = driver.screen();
-            let filled = |cell: &Cell| match cell.symbol() {
-                "█" => [true, true],
-                "▀" => [true, cell.bg != Color::Reset],
-                "▄" => [cell.bg != Color::Reset, true],
-                _ => [false, false],
-            };
-            screen.content.iter().map(filled).collect()
+    let mut driver = pressed("c L d {");
+    driver.app.view.appearance.marker = Marker::HalfBlock;
+    let halves = |driver: &Driver| -> Vec<[bool; 2]> {
+        let screen = driver.screen();
+        let filled = |cell: &Cell| match cell.symbol() {
+            "█" => [true, true],
+            "▀" => [true, cell.bg != Color::Reset],
+            "▄" => [cell.bg != Color::Reset, true],
+            _ => [false, false],
         };
-        driver.app.view.appearance.theme = Theme::Plain;
-        let plain = halves(&driver);
-        for theme in Theme::value_variants() {
-            driver.app.view.appearance.theme = *theme;
-            assert_eq!(halves(&driver), plain, "{theme:?}");
-        }
-    });
-}
-
-#[test]
-fn what_has_a_meaning_has_a_glyph() {
-    within(30, || {
-        let driver = pressed("c L");
-        let text = driver.text();
-        for (glyph, meaning) in [
-            ("▸", "the chosen pane"),
-            ("›", "the selected row"),
-            ("◆", "the snapshot shown"),
-            ("▲", "the preload"),
-            ("▼", "the pull-off"),
-            ("■", "contact along the line"),
-            ("○", "the ends of fragments"),
-            ("●", "an effect that is on"),
-            ("= ", "what follows from others"),
-            ("A: F_a", "a ghost"),
-            ("[changed]", "unsaved changes"),
-        ] {
-            assert!(text.contains(glyph), "{meaning}\n{text}");
-        }
-        let mut driver = pressed("d");
-        driver.enter("2");
-        let text = driver.text();
-        for (glyph, meaning) in [("◆ manual", "manual loading"), ("! ", "what is wrong")] {
-            assert!(text.contains(glyph), "{meaning}\n{text}");
-        }
-    });
+        screen.content.iter().map(filled).collect()
+    };
+    driver.app.view.appearance.theme = Theme::Plain;
+    let plain = halves(&driver);
+    for theme in Theme::value_variants() {
+        driver.app.view.appearance.theme = *theme;
+        assert_eq!(halves(&driver), plain, "{theme:?}");
+    }
 }
 
 #[test]
 fn keys_change_colours_and_markers_and_say_so() {
-    within(30, || {
-        let mut driver = pressed("");
-        for theme in [Theme::Dark, Theme::Light, Theme::HighContrast, Theme::Plain, Theme::Neutral] {
-            driver.press("T");
-            assert_eq!(driver.app.view.appearance.theme, theme);
-            assert!(driver.status().contains(&theme.name()), "{}", driver.status());
-        }
-        for marker in [Marker::Octant, Marker::HalfBlock, Marker::Ascii, Marker::Braille] {
-            driver.press("M");
-            assert_eq!(driver.app.view.appearance.marker, marker);
-            assert!(driver.status().contains(&marker.name()), "{}", driver.status());
-            // The worker was asked for the present number of columns.
-            let cells = Layout::of(&driver.app).profile_cells();
-            let columns = driver.app.snapshot.as_ref().unwrap().profile.columns.len();
-            assert_eq!(columns, cells * marker.columns());
-        }
-    });
+    let mut driver = pressed("");
+    for theme in [Theme::Dark, Theme::Light, Theme::HighContrast, Theme::Plain, Theme::Neutral] {
+        driver.press("T");
+        assert_eq!(driver.app.view.appearance.theme, theme);
+        assert!(driver.status().contains(&theme.name()), "{}", driver.status());
+    }
+    for marker in [Marker::Octant, Marker::HalfBlock, Marker::Ascii, Marker::Braille] {
+        driver.press("M");
+        assert_eq!(driver.app.view.appearance.marker, marker);
+        assert!(driver.status().contains(&marker.name()), "{}", driver.status());
+        // The worker was asked for the present number of columns.
+        let cells = Layout::of(&driver.app).profile_cells();
+        let columns = driver.snapshot().profile.columns.len();
+        assert_eq!(columns, cells * marker.columns());
+    }
 }
 
 #[test]
 fn the_selected_row_is_marked_by_a_glyph_and_by_style() {
-    within(30, || {
-        for theme in Theme::value_variants() {
-            let mut driver = pressed("");
-            driver.app.view.appearance.theme = *theme;
-            for path in ["length", "roughness.hurst", "numerics.samples"] {
-                driver.select(path);
-                let name = driver.app.edit.parameter().unwrap().field.name;
-                let screen = driver.screen();
-                let row = row_with(&screen, "›");
-                assert!(reversed(row).contains(name), "{name}: {:?}", reversed(row));
-                let marks = rows(&screen).iter().filter(|row| row.contains('›')).count();
-                assert_eq!(marks, 1, "{}", driver.text());
-            }
+    for theme in Theme::value_variants() {
+        let mut driver = pressed("");
+        driver.app.view.appearance.theme = *theme;
+        for path in ["length", "roughness.hurst", "numerics.samples"] {
+            driver.select(path);
+            let name = driver.app.edit.parameter().unwrap().field.name;
+            let screen = driver.screen();
+            let row = row_with(&screen, "›");
+            assert!(reversed(row).contains(name), "{name}: {:?}", reversed(row));
+            let marks = rows(&screen).iter().filter(|row| row.contains('›')).count();
+            assert_eq!(marks, 1, "{}", driver.text());
         }
-    });
+    }
 }

@@ -1,18 +1,15 @@
 //! The map over H and κ: its content, its mark at the scene, and the order of its computations.
 
-use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{rough, smooth, without_adhesion};
 use super::is_up_to_date;
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::app::Pane;
 use asperity::explorer::keys::Context;
-use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::map::Live;
-use asperity::explorer::theme::Marker;
 use asperity::explorer::update::{Effect, studies};
 use asperity::scene::{Document, RoughnessParameter};
-use asperity::study::{Level, LiveMap, MAP_LINES, Quantity, live_plan};
+use asperity::study::{Level, LiveMap, MAP_LINES, live_plan};
 
 /// A map of a cell on each of four profiles: adhesion falls with κ, and with it the regime.
 fn set(map: &mut LiveMap, cell: u64) {
@@ -66,149 +63,104 @@ fn place(driver: &Driver) -> (f64, f64) {
 
 #[test]
 fn e_maps_over_the_elastic_energy() {
-    within(60, || {
-        let mut driver = mapped(rough());
-        let over_kappa = place(&driver);
-        driver.press("e");
-        fill(&mut driver, &Level::ALL);
-        for size in [(120, 40), (80, 24)] {
-            driver.resize(size);
-            assert!(driver.text().contains("over H, e_el/γ, 4 profiles"), "{}", driver.text());
-            assert!(driver.text().contains("◆ H 0.7, e_el/γ "), "{}", driver.text());
-        }
-        let ratio = driver.app.governing().unwrap().elastic_energy_ratio.unwrap();
-        assert_eq!(place(&driver), (ratio, over_kappa.1));
-        // The mark moves to values of the map, and the scene with it.
-        driver.press("k");
-        let (moved, _) = place(&driver);
-        let plan = live_plan(rough().scene(), RoughnessParameter::ElasticEnergyRatio).unwrap();
-        let values = &plan.axes[0].values;
-        assert!(moved > ratio && values.iter().any(|value| (moved / value - 1.0).abs() < 1e-9), "{moved}");
-        let kappa = driver.app.governing().unwrap().kappa.unwrap();
-        assert!((kappa / over_kappa.0 - (moved / ratio).sqrt()).abs() < 1e-9, "{kappa}");
-        driver.press("e");
-        fill(&mut driver, &Level::ALL);
-        assert!(driver.text().contains("over H, κ, 4 profiles"), "{}", driver.text());
-        assert!((place(&driver).0 / kappa - 1.0).abs() < 1e-12);
-    });
-}
-
-#[test]
-fn the_map_says_without_colours_what_it_says_with_them() {
-    within(60, || {
-        let mut driver = mapped(rough());
-        for legend in ["█ pressure-insensitive", "▒ pressure-sensitive", "· non-adhesive"] {
-            assert!(driver.text().contains(legend), "{legend}\n{}", driver.text());
-        }
-        // The same three in every column, from below.
-        let [insensitive, sensitive, adhesive] = ["████", "▒▒▒▒", "····"].map(|shades| {
-            let rows = driver.rows();
-            let all: Vec<usize> = (0..rows.len()).filter(|row| rows[*row].contains(shades)).collect();
-            (all[0], all[all.len() - 1])
-        });
-        assert!(adhesive.0 < sensitive.0 && sensitive.1 < insensitive.1, "{}", driver.text());
-        driver.app.view.appearance.marker = Marker::Ascii;
-        assert!(driver.text().is_ascii() && driver.text().contains("##"), "{}", driver.text());
-        driver.app.view.appearance.marker = Marker::Braille;
-        // Each quantity has a legend of its own, with the scale of the shades, and the regimes as letters.
-        for (quantity, expected) in [
-            (Quantity::ZeroLoadAdhesionShare, "F_a(0)/F_a,max "),
-            (Quantity::AdhesionCoefficient, "F_a/F_n "),
-        ] {
-            driver.press("V");
-            assert_eq!(driver.app.map.quantity, quantity);
-            for expected in [expected, "···", "███", "i pressure-insensitive", "▁▕ F_a(0) = 0.05 F_a,max"]
-            {
-                assert!(driver.text().contains(expected), "{expected}\n{}", driver.text());
-            }
-        }
-        driver.press("V");
-        assert_eq!(driver.app.map.quantity, Quantity::Regime);
-        assert!(driver.text().contains("█ pressure-insensitive"), "{}", driver.text());
-    });
+    let mut driver = mapped(rough());
+    let over_kappa = place(&driver);
+    driver.press("e");
+    fill(&mut driver, &Level::ALL);
+    for size in [(120, 40), (80, 24)] {
+        driver.resize(size);
+        assert!(driver.text().contains("over H, e_el/γ, 4 profiles"), "{}", driver.text());
+        assert!(driver.text().contains("◆ H 0.7, e_el/γ "), "{}", driver.text());
+    }
+    let ratio = driver.app.governing().unwrap().elastic_energy_ratio.unwrap();
+    assert_eq!(place(&driver), (ratio, over_kappa.1));
+    // The mark moves to values of the map, and the scene with it.
+    driver.press("k");
+    let (moved, _) = place(&driver);
+    let plan = live_plan(rough().scene(), RoughnessParameter::ElasticEnergyRatio).unwrap();
+    let values = &plan.axes[0].values;
+    assert!(moved > ratio && values.iter().any(|value| (moved / value - 1.0).abs() < 1e-9), "{moved}");
+    let kappa = driver.app.governing().unwrap().kappa.unwrap();
+    assert!((kappa / over_kappa.0 - (moved / ratio).sqrt()).abs() < 1e-9, "{kappa}");
+    driver.press("e");
+    fill(&mut driver, &Level::ALL);
+    assert!(driver.text().contains("over H, κ, 4 profiles"), "{}", driver.text());
+    assert!((place(&driver).0 / kappa - 1.0).abs() < 1e-12);
 }
 
 #[test]
 fn moves_in_a_row_are_one_edit() {
-    within(60, || {
-        let mut driver = mapped(rough());
-        assert_eq!(driver.app.keys(), Context::Map);
-        let before = driver.app.edit.document.clone();
-        let (edits, map) = (driver.app.edit.past.len(), driver.app.grid().cloned());
-        assert_eq!(driver.press("Down"), [Effect::Ask]);
-        assert_eq!(place(&driver), (6.73, 0.7));
-        driver.press("Down Left h k Shift+Down Right");
-        assert_eq!(place(&driver), (3.36, 0.65));
-        assert_eq!(driver.app.edit.past.len(), edits + 1);
-        assert!(is_up_to_date(&driver.app));
-        // The map is that of all of them.
-        assert_eq!(driver.app.grid(), map.as_ref());
-        assert!(driver.text().contains("◆ H 0.65, κ 3.36"), "{}", driver.text());
-        // Any other key ends the row.
-        driver.press("V Up");
-        assert_eq!((place(&driver).0, driver.app.edit.past.len()), (4.0, edits + 2));
-        driver.press("u");
-        assert_eq!(place(&driver), (3.36, 0.65));
-        driver.press("Down u u");
-        assert_eq!(driver.app.edit.document, before);
-        driver.press("U");
-        assert_eq!(place(&driver), (3.36, 0.65));
-        assert_eq!(driver.app.grid(), map.as_ref());
-    });
+    let mut driver = mapped(rough());
+    assert_eq!(driver.app.keys(), Context::Map);
+    let before = driver.app.edit.document.clone();
+    let (edits, map) = (driver.app.edit.past.len(), driver.app.grid().cloned());
+    assert_eq!(driver.press("Down"), [Effect::Ask]);
+    assert_eq!(place(&driver), (6.73, 0.7));
+    driver.press("Down Left h k Shift+Down Right");
+    assert_eq!(place(&driver), (3.36, 0.65));
+    assert_eq!(driver.app.edit.past.len(), edits + 1);
+    assert!(is_up_to_date(&driver.app));
+    // The map is that of all of them.
+    assert_eq!(driver.app.grid(), map.as_ref());
+    assert!(driver.text().contains("◆ H 0.65, κ 3.36"), "{}", driver.text());
+    // Any other key ends the row.
+    driver.press("V Up");
+    assert_eq!((place(&driver).0, driver.app.edit.past.len()), (4.0, edits + 2));
+    driver.press("u");
+    assert_eq!(place(&driver), (3.36, 0.65));
+    driver.press("Down u u");
+    assert_eq!(driver.app.edit.document, before);
+    driver.press("U");
+    assert_eq!(place(&driver), (3.36, 0.65));
+    assert_eq!(driver.app.grid(), map.as_ref());
 }
 
 #[test]
 fn the_mouse_moves_the_mark() {
-    within(60, || {
-        let mut driver = mapped(rough());
-        let edits = driver.app.edit.past.len();
-        let area = inside(Layout::of(&driver.app).pane(Pane::Map).unwrap());
-        let mut mouse = |column, row, gesture| driver.act(Action::Mouse(Mouse { column, row, gesture }));
-        mouse(area.x + 20, area.y + 10, Gesture::Press);
-        for column in 20..30 {
-            mouse(area.x + column, area.y + 12, Gesture::Drag);
-        }
-        assert_eq!(driver.app.edit.past.len(), edits + 1);
-        // A cell of the map has two of the screen.
-        let screen = driver.screen();
-        let near = |x: u16, y: u16| screen[(area.x + x, area.y + y)].symbol() == "◆";
-        let seen = (27..=31).any(|x| (11..=13).any(|y| near(x, y)));
-        assert!(seen, "{}", driver.text());
-    });
+    let mut driver = mapped(rough());
+    let edits = driver.app.edit.past.len();
+    let area = driver.area(Pane::Map);
+    let mut mouse = |column, row, gesture| driver.act(Action::Mouse(Mouse { column, row, gesture }));
+    mouse(area.x + 20, area.y + 10, Gesture::Press);
+    for column in 20..30 {
+        mouse(area.x + column, area.y + 12, Gesture::Drag);
+    }
+    assert_eq!(driver.app.edit.past.len(), edits + 1);
+    // A cell of the map has two of the screen.
+    let screen = driver.screen();
+    let near = |x: u16, y: u16| screen[(area.x + x, area.y + y)].symbol() == "◆";
+    let seen = (27..=31).any(|x| (11..=13).any(|y| near(x, y)));
+    assert!(seen, "{}", driver.text());
 }
 
 #[test]
 fn other_edits_begin_the_map_anew() {
-    within(60, || {
-        let mut driver = mapped(rough());
-        let begins = |driver: &mut Driver| studies(&mut driver.app).iter().any(|study| study.is::<Live>());
-        assert!(!begins(&mut driver), "it is whole");
-        driver.press("Tab Tab R");
-        assert!(begins(&mut driver));
-        assert!(driver.text().contains("computing the map"), "{}", driver.text());
-        // The map is hidden.
-        driver.press("m m");
-        assert!(!driver.app.is_shown(Pane::Map));
-        assert!(!begins(&mut driver));
-        assert_eq!(driver.press("m"), [Effect::Study, Effect::Ask]);
-        assert!(begins(&mut driver));
-        // Accuracy takes the place of the map, and vice versa.
-        driver.press("A");
-        assert_eq!(driver.app.view.large, Some(Pane::Accuracy));
-        driver.press("m");
-        assert_eq!(driver.app.view.large, Some(Pane::Map));
-    });
+    let mut driver = mapped(rough());
+    let begins = |driver: &mut Driver| studies(&mut driver.app).iter().any(|study| study.is::<Live>());
+    assert!(!begins(&mut driver), "it is whole");
+    driver.press("Tab Tab R");
+    assert!(begins(&mut driver));
+    assert!(driver.text().contains("computing the map"), "{}", driver.text());
+    // The map is hidden.
+    driver.press("m m");
+    assert!(!driver.app.is_shown(Pane::Map));
+    assert!(!begins(&mut driver));
+    assert_eq!(driver.press("m"), [Effect::Study, Effect::Ask]);
+    assert!(begins(&mut driver));
+    // Accuracy takes the place of the map, and vice versa.
+    driver.press("A");
+    assert_eq!(driver.app.view.large, Some(Pane::Accuracy));
+    driver.press("m");
+    assert_eq!(driver.app.view.large, Some(Pane::Map));
 }
 
 #[test]
 fn a_scene_without_a_map_says_why() {
-    within(60, || {
-        for (document, why) in [(smooth(), "a smooth body has"), (without_adhesion(), "has no adhesion")] {
-            let mut driver = mapped(document);
-            assert!(driver.text().contains(why), "{}", driver.text());
-            let generation = driver.app.edit.generation;
-            driver.press("Left Up");
-            assert_eq!(driver.app.edit.generation, generation);
-        }
-    });
+    for (document, why) in [(smooth(), "a smooth body has"), (without_adhesion(), "has no adhesion")] {
+        let mut driver = mapped(document);
+        assert!(driver.text().contains(why), "{}", driver.text());
+        let generation = driver.app.edit.generation;
+        driver.press("Left Up");
+        assert_eq!(driver.app.edit.generation, generation);
+    }
 }

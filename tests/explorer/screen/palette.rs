@@ -1,13 +1,10 @@
 //! The list of all commands, and completed paths.
 
-use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::{mid_retraction, pressed, row_with};
 use asperity::explorer::app::Pane;
 use asperity::explorer::keys::{Bindings, Context};
-use asperity::explorer::layout::Layout;
-use asperity::explorer::theme::Theme;
 use ratatui::buffer::Cell;
 use ratatui::style::Modifier;
 use std::fs;
@@ -20,140 +17,123 @@ fn query(driver: &mut Driver, text: &str) {
 
 #[test]
 fn every_command_is_in_the_list_with_its_keys() {
-    within(60, || {
-        let mut driver = pressed("");
-        driver.resize((120, 200));
-        driver.press(":");
-        let rows = driver.rows();
-        let exploring = [Context::Explore, Context::Map, Context::Parameters];
-        let mut listed = 0;
-        for binding in Bindings::default().rows() {
-            let row = binding.row;
-            let is_elsewhere = !row.contexts.iter().any(|context| exploring.contains(context));
-            if is_elsewhere || ["preset", "start-value", "open-palette"].contains(&row.name) {
-                continue;
-            }
-            // The start of a long description.
-            let help: String = row.help.chars().take(60).collect();
-            let names = binding.names();
-            let is_listed = |line: &String| line.contains(&help) && line.contains(&names);
-            assert!(rows.iter().any(is_listed), "{names}: {help}\n{}", rows.join("\n"));
-            listed += 1;
+    let mut driver = pressed("");
+    driver.resize((120, 200));
+    driver.press(":");
+    let rows = driver.rows();
+    let exploring = [Context::Explore, Context::Map, Context::Parameters];
+    let mut listed = 0;
+    for binding in Bindings::default().rows() {
+        let row = binding.row;
+        let is_elsewhere = !row.contexts.iter().any(|context| exploring.contains(context));
+        if is_elsewhere || ["preset", "start-value", "open-palette"].contains(&row.name) {
+            continue;
         }
-        assert!(driver.text().contains(&format!("of {listed}")), "{listed}\n{}", driver.text());
-    });
+        // The start of a long description.
+        let help: String = row.help.chars().take(60).collect();
+        let names = binding.names();
+        let is_listed = |line: &String| line.contains(&help) && line.contains(&names);
+        assert!(rows.iter().any(is_listed), "{names}: {help}\n{}", rows.join("\n"));
+        listed += 1;
+    }
+    assert!(driver.text().contains(&format!("of {listed}")), "{listed}\n{}", driver.text());
 }
 
 #[test]
 fn a_command_is_found_by_words_and_runs_as_its_key_does() {
-    within(60, || {
-        for (typed, keys) in [
-            ("shade area", "a"),
-            ("dissipated", "a"),
-            ("next patch", "n"),
-            ("undo", "u"),
-            ("swap", "x"),
-            ("separation", "S"),
-            ("no such thing", ""),
-            ("patch lengths", "D"),
-        ] {
-            let (mut by_list, mut by_key) = (pressed("l"), pressed("l"));
-            query(&mut by_list, typed);
-            if keys.is_empty() {
-                // No command has all these words.
-                assert!(by_list.text().contains("no command fits"), "{}", by_list.text());
-                continue;
-            }
-            by_list.press("Enter");
-            by_key.press(keys);
-            assert_eq!(by_list.text(), by_key.text(), "{typed}");
+    for (typed, keys) in [
+        ("shade area", "a"),
+        ("dissipated", "a"),
+        ("next patch", "n"),
+        ("undo", "u"),
+        ("swap", "x"),
+        ("separation", "S"),
+        ("no such thing", ""),
+        ("patch lengths", "D"),
+    ] {
+        let (mut by_list, mut by_key) = (pressed("l"), pressed("l"));
+        query(&mut by_list, typed);
+        if keys.is_empty() {
+            // No command has all these words.
+            assert!(by_list.text().contains("no command fits"), "{}", by_list.text());
+            continue;
         }
-        // Commands of another pane select this pane first.
-        let mut driver = pressed("");
-        query(&mut driver, "another quantity");
-        driver.press("Enter");
-        assert!(driver.app.is_shown(Pane::Map));
-        assert_eq!(driver.app.view.pane, Pane::Map);
-        let mut driver = mid_retraction(rough());
-        query(&mut driver, "switch effect");
-        driver.press("Enter");
-        assert!(driver.app.edit.is_unsaved(), "{}", driver.text());
-    });
+        by_list.press("Enter");
+        by_key.press(keys);
+        assert_eq!(by_list.text(), by_key.text(), "{typed}");
+    }
+    // Commands of another pane select this pane first.
+    let mut driver = pressed("");
+    query(&mut driver, "another quantity");
+    driver.press("Enter");
+    assert!(driver.app.is_shown(Pane::Map));
+    assert_eq!(driver.app.view.pane, Pane::Map);
+    let mut driver = mid_retraction(rough());
+    query(&mut driver, "switch effect");
+    driver.press("Enter");
+    assert!(driver.app.edit.is_unsaved(), "{}", driver.text());
 }
 
 #[test]
 fn a_path_is_completed() {
-    within(60, || {
-        let folder = tempfile::tempdir().unwrap();
-        for file in ["alpha-one.ron", "alpha-two.ron", "beta.ron"] {
-            fs::write(folder.path().join(file), "").unwrap();
-        }
-        fs::create_dir(folder.path().join("results")).unwrap();
-        let base = format!("{}/", folder.path().display());
-        for open in ["s", "E", "o"] {
-            let mut driver = pressed(open);
-            let mut line = |text: &str, keys: &str| {
-                if !text.is_empty() {
-                    driver.press("Ctrl+u");
-                    driver.type_text(text);
-                }
-                driver.press(keys);
-                let typed = driver.app.prompt.as_ref().unwrap().line.text();
-                (typed.trim_start_matches(&base).to_owned(), footer(&driver))
-            };
-            let start = format!("{base}al");
-            let (typed, shown) = line(&start, "Tab");
-            assert_eq!(typed, "alpha-", "{open}");
-            assert!(shown.contains("alpha-one.ron  alpha-two.ron"), "{open}: {shown}");
-            assert_eq!(line("o", "Tab").0, "o", "a name alone is beside the working folder");
-            let (typed, shown) = line(&format!("{base}alpha-o"), "Tab");
-            assert_eq!(typed, "alpha-one.ron");
-            assert!(shown.contains("cancel"), "a single candidate needs no list: {shown}");
-            assert_eq!(line(&format!("{base}re"), "Tab").0, "results/");
-            line(&format!("{base}zzz"), "Tab");
-            let escaped = line("", "x").1;
-            assert!(escaped.contains("cancel"), "{escaped}");
-            driver.press("Ctrl+u");
-            driver.type_text(&format!("{base}zzz"));
-            driver.press("Tab");
-            assert!(driver.status().contains("no file or folder"), "{}", driver.status());
-        }
-    });
+    let folder = tempfile::tempdir().unwrap();
+    for file in ["alpha-one.ron", "alpha-two.ron", "beta.ron"] {
+        fs::write(folder.path().join(file), "").unwrap();
+    }
+    fs::create_dir(folder.path().join("results")).unwrap();
+    let base = format!("{}/", folder.path().display());
+    for open in ["s", "E", "o"] {
+        let mut driver = pressed(open);
+        let mut line = |text: &str, keys: &str| {
+            if !text.is_empty() {
+                driver.press("Ctrl+u");
+                driver.type_text(text);
+            }
+            driver.press(keys);
+            let typed = driver.app.prompt.as_ref().unwrap().line.text();
+            (typed.trim_start_matches(&base).to_owned(), driver.footer())
+        };
+        let start = format!("{base}al");
+        let (typed, shown) = line(&start, "Tab");
+        assert_eq!(typed, "alpha-", "{open}");
+        assert!(shown.contains("alpha-one.ron  alpha-two.ron"), "{open}: {shown}");
+        assert_eq!(line("o", "Tab").0, "o", "a name alone is beside the working folder");
+        let (typed, shown) = line(&format!("{base}alpha-o"), "Tab");
+        assert_eq!(typed, "alpha-one.ron");
+        assert!(shown.contains("cancel"), "a single candidate needs no list: {shown}");
+        assert_eq!(line(&format!("{base}re"), "Tab").0, "results/");
+        line(&format!("{base}zzz"), "Tab");
+        let escaped = line("", "x").1;
+        assert!(escaped.contains("cancel"), "{escaped}");
+        driver.press("Ctrl+u");
+        driver.type_text(&format!("{base}zzz"));
+        driver.press("Tab");
+        assert!(driver.status().contains("no file or folder"), "{}", driver.status());
+    }
 }
 
 #[test]
 fn letters_that_are_found_are_marked_in_every_list() {
-    within(60, || {
-        let marked = |driver: &Driver, text: &str| -> String {
-            let screen = driver.screen();
-            let cells = row_with(&screen, text).iter();
-            cells.filter(|cell| cell.modifier.contains(Modifier::UNDERLINED)).map(Cell::symbol).collect()
-        };
-        for size in [(120, 40), (80, 24), (60, 20)] {
-            for theme in [Theme::Neutral, Theme::Plain] {
-                let mut driver = pressed("");
-                driver.app.view.appearance.theme = theme;
-                driver.resize(size);
-                query(&mut driver, "");
-                driver.type_text("loop area");
-                assert_eq!(marked(&driver, "shade the area"), "arealoop", "each word at its place");
-                driver.press("Esc /");
-                driver.type_text("hurs");
-                assert_eq!(marked(&driver, "›  Hurst"), "Hurs", "{size:?}");
-                driver.press("Ctrl+u");
-                driver.type_text("kappa");
-                assert_eq!(marked(&driver, "κ"), "κ", "a Greek letter is found by its name");
-                driver.press("Esc o");
-                driver.type_text("rough sph");
-                assert!(marked(&driver, "› rough-sphere").starts_with("roughsph"), "{size:?}");
-                driver.press("Esc");
-            }
-        }
-    });
-}
-
-/// The row of the keys.
-fn footer(driver: &Driver) -> String {
-    let area = Layout::of(&driver.app).footer.expect("there is a footer");
-    driver.rows()[usize::from(area.y)].clone()
+    let marked = |driver: &Driver, text: &str| -> String {
+        let screen = driver.screen();
+        let cells = row_with(&screen, text).iter();
+        cells.filter(|cell| cell.modifier.contains(Modifier::UNDERLINED)).map(Cell::symbol).collect()
+    };
+    for size in [(120, 40), (60, 20)] {
+        let mut driver = pressed("");
+        driver.resize(size);
+        query(&mut driver, "");
+        driver.type_text("loop area");
+        assert_eq!(marked(&driver, "shade the area"), "arealoop", "each word at its place");
+        driver.press("Esc /");
+        driver.type_text("hurs");
+        assert_eq!(marked(&driver, "›  Hurst"), "Hurs", "{size:?}");
+        driver.press("Ctrl+u");
+        driver.type_text("kappa");
+        assert_eq!(marked(&driver, "κ"), "κ", "a Greek letter is found by its name");
+        driver.press("Esc o");
+        driver.type_text("rough sph");
+        assert!(marked(&driver, "› rough-sphere").starts_with("roughsph"), "{size:?}");
+        driver.press("Esc");
+    }
 }

@@ -1,7 +1,6 @@
 //! Golden screens, for review: the main screen in all windows, each pane on a whole screen, and the screens of other
 //! markers. The curves are those of a smooth sphere wherever the pane has something to show for it.
 
-use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{rough, smooth};
 use super::preloads::computed_preloads;
@@ -24,43 +23,39 @@ fn text(driver: &mut Driver) -> String {
 
 #[test]
 fn the_main_screen() {
-    within(30, || {
-        let mut driver = mid_retraction(smooth());
-        let mut screens = String::new();
-        for size in SIZES {
-            driver.resize(size);
-            screens += &format!("── {} × {} ──\n{}", size.0, size.1, text(&mut driver));
-        }
-        keep("the_main_screen", &screens);
-    });
+    let mut driver = mid_retraction(smooth());
+    let mut screens = String::new();
+    for size in SIZES {
+        driver.resize(size);
+        screens += &format!("── {} × {} ──\n{}", size.0, size.1, text(&mut driver));
+    }
+    keep("the_main_screen", &screens);
 }
 
 #[test]
 fn each_pane() {
-    within(60, || {
-        let mut screens = String::new();
-        let with = |mut driver: Driver, keys: &str| {
-            driver.resize((80, 24));
-            driver.press(keys);
-            driver
-        };
-        let sphere = |keys: &str| with(mid_retraction(smooth()), keys);
-        for mut driver in [
-            sphere("c z"),
-            sphere("Tab z * Left"),
-            sphere("Tab Tab z"),
-            sphere("Tab Tab Tab z"),
-            sphere("D Tab Tab Tab z"),
-            sphere("& Tab Tab Tab z"),
-            with(mid_retraction(rough()), "Q z"),
-            with(computed_preloads(rough()), "z *"),
-            with(reversed(rough()), "z"),
-            with(accuracy::measured(rough()), "z"),
-            with(map::mapped(rough()), "z"),
-        ] {
-            let pane = driver.app.view.pane;
-            screens += &format!("── {pane:?} ──\n{}", text(&mut driver));
-        }
-        keep("each_pane", &screens);
-    });
+    let mut screens = String::new();
+    let with = |mut driver: Driver, keys: &str| {
+        driver.resize((80, 24));
+        driver.press(keys);
+        driver
+    };
+    let sphere = |keys: &str| with(mid_retraction(smooth()), keys);
+    for mut driver in [
+        sphere("c z"),
+        sphere("Tab z * Left"),
+        sphere("Tab Tab z"),
+        sphere("Tab Tab Tab z"),
+        sphere("D Tab Tab Tab z"),
+        sphere("& Tab Tab Tab z"),
+        with(mid_retraction(rough()), "Q z"),
+        with(computed_preloads(rough()), "z *"),
+        with(reversed(rough()), "z"),
+        with(accuracy::measured(rough()), "z"),
+        with(map::mapped(rough()), "z"),
+    ] {
+        let pane = driver.app.view.pane;
+        screens += &format!("── {pane:?} ──\n{}", text(&mut driver));
+    }
+    keep("each_pane", &screens);
 }

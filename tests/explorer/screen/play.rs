@@ -1,6 +1,5 @@
 //! The animation of the loading.
 
-use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{rough, smooth, without_adhesion};
 use super::{is_up_to_date, pressed};
@@ -10,182 +9,167 @@ use std::path::Path;
 
 #[test]
 fn the_animation_plays_to_its_end_and_stops() {
-    within(60, || {
-        let mut driver = Driver::start(rough());
-        assert!(driver.app.play.playing);
-        let ends: Vec<f64> = driver.app.legs().iter().map(|leg| leg.end()).collect();
-        let (mut last, mut elapsed) = (f64::NEG_INFINITY, 0);
-        while driver.app.play.playing {
-            let leg = driver.app.play.leg;
-            assert_eq!(driver.elapse(0.1), [Effect::Ask]);
-            if driver.app.play.leg != leg {
-                last = ends[0];
-            }
-            let d = driver.app.snapshot.as_ref().unwrap().point.indentation;
-            // The direction turns at the end of the first leg.
-            let forwards = if driver.app.play.leg == 0 { last <= d && d <= ends[0] } else { d <= last };
-            assert!(forwards, "{last} to {d}");
-            last = d;
-            elapsed += 1;
-            assert!(elapsed < 1000, "it never ends");
+    let mut driver = Driver::start(rough());
+    assert!(driver.app.play.playing);
+    let ends: Vec<f64> = driver.app.legs().iter().map(|leg| leg.end()).collect();
+    let (mut last, mut elapsed) = (f64::NEG_INFINITY, 0);
+    while driver.app.play.playing {
+        let leg = driver.app.play.leg;
+        assert_eq!(driver.elapse(0.1), [Effect::Ask]);
+        if driver.app.play.leg != leg {
+            last = ends[0];
         }
-        assert_eq!(driver.app.play.leg, 1);
-        assert!((last - ends[1]).abs() < 1e-12, "{last}");
-        // Then nothing changes any more.
-        let screen = driver.screen();
-        for _ in 0..3 {
-            assert!(driver.elapse(1.0).is_empty());
-        }
-        assert_eq!(driver.screen(), screen);
-        // Playing again starts from the beginning.
-        driver.press("Space");
-        assert!(driver.app.play.playing && driver.app.play.leg == 0);
-    });
+        let d = driver.point().indentation;
+        // The direction turns at the end of the first leg.
+        let forwards = if driver.app.play.leg == 0 { last <= d && d <= ends[0] } else { d <= last };
+        assert!(forwards, "{last} to {d}");
+        last = d;
+        elapsed += 1;
+        assert!(elapsed < 1000, "it never ends");
+    }
+    assert_eq!(driver.app.play.leg, 1);
+    assert!((last - ends[1]).abs() < 1e-12, "{last}");
+    // Then nothing changes any more.
+    let screen = driver.screen();
+    for _ in 0..3 {
+        assert!(driver.elapse(1.0).is_empty());
+    }
+    assert_eq!(driver.screen(), screen);
+    // Playing again starts from the beginning.
+    driver.press("Space");
+    assert!(driver.app.play.playing && driver.app.play.leg == 0);
 }
 
 #[test]
 fn nothing_is_played_while_there_is_no_curve() {
-    within(30, || {
-        let mut driver = pressed("");
-        driver.select("loading");
-        driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
-        driver.press("r");
-        for _ in 0..3 {
-            assert!(driver.elapse(0.1).is_empty(), "that of another scene is not played");
-        }
-        driver.press("u");
-        assert_eq!(driver.elapse(0.1), [Effect::Ask]);
-    });
+    let mut driver = pressed("");
+    driver.select("loading");
+    driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
+    driver.press("r");
+    for _ in 0..3 {
+        assert!(driver.elapse(0.1).is_empty(), "that of another scene is not played");
+    }
+    driver.press("u");
+    assert_eq!(driver.elapse(0.1), [Effect::Ask]);
 }
 
 #[test]
 fn the_animation_is_paused_stepped_and_begun_again() {
-    within(30, || {
-        let mut driver = Driver::start(rough());
-        driver.elapse(1.0);
-        let before = driver.app.play;
-        assert!(before.done > 0.0);
-        driver.press("Space");
-        assert!(driver.elapse(1.0).is_empty(), "nothing moves while it is paused");
-        assert_eq!(driver.app.play.done, before.done);
-        let force = |driver: &Driver| driver.app.snapshot.as_ref().unwrap().point;
-        let here = force(&driver);
-        driver.press(".");
-        assert!(force(&driver).indentation > here.indentation);
-        driver.press(",");
-        assert!((force(&driver).indentation - here.indentation).abs() < 1e-15);
-        driver.press("Space .");
-        assert!(!driver.app.play.playing, "a step pauses");
-        driver.press("> >");
-        assert_eq!((driver.app.play.leg, driver.app.play.done), (1, 0.0));
-        driver.press("<");
-        assert_eq!((driver.app.play.leg, driver.app.play.done), (0, 0.0));
-        driver.press(". . <");
-        assert_eq!((driver.app.play.leg, driver.app.play.done), (0, 0.0), "first to the start of this leg");
-        driver.press(",");
-        assert_eq!((driver.app.play.leg, driver.app.play.done), (0, 0.0), "there is nothing before");
-        driver.press("> . r");
-        assert_eq!((driver.app.play.leg, driver.app.play.done), (0, 0.0));
-        assert!(driver.app.play.playing);
-        // Steps go from leg to leg in both directions.
-        driver.press("> ,");
-        assert_eq!((driver.app.play.leg, driver.app.play.done), (0, 1.0));
-        driver.press(".");
-        assert_eq!(driver.app.play.leg, 1);
-    });
+    let mut driver = Driver::start(rough());
+    driver.elapse(1.0);
+    let before = driver.app.play;
+    assert!(before.done > 0.0);
+    driver.press("Space");
+    assert!(driver.elapse(1.0).is_empty(), "nothing moves while it is paused");
+    assert_eq!(driver.app.play.done, before.done);
+    let force = |driver: &Driver| driver.point();
+    let here = force(&driver);
+    driver.press(".");
+    assert!(force(&driver).indentation > here.indentation);
+    driver.press(",");
+    assert!((force(&driver).indentation - here.indentation).abs() < 1e-15);
+    driver.press("Space .");
+    assert!(!driver.app.play.playing, "a step pauses");
+    driver.press("> >");
+    assert_eq!((driver.app.play.leg, driver.app.play.done), (1, 0.0));
+    driver.press("<");
+    assert_eq!((driver.app.play.leg, driver.app.play.done), (0, 0.0));
+    driver.press(". . <");
+    assert_eq!((driver.app.play.leg, driver.app.play.done), (0, 0.0), "first to the start of this leg");
+    driver.press(",");
+    assert_eq!((driver.app.play.leg, driver.app.play.done), (0, 0.0), "there is nothing before");
+    driver.press("> . r");
+    assert_eq!((driver.app.play.leg, driver.app.play.done), (0, 0.0));
+    assert!(driver.app.play.playing);
+    // Steps go from leg to leg in both directions.
+    driver.press("> ,");
+    assert_eq!((driver.app.play.leg, driver.app.play.done), (0, 1.0));
+    driver.press(".");
+    assert_eq!(driver.app.play.leg, 1);
 }
 
 #[test]
 fn a_key_goes_to_the_pull_off_of_the_loading() {
-    within(60, || {
-        let twice = "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToSeparation]";
-        // The pull-off is that of the last unloading, as everywhere, though an earlier one pulls with a larger force.
-        let again = "[ToForce(2.0e-5), ToSeparation, ToTouch, ToSeparation]";
-        let [twice, again] = [twice, again].map(|loading| rough().set("loading", loading).unwrap());
-        let scenes = [rough(), smooth(), twice, again];
-        for (document, size) in scenes.into_iter().flat_map(|one| [(one.clone(), (120, 40)), (one, (80, 24))])
-        {
-            let mut driver = Driver::start(document);
-            driver.resize(size);
-            driver.press("d ] !");
-            let expected = -driver.app.solved.as_ref().unwrap().outcome.figures.adhesion_force.unwrap();
-            let point = driver.app.snapshot.as_ref().unwrap().point;
-            assert!(expected < 0.0 && (point.force / expected - 1.0).abs() < 1e-9, "{point:?}, {expected} N");
-            assert!(driver.app.manual.is_none() && !driver.app.play.playing);
-        }
-        let mut driver = Driver::start(without_adhesion());
-        let before = driver.app.play;
-        driver.press("!");
-        assert!(driver.status().contains("there is no pull-off"), "{}", driver.status());
-        assert_eq!(driver.app.play, before);
-    });
+    let twice = "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToSeparation]";
+    // The pull-off is that of the last unloading, as everywhere, though an earlier one pulls with a larger force.
+    let again = "[ToForce(2.0e-5), ToSeparation, ToTouch, ToSeparation]";
+    let [twice, again] = [twice, again].map(|loading| rough().set("loading", loading).unwrap());
+    let scenes = [rough(), smooth(), twice, again];
+    for (document, size) in scenes.into_iter().flat_map(|one| [(one.clone(), (120, 40)), (one, (80, 24))]) {
+        let mut driver = Driver::start(document);
+        driver.resize(size);
+        driver.press("d ] !");
+        let expected = -driver.outcome().figures.adhesion_force.unwrap();
+        let point = driver.point();
+        assert!(expected < 0.0 && (point.force / expected - 1.0).abs() < 1e-9, "{point:?}, {expected} N");
+        assert!(driver.app.manual.is_none() && !driver.app.play.playing);
+    }
+    let mut driver = Driver::start(without_adhesion());
+    let before = driver.app.play;
+    driver.press("!");
+    assert!(driver.status().contains("there is no pull-off"), "{}", driver.status());
+    assert_eq!(driver.app.play, before);
 }
 
 #[test]
 fn an_edit_keeps_the_place_of_the_animation() {
-    within(30, || {
-        let mut driver = pressed("");
-        let before = driver.app.play;
-        driver.select("roughness.hurst");
-        driver.press("l");
-        assert_eq!(driver.app.play, before);
-        // Unless the leg is gone.
-        driver.select("loading");
-        driver.enter("[ToForce(2.0e-5)]");
-        assert_eq!((driver.app.play.leg, driver.app.play.playing), (0, false));
-        assert!(is_up_to_date(&driver.app));
-    });
+    let mut driver = pressed("");
+    let before = driver.app.play;
+    driver.select("roughness.hurst");
+    driver.press("l");
+    assert_eq!(driver.app.play, before);
+    // Unless the leg is gone.
+    driver.select("loading");
+    driver.enter("[ToForce(2.0e-5)]");
+    assert_eq!((driver.app.play.leg, driver.app.play.playing), (0, false));
+    assert!(is_up_to_date(&driver.app));
 }
 
 #[test]
 fn the_animation_is_as_far_however_often_it_is_drawn() {
-    within(60, || {
-        let three = "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5)]";
-        let place = |steps: u32, seconds: f64| {
-            let mut driver = Driver::start(rough().set("loading", three).unwrap());
-            (0..steps).for_each(|_| drop(driver.elapse(seconds / f64::from(steps))));
-            (driver.app.play, driver.app.snapshot.clone().unwrap().point)
-        };
-        for seconds in [1.0, 5.9, 6.3, 11.0, 13.0, 17.9, 18.1, 100.0] {
-            let (player, point) = place(1, seconds);
-            let expected = (seconds / 6.0).min(3.0);
-            assert!((player.leg as f64 + player.done - expected).abs() < 1e-9, "{seconds}: {player:?}");
-            for steps in [3, 70, 211] {
-                let (other, there) = place(steps, seconds);
-                assert_eq!((other.leg, other.playing), (player.leg, player.playing), "{seconds}, {steps}");
-                assert!((there.indentation - point.indentation).abs() < 5e-14, "{seconds}, {steps}");
-            }
+    let three = "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5)]";
+    let place = |steps: u32, seconds: f64| {
+        let mut driver = Driver::start(rough().set("loading", three).unwrap());
+        (0..steps).for_each(|_| drop(driver.elapse(seconds / f64::from(steps))));
+        (driver.app.play, driver.point())
+    };
+    for seconds in [1.0, 5.9, 6.3, 11.0, 13.0, 17.9, 18.1, 100.0] {
+        let (player, point) = place(1, seconds);
+        let expected = (seconds / 6.0).min(3.0);
+        assert!((player.leg as f64 + player.done - expected).abs() < 1e-9, "{seconds}: {player:?}");
+        for steps in [3, 70, 211] {
+            let (other, there) = place(steps, seconds);
+            assert_eq!((other.leg, other.playing), (player.leg, player.playing), "{seconds}, {steps}");
+            assert!((there.indentation - point.indentation).abs() < 5e-14, "{seconds}, {steps}");
         }
-    });
+    }
 }
 
 #[test]
 fn the_configuration_sets_speed_end_and_keys() {
-    within(30, || {
-        let config = |text: &str| Config::parse(text, Path::new("config.ron")).unwrap();
-        let place = |config: Config, seconds: u32| {
-            let mut driver = Driver::start(rough());
-            driver.app.config = config;
-            driver.press("r");
-            (0..10 * seconds).for_each(|_| drop(driver.elapse(0.1)));
-            let player = driver.app.play;
-            (player.leg, (10.0 * player.done).round(), player.playing)
-        };
-        assert_eq!(place(Config::default(), 3), (0, 5.0, true));
-        assert_eq!(place(config("(version: 1, speed: 2.0)"), 3), (0, 10.0, true));
-        assert_eq!(place(config("(version: 1)"), 20), (1, 10.0, false));
-        let (leg, _, playing) = place(config("(version: 1, repeat: true)"), 14);
-        assert!(leg == 0 && playing, "it begins again");
-        // Other keys are shown in the help.
+    let config = |text: &str| Config::parse(text, Path::new("config.ron")).unwrap();
+    let place = |config: Config, seconds: u32| {
         let mut driver = Driver::start(rough());
-        driver.app.config = config("(version: 1, keys: [(action: \"toggle-play\", keys: [\"_\", \"F5\"])])");
-        assert!(driver.app.play.playing);
-        driver.press("Space");
-        assert!(driver.app.play.playing, "its key is another one");
-        driver.press("_");
-        assert!(!driver.app.play.playing);
-        driver.press("?");
-        driver.resize((120, 200));
-        assert!(driver.text().contains("_ F5"), "{}", driver.text());
-    });
+        driver.app.config = config;
+        driver.press("r");
+        (0..10 * seconds).for_each(|_| drop(driver.elapse(0.1)));
+        let player = driver.app.play;
+        (player.leg, (10.0 * player.done).round(), player.playing)
+    };
+    assert_eq!(place(Config::default(), 3), (0, 5.0, true));
+    assert_eq!(place(config("(version: 1, speed: 2.0)"), 3), (0, 10.0, true));
+    assert_eq!(place(config("(version: 1)"), 20), (1, 10.0, false));
+    let (leg, _, playing) = place(config("(version: 1, repeat: true)"), 14);
+    assert!(leg == 0 && playing, "it begins again");
+    // Other keys are shown in the help.
+    let mut driver = Driver::start(rough());
+    driver.app.config = config("(version: 1, keys: [(action: \"toggle-play\", keys: [\"_\", \"F5\"])])");
+    assert!(driver.app.play.playing);
+    driver.press("Space");
+    assert!(driver.app.play.playing, "its key is another one");
+    driver.press("_");
+    assert!(!driver.app.play.playing);
+    driver.press("?");
+    driver.resize((120, 200));
+    assert!(driver.text().contains("_ F5"), "{}", driver.text());
 }

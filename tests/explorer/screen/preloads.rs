@@ -1,6 +1,5 @@
 //! Adhesion against preload beside the force curve.
 
-use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{rough, without_adhesion};
 use asperity::explorer::action::Action;
@@ -40,36 +39,32 @@ fn shown(document: Document, profiles: usize) -> Driver {
 
 #[test]
 fn adhesion_against_preload_is_shown_beside_the_curve() {
-    within(120, || {
-        for profiles in [PROFILES, 3] {
-            let mut driver = shown(rough(), profiles);
-            for size in [(120, 40), (80, 24)] {
-                driver.resize(size);
-                let text = driver.text();
-                for words in ["Adhesion against preload", "present preload", "Parameters", "this profile"] {
-                    assert!(text.contains(words), "{words}\n{text}");
-                }
-                assert_eq!(text.contains("3 of 16 profiles"), profiles == 3, "{text}");
-                assert!(text.contains(&format!("mean of {profiles} profiles")), "{text}");
+    for profiles in [PROFILES, 3] {
+        let mut driver = shown(rough(), profiles);
+        for size in [(120, 40), (80, 24)] {
+            driver.resize(size);
+            let text = driver.text();
+            for words in ["Adhesion against preload", "present preload", "Parameters", "this profile"] {
+                assert!(text.contains(words), "{words}\n{text}");
             }
+            assert_eq!(text.contains("3 of 16 profiles"), profiles == 3, "{text}");
+            assert!(text.contains(&format!("mean of {profiles} profiles")), "{text}");
         }
-    });
+    }
 }
 
 #[test]
 fn an_edit_begins_a_new_curve_and_a_scene_without_one_says_why() {
-    within(60, || {
-        let mut driver = shown(rough(), 2);
-        assert_eq!(computed(&driver), 2);
-        // The computation continues from the present data.
-        compute(&mut driver, 3);
-        assert_eq!(computed(&driver), 3);
-        driver.select("roughness.hurst");
-        driver.press("l");
-        assert!(driver.app.studies.value::<PreloadCurve>().is_none());
-        compute(&mut driver, 1);
-        assert_eq!(computed(&driver), 1);
-        let driver = shown(without_adhesion(), 2);
-        assert!(driver.text().contains("without adhesion nothing holds"), "{}", driver.text());
-    });
+    let mut driver = shown(rough(), 2);
+    assert_eq!(computed(&driver), 2);
+    // The computation continues from the present data.
+    compute(&mut driver, 3);
+    assert_eq!(computed(&driver), 3);
+    driver.select("roughness.hurst");
+    driver.press("l");
+    assert!(driver.app.studies.value::<PreloadCurve>().is_none());
+    compute(&mut driver, 1);
+    assert_eq!(computed(&driver), 1);
+    let driver = shown(without_adhesion(), 2);
+    assert!(driver.text().contains("without adhesion nothing holds"), "{}", driver.text());
 }

@@ -1,6 +1,5 @@
 //! Saving the scene, and leaving with or without saving.
 
-use super::common::deadline::within;
 use super::common::driver::{Driver, REFUSED};
 use super::common::scenes::rough;
 use super::pressed;
@@ -13,169 +12,155 @@ use std::path::Path;
 
 #[test]
 fn a_saved_scene_is_read_back_as_it_is() {
-    within(30, || {
-        let mut driver = pressed("");
-        driver.select("roughness.hurst");
-        driver.press("l s");
-        driver.press("Ctrl+u");
-        driver.type_text("folder/mine.ron");
-        assert_eq!(
-            driver.press("Enter"),
-            [Effect::Write(OutputFile {
-                path: "folder/mine.ron".into(),
-                content: Content::Scene,
-                overwrite: false,
-                then_quit: false
-            })]
-        );
-        let text = &driver.file("folder/mine.ron");
-        let again = Document::parse(text, "mine.ron").unwrap();
-        assert_eq!(again.scene(), driver.app.edit.document.scene());
-        assert!(text.contains("// soft"), "the comments are kept");
-        assert!(driver.text().contains("saved to folder/mine.ron"), "{}", driver.text());
-        assert!(!driver.app.edit.is_unsaved());
-        driver.press("q");
-        assert!(driver.app.finished, "nothing is left to be asked");
-    });
+    let mut driver = pressed("");
+    driver.select("roughness.hurst");
+    driver.press("l s");
+    driver.press("Ctrl+u");
+    driver.type_text("folder/mine.ron");
+    assert_eq!(
+        driver.press("Enter"),
+        [Effect::Write(OutputFile {
+            path: "folder/mine.ron".into(),
+            content: Content::Scene,
+            overwrite: false,
+            then_quit: false
+        })]
+    );
+    let text = &driver.file("folder/mine.ron");
+    let again = Document::parse(text, "mine.ron").unwrap();
+    assert_eq!(again.scene(), driver.app.edit.document.scene());
+    assert!(text.contains("// soft"), "the comments are kept");
+    assert!(driver.text().contains("saved to folder/mine.ron"), "{}", driver.text());
+    assert!(!driver.app.edit.is_unsaved());
+    driver.press("q");
+    assert!(driver.app.finished, "nothing is left to be asked");
 }
 
 #[test]
 fn what_could_not_be_saved_is_stated_and_not_forgotten() {
-    within(30, || {
-        let mut driver = pressed("l s Ctrl+u");
-        driver.type_text(REFUSED);
-        driver.press("Enter");
-        let status = driver.status();
-        assert!(status.starts_with("! ") && status.ends_with(REFUSED), "{status}");
-        assert!(driver.app.edit.is_unsaved());
-        // The typed name stays, and can be corrected.
-        driver.press("Home Delete");
-        assert!(driver.status().starts_with(&format!("Save as: {}", &REFUSED[1..])), "{}", driver.status());
-        driver.press("Ctrl+u");
-        assert!(driver.press("Enter").is_empty() && driver.files().is_empty());
-        assert!(driver.status().starts_with("! type the name of a file"), "{}", driver.status());
-        driver.type_text("mine.csv");
-        driver.press("Enter");
-        assert!(
-            driver.status().starts_with("! unsupported file extension .csv; use .ron"),
-            "{}",
-            driver.status()
-        );
-    });
+    let mut driver = pressed("l s Ctrl+u");
+    driver.type_text(REFUSED);
+    driver.press("Enter");
+    let status = driver.status();
+    assert!(status.starts_with("! ") && status.ends_with(REFUSED), "{status}");
+    assert!(driver.app.edit.is_unsaved());
+    // The typed name stays, and can be corrected.
+    driver.press("Home Delete");
+    assert!(driver.status().starts_with(&format!("Save as: {}", &REFUSED[1..])), "{}", driver.status());
+    driver.press("Ctrl+u");
+    assert!(driver.press("Enter").is_empty() && driver.files().is_empty());
+    assert!(driver.status().starts_with("! type the name of a file"), "{}", driver.status());
+    driver.type_text("mine.csv");
+    driver.press("Enter");
+    assert!(
+        driver.status().starts_with("! unsupported file extension .csv; use .ron"),
+        "{}",
+        driver.status()
+    );
 }
 
 #[test]
 fn a_changed_scene_asks_before_it_is_left() {
-    within(30, || {
-        let asked = |keys: &str| {
-            let mut driver = pressed("l q");
-            assert_eq!(driver.app.keys(), Context::Leave);
-            assert!(!driver.app.finished);
-            assert!(driver.text().contains("unsaved"), "{}", driver.text());
-            assert!(driver.rows()[0].contains("changed"), "{}", driver.text());
-            driver.press(keys);
-            driver
-        };
-        for keys in ["n", "Esc"] {
-            let driver = asked(keys);
-            assert!(!driver.app.finished && driver.app.prompt.is_none(), "{keys}");
-        }
-        for keys in ["q", "y", "Ctrl+c"] {
-            let driver = asked(keys);
-            assert!(driver.app.finished && driver.files().is_empty(), "{keys}");
-        }
-        let driver = asked("s Enter");
-        assert!(driver.app.finished);
-        assert_eq!(driver.files().len(), 1);
-        // Cancelling the save prompt also cancels leaving.
-        for keys in ["s Esc", "s Ctrl+u Enter Esc"] {
-            assert!(!asked(keys).app.finished, "{keys}");
-        }
-        let mut driver = asked("n");
-        std::fs::write(driver.folder.join("rough-line.ron"), "theirs").unwrap();
-        driver.press("q s Enter");
-        assert!(!driver.app.finished, "first it is asked about the file");
-        driver.press("y");
-        assert!(driver.app.finished);
-        assert_ne!(driver.file("rough-line.ron"), "theirs");
-    });
+    let asked = |keys: &str| {
+        let mut driver = pressed("l q");
+        assert_eq!(driver.app.keys(), Context::Leave);
+        assert!(!driver.app.finished);
+        assert!(driver.text().contains("unsaved"), "{}", driver.text());
+        assert!(driver.rows()[0].contains("changed"), "{}", driver.text());
+        driver.press(keys);
+        driver
+    };
+    for keys in ["n", "Esc"] {
+        let driver = asked(keys);
+        assert!(!driver.app.finished && driver.app.prompt.is_none(), "{keys}");
+    }
+    for keys in ["q", "y", "Ctrl+c"] {
+        let driver = asked(keys);
+        assert!(driver.app.finished && driver.files().is_empty(), "{keys}");
+    }
+    let driver = asked("s Enter");
+    assert!(driver.app.finished);
+    assert_eq!(driver.files().len(), 1);
+    // Cancelling the save prompt also cancels leaving.
+    for keys in ["s Esc", "s Ctrl+u Enter Esc"] {
+        assert!(!asked(keys).app.finished, "{keys}");
+    }
+    let mut driver = asked("n");
+    std::fs::write(driver.folder.join("rough-line.ron"), "theirs").unwrap();
+    driver.press("q s Enter");
+    assert!(!driver.app.finished, "first it is asked about the file");
+    driver.press("y");
+    assert!(driver.app.finished);
+    assert_ne!(driver.file("rough-line.ron"), "theirs");
 }
 
 #[test]
 fn a_comment_that_goes_with_what_is_replaced_is_stated() {
-    within(30, || {
-        let text = rough().text().replace("loading: [", "loading: [ // as in the experiment\n");
-        let document = Document::parse(&text, "mine.ron").unwrap();
-        let comments = document.comments();
-        let mut driver = Driver::start(document);
-        driver.select("loading");
-        driver.enter("[ToForce(1.0e-5), ToSeparation]");
-        assert_eq!(driver.app.edit.document.comments(), comments - 1);
-        assert!(driver.text().contains("1 comment removed"), "{}", driver.text());
-        driver.press("u");
-        assert_eq!(driver.app.edit.document.text(), text);
-        driver.select("roughness.hurst");
-        driver.press("l");
-        assert!(!driver.text().contains("gone"), "{}", driver.text());
-    });
+    let text = rough().text().replace("loading: [", "loading: [ // as in the experiment\n");
+    let document = Document::parse(&text, "mine.ron").unwrap();
+    let comments = document.comments();
+    let mut driver = Driver::start(document);
+    driver.select("loading");
+    driver.enter("[ToForce(1.0e-5), ToSeparation]");
+    assert_eq!(driver.app.edit.document.comments(), comments - 1);
+    assert!(driver.text().contains("1 comment removed"), "{}", driver.text());
+    driver.press("u");
+    assert_eq!(driver.app.edit.document.text(), text);
+    driver.select("roughness.hurst");
+    driver.press("l");
+    assert!(!driver.text().contains("gone"), "{}", driver.text());
 }
 
 #[test]
 fn title_and_notice_are_rows_and_the_name_gets_its_extension() {
-    within(30, || {
-        let mut driver = pressed("");
-        driver.select("title");
-        driver.enter("My \"own\" line");
-        driver.select("notice");
-        driver.enter("Look here.");
-        assert!(driver.rows()[0].starts_with("My \"own\" line [changed]  Look here."), "{}", driver.text());
-        driver.press("s Ctrl+u");
-        driver.type_text("mine");
-        driver.press("Enter");
-        let saved = Document::parse(&driver.file("mine.ron"), "mine.ron").unwrap();
-        let scene = saved.scene();
-        assert_eq!((scene.title.as_str(), scene.notice.as_str()), ("My \"own\" line", "Look here."));
-        assert_eq!(saved.comments(), rough().comments());
-        assert!(!driver.app.edit.is_unsaved() && driver.app.edit.document.name() == "mine.ron");
-    });
+    let mut driver = pressed("");
+    driver.select("title");
+    driver.enter("My \"own\" line");
+    driver.select("notice");
+    driver.enter("Look here.");
+    assert!(driver.rows()[0].starts_with("My \"own\" line [changed]  Look here."), "{}", driver.text());
+    driver.press("s Ctrl+u");
+    driver.type_text("mine");
+    driver.press("Enter");
+    let saved = Document::parse(&driver.file("mine.ron"), "mine.ron").unwrap();
+    let scene = saved.scene();
+    assert_eq!((scene.title.as_str(), scene.notice.as_str()), ("My \"own\" line", "Look here."));
+    assert_eq!(saved.comments(), rough().comments());
+    assert!(!driver.app.edit.is_unsaved() && driver.app.edit.document.name() == "mine.ron");
 }
 
 #[test]
 fn scenes_in_whose_place_others_were_opened_are_not_forgotten() {
-    within(30, || {
-        let mut driver = pressed("l 1 q");
-        assert_eq!(driver.app.keys(), Context::Leave, "the first scene is unsaved");
-        driver.press("n l q");
-        assert!(driver.status().contains("2 scenes have unsaved changes"), "{}", driver.status());
-        driver.press("n u u");
-        assert_eq!(driver.app.edit.document.name(), "rough-line");
-        assert_eq!(driver.app.edit.unsaved().len(), 1, "it is the explored scene again");
-        // Each is saved before the explorer ends.
-        driver.press("l 1 l q s Ctrl+u");
-        driver.type_text("first");
-        driver.press("Enter");
-        for _ in 0..3 {
-            if driver.app.keys() == Context::Leave {
-                driver.press("s Enter");
-            }
+    let mut driver = pressed("l 1 q");
+    assert_eq!(driver.app.keys(), Context::Leave, "the first scene is unsaved");
+    driver.press("n l q");
+    assert!(driver.status().contains("2 scenes have unsaved changes"), "{}", driver.status());
+    driver.press("n u u");
+    assert_eq!(driver.app.edit.document.name(), "rough-line");
+    assert_eq!(driver.app.edit.unsaved().len(), 1, "it is the explored scene again");
+    // Each is saved before the explorer ends.
+    driver.press("l 1 l q s Ctrl+u");
+    driver.type_text("first");
+    driver.press("Enter");
+    for _ in 0..3 {
+        if driver.app.keys() == Context::Leave {
+            driver.press("s Enter");
         }
-        assert!(driver.app.finished, "{}", driver.text());
-        let saved: Vec<_> = driver.files().into_keys().collect();
-        assert_eq!(saved, [Path::new("first.ron"), Path::new("rough-line.ron")]);
-        // A second q leaves without saving.
-        let driver = pressed("l 1 q q");
-        assert!(driver.app.finished && driver.files().is_empty());
-    });
+    }
+    assert!(driver.app.finished, "{}", driver.text());
+    let saved: Vec<_> = driver.files().into_keys().collect();
+    assert_eq!(saved, [Path::new("first.ron"), Path::new("rough-line.ron")]);
+    // A second q leaves without saving.
+    let driver = pressed("l 1 q q");
+    assert!(driver.app.finished && driver.files().is_empty());
 }
 
 #[test]
 fn what_changes_only_the_view_or_the_writing_of_a_number_is_no_change() {
-    within(30, || {
-        let mut driver = pressed("v N a n + - A A m t X m z z M T D d d");
-        driver.select("roughness.hurst");
-        driver.press("l h");
-        assert!(driver.app.edit.unsaved().is_empty(), "{}", driver.app.edit.document.text());
-        driver.press("q");
-        assert!(driver.app.finished);
-    });
+    let mut driver = pressed("v N a n + - A A m t X m z z M T D d d");
+    driver.select("roughness.hurst");
+    driver.press("l h");
+    assert!(driver.app.edit.unsaved().is_empty(), "{}", driver.app.edit.document.text());
+    driver.press("q");
+    assert!(driver.app.finished);
 }

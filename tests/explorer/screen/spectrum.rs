@@ -1,13 +1,12 @@
 //! The pane of spectra.
 
-use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough};
 use super::pressed;
 use asperity::explorer::app::{Message, Pane};
 use asperity::explorer::panes::SceneSpectra;
 use asperity::explorer::studies::Study;
-use asperity::explorer::update::{Effect, studies};
+use asperity::explorer::update::Effect;
 use asperity::scene::Document;
 use asperity::simulation::Simulation;
 use asperity::study::MeasuredAdhesion;
@@ -15,26 +14,24 @@ use std::path::Path;
 
 #[test]
 fn q_shows_the_spectrum_in_place_of_the_line() {
-    within(60, || {
-        let mut driver = pressed("Q");
-        assert_eq!((driver.app.view.pane, driver.app.view.large), (Pane::Spectrum, Some(Pane::Spectrum)));
-        driver.press("Q");
-        assert_eq!((driver.app.view.pane, driver.app.view.large), (Pane::Force, None));
-        // One pane at a time in that place.
-        for (keys, pane) in
-            [("Q A", Pane::Accuracy), ("Q", Pane::Spectrum), ("m", Pane::Map), ("Q", Pane::Spectrum)]
-        {
-            driver.press(keys);
-            assert_eq!(driver.app.view.large, Some(pane), "{keys}");
-        }
-        // Another scene has another spectrum.
-        let spectra = |driver: &Driver| driver.app.studies.value::<SceneSpectra>().cloned().unwrap();
-        let before = spectra(&driver);
-        driver.press("R");
-        let after = spectra(&driver);
-        assert_eq!(before.spectra.line, after.spectra.line);
-        assert!(!after.spectra.heights.is_empty());
-    });
+    let mut driver = pressed("Q");
+    assert_eq!((driver.app.view.pane, driver.app.view.large), (Pane::Spectrum, Some(Pane::Spectrum)));
+    driver.press("Q");
+    assert_eq!((driver.app.view.pane, driver.app.view.large), (Pane::Force, None));
+    // One pane at a time in that place.
+    for (keys, pane) in
+        [("Q A", Pane::Accuracy), ("Q", Pane::Spectrum), ("m", Pane::Map), ("Q", Pane::Spectrum)]
+    {
+        driver.press(keys);
+        assert_eq!(driver.app.view.large, Some(pane), "{keys}");
+    }
+    // Another scene has another spectrum.
+    let spectra = |driver: &Driver| driver.app.studies.value::<SceneSpectra>().cloned().unwrap();
+    let before = spectra(&driver);
+    driver.press("R");
+    let after = spectra(&driver);
+    assert_eq!(before.spectra.line, after.spectra.line);
+    assert!(!after.spectra.heights.is_empty());
 }
 
 /// Number of random profiles computed so far.
@@ -53,170 +50,135 @@ fn measured(file: &Path) -> Document {
 }
 
 #[test]
-fn the_spread_over_lines_is_beside_that_of_the_fit() {
-    within(120, || {
-        let folder = tempfile::tempdir().unwrap();
-        let document = measured(&folder.path().join("stylus.txt"));
-        let document = document.set("numerics.points", "1024").unwrap();
-        let mut driver = Driver::open_with(document, Simulation::run, |_| true);
-        driver.perform(vec![Effect::Ask]);
-        // Not before the pane is shown.
-        assert_eq!(profiles(&driver), None);
-        driver.press("Q");
-        assert_eq!(profiles(&driver), Some(16));
-        assert!(studies(&mut driver.app).is_empty());
-        driver.press("z");
-        for size in [(120, 40), (80, 24)] {
-            driver.resize(size);
-            let screen = driver.text();
-            assert!(
-                screen.contains("F_a of 16 profiles: median ") && screen.contains(", fit ± "),
-                "{screen}"
-            );
-        }
-        driver.app.studies.forget::<MeasuredAdhesion>();
-        assert!(driver.text().contains("0 of 16 profiles"), "{}", driver.text());
-    });
-}
-
-#[test]
 fn the_profile_itself_is_compared_with_its_equivalent_line() {
-    within(60, || {
-        let folder = tempfile::tempdir().unwrap();
-        let file = folder.path().join("stylus.txt");
-        // The whole scan: the length of the equivalent line follows from the number of its points.
-        let document = measured(&file)
-            .set_all(&[("length".to_owned(), "512 µm".to_owned()), ("form".to_owned(), "None".to_owned())]);
-        let mut driver = Driver::start(document.unwrap());
-        let equivalent = driver.app.edit.document.clone();
-        driver.press("|");
-        assert_eq!(driver.app.ghosts.last().unwrap().document, equivalent);
-        assert!(driver.app.edit.document.scene().measured_as_line());
-        let figures = driver.app.solved.as_ref().unwrap().outcome.figures;
-        assert!(figures.adhesion_force.is_some());
-        assert!(driver.text().contains("profile as line"), "{}", driver.text());
-        // Back again, the loop of the profile itself is kept as well.
-        driver.press("|");
-        assert_eq!(driver.app.edit.document.scene(), equivalent.scene());
-        assert_eq!(driver.app.ghosts.len(), 2);
-        // A missing file, and roughness that is not measured.
-        let mut driver = Driver::start(equivalent);
-        std::fs::remove_file(&file).unwrap();
-        driver.press("|");
-        let message = |driver: &Driver| match &driver.app.message {
-            Some(Message::Error(text)) => text.clone(),
-            other => panic!("{other:?}"),
-        };
-        assert!(message(&driver).contains("stylus.txt"));
-        let mut other = Driver::start(rough());
-        other.press("|");
-        assert!(message(&other).contains("not measured") && other.app.ghosts.is_empty());
-    });
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("stylus.txt");
+    // The whole scan: the length of the equivalent line follows from the number of its points.
+    let document = measured(&file)
+        .set_all(&[("length".to_owned(), "512 µm".to_owned()), ("form".to_owned(), "None".to_owned())]);
+    let mut driver = Driver::start(document.unwrap());
+    let equivalent = driver.app.edit.document.clone();
+    driver.press("|");
+    assert_eq!(driver.app.ghosts.last().unwrap().document, equivalent);
+    assert!(driver.app.edit.document.scene().measured_as_line());
+    let figures = driver.outcome().figures;
+    assert!(figures.adhesion_force.is_some());
+    assert!(driver.text().contains("profile as line"), "{}", driver.text());
+    // Back again, the loop of the profile itself is kept as well.
+    driver.press("|");
+    assert_eq!(driver.app.edit.document.scene(), equivalent.scene());
+    assert_eq!(driver.app.ghosts.len(), 2);
+    // A missing file, and roughness that is not measured.
+    let mut driver = Driver::start(equivalent);
+    std::fs::remove_file(&file).unwrap();
+    driver.press("|");
+    let message = |driver: &Driver| match &driver.app.message {
+        Some(Message::Error(text)) => text.clone(),
+        other => panic!("{other:?}"),
+    };
+    assert!(message(&driver).contains("stylus.txt"));
+    let mut other = Driver::start(rough());
+    other.press("|");
+    assert!(message(&other).contains("not measured") && other.app.ghosts.is_empty());
 }
 
 #[test]
 fn a_measured_surface_has_its_spectrum_fit_and_errors() {
-    within(60, || {
-        let folder = tempfile::tempdir().unwrap();
-        let file = folder.path().join("stylus.txt");
-        let mut driver = Driver::start(measured(&file));
-        driver.press("Q z");
-        for (size, words) in [
-            (
-                (120, 40),
-                &["measured, 1D PSD along x", "fit", "heights of the line", "κ = ", "e_el/γ = ", "⟨∇z⟩ ± "][..],
-            ),
-            ((80, 24), &["measured, 1D PSD", "κ = ", "e_el/γ = "]),
-            ((40, 12), &["10"]),
-        ] {
-            driver.resize(size);
-            let screen = driver.text();
-            for word in words {
-                assert!(screen.contains(word), "{word}: {screen}");
-            }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("stylus.txt");
+    let mut driver = Driver::start(measured(&file));
+    driver.press("Q z");
+    for (size, words) in [
+        (
+            (120, 40),
+            &["measured, 1D PSD along x", "fit", "heights of the line", "κ = ", "e_el/γ = ", "⟨∇z⟩ ± "][..],
+        ),
+        ((80, 24), &["measured, 1D PSD", "κ = ", "e_el/γ = "]),
+        ((40, 12), &["10"]),
+    ] {
+        driver.resize(size);
+        let screen = driver.text();
+        for word in words {
+            assert!(screen.contains(word), "{word}: {screen}");
         }
-        driver.resize((120, 40));
-        // The message names a missing file.
-        std::fs::remove_file(&file).unwrap();
-        driver.press("R");
-        assert!(driver.text().contains("stylus.txt"), "{}", driver.text());
-    });
+    }
+    driver.resize((120, 40));
+    // The message names a missing file.
+    std::fs::remove_file(&file).unwrap();
+    driver.press("R");
+    assert!(driver.text().contains("stylus.txt"), "{}", driver.text());
 }
 
 #[test]
 fn a_measured_surface_is_the_roughness_by_its_path_alone() {
-    within(120, || {
-        for size in [(120, 40), (80, 24), (40, 12)] {
-            let folder = tempfile::tempdir().unwrap();
-            let file = folder.path().join("stylus.txt");
-            measured(&file);
-            let text = changed(&rough(), &[("adhesion", "(work: 0.05)"), ("numerics.points", "1024")]);
-            let name = folder.path().join("scene.ron");
-            let document = Document::parse(text.text(), name.to_str().unwrap()).unwrap();
-            let performs = |study: &Study| study.is::<SceneSpectra>() || study.is::<MeasuredAdhesion>();
-            let mut driver = Driver::open_with(document, Simulation::run, performs);
-            driver.perform(vec![Effect::Ask]);
-            driver.resize(size);
-            driver.select("roughness");
-            driver.press("Enter");
-            // The typed text replaces the value.
-            driver.type_text(&format!("{}/sty", folder.path().display()));
-            driver.press("Tab");
-            let typed = driver.app.prompt.as_ref().map(|prompt| prompt.line.text());
-            assert_eq!(typed, file.to_str());
-            driver.press("Enter");
-            let scene = driver.app.edit.document.scene();
-            let named = vec![file.to_str().unwrap()];
-            assert_eq!((scene.measured_files(), scene.measured_as_line()), (named, false));
-            let computed = driver.app.solved.as_ref().unwrap();
-            assert!(computed.outcome.governing.kappa.is_some_and(|kappa| kappa > 0.0));
-            assert!(computed.outcome.figures.adhesion_force.is_some_and(|force| force > 0.0));
-            let screen = driver.text();
-            assert!(screen.contains("F_a"), "{screen}");
-            driver.press("Q");
-            assert_eq!(profiles(&driver), Some(16));
-            driver.press("z");
-            let screen = driver.text();
-            // The smallest screen has room for the spectra only.
-            assert!(size.0 == 40 || screen.contains("F_a of 16 profiles: median "), "{screen}");
-            assert!(screen.contains("Spectr"), "{screen}");
-        }
-    });
+    for size in [(120, 40), (80, 24), (40, 12)] {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("stylus.txt");
+        measured(&file);
+        let text = changed(&rough(), &[("adhesion", "(work: 0.05)"), ("numerics.points", "1024")]);
+        let name = folder.path().join("scene.ron");
+        let document = Document::parse(text.text(), name.to_str().unwrap()).unwrap();
+        let performs = |study: &Study| study.is::<SceneSpectra>() || study.is::<MeasuredAdhesion>();
+        let mut driver = Driver::open_with(document, Simulation::run, performs);
+        driver.perform(vec![Effect::Ask]);
+        driver.resize(size);
+        driver.select("roughness");
+        driver.press("Enter");
+        // The typed text replaces the value.
+        driver.type_text(&format!("{}/sty", folder.path().display()));
+        driver.press("Tab");
+        let typed = driver.app.prompt.as_ref().map(|prompt| prompt.line.text());
+        assert_eq!(typed, file.to_str());
+        driver.press("Enter");
+        let scene = driver.app.edit.document.scene();
+        let named = vec![file.to_str().unwrap()];
+        assert_eq!((scene.measured_files(), scene.measured_as_line()), (named, false));
+        let computed = driver.app.solved.as_ref().unwrap();
+        assert!(computed.outcome.governing.kappa.is_some_and(|kappa| kappa > 0.0));
+        assert!(computed.outcome.figures.adhesion_force.is_some_and(|force| force > 0.0));
+        let screen = driver.text();
+        assert!(screen.contains("F_a"), "{screen}");
+        driver.press("Q");
+        assert_eq!(profiles(&driver), Some(16));
+        driver.press("z");
+        let screen = driver.text();
+        // The smallest screen has room for the spectra only.
+        assert!(size.0 == 40 || screen.contains("F_a of 16 profiles: median "), "{screen}");
+        assert!(screen.contains("Spectr"), "{screen}");
+    }
 }
 
 #[test]
 fn the_path_of_a_measured_surface_is_completed_beside_the_scene() {
-    within(60, || {
-        let folder = tempfile::tempdir().unwrap();
-        for name in ["stylus-1.txt", "stylus-2.txt", "other.txt"] {
-            std::fs::write(folder.path().join(name), "").unwrap();
-        }
-        let scene = rough();
-        let name = folder.path().join("scene.ron");
-        let mut driver = Driver::start(Document::parse(scene.text(), name.to_str().unwrap()).unwrap());
-        let typed = |driver: &Driver| driver.app.prompt.as_ref().expect("a prompt").line.text().to_owned();
-        let paths = |driver: &Driver| driver.app.prompt.as_ref().expect("a prompt").paths.len();
-        driver.select("roughness");
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["stylus-1.txt", "stylus-2.txt", "other.txt"] {
+        std::fs::write(folder.path().join(name), "").unwrap();
+    }
+    let scene = rough();
+    let name = folder.path().join("scene.ron");
+    let mut driver = Driver::start(Document::parse(scene.text(), name.to_str().unwrap()).unwrap());
+    let typed = |driver: &Driver| driver.app.prompt.as_ref().expect("a prompt").line.text().to_owned();
+    let paths = |driver: &Driver| driver.app.prompt.as_ref().expect("a prompt").paths.len();
+    driver.select("roughness");
+    driver.press("Enter Ctrl+u");
+    driver.type_text("Measured(file: \"st");
+    driver.press("Tab");
+    assert_eq!(typed(&driver), "Measured(file: \"stylus-");
+    assert_eq!(paths(&driver), 2);
+    driver.type_text("2");
+    driver.press("Tab");
+    assert_eq!(typed(&driver), "Measured(file: \"stylus-2.txt");
+    // From the root as well, and not outside of quotes.
+    driver.press("Ctrl+u");
+    driver.type_text(&format!("Measured(file: \"{}/ot", folder.path().display()));
+    driver.press("Tab");
+    assert_eq!(typed(&driver), format!("Measured(file: \"{}/other.txt", folder.path().display()));
+    for (field, text) in [("roughness", "SelfAffine(st"), ("material.youngs_modulus", "\"st")] {
+        driver.press("Esc");
+        driver.select(field);
         driver.press("Enter Ctrl+u");
-        driver.type_text("Measured(file: \"st");
+        driver.type_text(text);
         driver.press("Tab");
-        assert_eq!(typed(&driver), "Measured(file: \"stylus-");
-        assert_eq!(paths(&driver), 2);
-        driver.type_text("2");
-        driver.press("Tab");
-        assert_eq!(typed(&driver), "Measured(file: \"stylus-2.txt");
-        // From the root as well, and not outside of quotes.
-        driver.press("Ctrl+u");
-        driver.type_text(&format!("Measured(file: \"{}/ot", folder.path().display()));
-        driver.press("Tab");
-        assert_eq!(typed(&driver), format!("Measured(file: \"{}/other.txt", folder.path().display()));
-        for (field, text) in [("roughness", "SelfAffine(st"), ("material.youngs_modulus", "\"st")] {
-            driver.press("Esc");
-            driver.select(field);
-            driver.press("Enter Ctrl+u");
-            driver.type_text(text);
-            driver.press("Tab");
-            assert_eq!((typed(&driver).as_str(), paths(&driver)), (text, 0), "{field}");
-        }
-    });
+        assert_eq!((typed(&driver).as_str(), paths(&driver)), (text, 0), "{field}");
+    }
 }

@@ -1,6 +1,5 @@
 //! A finished study in place of the computed map.
 
-use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::common::study::{PLAN, begun, merged};
@@ -44,253 +43,234 @@ fn preload(driver: &Driver) -> f64 {
 
 #[test]
 fn glyphs_show_all_that_was_recorded() {
-    within(60, || {
-        let (_folder, mut driver) = opened();
-        assert_eq!(driver.app.keys(), Context::Map);
-        assert_eq!(driver.app.mapped(), Quantity::Regime);
-        for (quantity, text) in [
-            (Quantity::ZeroLoadAdhesionShare, "F_a(0)/F_a,max over H, κ"),
-            (Quantity::AdhesionCoefficient, "F_a/F_n over H, κ"),
-            (Quantity::AdhesionForce, "F_a (mN) "),
-        ] {
-            driver.press("V");
-            assert_eq!(driver.app.mapped(), quantity);
-            assert!(driver.text().contains(text), "{text}\n{}", driver.text());
-        }
-        // The map computed here does not have this quantity, and shows its own.
-        driver.press("W");
-        assert!(!driver.text().contains("F_a (mN) "), "{}", driver.text());
-        driver.press("W");
-        assert!(driver.text().contains("F_a (mN) "), "{}", driver.text());
+    let (_folder, mut driver) = opened();
+    assert_eq!(driver.app.keys(), Context::Map);
+    assert_eq!(driver.app.mapped(), Quantity::Regime);
+    for (quantity, text) in [
+        (Quantity::ZeroLoadAdhesionShare, "F_a(0)/F_a,max over H, κ"),
+        (Quantity::AdhesionCoefficient, "F_a/F_n over H, κ"),
+        (Quantity::AdhesionForce, "F_a (mN) "),
+    ] {
         driver.press("V");
-        assert_eq!(driver.app.mapped(), Quantity::Regime);
-        for text in ["█ pressure-insensitive", "· non-adhesive", "▓ ░ profiles disagree", "of 12 profiles"]
-        {
-            assert!(driver.text().contains(text), "{text}\n{}", driver.text());
-        }
-    });
+        assert_eq!(driver.app.mapped(), quantity);
+        assert!(driver.text().contains(text), "{text}\n{}", driver.text());
+    }
+    // The map computed here does not have this quantity, and shows its own.
+    driver.press("W");
+    assert!(!driver.text().contains("F_a (mN) "), "{}", driver.text());
+    driver.press("W");
+    assert!(driver.text().contains("F_a (mN) "), "{}", driver.text());
+    driver.press("V");
+    assert_eq!(driver.app.mapped(), Quantity::Regime);
+    for text in ["█ pressure-insensitive", "· non-adhesive", "▓ ░ profiles disagree", "of 12 profiles"]
+    {
+        assert!(driver.text().contains(text), "{text}\n{}", driver.text());
+    }
 }
 
 #[test]
 fn the_mark_goes_from_cell_to_cell_and_beyond_the_map_stays_at_its_edge() {
-    within(60, || {
-        let (_folder, mut driver) = opened();
-        let before = driver.app.edit.document.clone();
-        assert_eq!(place(&driver), (1.0, 0.5));
-        driver.press("Up Right k L");
-        // Values of the study: 12 digits, other than those of the map computed here.
-        assert_eq!(place(&driver), (2.0, 0.9));
-        assert!(driver.text().contains("◆ H 0.9, κ 2"), "{}", driver.text());
-        assert!(is_up_to_date(&driver.app));
-        driver.press(&"K ".repeat(4));
-        assert_eq!(place(&driver), (16.0, 0.9));
-        driver.press("k");
-        assert!(driver.status().contains("edge of the map"), "{}", driver.status());
-        driver.press("u u");
-        assert_eq!(driver.app.edit.document, before);
-        for (kappa, hurst, back) in [("100", "0.5", (16.0, 0.5)), ("0.01", "0.97", (0.25, 0.9))] {
-            driver.press("Tab Tab");
-            driver.select("adhesion.kappa");
-            driver.enter(kappa);
-            driver.select("roughness.hurst");
-            driver.enter(hurst);
-            for size in [(120, 40), (80, 24), (20, 5), (1, 1)] {
-                driver.resize(size);
-                driver.screen();
-            }
-            driver.resize((120, 40));
-            assert!(driver.text().contains("outside the map"), "{}", driver.text());
-            assert!(driver.rows().iter().any(|row| row.chars().take(68).any(|cell| cell == '◆')));
-            assert!(!driver.text().contains("no longer"), "{}", driver.text());
-            driver.press("m");
-            driver.press(if back.0 > 1.0 { "j" } else { "k" });
-            if back.1 != place(&driver).1 {
-                driver.press("h");
-            }
-            assert_eq!(place(&driver), back);
+    let (_folder, mut driver) = opened();
+    let before = driver.app.edit.document.clone();
+    assert_eq!(place(&driver), (1.0, 0.5));
+    driver.press("Up Right k L");
+    // Values of the study: 12 digits, other than those of the map computed here.
+    assert_eq!(place(&driver), (2.0, 0.9));
+    assert!(driver.text().contains("◆ H 0.9, κ 2"), "{}", driver.text());
+    assert!(is_up_to_date(&driver.app));
+    driver.press(&"K ".repeat(4));
+    assert_eq!(place(&driver), (16.0, 0.9));
+    driver.press("k");
+    assert!(driver.status().contains("edge of the map"), "{}", driver.status());
+    driver.press("u u");
+    assert_eq!(driver.app.edit.document, before);
+    for (kappa, hurst, back) in [("100", "0.5", (16.0, 0.5)), ("0.01", "0.97", (0.25, 0.9))] {
+        driver.press("Tab Tab");
+        driver.select("adhesion.kappa");
+        driver.enter(kappa);
+        driver.select("roughness.hurst");
+        driver.enter(hurst);
+        for size in [(120, 40), (80, 24), (20, 5), (1, 1)] {
+            driver.resize(size);
+            driver.screen();
         }
-    });
+        driver.resize((120, 40));
+        assert!(driver.text().contains("outside the map"), "{}", driver.text());
+        assert!(driver.rows().iter().any(|row| row.chars().take(68).any(|cell| cell == '◆')));
+        assert!(!driver.text().contains("no longer"), "{}", driver.text());
+        driver.press("m");
+        driver.press(if back.0 > 1.0 { "j" } else { "k" });
+        if back.1 != place(&driver).1 {
+            driver.press("h");
+        }
+        assert_eq!(place(&driver), back);
+    }
 }
 
 #[test]
 fn the_scene_follows_to_the_next_preload() {
-    within(60, || {
-        let (_folder, mut driver) = opened();
-        let first = preload(&driver);
-        assert!(driver.text().contains("F_n/(E* h L) = 0.01  1 of 3, P: the next"), "{}", driver.text());
-        let mut regimes = vec![driver.app.grid().cloned()];
-        for (times, share) in [(10.0, "0.1  2 of 3"), (100.0, "1  3 of 3"), (1.0, "0.01  1 of 3")] {
-            driver.press("P");
-            assert!((preload(&driver) / first / times - 1.0).abs() < 1e-9);
-            assert!(driver.text().contains(&format!("F_n/(E* h L) = {share}")), "{}", driver.text());
-            assert!(is_up_to_date(&driver.app));
-            regimes.push(driver.app.grid().cloned());
-        }
-        assert!(regimes[0] != regimes[1] && regimes[0] == regimes[3]);
-        driver.press("PageUp");
-        assert!((preload(&driver) / first / 100.0 - 1.0).abs() < 1e-9);
-        // A different scene is left unchanged.
-        driver.press("Tab Tab");
-        driver.select("material.youngs_modulus");
-        driver.press("L");
-        assert!(driver.text().contains("no longer that of the study"), "{}", driver.text());
-        let other = driver.app.edit.document.clone();
-        driver.press("m P P");
-        assert_eq!(driver.app.edit.document, other);
-        assert!(driver.text().contains("0.1  2 of 3"), "{}", driver.text());
-    });
+    let (_folder, mut driver) = opened();
+    let first = preload(&driver);
+    assert!(driver.text().contains("F_n/(E* h L) = 0.01  1 of 3, P: the next"), "{}", driver.text());
+    let mut regimes = vec![driver.app.grid().cloned()];
+    for (times, share) in [(10.0, "0.1  2 of 3"), (100.0, "1  3 of 3"), (1.0, "0.01  1 of 3")] {
+        driver.press("P");
+        assert!((preload(&driver) / first / times - 1.0).abs() < 1e-9);
+        assert!(driver.text().contains(&format!("F_n/(E* h L) = {share}")), "{}", driver.text());
+        assert!(is_up_to_date(&driver.app));
+        regimes.push(driver.app.grid().cloned());
+    }
+    assert!(regimes[0] != regimes[1] && regimes[0] == regimes[3]);
+    driver.press("PageUp");
+    assert!((preload(&driver) / first / 100.0 - 1.0).abs() < 1e-9);
+    // A different scene is left unchanged.
+    driver.press("Tab Tab");
+    driver.select("material.youngs_modulus");
+    driver.press("L");
+    assert!(driver.text().contains("no longer that of the study"), "{}", driver.text());
+    let other = driver.app.edit.document.clone();
+    driver.press("m P P");
+    assert_eq!(driver.app.edit.document, other);
+    assert!(driver.text().contains("0.1  2 of 3"), "{}", driver.text());
 }
 
 #[test]
 fn a_preload_in_units_that_follow_from_h_goes_with_the_mark() {
-    within(60, || {
-        let (_folder, mut driver) = opened_with(&PLAN.replace("rms_height: 2.0e-7", "rms_gradient: 0.1"));
-        let before = preload(&driver);
-        driver.press("Right");
-        assert!(preload(&driver) > 1.01 * before, "{before} {}", preload(&driver));
-        assert!(!driver.text().contains("no longer"), "{}", driver.text());
-    });
+    let (_folder, mut driver) = opened_with(&PLAN.replace("rms_height: 2.0e-7", "rms_gradient: 0.1"));
+    let before = preload(&driver);
+    driver.press("Right");
+    assert!(preload(&driver) > 1.01 * before, "{before} {}", preload(&driver));
+    assert!(!driver.text().contains("no longer"), "{}", driver.text());
 }
 
 #[test]
 fn the_computed_map_can_be_had_instead() {
-    within(60, || {
-        let (_folder, mut driver) = opened();
-        let charts = |driver: &mut Driver| studies(&mut driver.app).iter().any(|study| study.is::<Live>());
-        assert!(!charts(&mut driver), "nothing is computed that is not shown");
-        assert_eq!(driver.press("W"), [Effect::Study]);
-        assert!(charts(&mut driver));
-        assert!(driver.text().contains("over H, κ, 4 profiles"), "{}", driver.text());
-        driver.press("Up");
-        assert_eq!(place(&driver).0, 1.19, "from cell to cell of the map that is shown");
-        driver.press("P");
-        assert!(driver.status().contains("W shows the study's"), "{}", driver.status());
-        driver.press("W");
-        assert!(driver.text().contains("Study small"), "{}", driver.text());
-        // The study is hidden and shown again with the pane.
-        driver.press("m m");
-        assert!(driver.text().contains("Study small"), "{}", driver.text());
-        // Another scene has a map of its own, and the study stays loaded.
-        driver.press("1 W");
-        assert!(driver.text().contains("no longer that of the study"), "{}", driver.text());
-        driver.press("W");
-        assert!(driver.text().contains("over H, κ, 4 profiles"), "{}", driver.text());
+    let (_folder, mut driver) = opened();
+    let charts = |driver: &mut Driver| studies(&mut driver.app).iter().any(|study| study.is::<Live>());
+    assert!(!charts(&mut driver), "nothing is computed that is not shown");
+    assert_eq!(driver.press("W"), [Effect::Study]);
+    assert!(charts(&mut driver));
+    assert!(driver.text().contains("over H, κ, 4 profiles"), "{}", driver.text());
+    driver.press("Up");
+    assert_eq!(place(&driver).0, 1.19, "from cell to cell of the map that is shown");
+    driver.press("P");
+    assert!(driver.status().contains("W shows the study's"), "{}", driver.status());
+    driver.press("W");
+    assert!(driver.text().contains("Study small"), "{}", driver.text());
+    // The study is hidden and shown again with the pane.
+    driver.press("m m");
+    assert!(driver.text().contains("Study small"), "{}", driver.text());
+    // Another scene has a map of its own, and the study stays loaded.
+    driver.press("1 W");
+    assert!(driver.text().contains("no longer that of the study"), "{}", driver.text());
+    driver.press("W");
+    assert!(driver.text().contains("over H, κ, 4 profiles"), "{}", driver.text());
 
-        let mut driver = pressed("m");
-        for key in ["W", "P"] {
-            driver.press(key);
-            assert!(driver.status().contains("! no study is open"), "{}", driver.status());
-        }
-    });
+    let mut driver = pressed("m");
+    for key in ["W", "P"] {
+        driver.press(key);
+        assert!(driver.status().contains("! no study is open"), "{}", driver.status());
+    }
 }
 
 #[test]
 fn a_scene_without_kappa_has_no_mark() {
-    within(60, || {
-        let (_folder, mut driver) = opened();
-        driver.press("Tab Tab");
-        driver.select("adhesion");
-        driver.press("t");
-        assert!(driver.text().contains("no mark: the scene has no adhesion"), "{}", driver.text());
-        assert!(driver.text().contains("Study small"));
-        driver.press("m Left X");
-        assert!(driver.app.edit.document.scene().adhesion.is_none());
-        driver.screen();
-    });
+    let (_folder, mut driver) = opened();
+    driver.press("Tab Tab");
+    driver.select("adhesion");
+    driver.press("t");
+    assert!(driver.text().contains("no mark: the scene has no adhesion"), "{}", driver.text());
+    assert!(driver.text().contains("Study small"));
+    driver.press("m Left X");
+    assert!(driver.app.edit.document.scene().adhesion.is_none());
+    driver.screen();
 }
 
 #[test]
 fn cells_that_are_missing_are_blank() {
-    within(60, || {
-        let folder = tempfile::tempdir().unwrap();
-        let study = begun(folder.path(), PLAN);
-        asperity::study::merge(&study, true).unwrap();
-        let mut driver = Driver::start(Opening::of(folder.path().to_str().unwrap()).unwrap());
-        assert!(driver.text().contains("the study was merged without this cell"), "{}", driver.text());
-        driver.press("V V Right");
-        driver.screen();
-    });
+    let folder = tempfile::tempdir().unwrap();
+    let study = begun(folder.path(), PLAN);
+    asperity::study::merge(&study, true).unwrap();
+    let mut driver = Driver::start(Opening::of(folder.path().to_str().unwrap()).unwrap());
+    assert!(driver.text().contains("the study was merged without this cell"), "{}", driver.text());
+    driver.press("V V Right");
+    driver.screen();
 }
 
 #[test]
 fn studies_of_other_quantities_open_as_maps_and_curves() {
-    within(60, || {
-        let kappa = "Logarithmic(path: \"kappa\", from: 0.25, to: 16, count: 13)";
-        let length = "List(path: \"length\", values: [5.0e-5, 1.0e-4, 2.0e-4])";
-        // The length in place of κ: the mark moves along the length, in its unit.
-        let (_folder, mut driver) = opened_with(&PLAN.replace(kappa, length));
-        assert!(
-            driver.text().contains("over H, L, 12 profiles") && driver.text().contains("L (µm)"),
-            "{}",
-            driver.text()
-        );
-        assert!(driver.text().contains("◆ H 0.5, L 100 µm"), "{}", driver.text());
-        driver.press("Up");
-        assert_eq!(driver.app.edit.document.scene().length, 2.0e-4);
-        assert!(!driver.text().contains("no longer"), "{}", driver.text());
-        // H alone: curves with the confidence of the mean.
-        let alone = PLAN.replace(&format!("{kappa},"), "");
-        let (_folder, mut driver) =
-            opened_with(&alone.replace("preloads: [0.01, 0.1, 1.0]", "preloads: [0.1]"));
-        assert!(
-            driver.text().contains("over H, 12 profiles")
-                && driver.text().contains("95 % confidence of the mean"),
-            "{}",
-            driver.text()
-        );
-        driver.press("Right");
-        assert_eq!(driver.app.place(), Some((0.6, None)));
-        driver.press("Up");
-        assert!(driver.status().contains("this map has one axis, H"), "{}", driver.status());
-        for size in [(80, 24), (40, 12), (20, 5), (1, 1)] {
-            driver.resize(size);
-            driver.screen();
-        }
-    });
+    let kappa = "Logarithmic(path: \"kappa\", from: 0.25, to: 16, count: 13)";
+    let length = "List(path: \"length\", values: [5.0e-5, 1.0e-4, 2.0e-4])";
+    // The length in place of κ: the mark moves along the length, in its unit.
+    let (_folder, mut driver) = opened_with(&PLAN.replace(kappa, length));
+    assert!(
+        driver.text().contains("over H, L, 12 profiles") && driver.text().contains("L (µm)"),
+        "{}",
+        driver.text()
+    );
+    assert!(driver.text().contains("◆ H 0.5, L 100 µm"), "{}", driver.text());
+    driver.press("Up");
+    assert_eq!(driver.app.edit.document.scene().length, 2.0e-4);
+    assert!(!driver.text().contains("no longer"), "{}", driver.text());
+    // H alone: curves with the confidence of the mean.
+    let alone = PLAN.replace(&format!("{kappa},"), "");
+    let (_folder, mut driver) = opened_with(&alone.replace("preloads: [0.01, 0.1, 1.0]", "preloads: [0.1]"));
+    assert!(
+        driver.text().contains("over H, 12 profiles")
+            && driver.text().contains("95 % confidence of the mean"),
+        "{}",
+        driver.text()
+    );
+    driver.press("Right");
+    assert_eq!(driver.app.place(), Some((0.6, None)));
+    driver.press("Up");
+    assert!(driver.status().contains("this map has one axis, H"), "{}", driver.status());
+    for size in [(80, 24), (40, 12), (20, 5), (1, 1)] {
+        driver.resize(size);
+        driver.screen();
+    }
 }
 
 #[test]
 fn a_study_is_opened_by_its_path() {
-    within(60, || {
-        let folder = tempfile::tempdir().unwrap();
-        let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-        merged(&folder.path().join("small"), PLAN);
-        begun(&folder.path().join("begun"), PLAN);
-        std::fs::create_dir(folder.path().join("another")).unwrap();
-        let mut driver = pressed("");
-        let before = driver.app.edit.document.clone();
-        for (name, expected) in [
-            ("begun", "has not been merged yet; asperity sweep merge"),
-            ("another", "this folder is not that of a study"),
-            ("nowhere", "there is no such file"),
-        ] {
-            driver.press("o");
-            driver.act(Action::Paste(path(name)));
-            assert!(driver.text().contains("Enter tries it as a path"), "{}", driver.text());
-            driver.press("Enter");
-            assert_eq!(driver.app.edit.document, before);
-            let refusal = driver.refusal().unwrap_or_default();
-            assert!(refusal.contains(expected), "{refusal}");
-            driver.press("Esc");
-            assert!(driver.app.map.study.is_none());
-        }
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    merged(&folder.path().join("small"), PLAN);
+    begun(&folder.path().join("begun"), PLAN);
+    std::fs::create_dir(folder.path().join("another")).unwrap();
+    let mut driver = pressed("");
+    let before = driver.app.edit.document.clone();
+    for (name, expected) in [
+        ("begun", "has not been merged yet; asperity sweep merge"),
+        ("another", "this folder is not that of a study"),
+        ("nowhere", "there is no such file"),
+    ] {
         driver.press("o");
-        driver.act(Action::Paste(path("small")));
+        driver.act(Action::Paste(path(name)));
+        assert!(driver.text().contains("Enter tries it as a path"), "{}", driver.text());
         driver.press("Enter");
-        assert!(driver.text().contains("Study small: regime over H, κ, 12 profiles"), "{}", driver.text());
-        assert!(is_up_to_date(&driver.app) && !driver.app.edit.is_unsaved());
-        let Some(Roughness::SelfAffine { modes, .. }) = driver.app.edit.document.scene().roughness else {
-            panic!()
-        };
-        assert_eq!(modes, (1, 32));
-        driver.press("u");
-        assert_eq!(driver.app.edit.document.scene(), rough().scene());
-        // A scene file opens in the same way.
-        std::fs::write(folder.path().join("mine.ron"), rough().text()).unwrap();
-        driver.press("o");
-        driver.act(Action::Paste(path("mine.ron")));
-        driver.press("Enter");
-        assert_eq!(driver.app.edit.document.name(), path("mine.ron"));
-        assert!(driver.app.map.shown_study().is_none());
-    });
+        assert_eq!(driver.app.edit.document, before);
+        let refusal = driver.refusal().unwrap_or_default();
+        assert!(refusal.contains(expected), "{refusal}");
+        driver.press("Esc");
+        assert!(driver.app.map.study.is_none());
+    }
+    driver.press("o");
+    driver.act(Action::Paste(path("small")));
+    driver.press("Enter");
+    assert!(driver.text().contains("Study small: regime over H, κ, 12 profiles"), "{}", driver.text());
+    assert!(is_up_to_date(&driver.app) && !driver.app.edit.is_unsaved());
+    let Some(Roughness::SelfAffine { modes, .. }) = driver.app.edit.document.scene().roughness else {
+        panic!()
+    };
+    assert_eq!(modes, (1, 32));
+    driver.press("u");
+    assert_eq!(driver.app.edit.document.scene(), rough().scene());
+    // A scene file opens in the same way.
+    std::fs::write(folder.path().join("mine.ron"), rough().text()).unwrap();
+    driver.press("o");
+    driver.act(Action::Paste(path("mine.ron")));
+    driver.press("Enter");
+    assert_eq!(driver.app.edit.document.name(), path("mine.ron"));
+    assert!(driver.app.map.shown_study().is_none());
 }

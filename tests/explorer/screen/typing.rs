@@ -1,252 +1,196 @@
 //! Values while typed, accepted and refused.
 
-use super::common::deadline::within;
 use super::common::driver::Driver;
-use super::common::scenes::{changed, rough};
+use super::common::scenes::rough;
 use super::{SIZES, is_up_to_date, pressed, reversed};
 use asperity::explorer::action::Action;
 use asperity::explorer::keys::Context;
 use asperity::explorer::layout::Layout;
 use asperity::explorer::update::{Effect, update};
-use asperity::scene::Move;
-
-#[test]
-fn values_are_typed_with_prefix_and_unit() {
-    within(30, || {
-        let document =
-            changed(&rough(), &[("adhesion", "(work: 0.05)"), ("form", "Paraboloid(radius: 1.0e-3)")]);
-        let mut driver = Driver::start(document);
-        for (path, typed, value) in [
-            ("adhesion.work", "50m", 0.05),
-            ("adhesion.work", "40 mJ/m²", 0.04),
-            ("material.youngs_modulus", "2.5 MPa", 2.5e6),
-            ("material.youngs_modulus", "3e6", 3e6),
-            ("form.radius", "10 µm", 1e-5),
-            ("form.radius", "20um", 2e-5),
-            ("length", "0.2 mm", 2e-4),
-        ] {
-            driver.select(path);
-            driver.enter(typed);
-            let written: f64 = driver.app.edit.document.value(path).unwrap().parse().unwrap();
-            assert_eq!(written, value, "{path}: {typed}");
-            assert!(is_up_to_date(&driver.app));
-        }
-        driver.select("numerics.points");
-        driver.enter("2Ki");
-        assert_eq!(driver.app.edit.document.scene().numerics.points, 2048);
-        // The force of a leg is a parameter as well.
-        driver.select("loading");
-        driver.press("j");
-        driver.enter("30 µN");
-        assert_eq!(driver.app.edit.document.scene().loading, [Move::ToForce(3e-5), Move::ToSeparation]);
-    });
-}
 
 #[test]
 fn the_editor_opens_with_the_value_selected_and_keeps_what_is_refused() {
-    within(30, || {
-        let mut driver = pressed("");
-        driver.select("length");
-        driver.press("e");
-        let row =
-            |driver: &Driver| driver.rows().into_iter().find(|row| row.contains('›')).unwrap_or_default();
-        assert!(row(&driver).contains("apparent diameter L (m): 100 µm"), "{}", row(&driver));
-        assert_eq!(reversed(&driver.screen().content), "100 µm");
-        let before = driver.app.edit.document.clone();
-        driver.type_text("10 kg");
-        driver.press("Enter");
-        assert_eq!((&driver.app.edit.document, driver.app.keys()), (&before, Context::Line));
-        let refused = "kg is not a unit of length: use m, mm, µm, nm";
-        assert!(driver.status().contains(refused), "{}", driver.status());
-        let line = driver.rows().into_iter().find(|row| row.contains("10 kg")).unwrap_or_default();
-        assert!(line.contains('!'), "{line}");
-        driver.press("Backspace");
-        assert!(!driver.text().contains("not a unit of length"), "{}", driver.text());
-        driver.press("Backspace");
-        driver.type_text("mm");
-        driver.press("Enter");
-        assert!(driver.app.prompt.is_none());
-        assert_eq!(driver.app.edit.document.scene().length, 0.01);
-        // Neither the unchanged value nor leaving the editor changes the text.
-        let text = driver.app.edit.document.text().to_owned();
-        for path in
-            ["length", "roughness.rms_height", "material.youngs_modulus", "adhesion.work", "loading.0.0"]
-        {
-            driver.select(path.trim_end_matches(".0.0"));
-            driver.press(if path.ends_with(".0.0") { "j e Enter" } else { "e Enter" });
-            assert_eq!((driver.app.edit.document.text(), driver.app.keys()), (&*text, Context::Explore));
-        }
-    });
+    let mut driver = pressed("");
+    driver.select("length");
+    driver.press("e");
+    let row = |driver: &Driver| driver.rows().into_iter().find(|row| row.contains('›')).unwrap_or_default();
+    assert!(row(&driver).contains("apparent diameter L (m): 100 µm"), "{}", row(&driver));
+    assert_eq!(reversed(&driver.screen().content), "100 µm");
+    let before = driver.app.edit.document.clone();
+    driver.type_text("10 kg");
+    driver.press("Enter");
+    assert_eq!((&driver.app.edit.document, driver.app.keys()), (&before, Context::Line));
+    let refused = "kg is not a unit of length: use m, mm, µm, nm";
+    assert!(driver.status().contains(refused), "{}", driver.status());
+    let line = driver.rows().into_iter().find(|row| row.contains("10 kg")).unwrap_or_default();
+    assert!(line.contains('!'), "{line}");
+    driver.press("Backspace");
+    assert!(!driver.text().contains("not a unit of length"), "{}", driver.text());
+    driver.press("Backspace");
+    driver.type_text("mm");
+    driver.press("Enter");
+    assert!(driver.app.prompt.is_none());
+    assert_eq!(driver.app.edit.document.scene().length, 0.01);
+    // Neither the unchanged value nor leaving the editor changes the text.
+    let text = driver.app.edit.document.text().to_owned();
+    for path in ["length", "roughness.rms_height", "material.youngs_modulus", "adhesion.work", "loading.0.0"]
+    {
+        driver.select(path.trim_end_matches(".0.0"));
+        driver.press(if path.ends_with(".0.0") { "j e Enter" } else { "e Enter" });
+        assert_eq!((driver.app.edit.document.text(), driver.app.keys()), (&*text, Context::Explore));
+    }
 }
 
 #[test]
 fn what_is_typed_can_be_edited_pasted_and_left() {
-    within(30, || {
-        let mut driver = pressed("");
-        driver.select("length");
-        driver.press("e Home Delete");
-        driver.type_text("3");
-        driver.press("End");
-        driver.act(Action::Paste("\n".to_owned()));
-        driver.press("Enter");
-        assert_eq!(driver.app.edit.document.scene().length, 3e-4);
-        let before = driver.app.edit.document.clone();
-        driver.press("e Ctrl+u 7 Esc");
-        assert_eq!((&driver.app.edit.document, driver.app.keys()), (&before, Context::Explore));
-        // In a value, letters are typed.
-        driver.press("e Ctrl+u q u");
-        assert_eq!(driver.app.keys(), Context::Line);
-        assert!(driver.text().contains("qu"), "{}", driver.text());
-        driver.press("Ctrl+c");
-        assert_eq!((&driver.app.edit.document, driver.app.keys()), (&before, Context::Explore));
-        // Typing the present value changes nothing.
-        driver.press("e Enter");
-        assert_eq!(driver.app.edit.document.scene(), before.scene());
-    });
+    let mut driver = pressed("");
+    driver.select("length");
+    driver.press("e Home Delete");
+    driver.type_text("3");
+    driver.press("End");
+    driver.act(Action::Paste("\n".to_owned()));
+    driver.press("Enter");
+    assert_eq!(driver.app.edit.document.scene().length, 3e-4);
+    let before = driver.app.edit.document.clone();
+    driver.press("e Ctrl+u 7 Esc");
+    assert_eq!((&driver.app.edit.document, driver.app.keys()), (&before, Context::Explore));
+    // In a value, letters are typed.
+    driver.press("e Ctrl+u q u");
+    assert_eq!(driver.app.keys(), Context::Line);
+    assert!(driver.text().contains("qu"), "{}", driver.text());
+    driver.press("Ctrl+c");
+    assert_eq!((&driver.app.edit.document, driver.app.keys()), (&before, Context::Explore));
+    // Typing the present value changes nothing.
+    driver.press("e Enter");
+    assert_eq!(driver.app.edit.document.scene(), before.scene());
 }
 
 #[test]
 fn what_is_chosen_and_typed_is_seen_in_the_smallest_window() {
-    within(30, || {
-        for size in SIZES {
-            for pane in ["", "Tab", "Tab Tab", "Tab Tab Tab"] {
-                for zoom in ["", "z"] {
-                    let mut driver = pressed(pane);
-                    driver.resize(size);
-                    driver.press(zoom);
-                    driver.press("j");
-                    assert!(driver.text().contains('›'), "{size:?} {pane} {zoom}\n{}", driver.text());
-                    driver.press("Tab e Ctrl+u");
-                    driver.type_text("31415");
-                    assert!(driver.text().contains("31415"), "{size:?} {pane} {zoom}\n{}", driver.text());
-                }
+    for size in SIZES {
+        for pane in ["", "Tab", "Tab Tab", "Tab Tab Tab"] {
+            for zoom in ["", "z"] {
+                let mut driver = pressed(pane);
+                driver.resize(size);
+                driver.press(zoom);
+                driver.press("j");
+                assert!(driver.text().contains('›'), "{size:?} {pane} {zoom}\n{}", driver.text());
+                driver.press("Tab e Ctrl+u");
+                driver.type_text("31415");
+                assert!(driver.text().contains("31415"), "{size:?} {pane} {zoom}\n{}", driver.text());
             }
         }
-    });
+    }
 }
 
 #[test]
 fn the_cursor_of_what_is_typed_is_on_the_screen() {
-    within(30, || {
-        let long =
-            "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToZeroForce, ToForce(3.0e-5), ToSeparation]";
-        for size in SIZES {
-            let mut driver = pressed("Tab Tab");
-            driver.resize(size);
-            driver.select("loading");
-            driver.press("e Ctrl+u");
-            driver.type_text(long);
-            for keys in ["", "Home", "End", "Left Left Left"] {
-                driver.press(keys);
-                let screen = driver.screen();
-                assert_eq!(
-                    reversed(&screen.content).chars().count(),
-                    1,
-                    "{size:?} {keys}\n{}",
-                    driver.text()
-                );
-            }
-            driver.press("Esc s");
-            driver.type_text(
-                "/a/folder/with/a/name/that/is/longer/than/many/windows/are/wide/and/then/some/more.ron",
-            );
+    let long = "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToZeroForce, ToForce(3.0e-5), ToSeparation]";
+    for size in SIZES {
+        let mut driver = pressed("Tab Tab");
+        driver.resize(size);
+        driver.select("loading");
+        driver.press("e Ctrl+u");
+        driver.type_text(long);
+        for keys in ["", "Home", "End", "Left Left Left"] {
+            driver.press(keys);
             let screen = driver.screen();
-            let status = Layout::of(&driver.app).status;
-            let from = usize::from(status.y) * usize::from(status.width);
-            let status = &screen.content[from..from + usize::from(status.width)];
-            assert_eq!(reversed(status).chars().count(), 1, "{size:?}\n{}", driver.text());
+            assert_eq!(reversed(&screen.content).chars().count(), 1, "{size:?} {keys}\n{}", driver.text());
         }
-    });
+        driver.press("Esc s");
+        driver.type_text(
+            "/a/folder/with/a/name/that/is/longer/than/many/windows/are/wide/and/then/some/more.ron",
+        );
+        let screen = driver.screen();
+        let status = Layout::of(&driver.app).status;
+        let from = usize::from(status.y) * usize::from(status.width);
+        let status = &screen.content[from..from + usize::from(status.width)];
+        assert_eq!(reversed(status).chars().count(), 1, "{size:?}\n{}", driver.text());
+    }
 }
 
 #[test]
 fn digits_begin_a_value_while_the_pane_of_parameters_is_selected() {
-    within(30, || {
-        let mut driver = pressed("Tab Tab");
-        assert_eq!(driver.app.view.pane, asperity::explorer::app::Pane::Parameters);
-        driver.press(". 6 5 Enter");
-        assert_eq!(driver.app.edit.document.value("roughness.hurst"), Some(".65"), "{}", driver.text());
-        driver.press("0");
-        assert_eq!(driver.app.prompt.as_ref().map(|prompt| prompt.line.text()), Some("0"));
-        driver.press(". 7 Enter");
-        assert_eq!(driver.app.edit.document.scene().roughness, rough().scene().roughness);
-        driver.select("loading");
-        driver.press("j - 2");
-        assert!(driver.text().contains("F (N): -2"), "{}", driver.text());
-        driver.press("Esc");
-        // A switch and a group have no number.
-        driver.select("numerics");
-        driver.press("3");
-        assert!(driver.app.prompt.is_none());
-        // In the other panes a digit opens a scene.
-        driver.press("Tab 3");
-        assert_eq!(driver.app.edit.document.name(), asperity::scene::presets()[2].name);
-    });
+    let mut driver = pressed("Tab Tab");
+    assert_eq!(driver.app.view.pane, asperity::explorer::app::Pane::Parameters);
+    driver.press(". 6 5 Enter");
+    assert_eq!(driver.app.edit.document.value("roughness.hurst"), Some(".65"), "{}", driver.text());
+    driver.press("0");
+    assert_eq!(driver.app.prompt.as_ref().map(|prompt| prompt.line.text()), Some("0"));
+    driver.press(". 7 Enter");
+    assert_eq!(driver.app.edit.document.scene().roughness, rough().scene().roughness);
+    driver.select("loading");
+    driver.press("j - 2");
+    assert!(driver.text().contains("F (N): -2"), "{}", driver.text());
+    driver.press("Esc");
+    // A switch and a group have no number.
+    driver.select("numerics");
+    driver.press("3");
+    assert!(driver.app.prompt.is_none());
+    // In the other panes a digit opens a scene.
+    driver.press("Tab 3");
+    assert_eq!(driver.app.edit.document.name(), asperity::scene::presets()[2].name);
 }
 
 #[test]
 fn a_value_that_is_typed_shows_its_curve_before_it_is_taken() {
-    within(60, || {
-        for size in [(120, 40), (80, 24)] {
-            let mut driver = pressed("");
-            driver.resize(size);
-            driver.select("roughness.rms_height");
-            let (document, computed) = (driver.app.edit.document.clone(), driver.app.solved.clone().unwrap());
-            let before = driver.text();
-            driver.press("e");
-            assert!(driver.app.tried_outcome().is_none(), "the value as it is needs no preview");
-            driver.type_text("300 nm");
-            let tried = driver.app.tried_outcome().expect("a preview").figures;
-            assert_ne!(tried.adhesion_force, computed.outcome.figures.adhesion_force);
-            let alone = document.set("roughness.rms_height", "3.0e-7").unwrap();
-            let alone = Driver::start(alone).app.solved.clone().unwrap();
-            assert_eq!(tried, alone.outcome.figures);
-            let force = asperity::scene::format_quantity(tried.adhesion_force.unwrap(), "N");
-            assert!(driver.status().starts_with(&format!("preview: F_a {force}")), "{}", driver.status());
-            // The scene itself is unchanged, also after Esc.
-            assert_eq!((&driver.app.edit.document, is_up_to_date(&driver.app)), (&document, true));
-            // A text that is no value has no preview.
-            driver.type_text("kg");
-            assert!(driver.app.tried_outcome().is_none() && driver.app.tried.is_none());
-            driver.press("Backspace Backspace");
-            assert!(driver.app.tried_outcome().is_some());
-            let effects = driver.press("Esc");
-            assert_eq!((effects, driver.app.tried.is_none()), (vec![Effect::Study], true));
-            assert_eq!(driver.text(), before);
-            driver.press("e Ctrl+u");
-            driver.type_text("300 nm");
-            driver.press("Enter");
-            assert_eq!(driver.app.solved.as_ref().unwrap().outcome.figures, tried);
-        }
-    });
+    for size in [(120, 40), (80, 24)] {
+        let mut driver = pressed("");
+        driver.resize(size);
+        driver.select("roughness.rms_height");
+        let (document, computed) = (driver.app.edit.document.clone(), driver.app.solved.clone().unwrap());
+        let before = driver.text();
+        driver.press("e");
+        assert!(driver.app.tried_outcome().is_none(), "the value as it is needs no preview");
+        driver.type_text("300 nm");
+        let tried = driver.app.tried_outcome().expect("a preview").figures;
+        assert_ne!(tried.adhesion_force, computed.outcome.figures.adhesion_force);
+        let alone = document.set("roughness.rms_height", "3.0e-7").unwrap();
+        let alone = Driver::start(alone).app.solved.clone().unwrap();
+        assert_eq!(tried, alone.outcome.figures);
+        let force = asperity::scene::format_quantity(tried.adhesion_force.unwrap(), "N");
+        assert!(driver.status().starts_with(&format!("preview: F_a {force}")), "{}", driver.status());
+        // The scene itself is unchanged, also after Esc.
+        assert_eq!((&driver.app.edit.document, is_up_to_date(&driver.app)), (&document, true));
+        // A text that is no value has no preview.
+        driver.type_text("kg");
+        assert!(driver.app.tried_outcome().is_none() && driver.app.tried.is_none());
+        driver.press("Backspace Backspace");
+        assert!(driver.app.tried_outcome().is_some());
+        let effects = driver.press("Esc");
+        assert_eq!((effects, driver.app.tried.is_none()), (vec![Effect::Study], true));
+        assert_eq!(driver.text(), before);
+        driver.press("e Ctrl+u");
+        driver.type_text("300 nm");
+        driver.press("Enter");
+        assert_eq!(driver.outcome().figures, tried);
+    }
 }
 
 #[test]
 fn no_older_curve_is_shown_between_a_preview_and_the_next_one() {
-    within(60, || {
-        let mut driver = pressed("");
-        driver.select("roughness.rms_height");
-        driver.press("e Ctrl+u");
-        driver.type_text("300 nm");
-        let force = |driver: &Driver| driver.app.tried_outcome().and_then(|one| one.figures.adhesion_force);
-        let first = force(&driver).expect("a preview");
-        // The next value is typed, and its curve is not there yet: the previous one remains.
-        driver.press("Home Delete");
-        let waiting = update(&mut driver.app, Action::Paste('4'.to_string()));
-        assert_eq!(waiting, [Effect::Study]);
-        // "00 nm" is no allowed height, and has no curve.
-        assert!(driver.status().starts_with("preview: computing…") || force(&driver).is_none());
-        driver.perform(waiting);
-        let second = force(&driver).expect("a preview");
-        assert_ne!(first, second);
-        assert!(!driver.status().contains("computing"), "{}", driver.status());
-        // After acceptance the curve remains until the scene itself is computed.
-        let accepted = driver.update("accept");
-        assert_eq!(accepted, [Effect::Ask]);
-        assert_eq!((driver.app.is_computing(), force(&driver)), (true, Some(second)));
-        assert!(driver.text().contains("preview"), "{}", driver.text());
-        driver.perform(accepted);
-        assert_eq!(driver.app.tried_outcome(), None);
-        assert_eq!(driver.app.solved.as_ref().unwrap().outcome.figures.adhesion_force, Some(second));
-    });
+    let mut driver = pressed("");
+    driver.select("roughness.rms_height");
+    driver.press("e Ctrl+u");
+    driver.type_text("300 nm");
+    let force = |driver: &Driver| driver.app.tried_outcome().and_then(|one| one.figures.adhesion_force);
+    let first = force(&driver).expect("a preview");
+    // The next value is typed, and its curve is not there yet: the previous one remains.
+    driver.press("Home Delete");
+    let waiting = update(&mut driver.app, Action::Paste('4'.to_string()));
+    assert_eq!(waiting, [Effect::Study]);
+    // "00 nm" is no allowed height, and has no curve.
+    assert!(driver.status().starts_with("preview: computing…") || force(&driver).is_none());
+    driver.perform(waiting);
+    let second = force(&driver).expect("a preview");
+    assert_ne!(first, second);
+    assert!(!driver.status().contains("computing"), "{}", driver.status());
+    // After acceptance the curve remains until the scene itself is computed.
+    let accepted = driver.update("accept");
+    assert_eq!(accepted, [Effect::Ask]);
+    assert_eq!((driver.app.is_computing(), force(&driver)), (true, Some(second)));
+    assert!(driver.text().contains("preview"), "{}", driver.text());
+    driver.perform(accepted);
+    assert_eq!(driver.app.tried_outcome(), None);
+    assert_eq!(driver.outcome().figures.adhesion_force, Some(second));
 }

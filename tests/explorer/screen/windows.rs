@@ -1,81 +1,64 @@
 //! Windows that grow and shrink, and panes that take the whole of them.
 
-use super::common::deadline::within;
 use super::{SIZES, pressed};
 use asperity::explorer::app::Pane;
 use asperity::explorer::layout::Layout;
 
 #[test]
 fn every_pane_can_have_the_whole_screen() {
-    within(30, || {
-        let mut driver = pressed("");
-        let all = Layout::of(&driver.app).panes.len();
-        assert_eq!(all, 4);
-        for _ in 0..4 {
-            driver.press("z");
-            assert_eq!(Layout::of(&driver.app).panes.len(), 1);
-            assert_eq!(Layout::of(&driver.app).panes[0].0, driver.app.view.pane);
-            driver.press("z Tab");
-            assert_eq!(Layout::of(&driver.app).panes.len(), 4);
-        }
-        assert_eq!(driver.app.view.pane, Pane::Force);
-    });
+    let mut driver = pressed("");
+    let all = Layout::of(&driver.app).panes.len();
+    assert_eq!(all, 4);
+    for _ in 0..4 {
+        driver.press("z");
+        assert_eq!(Layout::of(&driver.app).panes.len(), 1);
+        assert_eq!(Layout::of(&driver.app).panes[0].0, driver.app.view.pane);
+        driver.press("z Tab");
+        assert_eq!(Layout::of(&driver.app).panes.len(), 4);
+    }
+    assert_eq!(driver.app.view.pane, Pane::Force);
 }
 
 #[test]
 fn a_small_window_keeps_the_chosen_pane() {
-    within(30, || {
-        for size in SIZES {
-            let mut driver = pressed("");
-            driver.resize(size);
-            for _ in 0..4 {
-                let layout = Layout::of(&driver.app);
-                let shown = layout.pane(driver.app.view.pane).expect("the chosen pane is shown");
-                assert!(shown.width > 0 && shown.height > 0);
-                driver.press("Tab");
-            }
+    for size in SIZES {
+        let mut driver = pressed("");
+        driver.resize(size);
+        for _ in 0..4 {
+            let layout = Layout::of(&driver.app);
+            let shown = layout.pane(driver.app.view.pane).expect("the chosen pane is shown");
+            assert!(shown.width > 0 && shown.height > 0);
+            driver.press("Tab");
         }
-    });
+    }
 }
 
 #[test]
 fn a_screen_grows_back_to_what_it_was() {
-    within(30, || {
-        let mut driver = pressed("");
-        let before = driver.screen();
-        for size in [(40, 12), (20, 5), (1, 1), (0, 0), (300, 100), (120, 40)] {
-            driver.resize(size);
-            // The matching snapshot arrives after the first drawing.
-            driver.screen();
-        }
-        assert_eq!(driver.screen(), before);
-    });
+    let mut driver = pressed("");
+    let before = driver.screen();
+    for size in [(40, 12), (20, 5), (1, 1), (0, 0), (300, 100), (120, 40)] {
+        driver.resize(size);
+        // The matching snapshot arrives after the first drawing.
+        driver.screen();
+    }
+    assert_eq!(driver.screen(), before);
 }
 
 #[test]
 fn no_number_of_the_status_is_cut() {
-    within(60, || {
-        let mut driver = pressed("d {");
-        driver.resize((200, 40));
-        let whole = driver.status();
-        for columns in 12..200 {
-            driver.resize((columns, 40));
-            let status = driver.status();
-            // Each fact is shown in full.
-            let facts = |status: &str| -> Vec<String> {
-                status
-                    .replace("manual: ", "")
-                    .replace("  ◆ ", " · ")
-                    .split(" · ")
-                    .map(str::to_owned)
-                    .collect()
-            };
-            let all = facts(&whole);
-            let has_error = all[0].starts_with(&facts(&status)[0]);
-            assert!(
-                has_error && facts(&status)[1..].iter().all(|fact| all.contains(fact)),
-                "{status}|{whole}"
-            );
-        }
-    });
+    let mut driver = pressed("d {");
+    driver.resize((200, 40));
+    let whole = driver.status();
+    for columns in 12..200 {
+        driver.resize((columns, 40));
+        let status = driver.status();
+        // Each fact is shown in full.
+        let facts = |status: &str| -> Vec<String> {
+            status.replace("manual: ", "").replace("  ◆ ", " · ").split(" · ").map(str::to_owned).collect()
+        };
+        let all = facts(&whole);
+        let has_error = all[0].starts_with(&facts(&status)[0]);
+        assert!(has_error && facts(&status)[1..].iter().all(|fact| all.contains(fact)), "{status}|{whole}");
+    }
 }

@@ -128,21 +128,6 @@ fn the_profile_of_a_scene_is_read_back_with_its_moments() {
     assert_eq!(report["ends_inside_scan"], true);
 }
 
-#[test]
-fn options_mean_what_they_say() {
-    let place = Place::new();
-    let periodic = |more: &[&str]| place.run(&[&["surface", "line.txt", "--periodic"], more].concat());
-    assert_eq!(periodic(&[]), periodic(&["--detrend", "mean"]));
-    assert_ne!(periodic(&[]), periodic(&["--detrend", "tilt"]));
-    let lengths = |spacing: &str, wavelength: &str, radius: &str| {
-        let lengths = ["--spacing", spacing, "--continue-to", wavelength, "--tip-radius", radius];
-        place.run(&[&["surface", "column.txt", "--unit", "um"], &lengths[..]].concat())
-    };
-    assert_eq!(lengths("0.5", "0.25", "8"), lengths("0.5um", "250nm", "8µm"));
-    assert_eq!(lengths("0.5", "0.25", "8"), lengths("5.0e-1", ".25", "8e-6m"));
-    assert_ne!(lengths("0.5", "0.25", "8"), lengths("0.5", "0.25", "8nm"));
-}
-
 /// Numbers after the last of these keys, each searched after the previous one, to the last digit: a general JSON reader
 /// rounds some of them.
 fn numbers<'a>(text: &'a str, keys: &[&str]) -> impl Iterator<Item = f64> + 'a {

@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 /// Long enough for a kill in the middle.
 fn text() -> String {
     super::SMALL
-        .replace("count: 4", "count: 12")
+        .replace("count: 4", "count: 6")
         .replace("lines: 3", "lines: 6")
         .replace("points: 256", "points: 2048")
         .replace("modes: (1, 64)", "modes: (1, 512)")
