@@ -2,9 +2,8 @@
 
 use super::axis::{Axis, Spacing, Target};
 use crate::analysis::Governing;
-use crate::scene::{Document, FIELDS, Field, Move, Range, Roughness, Scene, SceneErrors, Tree, ron_float};
+use crate::scene::{Document, FIELDS, Field, Move, Range, Scene, SceneErrors, Tree, ron_float};
 use crate::simulation::FEW_SAMPLES;
-use crate::surface::SelfAffine;
 
 impl Axis {
     /// Value of the quantity in a scene; `None` where the scene has none. `computed` are the governing parameters
@@ -19,7 +18,7 @@ impl Axis {
         match (self.target, scene.loading.first()) {
             (Target::Preload, Some(Move::ToForce(force))) => Some(force / force_unit(scene)?),
             (Target::Preload, _) => None,
-            (Target::SpringsPerWave, _) => Some(scene.numerics.points as f64 / number("roughness.modes.1")?),
+            (Target::SpringsPerWave, _) => Some(scene.numerics.points as f64 / scene.spectrum()?.last as f64),
             _ => number(&self.path),
         }
     }
@@ -45,9 +44,7 @@ pub(super) fn scene_with<'a>(
                 parameter = Some((of, value));
                 continue;
             }
-            Target::SpringsPerWave => {
-                ("roughness.modes.1", (tree.get("numerics.points").unwrap_or_default() / value).round())
-            }
+            Target::SpringsPerWave => shortest_wave(&tree, value),
             Target::Number(_) | Target::Stage(_) => (axis.path.as_str(), value),
         };
         if !tree.set(path, value) {
@@ -62,6 +59,17 @@ pub(super) fn scene_with<'a>(
         scene.adhesion = Some(scene.adhesion.unwrap_or_default().with_parameter(parameter, value));
     }
     Ok(scene)
+}
+
+const LAST_MODE: &str = "roughness.modes.1";
+
+/// Path and value of the shortest wave with this number of springs, as a mode or, where these are given, as a wavelength.
+fn shortest_wave(tree: &Tree, springs: f64) -> (&'static str, f64) {
+    let [points, length] = ["numerics.points", "length"].map(|path| tree.get(path).unwrap_or_default());
+    match tree.get("roughness.wavelengths.1") {
+        Some(_) => ("roughness.wavelengths.1", springs * length / points),
+        None => (LAST_MODE, (points / springs).round()),
+    }
 }
 
 /// The numbers of a scene other than counts, zeros and what belongs to the numerics, as axes without values.
@@ -93,10 +101,7 @@ pub(super) fn strip(scene: &mut Scene) {
 
 /// Governing parameters of a scene with a self-affine profile.
 pub(super) fn governing(scene: &Scene) -> Option<Governing> {
-    let Some(Roughness::SelfAffine { hurst, modes: (first, last), .. }) = scene.roughness else {
-        return None;
-    };
-    let unit = SelfAffine { hurst, first, last }.unit_amplitude(scene.length);
+    let unit = scene.spectrum()?.unit_amplitude(scene.length);
     Some(Governing::of(scene, Some(unit), None))
 }
 
@@ -125,8 +130,9 @@ pub fn moved(document: &Document, values: &[(&Axis, f64)]) -> Result<Document, S
     }
     let mut moved = document.set_all(&fields)?;
     if let Some(springs) = springs {
-        let last = (moved.scene().numerics.points as f64 / springs).round();
-        moved = moved.set("roughness.modes.1", &format!("{last:.0}"))?;
+        let (path, value) = shortest_wave(&Tree::of(moved.scene()), springs);
+        let text = if path == LAST_MODE { format!("{value:.0}") } else { ron_float(value) };
+        moved = moved.set(path, &text)?;
     }
     if let Some((parameter, value)) = parameter {
         let adhesion = moved.scene().adhesion.unwrap_or_default();
