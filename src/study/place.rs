@@ -184,6 +184,38 @@ mod tests {
     }
 
     #[test]
+    fn axes_move_waves_in_metres() {
+        let waves = [("roughness.modes", "None"), ("roughness.wavelengths", "25 µm, 0.2 µm")];
+        let waves = waves.map(|(path, value)| (path.to_owned(), value.to_owned()));
+        let document = open("pressure-sensitive").unwrap().set_all(&waves).unwrap();
+        for (path, value, set) in [
+            ("roughness.wavelengths.0", 5e-5, ("roughness.wavelengths.0", "50 µm")),
+            ("roughness.wavelengths.1", 4e-7, ("roughness.wavelengths", "(2.5e-5, 4e-7)")),
+            ("roughness.roll_off", 1e-5, ("roughness.roll_off", "10 µm")),
+            ("springs_per_wave", 16.0, ("roughness.wavelengths.1", "9.765625e-8")),
+        ] {
+            let axis = Axis::new(path, Spacing::List, vec![value], document.scene()).unwrap();
+            let scene = with(document.scene(), path, value).unwrap();
+            assert_eq!(&scene, document.set(set.0, set.1).unwrap().scene(), "{path}");
+            assert_eq!(&scene, super::moved(&document, &[(&axis, value)]).unwrap().scene(), "{path}");
+            assert_eq!(axis.value_in(&scene, None), Some(value), "{path}");
+        }
+        // A longer line has the same waves: more modes.
+        let modes =
+            |document: &Document| document.scene().spectrum().map(|spectrum| (spectrum.first, spectrum.last));
+        for (length, nearest) in [("100 µm", (4, 500)), ("120 µm", (5, 600)), ("250 µm", (10, 1250))] {
+            assert_eq!(modes(&document.set("length", length).unwrap()), Some(nearest), "{length}");
+        }
+        let as_modes = [("roughness.modes", "(4, 500)"), ("roughness.wavelengths", "None")];
+        let as_modes = document.set_all(&as_modes.map(|(path, value)| (path.to_owned(), value.to_owned())));
+        let gaps = |document: &Document| {
+            let mut simulation = Simulation::default();
+            simulation.make_line(document.scene()).unwrap().0.gaps.clone()
+        };
+        assert_eq!(gaps(&document), gaps(&as_modes.unwrap()));
+    }
+
+    #[test]
     fn numbers_that_a_scene_does_not_have_are_stated() {
         let scene = open("jkr-sphere").unwrap().scene().clone();
         for path in
@@ -191,7 +223,9 @@ mod tests {
         {
             assert!(with(&scene, path, 1.0).unwrap_err().contains("the scene has no "), "{path}");
         }
-        for path in ["version", "roughness.seed", "roughness.modes", "numerics", "title"] {
+        for path in
+            ["version", "roughness.seed", "roughness.wavelengths", "roughness.modes", "numerics", "title"]
+        {
             assert!(Target::of(path).is_err(), "{path}");
         }
     }
