@@ -140,7 +140,13 @@ impl Document {
             let next = field.stepped(&here, if forwards { distance } else { -distance }, false);
             let Some(next) = next.filter(|next| choice_key(next) != choice_key(&here)) else { break };
             let chosen = match effect {
-                Some(effect) if !is_on => self.with(effect),
+                // The removed text where it is this choice: other choices lie on the way around the circle.
+                Some(effect) if !is_on => match self.with(effect) {
+                    Ok(back) if back.value(field.path).map(choice_key) != Some(choice_key(&next)) => {
+                        self.set(field.path, &next)
+                    }
+                    back => back,
+                },
                 Some(effect) if next == "None" => self.without(effect, computed),
                 Some(Effect::Adhesion) => self.converted(&next, computed),
                 _ => self.set(field.path, &next),
@@ -305,6 +311,12 @@ mod tests {
         let ratio = next(&document(), "adhesion", true);
         assert_eq!(ratio.value("adhesion"), Some("(elastic_energy_ratio: 0.9)"));
         assert_eq!(next(&ratio, "adhesion", true).scene().adhesion, None);
+        // Off, each choice is reached again.
+        let off = next(&ratio, "adhesion", true);
+        let choices = std::iter::successors(Some(off), |document| Some(next(document, "adhesion", true)));
+        let choices: Vec<String> =
+            choices.skip(1).take(4).map(|one| one.value("adhesion").unwrap_or("-").to_owned()).collect();
+        assert_eq!(choices, ["(work: 0.05)", "(kappa: 6.0)", "(elastic_energy_ratio: 0.9)", "None"]);
         // Not before the value has been computed.
         let field = field("adhesion", None).unwrap();
         let unknown = document().with_next_choice(field, false, &Computed::default()).unwrap_err();
