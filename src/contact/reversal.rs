@@ -69,7 +69,7 @@ impl Body {
     pub fn zero_load_adhesion(&mut self) -> Result<[Option<f64>; 2], ContactError> {
         let before = self.work;
         let loading = Leg::approach(self.leg.contact())?;
-        self.work.count_leg(&loading);
+        loading.count(&mut self.work);
         let balanced = loading.reach_force(0.0, 0.0, &mut self.work);
         let mut adhesion = |at| Ok(self.reverse(&loading, loading.state(at)?, &[])?.adhesion_force());
         let at_touch = adhesion(0.0)?;
