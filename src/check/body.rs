@@ -1,10 +1,13 @@
 //! Rough profiles under adhesion, loaded through the front of the library.
 
-use super::Measured;
 use crate::scene::{Edges, Material, Move};
 use crate::surface::{SelfAffine, phases};
 use crate::{Contact, Cycle, Profile};
+use std::error::Error;
 use std::f64::consts::{PI, TAU};
+
+/// Error of a case, or the reason why there is none.
+pub type Measured<T = f64> = Result<T, Box<dyn Error>>;
 
 pub const RANDOM: u64 = 48;
 

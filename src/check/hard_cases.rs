@@ -1,12 +1,13 @@
 //! Input at the limits: far too much adhesion, ties, heights of any size, loads far beyond the
 //! roughness, and very many springs.
 
-use super::Subject::{Bodies, Scene as OfScene};
-use super::laws::{end, only_scales};
-use super::{
-    Body, CLOSED_FORM, Case, Measured, SELF_CONSISTENCY, both, ensure, largest, outcome, relative_error,
-    relative_errors, with,
+use super::body::{Body, Measured};
+use super::case::Subject::{Bodies, Scene as OfScene};
+use super::case::{
+    CLOSED_FORM, Case, SELF_CONSISTENCY, both, ensure, largest, outcome, relative_error, relative_errors,
+    with,
 };
+use super::laws::{end, only_scales};
 use crate::scene::{Edges, Move, Scene};
 use crate::simulation::Outcome;
 use crate::surface::phases;

@@ -1,8 +1,8 @@
 //! `asperity check`: closed forms, laws and hard cases, on this machine.
 
-use super::output::{Origin, TEXT_OR_JSON, format_of};
+use super::error::CliError;
+use super::output::{Origin, OutputArguments, TEXT_OR_JSON, format_of};
 use super::progress::ProgressLine;
-use super::{CliError, OutputArguments};
 use crate::check::exhaustive::{every_history, every_order};
 use crate::check::{Case, Check, Verdict, catalogue, checks, judge};
 use crate::export::Format;

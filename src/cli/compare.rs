@@ -1,9 +1,9 @@
 //! `asperity compare A B`: two scenes side by side, in the explorer or as text.
 
+use super::error::CliError;
 use super::explore::{self, LookArguments};
-use super::output::{Origin, format_of};
-use super::scene::compute;
-use super::{CliError, OutputArguments, Overrides};
+use super::output::{Origin, OutputArguments, format_of};
+use super::scene::{Overrides, compute};
 use crate::explorer::Opening;
 use crate::export::{Comparison, Format};
 use crate::scene::open_argument;

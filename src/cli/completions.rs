@@ -1,7 +1,7 @@
 //! `asperity completions`: completion scripts for shells.
 
-use super::{Arguments, CliError};
-use clap::{Args, CommandFactory};
+use super::error::CliError;
+use clap::{Args, Command};
 use clap_complete::Shell;
 use std::io::Write;
 
@@ -19,10 +19,14 @@ pub struct CompletionsArguments {
     pub shell: Shell,
 }
 
-/// Writes the completion script of a shell.
-pub(super) fn completions(arguments: &CompletionsArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+/// Writes the completion script of the program for a shell.
+pub(super) fn completions(
+    arguments: &CompletionsArguments,
+    mut program: Command,
+    stdout: &mut dyn Write,
+) -> Result<(), CliError> {
     // Into memory first: the generator panics if writing fails.
     let mut script = Vec::new();
-    clap_complete::generate(arguments.shell, &mut Arguments::command(), "asperity", &mut script);
+    clap_complete::generate(arguments.shell, &mut program, "asperity", &mut script);
     Ok(stdout.write_all(&script)?)
 }

@@ -1,6 +1,6 @@
 //! `asperity config`: the configuration file of the explorer.
 
-use super::CliError;
+use super::error::CliError;
 use crate::explorer::config::{Config, default_path, write_template};
 use crate::explorer::theme::Appearance;
 use clap::Args;

@@ -1,8 +1,9 @@
 //! `asperity cost`: the cost of accuracy for a scene.
 
-use super::output::{Origin, PICTURES, format_of};
+use super::error::CliError;
+use super::output::{Origin, OutputArguments, PICTURES, format_of};
 use super::progress::ProgressLine;
-use super::{CliError, OutputArguments, SceneArguments};
+use super::scene::SceneArguments;
 use crate::accuracy::{Progress, measure};
 use crate::export::{CostReport, Format};
 use crate::scene::parse_quantity;

@@ -1,8 +1,9 @@
 //! `asperity demo`: automatic play of the explorer.
 
+use super::error::CliError;
 use super::explore::failed;
 use super::output::check_file;
-use super::{CliError, Overrides};
+use super::scene::Overrides;
 use crate::explorer::demo::{Demo, ONE_SCENE, TOUR, play};
 use crate::explorer::picture::text;
 use crate::explorer::theme::{Appearance, Marker, Theme};

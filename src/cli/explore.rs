@@ -1,6 +1,7 @@
 //! `asperity [SCENE]`: opens the explorer on a scene or on a finished study.
 
-use super::{Arguments, CliError, Overrides};
+use super::error::CliError;
+use super::scene::Overrides;
 use crate::explorer::autosave;
 use crate::explorer::config::{Config, default_path};
 use crate::explorer::theme::{Marker, Theme};
@@ -8,7 +9,7 @@ use crate::explorer::{self, Opening, OpeningError, Options, view};
 use crate::export::brief_summary;
 use crate::scene::{Document, quoted};
 use crate::simulation::Simulation;
-use clap::{Args, CommandFactory};
+use clap::Args;
 use std::fmt::Display;
 use std::io::{IsTerminal, Write, stdin, stdout};
 use std::path::{Path, PathBuf};
@@ -67,15 +68,20 @@ impl LookArguments {
     }
 }
 
-/// Opens the explorer on a scene or a study.
+/// Opens the explorer on a scene or a study; a word that is neither may be meant as one of the `commands`.
 ///
 /// On leaving, prints a brief summary of the last scene.
-pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Result<(), CliError> {
+pub(super) fn explore(
+    arguments: &ExploreArguments,
+    commands: &str,
+    out: &mut dyn Write,
+) -> Result<(), CliError> {
     let unsaved = autosave::folder();
     let restored = if arguments.restore { Some(restored(unsaved.as_deref())?) } else { None };
     let first = restored.as_ref().and_then(|(_, documents)| documents.first().cloned());
     let (config, warning) = config(arguments)?;
-    let opening = first.map_or_else(|| opening(arguments, &config.scene), |document| Ok(document.into()))?;
+    let opening =
+        first.map_or_else(|| opening(arguments, &config.scene, commands), |document| Ok(document.into()))?;
     if !stdin().is_terminal() || !stdout().is_terminal() {
         let name = quoted(opening.document.name());
         let (command, does) = match opening.study_map {
@@ -134,16 +140,13 @@ fn config(arguments: &ExploreArguments) -> Result<(Config, Option<String>), CliE
     }
 }
 
-fn opening(arguments: &ExploreArguments, default: &str) -> Result<Opening, CliError> {
+fn opening(arguments: &ExploreArguments, default: &str, commands: &str) -> Result<Opening, CliError> {
     let name = arguments.scene.as_deref().unwrap_or(default);
     let mut opening = Opening::of_argument(name).map_err(|error| match error {
         OpeningError::Scene(errors) => {
             // A single word that is no scene may be a misspelt command.
             let is_word = name.chars().all(|c| c.is_ascii_alphabetic());
             if is_word && !std::path::Path::new(name).exists() {
-                let command = Arguments::command();
-                let commands: Vec<_> = command.get_subcommands().map(|command| command.get_name()).collect();
-                let commands = commands.join(", ");
                 CliError::message(format!("{errors}\nCommands: {commands} (see asperity --help)"))
             } else {
                 errors.into()

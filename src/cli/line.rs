@@ -1,8 +1,8 @@
 //! `asperity line`: the rigid profile of a scene.
 
-use super::output::{Origin, TABLES};
-use super::scene::simulation_of;
-use super::{CliError, OutputArguments, SceneArguments};
+use super::error::CliError;
+use super::output::{Origin, OutputArguments, TABLES};
+use super::scene::{SceneArguments, simulation_of};
 use crate::export::Format;
 use clap::Args;
 use std::io::Write;

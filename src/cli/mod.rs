@@ -28,8 +28,6 @@ mod sweep;
 pub use arguments::{Arguments, Command};
 
 use error::CliError;
-use output::{AnswerFormat, OutputArguments};
-use scene::{Overrides, SceneArguments};
 
 use crate::text::printable_lines;
 use clap::error::{ContextKind, ErrorKind};
@@ -80,7 +78,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 /// the words that follow for another command, or for options of none.
 fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
     let mut command = Arguments::command();
-    let names: Vec<String> = command.get_subcommands().map(|command| command.get_name().into()).collect();
+    let names = names(&command);
     let words: Vec<_> = typed.iter().skip(1).map(|word| word.to_string_lossy()).collect();
     let is_command = |word: &&Cow<'_, str>| names.iter().any(|name| name == *word);
     let (Some(first), ErrorKind::ArgumentConflict | ErrorKind::UnknownArgument) =
@@ -104,9 +102,14 @@ fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
     command.error(ErrorKind::InvalidSubcommand, message)
 }
 
+/// Names of the commands.
+fn names(program: &clap::Command) -> Vec<String> {
+    program.get_subcommands().map(|command| command.get_name().to_owned()).collect()
+}
+
 fn dispatch(arguments: &Arguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     match &arguments.command {
-        None => explore::explore(&arguments.explore, stdout),
+        None => explore::explore(&arguments.explore, &names(&Arguments::command()).join(", "), stdout),
         Some(Command::Run(arguments)) => run::run(arguments, stdout),
         Some(Command::Compare(arguments)) => compare::compare(arguments, stdout),
         Some(Command::Reversals(arguments)) => reversals::reversals(arguments, stdout),
@@ -120,6 +123,8 @@ fn dispatch(arguments: &Arguments, stdout: &mut dyn Write) -> Result<(), CliErro
         Some(Command::Surface(arguments)) => surface::surface(arguments, stdout),
         Some(Command::Presets(command)) => presets::presets(command, stdout),
         Some(Command::Config(arguments)) => config::config(arguments, stdout),
-        Some(Command::Completions(arguments)) => completions::completions(arguments, stdout),
+        Some(Command::Completions(arguments)) => {
+            completions::completions(arguments, Arguments::command(), stdout)
+        }
     }
 }

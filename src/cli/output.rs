@@ -1,6 +1,6 @@
 //! Formats and destinations of results.
 
-use super::CliError;
+use super::error::CliError;
 use crate::draw::{Colours, Figure, figure_text};
 use crate::export::{self, Format, Report, check_extension, files_provenance, scene_provenance};
 use crate::io::{check_writable, write_new};

@@ -1,6 +1,8 @@
 //! `asperity plan`: the stages of a scene and their cost.
 
-use super::{AnswerFormat, CliError, SceneArguments};
+use super::error::CliError;
+use super::output::AnswerFormat;
+use super::scene::SceneArguments;
 use crate::export::sheet::Sheet;
 use crate::simulation::{Plan, PlannedStage};
 use crate::text::{grouped, memory_size};

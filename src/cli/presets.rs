@@ -1,6 +1,7 @@
 //! `asperity presets`: the built-in scenes and the user's own, and checks of scene files.
 
-use super::{AnswerFormat, CliError};
+use super::error::CliError;
+use super::output::AnswerFormat;
 use crate::export::sheet::Sheet;
 use crate::io::object;
 use crate::scene::{self, Document, Entry};

@@ -1,9 +1,9 @@
 //! `asperity reversals`: the unloadings of a scene from many turning points.
 
-use super::output::{Origin, TABLES, format_of};
+use super::error::CliError;
+use super::output::{Origin, OutputArguments, TABLES, format_of};
 use super::preloads::parse_range;
-use super::scene::simulation_of;
-use super::{CliError, OutputArguments, SceneArguments};
+use super::scene::{SceneArguments, simulation_of};
 use crate::export::{Format, ReversalReport, SMOOTHING};
 use crate::simulation::{RunError, TURNING_POINTS};
 use crate::study::{Axis, Results};

@@ -1,9 +1,9 @@
 //! `asperity run`: computation of a scene without a terminal.
 
-use super::output::{Origin, PICTURES, format_of};
+use super::error::CliError;
+use super::output::{Origin, OutputArguments, PICTURES, format_of};
 use super::preloads::parse_preloads;
-use super::scene::{MOST_LINES, compute, simulation_of, threads};
-use super::{CliError, OutputArguments, SceneArguments};
+use super::scene::{MOST_LINES, SceneArguments, compute, simulation_of, threads};
 use crate::accuracy::{Choice, choose, estimate, parse_tolerance};
 use crate::contact::{Leg, LegRecord};
 use crate::draw::Figure;

@@ -1,6 +1,6 @@
 //! Scene of a command, and its overrides.
 
-use super::CliError;
+use super::error::CliError;
 use crate::parallel;
 use crate::scene::{Document, Scene, open_argument};
 use crate::simulation::{Outcome, Simulation};

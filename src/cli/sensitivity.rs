@@ -1,8 +1,8 @@
 //! `asperity sensitivity`: changes of the results of a scene with its numbers.
 
-use super::output::{Origin, format_of};
-use super::scene::simulation_of;
-use super::{CliError, OutputArguments, SceneArguments};
+use super::error::CliError;
+use super::output::{Origin, OutputArguments, format_of};
+use super::scene::{SceneArguments, simulation_of};
 use crate::export::{Format, SensitivityReport};
 use crate::study::Sensitivity;
 use clap::Args;

@@ -1,8 +1,8 @@
 //! `asperity surface`: measured surfaces, their statistics and spectrum, and the equivalent line.
 
-use super::output::{Origin, check_file, format_of};
+use super::error::CliError;
+use super::output::{Origin, OutputArguments, check_file, format_of};
 use super::scene::{MOST_LINES, threads};
-use super::{CliError, OutputArguments};
 use crate::export::{Format, MeasuredFace, SurfaceFile, SurfaceReport, named_from};
 use crate::io::write_new;
 use crate::scene::{

@@ -1,24 +1,13 @@
 //! Measured surfaces as roughness: the profile itself, or its equivalent line with its own spectrum and random phases.
 
-use super::{Amplitude, MeasuredProfile, SurfaceError};
-use crate::spectrum::{Analysis, Detrend, IsotropicSpectrum, LineMoments, Options, analyse, line_moments};
-use crate::topography::{ReadOptions, content, parse};
+use super::{Amplitude, MeasuredOptions, MeasuredProfile, SurfaceError};
+use crate::spectrum::{Analysis, IsotropicSpectrum, LineMoments, analyse, line_moments};
+use crate::topography::{content, parse};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
 /// Relative excess of a wavelength over the scan that counts as rounding.
 const ROUNDING: f64 = 1.0e-9;
-
-/// Options of a scene for its measured surface.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct MeasuredOptions {
-    /// Part removed from the profile if it is the line itself; `None` for an equivalent line.
-    pub as_line: Option<Detrend>,
-    /// Options of the readers.
-    pub reading: ReadOptions,
-    /// Options of the spectrum.
-    pub spectrum: Options,
-}
 
 /// Files of a face with their content: samples of one roughness.
 pub type Face = Vec<(PathBuf, Vec<u8>)>;
@@ -156,7 +145,7 @@ impl EquivalentLine {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spectrum::{End, Moment};
+    use crate::spectrum::{End, Moment, Options};
 
     fn face() -> Face {
         let height =

@@ -1,13 +1,24 @@
 //! Measured profiles used as the line themselves.
 
-use super::{Amplitude, MeasuredOptions, SurfaceError};
+use super::{Amplitude, SurfaceError};
 use crate::memory::{check_room, emptied};
-use crate::spectrum::Detrend;
-use crate::topography::{TopographyError, UNEVEN, first_uneven, interpolated, parse};
+use crate::spectrum::{Detrend, Options};
+use crate::topography::{ReadOptions, TopographyError, UNEVEN, first_uneven, interpolated, parse};
 use realfft::RealFftPlanner;
 
 /// Most bytes per point of the transform and its arrays: an odd number of points transforms at twice the length.
 const TRANSFORM_BYTES: u64 = 96;
+
+/// Options of a scene for its measured surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MeasuredOptions {
+    /// Part removed from the profile if it is the line itself; `None` for an equivalent line.
+    pub as_line: Option<Detrend>,
+    /// Options of the readers.
+    pub reading: ReadOptions,
+    /// Options of the spectrum.
+    pub spectrum: Options,
+}
 
 /// A measured profile.
 ///

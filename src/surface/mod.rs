@@ -14,12 +14,12 @@ mod spectrum;
 mod struve;
 
 pub use amplitude::Amplitude;
-pub use equivalent::{EquivalentLine, Face, MeasuredOptions, MeasuredRoughness, read_faces};
+pub use equivalent::{EquivalentLine, Face, MeasuredRoughness, read_faces};
 pub use error::SurfaceError;
 pub use form::{Form, power_law_factor};
 pub use histogram::Histogram;
 pub use line::Line;
-pub use measured::MeasuredProfile;
+pub use measured::{MeasuredOptions, MeasuredProfile};
 pub use phases::phases;
 pub use roughness::Synthesizer;
 pub use spectrum::SelfAffine;

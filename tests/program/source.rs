@@ -11,19 +11,11 @@ const ROOMS: &str = "text memory parallel io topography contact spectrum surface
 
 /// Rooms in which files use each other in a circle, and the most files of the circle. The list only becomes shorter: a room
 /// without its circle fails the test until its row is deleted.
-const CIRCLES: [(&str, usize); 6] = [
-    // Cases use the types of the file that lists them.
-    ("check", 5),
-    // Commands use the error of the file that calls them.
-    ("cli", 29),
+const CIRCLES: [(&str, usize); 2] = [
     // Errors have targets and targets return errors; springs own the tree of their gaps; the record of a history has legs.
     ("contact", 12),
-    // Parts use the sizes of the file that puts them together.
-    ("draw", 5),
-    // Update, keys, panes and views before their rebuild.
+    // Update, keys, panes and views.
     ("explorer", 54),
-    // The equivalent line has the options of the profile that is measured.
-    ("surface", 2),
 ];
 
 /// Path of a module in the crate, as `["contact", "adhesive"]`.

@@ -1,6 +1,6 @@
 //! `asperity sweep boundary`: the boundary of vanishing zero-load adhesion.
 
-use crate::cli::CliError;
+use crate::cli::error::CliError;
 use crate::cli::output::format_of;
 use crate::export::{Format, write};
 use crate::scene::RoughnessParameter;

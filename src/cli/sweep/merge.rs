@@ -1,6 +1,6 @@
 //! `asperity sweep merge`: the tables of a study.
 
-use crate::cli::CliError;
+use crate::cli::error::CliError;
 use crate::study::{Folder, Merged, PARQUET, RESULTS, SIDECAR, SUMMARY, merge as merge_records};
 use crate::text::path_name;
 use clap::Args;

@@ -8,7 +8,7 @@ mod run;
 mod status;
 mod submit;
 
-use super::CliError;
+use super::error::CliError;
 use clap::{Args, Subcommand};
 use std::io::Write;
 

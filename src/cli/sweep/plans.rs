@@ -1,6 +1,7 @@
 //! `asperity sweep plans`: the built-in plans.
 
-use crate::cli::{AnswerFormat, CliError};
+use crate::cli::error::CliError;
+use crate::cli::output::AnswerFormat;
 use crate::export::sheet::Sheet;
 use crate::io::object;
 use crate::study::{Changes, PLANS, Plan, PlanErrors, StudyError};

@@ -1,6 +1,7 @@
 //! `asperity sweep plot`: figures of a merged study.
 
-use crate::cli::{CliError, OutputArguments};
+use crate::cli::error::CliError;
+use crate::cli::output::OutputArguments;
 use crate::export::{Format, study_curves, study_figure, study_map};
 use crate::study::{Results, Selected, Selection};
 use clap::Args;

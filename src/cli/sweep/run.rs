@@ -1,9 +1,9 @@
 //! `asperity sweep PLAN`: computation of a study, or of its missing records.
 
 use super::merge::write_merged;
+use crate::cli::error::CliError;
 use crate::cli::progress::ProgressLine;
-use crate::cli::scene::threads;
-use crate::cli::{CliError, Overrides};
+use crate::cli::scene::{Overrides, threads};
 use crate::study::{
     Changes, Folder, Memory, Options, Plan, Progress, Shard, Status, StudyError, merge, run as compute,
 };

@@ -1,6 +1,7 @@
 //! `asperity sweep status`: the progress of a study.
 
-use crate::cli::{AnswerFormat, CliError};
+use crate::cli::error::CliError;
+use crate::cli::output::AnswerFormat;
 use crate::export::sheet::Sheet;
 use crate::study::{Folder, Status};
 use crate::text::grouped;

@@ -6,7 +6,8 @@
 //! that completes the study merges it.
 
 use super::run::size;
-use crate::cli::{CliError, Overrides};
+use crate::cli::error::CliError;
+use crate::cli::scene::Overrides;
 use crate::scene::quoted;
 use crate::study::{Changes, Folder, Plan, StudyError};
 use crate::text::{is_control, path_name, printable_lines};

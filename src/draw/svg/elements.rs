@@ -1,9 +1,15 @@
 //! Elements of an SVG document, with lengths to a hundredth of a pixel.
 
 use crate::draw::chart::Stroke;
-use crate::draw::colour::{Rgb, hex};
+use crate::draw::colour::{Palette, Rgb, hex};
 use crate::draw::label::{Face, Label, SMALL};
 use std::fmt::{Arguments, Write};
+
+/// Fill of cells without a value.
+pub(super) const HATCHED: &str = "fill=\"url(#hatched)\"";
+pub(super) const TEXT: Rgb = Palette::LIGHT.foreground;
+pub(super) const QUIET: Rgb = [0x96, 0x9c, 0xa2];
+pub(super) const PAPER: Rgb = Palette::LIGHT.background;
 
 /// A place in a picture, px from the upper left.
 pub(super) type Place = (f64, f64);

@@ -1,7 +1,6 @@
 //! The frame of a chart: conversion of numbers to places, and the axes.
 
-use super::TEXT;
-use super::elements::{Anchor, Pen, Place, Svg};
+use super::elements::{Anchor, Pen, Place, Svg, TEXT};
 use crate::draw::axis::{Axes, Axis, Share};
 use crate::draw::label::Label;
 use crate::draw::ticks::Tick;

@@ -1,8 +1,7 @@
 //! Layers of a chart in its frame.
 
-use super::elements::{Pen, Place, Svg};
+use super::elements::{HATCHED, PAPER, Pen, Place, QUIET, Svg, TEXT};
 use super::frame::Frame;
-use super::{HATCHED, PAPER, QUIET, TEXT};
 use crate::draw::axis::{Axis, Share};
 use crate::draw::chart::{Contour, HeatMap, Layer, Shape, Sign, Stroke};
 use crate::draw::colour::{Ink, Rgb, ink_on};

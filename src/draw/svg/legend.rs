@@ -1,8 +1,7 @@
 //! Legend of a figure: rows of samples with names.
 
-use super::elements::{Anchor, Pen, Place, Svg};
+use super::elements::{Anchor, HATCHED, Pen, Place, QUIET, Svg, TEXT};
 use super::layers::{AREA_OPACITY, SIGN, draw_sign, guide};
-use super::{HATCHED, QUIET, TEXT};
 use crate::draw::chart::{Entry, Sample};
 
 /// Size of names, px.

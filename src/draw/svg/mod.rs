@@ -11,20 +11,14 @@ pub(crate) use tests::{attribute, elements, parsed};
 
 use super::axis::Axes;
 use super::chart::{Chart, Figure, HeatMap};
-use super::colour::{Palette, Rgb, Shades, hex};
+use super::colour::{Rgb, Shades, hex};
 use super::label::Label;
-use elements::{Anchor, Pen, Place};
+use elements::{Anchor, PAPER, Pen, Place, QUIET, TEXT};
 use frame::{Frame, LABEL, Side};
 use legend::Legend;
 
 /// Fonts of figures, with nearly the same letters on all systems.
 const FONTS: &str = "font-family=\"Helvetica, Arial, Liberation Sans, DejaVu Sans, sans-serif\"";
-/// Fill of cells without a value.
-const HATCHED: &str = "fill=\"url(#hatched)\"";
-const TEXT: Rgb = Palette::LIGHT.foreground;
-const QUIET: Rgb = [0x96, 0x9c, 0xa2];
-const PAPER: Rgb = Palette::LIGHT.background;
-
 /// Least room on the left of a chart and below it for the axes, and on the right of a chart, px.
 const AXES: (f64, f64) = (78.0, 50.0);
 const BESIDE: f64 = 22.0;
