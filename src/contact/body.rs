@@ -1,9 +1,9 @@
 //! The exact solver: a body moved along any loading history, leg by leg, in linear time and without a step error.
 
 use super::contact_state::{ContactState, Extreme};
+use super::goal::{Goal, plan};
 use super::grid::Grid;
 use super::leg::{Leg, SEARCH_INTERVALS};
-use super::moves::{Goal, plan};
 use super::{Contact, ContactError, CurvePoint, Direction, History, LegRecord, Move, TWO_THREADS, Work};
 use crate::parallel::in_parallel;
 use std::time::{Duration, Instant};
@@ -109,7 +109,7 @@ impl Body {
         } else {
             self.leg.turn(self.state.indentation)?
         };
-        self.work.count_leg(&leg);
+        leg.count(&mut self.work);
         Ok(leg)
     }
 
@@ -181,8 +181,13 @@ impl Body {
             let smallest = leg.extreme(Extreme::Smallest, &sampled, work);
             [self.point_of(smallest), self.point_of(sampled[last])]
         };
-        let record =
-            LegRecord::moved((target, &leg), curve, extremes, [before, self.point()], squared_stretch);
+        let record = LegRecord::moved(
+            (target, leg.direction()),
+            curve,
+            extremes,
+            [before, self.point()],
+            leg.energy(squared_stretch),
+        );
         self.work.count(&record);
         self.leg = leg;
         self.curve_time += clock.elapsed();

@@ -1,6 +1,25 @@
 //! The elastic foundation of the method of dimensionality reduction and the rule of Hess on it.
 
 use super::{CurvePoint, Direction, Patch};
+use serde::{Deserialize, Serialize};
+use strum::IntoStaticStr;
+
+/// Edge model of a contact patch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
+pub enum Edges {
+    /// The rule of the paper: a patch of n springs is n Δx long.
+    Grid,
+    /// The profile is straight from spring to spring, and a patch ends where the profile crosses the level of the
+    /// patch: the error falls with Δx².
+    SubCell,
+}
+
+impl Edges {
+    /// Name in scene files.
+    pub fn name(self) -> &'static str {
+        self.into()
+    }
+}
 
 /// A foundation of independent springs, equivalent to an elastic half-space.
 #[derive(Clone, Copy, Debug, PartialEq)]

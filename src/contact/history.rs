@@ -1,35 +1,7 @@
 //! Result of a loading history: its legs, their curves and the work counts.
 
-use super::{Leg, Patch};
-use crate::contact::Move;
+use super::{CurvePoint, Direction, Move, Patch};
 use serde::Serialize;
-
-/// Direction of a leg.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Direction {
-    /// The indentation grows.
-    Loading,
-    /// The indentation falls.
-    Unloading,
-}
-
-/// One point of a force curve.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct CurvePoint {
-    /// Indentation d, m; 0 at first touch.
-    pub indentation: f64,
-    /// Force F, N; compression positive.
-    pub force: f64,
-    /// Length in contact, m.
-    pub contact_length: f64,
-    /// Springs in contact.
-    pub springs: u64,
-    /// Contact fragments.
-    pub fragments: u64,
-    /// Stored elastic energy, J: ½ Δk Σ (d − c)² over the springs in contact, compressed or stretched.
-    pub stored_energy: f64,
-}
 
 /// Record of one leg.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,16 +49,15 @@ impl LegRecord {
         LegRecord { direction, curve: vec![start, end], ..LegRecord::still(target, end) }
     }
 
-    /// Records a motion along a leg: ascending points of its curve, its smallest and largest force, the body before and
-    /// after it, and the sum of the squared stretches of the springs that changed, m².
+    /// Records a motion in a direction: ascending points of its curve, its smallest and largest force, the body before
+    /// and after it, and the released elastic energy, J.
     pub(super) fn moved(
-        (target, leg): (Move, &Leg),
+        (target, direction): (Move, Direction),
         mut curve: Vec<CurvePoint>,
         [smallest, largest]: [CurvePoint; 2],
         [before, after]: [CurvePoint; 2],
-        squared_stretch: f64,
+        released_energy: f64,
     ) -> Self {
-        let direction = leg.direction();
         let changed = after.springs.abs_diff(before.springs);
         let (attached, detached) = if direction == Direction::Loading { (changed, 0) } else { (0, changed) };
         if direction == Direction::Unloading {
@@ -105,7 +76,6 @@ impl LegRecord {
         if after.springs == 0 && end.springs > 0 {
             curve.push(free(end.indentation));
         }
-        let released_energy = leg.energy(squared_stretch);
         LegRecord { target, direction, curve, largest, smallest, attached, detached, released_energy }
     }
 
@@ -169,21 +139,6 @@ pub struct Work {
 }
 
 impl Work {
-    /// Counts the passes and evaluations of a leg with adhesion.
-    pub(super) fn count_leg(&mut self, leg: &Leg) {
-        let contact = leg.contact();
-        if contact.has_adhesion()
-            && let Ok(tree) = contact.springs.tree(contact.edges)
-        {
-            self.tree_nodes = tree.node_count() as u64;
-            match leg.direction() {
-                Direction::Loading => self.loading_passes += 1,
-                Direction::Unloading => self.unloading_passes += 1,
-            }
-            self.hess_evaluations += leg.evaluations;
-        }
-    }
-
     /// Counts the springs of a leg of the loading.
     pub(crate) fn count(&mut self, leg: &LegRecord) {
         self.attached += leg.attached;

@@ -2,8 +2,8 @@
 
 use super::body::Body;
 use super::contact_state::ContactState;
+use super::goal::{Goal, plan};
 use super::leg::Leg;
-use super::moves::{Goal, plan};
 use super::{ContactError, CurvePoint, Direction};
 use crate::contact::Move;
 
@@ -85,7 +85,7 @@ impl Body {
     ) -> Result<Reversal, ContactError> {
         let high = turn.indentation;
         let unloading = loading.turn(high)?;
-        self.work.count_leg(&unloading);
+        unloading.count(&mut self.work);
         let separation = unloading.end().min(high);
         let (grid, _) = self.grid(separation, high);
         let smallest = unloading.smallest(&grid, &mut self.work)?;

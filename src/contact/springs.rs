@@ -1,27 +1,8 @@
 //! The springs under a rigid line and the contact that they form: all that stays the same while the body moves.
 
 use super::adhesive::{Closing, ContactTree};
-use super::{ContactError, Foundation, GapScale, HessRule};
-use serde::{Deserialize, Serialize};
+use super::{ContactError, Edges, Foundation, GapScale, HessRule};
 use std::sync::{Arc, OnceLock};
-use strum::IntoStaticStr;
-
-/// Edge model of a contact patch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
-pub enum Edges {
-    /// The rule of the paper: a patch of n springs is n Δx long.
-    Grid,
-    /// The profile is straight from spring to spring, and a patch ends where the profile crosses the level of the
-    /// patch: the error falls with Δx².
-    SubCell,
-}
-
-impl Edges {
-    /// Name in scene files.
-    pub fn name(self) -> &'static str {
-        self.into()
-    }
-}
 
 /// Springs under a rigid line: their gaps, and the trees that depend on the gaps and the edge model alone.
 ///

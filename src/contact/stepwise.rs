@@ -5,8 +5,8 @@
 
 use super::adhesive::EdgeCells;
 use super::contact_state::ContactState;
+use super::goal::{Goal, plan};
 use super::grid::Grid;
-use super::moves::{Goal, plan};
 use super::{
     Contact, ContactError, ContactTotals, CurvePoint, Direction, Leg, LegRecord, Solver, Work, resized,
 };
@@ -232,7 +232,13 @@ impl<'a> Stepwise<'a> {
         let (leg, end) = (self.leg(), self.point());
         let (low, high) = (origin.min(end.indentation), origin.max(end.indentation));
         let curve = leg.curve(Grid::new(low, high, self.samples - 1).points())?;
-        let record = LegRecord::moved((target, &leg), curve, [smallest, largest], [here, end], squared);
+        let record = LegRecord::moved(
+            (target, leg.direction()),
+            curve,
+            [smallest, largest],
+            [here, end],
+            leg.energy(squared),
+        );
         self.work.count(&record);
         Ok(record)
     }

@@ -211,9 +211,11 @@ fn leg_targets(loading: &[Move]) -> impl Iterator<Item = Parameter> {
 
 /// A written value in the format for people.
 fn shown(field: &Field, written: &str) -> String {
-    match (field.range, written.parse::<f64>()) {
-        (Range::Real { .. }, Ok(value)) => format_quantity(value, field.unit),
-        (Range::Choice(_), _) => {
+    if let Some(quantities) = field.quantities(written, format_quantity) {
+        return quantities;
+    }
+    match field.range {
+        Range::Choice(_) => {
             // The parts of a choice have rows of their own.
             let name = written.split('(').next().unwrap_or(written).trim();
             match (name, field.path) {
@@ -222,7 +224,7 @@ fn shown(field: &Field, written: &str) -> String {
                 (name, _) => name.to_owned(),
             }
         }
-        (Range::Text { .. }, _) => text_of(written),
+        Range::Text { .. } => text_of(written),
         _ => written.split_whitespace().collect::<Vec<_>>().join(" "),
     }
 }

@@ -1,7 +1,7 @@
 //! Execution of the stages of a scene whose input has changed since the last run.
 
 use super::loading::load;
-use super::roughness::{Rough, RoughnessKey, RoughnessMaker, spectrum};
+use super::roughness::{Rough, RoughnessKey, RoughnessMaker};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
 use crate::analysis::{Figures, Governing, Regime, SteepWaves, ideal_adhesion_force, scene_tabor_number};
 use crate::contact::{Contact, ContactError, ContactTree, Foundation, Leg, LegRecord, Patch, Springs, Work};
@@ -130,7 +130,8 @@ impl Simulation {
             deepest: self.springs.deepest(),
             modes,
             seed: scene.seed(),
-            continuum_rms_gradient: spectrum(scene)
+            continuum_rms_gradient: scene
+                .spectrum()
                 .map(|spectrum| rms_height * spectrum.continuum_gradient_per_height(length)),
         };
         Ok((line, facts, governing))

@@ -3,8 +3,7 @@
 use super::adhesive::{Closing, EdgeCells, Ground, Held, Levels, Run, Runs, Slider, Span};
 use super::contact_state::ContactState;
 use super::totals::ContactTotals;
-use super::{Contact, ContactError, ContactTree, Direction, Patch};
-use crate::contact::Edges;
+use super::{Contact, ContactError, ContactTree, Direction, Edges, Patch, Work};
 use std::sync::Arc;
 
 /// Contact at all indentations of a motion in one direction.
@@ -63,6 +62,21 @@ mod forces;
 pub(super) use forces::SEARCH_INTERVALS;
 
 impl Leg {
+    /// Counts the passes of the leg and, with adhesion, its evaluations of the rule of Hess.
+    pub(super) fn count(&self, work: &mut Work) {
+        let contact = self.contact();
+        if contact.has_adhesion()
+            && let Ok(tree) = contact.springs.tree(contact.edges)
+        {
+            work.tree_nodes = tree.node_count() as u64;
+            match self.direction() {
+                Direction::Loading => work.loading_passes += 1,
+                Direction::Unloading => work.unloading_passes += 1,
+            }
+            work.hess_evaluations += self.evaluations;
+        }
+    }
+
     /// Creates the leg of a body that touches nothing.
     pub fn apart(contact: &Contact, direction: Direction) -> Self {
         Leg {

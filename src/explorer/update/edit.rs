@@ -133,11 +133,10 @@ pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
 /// The value of a parameter at the start of the editor: in the shown unit, to the last digit.
 fn editable(app: &App, parameter: &Parameter) -> String {
     let written = app.written(parameter).unwrap_or_default();
-    match (parameter.field.range, written.parse()) {
+    match parameter.field.range {
         _ if parameter.path == "loading" => stage_targets(&app.edit.document.scene().loading, exact_quantity),
-        (Range::Real { .. }, Ok(value)) => exact_quantity(value, parameter.field.unit),
-        (Range::Text { .. }, _) => text_of(&written),
-        _ => written,
+        Range::Text { .. } => text_of(&written),
+        _ => parameter.field.quantities(&written, exact_quantity).unwrap_or(written),
     }
 }
 
