@@ -7,7 +7,7 @@ use crate::accuracy::Choice;
 use crate::analysis::Regime;
 use crate::io::{Kind, Table, object};
 use crate::scene::{format_quantity, format_rounded};
-use crate::study::{Quantity, RegimeCounts, Results, Statistics};
+use crate::study::{Quantity, Results, Statistics};
 use crate::text::grouped;
 
 /// Results of a scene on random profiles: a study of one cell.
@@ -27,6 +27,7 @@ impl LinesReport<'_> {
         Quantity::DissipatedEnergy,
         Quantity::ContactFraction,
         Quantity::Regime,
+        Quantity::RegimeAfterZeroForce,
         Quantity::Skewness,
         Quantity::ExcessKurtosis,
         Quantity::TaborNumber,
@@ -42,12 +43,8 @@ impl LinesReport<'_> {
         self.results.statistics(0, quantity).filter(|all| all.spread.is_some())
     }
 
-    fn regime(&self, line: u64) -> Option<Regime> {
-        self.results.regime(0, line)
-    }
-
-    fn regimes(&self) -> RegimeCounts {
-        self.results.regimes(0)
+    fn regimes(&self, line: u64) -> [Option<Regime>; 2] {
+        Quantity::REGIMES.map(|regime| self.results.regime(0, line, regime))
     }
 
     /// Root mean square of a quantity over the profiles.
@@ -96,9 +93,12 @@ impl Report for LinesReport<'_> {
         let dissipating = self.lines().filter(|line| value(*line, Quantity::DissipatedEnergy).is_some());
         let number = dissipating.into_iter().find_map(|line| value(line, Quantity::TaborNumber));
         sheet.row_of("Tabor number μ", number.map(tabor_number));
-        sheet.heading("Regimes");
-        for (name, count) in self.regimes().present() {
-            sheet.row(name, grouped(count as u64));
+        let headings = ["Regimes from first touch", "Regimes after zero net force"];
+        for (heading, regimes) in headings.into_iter().zip(self.results.regimes(0)) {
+            sheet.heading(heading);
+            for (name, count) in regimes.present() {
+                sheet.row(name, grouped(count as u64));
+            }
         }
         sheet.heading("Heights of single lines; both would be 0 if they averaged themselves");
         sheet.quantity("rms skewness", self.rms(Quantity::Skewness), "1");
@@ -120,7 +120,8 @@ impl Report for LinesReport<'_> {
                 "dissipated_energy": value(Quantity::DissipatedEnergy),
                 "tabor_number": value(Quantity::TaborNumber),
                 "contact_fraction": value(Quantity::ContactFraction),
-                "regime": self.regime(line),
+                "regime": self.regimes(line)[0],
+                "regime_after_zero_force": self.regimes(line)[1],
                 "heights": heights.map(|(skewness, kurtosis)| object! {
                     "skewness": skewness, "excess_kurtosis": kurtosis,
                 }),
@@ -133,7 +134,8 @@ impl Report for LinesReport<'_> {
             "preload_indentation": self.statistics(Quantity::PreloadIndentation),
             "dissipated_energy": self.statistics(Quantity::DissipatedEnergy),
             "contact_fraction": self.statistics(Quantity::ContactFraction),
-            "regimes": self.regimes(),
+            "regimes": self.results.regimes(0)[0],
+            "regimes_after_zero_force": self.results.regimes(0)[1],
             "rms_skewness": self.rms(Quantity::Skewness),
             "rms_excess_kurtosis": self.rms(Quantity::ExcessKurtosis),
             "lines": lines.collect::<Vec<_>>(),
@@ -143,11 +145,11 @@ impl Report for LinesReport<'_> {
     fn table(&self) -> Option<Table<'_>> {
         let mut table = Table::of(|| self.lines()).whole("seed", |line| self.results.plan().seed_of(*line));
         for quantity in Self::RECORD {
-            table = match quantity {
-                Quantity::Regime => table.with("regime", Kind::Text(Regime::LONGEST_NAME), |line| {
-                    self.regime(*line).map_or("", Regime::name)
-                }),
-                _ => table.real(quantity.name(), |line| self.results.value(0, *line, *quantity)),
+            let (name, text) = (quantity.name(), Kind::Text(Regime::LONGEST_NAME));
+            let regime = |line| self.results.regime(0, line, *quantity);
+            table = match quantity.is_regime() {
+                true => table.with(name, text, move |line| regime(*line).map_or("", Regime::name)),
+                false => table.real(name, |line| self.results.value(0, *line, *quantity)),
             };
         }
         Some(table.done())

@@ -3,10 +3,10 @@
 use super::report::Report;
 use crate::analysis::Regime;
 use crate::io::{Kind, Table};
-use crate::study::{Cell, Grid, Statistics};
+use crate::study::{Cell, Grid, Quantity, Statistics};
 
 impl Report for Grid {
-    /// The computed cells: values of the axes by their paths, profiles, regime, and the mean of each quantity with the
+    /// The computed cells: values of the axes by their paths, profiles, regimes, and the mean of each quantity with the
     /// ends of its 95 % confidence, in SI units.
     fn table(&self) -> Option<Table<'_>> {
         let columns = self.across.values.len();
@@ -20,11 +20,12 @@ impl Report for Grid {
         if let Some(up) = &self.up {
             table = table.with(up.path.clone(), Kind::Real, move |(index, _)| up.values[index / columns]);
         }
-        table = table.whole("lines", |(_, cell)| cell.regimes.profiles() as u64).with(
-            "regime",
-            Kind::Text(Regime::LONGEST_NAME),
-            |(_, cell)| cell.regimes.most().map(|(regime, _)| regime.name()),
-        );
+        table = table.whole("lines", |(_, cell)| cell.regimes[0].profiles() as u64);
+        for of in Quantity::REGIMES {
+            table = table.with(of.name(), Kind::Text(Regime::LONGEST_NAME), move |(_, cell)| {
+                cell.regimes_of(of).most().map(|(regime, _)| regime.name())
+            });
+        }
         for (place, layer) in self.layers.iter().enumerate() {
             let [mean, _, low, high] = Statistics::COLUMNS;
             for (ending, of) in [mean, low, high] {

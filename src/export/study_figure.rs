@@ -59,7 +59,7 @@ pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> 
         values,
         key: axis_of(quantity, scale, range),
         shades,
-        classes: grid.regimes(whole).iter().map(class).collect(),
+        classes: grid.regimes(quantity, whole).iter().map(class).collect(),
         class_names: class_names.to_vec(),
         contour: vanishing(grid, quantity, whole).map(|field| Contour {
             name: vanishing_label(),
@@ -107,7 +107,7 @@ fn axis_over(axis: &study::Axis, span: Span) -> Axis {
 
 /// Name of a quantity in words.
 fn name(quantity: Quantity) -> String {
-    let hyphenated = [("zero load", "zero-load"), ("zero force", "zero-force"), ("pull off", "pull-off")];
+    let hyphenated = [("zero load", "zero-load"), ("zero force a", "zero-force a"), ("pull off", "pull-off")];
     let name = quantity.name().replace('_', " ");
     hyphenated.iter().fold(name, |name, (words, word)| name.replace(words, word))
 }
@@ -273,7 +273,7 @@ mod tests {
             _ => Regime::NonAdhesive,
         };
         let regimes = RegimeCounts::of([Some(regime); 4].into_iter());
-        Cell { statistics: values.map(|value| Some(estimate(value))).to_vec(), regimes }
+        Cell { statistics: values.map(|value| Some(estimate(value))).to_vec(), regimes: [regimes; 2] }
     }
 
     fn study(
@@ -441,7 +441,7 @@ mod tests {
                 for scale in [AxisScale::Linear, AxisScale::Logarithmic] {
                     let across = axis(&study.grid.across.path, study.grid.across.spacing, vec![0.5]);
                     let one = Statistics::of(vec![value], SHARE.bounds());
-                    let cell = Cell { statistics: vec![one; 2], regimes: RegimeCounts::default() };
+                    let cell = Cell { statistics: vec![one; 2], regimes: Default::default() };
                     let rows = study.grid.size().1;
                     let range = Some((value, value));
                     let layers = study.grid.layers.iter().map(|layer| Quantities { scale, range, ..*layer });

@@ -138,7 +138,8 @@ impl Report for SurfaceReport {
                 "preload": preload(scene),
                 "adhesion_force": computed.adhesion_force().filter(|forces| forces.spread.is_some()),
                 "fit_deviation": computed.fit_deviation(),
-                "regimes": computed.regimes(),
+                "regimes": computed.regimes()[0],
+                "regimes_after_zero_force": computed.regimes()[1],
                 "lines": &computed.profiles,
             }
         });
@@ -218,9 +219,11 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, computed: Option<&MeasuredAdhesion
     let force = measured_adhesion_text(computed);
     sheet.row("adhesion force F_a", force.unwrap_or_else(|| "none: nothing is pulled".to_owned()));
     let count = computed.profiles.len();
-    let regimes = computed.regimes();
-    let each: Vec<_> = regimes.present().map(|(name, some)| format!("{name} on {some} of {count}")).collect();
-    sheet.row("regime", each.join(", ") + " profiles");
+    let labels = ["regime from first touch", "regime after zero force"];
+    for (label, regimes) in labels.into_iter().zip(computed.regimes()) {
+        let each = regimes.present().map(|(name, some)| format!("{name} on {some} of {count}"));
+        sheet.row(label, each.collect::<Vec<_>>().join(", ") + " profiles");
+    }
 }
 
 fn self_affine(sheet: &mut Sheet, analysis: &Analysis) {

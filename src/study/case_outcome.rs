@@ -110,13 +110,13 @@ impl CaseOutcome<'_> {
         scene_tabor_number(self.scene, &self.governing)
     }
 
-    /// Regime of this loading.
-    pub fn regime(&self) -> Option<Regime> {
+    /// Regime of this loading with this F_a(0), N, as its place in [`Regime::ALL`].
+    pub fn regime(&self, zero_load: Option<f64>) -> Option<f64> {
         let Scene { form, length, .. } = self.scene;
         let smooth = self.governing.adhesive_work().map(|work| {
             smooth_adhesion_force(form.as_ref(), *length, self.governing.effective_modulus, work)
         });
-        Regime::of_loading(&self.loading.figures, self.zero_load, smooth)
+        Some(Regime::of_loading(&self.loading.figures, zero_load, smooth)? as u8 as f64)
     }
 }
 

@@ -15,8 +15,15 @@ const LOGARITHMIC_RATIO: f64 = 50.0;
 pub struct Cell {
     /// The quantities of the layers, in their order; `None` where no profile has a value.
     pub statistics: Vec<Option<Statistics>>,
-    /// Numbers of profiles in each regime.
-    pub regimes: RegimeCounts,
+    /// Numbers of profiles in each regime, by the protocols of [`Quantity::REGIMES`].
+    pub regimes: [RegimeCounts; 2],
+}
+
+impl Cell {
+    /// Numbers of profiles in each regime after zero net force, or from first touch for any other quantity.
+    pub fn regimes_of(&self, quantity: Quantity) -> RegimeCounts {
+        self.regimes[usize::from(quantity == Quantity::RegimeAfterZeroForce)]
+    }
 }
 
 /// A quantity of a grid with its scale.
@@ -60,7 +67,7 @@ pub struct Grid {
     pub up: Option<Axis>,
     /// The other axes of the study at their values, in words: `H = 0.3`.
     pub fixed: Vec<String>,
-    /// Quantities beside the regime.
+    /// Quantities beside the regimes.
     pub layers: Vec<Layer>,
     /// Cells row by row, the row of the lowest value first; an error is the reason why a cell was not computed.
     pub cells: Vec<Option<Result<Cell, String>>>,
@@ -90,15 +97,16 @@ impl Grid {
         self.layers.iter().find(|layer| layer.quantity == quantity)
     }
 
-    /// The quantities of the grid, the regime first if known.
+    /// The quantities of the grid, the known regimes first and last.
     pub fn quantities(&self) -> Vec<Quantity> {
-        let regime = (!self.regimes(false).is_empty()).then_some(Quantity::Regime);
-        regime.into_iter().chain(self.layers.iter().map(|layer| layer.quantity)).collect()
+        let [touch, zero_force] = Quantity::REGIMES
+            .map(|regime| Some(regime).filter(|regime| !self.regimes(*regime, false).is_empty()));
+        touch.into_iter().chain(self.layers.iter().map(|layer| layer.quantity)).chain(zero_force).collect()
     }
 
     /// Returns true if too many profiles of a cell are in a second regime.
-    pub fn is_split(&self) -> bool {
-        self.each(false).flatten().any(|cell| cell.regimes.split().is_some())
+    pub fn is_split(&self, regime: Quantity) -> bool {
+        self.each(false).flatten().any(|cell| cell.regimes_of(regime).split().is_some())
     }
 
     /// The cell shown at a column and a row, with the column and the row of the cell: the cell itself or, until it is
@@ -121,9 +129,10 @@ impl Grid {
         let layer = self.layers.iter().position(|layer| layer.quantity == quantity);
         let rank = |regime: Regime| 1.0 - regime as u8 as f64 / 2.0;
         let of = |cell: &Cell| match (quantity, layer) {
-            (Quantity::Regime, _) => {
-                let regime = cell.regimes.most()?.0;
-                let other = cell.regimes.split().unwrap_or(regime);
+            _ if quantity.is_regime() => {
+                let regimes = cell.regimes_of(quantity);
+                let regime = regimes.most()?.0;
+                let other = regimes.split().unwrap_or(regime);
                 let mean = (rank(regime) + rank(other)) / 2.0;
                 Statistics::of(vec![mean], (0.0, 1.0))
             }
@@ -132,9 +141,10 @@ impl Grid {
         self.each(whole).map(|cell| of(cell?)).collect()
     }
 
-    /// The regime of most profiles of each cell, row by row; empty where no regime is known.
-    pub fn regimes(&self, whole: bool) -> Vec<Option<Regime>> {
-        let regimes: Vec<_> = self.each(whole).map(|cell| Some(cell?.regimes.most()?.0)).collect();
+    /// The regime of most profiles of each cell as in [`Cell::regimes_of`], row by row; empty where no regime is known.
+    pub fn regimes(&self, quantity: Quantity, whole: bool) -> Vec<Option<Regime>> {
+        let most = |cell: Option<&Cell>| Some(cell?.regimes_of(quantity).most()?.0);
+        let regimes: Vec<_> = self.each(whole).map(most).collect();
         if regimes.iter().all(Option::is_none) { Vec::new() } else { regimes }
     }
 

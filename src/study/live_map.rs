@@ -230,10 +230,10 @@ mod tests {
         let shares = grid.statistics(Quantity::ZeroLoadAdhesionShare, false);
         for column in 0..HURSTS {
             let cell = |row| grid.shown(column, row).unwrap().0.clone().unwrap();
-            let regime = |row| cell(row).regimes.most().unwrap().0;
+            let regime = |row| cell(row).regimes[0].most().unwrap().0;
             assert_eq!(regime(0), Regime::PressureInsensitive);
             assert_eq!(regime(KAPPAS - 1), Regime::NonAdhesive);
-            assert!((0..KAPPAS).all(|row| cell(row).regimes.profiles() == 4));
+            assert!((0..KAPPAS).all(|row| cell(row).regimes[0].profiles() == 4));
             let mean = |row: usize| shares[row * HURSTS + column].unwrap().mean;
             assert!(mean(0) > 0.5 && mean(KAPPAS - 1) < 0.01);
         }
@@ -269,7 +269,7 @@ mod tests {
             };
             let text = format!(
                 "(version: 1, title: \"Map\", scene: {}, lines: {}, record: [zero_load_adhesion_share, \
-                 adhesion_coefficient, regime], axes: [List(path: \"{}\", values: [{}]), \
+                 adhesion_coefficient, regime, zero_force_adhesion_share, regime_after_zero_force], axes: [List(path: \"{}\", values: [{}]), \
                  List(path: \"roughness.hurst\", values: [{}])])",
                 to_ron(&live.plan().scene),
                 live.plan().lines,
@@ -290,7 +290,7 @@ mod tests {
                         .map(|place| place.unwrap().0.clone().unwrap());
                     studied.statistics.iter_mut().flatten().for_each(|all| all.spread = None);
                     assert_eq!(studied, shown, "{parameter:?}, {column} {row}");
-                    disagreeing += u64::from(studied.regimes.most().unwrap().1 < 4);
+                    disagreeing += u64::from(studied.regimes[0].most().unwrap().1 < 4);
                 }
             }
             assert!(disagreeing > 0, "no cell in which profiles differ");

@@ -11,8 +11,13 @@ use crate::scene::{
 /// Random profiles of each cell.
 pub const MAP_LINES: u64 = 4;
 /// Quantities of each cell.
-pub const MAP_RECORD: [Quantity; 3] =
-    [Quantity::ZeroLoadAdhesionShare, Quantity::AdhesionCoefficient, Quantity::Regime];
+pub const MAP_RECORD: [Quantity; 5] = [
+    Quantity::ZeroLoadAdhesionShare,
+    Quantity::AdhesionCoefficient,
+    Quantity::Regime,
+    Quantity::ZeroForceAdhesionShare,
+    Quantity::RegimeAfterZeroForce,
+];
 /// Fewest and most springs of a map; a scene with fewer keeps its own number, shorter waves need more.
 const SPRINGS: (u64, u64) = (1 << 10, 1 << 12);
 /// Representatives of all κ or e_el/γ and all H.

@@ -30,8 +30,10 @@ pub struct ProfileAdhesion {
     pub adhesion_force: Option<f64>,
     /// Change of F_a, to first order, by a step of the spectrum drawn from the uncertainty of the fit, N.
     pub fit_change: Option<f64>,
-    /// Regime on the fitted spectrum.
+    /// Regime on the fitted spectrum, from first touch.
     pub regime: Option<Regime>,
+    /// The same after zero net force.
+    pub regime_after_zero_force: Option<Regime>,
 }
 
 impl ProfileAdhesion {
@@ -64,6 +66,7 @@ impl ProfileAdhesion {
             adhesion_force: one,
             fit_change: one.zip(other).map(|(one, other)| (other - one) / SHARE),
             regime: fitted.regime,
+            regime_after_zero_force: fitted.regime_after_zero_force,
         })
     }
 }
@@ -106,9 +109,10 @@ impl MeasuredAdhesion {
         (changes.len() >= 2).then(|| (square / changes.len() as f64).sqrt())
     }
 
-    /// Number of profiles in each regime.
-    pub fn regimes(&self) -> RegimeCounts {
-        RegimeCounts::of(self.profiles.iter().map(|profile| profile.regime))
+    /// Numbers of profiles in each regime, from first touch and after zero net force.
+    pub fn regimes(&self) -> [RegimeCounts; 2] {
+        let both = |profile: &ProfileAdhesion| [profile.regime, profile.regime_after_zero_force];
+        [0, 1].map(|of| RegimeCounts::of(self.profiles.iter().map(|profile| both(profile)[of])))
     }
 }
 
@@ -158,7 +162,7 @@ mod tests {
         assert_eq!(found.adhesion_force(), Statistics::of(fitted, (0.0, f64::INFINITY)));
         let deviation = found.fit_deviation().unwrap();
         assert!((deviation / square.sqrt() - 1.0).abs() < 1e-12 && deviation > 0.0, "{deviation}");
-        assert_eq!(found.regimes().present().map(|(_, count)| count).sum::<usize>(), 6);
+        assert_eq!(found.regimes().map(|of| of.present().map(|(_, count)| count).sum::<usize>()), [6; 2]);
     }
 
     #[test]
@@ -180,6 +184,7 @@ mod tests {
             adhesion_force,
             fit_change,
             regime: None,
+            regime_after_zero_force: None,
         };
         let found = MeasuredAdhesion { profiles: vec![profile(Some(1.0), Some(2.0)), profile(None, None)] };
         assert_eq!((found.adhesion_force().unwrap().spread, found.fit_deviation()), (None, None));

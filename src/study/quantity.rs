@@ -10,7 +10,7 @@ struct Row {
     name: &'static str,
     /// Symbol; may be empty.
     symbol: &'static str,
-    /// SI unit; `1` for a number without one, empty for the regime, which is not a number.
+    /// SI unit; `1` for a number without one, empty for a regime, which is not a number.
     unit: &'static str,
     /// Meaning in one line.
     meaning: &'static str,
@@ -105,12 +105,12 @@ quantities! {
     ZeroForceAdhesionForce {
         name: "zero_force_adhesion_force",
         meaning: "adhesion force after turning where the force is back at zero",
-        symbol: "F_a(0)", unit: "N", needs: Needs::ZeroForce, of: |case| case.zero_force,
+        symbol: "F_a(F=0)", unit: "N", needs: Needs::ZeroForce, of: |case| case.zero_force,
     }
     ZeroForceAdhesionShare {
         name: "zero_force_adhesion_share",
         meaning: "adhesion force after turning where the force is back at zero, over that of a flat face",
-        symbol: "F_a(0)/F_a,max", bounds: SHARE, needs: Needs::ZeroForce,
+        symbol: "F_a(F=0)/F_a,max", bounds: SHARE, needs: Needs::ZeroForce,
         of: |case| case.share(case.zero_force),
     }
     PreloadForce {
@@ -154,8 +154,12 @@ quantities! {
         of: |case| case.loading.preload.map(|point| point.fragments as f64),
     }
     Regime {
-        name: "regime", meaning: "regime of adhesion, Fig. 4",
-        unit: "", of: |case| case.regime().map(|regime| f64::from(regime as u8)),
+        name: "regime", meaning: "regime of adhesion from first touch, Fig. 4",
+        unit: "", of: |case| case.regime(case.zero_load),
+    }
+    RegimeAfterZeroForce {
+        name: "regime_after_zero_force", meaning: "the same with F_a(F=0), after zero net force",
+        unit: "", of: |case| case.regime(case.zero_force),
     }
     StiffnessExponent {
         name: "stiffness_exponent",
@@ -190,6 +194,14 @@ impl Quantity {
     pub const ADHESION_SHARES: [Quantity; 2] =
         [Quantity::ZeroLoadAdhesionShare, Quantity::ZeroForceAdhesionShare];
 
+    /// The regimes by the two protocols.
+    pub const REGIMES: [Quantity; 2] = [Quantity::Regime, Quantity::RegimeAfterZeroForce];
+
+    /// Returns true for a regime, which is not a number.
+    pub fn is_regime(self) -> bool {
+        Quantity::REGIMES.contains(&self)
+    }
+
     const fn row(self) -> &'static Row {
         &ROWS[self as usize]
     }
@@ -204,7 +216,7 @@ impl Quantity {
         self.row().symbol
     }
 
-    /// SI unit; `1` for a number without one, empty for the regime, which is not a number.
+    /// SI unit; `1` for a number without one, empty for a regime, which is not a number.
     pub const fn unit(self) -> &'static str {
         self.row().unit
     }
@@ -223,7 +235,7 @@ impl Quantity {
         self.row().needs
     }
 
-    /// Finite value of a case, SI unit; NaN if the case has none. The regime is its place in
+    /// Finite value of a case, SI unit; NaN if the case has none. A regime is its place in
     /// [`crate::analysis::Regime::ALL`].
     pub(super) fn of(self, case: &CaseOutcome<'_>) -> f64 {
         (self.row().of)(case).filter(|value| value.is_finite()).unwrap_or(f64::NAN)

@@ -4,7 +4,7 @@ use super::case_outcome::{CaseOutcome, LoadingOutcome, ProfileRecord};
 use super::cells::Run;
 use super::place::strip;
 use super::plan::{Plan, StiffnessRange};
-use super::quantity::Needs;
+use super::quantity::{Needs, Quantity};
 use crate::analysis::Governing;
 use crate::scene::{Move, Roughness, Scene, Solver};
 use crate::simulation::{Outcome, RunError, Simulation};
@@ -55,7 +55,8 @@ impl<'p> Recorder<'p> {
             }
         }
         let count = loops.len();
-        let needs_zero_force = plan.records(Needs::ZeroForce);
+        let regime = plan.column(Quantity::RegimeAfterZeroForce);
+        let needs_zero_force = plan.records(Needs::ZeroForce) || regime.is_some();
         if needs_zero_force {
             loops.push(vec![Move::ToZeroForce, Move::ToSeparation]);
         }

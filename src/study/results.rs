@@ -242,7 +242,7 @@ impl Results {
     }
 
     /// Values of a cell on a profile, in the order of the recorded quantities, NaN for a quantity without a value. The
-    /// regime is its place in [`crate::analysis::Regime::ALL`]. `None` for a missing record.
+    /// regimes are places in [`crate::analysis::Regime::ALL`]. `None` for a missing record.
     pub fn record(&self, cell: u64, line: u64) -> Option<&[f64]> {
         self.at(cell * self.plan.lines + line)
     }
@@ -259,9 +259,9 @@ impl Results {
         self.record(cell, line).map(|values| values[column]).filter(|value| !value.is_nan())
     }
 
-    /// The recorded regime of a cell on a profile.
-    pub fn regime(&self, cell: u64, line: u64) -> Option<Regime> {
-        regime_of(self.value(cell, line, Quantity::Regime)?)
+    /// A recorded regime of a cell on a profile.
+    pub fn regime(&self, cell: u64, line: u64, regime: Quantity) -> Option<Regime> {
+        regime_of(self.value(cell, line, regime)?)
     }
 
     /// Existing records of a cell: the number of the profile and the values.
@@ -290,14 +290,15 @@ impl Results {
         Statistics::of(self.values(cell, quantity), quantity.bounds())
     }
 
-    /// Numbers of profiles of a cell in each regime.
-    pub fn regimes(&self, cell: u64) -> RegimeCounts {
-        RegimeCounts::of(self.records_of(cell).map(|(line, _)| self.regime(cell, line)))
+    /// Numbers of profiles of a cell in each regime of [`Quantity::REGIMES`].
+    pub fn regimes(&self, cell: u64) -> [RegimeCounts; 2] {
+        let regime = |line, of| self.regime(cell, line, of);
+        Quantity::REGIMES.map(|of| RegimeCounts::of(self.records_of(cell).map(|(line, _)| regime(line, of))))
     }
 
-    /// The recorded quantities but the regime, on scales for the whole study.
+    /// The recorded quantities but the regimes, on scales for the whole study.
     pub(super) fn layers(&self) -> Vec<Layer> {
-        let recorded = self.plan.record.iter().filter(|quantity| **quantity != Quantity::Regime);
+        let recorded = self.plan.record.iter().filter(|quantity| !quantity.is_regime());
         recorded.map(|quantity| self.layer(*quantity, None)).collect()
     }
 
@@ -335,7 +336,7 @@ impl Results {
     pub(super) fn cell(&self, cell: u64, quantities: &[Quantity]) -> Option<Cell> {
         let statistics = quantities.iter().map(|quantity| self.statistics(cell, *quantity)).collect();
         let regimes = self.regimes(cell);
-        (regimes.profiles() > 0).then_some(Cell { statistics, regimes })
+        (regimes[0].profiles() > 0).then_some(Cell { statistics, regimes })
     }
 }
 

@@ -106,7 +106,7 @@ impl Selection {
     }
 
     fn quantities(&self, plan: &Plan) -> Result<Vec<Quantity>, String> {
-        let drawn = plan.record.iter().copied().filter(|one| *one != Quantity::Regime);
+        let drawn = plan.record.iter().copied().filter(|one| !one.is_regime());
         let drawn: Vec<Quantity> = drawn.collect();
         let named = |name: &str| {
             drawn.iter().copied().find(|one| one.name() == name).ok_or_else(|| {

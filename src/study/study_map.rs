@@ -242,8 +242,8 @@ mod tests {
                         (Regime::PressureSensitive, None, 4),
                         (Regime::NonAdhesive, Some(Regime::PressureSensitive), 3),
                     ][number % 3];
-                    assert_eq!(cell.regimes.most(), Some((regime, agreeing)));
-                    assert_eq!((cell.regimes.split(), cell.regimes.profiles()), (split, 5));
+                    assert_eq!(cell.regimes[0].most(), Some((regime, agreeing)));
+                    assert_eq!((cell.regimes[0].split(), cell.regimes[0].profiles()), (split, 5));
                 }
             }
         }

@@ -2,6 +2,7 @@
 
 use super::StudyError;
 use super::axis::Axis;
+use super::grid::Cell;
 use super::plan::Plan;
 use super::quantity::{Quantity, regime_of};
 use super::results::{Merged, Results};
@@ -23,10 +24,6 @@ pub const SUMMARY: &str = "summary.csv";
 pub const PARQUET: &str = "results.parquet";
 /// Name of the file with the meanings of the columns.
 pub const SIDECAR: &str = "results.json";
-
-/// Columns of the summary for the share of profiles in each regime.
-const REGIME_COLUMNS: [&str; 3] =
-    ["regime_pressure_insensitive", "regime_pressure_sensitive", "regime_non_adhesive"];
 
 /// Merges the shard files of a study and writes its tables, each whole. With `partial`, tables of the existing records.
 /// Removes [`PARQUET`] of an earlier merge.
@@ -123,11 +120,10 @@ impl Results {
         let mut table = with_cell(&self.plan, Table::of(rows), |row| row.0);
         table = table.whole("seed", |row| self.plan.seed_of(row.1));
         for (column, quantity) in self.plan.record.iter().enumerate() {
-            table = match quantity {
-                Quantity::Regime => table.with("regime", Kind::Text(Regime::LONGEST_NAME), move |row| {
-                    regime_of(row.2[column]).map(Regime::name)
-                }),
-                _ => table.real(quantity.name(), move |row| row.2[column]),
+            let (name, text) = (quantity.name(), Kind::Text(Regime::LONGEST_NAME));
+            table = match quantity.is_regime() {
+                true => table.with(name, text, move |row| regime_of(row.2[column]).map(Regime::name)),
+                false => table.real(name, move |row| row.2[column]),
             };
         }
         table.done()
@@ -139,11 +135,13 @@ impl Results {
         let record = &self.plan.record;
         let rows = move || (0..self.plan.cells()).filter_map(|cell| Some((cell, self.cell(cell, record)?)));
         let mut table = with_cell(&self.plan, Table::of(rows), |row| row.0);
-        table = table.whole("lines", |row| row.1.regimes.profiles() as u64);
+        table = table.whole("lines", |row| row.1.regimes[0].profiles() as u64);
         for (place, quantity) in record.iter().enumerate() {
-            if *quantity == Quantity::Regime {
-                for (regime, name) in REGIME_COLUMNS.into_iter().enumerate() {
-                    table = table.real(name, move |row| Some(row.1.regimes.shares()?[regime]));
+            if quantity.is_regime() {
+                for (index, regime) in Regime::ALL.into_iter().enumerate() {
+                    let name = format!("{}_{}", quantity.name(), regime.name().replace('-', "_"));
+                    let share = move |cell: &Cell| Some(cell.regimes_of(*quantity).shares()?[index]);
+                    table = table.with(name, Kind::Real, move |row| share(&row.1));
                 }
                 continue;
             }
@@ -203,7 +201,7 @@ impl Results {
         let line = columns.next()?.parse::<u64>().ok()?.wrapping_sub(plan.seed);
         let value = |(quantity, text): (&Quantity, &str)| match quantity {
             _ if text.is_empty() => Some(f64::NAN),
-            Quantity::Regime => {
+            _ if quantity.is_regime() => {
                 Regime::ALL.iter().position(|one| one.name() == text).map(|place| place as f64)
             }
             _ => text.parse().ok(),

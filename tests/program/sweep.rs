@@ -44,7 +44,7 @@ const SMALL: &str = r#"(
     seed: 18446744073709551614,
     record: [
         zero_load_adhesion_force, zero_force_adhesion_force, preload_force, adhesion_force, adhesion_coefficient,
-        dissipated_energy, regime, stiffness_exponent, skewness, fragments, contact_fraction,
+        dissipated_energy, regime, regime_after_zero_force, stiffness_exponent, skewness, fragments, contact_fraction,
     ],
 )"#;
 
@@ -110,6 +110,7 @@ fn cells_are_what_single_runs_give() {
                 let touched = alone(&scene, [Move::ToTouch, Move::ToSeparation]);
                 let balanced = alone(&scene, [Move::ToZeroForce, Move::ToSeparation]);
                 let figures = pressed.figures;
+                let number = |regime: Option<Regime>| Some(f64::from(regime? as u8));
                 for (quantity, expected) in [
                     (Quantity::ZeroLoadAdhesionForce, touched.figures.adhesion_force),
                     (Quantity::ZeroForceAdhesionForce, balanced.figures.adhesion_force),
@@ -117,7 +118,8 @@ fn cells_are_what_single_runs_give() {
                     (Quantity::AdhesionForce, figures.adhesion_force),
                     (Quantity::AdhesionCoefficient, figures.adhesion_coefficient),
                     (Quantity::DissipatedEnergy, figures.dissipated_energy),
-                    (Quantity::Regime, pressed.regime.map(|regime| f64::from(regime as u8))),
+                    (Quantity::Regime, number(pressed.regime)),
+                    (Quantity::RegimeAfterZeroForce, number(pressed.regime_after_zero_force)),
                 ] {
                     let found =
                         Some(recorded[plan.column(quantity).unwrap()]).filter(|value| !value.is_nan());
@@ -216,10 +218,11 @@ fn summaries_are_the_statistics_of_the_rows() {
         for (place, quantity) in plan.record.iter().enumerate() {
             let values: Vec<f64> = results.records_of(cell).map(|(_, values)| values[place]).collect();
             let name = quantity.name();
-            if *quantity == Quantity::Regime {
-                let shares =
-                    Regime::ALL.map(|regime| number(&format!("regime_{}", regime.name().replace('-', "_"))));
-                assert_eq!(results.regimes(cell).shares(), Some(shares));
+            if quantity.is_regime() {
+                let column = |regime: Regime| format!("{name}_{}", regime.name().replace('-', "_"));
+                let shares = Regime::ALL.map(|regime| number(&column(regime)));
+                let of = usize::from(*quantity != Quantity::Regime);
+                assert_eq!(results.regimes(cell)[of].shares(), Some(shares));
                 continue;
             }
             let expected = Statistics::of(values, quantity.bounds()).unwrap();

@@ -28,7 +28,8 @@ pub static ROW: PaneRow = PaneRow {
         (
             "Map",
             "m: regime under other H and κ (e: e_el/γ), of most of a few random profiles with few springs; █ adhesion at first \
-             touch, ▒ after pressing, · hardly any, blank: not computed; ◆ is the scene, moved by the arrows",
+             touch (by V: after zero net force), ▒ after pressing, · hardly any, blank: not computed; ◆ is the scene, \
+             moved by the arrows",
         ),
         (
             "Study",
@@ -67,7 +68,7 @@ fn panel(app: &App, size: Size) -> Panel {
 /// Map of the regimes or of a quantity over two axes; `None` for a grid with one axis.
 fn map(grid: &Grid, mapped: Quantity) -> Option<Chart> {
     let mut chart = study_map(grid, mapped, true)?;
-    if let (Quantity::Regime, Some(map)) = (mapped, chart.map_mut()) {
+    if let (true, Some(map)) = (mapped.is_regime(), chart.map_mut()) {
         // The shades show the regimes.
         map.contour = None;
         map.class_names.iter_mut().for_each(|class| class.letter = None);
@@ -78,7 +79,7 @@ fn map(grid: &Grid, mapped: Quantity) -> Option<Chart> {
 /// Curves over the only axis of a map, with the mark of the scene.
 fn curves(app: &App, grid: &Grid) -> Vec<Chart> {
     let quantities = shown_quantities(app.mapped(), grid);
-    let curves = quantities.into_iter().filter(|quantity| *quantity != Quantity::Regime);
+    let curves = quantities.into_iter().filter(|quantity| !quantity.is_regime());
     let mark = app.place().map(|(across, _)| across);
     let chart = |quantity| {
         let mut chart = study_curves(grid, quantity).into_iter().next()?;
@@ -148,6 +149,9 @@ fn nothing_yet(app: &App) -> String {
 
 /// The name of a quantity: its symbol, where unique on the map.
 fn name_of(grid: &Grid, quantity: Quantity) -> String {
+    if quantity.is_regime() {
+        return format!("regime {}", protocol(quantity));
+    }
     let symbol = quantity.symbol();
     let is_only = grid.layers.iter().filter(|layer| layer.quantity.symbol() == symbol).count() == 1;
     if is_only && !symbol.is_empty() { symbol.to_owned() } else { quantity.name().replace('_', " ") }
@@ -159,14 +163,14 @@ fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
     let look = app.view.appearance;
     let title = |text: String| Text::styled(text, look.theme.style(Meaning::Title));
     let mut parts = shades(chart, look, width);
-    if app.mapped() == Quantity::Regime {
+    if app.mapped().is_regime() {
         parts.truncate(1);
         // From the densest: the regimes, and cells whose profiles are in one and the next.
         for (class, shade) in map.class_names.iter().zip(SHADES.iter().rev().step_by(2)) {
             let shade = Text::styled(*shade, in_theme(look, |style| (style.ink)(class.ink)));
             parts.push(vec![shade, Text::raw(format!(" {}", class.name))]);
         }
-        if grid.is_split() {
+        if grid.is_split(app.mapped()) {
             parts.push(vec![Text::raw(format!("{} {} profiles disagree", SHADES[3], SHADES[1]))]);
         }
     } else {
@@ -206,8 +210,9 @@ fn below(app: &App, width: u16) -> Vec<Line<'static>> {
     let plan = live_plan(scene, app.map.parameter);
     if let Some(place) = app.place() {
         let outside = if grid.contains(place) { "" } else { ", outside the map" };
-        let regime = app.current().and_then(|computed| computed.outcome.regime);
-        let regime = regime.map_or_else(String::new, |regime| format!(": {}", regime.name()));
+        let outcome = app.current().map(|computed| &computed.outcome);
+        let regime = outcome.and_then(|of| Some(of.regime?.by_protocols(of.regime_after_zero_force)));
+        let regime = regime.map_or_else(String::new, |regime| format!(": {regime}"));
         say(format!("◆ {}{outside}{regime}", on_axes(grid, place)), Meaning::Text);
         if let Some((cell, column, row)) = grid.nearest(place) {
             say(cell_values(app, grid, place, (cell, column, row)), Meaning::Text);
@@ -243,16 +248,24 @@ fn below(app: &App, width: u16) -> Vec<Line<'static>> {
     lines
 }
 
-/// Quantities shown with the regime.
-const WITH_REGIME: [Quantity; 2] = [Quantity::ZeroLoadAdhesionShare, Quantity::AdhesionCoefficient];
+/// Protocol of a regime in words.
+fn protocol(regime: Quantity) -> &'static str {
+    if regime == Quantity::RegimeAfterZeroForce { "after zero net force" } else { "from first touch" }
+}
 
-/// Quantities shown together: with the regime those that decide the regime, if any.
+/// Quantities that decide a regime.
+fn deciding(regime: Quantity) -> [Quantity; 2] {
+    let after_zero_force = usize::from(regime == Quantity::RegimeAfterZeroForce);
+    [Quantity::ADHESION_SHARES[after_zero_force], Quantity::AdhesionCoefficient]
+}
+
+/// Quantities shown together: with a regime those that decide the regime, if any.
 fn shown_quantities(mapped: Quantity, grid: &Grid) -> Vec<Quantity> {
-    if mapped != Quantity::Regime {
+    if !mapped.is_regime() {
         return vec![mapped];
     }
-    let both: Vec<_> = WITH_REGIME.into_iter().filter(|one| grid.layer(*one).is_some()).collect();
-    let first = || grid.quantities().into_iter().find(|one| *one != Quantity::Regime);
+    let both: Vec<_> = deciding(mapped).into_iter().filter(|one| grid.layer(*one).is_some()).collect();
+    let first = || grid.quantities().into_iter().find(|one| !one.is_regime());
     if both.is_empty() { vec![first().unwrap_or(mapped)] } else { both }
 }
 
@@ -271,13 +284,18 @@ fn cell_values(
         Ok(cell) => cell,
         Err(why) => return format!("{at}: {why}"),
     };
-    let regime = cell.regimes.most().map(|(regime, count)| match cell.regimes.profiles() as u64 {
-        1 => regime.name().to_owned(),
-        lines => format!("{} ({} of {} profiles)", regime.name(), grouped(count as u64), grouped(lines)),
-    });
-    // Quantities of the regime are shown together, so that the map keeps its place.
+    // Quantities of a regime are shown together, so that the map keeps its place.
     let mapped = app.mapped();
-    let mapped = if WITH_REGIME.contains(&mapped) { Quantity::Regime } else { mapped };
+    let regime = Quantity::REGIMES.into_iter().find(|regime| deciding(*regime).contains(&mapped));
+    let mapped = regime.unwrap_or(mapped);
+    let regimes = cell.regimes_of(mapped);
+    let regime = regimes.most().map(|(regime, count)| match regimes.profiles() as u64 {
+        1 => format!("{} {}", regime.name(), protocol(mapped)),
+        lines => {
+            let count = grouped(count as u64);
+            format!("{} {} ({count} of {} profiles)", regime.name(), protocol(mapped), grouped(lines))
+        }
+    });
     let shown = shown_quantities(mapped, grid);
     let known = grid.layers.iter().zip(&cell.statistics).filter(|(layer, _)| shown.contains(&layer.quantity));
     let values = known.filter_map(|(layer, all)| {

@@ -26,7 +26,10 @@ fn set(map: &mut LiveMap, cell: u64) {
     for line in 0..MAP_LINES {
         // Of four profiles one is in another regime.
         let regime = if line == 3 { (regime + 1) % 3 } else { regime };
-        map.set(cell, line, &[(-kappa).exp(), 2.0 * (-kappa / 2.0).exp(), f64::from(regime)]);
+        let after_zero_force = if regime == 1 { 0 } else { regime };
+        let (regime, after_zero_force) = (f64::from(regime), f64::from(after_zero_force));
+        let [touch, zero_force] = [1.0, 0.5].map(|slope: f64| (-slope * kappa).exp());
+        map.set(cell, line, &[touch, 2.0 * zero_force, regime, zero_force, after_zero_force]);
     }
 }
 
@@ -162,5 +165,21 @@ fn a_scene_without_a_map_says_why() {
         let generation = driver.app.edit.generation;
         driver.press("Left Up");
         assert_eq!(driver.app.edit.generation, generation);
+    }
+}
+
+/// The map has both regimes, each with its protocol and the quantities that decide it.
+#[test]
+fn the_regime_has_two_protocols() {
+    let mut driver = mapped(rough());
+    assert!(driver.text().contains("Map of regime from first touch over H, κ"), "{}", driver.text());
+    driver.press("V V V V");
+    let text = driver.text();
+    for said in [
+        "Map of regime after zero net force",
+        "map: pressure-insensitive after zero net force (3 of 4",
+        "F_a(F=0)/F_a,max",
+    ] {
+        assert!(text.contains(said), "{said}\n{text}");
     }
 }
