@@ -270,7 +270,7 @@ pub const TABLE: &[Row] = &[
     row("Shift+↓ J", MAP_PANE, "move-down-coarse", Do(|app| map::step(app, 0, -4)), "", "move by four values down: half the κ, a quarter of e_el/γ", MAP).merges(),
     row("Shift+↑ K", MAP_PANE, "move-up-coarse", Do(|app| map::step(app, 0, 4)), "", "move by four values up: twice the κ, four times e_el/γ", MAP).merges(),
     row("e", MAP_PANE, "next-map-parameter", Do(map::next_parameter), "e_el/γ", "map over e_el/γ in place of κ, or over κ again", MAP),
-    row("V", MAP_PANE, "next-map-quantity", Do(|app| app.map.quantity = app.next_mapped()), "quantity", "map another quantity: regime from first touch or after zero net force, F_a(0)/F_a,max by both, F_a/F_n; all recorded ones of a study", MAP),
+    row("V", MAP_PANE, "next-map-quantity", Do(|app| app.map.quantity = app.next_mapped()), "quantity", "map another quantity: regime, F_a(0)/F_a,max, F_a/F_n; all recorded ones of a study", MAP),
     row("W", MAP_PANE, "toggle-study", Do(map::toggle_study), "", "show the map of the opened study, or the live map", MAP),
     row("P PageDown", MAP_PANE, "next-slice", Do(|app| map::step_slice(app, 1)), "", "show the next preload of the study, or value of a further axis; the scene follows", MAP),
     row("PageUp", MAP_PANE, "previous-slice", Do(|app| map::step_slice(app, -1)), "", "show the previous one", MAP),

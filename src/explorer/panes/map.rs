@@ -149,7 +149,7 @@ fn nothing_yet(app: &App) -> String {
 
 /// The name of a quantity: its symbol, where unique on the map.
 fn name_of(grid: &Grid, quantity: Quantity) -> String {
-    if quantity.is_regime() {
+    if quantity == Quantity::RegimeAfterZeroForce {
         return format!("regime {}", protocol(quantity));
     }
     let symbol = quantity.symbol();

@@ -220,7 +220,9 @@ fn derived_values(app: &App) -> Vec<(&'static str, String)> {
         values.push(("F_a,max", format_quantity(force, "N")));
     }
     if let Some(regime) = outcome.regime {
-        values.push(("regime", regime.by_protocols(outcome.regime_after_zero_force)));
+        let other = outcome.regime_after_zero_force.filter(|other| *other != regime);
+        values.push((if other.is_some() { "touch" } else { "regime" }, regime.name().to_owned()));
+        values.extend(other.map(|other| ("after F=0", other.name().to_owned())));
     }
     values
 }

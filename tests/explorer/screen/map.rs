@@ -172,7 +172,7 @@ fn a_scene_without_a_map_says_why() {
 #[test]
 fn the_regime_has_two_protocols() {
     let mut driver = mapped(rough());
-    assert!(driver.text().contains("Map of regime from first touch over H, κ"), "{}", driver.text());
+    assert!(driver.text().contains("Map of regime over H, κ"), "{}", driver.text());
     driver.press("V V V V");
     let text = driver.text();
     for said in [
