@@ -47,7 +47,7 @@ impl Profile {
 
     /// Random self-affine profile: cosines with amplitudes ∝ k^(−H−1/2) and random phases, scaled to an rms height (m).
     ///
-    /// `spectrum` holds the Hurst exponent and the modes k, in waves per length. A seed determines the phases on
+    /// `spectrum` holds the Hurst exponent, the modes k and the roll-off, in waves per length. A seed determines the phases on
     /// any machine and for any number of points.
     ///
     /// # Errors
@@ -63,11 +63,13 @@ impl Profile {
         check_points(points)?;
         check_length("rms height", rms_height)?;
         check_length("length", length)?;
-        let SelfAffine { hurst, first, last } = spectrum;
+        let SelfAffine { hurst, first, last, roll_off } = spectrum;
         check("Hurst exponent", hurst, hurst > 0.0 && hurst < 1.0, "above 0 and below 1")?;
         check("first mode", first as f64, first >= 1, "at least 1")?;
         let most = "from the first mode to half the number of points";
         check("last mode", last as f64, (first..=points as u64 / 2).contains(&last), most)?;
+        let is_allowed = (0.0..=last as f64).contains(&roll_off);
+        check("roll-off", roll_off, is_allowed, "from 0, for none, to the last mode")?;
         let heights = spectrum.heights(seed, points).map_err(RunError::from)?;
         let line = Line::new(length, points, None, Some(&heights), rms_height).map_err(RunError::from)?;
         Ok(Profile { line })

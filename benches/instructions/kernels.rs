@@ -5,7 +5,6 @@ use super::cases::{
     Case, Class, EFFECTIVE_MODULUS, FORCE, HURST, LAST_MODE, LENGTH, POINTS, RADIUS, RMS_HEIGHT, SAMPLES,
     SEED, WORK_OF_ADHESION,
 };
-use asperity::analysis::Figures;
 use asperity::contact::{Body, Contact, Foundation, HessRule, History, Leg, LegRecord, Patch, run};
 use asperity::scene::{Form, Move};
 use asperity::surface::{Histogram, Line, SelfAffine, Synthesizer};
@@ -22,7 +21,7 @@ const PRESS: [Move; 1] = [Move::ToForce(FORCE)];
 #[derive(Default)]
 pub struct Given {
     pub history: History,
-    pub zero_load_adhesion_force: Option<f64>,
+    pub zero_load: [Option<f64>; 2],
     pub histogram: Option<Histogram>,
     pub fragments: Vec<Vec<Patch>>,
 }
@@ -55,7 +54,7 @@ fn smooth() -> Line {
 }
 
 fn rough() -> Line {
-    let spectrum = SelfAffine { hurst: HURST, first: 1, last: LAST_MODE };
+    let spectrum = SelfAffine { hurst: HURST, first: 1, last: LAST_MODE, roll_off: 0.0 };
     let unit = Synthesizer::default().synthesize(spectrum, SEED, POINTS, 0.0, Vec::new()).expect("a line");
     Line::new(LENGTH, POINTS, None, Some(&unit), RMS_HEIGHT).expect("a line")
 }
@@ -71,12 +70,9 @@ fn adhesive(case: &Case, mut body: Body, legs: &[Move]) -> Given {
         Ok(())
     });
     let history = history.expect("a loading within reach");
-    let zero_load_adhesion_force = match case.class {
-        Class::AdhesiveTouch => Figures::of(&history).adhesion_force,
-        Class::AdhesiveLoop | Class::AdhesiveObserved => {
-            Some(-body.pull_off_at_touch().expect("a contact at first touch"))
-        }
-        Class::SmoothPressed | Class::RoughLoop | Class::AdhesivePressed => None,
+    let zero_load = match case.class {
+        Class::AdhesivePressed => [None; 2],
+        _ => body.zero_load_adhesion().expect("a contact at first touch"),
     };
-    Given { history, zero_load_adhesion_force, histogram: None, fragments }
+    Given { history, zero_load, histogram: None, fragments }
 }

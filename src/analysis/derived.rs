@@ -77,7 +77,6 @@ mod tests {
     use super::*;
     use crate::scene::{Document, Roughness, open};
     use crate::simulation::Simulation;
-    use crate::surface::SelfAffine;
     use std::f64::consts::TAU;
 
     fn of(document: &Document) -> Option<f64> {
@@ -125,14 +124,14 @@ mod tests {
         let fields = [("adhesion", "(work: 0.05)"), ("numerics.points", "4096")];
         let rough = set(&open("pressure-sensitive").unwrap(), &fields);
         let scene = rough.scene();
-        let Some(Roughness::SelfAffine { hurst, rms_height: Some(height), modes: (first, last), .. }) =
-            scene.roughness
-        else {
+        let Some(Roughness::SelfAffine { rms_height: Some(height), .. }) = scene.roughness else {
             panic!("no self-affine roughness with an rms height");
         };
-        let spectrum = SelfAffine { hurst, first, last };
+        let spectrum = scene.spectrum().unwrap();
         let squares = |power: f64| -> f64 {
-            (first..=last).map(|k| (k as f64).powf(power) * spectrum.relative_amplitude(k).powi(2)).sum()
+            (spectrum.first..=spectrum.last)
+                .map(|k| (k as f64).powf(power) * spectrum.relative_amplitude(k).powi(2))
+                .sum()
         };
         let curvature = height * (TAU / scene.length).powi(2) * (squares(4.0) / squares(0.0)).sqrt();
         let expected = tabor_number(2.0 / curvature, 0.05, scene.material.effective_modulus(), DEFAULT_RANGE);

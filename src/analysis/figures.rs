@@ -1,7 +1,7 @@
 //! The headline figures of a loading history, and the remarkable points of its force curve.
 
 use crate::contact::{CurvePoint, Direction, History, LegRecord, Reversal};
-use crate::scene::{Move, Scene};
+use crate::scene::Move;
 use strum::IntoStaticStr;
 
 /// Figures of one history; `None` for a figure that the history does not have.
@@ -68,11 +68,6 @@ impl Figures {
             // Changes −0 to 0 without dissipation.
             dissipated_energy: energy.map(|energy| energy + 0.0),
         }
-    }
-
-    /// Returns true if a scene's own loading is that of the touch protocol, so that its adhesion force is F_a(0).
-    pub fn is_touch_protocol(scene: &Scene) -> bool {
-        scene.loading == [Move::ToTouch, Move::ToSeparation]
     }
 }
 
@@ -221,15 +216,6 @@ mod tests {
         for target in [Move::ToForce(0.0), Move::ToZeroForce] {
             let found = figures(&[LegRecord { target, ..pressed(1e-18) }, pulled(-1.0, 0)]);
             assert_eq!((found.preload, found.adhesion_coefficient), (Some(0.0), None));
-        }
-    }
-
-    #[test]
-    fn the_touch_protocol_is_touch_and_separation() {
-        let mut scene = crate::scene::open("jkr-sphere").unwrap().scene().clone();
-        for (first, is_touch) in [(Move::ToTouch, true), (Move::ToZeroForce, false)] {
-            scene.loading = vec![first, Move::ToSeparation];
-            assert_eq!(Figures::is_touch_protocol(&scene), is_touch);
         }
     }
 

@@ -35,8 +35,10 @@ impl Regime {
     pub const ALL: [Regime; 3] =
         [Regime::PressureInsensitive, Regime::PressureSensitive, Regime::NonAdhesive];
 
-    /// Returns the regime of one loading of one profile from the adhesion force F_a(0) by the touch protocol and that of
-    /// the same body without its roughness, N, both `None` without adhesion; `None` for a loading without a tensile force.
+    /// Returns the regime of one loading of one profile from the adhesion force F_a(0) by the touch or the zero-force
+    /// protocol and that of the same body without its roughness, N, both `None` without adhesion; `None` for a loading
+    /// without a tensile force. F_a(0) is larger by the zero-force protocol, so where the regimes by the two protocols
+    /// differ, that protocol gives the pressure-insensitive one.
     ///
     /// Pressure-insensitive: F_a(0) is at least [`INSENSITIVE_SHARE`] of F_a(F_n) and at least
     /// [`VANISHING_SHARE`] of the smooth body's. Otherwise non-adhesive if F_a(F_n)/F_n is below
@@ -74,12 +76,14 @@ impl Regime {
         self.into()
     }
 
-    /// The name with the protocol of F_a(0) that decides: a turn at first touch.
-    pub fn by_protocol(self) -> &'static str {
-        match self {
-            Regime::PressureInsensitive => "pressure-insensitive from first touch",
-            Regime::PressureSensitive => "pressure-sensitive from first touch",
-            Regime::NonAdhesive => self.name(),
+    /// The name with its protocols of F_a(0), and the other name where the regime after zero net force differs.
+    pub fn by_protocols(self, after_zero_force: Option<Regime>) -> String {
+        let name = self.name();
+        match after_zero_force {
+            Some(same) if same == self && self == Regime::NonAdhesive => name.to_owned(),
+            Some(same) if same == self => format!("{name} (touch, F=0)"),
+            None => format!("{name} (touch)"),
+            Some(other) => format!("{name} (touch), {} (F=0)", other.name().trim_start_matches("pressure-")),
         }
     }
 }
@@ -87,6 +91,18 @@ impl Regime {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_regime_names_its_protocols() {
+        let [insensitive, sensitive, non_adhesive] = Regime::ALL;
+        assert_eq!(non_adhesive.by_protocols(Some(non_adhesive)), "non-adhesive");
+        assert_eq!(sensitive.by_protocols(Some(sensitive)), "pressure-sensitive (touch, F=0)");
+        assert_eq!(
+            sensitive.by_protocols(Some(insensitive)),
+            "pressure-sensitive (touch), insensitive (F=0)"
+        );
+        assert_eq!(sensitive.by_protocols(None), "pressure-sensitive (touch)");
+    }
 
     #[test]
     fn thresholds_belong_to_the_stronger_regime() {

@@ -39,7 +39,12 @@ impl Body {
         let work = reach * reach * MODULUS / (PI * LENGTH);
         let heights = match seed % 3 {
             0 => {
-                let spectrum = SelfAffine { hurst: 0.1 + 0.8 * next(), first: 1, last: points as u64 / 2 };
+                let spectrum = SelfAffine {
+                    hurst: 0.1 + 0.8 * next(),
+                    first: 1,
+                    last: points as u64 / 2,
+                    roll_off: 0.0,
+                };
                 Profile::self_affine(spectrum, HEIGHT, LENGTH, points, seed)?.heights().collect()
             }
             1 => (0..points).map(|_| HEIGHT * next()).collect(),

@@ -19,7 +19,7 @@ Examples:
                                             Draw both force curves in one picture";
 
 /// Formats of a comparison.
-const FORMATS: &[Format] = &[Format::Text, Format::Svg, Format::Png];
+const FORMATS: &[Format] = &[Format::Text, Format::Svg, Format::Png, Format::Pdf];
 
 /// Arguments of `compare`.
 #[derive(Args, Debug)]
@@ -39,7 +39,7 @@ pub struct CompareArguments {
     pub overrides: Overrides,
     #[command(flatten)]
     pub look: LookArguments,
-    /// text, svg or png; default: by the extension of FILE, else text
+    /// text, svg, png or pdf; default: by the extension of FILE, else text
     #[arg(long, value_parser = format_of(FORMATS), hide_possible_values = true)]
     pub format: Option<Format>,
     #[command(flatten)]

@@ -33,10 +33,10 @@ pub struct CostArguments {
     /// Time limit of all measurements together: 500ms, 30s, 2min
     #[arg(long, value_name = "TIME", default_value = "10s", value_parser = budget)]
     pub budget: Duration,
-    /// text, json, csv, npy, svg or png; default: by the extension of FILE
+    /// text, json, csv, npy, svg, png or pdf; default: by the extension of FILE
     #[arg(long, value_parser = format_of(FORMATS), hide_possible_values = true)]
     pub format: Option<Format>,
-    /// Also draw errors over times into FILE, .svg or .png
+    /// Also draw errors over times into FILE, .svg, .png or .pdf
     #[arg(long, value_name = "FILE")]
     pub picture: Option<PathBuf>,
     /// Destination; --force is for both files.

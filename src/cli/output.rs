@@ -13,7 +13,7 @@ use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 /// Formats of pictures.
-pub(super) const PICTURES: &[Format] = &[Format::Svg, Format::Png];
+pub(super) const PICTURES: &[Format] = &[Format::Svg, Format::Png, Format::Pdf];
 /// Formats of tables.
 pub(super) const TABLES: &[Format] = &[Format::Csv, Format::Npy];
 /// Formats of results without a table and without a picture.
@@ -68,7 +68,9 @@ impl OutputArguments {
         let format = Format::of_file(self.file(), chosen, formats, usual).map_err(CliError::message)?;
         match self.file() {
             Some(path) => check_writable(path, self.force)?,
-            None if matches!(format, Format::Npy | Format::Png) && io::stdout().is_terminal() => {
+            None if matches!(format, Format::Npy | Format::Png | Format::Pdf)
+                && io::stdout().is_terminal() =>
+            {
                 let format = format.name();
                 let refused = format!("--format {format}: not for a terminal; allowed: -o FILE.{format}");
                 return Err(CliError::message(refused));

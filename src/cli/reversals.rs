@@ -35,7 +35,7 @@ pub struct ReversalsArguments {
     pub scene: SceneArguments,
     #[command(flatten)]
     pub options: ReversalOptions,
-    /// text, json, csv, npy, svg or png; default: by the extension of FILE
+    /// text, json, csv, npy, svg, png or pdf; default: by the extension of FILE
     #[arg(long, value_parser = format_of(FORMATS), hide_possible_values = true)]
     pub format: Option<Format>,
     #[command(flatten)]

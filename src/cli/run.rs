@@ -41,12 +41,12 @@ pub struct RunArguments {
     /// More scenes, with their force curves in the same picture
     #[arg(value_name = "SCENE")]
     pub more: Vec<String>,
-    /// text, json, csv, npy, svg or png; default: by the extension of FILE
+    /// text, json, csv, npy, svg, png or pdf; default: by the extension of FILE
     ///
     /// Text is a summary for a person. JSON is one object with scene, profile, figures, curve,
     /// contacts and work. CSV is the curve: leg, indentation, force, contact_length, fragments,
-    /// stored_energy. npy is the same as a structured array of NumPy. SVG and PNG are pictures of
-    /// the curve.
+    /// stored_energy. npy is the same as a structured array of NumPy. SVG, PNG and PDF are
+    /// pictures of the curve.
     #[arg(long, value_parser = format_of(FORMATS), hide_possible_values = true, verbatim_doc_comment)]
     pub format: Option<Format>,
     /// Draw the profile and its contact at the largest force instead of the curve

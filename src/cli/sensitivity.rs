@@ -22,7 +22,7 @@ range over other random profiles.";
 pub struct SensitivityArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// text, json, csv, npy, svg or png; default: by the extension of FILE
+    /// text, json, csv, npy, svg, png or pdf; default: by the extension of FILE
     #[arg(long, value_parser = format_of(&Format::ALL), hide_possible_values = true)]
     pub format: Option<Format>,
     #[command(flatten)]

@@ -65,11 +65,11 @@ pub struct SurfaceArguments {
     /// Effective modulus E*, such as 2.7MPa, for the elastic energy
     #[arg(long, value_name = "PRESSURE", value_parser = |text: &str| positive(text, "Pa"))]
     pub modulus: Option<f64>,
-    /// text, json, csv, npy, svg or png; default: by the extension of FILE
+    /// text, json, csv, npy, svg, png or pdf; default: by the extension of FILE
     ///
     /// Text is a summary for a person. JSON is one object with statistics, fit, spectra and
     /// warnings. CSV holds the spectra: spectrum,wave_number,power,waves. npy is the same as a
-    /// structured array of NumPy. SVG and PNG are pictures of the spectra.
+    /// structured array of NumPy. SVG, PNG and PDF are pictures of the spectra.
     #[arg(long, value_parser = format_of(FORMATS), hide_possible_values = true, verbatim_doc_comment)]
     pub format: Option<Format>,
     /// Write a scene with the equivalent line to FILE; needs --modulus

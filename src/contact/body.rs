@@ -28,7 +28,7 @@ pub trait Solver {
 
 /// A body on its foundation: the present leg and the position on it, all the memory that the model has.
 pub struct Body {
-    leg: Leg,
+    pub(super) leg: Leg,
     state: ContactState,
     samples: usize,
     pub(super) work: Work,

@@ -116,7 +116,7 @@ pub struct Work {
     pub loading_passes: u64,
     /// Passes over the tree for unloading legs.
     pub unloading_passes: u64,
-    /// Passes from first touch, for F_a(0).
+    /// Passes from first touch and from zero force, for F_a(0).
     pub zero_load_passes: u64,
     /// Evaluations of the rule of Hess.
     pub hess_evaluations: u64,

@@ -61,19 +61,27 @@ impl Body {
         Ok(())
     }
 
-    /// Returns the smallest force of the unloading from first touch, N. The body stays in place.
+    /// Returns the adhesion forces after a turn at first touch and after one where the force is back at zero, N; `None` where
+    /// the contact does not pull, or never reaches zero force. Both turns begin separated; the body stays in place.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    pub fn pull_off_at_touch(&mut self) -> Result<f64, ContactError> {
+    pub fn zero_load_adhesion(&mut self) -> Result<[Option<f64>; 2], ContactError> {
         let before = self.work;
-        let loading = self.leg_in(Direction::Loading)?;
-        let force = self.reverse(&loading, loading.state(0.0)?, &[])?.smallest.force;
+        let loading = Leg::approach(self.leg.contact())?;
+        loading.count(&mut self.work);
+        let balanced = loading.reach_force(0.0, 0.0, &mut self.work);
+        let mut adhesion = |at| Ok(self.reverse(&loading, loading.state(at)?, &[])?.adhesion_force());
+        let at_touch = adhesion(0.0)?;
+        let at_zero_force = match balanced {
+            Err(ContactError::OutOfReach) => None,
+            at => adhesion(at?)?,
+        };
         // The passes for F_a(0) count separately.
         let work = &mut self.work;
         (work.loading_passes, work.unloading_passes) = (before.loading_passes, before.unloading_passes);
-        work.zero_load_passes += 1;
-        Ok(force)
+        work.zero_load_passes += 2;
+        Ok([at_touch, at_zero_force])
     }
 
     /// Unloads from a turning point of a loading.

@@ -1,4 +1,4 @@
-//! Figures: one model of charts, drawn as SVG, as PNG or in the cells of a terminal.
+//! Figures: one model of charts, drawn as SVG, PNG, PDF or in the cells of a terminal.
 //!
 //! A [`Figure`] holds [`Chart`]s, a chart two [`Axis`] and [`Layer`]s of data in SI units. Ticks, SI prefixes,
 //! typeset symbols and the legend are derived from them, the same for every backend.
@@ -10,6 +10,8 @@ mod chart;
 mod colour;
 mod contour;
 mod label;
+#[cfg(feature = "tui")]
+mod pdf;
 #[cfg(feature = "tui")]
 mod png;
 mod scale;

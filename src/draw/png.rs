@@ -24,12 +24,17 @@ impl Figure {
     }
 }
 
-/// An SVG document on white as the content of a PNG file.
-fn png(svg: &str) -> io::Result<Vec<u8>> {
+/// The outlines of an SVG document in px of 1/96 inch.
+pub(super) fn tree(svg: &str) -> io::Result<Tree> {
     let mut fonts = Database::new();
     FONTS.iter().for_each(|font| fonts.load_font_data(font.to_vec()));
     let options = Options { fontdb: Arc::new(fonts), ..Options::default() };
-    let tree = Tree::from_str(svg, &options).map_err(io::Error::other)?;
+    Tree::from_str(svg, &options).map_err(io::Error::other)
+}
+
+/// An SVG document on white as the content of a PNG file.
+fn png(svg: &str) -> io::Result<Vec<u8>> {
+    let tree = tree(svg)?;
     let [width, height] = [tree.size().width(), tree.size().height()].map(|side| (SCALE * side).ceil());
     let is_small = f64::from(width) * f64::from(height) <= MOST_PIXELS;
     let pixmap = is_small.then(|| Pixmap::new(width as u32, height as u32)).flatten();

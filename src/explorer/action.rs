@@ -99,8 +99,8 @@ pub enum Content {
 }
 
 /// Formats of exported files.
-pub const EXPORTS: [Format; 6] =
-    [Format::Csv, Format::Npy, Format::Json, Format::Svg, Format::Png, Format::Text];
+pub const EXPORTS: [Format; 7] =
+    [Format::Csv, Format::Npy, Format::Json, Format::Svg, Format::Png, Format::Pdf, Format::Text];
 
 /// Gesture of the mouse at a cell of the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

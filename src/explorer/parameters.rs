@@ -132,15 +132,16 @@ pub fn parameters(document: &Document) -> Vec<Parameter> {
             continue;
         }
         let Some(written) = document.value(field.path) else { continue };
-        // One of several equivalent fields, and not the one in use.
-        if written == "None" && !field.parent().is_empty() {
-            continue;
-        }
+        let is_given = written != "None" || field.parent().is_empty();
+        // Other fields without a value are equivalent to those in use.
+        let written = if is_given { Some(written.to_owned()) } else { waves(document, field) };
+        let Some(written) = written else { continue };
         let shown = match field.path {
             "loading" => stage_targets(&document.scene().loading, format_quantity),
-            _ => shown(field, written),
+            "roughness.roll_off" if !is_given => "none".to_owned(),
+            _ if !is_given => format!("= {}", shown(field, &written)),
+            _ => shown(field, &written),
         };
-        let written = written.to_owned();
         parameters.push(Parameter { written, shown, ..Parameter::new(field, field.path) });
         if field.path == "loading" {
             parameters.extend(leg_targets(&document.scene().loading));
@@ -181,6 +182,19 @@ fn add_other_adhesion(parameters: &mut Vec<Parameter>) {
     }
 }
 
+/// The other way to give the waves of a self-affine profile, and as a roll-off without effect the longest of them.
+fn waves(document: &Document, field: &Field) -> Option<String> {
+    let spectrum = document.scene().spectrum()?;
+    let [longest, shortest] =
+        [spectrum.first, spectrum.last].map(|mode| ron_float(document.scene().length / mode as f64));
+    match field.path {
+        "roughness.modes" => Some(format!("({}, {})", spectrum.first, spectrum.last)),
+        "roughness.wavelengths" => Some(format!("({longest}, {shortest})")),
+        "roughness.roll_off" => Some(longest),
+        _ => None,
+    }
+}
+
 /// A switch for each observer.
 fn observers(document: &Document, field: &'static Field) -> impl Iterator<Item = Parameter> {
     let observers = Effect::ALL.into_iter().filter(|effect| effect.path() == "observe");
@@ -211,9 +225,11 @@ fn leg_targets(loading: &[Move]) -> impl Iterator<Item = Parameter> {
 
 /// A written value in the format for people.
 fn shown(field: &Field, written: &str) -> String {
-    match (field.range, written.parse::<f64>()) {
-        (Range::Real { .. }, Ok(value)) => format_quantity(value, field.unit),
-        (Range::Choice(_), _) => {
+    if let Some(quantities) = field.quantities(written, format_quantity) {
+        return quantities;
+    }
+    match field.range {
+        Range::Choice(_) => {
             // The parts of a choice have rows of their own.
             let name = written.split('(').next().unwrap_or(written).trim();
             match (name, field.path) {
@@ -222,7 +238,7 @@ fn shown(field: &Field, written: &str) -> String {
                 (name, _) => name.to_owned(),
             }
         }
-        (Range::Text { .. }, _) => text_of(written),
+        Range::Text { .. } => text_of(written),
         _ => written.split_whitespace().collect::<Vec<_>>().join(" "),
     }
 }

@@ -40,7 +40,7 @@ fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) 
     match content {
         Content::Scene => out.write_all(app.edit.document.text().as_bytes()),
         Content::Pane(Format::Text) => out.write_all(text(&picture_of(app)).as_bytes()),
-        Content::Pane(format @ (Format::Svg | Format::Png)) => {
+        Content::Pane(format) if format.is_picture() => {
             export::write(out, &app.figure().ok_or_else(missing)?, format, "")
         }
         Content::Pane(format) => {

@@ -64,6 +64,7 @@ pub fn write(
         Format::Npy => report.table().ok_or_else(missing)?.write_npy(out, provenance),
         Format::Svg => out.write_all(report.figure().ok_or_else(missing)?.svg().as_bytes()),
         Format::Png => out.write_all(&report.figure().ok_or_else(missing)?.png()?),
+        Format::Pdf => out.write_all(&report.figure().ok_or_else(missing)?.pdf()?),
     }
 }
 
@@ -83,12 +84,14 @@ pub enum Format {
     Svg,
     /// Raster picture.
     Png,
+    /// Vector picture on a page of its size.
+    Pdf,
 }
 
 impl Format {
     /// All formats.
-    pub const ALL: [Format; 6] =
-        [Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png];
+    pub const ALL: [Format; 7] =
+        [Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png, Format::Pdf];
 
     /// Name on the command line.
     pub fn name(self) -> &'static str {
@@ -103,6 +106,11 @@ impl Format {
     /// Returns true for the formats of a table.
     pub fn is_table(self) -> bool {
         matches!(self, Format::Csv | Format::Npy)
+    }
+
+    /// Returns true for the formats of a picture.
+    pub fn is_picture(self) -> bool {
+        matches!(self, Format::Svg | Format::Png | Format::Pdf)
     }
 
     /// The format of a file by its extension; without an extension, or a file, the chosen format or the usual one. An

@@ -104,24 +104,41 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Optio
     sheet.quantity("pull-off indentation", figures.pull_off_indentation, "m");
     sheet.quantity("coefficient F_a/F_n", figures.adhesion_coefficient, "1");
     sheet.quantity("at first touch F_a(0)", outcome.zero_load_adhesion_force, "N");
+    sheet.quantity("at zero force F_a(F=0)", outcome.zero_force_adhesion_force, "N");
     sheet.quantity("smooth body F_smooth", outcome.smooth_adhesion_force, "N");
     sheet.row_of("λ²/(AR)", outcome.steep_waves.map(steep_waves));
     sheet.quantity("ideal F_a,max", outcome.ideal_adhesion_force, "N");
     dissipated_energy(sheet, outcome);
 }
 
+/// The regimes by both protocols in one sentence.
 fn regime(outcome: &Outcome) -> String {
     let adhesive = outcome.governing.adhesive_work().is_some();
-    let meaning = match outcome.regime {
-        None if adhesive => return "not known: no stage unloads".to_owned(),
-        None => return "none: no adhesion, and no stage unloads".to_owned(),
-        Some(Regime::NonAdhesive) if !adhesive => "the scene has no adhesion",
-        Some(Regime::PressureInsensitive) => "adhesion hardly needs a preload",
-        Some(Regime::PressureSensitive) => "adhesion is small without a preload",
-        Some(Regime::NonAdhesive) => "almost no adhesion, after a turn at first touch or after the preload",
+    let Some(regime) = outcome.regime else {
+        let why =
+            if adhesive { "not known: no stage unloads" } else { "none: no adhesion, and no stage unloads" };
+        return why.to_owned();
     };
-    let name = outcome.regime.map_or("", Regime::by_protocol);
-    format!("{name}: {meaning}")
+    if !adhesive {
+        return format!("{}: the scene has no adhesion", regime.name());
+    }
+    let both = match outcome.regime_after_zero_force {
+        Some(other) if other != regime => {
+            let share = outcome.zero_force_adhesion_force.zip(outcome.figures.adhesion_force);
+            let percent = share.map_or(100.0, |(part, whole)| (100.0 * part / whole).round());
+            let already =
+                if percent < 100.0 { format!("{percent} % of F_a") } else { "full adhesion".to_owned() };
+            return format!("{} from first touch; after zero net force already at {already}", regime.name());
+        }
+        Some(_) => " and after zero net force",
+        None => "",
+    };
+    let meaning = match regime {
+        Regime::PressureInsensitive => "adhesion hardly needs a preload",
+        Regime::PressureSensitive => "adhesion is small without a preload",
+        Regime::NonAdhesive => "almost no adhesion, also after the preload",
+    };
+    format!("{} from first touch{both}: {meaning}", regime.name())
 }
 
 /// The regime and, one row each, the deciding shares.
@@ -131,11 +148,16 @@ fn deciding_shares(sheet: &mut Sheet, outcome: &Outcome) {
         return;
     }
     let (zero_load, adhesion) = (outcome.zero_load_adhesion_force, outcome.figures.adhesion_force);
-    let (smooth, preload) = (outcome.smooth_adhesion_force, outcome.figures.preload);
-    let says = ["first touch makes most of it", "the preload makes most of it"];
+    let (zero_force, smooth) = (outcome.zero_force_adhesion_force, outcome.smooth_adhesion_force);
+    let preload = outcome.figures.preload;
+    let says = ["most of it after first touch", "less than half after first touch"];
     share(sheet, "  F_a(0)/F_a", zero_load, adhesion, INSENSITIVE_SHARE, says);
     let says = ["there at first touch", "vanished at first touch"];
     share(sheet, "  F_a(0)/F_smooth", zero_load, smooth, VANISHING_SHARE, says);
+    let says = ["most of it after zero force", "less than half after zero force"];
+    share(sheet, "  F_a(F=0)/F_a", zero_force, adhesion, INSENSITIVE_SHARE, says);
+    let says = ["there after zero force", "vanished after zero force"];
+    share(sheet, "  F_a(F=0)/F_smooth", zero_force, smooth, VANISHING_SHARE, says);
     if preload.is_some_and(|preload| preload <= 0.0) && zero_load != adhesion {
         let says = ["there without a preload", "vanished without a preload"];
         share(sheet, "  F_a/F_smooth", adhesion, smooth, VANISHING_SHARE, says);
@@ -345,11 +367,43 @@ mod tests {
             (&[("loading", "[ToTouch]")][..], "not known: no stage unloads"),
             (&[("adhesion", "None")], "non-adhesive: the scene has no adhesion"),
             (&[("adhesion", "None"), ("loading", "[ToTouch]")], "none: no adhesion"),
-            (&[("adhesion.kappa", "0.1")], "pressure-insensitive from first touch: adhesion hardly"),
-            (&[("adhesion.kappa", "100.0")], "non-adhesive: almost no adhesion"),
+            (&[("adhesion.kappa", "0.1")], "pressure-insensitive from first touch and after zero"),
+            (&[("adhesion.kappa", "100.0")], "non-adhesive from first touch and after zero net"),
         ] {
             let text = summary_of(ROUGH, overrides);
             assert!(text.contains(said), "{said}: {text}");
+        }
+    }
+
+    /// A band of few long waves: next to nothing adheres at first touch, and where the force is back at zero all does.
+    #[test]
+    fn regimes_that_differ_name_their_protocols() {
+        let scene = [
+            ("material", "(youngs_modulus: 5.0e6, poisson_ratio: 0.5)"),
+            ("length", "1.0e-3"),
+            ("roughness", "SelfAffine(hurst: 0.8, rms_height: 5.0e-7, modes: (4, 512), seed: 1)"),
+            ("loading", "[ToForce(1.0e-2), ToSeparation]"),
+        ];
+        let scene = scene.map(|(path, value)| (path.to_owned(), value.to_owned()));
+        let document = Document::parse(ROUGH, "test").unwrap().set_all(&scene).unwrap();
+        for (work, share, said) in [
+            (
+                "0.03",
+                1.0,
+                "pressure-sensitive from first touch; after zero net force already at full adhesion",
+            ),
+            (
+                "0.03",
+                0.62,
+                "pressure-sensitive from first touch; after zero net force already at 62 % of F_a",
+            ),
+            ("0.01", 1.0, "pressure-sensitive from first touch and after zero net force: adhesion is small"),
+        ] {
+            let document = document.set("adhesion", &format!("(work: {work})")).unwrap();
+            let mut outcome =
+                Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
+            outcome.zero_force_adhesion_force = outcome.zero_force_adhesion_force.map(|force| share * force);
+            assert!(regime(&outcome).starts_with(said), "{}", regime(&outcome));
         }
     }
 

@@ -5,7 +5,6 @@ use super::field::{Field, stage_targets};
 use super::fields::fields_inside;
 use super::model::{Move, Roughness, Scene};
 use super::quantity::format_quantity;
-use super::range::Range;
 use super::tree::Tree;
 use std::fmt;
 
@@ -31,10 +30,8 @@ fn symbol_or_name(field: &Field) -> &'static str {
 }
 
 fn with_unit(field: &Field, value: &str) -> String {
-    match value.parse() {
-        Ok(number) if !matches!(field.range, Range::Whole(..)) => format_quantity(number, field.unit),
-        _ => value.split_whitespace().collect::<Vec<_>>().join(" "),
-    }
+    let words = || value.split_whitespace().collect::<Vec<_>>().join(" ");
+    field.quantities(value, format_quantity).unwrap_or_else(words)
 }
 
 /// A field by its value, a group by its choice and the values given in it: `SelfAffine(H 0.7, h 200 nm)`, `γ 50 mJ/m²`.

@@ -103,6 +103,12 @@ impl Found<'_> {
                 let is_allowed = ends.is_sorted() && ends.iter().all(|end| range.contains_whole(*end));
                 (!is_allowed).then(|| format!("({}, {})", ends[0], ends[1]))
             }
+            (Range::Wavelengths(..), Value::Array(ends)) => {
+                let ends = ends.iter().map(|end| end.as_f64().unwrap_or(f64::NAN));
+                let is_allowed =
+                    ends.clone().all(|end| range.contains(end)) && ends.is_sorted_by(|a, b| a >= b);
+                (!is_allowed).then(|| self.tree.written(field).unwrap_or_default())
+            }
             (Range::List { least, most, .. }, Value::Array(list))
                 if !(*least..=*most).contains(&list.len()) =>
             {
@@ -190,14 +196,11 @@ impl Found<'_> {
     }
 
     fn check_roughness(&mut self) {
-        let (scene, points) = (self.scene, self.scene.numerics.points);
+        let scene = self.scene;
         match &scene.roughness {
             None => {}
-            Some(Roughness::SelfAffine { modes: (_, last), .. }) => {
-                let allowed = format!("last mode at most points/2 = {}", points / 2);
-                let (of, path) = (["roughness.modes", "numerics.points"], "roughness.modes");
-                let reason = format!("{points} springs carry no shorter wave");
-                self.require(*last <= points / 2, &of, path, &allowed, &reason);
+            &Some(Roughness::SelfAffine { modes, wavelengths, roll_off, .. }) => {
+                self.check_waves(modes, wavelengths, roll_off);
             }
             // A profile is one row or one column; several files have a common spectrum and no profile.
             Some(Roughness::Measured(measured)) => {
@@ -221,6 +224,44 @@ impl Found<'_> {
                 );
             }
         }
+    }
+
+    /// Waves that fit the length and are resolved by the springs, with the roll-off among them.
+    fn check_waves(
+        &mut self,
+        modes: Option<(u64, u64)>,
+        wavelengths: Option<(f64, f64)>,
+        roll_off: Option<f64>,
+    ) {
+        let (length, points) = (self.scene.length, self.scene.numerics.points);
+        let most = points / 2;
+        let Some(spectrum) = self.scene.spectrum().filter(|_| modes.is_none() || wavelengths.is_none())
+        else {
+            let both =
+                "modes and wavelengths determine each other: give one of them and set the other to None";
+            let none = "give modes, in waves per length, or wavelengths (longest, shortest), in m";
+            let reason = if modes.is_some() { both } else { none };
+            return self.refuse("roughness", String::new(), "", reason);
+        };
+        let reason = format!("{points} springs carry no shorter wave");
+        let (path, allowed) = match modes {
+            Some(_) => ("roughness.modes", format!("last mode at most points/2 = {most}")),
+            None => {
+                let shortest = ron_float(length / most as f64);
+                ("roughness.wavelengths", format!("shortest at least two springs = {shortest} m"))
+            }
+        };
+        let of = [path, "numerics.points", if modes.is_some() { path } else { "length" }];
+        self.require(spectrum.last <= most, &of, path, &allowed, &reason);
+        let mode = |mode: u64| length / mode as f64;
+        let (longest, shortest) = wavelengths.unwrap_or((mode(spectrum.first), mode(spectrum.last)));
+        let allowed = format!("longest at most length = {} m", ron_float(length));
+        let reason = "a longer wave does not fit the profile";
+        self.require(longest <= length, &[path, "length"], path, &allowed, reason);
+        let allowed = format!("from {} to {} m", ron_float(shortest), ron_float(longest));
+        let is_met = roll_off.is_none_or(|wavelength| (shortest..=longest).contains(&wavelength));
+        let (of, roll_off) = ([path, "roughness.roll_off", "length"], "roughness.roll_off");
+        self.require(is_met, &of, roll_off, &allowed, "a roll-off lies within the waves of the profile");
     }
 
     fn check_adhesion(&mut self) {
@@ -334,6 +375,7 @@ mod tests {
     fn fields_that_contradict_each_other_are_refused() {
         let no_amplitude = "roughness=SelfAffine(hurst: 0.7, modes: (1, 512), seed: 1)";
         let measured = "roughness=Measured(file: \"a.txt\", as_line: true";
+        let waves = |pair: &str| format!("roughness.modes=None; roughness.wavelengths={pair}");
         for (sets, said) in [
             (
                 "material=(effective_modulus: 1e6, poisson_ratio: 0.5)",
@@ -368,6 +410,23 @@ mod tests {
             ("numerics.points=1023", "roughness.modes = (1, 512): allowed: last mode at most points/2 = 511"),
             ("roughness.modes=(5, 4)", "(5, 4): allowed: a pair"),
             ("roughness.modes=(0, 4)", "(0, 4): allowed: a pair"),
+            ("roughness.wavelengths=(1e-4, 1e-6)", "roughness: modes and wavelengths determine each other"),
+            ("roughness.modes=None", "roughness: give modes, in waves per length, or wavelengths (longest"),
+            (&waves("50 µm, 1 µm"), ""),
+            (&waves("1 µm, 50 µm"), "longest ≥ shortest"),
+            (&waves("1 µm, 0 m"), "roughness.wavelengths = (1.0e-6, 0.0): allowed: a pair"),
+            (&waves("100 µm, 48 nm"), "allowed: shortest at least two springs = 4.8828125e-8 m"),
+            (&waves("100.1 µm, 1 µm"), "allowed: longest at most length = 1.0e-4 m"),
+            ("roughness.roll_off=1e-4", ""),
+            (
+                "roughness.roll_off=1.1e-4",
+                "roughness.roll_off = 1.1e-4: allowed: from 1.953125e-7 to 1.0e-4 m",
+            ),
+            (
+                &format!("{}; roughness.roll_off=60um", waves("50 µm, 1 µm")),
+                "allowed: from 1.0e-6 to 5.0e-5 m",
+            ),
+            (&format!("{}; length=4e-5", waves("50 µm, 1 µm")), "allowed: longest at most length = 4.0e-5 m"),
             ("form=Punch(radius: 5.1e-5)", "a punch is not wider than the line"),
             // Below a quarter of the spacing the diameter is nearer to no cell than to one.
             ("form=Punch(radius: 5.8e-9)", "no spring lies under the punch"),

@@ -210,7 +210,9 @@ fn spliced(text: &Text, path: &str, value: &str) -> Result<(Text, Scene), SceneE
     let origin = || Origin::Overrides(vec![format!("{path}={value}")]);
     let refused = |message| SceneErrors::from(SceneError::whole(origin(), message));
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
-    let band = || field(parent, None).filter(|field| matches!(field.range, Range::Band(..)));
+    let band = || {
+        field(parent, None).filter(|field| matches!(field.range, Range::Band(..) | Range::Wavelengths(..)))
+    };
     let known = field_at(text, path).or_else(band);
     let wrong = |known: &Field, why: &str| SceneError::of(path, value, known.allowed(), why).at(origin());
     let typed = match known {

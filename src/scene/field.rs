@@ -41,7 +41,8 @@ pub enum Step {
     Integer(u64, u64),
     /// To the next power of two; the large step is four of them.
     Doubling,
-    /// The last mode of a pair to the next power of two; the large step moves the first mode.
+    /// The last mode of a pair to the next power of two; the large step moves the first mode. The shortest wavelength of
+    /// a pair to the next preferred number; the large step moves the longest one.
     Band,
     /// To the next choice.
     Choice,
@@ -54,7 +55,7 @@ pub(super) const fn row(path: &'static str, range: Range) -> Field {
     let (step, unit) = match range {
         Range::Real(..) => (Step::Logarithmic, "1"),
         Range::Whole(..) => (Step::Typed, "1"),
-        Range::Band(..) => (Step::Band, "1"),
+        Range::Band(..) | Range::Wavelengths(..) => (Step::Band, "1"),
         Range::Choice(_) => (Step::Choice, ""),
         Range::Text { .. } | Range::List { .. } | Range::Group => (Step::Typed, ""),
     };
@@ -100,6 +101,16 @@ impl Field {
             "" | "1" => self.range.to_string(),
             unit => format!("{} {unit}", self.range),
         }
+    }
+
+    /// The number, or both wavelengths, of a written value with the unit: `100 µm, 200 nm`; `None` for other values.
+    pub fn quantities(&self, written: &str, format: fn(f64, &str) -> String) -> Option<String> {
+        let ends = match self.range {
+            Range::Real(..) => vec![written.parse().ok()?],
+            Range::Wavelengths(..) => <[f64; 2]>::from(ron::from_str::<(f64, f64)>(written).ok()?).to_vec(),
+            _ => return None,
+        };
+        Some(ends.into_iter().map(|end| format(end, self.unit)).collect::<Vec<_>>().join(", "))
     }
 
     /// Path of the enclosing group; empty at the top of the scene.
@@ -171,6 +182,11 @@ impl Field {
         if matches!(self.range, Range::Text { .. }) && !is_omitted && !is_quoted {
             return Ok(ron_string(typed));
         }
+        if matches!(self.range, Range::Wavelengths(..)) && typed.contains(',') {
+            let ends = typed.trim_matches(['(', ')', ' ', ',']).split(',');
+            let ends = ends.map(|end| parse_quantity(end.trim(), self.unit).map(ron_float));
+            return Ok(format!("({})", ends.collect::<Result<Vec<_>, _>>()?.join(", ")));
+        }
         if !typed.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.')) {
             return Ok(typed.to_string());
         }
@@ -180,7 +196,7 @@ impl Field {
             Range::Choice(..) if self.path == "adhesion" && !is_number => {
                 parse_quantity(typed, "J/m²").map(|work| format!("(work: {})", ron_float(work)))
             }
-            Range::Real(..) if ron::from_str::<f64>(typed).is_err() => {
+            Range::Real(..) | Range::Wavelengths(..) if !is_number => {
                 parse_quantity(typed, self.unit).map(ron_float)
             }
             // A seed has more digits than a floating-point number keeps.
@@ -248,6 +264,10 @@ mod tests {
             "roughness|a b/1.txt|Measured(file: \"a b/1.txt\", as_line: false)",
             "roughness|Measured(file: \"a.txt\")|Measured(file: \"a.txt\")",
             "roughness|None|None",
+            "roughness.wavelengths|100 µm, 0.2um|(1.0e-4, 2.0e-7)",
+            "roughness.wavelengths|(1e-4, 2e-7,)|(1.0e-4, 2.0e-7)",
+            "roughness.wavelengths|200 nm|2.0e-7",
+            "roughness.roll_off|20 µm|2.0e-5",
             "roughness.file|7.txt|\"7.txt\"",
             "roughness.opposite|None|None",
         ] {

@@ -7,7 +7,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::field::Step::{Doubling, Integer, Linear, Typed};
 use super::field::{FILE_NAME, Field, row};
-use super::range::Range::{self, Band, Choice, List, Text, Whole};
+use super::range::Range::{self, Band, Choice, List, Text, Wavelengths, Whole};
 
 /// Supported versions of the scene file. In version 1 a measured profile is the line itself unless
 /// `roughness.as_line` states otherwise, in version 2 the line is the equivalent one.
@@ -99,8 +99,12 @@ pub const FIELDS: &[Field] = &[
         .default("None").meaning("root mean square height of the profile"),
     row("roughness.rms_gradient", Range::closed(1e-30, 1e9)).of("SelfAffine").quantity("rms gradient", "⟨∇z⟩", "1")
         .default("None").meaning("root mean square slope of the profile, in place of the rms height"),
-    row("roughness.modes", Band(1, 1 << 27)).of("SelfAffine").quantity("modes", "k", "1")
+    row("roughness.modes", Band(1, 1 << 27)).of("SelfAffine").quantity("modes", "k", "1").default("None")
         .meaning("first and last mode of the profile, in waves per length; the last is at most points/2"),
+    row("roughness.wavelengths", Wavelengths(1e-15, 10.0)).of("SelfAffine").quantity("wavelengths", "λ", "m")
+        .default("None").meaning("longest and shortest wave of the profile in place of the modes, at most length and at least 2 length/points; a change of length keeps them"),
+    row("roughness.roll_off", Range::closed(1e-15, 10.0)).of("SelfAffine").quantity("roll-off wavelength", "λ_r", "m")
+        .default("None").meaning("wavelength above which the spectrum of the surface is flat, within the waves of the profile; default: self-affine up to the longest wave"),
     row("roughness.seed", Whole(0, u64::MAX)).of("SelfAffine").name("seed").step(Integer(1, 100))
         .meaning("seed of the random phases: the same seed gives the same profile"),
     row("roughness.file", FILE_NAME).of("Measured").name("measured surface")

@@ -5,7 +5,7 @@
 use super::adhesion::Adhesion;
 use super::measured::Measured;
 pub use crate::contact::{Edges, Move};
-use crate::surface::{Form, MeasuredOptions};
+use crate::surface::{Form, MeasuredOptions, SelfAffine};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -99,8 +99,15 @@ pub enum Roughness {
         /// Root mean square gradient ⟨∇z⟩.
         #[serde(skip_serializing_if = "Option::is_none")]
         rms_gradient: Option<f64>,
-        /// First and last mode k, q = 2πk/L.
-        modes: (u64, u64),
+        /// First and last mode k, q = 2πk/L; `None` if given by `wavelengths`.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        modes: Option<(u64, u64)>,
+        /// Longest and shortest wavelength, m, in place of `modes`.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        wavelengths: Option<(f64, f64)>,
+        /// Wavelength, m, above which the spectrum of the surface is flat; `None`: nowhere.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        roll_off: Option<f64>,
         /// Seed of the random phases.
         seed: u64,
     },
@@ -127,11 +134,25 @@ impl Scene {
         self.form.map_or(0..points, |form| form.springs_under(self.length, points))
     }
 
+    /// Spectrum of a self-affine roughness on the length of the scene; `None` without one. Of wavelengths λ the modes are
+    /// those nearest to L/λ, so that the waves stay where the length changes.
+    pub fn spectrum(&self) -> Option<SelfAffine> {
+        let Some(Roughness::SelfAffine { hurst, modes, wavelengths, roll_off, .. }) = self.roughness else {
+            return None;
+        };
+        let mode = |wavelength: f64| (self.length / wavelength).round() as u64;
+        let (first, last) =
+            modes.or(wavelengths.map(|(longest, shortest)| (mode(longest), mode(shortest))))?;
+        let roll_off = roll_off.map_or(0.0, |wavelength| self.length / wavelength);
+        Some(SelfAffine { hurst, first, last, roll_off })
+    }
+
     /// Warning about roughness whose shortest wave has fewer springs than [`SPRINGS_PER_WAVE`], which is allowed.
     pub fn warning(&self) -> Option<String> {
         let (path, springs) = match self.roughness.as_ref()? {
-            Roughness::SelfAffine { modes: (_, last), .. } => {
-                ("roughness.modes", self.numerics.points as f64 / *last as f64)
+            Roughness::SelfAffine { modes, .. } => {
+                let path = if modes.is_some() { "roughness.modes" } else { "roughness.wavelengths" };
+                (path, self.numerics.points as f64 / self.spectrum()?.last as f64)
             }
             Roughness::Measured(measured) => {
                 ("roughness.continue_to", measured.continue_to? / self.spacing())

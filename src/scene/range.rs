@@ -13,6 +13,8 @@ pub enum Range {
     Whole(u64, u64),
     /// A pair `(first, last)` of whole numbers, first ≤ last, both ends included.
     Band(u64, u64),
+    /// A pair `(longest, shortest)` of wavelengths, longest ≥ shortest, both ends included.
+    Wavelengths(f64, f64),
     /// Text without control characters.
     Text {
         /// Fewest characters.
@@ -55,7 +57,11 @@ impl Range {
 
     /// Returns true for an allowed real number; NaN and the infinities never are.
     pub fn contains(&self, value: f64) -> bool {
-        matches!(*self, Range::Real(min, max) if value.is_finite() && (min, max).contains(&value))
+        match *self {
+            Range::Real(min, max) => value.is_finite() && (min, max).contains(&value),
+            Range::Wavelengths(min, max) => (min..=max).contains(&value),
+            _ => false,
+        }
     }
 
     /// Returns true for an allowed integer.
@@ -68,6 +74,7 @@ impl Range {
         match *self {
             Range::Real(Included(min) | Excluded(min), Included(max) | Excluded(max)) => Some((min, max)),
             Range::Whole(min, max) | Range::Band(min, max) => Some((min as f64, max as f64)),
+            Range::Wavelengths(min, max) => Some((min, max)),
             _ => None,
         }
     }
@@ -99,6 +106,14 @@ impl fmt::Display for Range {
             Range::Whole(min, max) => write!(f, "a whole number from {min} to {max}"),
             Range::Band(min, max) => {
                 write!(f, "a pair (first, last) of whole numbers from {min} to {max}, first ≤ last")
+            }
+            Range::Wavelengths(min, max) => {
+                write!(
+                    f,
+                    "a pair (longest, shortest), longest ≥ shortest, both from {:e} to {}",
+                    min,
+                    Number(max)
+                )
             }
             Range::Text { least, most, lines } => {
                 let kind = if lines { "text of" } else { "one line of" };

@@ -30,16 +30,7 @@ impl Field {
                 let grid = (number(value)? / fine).round() + size * f64::from(steps);
                 self.kept(decimal(grid * fine, fine))
             }
-            Step::Logarithmic => {
-                let series = if coarse { COARSE_SERIES } else { FINE_SERIES };
-                let mut next = preferred(number(value)?, series, steps > 0)?;
-                let mut left = steps.unsigned_abs().saturating_sub(1);
-                while left > 0 && self.range.contains(next) {
-                    next = preferred(next, series, steps > 0)?;
-                    left -= 1;
-                }
-                self.kept(next)
-            }
+            Step::Logarithmic => self.kept(self.preferred(number(value)?, steps, coarse)?),
             Step::Integer(fine, large) => {
                 let size = if coarse { large } else { fine };
                 let distance = u64::from(steps.unsigned_abs()).saturating_mul(size);
@@ -52,6 +43,13 @@ impl Field {
                 let times = if coarse { steps.saturating_mul(4) } else { steps };
                 self.kept_whole(doubled(ron::from_str(value).ok()?, times))
             }
+            Step::Band if matches!(self.range, Range::Wavelengths(..)) => {
+                let (longest, shortest) = ron::from_str(value).ok()?;
+                let moved = self.preferred(if coarse { longest } else { shortest }, steps, coarse)?;
+                let (longest, shortest) = if coarse { (moved, shortest) } else { (longest, moved) };
+                (longest >= shortest && self.range.contains(moved))
+                    .then(|| format!("({}, {})", ron_float(longest), ron_float(shortest)))
+            }
             Step::Band => {
                 let (first, last) = ron::from_str(value).ok()?;
                 let (first, last) =
@@ -63,6 +61,18 @@ impl Field {
             Step::Typed => None,
         };
         next.filter(|next| next != value && number(next).is_none_or(|next| number(value) != Some(next)))
+    }
+
+    /// The preferred number `steps` steps away, or the first one outside the range.
+    fn preferred(&self, value: f64, steps: i32, coarse: bool) -> Option<f64> {
+        let series = if coarse { COARSE_SERIES } else { FINE_SERIES };
+        let mut next = preferred(value, series, steps > 0)?;
+        let mut left = steps.unsigned_abs().saturating_sub(1);
+        while left > 0 && self.range.contains(next) {
+            next = preferred(next, series, steps > 0)?;
+            left -= 1;
+        }
+        Some(next)
     }
 
     fn kept(&self, value: f64) -> Option<String> {
@@ -170,6 +180,9 @@ mod tests {
             "roughness.modes|(1, 512)|1|(1, 1024)",
             "roughness.modes|(1, 512)|1c|(2, 512)",
             "roughness.modes|(4, 4)|-1|",
+            "roughness.wavelengths|(1.0e-4, 2.0e-7)|1|(1.0e-4, 2.24e-7)",
+            "roughness.wavelengths|(1.0e-4, 2.0e-7)|-1c|(5.0e-5, 2.0e-7)",
+            "roughness.wavelengths|(2.0e-7, 2.0e-7)|1|",
             "form|None|1|Paraboloid(radius: 1.0e-3)",
             "form|Punch(radius: 0.3)|1|None",
             "numerics.solver|Exact|1|Stepwise(step: 1.0e-9)",

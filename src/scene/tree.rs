@@ -114,7 +114,9 @@ impl Tree {
                 let entries: Vec<String> = self.entries(&self.inside(field)).collect();
                 format!("{}({})", variant(value).unwrap_or_default(), entries.join(", "))
             }
-            (Range::Band(..), Value::Array(ends)) => format!("({})", joined(ends, written)),
+            (Range::Band(..) | Range::Wavelengths(..), Value::Array(ends)) => {
+                format!("({})", joined(ends, written))
+            }
             (Range::Text { .. }, text) => quoted(text),
             (Range::List { .. }, Value::Array(list)) if field.parent() == "roughness" => {
                 format!("[{}]", joined(list, quoted))

@@ -6,8 +6,8 @@ use crate::contact::{Body, Contact, ContactError, History, Leg, LegRecord, Solve
 use crate::scene::{Move, Scene, Solver as SolverChoice};
 use std::time::Instant;
 
-/// Loads a contact with the solver of the scene, and by the touch protocol if F_a(0) is requested. Returns the history,
-/// and F_a(0), N, if the contact of first touch pulls.
+/// Loads a contact with the solver of the scene and, if F_a(0) is requested, turned at first touch and at zero force.
+/// Returns the history, and F_a(0) by both protocols, N, where the contact pulls.
 pub(super) fn load(
     scene: &Scene,
     contact: &Contact,
@@ -15,9 +15,9 @@ pub(super) fn load(
     timings: &mut Timings,
     stop: &dyn Fn() -> bool,
     see: &mut dyn FnMut(&LegRecord, &Leg) -> Result<(), ContactError>,
-) -> Result<(History, Option<f64>), ContactError> {
+) -> Result<(History, [Option<f64>; 2]), ContactError> {
     let samples = scene.numerics.samples as usize;
-    let mut force = None;
+    let mut forces = [None; 2];
     match scene.numerics.solver {
         SolverChoice::Stepwise { step } => {
             let body = |samples| Stepwise::new(contact, step, samples, stop);
@@ -26,15 +26,22 @@ pub(super) fn load(
             timings.curve = solver.curve_seconds();
             if zero_load {
                 let clock = Instant::now();
-                let touch = run(&mut body(2)?, &[Move::ToTouch, Move::ToSeparation], |_, _| Ok(()))?;
-                force = Figures::of(&touch).adhesion_force;
-                let work = &mut history.work;
-                work.steps += touch.work.steps;
-                work.relaxation_sweeps += touch.work.relaxation_sweeps;
-                work.spring_updates += touch.work.spring_updates;
+                for (force, turn) in forces.iter_mut().zip([Move::ToTouch, Move::ToZeroForce]) {
+                    let turned = match run(&mut body(2)?, &[turn, Move::ToSeparation], |_, _| Ok(())) {
+                        Err(ContactError::Interrupted) => return Err(ContactError::Interrupted),
+                        // A turn out of reach of the steps has no F_a(0).
+                        Err(_) => continue,
+                        Ok(turned) => turned,
+                    };
+                    *force = Figures::of(&turned).adhesion_force;
+                    let work = &mut history.work;
+                    work.steps += turned.work.steps;
+                    work.relaxation_sweeps += turned.work.relaxation_sweeps;
+                    work.spring_updates += turned.work.spring_updates;
+                }
                 timings.zero_load = clock.elapsed().as_secs_f64();
             }
-            Ok((history, force))
+            Ok((history, forces))
         }
         SolverChoice::Exact => {
             let mut body = Body::new(contact, samples);
@@ -42,13 +49,11 @@ pub(super) fn load(
             timings.curve = body.curve_seconds();
             if zero_load && contact.has_adhesion() {
                 let clock = Instant::now();
-                let least = body.pull_off_at_touch()?;
+                forces = body.zero_load_adhesion()?;
                 history.work = body.work();
-                // Not −F, which would make a force of zero negative.
-                force = Some(0.0 - least).filter(|_| least <= 0.0);
                 timings.zero_load = clock.elapsed().as_secs_f64();
             }
-            Ok((history, force))
+            Ok((history, forces))
         }
     }
 }

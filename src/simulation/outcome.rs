@@ -18,12 +18,16 @@ pub struct Outcome {
     pub smooth_adhesion_force: Option<f64>,
     /// Adhesion force F_a(0) by the touch protocol, N; `None` without adhesion or an unloading stage.
     pub zero_load_adhesion_force: Option<f64>,
+    /// The same by the zero-force protocol, N.
+    pub zero_force_adhesion_force: Option<f64>,
     /// Tabor number μ; `None` without adhesion or radius of curvature.
     pub tabor_number: Option<f64>,
     /// Waves too steep for the theory of Johnson, Kendall and Roberts.
     pub steep_waves: Option<SteepWaves>,
-    /// Regime of Fig. 4; `None` without a tensile force.
+    /// Regime of Fig. 4 by the touch protocol; `None` without a tensile force.
     pub regime: Option<Regime>,
+    /// The same by the zero-force protocol.
+    pub regime_after_zero_force: Option<Regime>,
     /// Headline figures of the loading history.
     pub figures: Figures,
     /// The loading history itself.
@@ -71,7 +75,7 @@ pub struct Timings {
     pub passes: f64,
     /// Curves and exact extremes of all loading stages.
     pub curve: f64,
-    /// F_a(0) for the regime, unless computed during the loading.
+    /// F_a(0) by both protocols, for the regimes.
     pub zero_load: f64,
 }
 

@@ -1,6 +1,5 @@
 //! Stages of a scene, the fields that require them, and their costs. The run follows this plan.
 
-use crate::analysis::Figures;
 use crate::contact::CurvePoint;
 use crate::scene::{Edges, Effect, Roughness, Scene, Solver};
 use serde::Serialize;
@@ -47,7 +46,7 @@ pub enum Stage {
     UnloadingPass,
     /// Steps and relaxation sweeps.
     Relaxation,
-    /// The loop with its turning point at first touch, for F_a(0) and the regime.
+    /// The loops that turn at first touch and at zero force, for F_a(0) and the regimes.
     ZeroLoadAdhesion,
     /// The list of contact patches.
     Fragments,
@@ -181,11 +180,10 @@ fn stages(scene: &Scene, points: u64, springs: u64) -> Vec<PlannedStage> {
         (true, true, false) => Err(STEPWISE),
         (true, true, true) => Ok("loading goes back"),
     };
-    let zero_load = match (adhesive, pulls, Figures::is_touch_protocol(scene)) {
-        (false, ..) => Err("no adhesion: non-adhesive"),
-        (true, false, _) => Err(NEVER_BACK),
-        (true, true, true) => Err("the loading itself turns at first touch"),
-        (true, true, false) => Ok("adhesion with a loading that goes back"),
+    let zero_load = match (adhesive, pulls) {
+        (false, _) => Err("no adhesion: non-adhesive"),
+        (true, false) => Err(NEVER_BACK),
+        (true, true) => Ok("adhesion with a loading that goes back"),
     };
     let hess = when(adhesive, "adhesion", "no adhesion: nothing is stretched");
     let observed = |effect: Effect, field| when(effect.is_on(scene), field, "not in observe");
@@ -193,7 +191,7 @@ fn stages(scene: &Scene, points: u64, springs: u64) -> Vec<PlannedStage> {
         observed(Effect::Fragments, "observe: Fragments"),
         observed(Effect::HeightHistogram, "observe: HeightHistogram"),
     );
-    let (touch, touch_bytes) = if exact { (once, 0) } else { (each_stage, RELAXED * springs) };
+    let (touch, touch_bytes) = if exact { ((Some(2), springs), 0) } else { (each_stage, RELAXED * springs) };
     vec![
         row(Stage::Form, form, once, 0),
         row(Stage::Synthesis, synthesis, line, transform + convolution),

@@ -1,7 +1,7 @@
 //! Heights of the roughness of a scene, synthesised or measured.
 
 use super::RunError;
-use crate::scene::{MOST_POINTS, Roughness, SPRINGS_PER_WAVE, Scene};
+use crate::scene::{MOST_POINTS, SPRINGS_PER_WAVE, Scene};
 use crate::surface::{
     Amplitude, EquivalentLine, MeasuredOptions, MeasuredRoughness, SelfAffine, SurfaceError, Synthesizer,
     read_faces,
@@ -73,7 +73,7 @@ impl RoughnessMaker {
     pub fn key(&self, scene: &Scene) -> Option<RoughnessKey> {
         let points = scene.numerics.points as usize;
         let shift = scene.form.map_or(0.0, |form| form.shift(points as u64));
-        let source = match (spectrum(scene), &scene.roughness) {
+        let source = match (scene.spectrum(), &scene.roughness) {
             (Some(spectrum), _) => Source::SelfAffine(spectrum),
             (None, roughness) => {
                 roughness.as_ref()?;
@@ -133,16 +133,6 @@ impl RoughnessMaker {
             self.equivalent = Some((faces.to_vec(), *options, Arc::clone(&surface)));
         }
         Ok(surface)
-    }
-}
-
-/// Spectrum of a self-affine roughness.
-pub(super) fn spectrum(scene: &Scene) -> Option<SelfAffine> {
-    match scene.roughness {
-        Some(Roughness::SelfAffine { hurst, modes: (first, last), .. }) => {
-            Some(SelfAffine { hurst, first, last })
-        }
-        _ => None,
     }
 }
 

@@ -1,7 +1,7 @@
 //! Execution of the stages of a scene whose input has changed since the last run.
 
 use super::loading::load;
-use super::roughness::{Rough, RoughnessKey, RoughnessMaker, spectrum};
+use super::roughness::{Rough, RoughnessKey, RoughnessMaker};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
 use crate::analysis::{Figures, Governing, Regime, SteepWaves, ideal_adhesion_force, scene_tabor_number};
 use crate::contact::{Contact, ContactError, ContactTree, Foundation, Leg, LegRecord, Patch, Springs, Work};
@@ -130,7 +130,8 @@ impl Simulation {
             deepest: self.springs.deepest(),
             modes,
             seed: scene.seed(),
-            continuum_rms_gradient: spectrum(scene)
+            continuum_rms_gradient: scene
+                .spectrum()
                 .map(|spectrum| rms_height * spectrum.continuum_gradient_per_height(length)),
         };
         Ok((line, facts, governing))
@@ -270,26 +271,28 @@ impl Simulation {
             after(stage - 1, record, leg)
         };
         let zero_load = plan.runs(Stage::ZeroLoadAdhesion);
-        let (mut history, at_touch) = load(scene, &contact, zero_load, &mut timings, stop, &mut see)?;
+        let (mut history, zero_load) = load(scene, &contact, zero_load, &mut timings, stop, &mut see)?;
         timings.passes = (clock.elapsed().as_secs_f64() - timings.curve - timings.zero_load).max(0.0);
         history.contacts.iter_mut().for_each(|contact| *contact = on_foundation(*contact));
         let transforms = u64::from(random_phases > 0);
         history.work = Work { random_phases, transforms, heights_binned, ..history.work };
 
         let figures = Figures::of(&history);
-        let is_touch = contact.has_adhesion() && Figures::is_touch_protocol(scene);
-        let zero_load_adhesion_force = at_touch.or(figures.adhesion_force.filter(|_| is_touch));
+        let [zero_load_adhesion_force, zero_force_adhesion_force] = zero_load;
         let (work, modulus, length) = (governing.adhesive_work(), governing.effective_modulus, scene.length);
         let smooth = work.map(|work| smooth_adhesion_force(scene.form.as_ref(), length, modulus, work));
+        let regime = |zero_load| Regime::of_loading(&figures, zero_load, smooth);
         Ok(Outcome {
             line: facts,
             governing,
             ideal_adhesion_force: work.map(|work| ideal_adhesion_force(work, modulus, length)),
             smooth_adhesion_force: smooth,
             zero_load_adhesion_force,
+            zero_force_adhesion_force,
             tabor_number: scene_tabor_number(scene, &governing),
             steep_waves: SteepWaves::of(scene, &governing),
-            regime: Regime::of_loading(&figures, zero_load_adhesion_force, smooth),
+            regime: regime(zero_load_adhesion_force),
+            regime_after_zero_force: regime(zero_force_adhesion_force),
             figures,
             history,
             fragments,

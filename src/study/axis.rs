@@ -242,7 +242,7 @@ fn number(path: &str) -> Option<&'static Field> {
         let field = field(path.strip_suffix(end)?, None).filter(|field| !FIXED.contains(&field.path))?;
         let is_number = match field.range {
             Range::Real(..) | Range::Whole(..) => end.is_empty(),
-            Range::Band(..) => !end.is_empty(),
+            Range::Band(..) | Range::Wavelengths(..) => !end.is_empty(),
             _ => false,
         };
         is_number.then_some(field)
@@ -275,7 +275,7 @@ impl Target {
 
     /// Returns true for an integer quantity.
     pub fn is_whole(self) -> bool {
-        matches!(self, Target::Number(field) if !matches!(field.range, Range::Real(..)))
+        matches!(self, Target::Number(field) if !matches!(field.range, Range::Real(..) | Range::Wavelengths(..)))
     }
 
     /// κ or e_el/γ, also where an axis sets the field of the scene.
@@ -321,6 +321,10 @@ impl Target {
                 ("first mode".into(), "k_min", "1")
             }
             Target::Number(Field { range: Range::Band(..), .. }) => ("last mode".into(), "k_max", "1"),
+            Target::Number(Field { range: Range::Wavelengths(..), symbol, unit, .. }) => {
+                let which = if path.ends_with(".0") { "longest" } else { "shortest" };
+                (format!("{which} wavelength"), symbol, unit)
+            }
             Target::Number(field) => (field.name.into(), field.symbol, field.unit),
         }
     }

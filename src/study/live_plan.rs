@@ -48,14 +48,15 @@ pub fn live_plan(scene: &Scene, parameter: RoughnessParameter) -> Result<Plan, &
     // Without a given amplitude the amplitude follows from γ and κ. The range of the attraction changes no map.
     let adhesion = Adhesion { range: None, ..adhesion.with_parameter(parameter, ANY.0) };
     let mut scene = scene.clone();
+    let last = scene.spectrum().map_or(0, |spectrum| spectrum.last);
     let (points, has_hurst) = match &mut scene.roughness {
         None => {
             return Err("no map: a smooth body has neither κ nor H; switch roughness on with t in its row");
         }
-        Some(Roughness::SelfAffine { hurst, modes, .. }) => {
+        Some(Roughness::SelfAffine { hurst, .. }) => {
             *hurst = ANY.1;
-            let wanted = modes.1.saturating_mul(SPRINGS_PER_WAVE).clamp(SPRINGS.0, SPRINGS.1);
-            (wanted.max(modes.1.saturating_mul(2)), true)
+            let wanted = last.saturating_mul(SPRINGS_PER_WAVE).clamp(SPRINGS.0, SPRINGS.1);
+            (wanted.max(last.saturating_mul(2)), true)
         }
         Some(Roughness::Measured { .. }) => (SPRINGS.1, false),
     };

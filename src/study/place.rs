@@ -2,9 +2,8 @@
 
 use super::axis::{Axis, Spacing, Target};
 use crate::analysis::Governing;
-use crate::scene::{Document, FIELDS, Field, Move, Range, Roughness, Scene, SceneErrors, Tree, ron_float};
+use crate::scene::{Document, FIELDS, Field, Move, Range, Scene, SceneErrors, Tree, ron_float};
 use crate::simulation::FEW_SAMPLES;
-use crate::surface::SelfAffine;
 
 impl Axis {
     /// Value of the quantity in a scene; `None` where the scene has none. `computed` are the governing parameters
@@ -19,7 +18,7 @@ impl Axis {
         match (self.target, scene.loading.first()) {
             (Target::Preload, Some(Move::ToForce(force))) => Some(force / force_unit(scene)?),
             (Target::Preload, _) => None,
-            (Target::SpringsPerWave, _) => Some(scene.numerics.points as f64 / number("roughness.modes.1")?),
+            (Target::SpringsPerWave, _) => Some(scene.numerics.points as f64 / scene.spectrum()?.last as f64),
             _ => number(&self.path),
         }
     }
@@ -45,9 +44,7 @@ pub(super) fn scene_with<'a>(
                 parameter = Some((of, value));
                 continue;
             }
-            Target::SpringsPerWave => {
-                ("roughness.modes.1", (tree.get("numerics.points").unwrap_or_default() / value).round())
-            }
+            Target::SpringsPerWave => shortest_wave(&tree, value),
             Target::Number(_) | Target::Stage(_) => (axis.path.as_str(), value),
         };
         if !tree.set(path, value) {
@@ -62,6 +59,17 @@ pub(super) fn scene_with<'a>(
         scene.adhesion = Some(scene.adhesion.unwrap_or_default().with_parameter(parameter, value));
     }
     Ok(scene)
+}
+
+const LAST_MODE: &str = "roughness.modes.1";
+
+/// Path and value of the shortest wave with this number of springs, as a mode or, where these are given, as a wavelength.
+fn shortest_wave(tree: &Tree, springs: f64) -> (&'static str, f64) {
+    let [points, length] = ["numerics.points", "length"].map(|path| tree.get(path).unwrap_or_default());
+    match tree.get("roughness.wavelengths.1") {
+        Some(_) => ("roughness.wavelengths.1", springs * length / points),
+        None => (LAST_MODE, (points / springs).round()),
+    }
 }
 
 /// The numbers of a scene other than counts, zeros and what belongs to the numerics, as axes without values.
@@ -93,10 +101,7 @@ pub(super) fn strip(scene: &mut Scene) {
 
 /// Governing parameters of a scene with a self-affine profile.
 pub(super) fn governing(scene: &Scene) -> Option<Governing> {
-    let Some(Roughness::SelfAffine { hurst, modes: (first, last), .. }) = scene.roughness else {
-        return None;
-    };
-    let unit = SelfAffine { hurst, first, last }.unit_amplitude(scene.length);
+    let unit = scene.spectrum()?.unit_amplitude(scene.length);
     Some(Governing::of(scene, Some(unit), None))
 }
 
@@ -125,8 +130,9 @@ pub fn moved(document: &Document, values: &[(&Axis, f64)]) -> Result<Document, S
     }
     let mut moved = document.set_all(&fields)?;
     if let Some(springs) = springs {
-        let last = (moved.scene().numerics.points as f64 / springs).round();
-        moved = moved.set("roughness.modes.1", &format!("{last:.0}"))?;
+        let (path, value) = shortest_wave(&Tree::of(moved.scene()), springs);
+        let text = if path == LAST_MODE { format!("{value:.0}") } else { ron_float(value) };
+        moved = moved.set(path, &text)?;
     }
     if let Some((parameter, value)) = parameter {
         let adhesion = moved.scene().adhesion.unwrap_or_default();
@@ -178,6 +184,38 @@ mod tests {
     }
 
     #[test]
+    fn axes_move_waves_in_metres() {
+        let waves = [("roughness.modes", "None"), ("roughness.wavelengths", "25 µm, 0.2 µm")];
+        let waves = waves.map(|(path, value)| (path.to_owned(), value.to_owned()));
+        let document = open("pressure-sensitive").unwrap().set_all(&waves).unwrap();
+        for (path, value, set) in [
+            ("roughness.wavelengths.0", 5e-5, ("roughness.wavelengths.0", "50 µm")),
+            ("roughness.wavelengths.1", 4e-7, ("roughness.wavelengths", "(2.5e-5, 4e-7)")),
+            ("roughness.roll_off", 1e-5, ("roughness.roll_off", "10 µm")),
+            ("springs_per_wave", 16.0, ("roughness.wavelengths.1", "9.765625e-8")),
+        ] {
+            let axis = Axis::new(path, Spacing::List, vec![value], document.scene()).unwrap();
+            let scene = with(document.scene(), path, value).unwrap();
+            assert_eq!(&scene, document.set(set.0, set.1).unwrap().scene(), "{path}");
+            assert_eq!(&scene, super::moved(&document, &[(&axis, value)]).unwrap().scene(), "{path}");
+            assert_eq!(axis.value_in(&scene, None), Some(value), "{path}");
+        }
+        // A longer line has the same waves: more modes.
+        let modes =
+            |document: &Document| document.scene().spectrum().map(|spectrum| (spectrum.first, spectrum.last));
+        for (length, nearest) in [("100 µm", (4, 500)), ("120 µm", (5, 600)), ("250 µm", (10, 1250))] {
+            assert_eq!(modes(&document.set("length", length).unwrap()), Some(nearest), "{length}");
+        }
+        let as_modes = [("roughness.modes", "(4, 500)"), ("roughness.wavelengths", "None")];
+        let as_modes = document.set_all(&as_modes.map(|(path, value)| (path.to_owned(), value.to_owned())));
+        let gaps = |document: &Document| {
+            let mut simulation = Simulation::default();
+            simulation.make_line(document.scene()).unwrap().0.gaps.clone()
+        };
+        assert_eq!(gaps(&document), gaps(&as_modes.unwrap()));
+    }
+
+    #[test]
     fn numbers_that_a_scene_does_not_have_are_stated() {
         let scene = open("jkr-sphere").unwrap().scene().clone();
         for path in
@@ -185,7 +223,9 @@ mod tests {
         {
             assert!(with(&scene, path, 1.0).unwrap_err().contains("the scene has no "), "{path}");
         }
-        for path in ["version", "roughness.seed", "roughness.modes", "numerics", "title"] {
+        for path in
+            ["version", "roughness.seed", "roughness.wavelengths", "roughness.modes", "numerics", "title"]
+        {
             assert!(Target::of(path).is_err(), "{path}");
         }
     }

@@ -26,7 +26,7 @@ const MOST_FORCES: u64 = 1000;
 
 /// Axes that set the same quantity, of which a plan may have one.
 const SAME: [&[&str]; 2] = [
-    &["springs_per_wave", "roughness.modes.1"],
+    &["springs_per_wave", "roughness.modes.1", "roughness.wavelengths.1"],
     &["kappa", "elastic_energy_ratio", "adhesion.kappa", "adhesion.work", "adhesion.elastic_energy_ratio"],
 ];
 

@@ -261,7 +261,7 @@ mod tests {
             "the plan's scene has none"
         );
         let Some(Roughness::SelfAffine { seed, modes, hurst, .. }) = scene.roughness else { panic!() };
-        assert_eq!((seed, modes, hurst), (7, (1, 16), 0.5));
+        assert_eq!((seed, modes, hurst), (7, Some((1, 16)), 0.5));
         // 0.5 E* h L.
         let Move::ToForce(force) = scene.loading[0] else { panic!("{:?}", scene.loading) };
         assert!((force / (0.5 * 2.0e6 * 1.0e-7 * 1.0e-4) - 1.0).abs() < 1e-12, "{force}");

@@ -161,19 +161,29 @@ mod tests {
 
     #[test]
     fn is_the_sum_of_cosines_on_every_grid() {
-        for (points, first, last) in [(64, 1, 32), (100, 3, 50), (101, 1, 50), (97, 2, 40), (2, 1, 1)] {
-            let spectrum = SelfAffine { hurst: 0.6, first, last };
+        for (points, first, last, roll_off) in [
+            (64, 1, 32, 0.0),
+            (100, 3, 50, 0.0),
+            (101, 1, 50, 11.5),
+            (97, 2, 40, 0.0),
+            (2, 1, 1, 0.0),
+            (1400, 2, 700, 600.0),
+        ] {
+            let spectrum = SelfAffine { hurst: 0.6, first, last, roll_off };
             for shift in [0.0, 0.5] {
                 let line =
                     Synthesizer::default().synthesize(spectrum, 42, points, shift, Vec::new()).unwrap();
                 for (i, &height) in line.iter().enumerate() {
                     let expected = direct(spectrum, 42, (i as f64 + 0.5 - shift) / points as f64);
-                    assert!((height - expected).abs() < 1e-12, "N = {points}, i = {i}: {height} {expected}");
+                    assert!(
+                        (height - expected).abs() < 1e-14 * last.max(100) as f64,
+                        "N = {points}, i = {i}: {height} {expected}"
+                    );
                 }
             }
         }
         // The rms height is 1.
-        let heights = SelfAffine { hurst: 0.8, first: 1, last: 100 }.heights(3, 1000).unwrap();
+        let heights = SelfAffine { hurst: 0.8, first: 1, last: 100, roll_off: 0.0 }.heights(3, 1000).unwrap();
         let rms = (heights.iter().map(|z| z * z).sum::<f64>() / 1000.0).sqrt();
         assert!((rms - 1.0).abs() < 1e-12, "{rms}");
     }
@@ -193,7 +203,7 @@ mod tests {
             (2 * many as usize, 0.8, 1, many, 3),
             (64, 0.8, 1, 32, 3),
         ] {
-            let spectrum = SelfAffine { hurst, first, last };
+            let spectrum = SelfAffine { hurst, first, last, roll_off: 0.0 };
             let kept = synthesizer.synthesize(spectrum, seed, points, 0.0, memory).unwrap();
             assert_eq!(kept, spectrum.heights(seed, points).unwrap());
             // The same as on one thread and by another plan.

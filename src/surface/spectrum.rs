@@ -11,7 +11,7 @@ const EULER_MACLAURIN: [f64; 5] =
     [1.0 / 12.0, -1.0 / 720.0, 1.0 / 30_240.0, -1.0 / 1_209_600.0, 1.0 / 47_900_160.0];
 
 /// A self-affine spectrum over the modes k = `first` … `last`, wave vectors q_k = 2πk/L:
-/// A_k ∝ k^(−H−1/2).
+/// A_k ∝ k^(−H−1/2), and below the roll-off, where the spectrum of the surface C₂D is flat, A_k ∝ √k by eq. (8).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SelfAffine {
     /// Hurst exponent H, 0 < H < 1.
@@ -20,14 +20,18 @@ pub struct SelfAffine {
     pub first: u64,
     /// Last mode, at least `first`.
     pub last: u64,
+    /// Mode of the roll-off, L over its wavelength, a whole number or not; none if not above `first`.
+    pub roll_off: f64,
 }
 
 impl SelfAffine {
-    /// Amplitude of mode k in units of that of mode 1.
+    /// Amplitude of mode k in units of that of mode 1 without a roll-off.
     #[inline]
     #[must_use]
     pub fn relative_amplitude(&self, mode: u64) -> f64 {
-        (mode as f64).powf(self.amplitude_exponent())
+        let mode = mode as f64;
+        let decay = mode.max(self.roll_off).powf(self.amplitude_exponent());
+        if mode < self.roll_off { decay * (mode / self.roll_off).sqrt() } else { decay }
     }
 
     /// Exponent −H − 1/2 of the amplitudes.
@@ -68,21 +72,43 @@ impl SelfAffine {
     /// height. Zero for a single mode.
     pub(crate) fn continuum_gradient_per_height(&self, length: f64) -> f64 {
         let (low, high) = (self.first as f64, self.last as f64);
-        let height = integral_of_power(-1.0 - 2.0 * self.hurst, low, high);
+        let between = self.roll_off.max(low).min(high);
+        let integral = |power: i32| {
+            let decays = integral_of_power(self.exponent(power), between, high);
+            if between == low {
+                return decays;
+            }
+            decays + self.flat_level() * integral_of_power(f64::from(power) + 1.0, low, between)
+        };
+        let height = integral(0);
         if height == 0.0 {
             return 0.0;
         }
-        let gradient = integral_of_power(1.0 - 2.0 * self.hurst, low, high);
-        std::f64::consts::TAU / length * (gradient / height).sqrt()
+        std::f64::consts::TAU / length * (integral(2) / height).sqrt()
     }
 
-    /// Σ k^(power − 1 − 2H) over the modes, relative error a few units in the last place.
+    /// Σ k^power A_k² over the modes with the relative amplitudes, relative error a few units in the last place.
     fn moment(&self, power: i32) -> f64 {
-        sum_of_powers(f64::from(power) - 1.0 - 2.0 * self.hurst, self.first, self.last)
+        let begins = (self.roll_off.ceil() as u64).max(self.first).min(self.last.saturating_add(1));
+        let decays = sum_of_powers(self.exponent(power), begins, self.last);
+        if begins == self.first {
+            return decays;
+        }
+        decays + self.flat_level() * sum_of_powers(f64::from(power) + 1.0, self.first, begins - 1)
+    }
+
+    /// Exponent of k^power A_k² above the roll-off.
+    fn exponent(&self, power: i32) -> f64 {
+        f64::from(power) - 1.0 - 2.0 * self.hurst
+    }
+
+    /// A_k²/k below the roll-off.
+    fn flat_level(&self) -> f64 {
+        self.roll_off.powf(-2.0 - 2.0 * self.hurst)
     }
 }
 
-/// Σ k^exponent for k = `first` … `last`, relative error a few units in the last place, in a time independent of
+/// Σ k^exponent for k = `first` … `last`, 0 without terms, relative error a few units in the last place, in a time independent of
 /// the number of terms.
 fn sum_of_powers(exponent: f64, first: u64, last: u64) -> f64 {
     let end = last.min(first.saturating_add(DIRECT_TERMS - 1));
@@ -134,7 +160,7 @@ mod tests {
 
     #[test]
     fn integrals_stay_accurate_as_hurst_goes_to_one() {
-        let spectrum = |hurst| SelfAffine { hurst, first: 1, last: 4096 };
+        let spectrum = |hurst| SelfAffine { hurst, first: 1, last: 4096, roll_off: 0.0 };
         let limit = spectrum(1.0).continuum_gradient_per_height(1.0);
         // At H = 1: ∫dq/q = ln 4096 over ∫q⁻³dq = (1 − 4096⁻²)/2.
         let exact = std::f64::consts::TAU * (4096_f64.ln() * 2.0 / (1.0 - 4096_f64.powi(-2))).sqrt();
@@ -150,7 +176,7 @@ mod tests {
     fn the_elastic_energy_of_the_modes_is_that_of_the_spectrum() {
         let (modulus, height, length) = (2.0e6, 3.0e-7, 1.0e-3);
         for hurst in [0.1, 0.5, 0.9] {
-            let spectrum = SelfAffine { hurst, first: 10_000, last: 400_000 };
+            let spectrum = SelfAffine { hurst, first: 10_000, last: 400_000, roll_off: 0.0 };
             let modes = spectrum.unit_amplitude(length).scaled(height).elastic_energy(modulus);
             // (E*/4) ∫ q C2D d²q over the surface with ⟨h²⟩ = ∫ C2D d²q: C2D ∝ q^(−2−2H).
             let q = |mode: u64| std::f64::consts::TAU * mode as f64 / length;
@@ -196,8 +222,54 @@ mod tests {
     }
 
     #[test]
+    fn below_the_roll_off_the_spectrum_of_the_surface_is_flat() {
+        let (length, height) = (2e-4, 3e-7);
+        for (hurst, first, last, roll_off) in
+            [(0.3, 1, 500, 40.5), (0.8, 3, 4096, 700.0), (0.8, 3, 90, 90.0), (0.5, 7, 7, 7.4)]
+        {
+            let spectrum = SelfAffine { hurst, first, last, roll_off };
+            // C1D = π q C2D with C2D flat up to q_r and ∝ q^(−2−2H) above; A² ∝ C1D.
+            let squares = (first..=last).rev().map(|mode| {
+                let power = (mode as f64 / roll_off).max(1.0).powf(-2.0 - 2.0 * hurst);
+                (mode, mode as f64 * power)
+            });
+            let summed = Amplitude::from_modes(squares.clone(), length);
+            let (expected, found) =
+                (summed.scaled(height / summed.rms_height), spectrum.unit_amplitude(length).scaled(height));
+            let energies = [expected, found].map(|amplitude| amplitude.elastic_energy(2e6));
+            for (one, other) in [
+                (found.rms_gradient, expected.rms_gradient),
+                (found.rms_curvature, expected.rms_curvature),
+                (energies[1], energies[0]),
+            ] {
+                assert!((one / other - 1.0).abs() < 1e-12, "{spectrum:?}: {one} {other}");
+            }
+            let level = spectrum.relative_amplitude(first).powi(2) / (first as f64);
+            for (mode, square) in squares.map(|(mode, square)| (mode, square * level)) {
+                let found = spectrum.relative_amplitude(mode).powi(2);
+                let first_square = (first as f64 / roll_off).max(1.0).powf(-2.0 - 2.0 * hurst);
+                assert!((found * first_square / square - 1.0).abs() < 1e-12, "{spectrum:?}, mode {mode}");
+            }
+            // Integrals over the continuum, by the rule of midpoints.
+            let integral = |power: i32| -> f64 {
+                let (low, step) = ((first as f64).ln(), (last as f64 / first as f64).ln() / 4e5);
+                let values = (0..400_000).map(|index| (low + (f64::from(index) + 0.5) * step).exp());
+                values.map(|q| q.powi(power + 2) * (q / roll_off).max(1.0).powf(-2.0 - 2.0 * hurst)).sum()
+            };
+            let expected = std::f64::consts::TAU / length * (integral(2) / integral(0)).sqrt();
+            let found = spectrum.continuum_gradient_per_height(length);
+            assert!(
+                first == last || (found / expected - 1.0).abs() < 1e-7,
+                "{spectrum:?}: {found} {expected}"
+            );
+        }
+        let flat = SelfAffine { hurst: 0.7, first: 4, last: 512, roll_off: 4.0 };
+        assert_eq!(flat.unit_amplitude(1.0), SelfAffine { roll_off: 0.0, ..flat }.unit_amplitude(1.0));
+    }
+
+    #[test]
     fn one_mode_is_a_cosine() {
-        let spectrum = SelfAffine { hurst: 0.3, first: 5, last: 5 };
+        let spectrum = SelfAffine { hurst: 0.3, first: 5, last: 5, roll_off: 0.0 };
         let expected = std::f64::consts::TAU * 5.0 / 2.0;
         assert!((spectrum.gradient_per_height(2.0) / expected - 1.0).abs() < 1e-15);
         assert_eq!(spectrum.continuum_gradient_per_height(2.0), 0.0);

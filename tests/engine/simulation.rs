@@ -75,11 +75,12 @@ fn kept_stages_do_not_change_results() {
         expected.history.work = Work { random_phases, transforms, heights_binned, ..expected.history.work };
         assert_eq!(found, expected, "{edit:?}");
 
-        let mut touch = scene.clone();
-        touch.loading = vec![Move::ToTouch, Move::ToSeparation];
-        let touch = outcome(&mut Simulation::default(), &touch);
-        assert_eq!(found.zero_load_adhesion_force, touch.zero_load_adhesion_force, "{edit:?}");
-        assert_eq!(touch.zero_load_adhesion_force.is_some(), scene.adhesion.is_some());
+        let zero_load = [found.zero_load_adhesion_force, found.zero_force_adhesion_force];
+        for (force, turn) in zero_load.into_iter().zip([Move::ToTouch, Move::ToZeroForce]) {
+            let turned = Scene { loading: vec![turn, Move::ToSeparation], ..scene.clone() };
+            let turned = outcome(&mut Simulation::default(), &turned).figures.adhesion_force;
+            assert_eq!(force, turned.filter(|_| scene.adhesion.is_some()), "{edit:?}, {turn:?}");
+        }
     }
 }
 

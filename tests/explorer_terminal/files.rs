@@ -67,7 +67,7 @@ fn the_command_that_is_copied_gives_the_same_curve() {
     let command = copied(&terminal).expect("it is sent to the terminal");
     assert!(row_with(&terminal, "copied: ").starts_with(&format!("copied: {command}")), "{command}");
     terminal.send("E");
-    answer(&mut terminal, "Export to (.csv .npy .json .svg .png .txt): ", "curve.csv");
+    answer(&mut terminal, "Export to (.csv .npy .json .svg .png .pdf .txt): ", "curve.csv");
     terminal.wait_for("exported to curve.csv");
     quit_anyway(&mut terminal);
 

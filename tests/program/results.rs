@@ -5,8 +5,8 @@ use super::program::{json, rows, table, text};
 use serde_json::Value;
 
 /// Keys of `run --format json` and of two of its parts, in their order.
-const KEYS: &str = "scene line kappa elastic_energy elastic_energy_ratio regime ideal_adhesion_force preload \
-    preload_indentation adhesion_force adhesion_coefficient pull_off_indentation dissipated_energy tabor_number curve \
+const KEYS: &str = "scene line kappa elastic_energy elastic_energy_ratio regime regime_after_zero_force \
+    ideal_adhesion_force zero_load_adhesion_force zero_force_adhesion_force preload preload_indentation adhesion_force adhesion_coefficient pull_off_indentation dissipated_energy tabor_number curve \
     contacts work timings";
 const LINE_KEYS: &str = "points length spacing rms_height rms_gradient modes seed";
 const CURVE_KEYS: &str = "leg,indentation,force,contact_length,fragments,stored_energy";

@@ -37,7 +37,7 @@ pub struct PlotArguments {
 }
 
 /// Formats of a figure.
-const FORMATS: &[Format] = &[Format::Svg, Format::Png, Format::Text];
+const FORMATS: &[Format] = &[Format::Svg, Format::Png, Format::Pdf, Format::Text];
 
 /// Draws a study.
 pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<(), CliError> {

@@ -220,7 +220,7 @@ fn derived_values(app: &App) -> Vec<(&'static str, String)> {
         values.push(("F_a,max", format_quantity(force, "N")));
     }
     if let Some(regime) = outcome.regime {
-        values.push(("regime", regime.name().to_owned()));
+        values.push(("regime", regime.by_protocols(outcome.regime_after_zero_force)));
     }
     values
 }

@@ -2,10 +2,10 @@
 
 use crate::export::{Spectra, SpectrumPoint};
 use crate::memory::check_room;
-use crate::scene::{Form, Roughness, Scene};
+use crate::scene::{Form, Scene};
 use crate::simulation::{Outcome, RunError, Simulation};
 use crate::spectrum::{Analysis, LineMoments, line_spectrum};
-use crate::surface::{EquivalentLine, Line, SelfAffine, read_faces};
+use crate::surface::{EquivalentLine, Line, read_faces};
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -63,14 +63,13 @@ fn analyses(scene: &Scene) -> Result<Vec<Analysis>, String> {
 fn expected(scene: &Scene, outcome: &Outcome, equivalent: Option<&EquivalentLine>) -> Vec<SpectrumPoint> {
     let Some((first, last)) = outcome.line.modes else { return Vec::new() };
     let length = outcome.line.length;
-    let power: Box<dyn Fn(u64) -> f64> = match scene.roughness {
-        Some(Roughness::SelfAffine { hurst, .. }) => {
-            let spectrum = SelfAffine { hurst, first, last };
+    let power: Box<dyn Fn(u64) -> f64> = match scene.spectrum() {
+        Some(spectrum) => {
             let height = outcome.governing.amplitude.map_or(0.0, |amplitude| amplitude.rms_height);
             let scale = 0.25 * length * (height / spectrum.relative_rms()).powi(2);
             Box::new(move |mode| scale * spectrum.relative_amplitude(mode).powi(2))
         }
-        _ => Box::new(|mode| equivalent.map_or(0.0, |line| line.power(TAU * mode as f64 / length))),
+        None => Box::new(|mode| equivalent.map_or(0.0, |line| line.power(TAU * mode as f64 / length))),
     };
     let modes = |step: u32| (first as f64 * 10.0_f64.powf(f64::from(step) / PER_DECADE)).round() as u64;
     let mut shown: Vec<u64> = (0..).map(modes).take_while(|mode| *mode < last).chain([last]).collect();

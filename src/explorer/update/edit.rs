@@ -149,11 +149,10 @@ pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
 /// The value of a parameter at the start of the editor: in the shown unit, to the last digit.
 fn editable(app: &App, parameter: &Parameter) -> String {
     let written = app.written(parameter).unwrap_or_default();
-    match (parameter.field.range, written.parse()) {
+    match parameter.field.range {
         _ if parameter.path == "loading" => stage_targets(&app.edit.document.scene().loading, exact_quantity),
-        (Range::Real { .. }, Ok(value)) => exact_quantity(value, parameter.field.unit),
-        (Range::Text { .. }, _) => text_of(&written),
-        _ => written,
+        Range::Text { .. } => text_of(&written),
+        _ => parameter.field.quantities(&written, exact_quantity).unwrap_or(written),
     }
 }
 
@@ -186,7 +185,19 @@ fn with_selected(app: &App, written: &str) -> Result<Document, String> {
     let number = || parse_quantity(written, parameter.field.unit).map_err(|error| error.to_string());
     let adhesion = document.scene().adhesion.unwrap_or_default();
     let changed = match parameter.setting {
-        Setting::Field | Setting::Switch(_) | Setting::Heading => document.set(&parameter.path, written),
+        Setting::Field | Setting::Switch(_) | Setting::Heading => {
+            // Modes and wavelengths replace each other.
+            let other = match parameter.path.as_str() {
+                "roughness.modes" => Some("roughness.wavelengths"),
+                "roughness.wavelengths" => Some("roughness.modes"),
+                _ => None,
+            };
+            let other = other.filter(|path| document.value(path).is_some_and(|value| value != "None"));
+            let pair = |path: &str, value: &str| (path.to_owned(), value.to_owned());
+            let replaced = other.map(|path| pair(path, "None"));
+            document
+                .set_all(&replaced.into_iter().chain([pair(&parameter.path, written)]).collect::<Vec<_>>())
+        }
         Setting::WorkOfAdhesion => document.with_adhesion(adhesion.with_work(number()?)),
         Setting::RoughnessParameter(parameter) => {
             let value = number()?;

@@ -194,7 +194,8 @@ fn facts(app: &App, is_wide: bool) -> Vec<Fact> {
         }
     }
     if let Some(regime) = outcome.regime {
-        facts.push(of_loop(regime.by_protocol().to_owned(), Meaning::Title));
+        let regimes = regime.by_protocols(outcome.regime_after_zero_force);
+        facts.push(of_loop(regimes, Meaning::Title));
     }
     if let Some(SteepWaves { ratio, jkr_factor }) = outcome.steep_waves {
         let least = SteepWaves::LEAST_RATIO;

@@ -25,17 +25,22 @@ proptest! {
         }
     }
 
-    /// F_a(0) takes one pass and evaluates the rule of Hess for the springs that touch first and those that these attach.
+    /// F_a(0) takes one pass for each protocol, wherever the body is, and evaluates the rule of Hess for the springs that
+    /// touch and those that these attach.
     #[test]
-    fn pull_off_at_touch_takes_one_pass(body in bodies(200)) {
-        let back = body.history(&[Move::ToTouch, Move::ToSeparation], 2);
+    fn zero_load_adhesion_takes_one_pass_for_each_protocol(body in bodies(200), deep in 0.1..1.2_f64) {
         let mut solver = body.on(2);
-        let force = solver.pull_off_at_touch().unwrap();
+        solver.advance(Move::ToIndentation(deep)).unwrap();
+        let (here, before) = (solver.point(), solver.work());
+        let forces = solver.zero_load_adhesion().unwrap();
         let work = solver.work();
-        prop_assert_eq!((work.zero_load_passes, work.unloading_passes), (1, 0));
-        prop_assert!(work.hess_evaluations > 0 && solver.point().springs == 0);
-        let expected = back.legs[1].smallest.force;
-        prop_assert!((force - expected).abs() <= 1e-12 * body.force_scale(), "{} {}", force, expected);
+        prop_assert_eq!((work.zero_load_passes, work.unloading_passes, work.loading_passes), (2, 0, 1));
+        prop_assert!(work.hess_evaluations > before.hess_evaluations && solver.point() == here);
+        for (force, turn) in forces.into_iter().zip([Move::ToTouch, Move::ToZeroForce]) {
+            let back = body.history(&[turn, Move::ToSeparation], 2);
+            let (force, expected) = (force.unwrap(), -back.legs[1].smallest.force);
+            prop_assert!((force - expected).abs() <= 1e-12 * body.force_scale(), "{} {}", force, expected);
+        }
     }
 
     /// A node for each place inside the line after which the gap no longer rises, in the memory of another tree too.

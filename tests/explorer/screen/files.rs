@@ -38,6 +38,7 @@ fn the_ending_of_a_name_shows_what_is_exported() {
         ("folder/b.JSON", Content::Pane(Format::Json)),
         ("c.d.svg", Content::Pane(Format::Svg)),
         ("c.png", Content::Pane(Format::Png)),
+        ("c.pdf", Content::Pane(Format::Pdf)),
         ("e.txt", Content::Pane(Format::Text)),
     ] {
         let mut driver = pressed("");
@@ -56,9 +57,9 @@ fn the_ending_of_a_name_shows_what_is_exported() {
         assert!(!driver.app.edit.is_unsaved() && !driver.app.finished);
     }
     let unknown = |extension| {
-        format!("unsupported file extension .{extension}; use .csv, .npy, .json, .svg, .png or .txt")
+        format!("unsupported file extension .{extension}; use .csv, .npy, .json, .svg, .png, .pdf or .txt")
     };
-    let none = "the extension chooses the format; use one of .csv, .npy, .json, .svg, .png, .txt";
+    let none = "the extension chooses the format; use one of .csv, .npy, .json, .svg, .png, .pdf, .txt";
     for (name, why) in [
         ("a", none.to_owned()),
         ("a.ron", unknown("ron")),

@@ -263,7 +263,7 @@ fn a_study_is_opened_by_its_path() {
     let Some(Roughness::SelfAffine { modes, .. }) = driver.app.edit.document.scene().roughness else {
         panic!()
     };
-    assert_eq!(modes, (1, 32));
+    assert_eq!(modes, Some((1, 32)));
     driver.press("u");
     assert_eq!(driver.app.edit.document.scene(), rough().scene());
     // A scene file opens in the same way.

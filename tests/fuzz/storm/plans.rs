@@ -23,7 +23,14 @@ fn axis() -> impl Strategy<Value = String> {
     let is_number = |field: &&Field| matches!(field.range, Range::Real(..) | Range::Whole(..));
     let mut paths: Vec<_> = FIELDS.iter().filter(is_number).map(|field| field.path).collect();
     paths.extend(DERIVED);
-    paths.extend(["roughness.modes.1", "loading.0.0", "loading.7.0", "title", "nothing"]);
+    paths.extend([
+        "roughness.modes.1",
+        "roughness.wavelengths.0",
+        "loading.0.0",
+        "loading.7.0",
+        "title",
+        "nothing",
+    ]);
     prop::sample::select(paths).prop_flat_map(|path| {
         let kind = prop_oneof![12 => Just("Logarithmic"), 12 => Just("Linear"), 1 => Just("Quadratic")];
         let count = prop_oneof![20 => 2_u64..5, 1 => 0..u64::MAX];

@@ -44,10 +44,28 @@ impl Drawn {
         proptest::strategy::Union::new(EXTREME.map(of)).boxed()
     }
 
-    /// Scenes that can be computed.
+    /// Scenes that can be computed, some of them with wavelengths in place of modes and with a roll-off.
     pub fn documents(&self) -> impl Strategy<Value = Document> + use<> {
-        self.scene_texts()
-            .prop_filter_map("a scene that is allowed", |text| Document::parse(&text, "drawn").ok())
+        let roll_off = prop::option::weighted(0.3, 0.0..1.0_f64);
+        (self.scene_texts(), any::<bool>(), roll_off).prop_filter_map(
+            "a scene that is allowed",
+            |(text, in_metres, roll_off)| {
+                let document = Document::parse(&text, "drawn").ok()?;
+                let Some(spectrum) = document.scene().spectrum() else { return Some(document) };
+                let [longest, shortest] =
+                    [spectrum.first, spectrum.last].map(|mode| document.scene().length / mode as f64);
+                let set = |path: &str, value| (path.to_owned(), value);
+                let mut sets = Vec::new();
+                if in_metres {
+                    let pair = format!("({}, {})", ron_float(longest), ron_float(shortest));
+                    sets = vec![set("roughness.modes", "None".into()), set("roughness.wavelengths", pair)];
+                }
+                let share = |share: f64| (longest + share * (shortest - longest)).clamp(shortest, longest);
+                sets.extend(roll_off.map(|at| set("roughness.roll_off", ron_float(share(at)))));
+                // A very short wave is outside the range of its field.
+                Some(document.set_all(&sets).unwrap_or(document))
+            },
+        )
     }
 
     /// Overrides in the form of `--set`: path and value.
@@ -74,6 +92,11 @@ impl Drawn {
             Range::Whole(min, max) => whole(min, max).prop_map(|value| value.to_string()).boxed(),
             Range::Band(min, max) => (whole(min, max), whole(min, max))
                 .prop_map(|(one, other)| format!("({}, {})", one.min(other), one.max(other)))
+                .boxed(),
+            Range::Wavelengths(..) => (self.number(field), self.number(field))
+                .prop_map(|(one, other)| {
+                    format!("({}, {})", ron_float(one.max(other)), ron_float(one.min(other)))
+                })
                 .boxed(),
             Range::Text { most, lines, .. } => text(most.min(MOST_CHARACTERS), lines),
             Range::Choice(of) => {
