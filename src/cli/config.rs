@@ -2,6 +2,7 @@
 
 use super::error::CliError;
 use crate::explorer::config::{Config, default_path, write_template};
+use crate::explorer::keys::bindings;
 use crate::explorer::theme::Appearance;
 use clap::Args;
 use std::io::Write;
@@ -33,7 +34,7 @@ pub(super) fn config(arguments: &ConfigArguments, stdout: &mut dyn Write) -> Res
         write_template(&path).map_err(CliError::message)?;
         return Ok(writeln!(stdout, "{}: written", path.display())?);
     }
-    let mut config = Config::read(&path, arguments.file.is_some()).map_err(CliError::message)?;
+    let mut config = Config::read(&path, arguments.file.is_some(), bindings()).map_err(CliError::message)?;
     let environment = Appearance::of_environment();
     config.theme.get_or_insert(environment.theme);
     config.markers.get_or_insert(environment.marker);

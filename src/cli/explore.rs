@@ -4,6 +4,7 @@ use super::error::CliError;
 use super::scene::Overrides;
 use crate::explorer::autosave;
 use crate::explorer::config::{Config, default_path};
+use crate::explorer::keys::bindings;
 use crate::explorer::theme::{Marker, Theme};
 use crate::explorer::{self, Opening, OpeningError, Options, view};
 use crate::export::brief_summary;
@@ -131,12 +132,12 @@ fn restored(folder: Option<&Path>) -> Result<(PathBuf, Vec<Document>), CliError>
 /// defaults and this warning.
 fn config(arguments: &ExploreArguments) -> Result<(Config, Option<String>), CliError> {
     match (&arguments.config, default_path()) {
-        (Some(path), _) => Ok((Config::read(path, true).map_err(CliError::message)?, None)),
-        (None, Some(path)) if !arguments.no_config => Ok(match Config::read(&path, false) {
+        (Some(path), _) => Ok((Config::read(path, true, bindings()).map_err(CliError::message)?, None)),
+        (None, Some(path)) if !arguments.no_config => Ok(match Config::read(&path, false, bindings()) {
             Ok(config) => (config, None),
-            Err(error) => (Config::default(), Some(format!("{error}; defaults are used"))),
+            Err(error) => (Config::new(bindings()), Some(format!("{error}; defaults are used"))),
         }),
-        _ => Ok((Config::default(), None)),
+        _ => Ok((Config::new(bindings()), None)),
     }
 }
 

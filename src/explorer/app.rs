@@ -4,9 +4,10 @@ use super::action::{Effect, Traffic};
 use super::config::Config;
 pub use super::editor::Editor;
 use super::editor::scene_of;
+use super::keys::Command;
 pub use super::map::{MapState, OpenStudy};
 use super::opening::Opening;
-pub use super::panes::Pane;
+pub use super::pane::Pane;
 use super::parameters::{Parameter, Setting};
 pub use super::player::Player;
 use super::player::{indentations, start_of};
@@ -82,6 +83,12 @@ impl Ghost {
         let parts: Vec<String> = changes.iter().map(words).collect();
         if parts.is_empty() { "the same scene".to_owned() } else { parts.join(", ") }
     }
+}
+
+/// Letter of a ghost.
+pub fn letter(number: usize) -> &'static str {
+    const LETTERS: [&str; 8] = ["A", "B", "C", "D", "E", "F", "G", "H"];
+    LETTERS[number % LETTERS.len()]
 }
 
 /// A line for the user, below the panes.
@@ -166,6 +173,8 @@ pub struct App {
     pub message: Option<Message>,
     /// Keys, speed of the animation, and file of the configuration.
     pub config: Config,
+    /// Command chosen in the list of commands, to be run next.
+    pub chosen: Option<Command>,
     /// True if the explorer is to end.
     pub finished: bool,
     /// Effects of the present action.
@@ -175,8 +184,18 @@ pub struct App {
 }
 
 impl App {
+    /// Letter of the newest ghost.
+    pub fn newest_letter(&self) -> &'static str {
+        letter(self.ghosts.len().saturating_sub(1))
+    }
+
     /// The explorer just opened on a scene or a study.
-    pub fn new(opening: impl Into<Opening>, size: (u16, u16), appearance: Appearance) -> Self {
+    pub fn new(
+        opening: impl Into<Opening>,
+        size: (u16, u16),
+        appearance: Appearance,
+        config: Config,
+    ) -> Self {
         let Opening { document, study_map, beside } = opening.into();
         let springs = CloseUpTarget::springs_shown(&document);
         let mut app = App {
@@ -210,7 +229,8 @@ impl App {
             tried: None,
             prompt: None,
             message: None,
-            config: Config::default(),
+            config,
+            chosen: None,
             finished: false,
             effects: Vec::new(),
             asked: None,
@@ -239,6 +259,29 @@ impl App {
     /// Returns true while the value of the selected parameter is typed.
     pub fn is_typing_value(&self) -> bool {
         self.prompt.as_ref().is_some_and(|prompt| matches!(prompt.purpose, Purpose::Value))
+    }
+
+    /// Opens a prompt again for a text that could not be used, for this reason, which may begin with the text.
+    pub(super) fn ask_again(&mut self, purpose: Purpose, text: &str, why: &str) {
+        let reason = why.strip_prefix(text).and_then(|rest| rest.strip_prefix(": ")).unwrap_or(why);
+        self.ask(purpose, text);
+        self.refuse(Some(reason.to_owned()));
+    }
+
+    /// States the reason why the typed text is refused.
+    pub(super) fn refuse(&mut self, why: Option<String>) {
+        if let Some(prompt) = &mut self.prompt {
+            prompt.refused = why;
+        }
+    }
+
+    /// Begins a command on scene or panes: ends the notice, and the edit of successive moves in the map.
+    pub(super) fn begin(&mut self) {
+        self.map.moving = false;
+        // The reason for a missing curve remains; any other notice ends with the next key.
+        if self.is_current() || self.is_computing() {
+            self.message = None;
+        }
     }
 
     /// Opens a prompt with this text.

@@ -49,7 +49,7 @@ pub struct Config {
     /// The file; `None` where no configuration is read or written.
     #[serde(skip)]
     pub path: Option<PathBuf>,
-    /// All keys.
+    /// All keys; none before the configuration has been read.
     #[serde(skip)]
     pub bindings: Bindings,
 }
@@ -85,25 +85,30 @@ pub fn default_path() -> Option<PathBuf> {
 }
 
 impl Config {
-    /// Reads a file. `is_named`: the user has named it, and a missing file is an error; otherwise a missing file has
+    /// The defaults with these keys.
+    pub fn new(bindings: Bindings) -> Config {
+        Config { bindings, ..Config::default() }
+    }
+
+    /// Reads a file that may change these keys. `is_named`: the user has named it, and a missing file is an error; otherwise a missing file has
     /// the defaults.
     ///
     /// # Errors
     /// The first mistake, with its place.
-    pub fn read(path: &Path, is_named: bool) -> Result<Config, String> {
+    pub fn read(path: &Path, is_named: bool, bindings: Bindings) -> Result<Config, String> {
         // A broken link is a file that cannot be read.
         let is_missing = || path.symlink_metadata().is_err_and(|error| error.kind() == NotFound);
         if !is_named && is_missing() {
-            return Ok(Config { path: Some(path.to_path_buf()), ..Config::default() });
+            return Ok(Config { path: Some(path.to_path_buf()), ..Config::new(bindings) });
         }
-        Config::parse(&text_of(path)?, path)
+        Config::parse(&text_of(path)?, path, bindings)
     }
 
-    /// Reads the text of a file.
+    /// Reads the text of a file that may change these keys.
     ///
     /// # Errors
     /// The first mistake, with its place.
-    pub fn parse(text: &str, path: &Path) -> Result<Config, String> {
+    pub fn parse(text: &str, path: &Path, bindings: Bindings) -> Result<Config, String> {
         let wrong_at = |offset: usize, message: String| {
             let (line, column) = line_column(text, offset);
             format!("{}:{line}:{column}: {message}", path.display())
@@ -112,6 +117,7 @@ impl Config {
             let (offset, message) = describe_error(text, &error);
             wrong_at(offset, message)
         })?;
+        config.bindings = bindings;
         let wrong = |field: &str, message: String| {
             let text = Text::new(text).ok();
             let start = text.and_then(|text| Some(text.span(field)?.value.start));
@@ -166,10 +172,10 @@ pub fn write_template(path: &Path) -> Result<(), String> {
 ///
 /// # Errors
 /// The file is wrong, or cannot be written.
-pub fn remember(path: &Path, appearance: Appearance) -> Result<(), String> {
+pub fn remember(path: &Path, appearance: Appearance, bindings: Bindings) -> Result<(), String> {
     let exists = path.symlink_metadata().is_ok();
     let mut text = if exists { text_of(path)? } else { TEMPLATE.to_owned() };
-    Config::parse(&text, path)?;
+    Config::parse(&text, path, bindings)?;
     let Appearance { theme, marker } = appearance;
     for (field, value) in [("theme", format!("{theme:?}")), ("markers", format!("{marker:?}"))] {
         let read = Text::new(text.as_str()).map_err(|error| error.reason.to_owned())?;
@@ -192,9 +198,10 @@ fn write(path: &Path, text: &str, overwrite: bool) -> Result<(), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::explorer::keys::bindings;
 
     fn parse(text: &str) -> Result<Config, String> {
-        Config::parse(text, Path::new("config.ron"))
+        Config::parse(text, Path::new("config.ron"), bindings())
     }
 
     /// The template with all its fields.
@@ -207,7 +214,7 @@ mod tests {
 
     #[test]
     fn the_template_has_every_field_and_the_defaults() {
-        assert_eq!(parse(TEMPLATE).unwrap().text(), Config::default().text());
+        assert_eq!(parse(TEMPLATE).unwrap().text(), Config::new(bindings()).text());
         let config = parse(&full()).unwrap();
         assert_eq!((config.theme, config.markers), (Some(Theme::Dark), Some(Marker::Braille)));
         // A printed configuration has all fields, and can be read.
@@ -216,7 +223,7 @@ mod tests {
             assert!(full().contains(&format!("    {}: ", field.0)), "{}", field.0);
         }
         assert_eq!(parse(&text).unwrap().text(), Ok(text));
-        let defaults = Config { theme: config.theme, markers: config.markers, ..Config::default() };
+        let defaults = Config { theme: config.theme, markers: config.markers, ..Config::new(bindings()) };
         assert_eq!(Config { keys: Vec::new(), ..config }.text(), defaults.text());
     }
 
@@ -281,9 +288,9 @@ mod tests {
     fn files_are_read_and_written_only_as_asked() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("asperity/config.ron");
-        let read = |is_named| Config::read(&path, is_named);
+        let read = |is_named| Config::read(&path, is_named, bindings());
         let missing = read(false).unwrap();
-        assert_eq!((missing.path.as_ref(), missing.text()), (Some(&path), Config::default().text()));
+        assert_eq!((missing.path.as_ref(), missing.text()), (Some(&path), Config::new(bindings()).text()));
         assert!(read(true).unwrap_err().contains("config.ron"));
         assert!(!path.exists() && !path.parent().unwrap().exists(), "reading makes nothing");
         write_template(&path).unwrap();
@@ -294,7 +301,7 @@ mod tests {
             TEMPLATE.replace("// speed: 1.0, ", "speed: 2.0, ").replace("version: 1,", "version: 1, // mine");
         std::fs::write(&path, &mine).unwrap();
         for theme in [Theme::Light, Theme::Plain] {
-            remember(&path, Appearance { theme, marker: Marker::Octant }).unwrap();
+            remember(&path, Appearance { theme, marker: Marker::Octant }, bindings()).unwrap();
             let config = read(true).unwrap();
             assert_eq!(
                 (config.theme, config.markers, config.speed),
@@ -305,10 +312,11 @@ mod tests {
         }
         // A missing file is made, a wrong one stays.
         std::fs::remove_file(&path).unwrap();
-        remember(&path, Appearance { theme: Theme::Dark, marker: Marker::Ascii }).unwrap();
+        remember(&path, Appearance { theme: Theme::Dark, marker: Marker::Ascii }, bindings()).unwrap();
         assert_eq!(read(true).unwrap().markers, Some(Marker::Ascii));
         std::fs::write(&path, "(version: 1, theme: Pink)").unwrap();
-        let why = remember(&path, Appearance { theme: Theme::Dark, marker: Marker::Ascii }).unwrap_err();
+        let why = remember(&path, Appearance { theme: Theme::Dark, marker: Marker::Ascii }, bindings())
+            .unwrap_err();
         assert!(why.contains("config.ron:1:21: Pink"), "{why}");
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "(version: 1, theme: Pink)");
     }

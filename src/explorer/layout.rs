@@ -41,6 +41,11 @@ impl Layout {
         }
     }
 
+    /// Area of the panes.
+    pub fn body(&self) -> Rect {
+        self.panes.iter().map(|(_, area)| *area).reduce(Rect::union).unwrap_or_default()
+    }
+
     /// The place of a pane, frame included.
     pub fn pane(&self, wanted: Pane) -> Option<Rect> {
         self.panes.iter().find(|(pane, _)| *pane == wanted).map(|(_, area)| *area)

@@ -132,15 +132,16 @@ pub fn parameters(document: &Document) -> Vec<Parameter> {
             continue;
         }
         let Some(written) = document.value(field.path) else { continue };
-        // One of several equivalent fields, and not the one in use.
-        if written == "None" && !field.parent().is_empty() {
-            continue;
-        }
+        let is_given = written != "None" || field.parent().is_empty();
+        // Other fields without a value are equivalent to those in use.
+        let written = if is_given { Some(written.to_owned()) } else { waves(document, field) };
+        let Some(written) = written else { continue };
         let shown = match field.path {
             "loading" => stage_targets(&document.scene().loading, format_quantity),
-            _ => shown(field, written),
+            "roughness.roll_off" if !is_given => "none".to_owned(),
+            _ if !is_given => format!("= {}", shown(field, &written)),
+            _ => shown(field, &written),
         };
-        let written = written.to_owned();
         parameters.push(Parameter { written, shown, ..Parameter::new(field, field.path) });
         if field.path == "loading" {
             parameters.extend(leg_targets(&document.scene().loading));
@@ -178,6 +179,19 @@ fn add_other_adhesion(parameters: &mut Vec<Parameter>) {
     if others.len() < ADHESION.len() {
         let fields = others.into_iter().filter_map(|path| field(path, None));
         parameters.extend(fields.map(|field| Parameter::new(field, field.path)));
+    }
+}
+
+/// The other way to give the waves of a self-affine profile, and as a roll-off without effect the longest of them.
+fn waves(document: &Document, field: &Field) -> Option<String> {
+    let spectrum = document.scene().spectrum()?;
+    let [longest, shortest] =
+        [spectrum.first, spectrum.last].map(|mode| ron_float(document.scene().length / mode as f64));
+    match field.path {
+        "roughness.modes" => Some(format!("({}, {})", spectrum.first, spectrum.last)),
+        "roughness.wavelengths" => Some(format!("({longest}, {shortest})")),
+        "roughness.roll_off" => Some(longest),
+        _ => None,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::action::OutputFile;
 use super::keys::{Binding, Context};
-use super::panes::Pane;
+use super::pane::Pane;
 use super::parameters::Parameter;
 use super::search::find;
 use super::text_line::TextLine;

@@ -118,7 +118,8 @@ impl Runtime {
             Effect::Study => return (engine.perform)(studies(app)),
             Effect::Write(file) => writing::write(app, folder, file),
             Effect::Remember { path, appearance } => {
-                let remembered = remember(&folder.join(&path), appearance);
+                let bindings = app.config.bindings.clone();
+                let remembered = remember(&folder.join(&path), appearance, bindings);
                 Action::Remembered(remembered.map(|()| path))
             }
             Effect::List if folder.as_os_str().is_empty() => {

@@ -116,12 +116,11 @@ pub fn open(
         theme: options.theme.or(options.config.theme).unwrap_or(environment.theme),
         marker: options.marker.or(options.config.markers).unwrap_or(environment.marker),
     };
-    let mut app = App::new(opening, (size.width, size.height), appearance);
+    let mut app = App::new(opening, (size.width, size.height), appearance, options.config);
     let remote = ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| std::env::var_os(name).is_some());
-    let frame_rate = options.config.frame_rate;
+    let frame_rate = app.config.frame_rate;
     // Terminal multiplexers keep a screen of their own.
     app.view.lacks_octants = ["TMUX", "STY"].iter().any(|name| std::env::var_os(name).is_some());
-    app.config = options.config;
     if let Some(warning) = options.warning {
         app.set_error(warning);
     }

@@ -102,7 +102,7 @@ pub const FIELDS: &[Field] = &[
     row("roughness.modes", Band(1, 1 << 27)).of("SelfAffine").quantity("modes", "k", "1").default("None")
         .meaning("first and last mode of the profile, in waves per length; the last is at most points/2"),
     row("roughness.wavelengths", Wavelengths(1e-15, 10.0)).of("SelfAffine").quantity("wavelengths", "λ", "m")
-        .default("None").meaning("longest and shortest wave of the profile, at most length and at least two springs, in place of the modes; a change of length keeps them"),
+        .default("None").meaning("longest and shortest wave of the profile in place of the modes, at most length and at least 2 length/points; a change of length keeps them"),
     row("roughness.roll_off", Range::closed(1e-15, 10.0)).of("SelfAffine").quantity("roll-off wavelength", "λ_r", "m")
         .default("None").meaning("wavelength above which the spectrum of the surface is flat, within the waves of the profile; default: self-affine up to the longest wave"),
     row("roughness.seed", Whole(0, u64::MAX)).of("SelfAffine").name("seed").step(Integer(1, 100))

@@ -4,6 +4,8 @@
 use asperity::explorer::Opening;
 use asperity::explorer::action::Action;
 use asperity::explorer::app::App;
+use asperity::explorer::config::Config;
+use asperity::explorer::keys::bindings;
 use asperity::explorer::panes::SceneSpectra;
 use asperity::explorer::runtime::{Engine, Runtime};
 use asperity::explorer::snapshot::Preview;
@@ -50,7 +52,7 @@ impl Driver {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join("folder")).unwrap();
         let runtime = Runtime {
-            app: App::new(opening, (120, 40), APPEARANCE),
+            app: App::new(opening, (120, 40), APPEARANCE, Config::new(bindings())),
             engine: Engine::inline(solve, performs),
             asked: 0,
             folder: folder.path().to_owned(),

@@ -118,7 +118,7 @@ fn the_table_names_every_field_of_the_model_and_no_other() {
         ("Cone(angle: 0.1)", "SelfAffine(hurst: 0.5, modes: (1, 2), seed: 1, rms_height: 1.0e-9)", "Exact"),
         (
             "Power(coefficient: 1.0, exponent: 1.0)",
-            "SelfAffine(hurst: 0.5, modes: (1, 2), seed: 1, rms_gradient: 1.0)",
+            "SelfAffine(hurst: 0.5, wavelengths: (1.0e-4, 1.0e-6), roll_off: 1.0e-5, seed: 1, rms_gradient: 1.0)",
             "Exact",
         ),
         ("Punch(radius: 1.0e-5)", "Measured(file: \"x\", column: 2)", "Exact"),

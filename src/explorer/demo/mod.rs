@@ -8,6 +8,8 @@ pub use watch::play;
 
 use super::action::Action;
 use super::app::App;
+use super::config::Config;
+use super::keys::bindings;
 use super::runtime::{Engine, Runtime};
 use super::theme::Appearance;
 use super::update::Effect;
@@ -43,7 +45,7 @@ impl Demo {
         appearance: Appearance,
         frames_per_second: f64,
     ) -> Self {
-        let mut app = App::new(document, size, appearance);
+        let mut app = App::new(document, size, appearance, Config::new(bindings()));
         // Times differ from run to run.
         app.view.shows_times = false;
         app.view.demo = Some("");

@@ -70,11 +70,11 @@ pub const ONE_SCENE: &[Cue] = &[Wait(LOOP)];
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::explorer::keys::{Bindings, Context};
+    use crate::explorer::keys::{Context, bindings};
 
     #[test]
     fn every_command_of_the_scripts_is_in_the_table_of_keys() {
-        let bindings = Bindings::default();
+        let bindings = bindings();
         let names = TOUR.iter().chain(ONE_SCENE).filter_map(|cue| match cue {
             Do(name) | Repeat(_, _, name) => Some(*name),
             Wait(_) | Select(_) | Enter(_) => None,

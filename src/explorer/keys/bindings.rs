@@ -1,16 +1,87 @@
-//! The keys in use: the table with the keys of the configuration, the names of actions, the table of docs/keys.md.
+//! The rows of the table of keys, and the keys in use: those of the table, or of the configuration.
 
-use super::{ANY, Command, Context, EXPLORE, Key, MANUAL, Row, Run, TABLE};
-use crate::explorer::app::App;
+use super::key::Key;
 use crate::scene::nearest;
 use crossterm::event::{KeyCode, KeyEvent};
+use std::fmt;
+
+/// Context of keys: the prompt chooses it or, without one, the selected pane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::VariantArray)]
+pub enum Context {
+    /// Scene and panes.
+    Explore,
+    /// The same, with the map selected.
+    Map,
+    /// The same, with the crosshair in the selected pane.
+    Crosshair,
+    /// The same, with the list of parameters selected.
+    Parameters,
+    /// A line being typed, without a list.
+    Line,
+    /// A line being typed, with a list.
+    List,
+    /// The question whether to overwrite a file.
+    Overwrite,
+    Help,
+    /// The question whether to leave with unsaved changes.
+    Leave,
+}
+
+/// A row of the table: keys, and the contexts in which they are valid.
+pub struct Row {
+    /// Names of the keys, apart by blanks: `Shift+← H`, `1–9`.
+    pub keys: &'static str,
+    /// The contexts in which they are valid.
+    pub contexts: &'static [Context],
+    /// Name in the configuration and in scripts.
+    pub name: &'static str,
+    /// One word for the footer; empty for none.
+    pub label: &'static str,
+    /// A line for the help.
+    pub help: &'static str,
+    /// The section of the help.
+    pub section: &'static str,
+    /// Place in the footer, the smallest first.
+    pub rank: u8,
+    /// True if the list of commands has it.
+    pub is_listed: bool,
+    /// True if a successive command of the kind continues the same edit.
+    pub merges: bool,
+    /// True if the function depends on the character of the key.
+    pub takes_character: bool,
+}
+
+/// A row of the table, with the character of the key where it has one.
+#[derive(Clone, Copy)]
+pub struct Command {
+    pub row: &'static Row,
+    /// Character of the key.
+    pub character: Option<char>,
+}
+
+impl fmt::Debug for Row {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(self.name)
+    }
+}
+
+impl fmt::Debug for Command {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "{}{}", self.row.name, self.character.map_or_else(String::new, |one| format!(" {one}")))
+    }
+}
+
+/// Exploring, in any pane.
+pub(super) const EXPLORE: &[Context] =
+    &[Context::Explore, Context::Map, Context::Crosshair, Context::Parameters];
+pub(super) const ANY: &[Context] = <Context as strum::VariantArray>::VARIANTS;
+pub(super) const MANUAL: &str = "Manual loading";
 
 impl Row {
     /// Returns true if the configuration may replace the keys of the row: keys for typing, lists and questions are
     /// fixed, and so are digits.
     fn is_rebindable(&self) -> bool {
-        let is_character = matches!(self.run, Run::Character(_));
-        !is_character && self.contexts.iter().all(|context| EXPLORE.contains(context))
+        !self.takes_character && self.contexts.iter().all(|context| EXPLORE.contains(context))
     }
 
     /// Returns true if the list of commands has the row: keys for texts and questions need their prompt.
@@ -20,10 +91,9 @@ impl Row {
 
     /// Place in the footer: help and quit, which show in the smallest window; keys of the present context only; the
     /// main keys; the rest.
-    fn place(&self, app: &App) -> u8 {
+    fn place(&self, is_manual: bool) -> u8 {
         let is_special = !self.contexts.contains(&Context::Explore);
-        let is_manual = app.manual.is_some() && self.section == MANUAL;
-        if is_special || is_manual { self.rank.min(1) } else { self.rank }
+        if is_special || is_manual && self.section == MANUAL { self.rank.min(1) } else { self.rank }
     }
 }
 
@@ -48,17 +118,16 @@ impl Binding {
 }
 
 /// The keys in use: the table, with other keys where the configuration has them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Bindings(Vec<Binding>);
 
-impl Default for Bindings {
-    fn default() -> Self {
-        let keys = |row: &Row| row.keys.split(' ').filter_map(Key::named).collect();
-        Bindings(TABLE.iter().map(|row| Binding { row, keys: keys(row) }).collect())
-    }
-}
-
 impl Bindings {
+    /// These rows with their own keys.
+    pub(super) fn of(rows: impl Iterator<Item = &'static Row>) -> Self {
+        let keys = |row: &Row| row.keys.split(' ').filter_map(Key::named).collect();
+        Bindings(rows.map(|row| Binding { row, keys: keys(row) }).collect())
+    }
+
     pub fn rows(&self) -> impl Iterator<Item = &Binding> {
         self.0.iter()
     }
@@ -87,11 +156,17 @@ impl Bindings {
         Some(Command { row: found.row, character })
     }
 
-    /// Keys and labels of the footer, the most important first; adjacent rows with the same label are one item.
-    pub fn footer(&self, app: &App) -> Vec<(String, &'static str)> {
-        let is_shown = |binding: &&Binding| !binding.row.label.is_empty() && (binding.row.is_shown)(app);
-        let mut rows: Vec<&Binding> = self.valid_in(app.keys()).filter(is_shown).collect();
-        rows.sort_by_key(|binding| binding.row.place(app));
+    /// Keys and labels of the footer in a context, the most important first; adjacent rows with the same label are one
+    /// item.
+    pub(super) fn footer(
+        &self,
+        context: Context,
+        is_manual: bool,
+        is_hidden: impl Fn(&'static Row) -> bool,
+    ) -> Vec<(String, &'static str)> {
+        let is_shown = |binding: &&Binding| !binding.row.label.is_empty() && !is_hidden(binding.row);
+        let mut rows: Vec<&Binding> = self.valid_in(context).filter(is_shown).collect();
+        rows.sort_by_key(|binding| binding.row.place(is_manual));
         let items = rows.chunk_by(|one, next| one.row.label == next.row.label);
         let first = |binding: &&Binding| binding.keys.first().map_or("", |key| &key.name).to_owned();
         items.map(|rows| (rows.iter().map(first).collect::<Vec<_>>().join(" "), rows[0].row.label)).collect()
@@ -108,9 +183,11 @@ impl Bindings {
                 .ok_or_else(|| ("keys", format!("{name}: there is no such key; allowed: {allowed}")))
         });
         let mut parsed = parsed.collect::<Result<Vec<Key>, _>>()?;
+        let rebindable = self.rows().map(|one| one.row).filter(|row| row.is_rebindable());
+        let names: Vec<&str> = rebindable.map(|row| row.name).collect();
         let Some(binding) = self.0.iter_mut().find(|one| one.row.is_rebindable() && one.row.name == action)
         else {
-            let near = nearest(action, TABLE.iter().filter(|row| row.is_rebindable()).map(|row| row.name));
+            let near = nearest(action, names);
             let near = near.map_or_else(String::new, |near| format!(" did you mean {near}?"));
             let message = format!("{action}: there is no such action;{near} allowed: docs/keys.md lists all");
             return Err(("action", message));
@@ -140,10 +217,10 @@ impl Bindings {
 }
 
 /// The table as Markdown, for docs/keys.md: keys, their functions, and the names of the actions in the configuration.
-pub fn markdown() -> String {
+pub(super) fn markdown(rows: &Bindings) -> String {
     let mut text = String::from("| | key | does | action |\n| --- | --- | --- | --- |\n");
     let mut section = "";
-    for row in TABLE {
+    for Binding { row, .. } in rows.rows() {
         let shown = if row.section == section { "" } else { row.section };
         section = row.section;
         // A bar would end the cell.
@@ -158,19 +235,24 @@ pub fn markdown() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::explorer::keys::bindings;
     use crossterm::event::{KeyCode, KeyModifiers};
 
     #[test]
     fn every_key_has_a_name_and_one_meaning_in_each_context() {
-        assert_eq!(Bindings::default().conflict(), None);
-        for binding in Bindings::default().rows() {
+        assert_eq!(bindings().conflict(), None);
+        for binding in bindings().rows() {
             assert_eq!(binding.keys.len(), binding.row.keys.split(' ').count(), "{}", binding.row.keys);
         }
         for name in ["", "ab", "Shift+a", "F0", "F13", "Ctrl+", "\u{1b}", "Alt+x"] {
             assert!(Key::named(name).is_none(), "{name}");
         }
-        let mut names: Vec<&str> =
-            TABLE.iter().filter(|row| row.is_rebindable()).map(|row| row.name).collect();
+        let mut names: Vec<&str> = bindings()
+            .rows()
+            .map(|one| one.row)
+            .filter(|row| row.is_rebindable())
+            .map(|row| row.name)
+            .collect();
         assert!(
             names.iter().all(|name| name.chars().all(|c| c.is_ascii_lowercase() || c == '-')),
             "{names:?}"
@@ -181,7 +263,7 @@ mod tests {
 
     #[test]
     fn a_command_is_found_by_its_name_where_it_is_valid() {
-        let bindings = Bindings::default();
+        let bindings = bindings();
         let name = |command: Option<Command>| command.map(|command| format!("{command:?}"));
         assert_eq!(name(bindings.named("pull-coarse", Context::Explore)).as_deref(), Some("pull-coarse"));
         assert_eq!(name(bindings.named("accept", Context::Explore)), None);
@@ -197,7 +279,7 @@ mod tests {
         for context in ANY {
             let leaves = ["quit", "quit-anyway", "close-help", "cancel"];
             let interrupt = KeyEvent::new(KeyCode::Char('c'), KeyModifiers::CONTROL);
-            let command = Bindings::default().command(&interrupt, *context);
+            let command = bindings().command(&interrupt, *context);
             assert!(
                 command.is_some_and(|command| leaves.contains(&command.row.name)),
                 "Ctrl+C in {context:?}"

@@ -4,65 +4,25 @@
 mod bindings;
 mod key;
 
-pub use bindings::{Binding, Bindings, markdown};
+use bindings::{ANY, EXPLORE, MANUAL};
+pub use bindings::{Binding, Bindings, Command, Context, Row};
 pub use key::Key;
 
 use super::action::Effect;
 use super::app::App;
-use super::panes::Pane;
+use super::pane::Pane;
 use super::parameters::Parameter;
 use super::prompt::Purpose;
 use super::request::Focus;
 use super::update::{accuracy, compare, crosshair, dialogue, edit, files, look, map, movement};
 use Run::{Character, Do, Edit};
-use std::fmt;
 use tui_input::InputRequest;
 
-/// Context of keys: the prompt chooses it or, without one, the selected pane.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::VariantArray)]
-pub enum Context {
-    /// Scene and panes.
-    Explore,
-    /// The same, with the map selected.
-    Map,
-    /// The same, with the crosshair in the selected pane.
-    Crosshair,
-    /// The same, with the list of parameters selected.
-    Parameters,
-    /// A line being typed, without a list.
-    Line,
-    /// A line being typed, with a list.
-    List,
-    /// The question whether to overwrite a file.
-    Overwrite,
-    Help,
-    /// The question whether to leave with unsaved changes.
-    Leave,
-}
-
-/// A row of the table: keys, the contexts in which they are valid, and their function.
-pub struct Row {
-    /// Names of the keys, apart by blanks: `Shift+← H`, `1–9`.
-    pub keys: &'static str,
-    /// The contexts in which they are valid.
-    pub contexts: &'static [Context],
-    /// Name in the configuration and in scripts.
-    pub name: &'static str,
+/// A row of the table, its function, and the condition for the footer.
+pub struct Entry {
+    row: Row,
     run: Run,
-    /// One word for the footer; empty for none.
-    pub label: &'static str,
-    /// A line for the help.
-    pub help: &'static str,
-    /// The section of the help.
-    pub section: &'static str,
-    /// Place in the footer, the smallest first.
-    rank: u8,
-    /// Condition for the footer.
     is_shown: fn(&App) -> bool,
-    /// True if the list of commands has it.
-    is_listed: bool,
-    /// True if a successive command of the kind continues the same edit.
-    pub merges: bool,
 }
 
 /// Function of a row.
@@ -76,40 +36,34 @@ enum Run {
     Edit(InputRequest),
 }
 
-/// A row of the table, with the character of the key where it has one.
-#[derive(Clone, Copy)]
-pub struct Command {
-    pub row: &'static Row,
-    /// Character of the key.
-    pub character: Option<char>,
-}
-
-impl Command {
-    /// Changes the state.
-    pub(super) fn run(self, app: &mut App) {
-        match (self.row.run, self.character) {
-            (Do(change), _) => change(app),
-            (Character(change), Some(character)) => change(app, character),
-            (Character(_), None) => {}
-            (Edit(request), _) => dialogue::edit_line(app, |line| line.edit(request)),
-        }
+/// Changes the state by a command.
+pub(super) fn run(command: Command, app: &mut App) {
+    let Some(entry) = TABLE.iter().find(|entry| std::ptr::eq(&entry.row, command.row)) else { return };
+    match (entry.run, command.character) {
+        (Do(change), _) => change(app),
+        (Character(change), Some(character)) => change(app, character),
+        (Character(_), None) => {}
+        (Edit(request), _) => edit::edit_line(app, |line| line.edit(request)),
     }
 }
 
-impl fmt::Debug for Row {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        out.write_str(self.name)
-    }
+/// All keys as the table has them.
+pub fn bindings() -> Bindings {
+    Bindings::of(TABLE.iter().map(|entry| &entry.row))
 }
 
-impl fmt::Debug for Command {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "{}{}", self.row.name, self.character.map_or_else(String::new, |one| format!(" {one}")))
-    }
+/// The table as Markdown, for docs/keys.md: keys, their functions, and the names of the actions in the configuration.
+pub fn markdown() -> String {
+    bindings::markdown(&bindings())
 }
 
-/// Exploring, in any pane.
-const EXPLORE: &[Context] = &[Context::Explore, Context::Map, Context::Crosshair, Context::Parameters];
+/// Keys and labels of the footer, the most important first; adjacent rows with the same label are one item.
+pub fn footer(app: &App) -> Vec<(String, &'static str)> {
+    let is_hidden =
+        |row: &Row| TABLE.iter().any(|entry| std::ptr::eq(&entry.row, row) && !(entry.is_shown)(app));
+    app.config.bindings.footer(app.keys(), app.manual.is_some(), is_hidden)
+}
+
 /// Without map and crosshair, where the arrows act on these.
 const LIST: &[Context] = &[Context::Explore, Context::Parameters];
 /// In the list of parameters these characters begin a value.
@@ -122,10 +76,8 @@ const TYPED: &[Context] = &[Context::Line, Context::List];
 const SEARCHED: &[Context] = &[Context::List];
 const OVERWRITE: &[Context] = &[Context::Overwrite];
 const LEAVE: &[Context] = &[Context::Leave];
-const ANY: &[Context] = <Context as strum::VariantArray>::VARIANTS;
 
 const ANIMATION: &str = "Animation";
-const MANUAL: &str = "Manual loading";
 const PARAMETERS: &str = "Parameters";
 const COMPARE: &str = "Comparison";
 const LOOK: &str = "View";
@@ -142,27 +94,33 @@ const fn row(
     label: &'static str,
     help: &'static str,
     section: &'static str,
-) -> Row {
-    let (is_shown, is_listed) = (always as fn(&App) -> bool, true);
-    Row { keys, contexts, name, run, label, help, section, rank: 3, is_shown, is_listed, merges: false }
+) -> Entry {
+    let takes_character = matches!(run, Character(_));
+    let (rank, is_listed, merges) = (3, true, false);
+    let row = Row { keys, contexts, name, label, help, section, rank, is_listed, merges, takes_character };
+    Entry { row, run, is_shown: always }
 }
 
 /// Further columns of a row.
-impl Row {
-    const fn rank(self, rank: u8) -> Row {
-        Row { rank, ..self }
+impl Entry {
+    const fn rank(mut self, rank: u8) -> Entry {
+        self.row.rank = rank;
+        self
     }
 
-    const fn shown_if(self, is_shown: fn(&App) -> bool) -> Row {
-        Row { is_shown, ..self }
+    const fn shown_if(mut self, is_shown: fn(&App) -> bool) -> Entry {
+        self.is_shown = is_shown;
+        self
     }
 
-    const fn unlisted(self) -> Row {
-        Row { is_listed: false, ..self }
+    const fn unlisted(mut self) -> Entry {
+        self.row.is_listed = false;
+        self
     }
 
-    const fn merges(self) -> Row {
-        Row { merges: true, ..self }
+    const fn merges(mut self) -> Entry {
+        self.row.merges = true;
+        self
     }
 }
 
@@ -180,7 +138,7 @@ fn takes_number(app: &App) -> bool {
 
 /// All keys. A test ensures one meaning of a key in each context.
 #[rustfmt::skip]
-pub const TABLE: &[Row] = &[
+static TABLE: &[Entry] = &[
     row("space", EXPLORE, "toggle-play", Do(movement::toggle_play), "play", "play or pause", ANIMATION),
     row(".", OTHER_PANES, "step-forwards", Do(|app| movement::step(app, 1)), "step", "one step forwards", ANIMATION),
     row(",", EXPLORE, "step-backwards", Do(|app| movement::step(app, -1)), "", "one step backwards", ANIMATION),

@@ -1,7 +1,7 @@
 //! The newest ghost beside the scene: its profile and contact when it was kept, the differences of the scenes, and both
 //! adhesion forces.
 
-use super::{PaneRow, Place, newest_letter, profile, section};
+use super::{PaneRow, Place, profile, section};
 use crate::explorer::app::App;
 use crate::explorer::keys::Context;
 use crate::explorer::panel::Panel;
@@ -30,7 +30,7 @@ fn panel(app: &App, _: ratatui::layout::Size) -> Panel {
     let Some(ghost) = app.beside() else { return Panel::of_text(String::new(), "") };
     let scene = ghost.document.scene();
     let name = if scene.title.is_empty() { ghost.document.name() } else { &scene.title };
-    let (letter, length) = (newest_letter(app), format_quantity(scene.length, "m"));
+    let (letter, length) = (app.newest_letter(), format_quantity(scene.length, "m"));
     let title = format!("Profile z(x) of {letter}: {name}, x to {length}");
     // A small window hides the profile, which then is not drawn.
     let kept = ghost.snapshot.as_deref().filter(|kept| !kept.profile.columns.is_empty());

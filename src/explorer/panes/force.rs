@@ -1,9 +1,10 @@
 //! The curve: the hysteresis loop with its two branches, curves compared with it, and manual loading.
 
-use super::{PaneRow, Place, letter};
+use super::{PaneRow, Place};
 use crate::analysis::{LEAST_TABOR_NUMBER, Mark, marks};
 use crate::contact::{CurvePoint, Direction};
 use crate::draw::{Chart, Figure, Ink, Label, Layer, Shape, Sign, Stroke, glyph};
+use crate::explorer::app::letter;
 use crate::explorer::app::{App, Ghost};
 use crate::explorer::caption::caption;
 use crate::explorer::keys::Context;

@@ -4,8 +4,9 @@ use super::{Exported, PaneRow};
 use crate::draw::{Chart, Figure, Ink, Layer, SHADES, Shape, Sign};
 use crate::explorer::app::App;
 use crate::explorer::keys::Context;
-use crate::explorer::map::{self, Live};
+use crate::explorer::map::Live;
 use crate::explorer::panel::{Panel, in_theme, names, shades};
+use crate::explorer::shown_map::study;
 use crate::explorer::theme::Meaning;
 use crate::explorer::view::text::{Part, filled, wrapped};
 use crate::export::{study_curves, study_figure, study_map};
@@ -22,7 +23,7 @@ pub static ROW: PaneRow = PaneRow {
     keys: Some(Context::Map),
     studies: |app, computed| match app.map.shown_study() {
         Some(_) => Vec::new(),
-        None => map::study(app, computed).into_iter().collect(),
+        None => study(app, computed).into_iter().collect(),
     },
     help: &[
         (

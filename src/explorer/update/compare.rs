@@ -2,7 +2,6 @@
 
 use super::edit;
 use crate::explorer::app::{App, Ghost, Pane};
-use crate::explorer::panes::newest_letter;
 use crate::scene::{Document, Roughness};
 use std::sync::Arc;
 
@@ -57,7 +56,7 @@ pub fn pin(app: &mut App) {
         app.ghosts.remove(0);
     }
     app.ghosts.push(ghost);
-    let name = newest_letter(app);
+    let name = app.newest_letter();
     app.set_done(format!("kept as ghost {name}; x swaps it with the scene"));
 }
 

@@ -1,13 +1,12 @@
 //! Prompts: what opens, edits, accepts and cancels them.
 
-use super::{Effect, accuracy, edit, files, movement, run};
+use super::{Effect, accuracy, edit, files, movement};
 use crate::explorer::action::OutputFile;
 use crate::explorer::app::App;
 use crate::explorer::completion::common_start;
 use crate::explorer::keys::{Command, Context};
-use crate::explorer::panes::Pane;
+use crate::explorer::pane::Pane;
 use crate::explorer::prompt::{Prompt, Purpose};
-use crate::explorer::text_line::TextLine;
 use crate::explorer::view::help_end;
 use crate::scene::{Entry, typed_path};
 use tui_input::InputRequest;
@@ -29,34 +28,6 @@ pub fn listed(app: &mut App, entries: Vec<Entry>) {
     if let Some(prompt) = &mut app.prompt {
         prompt.purpose = Purpose::Scene(entries);
         prompt.search(&app.edit.parameters);
-    }
-}
-
-/// Asks again for a path that could not be used, for this reason, which may begin with the path.
-pub fn ask_again(app: &mut App, purpose: Purpose, path: &str, why: &str) {
-    let reason = why.strip_prefix(path).and_then(|rest| rest.strip_prefix(": ")).unwrap_or(why);
-    app.ask(purpose, path);
-    refuse(app, Some(reason.to_owned()));
-}
-
-fn refuse(app: &mut App, why: Option<String>) {
-    if let Some(prompt) = &mut app.prompt {
-        prompt.refused = why;
-    }
-}
-
-/// Edits the line; the preview of the value, or the list, follows.
-pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
-    let Some(prompt) = &mut app.prompt else { return };
-    let before = prompt.line.text().to_owned();
-    change(&mut prompt.line);
-    if prompt.line.text() == before && prompt.line.left_out().is_none() {
-        return;
-    }
-    (prompt.refused, prompt.paths) = (None, Vec::new());
-    prompt.search(&app.edit.parameters);
-    if matches!(prompt.purpose, Purpose::Value) {
-        edit::preview(app);
     }
 }
 
@@ -102,7 +73,7 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
         }
         Purpose::Command(commands) => {
             let listed = prompt.choice().and_then(|index| commands.get(index)).ok_or_else(nothing)?;
-            run_listed(app, Command { row: listed.row, character: None });
+            choose(app, Command { row: listed.row, character: None });
         }
         Purpose::Overwrite(file) => {
             app.effects.push(Effect::Write(OutputFile { overwrite: true, ..file.clone() }));
@@ -121,8 +92,8 @@ pub fn cancel(app: &mut App) {
     }
 }
 
-/// Runs a command of the list, in a pane where its key is valid.
-fn run_listed(app: &mut App, command: Command) {
+/// Chooses a command of the list, in a pane where its key is valid.
+fn choose(app: &mut App, command: Command) {
     let is_valid = |context: Context| command.row.contexts.contains(&context);
     match app.keys() {
         here if is_valid(here) => {}
@@ -130,7 +101,7 @@ fn run_listed(app: &mut App, command: Command) {
         _ if is_valid(Context::Explore) => app.show(Pane::Force),
         _ => app.show(Pane::Map),
     }
-    run(app, command);
+    app.chosen = Some(command);
 }
 
 /// Parameters whose values have names of files.
@@ -168,12 +139,12 @@ pub fn completed(app: &mut App, paths: Vec<String>) {
     let Some(typed) = typed_in_line(app) else { return };
     let common = common_start(&paths);
     if let Some(rest) = common.strip_prefix(&typed) {
-        edit_line(app, |line| {
+        edit::edit_line(app, |line| {
             line.edit(InputRequest::GoToEnd);
             line.insert(rest);
         });
     }
-    refuse(app, paths.is_empty().then(|| "no file or folder begins so".to_owned()));
+    app.refuse(paths.is_empty().then(|| "no file or folder begins so".to_owned()));
     if let Some(prompt) = &mut app.prompt {
         prompt.paths = if paths.len() > 1 { paths } else { Vec::new() };
     }

@@ -1,6 +1,6 @@
 //! Edits of the scene. Each results in a document of its own and can be undone.
 
-use super::{Effect, dialogue};
+use super::Effect;
 use crate::explorer::app::{App, CloseUpTarget, Message, Pane, Player};
 use crate::explorer::editor::scene_of;
 use crate::explorer::layout::Layout;
@@ -8,6 +8,7 @@ use crate::explorer::parameters::{Parameter, Setting, text_of};
 use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{Focus, LineView};
 use crate::explorer::snapshot::Preview;
+use crate::explorer::text_line::TextLine;
 use crate::scene::{
     Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, parse_quantity, presets,
     stage_targets,
@@ -73,11 +74,26 @@ pub fn edit_value(app: &mut App, first: Option<char>) {
             app.tried = None;
             app.studies.forget::<Preview>();
             if let Some(first) = first {
-                dialogue::edit_line(app, |line| line.insert(first.encode_utf8(&mut [0; 4])));
+                edit_line(app, |line| line.insert(first.encode_utf8(&mut [0; 4])));
             }
         }
     }
     show_parameters(app);
+}
+
+/// Edits the line; the preview of the value, or the list, follows.
+pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
+    let Some(prompt) = &mut app.prompt else { return };
+    let before = prompt.line.text().to_owned();
+    change(&mut prompt.line);
+    if prompt.line.text() == before && prompt.line.left_out().is_none() {
+        return;
+    }
+    (prompt.refused, prompt.paths) = (None, Vec::new());
+    prompt.search(&app.edit.parameters);
+    if matches!(prompt.purpose, Purpose::Value) {
+        preview(app);
+    }
 }
 
 /// The way to change a parameter without a number.
@@ -169,7 +185,19 @@ fn with_selected(app: &App, written: &str) -> Result<Document, String> {
     let number = || parse_quantity(written, parameter.field.unit).map_err(|error| error.to_string());
     let adhesion = document.scene().adhesion.unwrap_or_default();
     let changed = match parameter.setting {
-        Setting::Field | Setting::Switch(_) | Setting::Heading => document.set(&parameter.path, written),
+        Setting::Field | Setting::Switch(_) | Setting::Heading => {
+            // Modes and wavelengths replace each other.
+            let other = match parameter.path.as_str() {
+                "roughness.modes" => Some("roughness.wavelengths"),
+                "roughness.wavelengths" => Some("roughness.modes"),
+                _ => None,
+            };
+            let other = other.filter(|path| document.value(path).is_some_and(|value| value != "None"));
+            let pair = |path: &str, value: &str| (path.to_owned(), value.to_owned());
+            let replaced = other.map(|path| pair(path, "None"));
+            document
+                .set_all(&replaced.into_iter().chain([pair(&parameter.path, written)]).collect::<Vec<_>>())
+        }
         Setting::WorkOfAdhesion => document.with_adhesion(adhesion.with_work(number()?)),
         Setting::RoughnessParameter(parameter) => {
             let value = number()?;

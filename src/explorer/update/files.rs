@@ -1,6 +1,6 @@
 //! Output of the explorer: the scene, exports, the command to open the scene.
 
-use super::{Effect, dialogue, edit};
+use super::{Effect, edit};
 use crate::explorer::action::{Content, EXPORTS, OutputFile, WriteFailure};
 use crate::explorer::app::App;
 use crate::explorer::prompt::Purpose;
@@ -76,7 +76,7 @@ pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>
             let is_scene = file.content == Content::Scene;
             let purpose =
                 if is_scene { Purpose::Save { then_quit: file.then_quit } } else { Purpose::Export };
-            dialogue::ask_again(app, purpose, &file.path.to_string_lossy(), &error);
+            app.ask_again(purpose, &file.path.to_string_lossy(), &error);
         }
     }
 }

@@ -18,7 +18,7 @@ pub use accuracy::{Answer, Choosing, studies};
 use super::action::Action;
 use super::app::{App, Awaited, Message};
 use super::editor::scene_of;
-use super::keys::Command;
+use super::keys::{self, Command};
 use super::layout::Layout;
 use super::prompt::Purpose;
 use super::request::{Place, Request, SnapshotRequest};
@@ -39,7 +39,7 @@ fn apply(app: &mut App, action: Action) {
     match action {
         Action::Command(command) => run(app, command),
         Action::Key(key) => pressed(app, &key),
-        Action::Paste(text) => dialogue::edit_line(app, |line| line.insert(&text)),
+        Action::Paste(text) => edit::edit_line(app, |line| line.insert(&text)),
         Action::Resize(columns, rows) => app.view.size = (columns, rows),
         Action::Elapse(time) => movement::elapse(app, time),
         Action::Report(report) => reported(app, report),
@@ -49,7 +49,7 @@ fn apply(app: &mut App, action: Action) {
         Action::Completed(paths) => dialogue::completed(app, paths),
         Action::Opened(_, Ok(opening)) => map::open(app, *opening),
         Action::Opened(path, Err(why)) => {
-            dialogue::ask_again(app, Purpose::Scene(Vec::new()), &path, &why);
+            app.ask_again(Purpose::Scene(Vec::new()), &path, &why);
             app.effects.push(Effect::List);
         }
         Action::Remembered(Err(why)) => app.set_error(why),
@@ -66,27 +66,22 @@ fn pressed(app: &mut App, key: &KeyEvent) {
     match (app.config.bindings.command(key, app.keys()), key.code) {
         (Some(command), _) => run(app, command),
         (None, KeyCode::Char(typed)) if is_typed => {
-            dialogue::edit_line(app, |line| line.insert(typed.encode_utf8(&mut [0; 4])));
+            edit::edit_line(app, |line| line.insert(typed.encode_utf8(&mut [0; 4])));
         }
         _ => {}
     }
 }
 
-pub(super) fn run(app: &mut App, command: Command) {
+fn run(app: &mut App, command: Command) {
     if app.prompt.is_none() {
         let moving = app.map.moving && command.row.merges;
-        begin(app);
+        app.begin();
         app.map.moving = moving;
     }
-    command.run(app);
-}
-
-/// Begins a command on scene or panes: ends the notice, and the edit of successive moves in the map.
-pub(super) fn begin(app: &mut App) {
-    app.map.moving = false;
-    // The reason for a missing curve remains; any other notice ends with the next key.
-    if app.is_current() || app.is_computing() {
-        app.message = None;
+    keys::run(command, app);
+    // A command that was chosen in the list of commands.
+    if let Some(chosen) = app.chosen.take() {
+        run(app, chosen);
     }
 }
 

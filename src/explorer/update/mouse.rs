@@ -1,6 +1,6 @@
 //! The mouse: selects panes and rows, drags the body and scrolls. Keys can do all this too.
 
-use super::{begin, crosshair, dialogue, edit, look, map, movement};
+use super::{crosshair, dialogue, edit, look, map, movement};
 use crate::explorer::action::{Gesture, Mouse};
 use crate::explorer::app::{App, Pane};
 use crate::explorer::panel::Under;
@@ -32,7 +32,7 @@ pub fn act(app: &mut App, mouse: Mouse) {
 fn wheel(app: &mut App, pane: Pane, under: Under, turns: i32) {
     match (pane, under) {
         (Pane::Parameters, _) => {
-            begin(app);
+            app.begin();
             edit::move_selection(app, -turns)
         }
         (Pane::Profile | Pane::CloseUp, under) => {
@@ -51,7 +51,7 @@ fn point(app: &mut App, here: Position, under: Under, is_press: bool) {
             map::move_to(app, (across, Some(up)))
         }
         (Pane::Parameters, Under::Row(row)) if is_press => {
-            begin(app);
+            app.begin();
             let Some(row) = parameter_in(app, row) else { return };
             // A second press on the first row of a group folds the group.
             let is_again = row == app.edit.selected && app.edit.parameters[row].is_head();

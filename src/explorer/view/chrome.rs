@@ -7,6 +7,7 @@ use crate::analysis::SteepWaves;
 use crate::contact::CurvePoint;
 use crate::explorer::action::{EXPORTS, Traffic};
 use crate::explorer::app::{App, Message};
+use crate::explorer::keys::footer as footer_keys;
 use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::text_line::TextLine;
@@ -296,7 +297,7 @@ pub fn footer(app: &App, width: u16) -> Line<'static> {
     });
     let traffic = traffic.unwrap_or_default();
     let columns = Span::raw(traffic.as_str()).width();
-    let items = app.config.bindings.footer(app).into_iter();
+    let items = footer_keys(app).into_iter();
     let items = items.map(|(keys, label)| {
         vec![Span::styled(keys, theme.style(Meaning::Key)), Span::raw(format!(" {label}"))]
     });

@@ -1,9 +1,9 @@
 //! The help: the notice of the scene, the contents of the panes, and the table of keys by section.
 
 use crate::explorer::app::App;
-use crate::explorer::layout::inside;
+use crate::explorer::layout::{Layout, inside};
+use crate::explorer::pane::Pane;
 use crate::explorer::panel::{self, Panel};
-use crate::explorer::panes::Pane;
 use crate::explorer::theme::{Meaning, Theme};
 use crate::explorer::view::text::wrapped;
 use ratatui::buffer::Buffer;
@@ -24,8 +24,9 @@ pub fn draw(area: Rect, app: &App, scroll: u16, buffer: &mut Buffer) {
     panel::draw(&panel, area, false, app.view.appearance, buffer);
 }
 
-/// Lines that the help can be scrolled down in an area.
-pub fn last_scroll(area: Rect, app: &App) -> u16 {
+/// Lines that the help can be scrolled down.
+pub fn help_end(app: &App) -> u16 {
+    let area = Layout::of(app).body();
     end(lines(inside(area).width, app).len(), area)
 }
 

@@ -7,6 +7,8 @@ mod palette;
 pub mod stages;
 pub mod text;
 
+pub use help::help_end;
+
 use super::app::App;
 use super::layout::{Layout, inside};
 use super::panel;
@@ -14,7 +16,6 @@ use super::picture::to_ascii;
 use super::prompt::Purpose;
 use super::theme::{Marker, Theme};
 use ratatui::Frame;
-use ratatui::layout::Rect;
 use ratatui::style::Modifier;
 
 /// Draws the whole screen.
@@ -22,7 +23,7 @@ pub fn draw(frame: &mut Frame<'_>, app: &App) {
     // The window may have another size than the state by now.
     let area = frame.area();
     let layout = Layout::within(app, (area.width, area.height));
-    let (panes, look, buffer) = (body(&layout), app.view.appearance, frame.buffer_mut());
+    let (panes, look, buffer) = (layout.body(), app.view.appearance, frame.buffer_mut());
     if let Some(area) = layout.title {
         panel::draw_lines(&chrome::title(app, area.width, area.height), area, buffer);
     }
@@ -51,14 +52,4 @@ pub fn draw(frame: &mut Frame<'_>, app: &App) {
     if look.marker == Marker::Ascii {
         to_ascii(buffer);
     }
-}
-
-/// Area of the panes.
-fn body(layout: &Layout) -> Rect {
-    layout.panes.iter().map(|(_, area)| *area).reduce(Rect::union).unwrap_or_default()
-}
-
-/// Lines the help can be scrolled down.
-pub fn help_end(app: &App) -> u16 {
-    help::last_scroll(body(&Layout::of(app)), app)
 }

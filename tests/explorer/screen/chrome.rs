@@ -4,7 +4,7 @@ use super::common::driver::Driver;
 use super::common::scenes::{changed, punch, rough, smooth};
 use super::{SIZES, default_scene, everywhere, mid_retraction, pressed};
 
-use asperity::explorer::keys::{Bindings, Context};
+use asperity::explorer::keys::{Context, bindings};
 use asperity::scene::format_quantity;
 
 #[test]
@@ -59,7 +59,7 @@ fn footer(driver: &Driver) -> Vec<String> {
 fn the_footer_shows_keys_of_the_table_that_are_valid_now() {
     for mut driver in everywhere() {
         let mode = driver.app.keys();
-        let bindings = Bindings::default();
+        let bindings = bindings();
         let labels: Vec<&str> =
             bindings.valid_in(mode).map(|one| one.row.label).filter(|label| !label.is_empty()).collect();
         let is_valid = |one: &String| {
@@ -128,7 +128,7 @@ fn the_help_lists_every_binding() {
     let mut driver = pressed("?");
     driver.resize((120, 500));
     let lines = driver.rows();
-    for binding in Bindings::default().rows() {
+    for binding in bindings().rows() {
         let (row, keys) = (binding.row, binding.names());
         let listed = lines.iter().any(|line| line.contains(row.help) && line.contains(&keys));
         assert!(listed, "{keys:?}: {}\n{}", row.help, lines.join("\n"));

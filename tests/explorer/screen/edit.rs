@@ -115,6 +115,30 @@ fn reseeding_gives_another_line_that_is_stated() {
 }
 
 #[test]
+fn waves_are_typed_and_stepped_in_metres_or_as_modes() {
+    let mut driver = pressed("");
+    let scene = |driver: &Driver| driver.app.edit.document.scene().clone();
+    let waves = |driver: &Driver| driver.app.edit.document.scene().spectrum().unwrap();
+    let before = scene(&driver);
+    driver.select("roughness.wavelengths");
+    driver.press("Enter Ctrl+u");
+    driver.type_text("50 µm, 1 µm");
+    driver.press("Enter");
+    assert_eq!((waves(&driver).first, waves(&driver).last), (2, 100));
+    assert!(driver.text().contains("50 µm, 1 µm"), "{}", driver.text());
+    driver.press("Right");
+    assert!(driver.text().contains("50 µm, 1.12 µm"), "{}", driver.text());
+    driver.select("roughness.roll_off");
+    driver.press("Left");
+    assert_eq!(waves(&driver).roll_off, 1e-4 / 4.5e-5);
+    driver.select("roughness.modes");
+    driver.press("Right");
+    assert_eq!((waves(&driver).first, waves(&driver).last), (2, 128));
+    driver.press("u u u u");
+    assert_eq!(scene(&driver), before);
+}
+
+#[test]
 fn a_smooth_scene_has_no_line_to_draw_anew() {
     let mut driver = mid_retraction(smooth());
     let before = driver.app.edit.document.clone();

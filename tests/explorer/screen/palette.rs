@@ -4,7 +4,7 @@ use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::{mid_retraction, pressed, row_with};
 use asperity::explorer::app::Pane;
-use asperity::explorer::keys::{Bindings, Context};
+use asperity::explorer::keys::{Context, bindings};
 use ratatui::buffer::Cell;
 use ratatui::style::Modifier;
 use std::fs;
@@ -23,7 +23,7 @@ fn every_command_is_in_the_list_with_its_keys() {
     let rows = driver.rows();
     let exploring = [Context::Explore, Context::Map, Context::Parameters];
     let mut listed = 0;
-    for binding in Bindings::default().rows() {
+    for binding in bindings().rows() {
         let row = binding.row;
         let is_elsewhere = !row.contexts.iter().any(|context| exploring.contains(context));
         if is_elsewhere || ["preset", "start-value", "open-palette"].contains(&row.name) {

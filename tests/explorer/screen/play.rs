@@ -4,6 +4,7 @@ use super::common::driver::Driver;
 use super::common::scenes::{rough, smooth, without_adhesion};
 use super::{is_up_to_date, pressed};
 use asperity::explorer::config::Config;
+use asperity::explorer::keys::bindings;
 use asperity::explorer::update::Effect;
 use std::path::Path;
 
@@ -147,7 +148,7 @@ fn the_animation_is_as_far_however_often_it_is_drawn() {
 
 #[test]
 fn the_configuration_sets_speed_end_and_keys() {
-    let config = |text: &str| Config::parse(text, Path::new("config.ron")).unwrap();
+    let config = |text: &str| Config::parse(text, Path::new("config.ron"), bindings()).unwrap();
     let place = |config: Config, seconds: u32| {
         let mut driver = Driver::start(rough());
         driver.app.config = config;
@@ -156,7 +157,7 @@ fn the_configuration_sets_speed_end_and_keys() {
         let player = driver.app.play;
         (player.leg, (10.0 * player.done).round(), player.playing)
     };
-    assert_eq!(place(Config::default(), 3), (0, 5.0, true));
+    assert_eq!(place(Config::new(bindings()), 3), (0, 5.0, true));
     assert_eq!(place(config("(version: 1, speed: 2.0)"), 3), (0, 10.0, true));
     assert_eq!(place(config("(version: 1)"), 20), (1, 10.0, false));
     let (leg, _, playing) = place(config("(version: 1, repeat: true)"), 14);

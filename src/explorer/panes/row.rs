@@ -1,0 +1,54 @@
+//! Properties of one pane.
+
+use crate::draw::Figure;
+use crate::explorer::app::App;
+use crate::explorer::keys::Context;
+use crate::explorer::pane::Place;
+use crate::explorer::panel::Panel;
+use crate::explorer::snapshot::SolvedScene;
+use crate::explorer::studies::Study;
+use crate::export::{Report, RunReport};
+use ratatui::layout::Size;
+use std::sync::Arc;
+
+/// Command and result of an exported pane.
+pub type Exported<'a> = Option<(&'static str, Box<dyn Report + 'a>)>;
+
+/// Properties of one pane.
+pub struct PaneRow {
+    /// Place in a window with room for all.
+    pub place: Place,
+    /// Content for an area of this size within the frame.
+    pub panel: fn(&App, Size) -> Panel,
+    /// Content as a figure for a file, where this is more than the chart of the panel.
+    pub figure: fn(&App, &Panel) -> Option<Figure>,
+    /// The command and the report that a table or a JSON file states; `None` while the result is missing.
+    pub report: for<'a> fn(&'a App) -> Exported<'a>,
+    /// Keys of the selected pane; those of the crosshair, while this is shown.
+    pub keys: Option<Context>,
+    /// Studies of a computed scene whose values the shown pane needs.
+    pub studies: fn(&App, &Arc<SolvedScene>) -> Vec<Study>,
+    /// Paragraphs of the help: a name and the meaning of the signs in the pane.
+    pub help: &'static [(&'static str, &'static str)],
+}
+
+impl PaneRow {
+    /// An empty pane in the place of profile and close-up.
+    pub const EMPTY: PaneRow = PaneRow {
+        place: Place::Large,
+        panel: |_, _| Panel::of_text(String::new(), ""),
+        figure: |app, panel| Some(Figure::of_chart(app.edit.document.title(), panel.chart()?.clone())),
+        report: outcome,
+        keys: None,
+        studies: |_, _| Vec::new(),
+        help: &[],
+    };
+}
+
+/// The outcome of the scene, with its force curve.
+fn outcome(app: &App) -> Exported<'_> {
+    let (title, scene, outcome) =
+        (app.edit.document.title(), app.edit.document.scene(), &app.current()?.outcome);
+    let report = RunReport { title, scene, outcome, choice: None, estimate: app.studies.value() };
+    Some(("asperity run", Box::new(report)))
+}
