@@ -4,6 +4,8 @@
 
 use asperity::contact::ContactError;
 use asperity::explorer::app::App;
+use asperity::explorer::config::Config;
+use asperity::explorer::keys::bindings;
 use asperity::explorer::{Options, open as explore, view};
 use asperity::scene::{DEFAULT, Scene, open};
 use asperity::simulation::{AfterLeg, Outcome, RunError, Simulation};
@@ -47,10 +49,11 @@ fn main() -> ExitCode {
             return ExitCode::FAILURE;
         }
     };
+    let options = Options::new(Config::new(bindings()));
     let opened = if std::env::args().nth(1).as_deref() == Some("draw") {
-        explore(document, Options::default(), Simulation::run, draw)
+        explore(document, options, Simulation::run, draw)
     } else {
-        explore(document, Options::default(), solve, view::draw)
+        explore(document, options, solve, view::draw)
     };
     match opened {
         Ok(_) => ExitCode::SUCCESS,

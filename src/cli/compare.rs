@@ -59,7 +59,7 @@ pub(super) fn compare(arguments: &CompareArguments, out: &mut dyn Write) -> Resu
     let is_printed = arguments.format.is_some() || arguments.output.output.is_some();
     if !is_printed && stdin().is_terminal() && stdout().is_terminal() {
         let opening = Opening { beside: Some(second), ..Opening::from(first) };
-        return explore::open(opening, arguments.look.options(), out);
+        return explore::open(opening, arguments.look.options()?, out);
     }
     let outcomes = [compute(&first, first.scene())?, compute(&second, second.scene())?];
     let report = Comparison([(&first, &outcomes[0]), (&second, &outcomes[1])]);

@@ -28,15 +28,6 @@ pub struct ExploreArguments {
     pub overrides: Overrides,
     #[command(flatten)]
     pub look: LookArguments,
-    /// Read this configuration file
-    ///
-    /// Default: asperity/config.ron in the configuration folder of the user (~/.config),
-    /// if it exists.
-    #[arg(long, value_name = "FILE", verbatim_doc_comment)]
-    pub config: Option<PathBuf>,
-    /// Read no configuration file
-    #[arg(long, conflicts_with = "config")]
-    pub no_config: bool,
     /// Open the unsaved changes of a session that was interrupted
     ///
     /// While the explorer runs, unsaved changes are kept in ~/.local/state/asperity/unsaved.
@@ -45,8 +36,8 @@ pub struct ExploreArguments {
     pub restore: bool,
 }
 
-/// Colours and markers of the explorer, and its mouse.
-#[derive(Args, Clone, Copy, Debug)]
+/// Colours and markers of the explorer, its mouse, and its configuration.
+#[derive(Args, Debug)]
 pub struct LookArguments {
     /// Colours
     ///
@@ -61,11 +52,35 @@ pub struct LookArguments {
     /// Leave the mouse to the terminal
     #[arg(long)]
     pub no_mouse: bool,
+    /// Read this configuration file
+    ///
+    /// Default: asperity/config.ron in the configuration folder of the user (~/.config),
+    /// if it exists.
+    #[arg(long, value_name = "FILE", verbatim_doc_comment)]
+    pub config: Option<PathBuf>,
+    /// Read no configuration file
+    #[arg(long, conflicts_with = "config")]
+    pub no_config: bool,
 }
 
 impl LookArguments {
-    pub(super) fn options(self) -> Options {
-        Options { theme: self.theme, marker: self.marker, no_mouse: self.no_mouse, ..Options::default() }
+    /// The options of the explorer. A wrong configuration file of the user is a warning, and the explorer opens with the
+    /// defaults.
+    ///
+    /// # Errors
+    /// The first mistake in a named configuration file.
+    pub(super) fn options(&self) -> Result<Options, CliError> {
+        let defaults = || Config::new(bindings());
+        let (config, warning) = match (&self.config, default_path()) {
+            (Some(path), _) => (Config::read(path, true, bindings()).map_err(CliError::message)?, None),
+            (None, Some(path)) if !self.no_config => match Config::read(&path, false, bindings()) {
+                Ok(config) => (config, None),
+                Err(error) => (defaults(), Some(format!("{error}; defaults are used"))),
+            },
+            _ => (defaults(), None),
+        };
+        let (theme, marker, no_mouse) = (self.theme, self.marker, self.no_mouse);
+        Ok(Options { theme, marker, no_mouse, warning, ..Options::new(config) })
     }
 }
 
@@ -80,9 +95,11 @@ pub(super) fn explore(
     let unsaved = autosave::folder();
     let restored = if arguments.restore { Some(restored(unsaved.as_deref())?) } else { None };
     let first = restored.as_ref().and_then(|(_, documents)| documents.first().cloned());
-    let (config, warning) = config(arguments)?;
-    let opening =
-        first.map_or_else(|| opening(arguments, &config.scene, commands), |document| Ok(document.into()))?;
+    let options = Options { restored, unsaved, ..arguments.look.options()? };
+    let opening = first.map_or_else(
+        || opening(arguments, &options.config.scene, commands),
+        |document| Ok(document.into()),
+    )?;
     if !stdin().is_terminal() || !stdout().is_terminal() {
         let name = quoted(opening.document.name());
         let (command, does) = match opening.study_map {
@@ -92,7 +109,7 @@ pub(super) fn explore(
         let without = format!("asperity {command} {name} {does} without one");
         return Err(CliError::message(format!("the explorer needs a terminal; {without}")));
     }
-    open(opening, Options { restored, config, warning, unsaved, ..arguments.look.options() }, out)
+    open(opening, options, out)
 }
 
 /// Error of the explorer itself.
@@ -126,19 +143,6 @@ fn restored(folder: Option<&Path>) -> Result<(PathBuf, Vec<Document>), CliError>
     let newest = newest.ok_or_else(none)?;
     let documents = autosave::read(&newest).map_err(|error| CliError::named("--restore", error))?;
     Ok((newest, documents))
-}
-
-/// The configuration file of the arguments, or that of the user: if that one is wrong, the explorer opens with the
-/// defaults and this warning.
-fn config(arguments: &ExploreArguments) -> Result<(Config, Option<String>), CliError> {
-    match (&arguments.config, default_path()) {
-        (Some(path), _) => Ok((Config::read(path, true, bindings()).map_err(CliError::message)?, None)),
-        (None, Some(path)) if !arguments.no_config => Ok(match Config::read(&path, false, bindings()) {
-            Ok(config) => (config, None),
-            Err(error) => (Config::new(bindings()), Some(format!("{error}; defaults are used"))),
-        }),
-        _ => Ok((Config::new(bindings()), None)),
-    }
 }
 
 fn opening(arguments: &ExploreArguments, default: &str, commands: &str) -> Result<Opening, CliError> {

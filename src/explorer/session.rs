@@ -40,7 +40,6 @@ const MOST_CELLS: u32 = 4_000_000;
 const DRAINING: Duration = Duration::from_millis(100);
 
 /// Options of the explorer.
-#[derive(Default)]
 pub struct Options {
     /// Colours in place of those by the environment.
     pub theme: Option<Theme>,
@@ -56,6 +55,21 @@ pub struct Options {
     pub warning: Option<String>,
     /// Folder in which unsaved changes are kept; `None`: nowhere.
     pub unsaved: Option<PathBuf>,
+}
+
+impl Options {
+    /// The options of this configuration.
+    pub fn new(config: Config) -> Self {
+        Options {
+            theme: None,
+            marker: None,
+            no_mouse: false,
+            restored: None,
+            config,
+            warning: None,
+            unsaved: None,
+        }
+    }
 }
 
 /// State at the end of the explorer.

@@ -236,7 +236,7 @@ static TABLE: &[Entry] = &[
     row("o", EXPLORE, "open-library", Do(dialogue::open_library), "open", "open a scene: built-in, your own, or by path; or the folder of a study", SCENE).rank(2),
     row("1–9", OTHER_PANES, "preset", Character(edit::open_built_in), "", "open a built-in scene by its number, unless the pane of parameters is selected", SCENE).unlisted(),
     row("s", EXPLORE, "save", Do(|app| files::ask_save(app, false)), "save", "save the scene to a file", SCENE).rank(2),
-    row("E", EXPLORE, "export", Do(files::ask_export), "export", "export the selected pane: result (.csv, .npy, .json) or figure (.svg, .png, .pdf); or the screen (.txt)", SCENE),
+    row("E", EXPLORE, "export", Do(files::ask_export), "export", "export the selected pane: table (.csv, .npy, .json), figure (.svg, .png, .pdf), screen (.txt)", SCENE),
     row("y", EXPLORE, "copy-command", Do(files::copy_command), "copy", "copy the command that opens the present scene", SCENE),
     row(": Ctrl+p", EXPLORE, "open-palette", Do(|app| app.ask(Purpose::Command(app.config.bindings.listed()), "")), "commands", "find a command by words of its description, and run it", SCENE).rank(2).unlisted(),
     row("? F1", EXPLORE, "help", Do(|app| app.ask(Purpose::Help, "")), "help", "show this help", SCENE).rank(0),
