@@ -1,7 +1,7 @@
 //! `asperity check`: closed forms, laws and hard cases, on this machine.
 
 use super::error::CliError;
-use super::output::{Origin, OutputArguments, TEXT_OR_JSON, format_of};
+use super::output::{Origin, OutputArguments, TEXT_OR_JSON};
 use super::progress::ProgressLine;
 use crate::check::exhaustive::{every_history, every_order};
 use crate::check::{Case, Check, Verdict, catalogue, checks, judge};
@@ -22,7 +22,6 @@ Each case has one error and a bound that was stated beforehand. The exit code is
 /// Most gaps of the lines that are judged exhaustively.
 const MOST_GAPS: usize = 8;
 
-/// Arguments of `check`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct CheckArguments {
@@ -35,9 +34,6 @@ pub struct CheckArguments {
     /// Check the engine on every profile of up to 8 springs instead
     #[arg(long, conflicts_with_all = ["words", "quick", "format"])]
     pub exhaustive: bool,
-    /// text or json; default: by the extension of FILE, else text
-    #[arg(long, value_parser = format_of(TEXT_OR_JSON), hide_possible_values = true)]
-    pub format: Option<Format>,
     #[command(flatten)]
     pub output: OutputArguments,
 }
@@ -68,7 +64,7 @@ impl CheckArguments {
 
 /// Judges the engine on complete small worlds and writes the number of lines and of contacts that agree.
 fn check_all(arguments: &CheckArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    arguments.output.format(None, &[Format::Text], Format::Text)?;
+    arguments.output.format(&[Format::Text], Format::Text)?;
     let mut progress = ProgressLine::default();
     let failed = |error| CliError::named("exhaustive", error);
     let mut text =
@@ -88,13 +84,12 @@ fn check_all(arguments: &CheckArguments, stdout: &mut dyn Write) -> Result<(), C
     arguments.output.fill(stdout, |out| out.write_all(text.as_bytes()))
 }
 
-/// Runs the cases and writes their verdicts.
 pub(super) fn check(arguments: &CheckArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     if arguments.exhaustive {
         return check_all(arguments, stdout);
     }
     let chosen = arguments.chosen()?;
-    let format = arguments.output.format(arguments.format, TEXT_OR_JSON, Format::Text)?;
+    let format = arguments.output.format(TEXT_OR_JSON, Format::Text)?;
     let (mut progress, count) = (ProgressLine::default(), chosen.len());
     let run = |(index, check): (usize, Check)| {
         progress.show(&format!("{}/{count} {}", index + 1, check.case.name), None);
@@ -124,8 +119,7 @@ mod tests {
             words: words.iter().map(ToString::to_string).collect(),
             quick,
             exhaustive: false,
-            format: None,
-            output: OutputArguments { output: None, force: false },
+            output: OutputArguments { output: None, force: false, format: None },
         }
     }
 

@@ -7,7 +7,6 @@ use crate::io::{check_writable, write_new};
 use crate::scene::{Document, Scene, quoted};
 use crate::text::path_name;
 use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -16,17 +15,12 @@ use std::path::{Path, PathBuf};
 pub(super) const PICTURES: &[Format] = &[Format::Svg, Format::Png, Format::Pdf];
 /// Formats of tables.
 pub(super) const TABLES: &[Format] = &[Format::Csv, Format::Npy];
+/// Formats of results without a picture.
+pub(super) const WITHOUT_PICTURE: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Npy];
 /// Formats of results without a table and without a picture.
 pub(super) const TEXT_OR_JSON: &[Format] = &[Format::Text, Format::Json];
 
-/// Parser of the names of these formats.
-pub(super) fn format_of(formats: &'static [Format]) -> impl TypedValueParser<Value = Format> {
-    let named = |name: String| Format::ALL.into_iter().find(|format| format.name() == name);
-    PossibleValuesParser::new(formats.iter().map(|format| format.name()))
-        .map(move |name| named(name).unwrap_or(Format::Text))
-}
-
-/// A file for results in place of standard output.
+/// Format of results, and a file for them in place of standard output.
 #[derive(Args, Clone, Debug)]
 pub struct OutputArguments {
     /// Write to FILE, whole or not at all; `-` is standard output
@@ -35,6 +29,9 @@ pub struct OutputArguments {
     /// Overwrite FILE if it exists
     #[arg(long, requires = "output")]
     pub force: bool,
+    /// text, json, csv, npy, svg, png or pdf, as far as the result has it; default: by the extension of FILE
+    #[arg(long, value_enum, hide_possible_values = true)]
+    pub format: Option<Format>,
 }
 
 /// Input of a table of results.
@@ -59,13 +56,8 @@ impl OutputArguments {
 
     /// The format of the results: that of the extension of FILE, else the chosen one, else the usual one. Before any
     /// computation, checks also that FILE can be written. A terminal gets text only.
-    pub(super) fn format(
-        &self,
-        chosen: Option<Format>,
-        formats: &[Format],
-        usual: Format,
-    ) -> Result<Format, CliError> {
-        let format = Format::of_file(self.file(), chosen, formats, usual).map_err(CliError::message)?;
+    pub(super) fn format(&self, formats: &[Format], usual: Format) -> Result<Format, CliError> {
+        let format = Format::of_file(self.file(), self.format, formats, usual).map_err(CliError::message)?;
         match self.file() {
             Some(path) => check_writable(path, self.force)?,
             None if matches!(format, Format::Npy | Format::Png | Format::Pdf)
@@ -135,8 +127,8 @@ pub(super) fn check_file(path: &Path, extension: &str, overwrite: bool) -> Resul
 /// Format of a short answer on standard output.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct AnswerFormat {
-    /// Output format
-    #[arg(long, value_parser = format_of(TEXT_OR_JSON), default_value = "text")]
+    /// text or json
+    #[arg(long, value_enum, hide_possible_values = true, default_value = "text")]
     format: Format,
 }
 
@@ -148,7 +140,8 @@ impl AnswerFormat {
         text: impl FnOnce() -> String,
         answer: &impl Serialize,
     ) -> Result<(), CliError> {
-        match self.format {
+        let format = Format::of_file(None, Some(self.format), TEXT_OR_JSON, Format::Text);
+        match format.map_err(CliError::message)? {
             Format::Json => crate::io::write_json_value(stdout, answer)?,
             _ => stdout.write_all(text().as_bytes())?,
         }

@@ -54,12 +54,13 @@ pub(crate) use library::built_in;
 pub use library::{DEFAULT, Entry, Preset, Source, find, own_folder, presets, scenes, typed_path};
 pub use measured::Measured;
 pub use model::*;
-pub(crate) use open::is_file_name;
+pub(crate) use open::{is_file_name, is_path};
 pub use open::{open, open_argument};
 pub(crate) use quantity::format_rounded;
 pub use quantity::{QuantityError, exact_quantity, format_quantity, parse_quantity};
 pub use range::Range;
-pub(crate) use read::{describe_error, read_ron};
+pub(crate) use read::explain;
+pub(crate) use text::read_ron;
 
 pub use switch::Computed;
 pub use text::{Span, Text, Unreadable, line_column, ron_float, ron_string};
