@@ -59,13 +59,15 @@ fn budget(text: &str) -> Result<Duration, String> {
 
 /// Measures the cost of accuracy and writes it.
 pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let output = &arguments.output;
-    let format = output.format(arguments.format, FORMATS, Format::Text)?;
+    let mut output = arguments.output.clone();
     let picture = arguments.picture.clone().map(|path| {
-        let picture = OutputArguments { output: Some(path), force: output.force };
+        let picture = OutputArguments { output: Some(path), ..output.clone() };
+        // The look is that of the picture.
+        (output.width, output.parameters) = (None, false);
         picture.format(None, PICTURES, Format::Svg).map(|format| (picture, format))
     });
     let picture = picture.transpose()?;
+    let format = output.format(arguments.format, FORMATS, Format::Text)?;
     let document = arguments.scene.open()?;
     let scene = document.scene();
     let (mut line, mut seen) = (ProgressLine::default(), Vec::new());

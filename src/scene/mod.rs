@@ -32,6 +32,7 @@ mod open;
 mod quantity;
 mod range;
 mod read;
+mod statements;
 mod step;
 mod switch;
 mod text;
@@ -60,7 +61,7 @@ pub(crate) use quantity::format_rounded;
 pub use quantity::{QuantityError, exact_quantity, format_quantity, parse_quantity};
 pub use range::Range;
 pub(crate) use read::{describe_error, read_ron};
-
+pub(crate) use statements::{Statement, statements};
 pub use switch::Computed;
 pub use text::{Span, Text, Unreadable, line_column, ron_float, ron_string};
 pub use tree::{Tree, to_ron};
